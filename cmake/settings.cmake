@@ -1,0 +1,49 @@
+# Compiler settings shared by every target, and the two helpers the folders use.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+
+add_library(mimicx_settings INTERFACE)
+target_include_directories(mimicx_settings INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(mimicx_settings INTERFACE Eigen3::Eigen)
+target_compile_options(mimicx_settings INTERFACE -Wall -Wextra -Wconversion -Werror)
+
+# Bits depend on these: no contraction behind our back (fused operations are written out), no
+# fast-math, one fixed instruction set instead of -march=native.
+target_compile_options(mimicx_settings INTERFACE -ffp-contract=off -fno-math-errno)
+if(MIMICX_TARGET STREQUAL "x86-64-v3")
+  target_compile_options(mimicx_settings INTERFACE -march=x86-64-v3)
+elseif(MIMICX_TARGET STREQUAL "x86-64-v4")
+  target_compile_options(mimicx_settings INTERFACE -march=x86-64-v4 -mprefer-vector-width=512)
+elseif(NOT MIMICX_TARGET STREQUAL "portable")
+  message(FATAL_ERROR "MIMICX_TARGET is '${MIMICX_TARGET}': expected x86-64-v3, x86-64-v4 or portable")
+endif()
+# Eigen must neither start threads of its own nor change its blocking with the machine's caches
+# (the latter is fixed in core/parallel.cpp).
+target_compile_definitions(mimicx_settings INTERFACE
+  EIGEN_DONT_PARALLELIZE MIMICX_TARGET="${MIMICX_TARGET}" MIMICX_VERSION="${PROJECT_VERSION}")
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+
+# mimicx_library(NAME SOURCES... DEPENDS LIBS...): one static library per folder.
+function(mimicx_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(mimicx_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(mimicx_${name} PUBLIC mimicx_settings ${ARG_DEPENDS})
+endfunction()
+
+# mimicx_test(NAME SOURCES... DEPENDS LIBS...): one GoogleTest program per folder under test.
+function(mimicx_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE
+    MIMICX_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MIMICX_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,340 @@
+#include "core/character.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace mimicx {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Standard body: joint positions relative to the parent, m, for the left side and the middle; the right
+/// side is its mirror image in x. Proportions of a 1.72 m adult after segment lengths in Winter,
+/// "Biomechanics and Motor Control of Human Movement" (4th ed., fig. 4.1), placed on the SMPL-X joints.
+Vector3d standard_offset(int body) {
+  switch (body) {
+    case kLeftHip: case kRightHip: return {0.066, -0.088, -0.006};
+    case kSpine1: return {0.0, 0.108, -0.026};
+    case kLeftKnee: case kRightKnee: return {0.040, -0.382, -0.004};
+    case kSpine2: return {0.0, 0.136, 0.001};
+    case kLeftAnkle: case kRightAnkle: return {-0.012, -0.402, -0.040};
+    case kSpine3: return {0.0, 0.054, 0.026};
+    case kLeftFoot: case kRightFoot: return {0.024, -0.056, 0.122};
+    case kNeck: return {0.0, 0.214, -0.042};
+    case kLeftCollar: case kRightCollar: return {0.074, 0.118, -0.034};
+    case kHead: return {0.0, 0.066, 0.050};
+    case kLeftShoulder: case kRightShoulder: return {0.096, 0.034, -0.010};
+    case kLeftElbow: case kRightElbow: return {0.258, -0.014, -0.026};
+    case kLeftWrist: case kRightWrist: return {0.250, 0.008, -0.001};
+    default: return Vector3d::Zero();
+  }
+}
+
+bool is_right(int body) { return kBodyNames[static_cast<std::size_t>(body)].starts_with("right"); }
+
+Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
+
+/// How one shape parameter stretches the offsets: joint position += β · gain · (offset, component-wise).
+/// Joint positions are therefore affine in β, as in SMPL; the components are our own and named.
+struct ShapeComponent {
+  const char* name;
+  Vector3d torso, hip, leg, foot, shoulder, arm, head;  ///< gains per axis
+  double girth;                                         ///< gain of every radius
+};
+
+const std::array<ShapeComponent, kBetas>& shape_components() {
+  static const Vector3d o = Vector3d::Zero(), all = Vector3d::Constant(0.03);
+  static const std::array<ShapeComponent, kBetas> components = {{
+      {"stature", all, all, all, all, all, all, all, 0.03},
+      {"girth", o, o, o, o, o, o, o, 0.06},
+      {"leg length", o, o, {0, 0.03, 0}, o, o, o, o, 0.0},
+      {"torso length", {0, 0.03, 0}, o, o, o, {0, 0.02, 0}, o, o, 0.0},
+      {"arm length", o, o, o, o, o, {0.03, 0, 0}, o, 0.0},
+      {"shoulder width", o, o, o, o, {0.05, 0, 0}, o, o, 0.0},
+      {"hip width", o, {0.04, 0, 0}, o, o, o, o, o, 0.0},
+      {"foot length", o, o, o, {0, 0, 0.04}, o, o, o, 0.0},
+      {"head and neck", o, o, o, o, o, o, {0.04, 0.04, 0.04}, 0.0},
+      {"legs for torso", {0, -0.02, 0}, o, {0, 0.02, 0}, o, o, o, o, 0.0},
+  }};
+  return components;
+}
+
+const Vector3d& gain_of(const ShapeComponent& c, int body) {
+  switch (body) {
+    case kLeftHip: case kRightHip: return c.hip;
+    case kLeftKnee: case kRightKnee: case kLeftAnkle: case kRightAnkle: return c.leg;
+    case kLeftFoot: case kRightFoot: return c.foot;
+    case kLeftCollar: case kRightCollar: case kLeftShoulder: case kRightShoulder: return c.shoulder;
+    case kLeftElbow: case kRightElbow: case kLeftWrist: case kRightWrist: return c.arm;
+    case kNeck: case kHead: return c.head;
+    default: return c.torso;
+  }
+}
+
+/// Scales derived from β that the shapes need beside the joint offsets.
+struct Scales {
+  double size = 1, girth = 1, foot = 1, hand = 1, head = 1;
+};
+
+Scales scales_of(const std::array<double, kBetas>& betas) {
+  Scales s;
+  s.size += 0.03 * betas[0];
+  s.girth += 0.03 * betas[0] + 0.06 * betas[1];
+  s.foot += 0.03 * betas[0] + 0.04 * betas[7];
+  s.hand += 0.03 * betas[0] + 0.03 * betas[4];
+  s.head += 0.03 * betas[0] + 0.04 * betas[8];
+  return s;
+}
+
+constexpr double kSoleBelowBall = 0.022;  ///< sole under the joint at the ball of the foot, m
+
+/// Height of the ankle joint over the sole, m.
+double ankle_height(const Character& c, int side) {
+  const int ball = side > 0 ? kLeftFoot : kRightFoot;
+  return kSoleBelowBall - c.joint_offset[static_cast<std::size_t>(ball)].y();
+}
+
+Capsule capsule_of(const Character& c, const Scales& s, int body) {
+  const double x = is_right(body) ? -1.0 : 1.0;
+  const auto offset = [&](int b) { return c.joint_offset[static_cast<std::size_t>(b)]; };
+  const auto bone = [&](int child, double from, double to, double radius) {
+    return Capsule{body, from * offset(child), to * offset(child), radius * s.girth};
+  };
+  const auto across = [&](double half, double y, double z, double radius) {
+    return Capsule{body, s.size * Vector3d(-half, y, z), s.size * Vector3d(half, y, z), radius * s.girth};
+  };
+  switch (body) {
+    case kPelvis: return across(0.062, -0.02, -0.005, 0.105);
+    case kSpine1: return across(0.050, 0.04, 0.005, 0.105);
+    case kSpine2: return across(0.055, 0.02, 0.005, 0.105);
+    case kSpine3: return across(0.070, 0.09, -0.015, 0.110);
+    case kNeck: return bone(kHead, 0.0, 1.0, 0.050);
+    case kHead: return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
+    case kLeftHip: return bone(kLeftKnee, 0.20, 0.95, 0.064);
+    case kRightHip: return bone(kRightKnee, 0.20, 0.95, 0.064);
+    case kLeftKnee: return bone(kLeftAnkle, 0.05, 0.92, 0.046);
+    case kRightKnee: return bone(kRightAnkle, 0.05, 0.92, 0.046);
+    case kLeftAnkle: case kRightAnkle: {
+      const double radius = 0.034 * s.size, y = radius - ankle_height(c, x > 0 ? 1 : -1);
+      const Vector3d ball = offset(x > 0 ? kLeftFoot : kRightFoot);
+      return {body, {0.0, y, -0.022 * s.foot}, {ball.x(), y, ball.z() - 0.014 * s.foot}, radius};
+    }
+    case kLeftFoot: case kRightFoot: {
+      const double radius = 0.020 * s.size, y = radius - kSoleBelowBall;
+      return {body, {0.0, y, 0.012 * s.foot}, {0.0, y, 0.052 * s.foot}, radius};
+    }
+    case kLeftCollar: return bone(kLeftShoulder, 0.15, 0.85, 0.052);
+    case kRightCollar: return bone(kRightShoulder, 0.15, 0.85, 0.052);
+    case kLeftShoulder: return bone(kLeftElbow, 0.10, 0.95, 0.045);
+    case kRightShoulder: return bone(kRightElbow, 0.10, 0.95, 0.045);
+    case kLeftElbow: return bone(kLeftWrist, 0.05, 0.95, 0.036);
+    case kRightElbow: return bone(kRightWrist, 0.05, 0.95, 0.036);
+    default:  // hands
+      return {body, {0.03 * x * s.hand, -0.004, 0.0}, {0.14 * x * s.hand, -0.010, 0.004}, 0.030 * s.hand};
+  }
+}
+
+/// Share of each segment in the total mass, after de Leva, "Adjustments to Zatsiorsky-Seluyanov's segment
+/// inertia parameters", J. Biomech. 29 (1996), table 4 (mean of both sexes), trunk parts split over the
+/// spine's bodies. Shares sum to 1.
+double mass_share(int body) {
+  switch (body) {
+    case kPelvis: return 0.118;
+    case kSpine1: return 0.082;
+    case kSpine2: return 0.082;
+    case kSpine3: return 0.112;
+    case kNeck: return 0.012;
+    case kHead: return 0.056;
+    case kLeftHip: case kRightHip: return 0.1446;
+    case kLeftKnee: case kRightKnee: return 0.0457;
+    case kLeftAnkle: case kRightAnkle: return 0.0113;
+    case kLeftFoot: case kRightFoot: return 0.0022;
+    case kLeftCollar: case kRightCollar: return 0.0204;
+    case kLeftShoulder: case kRightShoulder: return 0.0263;
+    case kLeftElbow: case kRightElbow: return 0.0150;
+    default: return 0.0035 + 0.0;
+  }
+}
+constexpr double kStandardMass = 70.0;
+
+double capsule_volume(const Capsule& c) {
+  const double r = c.radius, length = (c.b_B - c.a_B).norm();
+  return std::numbers::pi * r * r * (length + 4.0 / 3.0 * r);
+}
+
+/// Inertia of a solid capsule of unit density scaled to `mass`, about its centre.
+Matrix3d capsule_inertia(const Capsule& c, double mass) {
+  const double r = c.radius, h = (c.b_B - c.a_B).norm();
+  const double cylinder = r * r * h, ball = 4.0 / 3.0 * r * r * r;
+  const double m_c = mass * cylinder / (cylinder + ball), m_b = mass - m_c;
+  const double along = 0.5 * m_c * r * r + 0.4 * m_b * r * r;
+  const double across = m_c * (h * h / 12.0 + r * r / 4.0) + m_b * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);
+  const Vector3d axis = h > 1e-9 ? Vector3d((c.b_B - c.a_B) / h) : Vector3d(Vector3d::UnitX());
+  return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+}
+
+void add_foot_points(Character& c, const Scales& s, int side) {
+  const double x = side;
+  const int ankle = side > 0 ? kLeftAnkle : kRightAnkle, ball = side > 0 ? kLeftFoot : kRightFoot;
+  const double sole = -ankle_height(c, side);
+  const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(ball)];
+  const auto add = [&](int body, double px, double py, double pz) {
+    c.contact_points.push_back({body, {px, py, pz}, 0.0});
+  };
+  add(ankle, x * -0.026 * s.size, sole, -0.052 * s.foot);                        // heel, inner
+  add(ankle, x * 0.026 * s.size, sole, -0.052 * s.foot);                         // heel, outer
+  add(ankle, ball_p.x() - x * 0.040 * s.size, sole, ball_p.z() - 0.004 * s.foot);  // ball, inner
+  add(ankle, ball_p.x() + x * 0.040 * s.size, sole, ball_p.z() - 0.004 * s.foot);  // ball, outer
+  add(ball, -x * 0.030 * s.size, -kSoleBelowBall, 0.068 * s.foot);               // toe, inner
+  add(ball, x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot);                // toe, outer
+}
+
+/// Spheres at the ends (and for long segments the middle) of the capsules of every other body.
+void add_body_points(Character& c) {
+  const auto add = [&](int body, double along) {
+    const Capsule& k = c.capsule[static_cast<std::size_t>(body)];
+    c.contact_points.push_back({body, k.a_B + along * (k.b_B - k.a_B), k.radius});
+  };
+  for (int body : {kPelvis, kSpine3, kHead, kLeftWrist, kRightWrist}) {
+    add(body, 0.0);
+    add(body, 1.0);
+  }
+  for (int body : {kSpine1, kSpine2, kNeck}) add(body, 0.5);
+  for (int body : {kLeftHip, kRightHip}) add(body, 0.5);
+  for (int body : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow}) add(body, 0.0);
+  for (int body : {kLeftCollar, kRightCollar}) add(body, 0.8);
+  for (int body : {kLeftShoulder, kRightShoulder}) add(body, 0.3);
+}
+
+/// Pairs that meet in human motion: arms with trunk, head and legs; arms with each other; legs with each
+/// other. Neighbours in the tree, and bodies that overlap at rest, are left out.
+std::vector<std::array<int, 2>> make_self_pairs() {
+  std::vector<std::array<int, 2>> pairs;
+  for (int arm : {kLeftElbow, kRightElbow, kLeftWrist, kRightWrist}) {
+    for (int other : {kPelvis, kSpine2, kSpine3, kHead, kLeftHip, kRightHip}) pairs.push_back({arm, other});
+    for (int knee : {kLeftKnee, kRightKnee})
+      if (arm == kLeftWrist || arm == kRightWrist) pairs.push_back({arm, knee});
+  }
+  pairs.insert(pairs.end(), {{kLeftWrist, kRightWrist}, {kLeftWrist, kRightElbow}, {kLeftElbow, kRightWrist},
+                             {kLeftElbow, kRightElbow}, {kLeftHip, kRightHip}, {kLeftKnee, kRightKnee},
+                             {kLeftAnkle, kRightAnkle}, {kLeftAnkle, kRightKnee}, {kLeftKnee, kRightAnkle},
+                             {kLeftFoot, kRightAnkle}, {kLeftAnkle, kRightFoot}, {kLeftFoot, kRightFoot}});
+  return pairs;
+}
+
+/// Gains of DeepMimic and ASE; torque bounds from peak voluntary and gait moments (docs/physics.md,
+/// "Joints"); ranges from goniometry tables, widened for the soft tissue of a T-pose rig.
+JointParameters standard_joint(int body) {
+  JointParameters j;
+  j.armature = 0.02;
+  const auto pd = [&](double kp, double limit) { j.kp = kp; j.kd = 0.1 * kp; j.torque_limit = limit; };
+  const auto range = [&](Vector3d centre_deg, Vector3d half_deg) {
+    j.centre = kDegree * centre_deg;
+    j.half_range = kDegree * half_deg;
+  };
+  const double x = is_right(body) ? -1.0 : 1.0;  // mirror: rotations about y and z change sign
+  switch (body) {
+    case kLeftHip: case kRightHip: pd(500, 250); range({-45, 0, 10 * x}, {95, 75, 75}); break;
+    case kLeftKnee: case kRightKnee: pd(500, 220); range({75, 75, 75}, {82, 82, 82}); break;
+    case kLeftAnkle: case kRightAnkle: pd(400, 160); range({12, 0, 0}, {62, 60, 50}); break;
+    case kLeftFoot: case kRightFoot: pd(100, 40); range({-15, 0, 0}, {65, 30, 30}); break;
+    case kSpine1: case kSpine2: case kSpine3: pd(1000, 250); range({10, 0, 0}, {50, 45, 45}); break;
+    case kNeck: pd(150, 50); range({0, 0, 0}, {55, 65, 50}); break;
+    case kHead: pd(100, 40); range({0, 0, 0}, {55, 65, 50}); break;
+    case kLeftCollar: case kRightCollar: pd(500, 130); range({0, 0, 5 * x}, {45, 45, 45}); break;
+    case kLeftShoulder: case kRightShoulder: pd(400, 120); range({0, -25 * x, -10 * x}, {130, 125, 130}); break;
+    case kLeftElbow: case kRightElbow: pd(300, 80); range({77, 77, 77}, {85, 85, 85}); break;
+    case kLeftWrist: case kRightWrist: pd(80, 20); range({0, 0, 0}, {140, 90, 95}); break;
+    default: break;
+  }
+  if (body == kLeftFoot || body == kRightFoot || body >= kLeftWrist || body == kNeck || body == kHead)
+    j.armature = 0.01;
+  return j;
+}
+
+}  // namespace
+
+const std::array<std::string_view, kBodies> kBodyNames = {
+    "pelvis",     "left_hip",   "right_hip",   "spine1",     "left_knee",     "right_knee",
+    "spine2",     "left_ankle", "right_ankle", "spine3",     "left_foot",     "right_foot",
+    "neck",       "left_collar", "right_collar", "head",     "left_shoulder", "right_shoulder",
+    "left_elbow", "right_elbow", "left_wrist", "right_wrist"};
+
+Vector3d hinge_axis(int body) {
+  switch (body) {
+    case kLeftKnee: case kRightKnee: return Vector3d::UnitX();
+    case kLeftElbow: return -Vector3d::UnitY();
+    case kRightElbow: return Vector3d::UnitY();
+    default: throw std::invalid_argument("hinge_axis: body has no hinge");
+  }
+}
+
+double Character::total_mass() const {
+  double sum = 0.0;
+  for (double m : mass) sum += m;
+  return sum;
+}
+
+Character make_character(const std::array<double, kBetas>& betas) {
+  for (double b : betas)
+    if (!(std::abs(b) <= 5.0)) throw std::invalid_argument("make_character: every |beta| must be at most 5");
+  Character c;
+  c.betas = betas;
+  const Scales scales = scales_of(betas);
+  for (int i = 0; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const Vector3d offset = standard_offset(i);
+    Vector3d gain = Vector3d::Ones();
+    for (int k = 0; k < kBetas; ++k)
+      gain += betas[static_cast<std::size_t>(k)] * gain_of(shape_components()[static_cast<std::size_t>(k)], i);
+    c.joint_offset[n] = is_right(i) ? mirrored(offset.cwiseProduct(gain)) : offset.cwiseProduct(gain);
+  }
+  Character standard;
+  standard.joint_offset = {};
+  for (int i = 0; i < kBodies; ++i)
+    standard.joint_offset[static_cast<std::size_t>(i)] =
+        is_right(i) ? mirrored(standard_offset(i)) : standard_offset(i);
+  for (int i = 0; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    c.capsule[n] = capsule_of(c, scales, i);
+    const double growth = capsule_volume(c.capsule[n]) / capsule_volume(capsule_of(standard, Scales{}, i));
+    c.mass[n] = kStandardMass * mass_share(i) * growth;
+    c.com_B[n] = 0.5 * (c.capsule[n].a_B + c.capsule[n].b_B);
+    c.inertia_B[n] = capsule_inertia(c.capsule[n], c.mass[n]);
+  }
+  add_foot_points(c, scales, 1);
+  add_foot_points(c, scales, -1);
+  add_body_points(c);
+  c.self_pairs = make_self_pairs();
+  const double strength = c.total_mass() / kStandardMass;
+  for (int i = 1; i < kBodies; ++i) {
+    JointParameters j = standard_joint(i);
+    j.kp *= strength;
+    j.kd *= strength;
+    j.torque_limit *= strength;
+    c.joint[static_cast<std::size_t>(i)] = j;
+  }
+  return c;
+}
+
+Vector3d rest_pelvis(std::string_view body_model) {
+  if (body_model == "mimicx" || body_model == "smplx") return {0.003, -0.351, 0.012};
+  if (body_model == "smplh" || body_model == "smpl") return {-0.002, -0.223, 0.028};
+  throw std::invalid_argument("rest_pelvis: unknown body model '" + std::string(body_model) + "'");
+}
+
+BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
+                             const std::array<Quaterniond, kBodies>& q_joint) {
+  BodyPoses poses;
+  poses.p_WB[0] = p_root;
+  poses.q_WB[0] = q_joint[0];
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const auto parent = static_cast<std::size_t>(kParents[i]);
+    poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * character.joint_offset[i];
+    poses.q_WB[i] = poses.q_WB[parent] * q_joint[i];
+  }
+  return poses;
+}
+
+}  // namespace mimicx

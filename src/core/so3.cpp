@@ -1,0 +1,52 @@
+#include "core/so3.h"
+
+#include <cmath>
+
+namespace mimicx {
+
+Quaterniond exp_map(const Vector3d& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  // sin(x/2)/x by its series near 0, where the quotient loses digits.
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
+  Quaterniond q;
+  q.w() = std::cos(0.5 * angle);
+  q.vec() = scale * rotation_vector;
+  return q.normalized();
+}
+
+Vector3d log_map(const Quaterniond& q) {
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const double sine = q.vec().norm();
+  const double angle = 2.0 * std::atan2(sine, sign * q.w());
+  const double scale = sine < 1e-8 ? 2.0 : angle / sine;
+  return sign * scale * q.vec();
+}
+
+Vector6d rotation_6d(const Quaterniond& q) {
+  const Matrix3d R = q.toRotationMatrix();
+  Vector6d out;
+  out << R.col(0), R.col(1);
+  return out;
+}
+
+double heading_angle(const Quaterniond& q_WB) {
+  Vector3d forward = q_WB * Vector3d::UnitZ();
+  if (std::hypot(forward.x(), forward.y()) < 1e-3) forward = q_WB * Vector3d::UnitY();
+  return std::atan2(forward.y(), forward.x());
+}
+
+Quaterniond rotation_z(double angle) {
+  return Quaterniond(std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle));
+}
+
+Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis) {
+  const double along = q.vec().dot(axis);
+  const double norm = std::hypot(q.w(), along);
+  if (norm < 1e-12) return Quaterniond::Identity();  // half turn across the axis: any twist will do
+  Quaterniond twist;
+  twist.w() = q.w() / norm;
+  twist.vec() = along / norm * axis;
+  return twist;
+}
+
+}  // namespace mimicx

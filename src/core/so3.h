@@ -1,0 +1,33 @@
+/// Rotations in double precision, for everything outside the simulator's inner loop.
+///
+/// Conventions: quaternions are unit Hamilton quaternions and rotate column vectors; R_WB maps vectors
+/// from frame B to frame W; rotation vectors (axis times angle) are in radians. The simulator has its own
+/// rotations over its scalar type (physics/spatial.h).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace mimicx {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Rotation vector → quaternion.
+Quaterniond exp_map(const Vector3d& rotation_vector);
+/// Quaternion → rotation vector of the shorter way, angle in [0, π].
+Vector3d log_map(const Quaterniond& q);
+/// First two columns of the rotation matrix (Zhou et al. 2019): continuous, 6 numbers.
+Vector6d rotation_6d(const Quaterniond& q);
+/// Rotation about z by the heading of q: the direction of its local z axis ("forward" of the SMPL body
+/// frame) projected onto the floor, as an angle from world x. 0 where the body looks straight up or down
+/// is replaced by the heading of its local y axis.
+double heading_angle(const Quaterniond& q_WB);
+/// Rotation about the world's vertical.
+Quaterniond rotation_z(double angle);
+/// Swing-twist: q = swing · twist with twist about the unit axis (child side).
+Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis);
+
+}  // namespace mimicx
