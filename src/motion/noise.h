@@ -1,0 +1,103 @@
+/// What a video-based estimator does to a motion: a clean clip becomes a "video-recovered" one with 2D
+/// keypoints and a camera.
+///
+/// Source: a noise model fitted so that the metrics of the noisy clips land near the rows "VIBE" and
+/// "GVHMR" of the paper's Table 1 (docs/method.md, "Noise model"). Notation there and here: N is one
+/// standard normal per clip, S_τ a unit-variance Gaussian process with autocorrelation exp(−Δ²/4τ²),
+/// J_s unit-variance white noise filtered by a Gaussian of s frames.
+///
+/// Everything the true clip does not tell (camera, errors) comes from the seed; each term has its own
+/// random stream, so that turning one off leaves the others as they are.
+/// What it does not do: no images, no occlusion by geometry; the truth is never written into the noisy clip.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/random.h"
+#include "motion/clip.h"
+
+namespace mimicx {
+
+/// Amplitudes of the error terms. Angles in degrees, lengths in metres, times in seconds.
+struct NoisePreset {
+  // Joint rotations, right-multiplied, per axis: w_j · (static·N + slow·S_slow_tau + jitter·J_jitter_frames).
+  double joint_static, joint_slow, slow_tau, joint_jitter, jitter_frames;
+  // Root orientation, world axes, left-multiplied; the heading also takes a random walk (°/√s).
+  double root_static, root_slow, root_jitter, heading_walk;
+  // Bursts on one limb joint: per second, length in frames, size in degrees.
+  double burst_rate, burst_frames_min, burst_frames_max, burst_min, burst_max;
+  // Root position along the camera's depth axis; the lateral axis takes `lateral` times a copy.
+  double depth_static, depth_slow, depth_tau, depth_jitter, depth_jitter_frames, lateral;
+  double drift, drift_tau;  // velocity of the drift: drift · S_drift_tau, m/s
+  double speed_error,
+      heading_error;  // path scaled by 1 + speed_error·N and turned by heading_error·N degrees
+  // Height: snap · (support height error, smoothed over snap_frames) is taken back, then offsets are added.
+  double snap, snap_frames;
+  double height_offset, height_static, height_slow, height_jitter;
+};
+
+/// "vibe-like" or "gvhmr-like". @throws std::invalid_argument for another name.
+NoisePreset noise_preset(std::string_view name);
+
+/// How much the program is told about the camera and the body's shape.
+struct CameraError {
+  double focal = 0.0;  ///< relative σ of the focal length
+  double tilt = 0.0;   ///< σ of the tilt, degrees
+  double beta = 0.0;   ///< σ per entry of β
+};
+/// "calibrated" (exact), "perturbed" or "wild". @throws std::invalid_argument for another name.
+CameraError camera_error(std::string_view name);
+
+enum class KeypointSet { kJoints22, kCoco17 };
+
+struct NoiseOptions {
+  NoisePreset preset = noise_preset("gvhmr-like");
+  CameraError camera = camera_error("perturbed");
+  KeypointSet keypoints = KeypointSet::kJoints22;
+  std::uint64_t seed = 0;
+};
+
+/// Occlusion of one limb joint: a Hann window of rotation error, low confidence for its keypoints.
+struct Burst {
+  int joint;
+  int first, length;  ///< frames
+  Vector3d peak;      ///< rotation vector at the window's middle, rad
+};
+
+/// A pinhole camera: world → camera (x right, y down, z forward), intrinsics in pixels.
+struct Camera {
+  Matrix3d intrinsics = Matrix3d::Identity();
+  Eigen::Matrix4d extrinsics = Eigen::Matrix4d::Identity();
+};
+
+/// u, v in pixels and depth in metres.
+Vector3d project(const Camera& camera, const Vector3d& p_W);
+
+/// The estimator's result for a clean clip of body model "mimicx": rotations, trans and β with errors,
+/// keypoints of the clean motion with detection errors, and the camera as the program is told of it.
+/// @throws std::invalid_argument for fewer than 2 frames or another body model.
+Clip add_noise(const Clip& truth, const NoiseOptions& options);
+
+/// Names of a keypoint set, in file order: the 22 joints, or COCO-17.
+std::vector<std::string> keypoint_names(KeypointSet set);
+
+// The parts of the model, shared between its files and tested one by one.
+
+/// J_s, and S_τ with frames = τ · fps: unit variance, correlated over `frames`. @param random  advanced
+std::vector<double> smooth_noise(Random& random, int count, double frames);
+
+/// Bursts of a clip, in the order of their beginnings.
+std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps);
+
+/// A camera 4 to 6 m away (farther only when the motion would leave the picture), 1.2 to 1.8 m high.
+Camera place_camera(const std::vector<BodyPoses>& truth, std::uint64_t seed);
+
+/// Detections of the clean motion. @param truth  poses of every frame
+Keypoints detect_keypoints(const std::vector<BodyPoses>& truth, const Camera& camera, KeypointSet set,
+                           const std::vector<Burst>& bursts, std::uint64_t seed, double fps);
+
+}  // namespace mimicx
