@@ -1,0 +1,95 @@
+#include "nn/mlp.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+#include "nn/elementwise.h"
+
+namespace mimicx::nn {
+
+namespace {
+
+template <class S>
+Activation layer_activation(const Mlp<S>& mlp, int layer) {
+  return layer + 1 < mlp.layers() ? mlp.activation : Activation::kLinear;
+}
+
+}  // namespace
+
+template <class S>
+Mlp<S> make_mlp(const std::vector<int>& sizes, Activation activation, S last_scale, Random& random) {
+  if (sizes.size() < 2 || std::any_of(sizes.begin(), sizes.end(), [](int n) { return n < 1; }))
+    throw std::invalid_argument("make_mlp: expected at least two sizes, each at least 1");
+  Mlp<S> mlp{sizes, activation, {}, {}};
+  for (std::size_t layer = 0; layer + 1 < sizes.size(); ++layer) {
+    const bool last = layer + 2 == sizes.size();
+    const double gain = last ? double(last_scale) : (activation == Activation::kRelu ? std::sqrt(2.0) : 1.0);
+    const double deviation = gain / std::sqrt(double(sizes[layer]));
+    Matrix<S> weight(sizes[layer], sizes[layer + 1]);
+    for (Eigen::Index i = 0; i < weight.size(); ++i)
+      weight.data()[i] = static_cast<S>(deviation * random.normal());
+    mlp.weights.push_back(std::move(weight));
+    mlp.biases.push_back(Matrix<S>::Zero(1, sizes[layer + 1]));
+  }
+  return mlp;
+}
+
+template <class S>
+std::vector<Matrix<S>*> parameters(Mlp<S>& mlp) {
+  std::vector<Matrix<S>*> result;
+  for (std::size_t layer = 0; layer < mlp.weights.size(); ++layer) {
+    result.push_back(&mlp.weights[layer]);
+    result.push_back(&mlp.biases[layer]);
+  }
+  return result;
+}
+
+template <class S>
+std::vector<Var> parameters_on_tape(Tape<S>& tape, const Mlp<S>& mlp) {
+  std::vector<Var> result;
+  for (std::size_t layer = 0; layer < mlp.weights.size(); ++layer) {
+    result.push_back(tape.refer(mlp.weights[layer]));
+    result.push_back(tape.refer(mlp.biases[layer]));
+  }
+  return result;
+}
+
+template <class S>
+Var forward(Tape<S>& tape, const Mlp<S>& mlp, std::span<const Var> parameters, Var x) {
+  assert(parameters.size() == 2 * mlp.weights.size());
+  for (int layer = 0; layer < mlp.layers(); ++layer) {
+    const auto first = 2 * static_cast<std::size_t>(layer);
+    x = affine(tape, x, parameters[first], parameters[first + 1], layer_activation(mlp, layer));
+  }
+  return x;
+}
+
+template <class S>
+void evaluate(const Mlp<S>& mlp, const Matrix<S>& input, Workspace<S>& workspace, Matrix<S>& output) {
+  assert(input.cols() == mlp.inputs());
+  const Matrix<S>* x = &input;
+  for (int layer = 0; layer < mlp.layers(); ++layer) {
+    const auto index = static_cast<std::size_t>(layer);
+    const bool last = layer + 1 == mlp.layers();
+    Matrix<S>& y = last ? output : workspace.hidden[index % 2];
+    y.resize(input.rows(), mlp.weights[index].cols());
+    gemm(false, false, *x, mlp.weights[index], mlp.biases[index].data(), y, workspace.gemm);
+    const Activation activation = layer_activation(mlp, layer);
+    if (activation != Activation::kLinear) apply_activation(activation, y, y);
+    x = &y;
+  }
+}
+
+#define MIMICX_INSTANTIATE(S)                                                \
+  template Mlp<S> make_mlp(const std::vector<int>&, Activation, S, Random&); \
+  template std::vector<Matrix<S>*> parameters(Mlp<S>&);                      \
+  template std::vector<Var> parameters_on_tape(Tape<S>&, const Mlp<S>&);     \
+  template Var forward(Tape<S>&, const Mlp<S>&, std::span<const Var>, Var);  \
+  template void evaluate(const Mlp<S>&, const Matrix<S>&, Workspace<S>&, Matrix<S>&);
+MIMICX_INSTANTIATE(float)
+MIMICX_INSTANTIATE(double)
+#undef MIMICX_INSTANTIATE
+
+}  // namespace mimicx::nn

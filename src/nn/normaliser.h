@@ -1,0 +1,58 @@
+/// Running mean and deviation of features, and the scaling of inputs by them.
+///
+/// Workers take the moments of their own chunk; the owner merges them in a fixed order. Statistics are
+/// in double: Chan, Golub, LeVeque, "Updating formulae and a pairwise algorithm for computing sample
+/// variances" (1979), Eq. 2.1.
+#pragma once
+
+#include <span>
+
+#include "nn/matrix.h"
+
+namespace mimicx::nn {
+
+/// Sums over samples, per feature.
+struct Moments {
+  double count = 0;
+  Eigen::RowVectorXd mean;     ///< [features]
+  Eigen::RowVectorXd squares;  ///< [features] Σ (x − mean)²
+};
+
+Moments make_moments(int features);
+
+/// Two passes over the rows of a batch; no rows give a count of 0.
+template <class S>
+Moments moments_of(const Matrix<S>& batch);
+
+/// Moments of both samples together.
+void merge(Moments& into, const Moments& other);
+
+template <class S>
+struct Normaliser {
+  Moments moments;
+  S limit = S(10);   ///< outputs are clipped to ± limit
+  Matrix<S> shift;   ///< [1, features] mean
+  Matrix<S> factor;  ///< [1, features] 1 / deviation
+
+  int features() const { return static_cast<int>(moments.mean.size()); }
+};
+
+/// Knows nothing yet: the identity apart from the clipping.
+template <class S>
+Normaliser<S> make_normaliser(int features, S limit = S(10));
+
+/// Recomputes shift and factor from the moments.
+template <class S>
+void refresh(Normaliser<S>& normaliser);
+/// Merges the batches in the order given and refreshes shift and factor.
+template <class S>
+void update(Normaliser<S>& normaliser, std::span<const Moments> batches);
+
+/// (x − shift) · factor, clipped. x [n, features] → output of the same shape; output may be x itself.
+template <class S>
+void normalise(const Normaliser<S>& normaliser, const Matrix<S>& x, Matrix<S>& output);
+/// The inverse (without the clipping).
+template <class S>
+void denormalise(const Normaliser<S>& normaliser, const Matrix<S>& x, Matrix<S>& output);
+
+}  // namespace mimicx::nn

@@ -1,0 +1,355 @@
+#include "nn/ops.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "nn/elementwise.h"
+
+namespace mimicx::nn {
+
+namespace {
+
+using Eigen::Index;
+using Wanted = std::array<bool, kMaxInputs>;
+using Gradients = std::array<Var, kMaxInputs>;
+
+template <class S>
+using Recipe = typename Tape<S>::Recipe;
+
+template <class S>
+Var append_like(Tape<S>& tape, const Recipe<S>& recipe, Var like) {
+  return tape.append(recipe, tape.value(like).rows(), tape.value(like).cols());
+}
+
+template <class S>
+[[maybe_unused]] bool same_shape(const Tape<S>& tape, Var a, Var b) {
+  return tape.value(a).rows() == tape.value(b).rows() && tape.value(a).cols() == tape.value(b).cols();
+}
+
+/// 1 where the condition on the elements of a and b holds, else 0: constant for gradients.
+template <class S, class Condition>
+Var indicator(Tape<S>& tape, Var a, Var b, Condition condition) {
+  const Var mask = append_like<S>(tape, {}, a);
+  const S* left = tape.value(a).data();
+  const S* right = tape.value(b).data();
+  S* out = tape.buffer(mask).data();
+  const Index n = tape.value(a).size();
+  for (Index i = 0; i < n; ++i) out[i] = condition(left[i], right[i]) ? S(1) : S(0);
+  return mask;
+}
+
+}  // namespace
+
+// ---- products ----------------------------------------------------------------------------------------
+
+// C = op(A)·op(B), G = dL/dC: dL/dop(A) = G·op(B)ᵀ, dL/dop(B) = op(A)ᵀ·G; where an input was transposed,
+// the transpose of that.
+template <class S>
+static Gradients matmul_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
+  const Recipe<S> recipe = tape.recipe(node);
+  const Var a = recipe.inputs[0], b = recipe.inputs[1];
+  const bool ta = recipe.flags[0] != 0, tb = recipe.flags[1] != 0;
+  Gradients result;
+  if (wanted[0]) result[0] = ta ? matmul(tape, b, g, tb, true) : matmul(tape, g, b, false, !tb);
+  if (wanted[1]) result[1] = tb ? matmul(tape, g, a, true, ta) : matmul(tape, a, g, !ta, false);
+  return result;
+}
+
+template <class S>
+Var matmul(Tape<S>& tape, Var a, Var b, bool transpose_a, bool transpose_b) {
+  const Matrix<S>& left = tape.value(a);
+  const Matrix<S>& right = tape.value(b);
+  assert((transpose_a ? left.rows() : left.cols()) == (transpose_b ? right.cols() : right.rows()));
+  const Var c =
+      tape.append({matmul_adjoint<S>, {a, b}, {}, {transpose_a, transpose_b}},
+                  transpose_a ? left.cols() : left.rows(), transpose_b ? right.rows() : right.cols());
+  gemm<S>(transpose_a, transpose_b, left, right, nullptr, tape.buffer(c), tape.gemm_scratch());
+  return c;
+}
+
+// ---- activations -------------------------------------------------------------------------------------
+
+template <class S>
+static Var slope_product(Tape<S>& tape, Var g, Var y, Activation activation);
+
+// r = g ⊙ φ'(y), φ' being a function of y = φ(x): dL/dg = G ⊙ φ'(y), dL/dy = G ⊙ g ⊙ dφ'/dy with
+// dφ'/dy = −2y for tanh (φ' = 1 − y²), 1 on the bent side of elu (φ' = y + 1), else 0.
+template <class S>
+static Gradients slope_product_adjoint(Tape<S>& tape, Var node, Var outer, const Wanted& wanted) {
+  const Recipe<S> recipe = tape.recipe(node);
+  const Var g = recipe.inputs[0], y = recipe.inputs[1];
+  const auto activation = static_cast<Activation>(recipe.flags[0]);
+  Gradients result;
+  if (wanted[0]) result[0] = slope_product(tape, outer, y, activation);
+  if (wanted[1] && activation == Activation::kTanh) {
+    result[1] = multiply(tape, multiply(tape, outer, g), scale(tape, y, S(-2)));
+  } else if (wanted[1] && activation == Activation::kElu) {
+    const Var bent = indicator(tape, y, y, [](S value, S) { return !(value > S(0)); });
+    result[1] = multiply(tape, multiply(tape, outer, g), bent);
+  }
+  return result;
+}
+
+/// g ⊙ φ'(y): the adjoint of an activation, as an operation.
+template <class S>
+static Var slope_product(Tape<S>& tape, Var g, Var y, Activation activation) {
+  if (activation == Activation::kLinear) return g;
+  const Var r =
+      append_like<S>(tape, {slope_product_adjoint<S>, {g, y}, {}, {static_cast<int>(activation)}}, g);
+  multiply_by_slope(activation, tape.value(g), tape.value(y), tape.buffer(r));
+  return r;
+}
+
+template <class S>
+static Gradients activate_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  return {slope_product(tape, g, node, static_cast<Activation>(tape.recipe(node).flags[0]))};
+}
+
+template <class S>
+Var activate(Tape<S>& tape, Var x, Activation activation) {
+  const Var y = append_like<S>(tape, {activate_adjoint<S>, {x}, {}, {static_cast<int>(activation)}}, x);
+  apply_activation(activation, tape.value(x), tape.buffer(y));
+  return y;
+}
+
+// y = φ(x·W + b): with D = G ⊙ φ'(y), dL/dx = D·Wᵀ, dL/dW = xᵀ·D, dL/db = column sums of D.
+template <class S>
+static Gradients affine_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
+  const Recipe<S> recipe = tape.recipe(node);
+  const Var d = slope_product(tape, g, node, static_cast<Activation>(recipe.flags[0]));
+  Gradients result;
+  if (wanted[0]) result[0] = matmul(tape, d, recipe.inputs[1], false, true);
+  if (wanted[1]) result[1] = matmul(tape, recipe.inputs[0], d, true, false);
+  if (wanted[2]) result[2] = column_sum(tape, d);
+  return result;
+}
+
+template <class S>
+Var affine(Tape<S>& tape, Var x, Var weight, Var bias, Activation activation) {
+  const Matrix<S>& in = tape.value(x);
+  const Matrix<S>& w = tape.value(weight);
+  assert(in.cols() == w.rows() && tape.value(bias).rows() == 1 && tape.value(bias).cols() == w.cols());
+  const Var y = tape.append({affine_adjoint<S>, {x, weight, bias}, {}, {static_cast<int>(activation)}},
+                            in.rows(), w.cols());
+  Matrix<S>& out = tape.buffer(y);
+  gemm<S>(false, false, in, w, tape.value(bias).data(), out, tape.gemm_scratch());
+  if (activation != Activation::kLinear) apply_activation(activation, out, out);
+  return y;
+}
+
+// ---- element by element ------------------------------------------------------------------------------
+
+template <class S>
+static Gradients add_adjoint(Tape<S>&, Var, Var g, const Wanted&) {
+  return {g, g};
+}
+
+template <class S>
+Var add(Tape<S>& tape, Var a, Var b) {
+  assert(same_shape(tape, a, b));
+  const Var y = append_like<S>(tape, {add_adjoint<S>, {a, b}}, a);
+  tape.buffer(y) = tape.value(a) + tape.value(b);
+  return y;
+}
+
+template <class S>
+static Gradients sub_adjoint(Tape<S>& tape, Var, Var g, const Wanted& wanted) {
+  return {g, wanted[1] ? scale(tape, g, S(-1)) : Var{}};
+}
+
+template <class S>
+Var sub(Tape<S>& tape, Var a, Var b) {
+  assert(same_shape(tape, a, b));
+  const Var y = append_like<S>(tape, {sub_adjoint<S>, {a, b}}, a);
+  tape.buffer(y) = tape.value(a) - tape.value(b);
+  return y;
+}
+
+template <class S>
+static Gradients multiply_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
+  const auto inputs = tape.recipe(node).inputs;
+  return {wanted[0] ? multiply(tape, g, inputs[1]) : Var{}, wanted[1] ? multiply(tape, g, inputs[0]) : Var{}};
+}
+
+template <class S>
+Var multiply(Tape<S>& tape, Var a, Var b) {
+  assert(same_shape(tape, a, b));
+  const Var y = append_like<S>(tape, {multiply_adjoint<S>, {a, b}}, a);
+  tape.buffer(y) = tape.value(a).cwiseProduct(tape.value(b));
+  return y;
+}
+
+template <class S>
+static Gradients minimum_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
+  const auto inputs = tape.recipe(node).inputs;
+  const Var first = indicator(tape, inputs[0], inputs[1], [](S a, S b) { return !(b < a); });
+  return {multiply(tape, g, first), wanted[1] ? multiply(tape, g, scale(tape, first, S(-1), S(1))) : Var{}};
+}
+
+template <class S>
+Var minimum(Tape<S>& tape, Var a, Var b) {
+  assert(same_shape(tape, a, b));
+  const Var y = append_like<S>(tape, {minimum_adjoint<S>, {a, b}}, a);
+  tape.buffer(y) = tape.value(a).binaryExpr(tape.value(b), [](S u, S v) { return v < u ? v : u; });
+  return y;
+}
+
+template <class S>
+static Gradients scale_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  return {scale(tape, g, tape.recipe(node).numbers[0])};
+}
+
+template <class S>
+Var scale(Tape<S>& tape, Var x, S factor, S offset) {
+  const Var y = append_like<S>(tape, {scale_adjoint<S>, {x}, {factor, offset}}, x);
+  tape.buffer(y).array() = tape.value(x).array() * factor + offset;
+  return y;
+}
+
+template <class S>
+static Gradients exp_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  return {multiply(tape, g, node)};
+}
+
+template <class S>
+Var exp(Tape<S>& tape, Var x) {
+  const Var y = append_like<S>(tape, {exp_adjoint<S>, {x}}, x);
+  apply_exp(tape.value(x), tape.buffer(y));
+  return y;
+}
+
+template <class S>
+static Gradients square_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  return {multiply(tape, g, scale(tape, tape.recipe(node).inputs[0], S(2)))};
+}
+
+template <class S>
+Var square(Tape<S>& tape, Var x) {
+  const Var y = append_like<S>(tape, {square_adjoint<S>, {x}}, x);
+  tape.buffer(y) = tape.value(x).cwiseAbs2();
+  return y;
+}
+
+template <class S>
+static Gradients clamp_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  const Var x = tape.recipe(node).inputs[0];
+  return {multiply(tape, g, indicator(tape, x, node, [](S in, S out) { return in == out; }))};
+}
+
+template <class S>
+Var clamp(Tape<S>& tape, Var x, S low, S high) {
+  const Var y = append_like<S>(tape, {clamp_adjoint<S>, {x}, {low, high}}, x);
+  tape.buffer(y) = tape.value(x).unaryExpr([=](S v) { return v < low ? low : (v > high ? high : v); });
+  return y;
+}
+
+// ---- rows, sums and broadcasts -----------------------------------------------------------------------
+
+template <class S>
+static Gradients add_row_adjoint(Tape<S>& tape, Var, Var g, const Wanted& wanted) {
+  return {g, wanted[1] ? column_sum(tape, g) : Var{}};
+}
+
+template <class S>
+Var add_row(Tape<S>& tape, Var x, Var row) {
+  assert(tape.value(row).rows() == 1 && tape.value(row).cols() == tape.value(x).cols());
+  const Var y = append_like<S>(tape, {add_row_adjoint<S>, {x, row}}, x);
+  tape.buffer(y) = tape.value(x).rowwise() + tape.value(row).row(0);
+  return y;
+}
+
+template <class S>
+static Gradients multiply_row_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
+  const auto inputs = tape.recipe(node).inputs;
+  return {wanted[0] ? multiply_row(tape, g, inputs[1]) : Var{},
+          wanted[1] ? column_sum(tape, multiply(tape, g, inputs[0])) : Var{}};
+}
+
+template <class S>
+Var multiply_row(Tape<S>& tape, Var x, Var row) {
+  assert(tape.value(row).rows() == 1 && tape.value(row).cols() == tape.value(x).cols());
+  const Var y = append_like<S>(tape, {multiply_row_adjoint<S>, {x, row}}, x);
+  tape.buffer(y) = (tape.value(x).array().rowwise() * tape.value(row).row(0).array()).matrix();
+  return y;
+}
+
+/// Adjoint of every sum: the gradient is spread over the shape of the input.
+template <class S>
+static Gradients sum_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  const Matrix<S>& x = tape.value(tape.recipe(node).inputs[0]);
+  return {broadcast(tape, g, x.rows(), x.cols())};
+}
+
+template <class S>
+Var sum(Tape<S>& tape, Var x) {
+  const Var y = tape.append({sum_adjoint<S>, {x}}, 1, 1);
+  tape.buffer(y)(0, 0) = ordered_sum(tape.value(x).data(), tape.value(x).size());
+  return y;
+}
+
+template <class S>
+Var mean(Tape<S>& tape, Var x) {
+  return scale(tape, sum(tape, x), S(1) / static_cast<S>(tape.value(x).size()));
+}
+
+template <class S>
+Var column_sum(Tape<S>& tape, Var x) {
+  const Var y = tape.append({sum_adjoint<S>, {x}}, 1, tape.value(x).cols());
+  sum_rows(tape.value(x), tape.buffer(y));
+  return y;
+}
+
+template <class S>
+Var row_sum(Tape<S>& tape, Var x) {
+  const Matrix<S>& in = tape.value(x);
+  const Var y = tape.append({sum_adjoint<S>, {x}}, in.rows(), 1);
+  Matrix<S>& out = tape.buffer(y);
+  for (Index i = 0; i < in.rows(); ++i) out(i, 0) = ordered_sum(in.data() + i * in.cols(), in.cols());
+  return y;
+}
+
+/// Adjoint of a broadcast: the sum over the directions in which it repeated.
+template <class S>
+static Gradients broadcast_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  const Matrix<S>& x = tape.value(tape.recipe(node).inputs[0]);
+  if (x.size() == 1) return {sum(tape, g)};
+  return {x.rows() == 1 ? column_sum(tape, g) : row_sum(tape, g)};
+}
+
+template <class S>
+Var broadcast(Tape<S>& tape, Var x, Index rows, Index cols) {
+  const Matrix<S>& in = tape.value(x);
+  if (in.rows() == rows && in.cols() == cols) return x;
+  assert((in.rows() == 1 || in.rows() == rows) && (in.cols() == 1 || in.cols() == cols));
+  const Var y = tape.append({broadcast_adjoint<S>, {x}}, rows, cols);
+  if (in.size() == 1)
+    tape.buffer(y).setConstant(in(0, 0));
+  else
+    tape.buffer(y) = in.replicate(rows / in.rows(), cols / in.cols());
+  return y;
+}
+
+#define MIMICX_INSTANTIATE(S)                               \
+  template Var matmul(Tape<S>&, Var, Var, bool, bool);      \
+  template Var affine(Tape<S>&, Var, Var, Var, Activation); \
+  template Var add(Tape<S>&, Var, Var);                     \
+  template Var sub(Tape<S>&, Var, Var);                     \
+  template Var multiply(Tape<S>&, Var, Var);                \
+  template Var minimum(Tape<S>&, Var, Var);                 \
+  template Var scale(Tape<S>&, Var, S, S);                  \
+  template Var add_row(Tape<S>&, Var, Var);                 \
+  template Var multiply_row(Tape<S>&, Var, Var);            \
+  template Var activate(Tape<S>&, Var, Activation);         \
+  template Var exp(Tape<S>&, Var);                          \
+  template Var square(Tape<S>&, Var);                       \
+  template Var clamp(Tape<S>&, Var, S, S);                  \
+  template Var sum(Tape<S>&, Var);                          \
+  template Var mean(Tape<S>&, Var);                         \
+  template Var column_sum(Tape<S>&, Var);                   \
+  template Var row_sum(Tape<S>&, Var);                      \
+  template Var broadcast(Tape<S>&, Var, Index, Index);
+MIMICX_INSTANTIATE(float)
+MIMICX_INSTANTIATE(double)
+#undef MIMICX_INSTANTIATE
+
+}  // namespace mimicx::nn

@@ -1,0 +1,64 @@
+/// Operations on a tape. Each stands in ops.cpp beside its adjoint rule, which is written in operations.
+///
+/// Shapes are [rows, cols]; rows are samples wherever there are samples. S is float or double. A wrong
+/// shape is a programmer's slip and asserted.
+#pragma once
+
+#include "nn/activation.h"
+#include "nn/tape.h"
+
+namespace mimicx::nn {
+
+/// op(a) · op(b), op = transpose where the flag is set.
+template <class S>
+Var matmul(Tape<S>& tape, Var a, Var b, bool transpose_a = false, bool transpose_b = false);
+/// activation(x · weight + bias): x [n, in], weight [in, out], bias [1, out].
+template <class S>
+Var affine(Tape<S>& tape, Var x, Var weight, Var bias, Activation activation = Activation::kLinear);
+
+/// Element by element; both of one shape.
+template <class S>
+Var add(Tape<S>& tape, Var a, Var b);
+template <class S>
+Var sub(Tape<S>& tape, Var a, Var b);
+template <class S>
+Var multiply(Tape<S>& tape, Var a, Var b);
+/// The smaller one; at a tie the gradient goes to a.
+template <class S>
+Var minimum(Tape<S>& tape, Var a, Var b);
+
+/// factor · x + offset.
+template <class S>
+Var scale(Tape<S>& tape, Var x, S factor, S offset = S(0));
+/// x [n, m] plus, or times, a row [1, m] in every row.
+template <class S>
+Var add_row(Tape<S>& tape, Var x, Var row);
+template <class S>
+Var multiply_row(Tape<S>& tape, Var x, Var row);
+
+template <class S>
+Var activate(Tape<S>& tape, Var x, Activation activation);
+template <class S>
+Var exp(Tape<S>& tape, Var x);
+template <class S>
+Var square(Tape<S>& tape, Var x);
+/// Limited to [low, high]; the gradient passes where low ≤ x ≤ high.
+template <class S>
+Var clamp(Tape<S>& tape, Var x, S low, S high);
+
+/// All elements → [1, 1].
+template <class S>
+Var sum(Tape<S>& tape, Var x);
+template <class S>
+Var mean(Tape<S>& tape, Var x);
+/// Over the rows: [n, m] → [1, m].
+template <class S>
+Var column_sum(Tape<S>& tape, Var x);
+/// Over the columns: [n, m] → [n, 1].
+template <class S>
+Var row_sum(Tape<S>& tape, Var x);
+/// Their adjoints: [1, 1], [1, cols] or [rows, 1] → [rows, cols].
+template <class S>
+Var broadcast(Tape<S>& tape, Var x, Eigen::Index rows, Eigen::Index cols);
+
+}  // namespace mimicx::nn

@@ -1,0 +1,105 @@
+/// Reverse-mode differentiation on a tape, differentiable again.
+///
+/// Every operation (ops.h) appends a node: its value, its inputs and its adjoint rule (vector-Jacobian
+/// product). A rule is itself written in operations, so `gradient` only appends more nodes, and the result of
+/// a gradient can enter a loss that is differentiated once more (gradient penalty, METHOD §7).
+///
+/// Memory. Node i of one pass uses the buffer that node i of the pass before `reset()` used: a tape that
+/// sees the same operations with the same shapes allocates nothing after its first pass. Use one tape per
+/// worker and per kind of loss. References to values hold until the node's place is recorded anew.
+///
+/// What it does not do: no threads, no broadcasting beyond the named operations, no in-place operations.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "nn/gemm.h"
+#include "nn/matrix.h"
+
+namespace mimicx::nn {
+
+/// A place on a tape. The default stands for "nothing", in a gradient for zero.
+struct Var {
+  int index = -1;
+  bool exists() const { return index >= 0; }
+};
+
+inline constexpr int kMaxInputs = 3;
+
+template <class S>
+class Tape {
+ public:
+  /// Adjoint rule: gradients of the wanted inputs from the gradient of the node's value. An entry that
+  /// stays empty means zero.
+  using Rule = std::array<Var, kMaxInputs> (*)(Tape& tape, Var node, Var gradient,
+                                               const std::array<bool, kMaxInputs>& wanted);
+
+  /// How a node was made: enough for its rule.
+  struct Recipe {
+    Rule rule = nullptr;  ///< null: constant as far as gradients are concerned
+    std::array<Var, kMaxInputs> inputs{};
+    std::array<S, 2> numbers{};  ///< factors and bounds
+    std::array<int, 2> flags{};  ///< transposes, kind of activation
+  };
+
+  Tape() = default;
+  Tape(const Tape&) = delete;
+  Tape& operator=(const Tape&) = delete;
+
+  /// Forgets all nodes and keeps their buffers.
+  void reset() { size_ = 0; }
+  int size() const { return size_; }
+
+  /// A value that is copied onto the tape. `gradient` can be asked for any node, constants included.
+  Var constant(const Matrix<S>& value);
+  Var constant(Eigen::Index rows, Eigen::Index cols, S fill);
+  /// A value that is only referred to (parameters, minibatches): must outlive the pass and stay unchanged.
+  Var refer(const Matrix<S>& value);
+  /// A place of the given shape to be filled through `buffer` before it is used.
+  Var input(Eigen::Index rows, Eigen::Index cols);
+
+  const Matrix<S>& value(Var v) const { return *node(v).value; }
+  /// The only number of a 1×1 node.
+  S scalar(Var v) const;
+  Matrix<S>& buffer(Var v) { return nodes_[static_cast<std::size_t>(v.index)].buffer; }
+
+  /// For operations: a new node with a buffer of that shape and unspecified content.
+  Var append(const Recipe& recipe, Eigen::Index rows, Eigen::Index cols);
+  const Recipe& recipe(Var v) const { return node(v).recipe; }
+  GemmScratch<S>& gemm_scratch() { return gemm_scratch_; }
+
+  /// Gradients of the 1×1 node `scalar` with respect to each of `wrt`, appended to the tape. Nothing is
+  /// computed that no entry of `wrt` needs. An entry that `scalar` does not depend on gives zeros.
+  std::vector<Var> gradient(Var scalar, std::span<const Var> wrt);
+
+ private:
+  struct Node {
+    Recipe recipe;
+    Matrix<S> buffer;
+    const Matrix<S>* value = nullptr;
+  };
+
+  const Node& node(Var v) const { return nodes_[static_cast<std::size_t>(v.index)]; }
+  Node& next();
+  void mark_dependents(Var scalar, std::span<const Var> wrt);
+  void propagate(Var node);
+
+  std::deque<Node> nodes_;  ///< a deque, because references to values must survive growth
+  int size_ = 0;
+  GemmScratch<S> gemm_scratch_;
+  std::vector<char> depends_;  ///< [node] leads from a member of wrt
+  std::vector<Var> adjoint_;   ///< [node] gradient of the scalar, as far as it has been gathered
+};
+
+extern template class Tape<float>;
+extern template class Tape<double>;
+
+template <class S>
+std::vector<Var> gradient(Tape<S>& tape, Var scalar, std::span<const Var> wrt) {
+  return tape.gradient(scalar, wrt);
+}
+
+}  // namespace mimicx::nn
