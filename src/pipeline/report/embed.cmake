@@ -1,0 +1,20 @@
+# Joins report.html, report.css and report.js into one header of two raw strings: the page before and after
+# its data. Runs at configure time, and again whenever one of the three changes.
+function(embed_report_page folder output)
+  foreach(part css js)
+    file(READ ${folder}/report.${part} REPORT_${part})
+    string(TOUPPER ${part} upper)
+    set(REPORT_${upper} "${REPORT_${part}}")
+  endforeach()
+  set(REPORT_DATA "@REPORT_DATA@")
+  configure_file(${folder}/report.html ${output}.html @ONLY)
+  file(READ ${output}.html page)
+  string(FIND "${page}" "@REPORT_DATA@" at)
+  string(SUBSTRING "${page}" 0 ${at} PAGE_BEFORE)
+  string(LENGTH "@REPORT_DATA@" length)
+  math(EXPR after "${at} + ${length}")
+  string(SUBSTRING "${page}" ${after} -1 PAGE_AFTER)
+  configure_file(${folder}/report_page.h.in ${output} @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+               ${folder}/report.html ${folder}/report.css ${folder}/report.js)
+endfunction()
