@@ -14,20 +14,42 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// "Biomechanics and Motor Control of Human Movement" (4th ed., fig. 4.1), placed on the SMPL-X joints.
 Vector3d standard_offset(int body) {
   switch (body) {
-    case kLeftHip: case kRightHip: return {0.066, -0.088, -0.006};
-    case kSpine1: return {0.0, 0.108, -0.026};
-    case kLeftKnee: case kRightKnee: return {0.040, -0.382, -0.004};
-    case kSpine2: return {0.0, 0.136, 0.001};
-    case kLeftAnkle: case kRightAnkle: return {-0.012, -0.402, -0.040};
-    case kSpine3: return {0.0, 0.054, 0.026};
-    case kLeftFoot: case kRightFoot: return {0.024, -0.056, 0.122};
-    case kNeck: return {0.0, 0.214, -0.042};
-    case kLeftCollar: case kRightCollar: return {0.074, 0.118, -0.034};
-    case kHead: return {0.0, 0.066, 0.050};
-    case kLeftShoulder: case kRightShoulder: return {0.096, 0.034, -0.010};
-    case kLeftElbow: case kRightElbow: return {0.258, -0.014, -0.026};
-    case kLeftWrist: case kRightWrist: return {0.250, 0.008, -0.001};
-    default: return Vector3d::Zero();
+    case kLeftHip:
+    case kRightHip:
+      return {0.066, -0.088, -0.006};
+    case kSpine1:
+      return {0.0, 0.108, -0.026};
+    case kLeftKnee:
+    case kRightKnee:
+      return {0.040, -0.382, -0.004};
+    case kSpine2:
+      return {0.0, 0.136, 0.001};
+    case kLeftAnkle:
+    case kRightAnkle:
+      return {-0.012, -0.402, -0.040};
+    case kSpine3:
+      return {0.0, 0.054, 0.026};
+    case kLeftFoot:
+    case kRightFoot:
+      return {0.024, -0.056, 0.122};
+    case kNeck:
+      return {0.0, 0.214, -0.042};
+    case kLeftCollar:
+    case kRightCollar:
+      return {0.074, 0.118, -0.034};
+    case kHead:
+      return {0.0, 0.066, 0.050};
+    case kLeftShoulder:
+    case kRightShoulder:
+      return {0.096, 0.034, -0.010};
+    case kLeftElbow:
+    case kRightElbow:
+      return {0.258, -0.014, -0.026};
+    case kLeftWrist:
+    case kRightWrist:
+      return {0.250, 0.008, -0.001};
+    default:
+      return Vector3d::Zero();
   }
 }
 
@@ -62,13 +84,32 @@ const std::array<ShapeComponent, kBetas>& shape_components() {
 
 const Vector3d& gain_of(const ShapeComponent& c, int body) {
   switch (body) {
-    case kLeftHip: case kRightHip: return c.hip;
-    case kLeftKnee: case kRightKnee: case kLeftAnkle: case kRightAnkle: return c.leg;
-    case kLeftFoot: case kRightFoot: return c.foot;
-    case kLeftCollar: case kRightCollar: case kLeftShoulder: case kRightShoulder: return c.shoulder;
-    case kLeftElbow: case kRightElbow: case kLeftWrist: case kRightWrist: return c.arm;
-    case kNeck: case kHead: return c.head;
-    default: return c.torso;
+    case kLeftHip:
+    case kRightHip:
+      return c.hip;
+    case kLeftKnee:
+    case kRightKnee:
+    case kLeftAnkle:
+    case kRightAnkle:
+      return c.leg;
+    case kLeftFoot:
+    case kRightFoot:
+      return c.foot;
+    case kLeftCollar:
+    case kRightCollar:
+    case kLeftShoulder:
+    case kRightShoulder:
+      return c.shoulder;
+    case kLeftElbow:
+    case kRightElbow:
+    case kLeftWrist:
+    case kRightWrist:
+      return c.arm;
+    case kNeck:
+    case kHead:
+      return c.head;
+    default:
+      return c.torso;
   }
 }
 
@@ -105,31 +146,49 @@ Capsule capsule_of(const Character& c, const Scales& s, int body) {
     return Capsule{body, s.size * Vector3d(-half, y, z), s.size * Vector3d(half, y, z), radius * s.girth};
   };
   switch (body) {
-    case kPelvis: return across(0.062, -0.02, -0.005, 0.105);
-    case kSpine1: return across(0.050, 0.04, 0.005, 0.105);
-    case kSpine2: return across(0.055, 0.02, 0.005, 0.105);
-    case kSpine3: return across(0.070, 0.09, -0.015, 0.110);
-    case kNeck: return bone(kHead, 0.0, 1.0, 0.050);
-    case kHead: return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
-    case kLeftHip: return bone(kLeftKnee, 0.20, 0.95, 0.064);
-    case kRightHip: return bone(kRightKnee, 0.20, 0.95, 0.064);
-    case kLeftKnee: return bone(kLeftAnkle, 0.05, 0.92, 0.046);
-    case kRightKnee: return bone(kRightAnkle, 0.05, 0.92, 0.046);
-    case kLeftAnkle: case kRightAnkle: {
+    case kPelvis:
+      return across(0.062, -0.02, -0.005, 0.105);
+    case kSpine1:
+      return across(0.050, 0.04, 0.005, 0.105);
+    case kSpine2:
+      return across(0.055, 0.02, 0.005, 0.105);
+    case kSpine3:
+      return across(0.070, 0.09, -0.015, 0.110);
+    case kNeck:
+      return bone(kHead, 0.0, 1.0, 0.050);
+    case kHead:
+      return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
+    case kLeftHip:
+      return bone(kLeftKnee, 0.20, 0.95, 0.064);
+    case kRightHip:
+      return bone(kRightKnee, 0.20, 0.95, 0.064);
+    case kLeftKnee:
+      return bone(kLeftAnkle, 0.05, 0.92, 0.046);
+    case kRightKnee:
+      return bone(kRightAnkle, 0.05, 0.92, 0.046);
+    case kLeftAnkle:
+    case kRightAnkle: {
       const double radius = 0.034 * s.size, y = radius - ankle_height(c, x > 0 ? 1 : -1);
       const Vector3d ball = offset(x > 0 ? kLeftFoot : kRightFoot);
       return {body, {0.0, y, -0.022 * s.foot}, {ball.x(), y, ball.z() - 0.014 * s.foot}, radius};
     }
-    case kLeftFoot: case kRightFoot: {
+    case kLeftFoot:
+    case kRightFoot: {
       const double radius = 0.020 * s.size, y = radius - kSoleBelowBall;
       return {body, {0.0, y, 0.012 * s.foot}, {0.0, y, 0.052 * s.foot}, radius};
     }
-    case kLeftCollar: return bone(kLeftShoulder, 0.15, 0.85, 0.052);
-    case kRightCollar: return bone(kRightShoulder, 0.15, 0.85, 0.052);
-    case kLeftShoulder: return bone(kLeftElbow, 0.10, 0.95, 0.045);
-    case kRightShoulder: return bone(kRightElbow, 0.10, 0.95, 0.045);
-    case kLeftElbow: return bone(kLeftWrist, 0.05, 0.95, 0.036);
-    case kRightElbow: return bone(kRightWrist, 0.05, 0.95, 0.036);
+    case kLeftCollar:
+      return bone(kLeftShoulder, 0.15, 0.85, 0.052);
+    case kRightCollar:
+      return bone(kRightShoulder, 0.15, 0.85, 0.052);
+    case kLeftShoulder:
+      return bone(kLeftElbow, 0.10, 0.95, 0.045);
+    case kRightShoulder:
+      return bone(kRightElbow, 0.10, 0.95, 0.045);
+    case kLeftElbow:
+      return bone(kLeftWrist, 0.05, 0.95, 0.036);
+    case kRightElbow:
+      return bone(kRightWrist, 0.05, 0.95, 0.036);
     default:  // hands
       return {body, {0.03 * x * s.hand, -0.004, 0.0}, {0.14 * x * s.hand, -0.010, 0.004}, 0.030 * s.hand};
   }
@@ -140,20 +199,41 @@ Capsule capsule_of(const Character& c, const Scales& s, int body) {
 /// spine's bodies. Shares sum to 1.
 double mass_share(int body) {
   switch (body) {
-    case kPelvis: return 0.118;
-    case kSpine1: return 0.082;
-    case kSpine2: return 0.082;
-    case kSpine3: return 0.112;
-    case kNeck: return 0.012;
-    case kHead: return 0.056;
-    case kLeftHip: case kRightHip: return 0.1446;
-    case kLeftKnee: case kRightKnee: return 0.0457;
-    case kLeftAnkle: case kRightAnkle: return 0.0113;
-    case kLeftFoot: case kRightFoot: return 0.0022;
-    case kLeftCollar: case kRightCollar: return 0.0204;
-    case kLeftShoulder: case kRightShoulder: return 0.0263;
-    case kLeftElbow: case kRightElbow: return 0.0150;
-    default: return 0.0035 + 0.0;
+    case kPelvis:
+      return 0.118;
+    case kSpine1:
+      return 0.082;
+    case kSpine2:
+      return 0.082;
+    case kSpine3:
+      return 0.112;
+    case kNeck:
+      return 0.012;
+    case kHead:
+      return 0.056;
+    case kLeftHip:
+    case kRightHip:
+      return 0.1446;
+    case kLeftKnee:
+    case kRightKnee:
+      return 0.0457;
+    case kLeftAnkle:
+    case kRightAnkle:
+      return 0.0113;
+    case kLeftFoot:
+    case kRightFoot:
+      return 0.0022;
+    case kLeftCollar:
+    case kRightCollar:
+      return 0.0204;
+    case kLeftShoulder:
+    case kRightShoulder:
+      return 0.0263;
+    case kLeftElbow:
+    case kRightElbow:
+      return 0.0150;
+    default:
+      return 0.0035 + 0.0;
   }
 }
 constexpr double kStandardMass = 70.0;
@@ -169,7 +249,8 @@ Matrix3d capsule_inertia(const Capsule& c, double mass) {
   const double cylinder = r * r * h, ball = 4.0 / 3.0 * r * r * r;
   const double m_c = mass * cylinder / (cylinder + ball), m_b = mass - m_c;
   const double along = 0.5 * m_c * r * r + 0.4 * m_b * r * r;
-  const double across = m_c * (h * h / 12.0 + r * r / 4.0) + m_b * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);
+  const double across =
+      m_c * (h * h / 12.0 + r * r / 4.0) + m_b * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);
   const Vector3d axis = h > 1e-9 ? Vector3d((c.b_B - c.a_B) / h) : Vector3d(Vector3d::UnitX());
   return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
 }
@@ -182,12 +263,12 @@ void add_foot_points(Character& c, const Scales& s, int side) {
   const auto add = [&](int body, double px, double py, double pz) {
     c.contact_points.push_back({body, {px, py, pz}, 0.0});
   };
-  add(ankle, x * -0.026 * s.size, sole, -0.052 * s.foot);                        // heel, inner
-  add(ankle, x * 0.026 * s.size, sole, -0.052 * s.foot);                         // heel, outer
+  add(ankle, x * -0.026 * s.size, sole, -0.052 * s.foot);                          // heel, inner
+  add(ankle, x * 0.026 * s.size, sole, -0.052 * s.foot);                           // heel, outer
   add(ankle, ball_p.x() - x * 0.040 * s.size, sole, ball_p.z() - 0.004 * s.foot);  // ball, inner
   add(ankle, ball_p.x() + x * 0.040 * s.size, sole, ball_p.z() - 0.004 * s.foot);  // ball, outer
-  add(ball, -x * 0.030 * s.size, -kSoleBelowBall, 0.068 * s.foot);               // toe, inner
-  add(ball, x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot);                // toe, outer
+  add(ball, -x * 0.030 * s.size, -kSoleBelowBall, 0.068 * s.foot);                 // toe, inner
+  add(ball, x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot);                  // toe, outer
 }
 
 /// Spheres at the ends (and for long segments the middle) of the capsules of every other body.
@@ -216,10 +297,18 @@ std::vector<std::array<int, 2>> make_self_pairs() {
     for (int knee : {kLeftKnee, kRightKnee})
       if (arm == kLeftWrist || arm == kRightWrist) pairs.push_back({arm, knee});
   }
-  pairs.insert(pairs.end(), {{kLeftWrist, kRightWrist}, {kLeftWrist, kRightElbow}, {kLeftElbow, kRightWrist},
-                             {kLeftElbow, kRightElbow}, {kLeftHip, kRightHip}, {kLeftKnee, kRightKnee},
-                             {kLeftAnkle, kRightAnkle}, {kLeftAnkle, kRightKnee}, {kLeftKnee, kRightAnkle},
-                             {kLeftFoot, kRightAnkle}, {kLeftAnkle, kRightFoot}, {kLeftFoot, kRightFoot}});
+  pairs.insert(pairs.end(), {{kLeftWrist, kRightWrist},
+                             {kLeftWrist, kRightElbow},
+                             {kLeftElbow, kRightWrist},
+                             {kLeftElbow, kRightElbow},
+                             {kLeftHip, kRightHip},
+                             {kLeftKnee, kRightKnee},
+                             {kLeftAnkle, kRightAnkle},
+                             {kLeftAnkle, kRightKnee},
+                             {kLeftKnee, kRightAnkle},
+                             {kLeftFoot, kRightAnkle},
+                             {kLeftAnkle, kRightFoot},
+                             {kLeftFoot, kRightFoot}});
   return pairs;
 }
 
@@ -228,25 +317,73 @@ std::vector<std::array<int, 2>> make_self_pairs() {
 JointParameters standard_joint(int body) {
   JointParameters j;
   j.armature = 0.02;
-  const auto pd = [&](double kp, double limit) { j.kp = kp; j.kd = 0.1 * kp; j.torque_limit = limit; };
+  const auto pd = [&](double kp, double limit) {
+    j.kp = kp;
+    j.kd = 0.1 * kp;
+    j.torque_limit = limit;
+  };
   const auto range = [&](Vector3d centre_deg, Vector3d half_deg) {
     j.centre = kDegree * centre_deg;
     j.half_range = kDegree * half_deg;
   };
   const double x = is_right(body) ? -1.0 : 1.0;  // mirror: rotations about y and z change sign
   switch (body) {
-    case kLeftHip: case kRightHip: pd(500, 250); range({-45, 0, 10 * x}, {95, 75, 75}); break;
-    case kLeftKnee: case kRightKnee: pd(500, 220); range({75, 75, 75}, {82, 82, 82}); break;
-    case kLeftAnkle: case kRightAnkle: pd(400, 160); range({12, 0, 0}, {62, 60, 50}); break;
-    case kLeftFoot: case kRightFoot: pd(100, 40); range({-15, 0, 0}, {65, 30, 30}); break;
-    case kSpine1: case kSpine2: case kSpine3: pd(1000, 250); range({10, 0, 0}, {50, 45, 45}); break;
-    case kNeck: pd(150, 50); range({0, 0, 0}, {55, 65, 50}); break;
-    case kHead: pd(100, 40); range({0, 0, 0}, {55, 65, 50}); break;
-    case kLeftCollar: case kRightCollar: pd(500, 130); range({0, 0, 5 * x}, {45, 45, 45}); break;
-    case kLeftShoulder: case kRightShoulder: pd(400, 120); range({0, -25 * x, -10 * x}, {130, 125, 130}); break;
-    case kLeftElbow: case kRightElbow: pd(300, 80); range({77, 77, 77}, {85, 85, 85}); break;
-    case kLeftWrist: case kRightWrist: pd(80, 20); range({0, 0, 0}, {140, 90, 95}); break;
-    default: break;
+    case kLeftHip:
+    case kRightHip:
+      pd(500, 250);
+      range({-45, 0, 10 * x}, {95, 75, 75});
+      break;
+    case kLeftKnee:
+    case kRightKnee:
+      pd(500, 220);
+      range({75, 75, 75}, {82, 82, 82});
+      break;
+    case kLeftAnkle:
+    case kRightAnkle:
+      pd(400, 160);
+      range({12, 0, 0}, {62, 60, 50});
+      break;
+    case kLeftFoot:
+    case kRightFoot:
+      pd(100, 40);
+      range({-15, 0, 0}, {65, 30, 30});
+      break;
+    case kSpine1:
+    case kSpine2:
+    case kSpine3:
+      pd(1000, 250);
+      range({10, 0, 0}, {50, 45, 45});
+      break;
+    case kNeck:
+      pd(150, 50);
+      range({0, 0, 0}, {55, 65, 50});
+      break;
+    case kHead:
+      pd(100, 40);
+      range({0, 0, 0}, {55, 65, 50});
+      break;
+    case kLeftCollar:
+    case kRightCollar:
+      pd(500, 130);
+      range({0, 0, 5 * x}, {45, 45, 45});
+      break;
+    case kLeftShoulder:
+    case kRightShoulder:
+      pd(400, 120);
+      range({0, -25 * x, -10 * x}, {130, 125, 130});
+      break;
+    case kLeftElbow:
+    case kRightElbow:
+      pd(300, 80);
+      range({77, 77, 77}, {85, 85, 85});
+      break;
+    case kLeftWrist:
+    case kRightWrist:
+      pd(80, 20);
+      range({0, 0, 0}, {140, 90, 95});
+      break;
+    default:
+      break;
   }
   if (body == kLeftFoot || body == kRightFoot || body >= kLeftWrist || body == kNeck || body == kHead)
     j.armature = 0.01;
@@ -256,17 +393,22 @@ JointParameters standard_joint(int body) {
 }  // namespace
 
 const std::array<std::string_view, kBodies> kBodyNames = {
-    "pelvis",     "left_hip",   "right_hip",   "spine1",     "left_knee",     "right_knee",
-    "spine2",     "left_ankle", "right_ankle", "spine3",     "left_foot",     "right_foot",
-    "neck",       "left_collar", "right_collar", "head",     "left_shoulder", "right_shoulder",
-    "left_elbow", "right_elbow", "left_wrist", "right_wrist"};
+    "pelvis",     "left_hip",    "right_hip",    "spine1",     "left_knee",     "right_knee",
+    "spine2",     "left_ankle",  "right_ankle",  "spine3",     "left_foot",     "right_foot",
+    "neck",       "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
+    "left_elbow", "right_elbow", "left_wrist",   "right_wrist"};
 
 Vector3d hinge_axis(int body) {
   switch (body) {
-    case kLeftKnee: case kRightKnee: return Vector3d::UnitX();
-    case kLeftElbow: return -Vector3d::UnitY();
-    case kRightElbow: return Vector3d::UnitY();
-    default: throw std::invalid_argument("hinge_axis: body has no hinge");
+    case kLeftKnee:
+    case kRightKnee:
+      return Vector3d::UnitX();
+    case kLeftElbow:
+      return -Vector3d::UnitY();
+    case kRightElbow:
+      return Vector3d::UnitY();
+    default:
+      throw std::invalid_argument("hinge_axis: body has no hinge");
   }
 }
 
@@ -287,7 +429,8 @@ Character make_character(const std::array<double, kBetas>& betas) {
     const Vector3d offset = standard_offset(i);
     Vector3d gain = Vector3d::Ones();
     for (int k = 0; k < kBetas; ++k)
-      gain += betas[static_cast<std::size_t>(k)] * gain_of(shape_components()[static_cast<std::size_t>(k)], i);
+      gain +=
+          betas[static_cast<std::size_t>(k)] * gain_of(shape_components()[static_cast<std::size_t>(k)], i);
     c.joint_offset[n] = is_right(i) ? mirrored(offset.cwiseProduct(gain)) : offset.cwiseProduct(gain);
   }
   Character standard;

@@ -20,20 +20,39 @@
 namespace mimicx {
 
 inline constexpr int kBodies = 22;
-inline constexpr int kJoints = 21;   ///< actuated joints: every body but the pelvis
-inline constexpr int kDofs = 55;     ///< actuated degrees of freedom: 17 · 3 + 4 · 1
+inline constexpr int kJoints = 21;  ///< actuated joints: every body but the pelvis
+inline constexpr int kDofs = 55;    ///< actuated degrees of freedom: 17 · 3 + 4 · 1
 inline constexpr int kBetas = 10;
 
 enum Body : int {
-  kPelvis, kLeftHip, kRightHip, kSpine1, kLeftKnee, kRightKnee, kSpine2, kLeftAnkle, kRightAnkle, kSpine3,
-  kLeftFoot, kRightFoot, kNeck, kLeftCollar, kRightCollar, kHead, kLeftShoulder, kRightShoulder, kLeftElbow,
-  kRightElbow, kLeftWrist, kRightWrist
+  kPelvis,
+  kLeftHip,
+  kRightHip,
+  kSpine1,
+  kLeftKnee,
+  kRightKnee,
+  kSpine2,
+  kLeftAnkle,
+  kRightAnkle,
+  kSpine3,
+  kLeftFoot,
+  kRightFoot,
+  kNeck,
+  kLeftCollar,
+  kRightCollar,
+  kHead,
+  kLeftShoulder,
+  kRightShoulder,
+  kLeftElbow,
+  kRightElbow,
+  kLeftWrist,
+  kRightWrist
 };
 
 /// SMPL-X names, in the order of `Body`.
 extern const std::array<std::string_view, kBodies> kBodyNames;
 /// Parent of each body; -1 for the pelvis. Parents come before their children.
-inline constexpr std::array<int, kBodies> kParents = {-1, 0, 0, 0,  1,  2,  3,  4,  5,  6,  7,
+inline constexpr std::array<int, kBodies> kParents = {-1, 0, 0, 0, 1,  2,  3,  4,  5,  6,  7,
                                                       8,  9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
 
 /// Knees and elbows turn about one axis; every other joint is spherical.
@@ -57,8 +76,8 @@ inline constexpr std::array<int, 4> kEndEffectors = {kLeftWrist, kRightWrist, kL
 /// A sphere (or, with radius 0, a point) that can touch the floor, fixed to a body.
 struct ContactPoint {
   int body;
-  Vector3d p_B;     ///< centre in the body's frame, m
-  double radius;    ///< m
+  Vector3d p_B;   ///< centre in the body's frame, m
+  double radius;  ///< m
 };
 
 /// Collision shape between bodies, and the solid that gives a body its inertia.
@@ -70,10 +89,10 @@ struct Capsule {
 
 /// PD controller, limits and armature of the joint that connects a body to its parent.
 struct JointParameters {
-  double kp = 0;          ///< N·m/rad
-  double kd = 0;          ///< N·m·s/rad
-  double armature = 0;    ///< kg·m²
-  double torque_limit = 0;///< N·m: |τ| of a hinge, ‖τ‖ of a spherical joint
+  double kp = 0;            ///< N·m/rad
+  double kd = 0;            ///< N·m·s/rad
+  double armature = 0;      ///< kg·m²
+  double torque_limit = 0;  ///< N·m: |τ| of a hinge, ‖τ‖ of a spherical joint
   /// Anatomical range: rotation from `centre` (a rotation vector; the component along the axis for a
   /// hinge) stays inside the ellipsoid of half axes `half_range` (rad) in the child's frame at rest.
   Vector3d centre = Vector3d::Zero();
@@ -83,14 +102,16 @@ struct JointParameters {
 /// Everything the simulator, the kinematics and the metrics need to know of one body shape.
 struct Character {
   std::array<double, kBetas> betas{};
-  std::array<Vector3d, kBodies> joint_offset;   ///< rest position of joint i in its parent's frame; 0 for the pelvis
-  std::array<double, kBodies> mass;             ///< kg
-  std::array<Vector3d, kBodies> com_B;          ///< centre of mass in the body's frame, m
-  std::array<Matrix3d, kBodies> inertia_B;      ///< about the centre of mass, body's axes, kg·m²
-  std::array<Capsule, kBodies> capsule;         ///< one per body, index = body
-  std::vector<ContactPoint> contact_points;     ///< feet first: heel, ball and toe of the left, then of the right
-  std::vector<std::array<int, 2>> self_pairs;   ///< pairs of bodies whose capsules collide
-  std::array<JointParameters, kBodies> joint;   ///< index = body; entry 0 unused
+  std::array<Vector3d, kBodies>
+      joint_offset;                     ///< rest position of joint i in its parent's frame; 0 for the pelvis
+  std::array<double, kBodies> mass;     ///< kg
+  std::array<Vector3d, kBodies> com_B;  ///< centre of mass in the body's frame, m
+  std::array<Matrix3d, kBodies> inertia_B;  ///< about the centre of mass, body's axes, kg·m²
+  std::array<Capsule, kBodies> capsule;     ///< one per body, index = body
+  std::vector<ContactPoint>
+      contact_points;  ///< feet first: heel, ball and toe of the left, then of the right
+  std::vector<std::array<int, 2>> self_pairs;  ///< pairs of bodies whose capsules collide
+  std::array<JointParameters, kBodies> joint;  ///< index = body; entry 0 unused
 
   double total_mass() const;
 };
@@ -103,7 +124,8 @@ Character make_character(const std::array<double, kBetas>& betas = {});
 /// Known: "mimicx", "smplx", "smplh", "smpl".
 Vector3d rest_pelvis(std::string_view body_model);
 
-/// World poses of all bodies. @param q_joint  [22] rotations relative to the parent; entry 0 is the root's q_WB.
+/// World poses of all bodies. @param q_joint  [22] rotations relative to the parent; entry 0 is the root's
+/// q_WB.
 struct BodyPoses {
   std::array<Vector3d, kBodies> p_WB;
   std::array<Quaterniond, kBodies> q_WB;

@@ -24,9 +24,7 @@ void parallel_for(int chunks, int threads, const std::function<void(int)>& body)
 
 int available_threads() { return omp_get_num_procs(); }
 
-void fix_eigen_blocking() {
-  Eigen::setCpuCacheSizes(32 * 1024, 512 * 1024, 8 * 1024 * 1024);
-}
+void fix_eigen_blocking() { Eigen::setCpuCacheSizes(32 * 1024, 512 * 1024, 8 * 1024 * 1024); }
 
 namespace {
 // A static library's users should not have to remember: the blocking is fixed before main as well.

@@ -20,9 +20,9 @@ Random::Random(std::uint64_t seed, std::initializer_list<std::uint64_t> key)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}, stream_{0, 0} {
   // The key words are folded into 64 bits by Philox itself, so that no two short keys collide by design.
   for (std::uint64_t word : key) {
-    const auto mixed = philox4x32({static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(word >> 32),
-                                   stream_[0], stream_[1]},
-                                  {0x6D696D69, 0x63780000});
+    const auto mixed = philox4x32(
+        {static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(word >> 32), stream_[0], stream_[1]},
+        {0x6D696D69, 0x63780000});
     stream_ = {mixed[0], mixed[1]};
   }
 }
@@ -30,7 +30,8 @@ Random::Random(std::uint64_t seed, std::initializer_list<std::uint64_t> key)
 std::uint32_t Random::bits() {
   const std::uint64_t block = position_ / 4;
   const auto words = philox4x32(
-      {static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32), stream_[0], stream_[1]}, key_);
+      {static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32), stream_[0], stream_[1]},
+      key_);
   return words[position_++ % 4];
 }
 

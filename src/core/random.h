@@ -13,7 +13,8 @@
 namespace mimicx {
 
 /// One block of Philox4x32-10: 4 words out of a counter of 4 words and a key of 2.
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key);
 
 class Random {
  public:

@@ -1,0 +1,162 @@
+/// Contact with the floor, implicit; contact between bodies, explicit.
+///
+/// Floor (docs/physics.md §4). A point at depth s, with velocity v, pushes with
+///     f_n = k s − (c + k dt) v_z       while that is positive,
+///     f_t = −c_t v_t,   c_t = μ f_n / √(|v_t|² + v_s²)                (regularised Coulomb friction),
+/// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt),
+/// J = [−arm×, 1]. The solver therefore adds Jᵀ W J to the body's inertia and −Jᵀ(f − W ω×(ω×arm)) to its
+/// bias. f_n, c_t and who touches come from the start of the step in the first pass and from the end of the
+/// step, as the previous pass predicts it, in the next ones.
+///
+/// Self contact is a penalty force between capsules, equal and opposite in one point and therefore without
+/// effect on the momentum of the whole; it is explicit, and soft enough for that (model.h).
+#pragma once
+
+#include "physics/data.h"
+
+namespace mimicx {
+
+/// Law of a floor contact at velocity v: fills f, W_t, W_n for the velocity the coefficients are taken at.
+template <class T>
+void linearise_ground(const SimulationOptions& o, T dt, const Vec3<T>& v_end, GroundContact<T>& contact) {
+  const T k(o.ground_stiffness), damping = fma(dt, k, T(o.ground_damping));
+  const T f_end = fma(k, contact.depth, -(damping * v_end.z));
+  const auto pushes = (contact.depth > T(0.0)) & (f_end > T(0.0));
+  const T slip = sqrt(fma(v_end.x, v_end.x, fma(v_end.y, v_end.y, T(o.slip_speed * o.slip_speed))));
+  const T c_t = T(o.friction) * f_end / slip;
+  contact.f = {-c_t * contact.velocity.x, -c_t * contact.velocity.y,
+               fma(k, contact.depth, -(damping * contact.velocity.z))};
+  contact.f = select<T>(pushes, contact.f, zero3<T>());
+  contact.W_t = select(pushes, dt * c_t, T(0.0));
+  contact.W_n = select(pushes, dt * damping, T(0.0));
+}
+
+/// Finds the points that touch in any lane and linearises them at the start of the step.
+template <class T>
+void detect_ground(const Model<RealOf<T>>& model, Data<T>& d) {
+  const SimulationOptions& o = model.options;
+  d.ground_count = 0;
+  for (int index = 0; index < static_cast<int>(model.contacts.size()); ++index) {
+    const ContactPoint& point = model.contacts[static_cast<std::size_t>(index)];
+    const auto i = static_cast<std::size_t>(point.body);
+    const Mat3<T>& R = d.R_WB[i];
+    const T x(point.p_B.x()), y(point.p_B.y()), z(point.p_B.z()), radius(point.radius);
+    const T centre_z = fma(R.c[0].z, x, fma(R.c[1].z, y, R.c[2].z * z));
+    const T depth = T(o.skin) + radius - (d.p_WB[i].z + centre_z);
+    if (!any(depth > T(0.0))) continue;
+    GroundContact<T>& contact = d.ground[static_cast<std::size_t>(d.ground_count++)];
+    contact.index = index;
+    contact.depth = depth;
+    contact.arm = R * Vec3<T>{x, y, z};
+    contact.arm.z -= radius;
+    const Vec3<T> w_x_arm = cross(d.w[i], contact.arm);
+    contact.velocity = d.v[i] + w_x_arm;
+    contact.centripetal = cross(d.w[i], w_x_arm);
+    linearise_ground(o, T(model.dt), contact.velocity, contact);
+  }
+}
+
+/// Adds a contact to the articulated inertia and bias of its body.
+template <class T>
+void add_ground(const GroundContact<T>& c, Inertia<T>& IA, Wrench<T>& pA) {
+  const Vec3<T>& a = c.arm;
+  const T wx = c.W_t * a.x, wy = c.W_t * a.y, wz = c.W_t * a.z, nx = c.W_n * a.x, ny = c.W_n * a.y;
+  // A += a× W (a×)ᵀ, B += a× W, C += W for W = diag(W_t, W_t, W_n)
+  IA.A.xx += fma(wz, a.z, ny * a.y);
+  IA.A.yy += fma(wz, a.z, nx * a.x);
+  IA.A.zz += fma(wx, a.x, wy * a.y);
+  IA.A.xy -= nx * a.y;
+  IA.A.xz -= wx * a.z;
+  IA.A.yz -= wy * a.z;
+  IA.B.c[0].y += wz;
+  IA.B.c[0].z -= wy;
+  IA.B.c[1].x -= wz;
+  IA.B.c[1].z += wx;
+  IA.B.c[2].x += ny;
+  IA.B.c[2].y -= nx;
+  IA.C.xx += c.W_t;
+  IA.C.yy += c.W_t;
+  IA.C.zz += c.W_n;
+  const Vec3<T> f = {fma(-c.W_t, c.centripetal.x, c.f.x), fma(-c.W_t, c.centripetal.y, c.f.y),
+                     fma(-c.W_n, c.centripetal.z, c.f.z)};
+  pA.f -= f;
+  pA.n -= cross(a, f);
+}
+
+/// After an acceleration pass: the force that acted, and the coefficients for the next pass if there is one.
+template <class T>
+void update_ground(const Model<RealOf<T>>& model, bool relinearise, Data<T>& d) {
+  const T dt(model.dt);
+  for (int k = 0; k < d.ground_count; ++k) {
+    GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
+    const auto i = static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(c.index)].body);
+    const Vec3<T> a = d.a_v[i] + cross(d.a_w[i], c.arm) + c.centripetal;
+    c.applied = {fma(-c.W_t, a.x, c.f.x), fma(-c.W_t, a.y, c.f.y), fma(-c.W_n, a.z, c.f.z)};
+    if (relinearise) linearise_ground(model.options, dt, add_scaled(c.velocity, dt, a), c);
+  }
+}
+
+/// Closest points of two segments p + s·u and q + t·w, s, t in [0, 1]; fills s and t.
+/// Branch-free form of Ericson, "Real-Time Collision Detection" (2005), §5.1.9.
+template <class T>
+void closest_on_segments(const Vec3<T>& p, const Vec3<T>& u, const Vec3<T>& q, const Vec3<T>& w, T& s, T& t) {
+  const T zero(0.0), one(1.0), tiny(1e-9);
+  const Vec3<T> r = p - q;
+  const T a = max(dot(u, u), tiny), e = max(dot(w, w), tiny), f = dot(w, r), c = dot(u, r), b = dot(u, w);
+  const T denominator = max(fma(a, e, -(b * b)), tiny);
+  const auto clamp01 = [&](T x) { return min(max(x, zero), one); };
+  s = clamp01(fma(b, f, -(c * e)) / denominator);
+  t = fma(b, s, f) / e;
+  const T clamped = clamp01(t);
+  s = select((t < zero) | (t > one), clamp01(fma(b, clamped, -c) / a), s);
+  t = clamped;
+}
+
+/// Penalty forces between capsules, added to the bias of both bodies and kept for export.
+template <class T>
+void add_self_contact(const Model<RealOf<T>>& model, Data<T>& d) {
+  const T k(model.options.self_stiffness), damping(model.options.self_damping), zero(0.0);
+  std::array<Vec3<T>, kBodies> arm, axis,
+      middle;  // start of the capsule's axis, its vector; its middle in world
+  for (int body : model.capsule_bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    const Capsule& c = model.capsule[i];
+    const Vector3d along = c.b_B - c.a_B;
+    arm[i] = d.R_WB[i] * Vec3<T>{T(c.a_B.x()), T(c.a_B.y()), T(c.a_B.z())};
+    axis[i] = d.R_WB[i] * Vec3<T>{T(along.x()), T(along.y()), T(along.z())};
+    middle[i] = add_scaled(d.p_WB[i] + arm[i], T(0.5), axis[i]);
+  }
+  for (const auto& pair : model.self_pairs) {
+    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    const Capsule &ci = model.capsule[i], &cj = model.capsule[j];
+    const double reach = 0.5 * ((ci.b_B - ci.a_B).norm() + (cj.b_B - cj.a_B).norm()) + ci.radius + cj.radius;
+    const Vec3<T> apart = middle[i] - middle[j];
+    if (!any(dot(apart, apart) < T(reach * reach))) continue;
+    T s, t;
+    const Vec3<T> start_i = d.p_WB[i] + arm[i], start_j = d.p_WB[j] + arm[j];
+    closest_on_segments(start_i, axis[i], start_j, axis[j], s, t);
+    const Vec3<T> on_i = add_scaled(start_i, s, axis[i]), on_j = add_scaled(start_j, t, axis[j]);
+    const Vec3<T> gap = on_i - on_j;
+    const T distance = max(norm(gap), T(1e-6));
+    const T depth = T(ci.radius + cj.radius) - distance;
+    if (!any(depth > zero)) continue;
+    const Vec3<T> normal = (T(1.0) / distance) * gap;
+    // The point in the middle of the overlap, on both bodies.
+    const Vec3<T> point = add_scaled(on_j, T(cj.radius) - T(0.5) * depth, normal);
+    const Vec3<T> arm_i = point - d.p_WB[i], arm_j = point - d.p_WB[j];
+    const Vec3<T> v = (d.v[i] + cross(d.w[i], arm_i)) - (d.v[j] + cross(d.w[j], arm_j));
+    const T push = max(fma(k, depth, -(damping * dot(v, normal))), zero);
+    const Vec3<T> f = select(depth > zero, push, zero) * normal;
+    d.self_wrench[i].f += f;
+    d.self_wrench[i].n += cross(arm_i, f);
+    d.self_wrench[j].f -= f;
+    d.self_wrench[j].n -= cross(arm_j, f);
+  }
+  for (int body : model.capsule_bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    d.bias[i].f -= d.self_wrench[i].f;
+    d.bias[i].n -= d.self_wrench[i].n;
+  }
+}
+
+}  // namespace mimicx

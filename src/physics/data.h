@@ -1,0 +1,95 @@
+/// State, targets and scratch of one character (T = double) or one pack of characters (T = Pack<N>).
+///
+/// Everything is in world-parallel axes unless its comment names a body frame. Index = body.
+#pragma once
+
+#include <array>
+
+#include "physics/model.h"
+
+namespace mimicx {
+
+inline constexpr int kMaxContacts = 48;
+
+/// Generalised coordinates and velocities.
+template <class T>
+struct State {
+  Vec3<T> p_root;                  ///< pelvis joint in world, m
+  Vec3<T> v_root;                  ///< its velocity in world, m/s
+  std::array<Quat<T>, kBodies> q;  ///< [0] pelvis in world; joint rotations relative to the parent
+  std::array<Vec3<T>, kBodies>
+      omega;  ///< [0] pelvis; joints relative to the parent; in the body's own frame, rad/s
+};
+
+/// What the PD controllers aim at during one physics step.
+template <class T>
+struct Target {
+  std::array<Quat<T>, kBodies> q;      ///< joint rotations relative to the parent; entry 0 unused
+  std::array<Vec3<T>, kBodies> omega;  ///< feed-forward of the joint velocity, child's frame, rad/s
+};
+
+/// One point on the floor during one step. Names as in docs/physics.md §4.
+template <class T>
+struct GroundContact {
+  int index;            ///< in Model::contacts
+  Vec3<T> arm;          ///< from the body's joint centre to the touching point, m
+  Vec3<T> velocity;     ///< of the touching point at the start of the step, m/s
+  Vec3<T> centripetal;  ///< ω × (ω × arm), m/s²
+  T depth;              ///< m; ≤ 0 where the lane does not touch
+  Vec3<T> f;            ///< force at the start of the step under the current linearisation, N
+  T W_t, W_n;           ///< f_applied = f − diag(W_t, W_t, W_n)·(acceleration of the point), N·s²/m
+  Vec3<T> applied;      ///< force that acted, known after the last acceleration pass, N
+};
+
+template <class T>
+struct Wrench {
+  Vec3<T> n, f;  ///< moment about the body's joint centre, N·m; force, N
+};
+
+template <class T>
+struct Data {
+  // kinematics
+  std::array<Quat<T>, kBodies> q_WB;
+  std::array<Mat3<T>, kBodies> R_WB;
+  std::array<Vec3<T>, kBodies> p_WB;      ///< joint centres, m
+  std::array<Vec3<T>, kBodies> r;         ///< joint centre minus the parent's, m
+  std::array<Vec3<T>, kBodies> w, v;      ///< angular velocity; linear velocity of the joint centre
+  std::array<Vec3<T>, kBodies> c_w, c_v;  ///< velocity-product acceleration c of the joint (RBDA eq. 7.32)
+
+  // rigid bodies in world axes
+  std::array<Sym3<T>, kBodies> I_o;  ///< rotational inertia about the joint centre
+  std::array<Vec3<T>, kBodies> d;    ///< centre of mass from the joint centre, m
+  std::array<Wrench<T>, kBodies>
+      bias;  ///< velocity-product and gravity force of the rigid body, self contact included
+  std::array<Wrench<T>, kBodies> self_wrench;
+
+  // joints: τ at the start of the step and the implicit diagonal, PD and anatomical range apart
+  std::array<Vec3<T>, kBodies> tau_pd, tau_range;  ///< N·m
+  std::array<T, kBodies> delta_pd, delta_range;    ///< kg·m²
+  std::array<Vec3<T>, kBodies> tau;                ///< in use in this pass (torque bound applied)
+  std::array<T, kBodies> delta;                    ///< in use in this pass, armature included
+  std::array<MaskOf<T>, kBodies> saturated;
+
+  // articulated bodies (RBDA table 7.1): for a ball joint U = [A; Bᵀ], for a hinge U = (U_n; U_f)
+  std::array<Inertia<T>, kBodies> IA;
+  std::array<Wrench<T>, kBodies> pA;
+  std::array<Sym3<T>, kBodies> D_inv;     ///< ball; hinges use .xx
+  std::array<Vec3<T>, kBodies> u;         ///< ball; hinges use .x
+  std::array<Vec3<T>, kBodies> a_w, a_v;  ///< body accelerations: angular; of the joint centre (classical)
+  std::array<Vec3<T>, kBodies>
+      qdd;  ///< joint accelerations R·ω̇ in world axes; entry 0: the root's angular one
+
+  std::array<GroundContact<T>, kMaxContacts> ground;
+  int ground_count = 0;  ///< points that touch in at least one lane
+};
+
+/// What really acted during an interval, for export and audit: sums over the physics steps.
+template <class T>
+struct Applied {
+  std::array<Vec3<T>, kBodies> joint_torque;    ///< child's frame, N·m (PD and range; without armature)
+  std::array<Wrench<T>, kBodies> ground, self;  ///< about the body's joint centre, world axes
+  std::array<T, kMaxContacts> point_force;      ///< normal force per Model::contacts entry, N
+  int steps = 0;
+};
+
+}  // namespace mimicx

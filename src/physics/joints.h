@@ -1,0 +1,82 @@
+/// Joint torques inside the implicit scheme: PD control, anatomical ranges and torque bounds.
+///
+/// A spring–damper evaluated at the end of the step is, to first order in dt,
+///     τ = kp·φ − (kd + dt·kp)·ω + kd·ω*  −  δ·q̈,      δ = dt·kd + dt²·kp,      φ = log(q⁻¹ q*),
+/// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3
+/// A joint outside its range gets the same form with the range's own stiffness, pushing back along the
+/// gradient of the range ellipsoid. The bound holds for the torque of the PD controller; the range is the
+/// bone's, not the muscle's.
+#pragma once
+
+#include "physics/data.h"
+
+namespace mimicx {
+
+/// Torque and implicit diagonal of the anatomical range of joint i; zero inside it.
+template <class T>
+void compute_range(const Model<RealOf<T>>& model, const State<T>& state, std::size_t i, Data<T>& d) {
+  const Quat<T> x = conjugate(spread<T>(model.range_centre[i])) * state.q[i];
+  const T two = select(x.w < T(0.0), T(-2.0), T(2.0));
+  const Vec3<T> inverse = spread<T>(model.range_inverse[i]);
+  const Vec3<T> s = {two * x.x * inverse.x, two * x.y * inverse.y, two * x.z * inverse.z};
+  const T g = norm(s);
+  const auto outside = g > T(1.0);
+  d.tau_range[i] = zero3<T>();
+  d.delta_range[i] = T(0.0);
+  if (!any(outside)) return;
+  const Vec3<T> gradient = {s.x * inverse.x, s.y * inverse.y, s.z * inverse.z};  // g·∇g
+  const T slope = max(norm(gradient), T(1e-6));
+  const T excess = (g - T(1.0)) * g / slope;  // distance to the ellipsoid along ∇g, rad
+  const T k(model.options.limit_stiffness), c(model.options.limit_damping), dt(model.dt);
+  const T gain = fma(dt, k, c);
+  const Vec3<T> push = d.R_WB[i] * ((-k * excess / slope) * gradient);
+  const Vec3<T> w_J = d.R_WB[i] * state.omega[i];
+  d.tau_range[i] = select<T>(outside, add_scaled(push, -gain, w_J), zero3<T>());
+  d.delta_range[i] = select(outside, dt * gain, T(0.0));
+}
+
+/// PD and range torques of every joint at the start of the step.
+template <class T>
+void compute_joint_torques(const Model<RealOf<T>>& model, const State<T>& state, const Target<T>& target,
+                           Data<T>& d) {
+  const T dt(model.dt);
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const T kp(model.kp[i]), kd(model.kd[i]);
+    const Vec3<T> phi = log_map(conjugate(state.q[i]) * target.q[i]);
+    const Vec3<T> damping = (-fma(dt, kp, kd)) * state.omega[i];
+    const Vec3<T> tau = add_scaled(add_scaled(damping, kp, phi), kd, target.omega[i]);
+    d.tau_pd[i] = d.R_WB[i] * tau;
+    d.delta_pd[i] = dt * fma(dt, kp, kd);
+    compute_range(model, state, i, d);
+    d.saturated[i] = T(0.0) > T(1.0);
+  }
+}
+
+/// Chooses what this pass uses: the implicit law, or the constant bound where the law would exceed it.
+/// A joint that saturates in one pass of a step stays saturated in the next ones; the direction is renewed.
+template <class T>
+void apply_torque_bounds(const Model<RealOf<T>>& model, bool first_pass, Data<T>& d) {
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const T limit(model.torque_limit[i]), armature(model.armature[i]);
+    const Vec3<T> law = first_pass ? d.tau_pd[i] : add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
+    const T size = norm(law);  // of a hinge both vectors lie along its axis
+    const auto over = size > limit;
+    if (!first_pass) d.saturated[i] = d.saturated[i] | over;
+    const T scale = limit / max(size, limit);
+    d.tau[i] = select<T>(d.saturated[i], scale * law, d.tau_pd[i]) + d.tau_range[i];
+    d.delta[i] = armature + select(d.saturated[i], T(0.0), d.delta_pd[i]) + d.delta_range[i];
+  }
+}
+
+/// Torque of the PD controller that acted in the last pass, world axes.
+template <class T>
+Vec3<T> applied_pd_torque(const Data<T>& d, std::size_t i) {
+  const Vec3<T> constant = d.tau[i] - d.tau_range[i];
+  return add_scaled(constant, select(d.saturated[i], T(0.0), -d.delta_pd[i]), d.qdd[i]);
+}
+template <class T>
+Vec3<T> applied_range_torque(const Data<T>& d, std::size_t i) {
+  return add_scaled(d.tau_range[i], -d.delta_range[i], d.qdd[i]);
+}
+
+}  // namespace mimicx

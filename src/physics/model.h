@@ -1,0 +1,61 @@
+/// What the simulator knows of a character and never changes during a run.
+///
+/// `Model<Real>` is immutable and shared by all threads; `Data<T>` (data.h) is one worker's scratch. Names
+/// follow R. Featherstone, "Rigid Body Dynamics Algorithms" (2008, "RBDA"), table 4.3 and chapter 7;
+/// the tree itself (λ, joint types) is fixed at compile time in core/character.h.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/character.h"
+#include "physics/spatial.h"
+
+namespace mimicx {
+
+/// Numerical parameters; the defaults are measured in docs/physics.md.
+struct SimulationOptions {
+  double rate = 240.0;            ///< physics steps per second
+  int passes = 2;                 ///< linearisations of contact and torque bounds per step, ≥ 1
+  double gravity = 9.81;          ///< m/s², downwards
+  double ground_stiffness = 2e5;  ///< k of a contact point, N/m
+  double ground_damping = 2e3;    ///< c, N·s/m
+  double friction = 1.0;          ///< μ
+  double slip_speed = 0.002;      ///< v_s of the regularised friction, m/s
+  double skin = 0.0005;           ///< the floor acts this far above z = 0, m
+  bool self_contact = true;
+  double self_stiffness = 1e4;     ///< N/m
+  double self_damping = 30.0;      ///< N·s/m
+  double limit_stiffness = 600.0;  ///< of joint ranges, N·m/rad
+  double limit_damping = 6.0;      ///< N·m·s/rad
+  double max_speed = 100.0;        ///< a body part faster than this (m/s) or 6 × as many rad/s has run away
+};
+
+template <class Real>
+struct Model {
+  std::array<Vec3<Real>, kBodies> joint_offset;  ///< joint i in its parent's frame, m
+  std::array<Real, kBodies> mass;                ///< kg
+  std::array<Vec3<Real>, kBodies> com;           ///< body's frame, m
+  std::array<Sym3<Real>, kBodies> inertia_o;     ///< about the joint centre, body's axes, kg·m²
+
+  std::array<Real, kBodies> kp, kd, armature, torque_limit;
+  std::array<Vec3<Real>, kBodies> axis;  ///< of hinges, parent's = child's frame
+  std::array<Quat<Real>, kBodies> range_centre;
+  std::array<Vec3<Real>, kBodies> range_inverse;  ///< 1 / (2 sin(half range / 2)) per axis
+
+  std::vector<ContactPoint> contacts;          ///< sorted by body
+  std::array<int, kBodies + 1> contact_begin;  ///< contacts of body i: [contact_begin[i], contact_begin[i+1])
+  std::vector<int> contact_source;             ///< index in Character::contact_points
+  std::array<Capsule, kBodies> capsule;
+  std::vector<std::array<int, 2>> self_pairs;
+  std::vector<int> capsule_bodies;  ///< bodies that occur in self_pairs
+
+  SimulationOptions options;
+  Real dt;  ///< 1 / rate, s
+};
+
+/// @throws std::invalid_argument for options outside their range.
+template <class Real>
+Model<Real> make_model(const Character& character, const SimulationOptions& options = {});
+
+}  // namespace mimicx

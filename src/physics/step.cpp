@@ -1,0 +1,130 @@
+#include "physics/step.h"
+
+#include "physics/aba.h"
+
+namespace mimicx {
+namespace {
+
+template <class T>
+void zero_self_contact(Data<T>& d) {
+  for (auto& wrench : d.self_wrench) wrench = {zero3<T>(), zero3<T>()};
+}
+
+template <class T>
+void integrate(const Model<RealOf<T>>& model, const Data<T>& d, State<T>& s) {
+  const T dt(model.dt);
+  s.v_root = add_scaled(s.v_root, dt, d.a_v[0]);
+  s.p_root = add_scaled(s.p_root, dt, s.v_root);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    s.omega[i] = add_scaled(s.omega[i], dt, transpose_times(d.R_WB[i], d.qdd[i]));
+    s.q[i] = renormalised(s.q[i] * exp_map(dt * s.omega[i]));
+  }
+}
+
+/// Lanes whose state is not finite or has run away. Comparisons with NaN are false, hence the negations.
+template <class T>
+MaskOf<T> gone_wrong(const Model<RealOf<T>>& model, const State<T>& s) {
+  const T limit(model.options.max_speed * model.options.max_speed);
+  const T spin(36.0 * model.options.max_speed * model.options.max_speed);
+  auto fine = (dot(s.v_root, s.v_root) <= limit) & (dot(s.p_root, s.p_root) <= T(1e10));
+  for (std::size_t i = 0; i < kBodies; ++i) fine = fine & (dot(s.omega[i], s.omega[i]) <= spin);
+  return !fine;
+}
+
+}  // namespace
+
+template <class T>
+void update_kinematics(const Model<RealOf<T>>& model, const State<T>& state, Data<T>& d) {
+  compute_kinematics(model, state, d);
+}
+
+template <class T>
+void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
+                      const std::array<Vec3<T>, kBodies>& tau, Data<T>& d) {
+  compute_kinematics(model, state, d);
+  compute_rigid_bodies(model, d);
+  d.ground_count = 0;
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    d.tau[i] = d.R_WB[i] * tau[i];
+    d.delta[i] = T(model.armature[i]);
+  }
+  aba_initialise(model, d);
+  aba_inertia_pass(model, d);
+  aba_acceleration_pass(model, d);
+}
+
+template <class T>
+void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target, const State<T>& state,
+                         Data<T>& d) {
+  compute_kinematics(model, state, d);
+  compute_rigid_bodies(model, d);
+  zero_self_contact(d);
+  if (model.options.self_contact) add_self_contact(model, d);
+  detect_ground(model, d);
+  compute_joint_torques(model, state, target, d);
+  for (int pass = 0; pass < model.options.passes; ++pass) {
+    apply_torque_bounds(model, pass == 0, d);
+    aba_initialise(model, d);
+    aba_inertia_pass(model, d);
+    aba_acceleration_pass(model, d);
+    update_ground(model, pass + 1 < model.options.passes, d);
+  }
+}
+
+template <class T>
+MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& state, Data<T>& d,
+               Applied<T>* applied) {
+  solve_accelerations(model, target, state, d);
+  if (applied != nullptr) record_applied(model, d, *applied);
+  integrate(model, d, state);
+  return gone_wrong(model, state);
+}
+
+template <class T>
+void record_applied(const Model<RealOf<T>>& model, const Data<T>& d, Applied<T>& applied) {
+  for (std::size_t i = 1; i < kBodies; ++i)
+    applied.joint_torque[i] +=
+        transpose_times(d.R_WB[i], applied_pd_torque(d, i) + applied_range_torque(d, i));
+  for (int k = 0; k < d.ground_count; ++k) {
+    const GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
+    const auto index = static_cast<std::size_t>(c.index);
+    Wrench<T>& wrench = applied.ground[static_cast<std::size_t>(model.contacts[index].body)];
+    wrench.f += c.applied;
+    wrench.n += cross(c.arm, c.applied);
+    applied.point_force[index] += c.applied.z;
+  }
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    applied.self[i].f += d.self_wrench[i].f;
+    applied.self[i].n += d.self_wrench[i].n;
+  }
+  ++applied.steps;
+}
+
+template <class T>
+void clear(Applied<T>& applied) {
+  const Wrench<T> zero = {zero3<T>(), zero3<T>()};
+  applied.joint_torque.fill(zero3<T>());
+  applied.ground.fill(zero);
+  applied.self.fill(zero);
+  applied.point_force.fill(T(0.0));
+  applied.steps = 0;
+}
+
+#define MIMICX_INSTANTIATE(T)                                                                              \
+  template void forward_dynamics<T>(const Model<RealOf<T>>&, const State<T>&,                              \
+                                    const std::array<Vec3<T>, kBodies>&, Data<T>&);                        \
+  template MaskOf<T> step<T>(const Model<RealOf<T>>&, const Target<T>&, State<T>&, Data<T>&, Applied<T>*); \
+  template void solve_accelerations<T>(const Model<RealOf<T>>&, const Target<T>&, const State<T>&,         \
+                                       Data<T>&);                                                          \
+  template void record_applied<T>(const Model<RealOf<T>>&, const Data<T>&, Applied<T>&);                   \
+  template void clear<T>(Applied<T>&);                                                                     \
+  template void update_kinematics<T>(const Model<RealOf<T>>&, const State<T>&, Data<T>&);
+
+MIMICX_INSTANTIATE(double)
+MIMICX_INSTANTIATE(Pack<8>)
+MIMICX_INSTANTIATE(Pack<16>)
+#if !defined(__AVX2__)
+MIMICX_INSTANTIATE(Pack<4>)
+#endif
+
+}  // namespace mimicx
