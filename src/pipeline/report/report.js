@@ -13,7 +13,7 @@ function decode_motion(text) {
   return new Int16Array(bytes.buffer);
 }
 
-const state = {clip: 0, time: 0, playing: true, yaw: 0.5, pitch: 0.16, distance: 4.6, last: 0};
+const state = {clip: 0, time: 0, playing: true, yaw: 0.5, pitch: 0.16, distance: 3.7, last: 0};
 let clip = null;
 const motions = {reference: null, simulated: null};
 

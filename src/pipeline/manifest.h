@@ -1,0 +1,81 @@
+/// `manifest.json`: what a run did with every input, and with which settings.
+///
+/// One object: {"run": settings, "sequences": [...]}. Numbers are written so that they read back as the same
+/// bits; a value that does not exist (NaN) is null. Nothing in it depends on the machine's speed, the number
+/// of threads or where the folder stands: times are in timing.json.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mimicx {
+
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// How a training ended.
+enum class Ending {
+  kNone,          ///< there was none: the input could not be used
+  kBudget,        ///< all samples were spent
+  kLimitSeconds,  ///< the safety stop: the results depend on the machine's speed
+};
+
+struct SequenceEntry {
+  std::string name;            ///< key of the sequence's files in the folder
+  std::string input;           ///< as given on the command line
+  std::string input_checksum;  ///< of the input's bytes; empty when it could not be read
+  std::string output;          ///< relative to the folder; empty when there is none
+  bool ok = false;
+  std::string reason;  ///< why it failed
+  Ending ending = Ending::kNone;
+  int frames = 0;
+  double fps = 0.0;
+  std::uint64_t seed = 0;
+  std::int64_t samples = 0;
+  /// Mean reward per frame of the mean-action roll-out, before and after training.
+  double reward_before = std::numeric_limits<double>::quiet_NaN();
+  double reward_after = std::numeric_limits<double>::quiet_NaN();
+  NamedValues input_metrics;  ///< of the input as it came, against the prepared reference
+  NamedValues metrics;        ///< of the simulated motion, against the prepared reference
+  NamedValues preparation;    ///< what preparation did to the input
+  std::vector<std::string> notes;
+
+  /// Whether the same command may keep this result instead of doing it again.
+  bool finished() const { return !output.empty() && ending != Ending::kLimitSeconds; }
+};
+
+struct Manifest {
+  std::string version;  ///< of the program
+  std::string target;   ///< instruction set it was built for
+  std::uint64_t seed = 0;
+  std::int64_t samples = 0;  ///< budget per sequence
+  NamedValues settings;      ///< every other parameter that the results depend on
+  std::vector<SequenceEntry> sequences;
+
+  /// Whether the results of `other` may stand beside those of this run.
+  bool same_settings(const Manifest& other) const;
+  /// The entry of an input, or nullptr.
+  const SequenceEntry* find(const std::string& input) const;
+  /// Replaces the entry of the same input, or appends.
+  void put(const SequenceEntry& entry);
+};
+
+std::string format_manifest(const Manifest& manifest);
+/// @throws DataError when the file is not a manifest.
+Manifest read_manifest(const std::filesystem::path& path);
+
+/// Wall-clock record of one sequence, summed over interruptions.
+struct Timing {
+  std::string name;
+  double seconds = 0.0;           ///< all of it
+  double training_seconds = 0.0;  ///< of which training
+  int threads = 0;
+};
+std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
+/// Empty when there is no such file or it is unreadable: times are a convenience.
+std::vector<Timing> read_timing(const std::filesystem::path& path);
+
+}  // namespace mimicx

@@ -1,0 +1,57 @@
+/// Where the files of a run stand, and how a folder is told to belong to this run.
+///
+///     DIR/manifest.json          what was done with every input
+///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
+///     DIR/report.html            the run to look at
+///     DIR/motions/NAME.npz       simulated motions
+///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
+///     DIR/training/NAME.csv      a row per iteration
+///     DIR/training/NAME.falls.csv  falls over the clip's own time
+///     DIR/checkpoints/NAME.npz   the complete state of the training
+///
+/// Files are written to a temporary name and renamed: a reader sees the old file or the new one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mimicx {
+
+struct RunFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path manifest() const { return root / "manifest.json"; }
+  std::filesystem::path timing() const { return root / "timing.json"; }
+  std::filesystem::path report() const { return root / "report.html"; }
+  std::filesystem::path motion(const std::string& name) const { return root / motion_name(name); }
+  std::filesystem::path reference(const std::string& name) const {
+    return root / "references" / (name + ".npz");
+  }
+  std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
+  std::filesystem::path falls(const std::string& name) const {
+    return root / "training" / (name + ".falls.csv");
+  }
+  std::filesystem::path checkpoint(const std::string& name) const {
+    return root / "checkpoints" / (name + ".npz");
+  }
+
+  /// Relative to the folder, as the manifest names it.
+  static std::string motion_name(const std::string& name) { return "motions/" + name + ".npz"; }
+
+  /// @throws std::runtime_error when the folders cannot be made.
+  void create() const;
+};
+
+/// Name of an input inside the folder: its file name without suffix, numbered from the second of the same
+/// name on ("walk", "walk-2"). @param taken  names given before, in order
+std::string unique_name(const std::filesystem::path& input, const std::vector<std::string>& taken);
+
+/// 64-bit FNV-1a of a file's bytes in hexadecimal: tells an input that changed. Not cryptographic.
+/// @throws DataError when the file cannot be read.
+std::string file_checksum(const std::filesystem::path& path);
+
+/// The whole file. @throws DataError when it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+}  // namespace mimicx
