@@ -1,0 +1,70 @@
+/// The agent: a Gaussian policy, its critic and the scales of what goes in and comes out.
+///
+/// π(a|s) = N(μ(s), σ²·1): the mean depends on the state, the covariance is fixed and diagonal (METHOD §7);
+/// σ is one number that training lowers on a schedule, so it is an argument and no parameter. Because σ is
+/// the same for the old and the new policy, the normalising constant of the density cancels in every ratio
+/// and is left out: `log_density` is −‖a − μ‖²/2σ².
+///
+/// The critic predicts (V − mean)/deviation of recent returns. When those two numbers move, the critic's
+/// last layer is rewritten so that V stays what it was (van Hasselt et al., "Learning values across many
+/// orders of magnitude", NeurIPS 2016, Eq. 9, "PopArt").
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/npz.h"
+#include "nn/mlp.h"
+#include "nn/normaliser.h"
+
+namespace mimicx::rl {
+
+/// What a random stream of this folder is for: the first word of its key.
+enum RandomPurpose : std::uint64_t { kActorInit = 0x7201, kCriticInit, kActionNoise, kShuffle };
+
+/// Running scale of the returns.
+struct ReturnScale {
+  double mean = 0.0;
+  double square = 1.0;       ///< mean of the squared returns
+  std::int64_t batches = 0;  ///< batches seen; 0: the identity
+
+  /// Standard deviation, but never under a tenth of the root mean square: constant returns have a scale too.
+  double deviation() const;
+};
+
+struct Agent {
+  nn::Mlp<float> actor;   ///< normalised observation → mean action
+  nn::Mlp<float> critic;  ///< normalised observation → scaled value
+  nn::Normaliser<float> observations;
+  ReturnScale returns;
+};
+
+/// Sizes of the networks. Actor and critic share nothing but their widths.
+struct AgentShape {
+  int observation_dim = 0;
+  int action_dim = 0;
+  std::vector<int> hidden = {256, 256};  ///< empty: a linear policy
+  nn::Activation activation = nn::Activation::kElu;
+  float last_scale = 0.02F;        ///< actor's last layer: the untrained policy acts near zero
+  float observation_limit = 5.0F;  ///< normalised observations are clipped to ± this
+};
+
+Agent make_agent(const AgentShape& shape, std::uint64_t seed);
+
+/// actions = means + σ·noise, and log_density [n] of each row. The noise comes from `random`, row by row.
+void sample_actions(const nn::Matrix<float>& means, double sigma, Random& random, nn::Matrix<float>& actions,
+                    Eigen::Ref<Eigen::VectorXf> log_density);
+
+/// Scaled predictions [n × 1] → values V, in place.
+void unscale_values(const ReturnScale& scale, nn::Matrix<float>& values);
+
+/// Blends the statistics of a batch of returns in (the first batch wholly, later ones at `rate`) and rewrites
+/// the critic's last layer so that its unscaled predictions stay the same.
+/// @param mean, square  mean of the returns and of their squares over the batch
+void rescale_returns(Agent& agent, double mean, double square, double rate);
+
+void save(Npz& archive, const std::string& prefix, const Agent& agent);
+Agent load_agent(const Npz& archive, const std::string& prefix);
+
+}  // namespace mimicx::rl

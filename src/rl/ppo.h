@@ -1,0 +1,85 @@
+/// Proximal policy optimisation of one agent from a recorded roll-out.
+///
+/// Source: Schulman et al., "Proximal policy optimization algorithms", 2017, Algorithm 1; the details are
+/// sourced where they stand in ppo.cpp and ppo_config.h. The loop around it (collect → advantages → update)
+/// is trainer.h.
+///
+/// The learner sees rows of a RolloutBuffer and no environment: several learners can each take their rows of
+/// one roll-out. Same bytes for any number of threads: a minibatch is cut into a fixed number of slots, each
+/// slot sums its own gradients pass by pass, and the slots are added in their order.
+#pragma once
+
+#include <string>
+
+#include "nn/adam.h"
+#include "nn/tape.h"
+#include "rl/policy.h"
+#include "rl/ppo_config.h"
+#include "rl/rollout.h"
+
+namespace mimicx::rl {
+
+/// Everything that training changes. Plain values: copy it to branch off, save it to continue.
+struct Learner {
+  Agent agent;
+  nn::Adam<float> actor_adam, critic_adam;
+  double step_size = 0.0;  ///< the actor's, adapted to the KL
+  std::int64_t iteration = 0;
+  std::int64_t samples = 0;  ///< drawn so far
+};
+
+Learner make_learner(const PpoConfig& config, Agent agent);
+
+/// What one iteration did. Losses, KL and norms are means over its minibatches unless said otherwise.
+struct IterationStats {
+  std::int64_t iteration = 0;        ///< counted from 0
+  std::int64_t samples = 0;          ///< drawn so far, this iteration included
+  double mean_reward = 0.0;          ///< per step
+  double mean_episode_length = 0.0;  ///< of the episodes that ended, steps; 0 when none did
+  double explained_variance = 0.0;   ///< 1 − Var(return − V)/Var(return), before the update
+  double saturation = 0.0;           ///< share of the mean actions' components beyond ± mean_bound
+  double sigma = 0.0;
+  bool learned = false;  ///< false for a first iteration, which only measures the observations
+  int minibatches = 0;   ///< gradient steps taken
+  double policy_loss = 0.0, value_loss = 0.0, penalty = 0.0, clip_fraction = 0.0;
+  double actor_gradient = 0.0, critic_gradient = 0.0;  ///< norms before clipping
+  double kl = 0.0;  ///< KL(old ‖ new): mean of the last epoch, or that of the minibatch that stopped it
+  double step_size = 0.0;  ///< the actor's during this iteration
+};
+
+/// Sums over the rows that one slot has seen of the current minibatch.
+struct LossSums {
+  double policy_loss = 0.0, value_loss = 0.0, penalty = 0.0, clipped = 0.0, kl = 0.0;
+};
+
+/// One slot's tapes, gathered rows and gradients.
+struct GradientSlot {
+  nn::Tape<float> actor_tape, critic_tape;
+  nn::Matrix<float> observations, actions, old_means;      ///< [pass rows × dim]
+  nn::Matrix<float> old_log_density, advantages, targets;  ///< [pass rows × 1]
+  nn::Matrix<float> penalty_observations, penalty_actions;
+  std::vector<nn::Matrix<float>> actor_gradient, critic_gradient;
+  LossSums sums;
+};
+
+/// Buffers of `update`; nothing in them outlives a call.
+struct UpdateScratch {
+  std::vector<GradientSlot> slots;
+  std::vector<int> order;  ///< shuffled rows
+
+  explicit UpdateScratch(const PpoConfig& config) : slots(static_cast<std::size_t>(config.gradient_slots)) {}
+};
+
+/// All epochs over the given rows of the buffer (their advantages are there already); adapts the step size.
+/// @param sigma   under which the rows were collected
+/// @param stream  tells the shuffles of several learners in one iteration apart
+void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buffer, std::span<const int> rows,
+            double sigma, std::uint64_t stream, int threads, UpdateScratch& scratch, IterationStats& stats);
+
+/// Reward, episode length, explained variance and saturation of a roll-out.
+void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationStats& stats);
+
+void save(Npz& archive, const std::string& prefix, const Learner& learner);
+Learner load_learner(const Npz& archive, const std::string& prefix);
+
+}  // namespace mimicx::rl
