@@ -29,15 +29,25 @@ Quaterniond get(const Quat<P>& q, int lane) { return {q.w[lane], q.x[lane], q.y[
 Quat<P> interpolate(const Quat<P>& a, const Quat<P>& b, P s) {
   const P cosine = fma(a.w, b.w, fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)));
   const P wb = select(cosine < P(0.0), -s, s), wa = P(1.0) - s;
-  const Quat<P> q = {fma(wa, a.w, wb * b.w), fma(wa, a.x, wb * b.x), fma(wa, a.y, wb * b.y), fma(wa, a.z, wb * b.z)};
+  const Quat<P> q = {fma(wa, a.w, wb * b.w), fma(wa, a.x, wb * b.x), fma(wa, a.y, wb * b.y),
+                     fma(wa, a.z, wb * b.z)};
   const P r = P(1.0) / sqrt(fma(q.w, q.w, fma(q.x, q.x, fma(q.y, q.y, q.z * q.z))));
   return {r * q.w, r * q.x, r * q.y, r * q.z};
 }
 
 template <class F>
 void for_each_value(State<P>& state, Target<P>& target, F&& f) {
-  const auto vec = [&](Vec3<P>& v) { f(v.x); f(v.y); f(v.z); };
-  const auto quat = [&](Quat<P>& q) { f(q.w); f(q.x); f(q.y); f(q.z); };
+  const auto vec = [&](Vec3<P>& v) {
+    f(v.x);
+    f(v.y);
+    f(v.z);
+  };
+  const auto quat = [&](Quat<P>& q) {
+    f(q.w);
+    f(q.x);
+    f(q.y);
+    f(q.z);
+  };
   vec(state.p_root);
   vec(state.v_root);
   for (auto& q : state.q) quat(q);
@@ -48,7 +58,8 @@ void for_each_value(State<P>& state, Target<P>& target, F&& f) {
 
 }  // namespace
 
-std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference, const TrackingConfig& config) {
+std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
+                                                       const TrackingConfig& config) {
   if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
   const double substeps = config.simulation.rate / reference.fps;
   if (std::abs(substeps - std::round(substeps)) > 1e-9)
@@ -77,6 +88,7 @@ void TrackingPack::reset(int lane, int frame) {
   const Pose& start = clip_->poses[static_cast<std::size_t>(frame)];
   frames_[n] = frame;
   broken_[n] = false;
+  fresh_[n] = true;
   poses_[n] = start;
   put(state_.p_root, lane, start.frame.p_root);
   put(state_.v_root, lane, start.frame.v_root);
@@ -85,8 +97,9 @@ void TrackingPack::reset(int lane, int frame) {
     put(state_.omega[i], lane, start.frame.omega[i]);
     put(to_.q[i], lane, start.frame.q[i]);
     put(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    put(from_.q[i], lane, start.frame.q[i]);
+    put(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
   }
-  from_ = to_;
 }
 
 void TrackingPack::observe(int lane, float* out) const {
@@ -136,6 +149,7 @@ void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied) {
       if (scratch.saturated[i][lane] != 0) ++saturated_[static_cast<std::size_t>(lane)];
   update_kinematics(clip_->model, state_, scratch);
   from_ = to_;
+  fresh_.reset();
   for (int lane = 0; lane < kLanes; ++lane) {
     auto& frame = frames_[static_cast<std::size_t>(lane)];
     frame = std::min(frame + 1, clip_->size() - 1);
@@ -165,7 +179,8 @@ double TrackingPack::worst_distance(int lane) const {
   if (broken_[static_cast<std::size_t>(lane)]) return std::numeric_limits<double>::infinity();
   const auto& reference = clip_->poses[static_cast<std::size_t>(frame(lane))].p_WB;
   double worst = 0.0;
-  for (std::size_t i = 0; i < kBodies; ++i) worst = std::max(worst, (pose(lane).p_WB[i] - reference[i]).norm());
+  for (std::size_t i = 0; i < kBodies; ++i)
+    worst = std::max(worst, (pose(lane).p_WB[i] - reference[i]).norm());
   return worst;
 }
 
@@ -176,7 +191,10 @@ std::vector<float> TrackingPack::save() const {
   for_each_value(state, target, [&](P& x) {
     for (int lane = 0; lane < kLanes; ++lane) values.push_back(x[lane]);
   });
-  for (int frame : frames_) values.push_back(static_cast<float>(frame));
+  for (std::size_t n = 0; n < kLanes; ++n) {
+    values.push_back(static_cast<float>(frames_[n]));
+    values.push_back(fresh_[n] ? 1.0f : 0.0f);
+  }
   return values;
 }
 
@@ -186,12 +204,19 @@ void TrackingPack::load(const std::vector<float>& values) {
   for_each_value(state_, to_, [&](P& x) {
     for (int lane = 0; lane < kLanes; ++lane) x.set(lane, values[k++]);
   });
-  for (int& frame : frames_) frame = static_cast<int>(values[k++]);
   from_ = to_;
+  broken_.reset();
   Data<P> d;
   update_kinematics(clip_->model, state_, d);
-  for (int lane = 0; lane < kLanes; ++lane) read_pose(d, lane);
-  broken_.reset();
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto n = static_cast<std::size_t>(lane);
+    frames_[n] = static_cast<int>(values[k++]);
+    fresh_[n] = values[k++] != 0.0f;
+    if (fresh_[n])
+      poses_[n] = clip_->poses[static_cast<std::size_t>(frames_[n])];
+    else
+      read_pose(d, lane);
+  }
 }
 
 }  // namespace mimicx::rl

@@ -26,27 +26,29 @@ enum class ActionMode {
 
 struct TrackingConfig {
   ActionMode action_mode = ActionMode::kResidual;
-  bool velocity_feed_forward = true;   ///< PD damps towards the reference's joint velocity, not towards 0
-  double max_action = 2.5;             ///< each entry of an action is clamped to ± this, rad
+  bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity, not towards 0
+  double max_action = 2.5;            ///< each entry of an action is clamped to ± this, rad
   RewardWeights reward;
   SimulationOptions simulation;
-  double terminate_distance = 0.4;     ///< a body farther than this from its reference ends the episode, m
-  int bin_frames = 10;                 ///< starts and failures are counted in bins of this many frames
-  double uniform_starts = 0.4;         ///< share of the starts drawn uniformly; the rest where it fails
+  double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m
+  int bin_frames = 10;              ///< starts and failures are counted in bins of this many frames
+  double uniform_starts = 0.4;      ///< share of the starts drawn uniformly; the rest where it fails
 };
 
 /// A reference made ready for the simulator: immutable, shared by packs and threads.
 struct TrackingClip {
   Reference reference;
   Model<float> model;
-  std::vector<Pose> poses;                                       ///< [frames + 1]: the last one repeated, at rest
-  std::vector<std::array<float, kJointFeatures>> joints;         ///< [frames + 1]
-  std::vector<KeypointFrame> keypoints;                          ///< [frames], or empty
+  std::vector<Pose> poses;                                ///< [frames + 1]: the last one repeated, at rest
+  std::vector<std::array<float, kJointFeatures>> joints;  ///< [frames + 1]
+  std::vector<KeypointFrame> keypoints;                   ///< [frames], or empty
 
   int size() const { return static_cast<int>(poses.size()) - 1; }
 };
-/// @throws std::invalid_argument unless the reference has ≥ 2 frames and the physics rate is a multiple of its fps.
-std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference, const TrackingConfig& config);
+/// @throws std::invalid_argument unless the reference has ≥ 2 frames and the physics rate is a multiple of
+/// its fps.
+std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
+                                                       const TrackingConfig& config);
 
 class TrackingPack {
  public:
@@ -86,10 +88,11 @@ class TrackingPack {
   std::shared_ptr<const TrackingClip> clip_;
   TrackingConfig config_;
   State<P> state_;
-  Target<P> from_, to_;     ///< targets at the start and the end of the control step
+  Target<P> from_, to_;  ///< targets at the start and the end of the control step
   std::array<int, kLanes> frames_{};
   std::array<Pose, kLanes> poses_;
-  std::bitset<kLanes> broken_;
+  std::bitset<kLanes> broken_;  ///< the simulation went wrong since the last reset
+  std::bitset<kLanes> fresh_;   ///< reset and not advanced yet: the pose is the reference's own
   std::array<int, kLanes> saturated_{};
 };
 

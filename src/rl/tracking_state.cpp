@@ -50,7 +50,8 @@ void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& jo
   out = put(f.v_root, heading, out);
   out = put(f.q[0] * f.omega[0], heading, out);
   for (float x : joints) *out++ = x;
-  for (int body : kEndEffectors) out = put(pose.p_WB[static_cast<std::size_t>(body)] - f.p_root, heading, out);
+  for (int body : kEndEffectors)
+    out = put(pose.p_WB[static_cast<std::size_t>(body)] - f.p_root, heading, out);
 }
 
 void tracking_state(const Pose& reference, const std::array<float, kJointFeatures>& reference_joints,

@@ -1,0 +1,191 @@
+#include "rl/tracking_environment.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/random.h"
+
+namespace mimicx::rl {
+namespace {
+
+constexpr std::uint64_t kStartStream = 0x7374617274;  // "start"
+constexpr double kFallRateMemory = 0.8;               // share of the old estimate kept per iteration
+
+int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
+  return (clip.size() + config.bin_frames - 1) / config.bin_frames;
+}
+
+/// Where to start: a uniform share, and the rest in the bins that lead to falls. A fall in bin b is learned
+/// from starts in b and in the two bins before it.
+std::vector<double> weights_of(const std::vector<double>& fall_rates, double uniform) {
+  const std::size_t n = fall_rates.size();
+  std::vector<double> hard(n, 0.0);
+  for (std::size_t b = 0; b < n; ++b)
+    for (std::size_t back = 0; back < 3 && back <= b; ++back)
+      hard[b - back] += fall_rates[b] * (0.5 - 0.15 * static_cast<double>(back));
+  const double total = std::accumulate(hard.begin(), hard.end(), 0.0);
+  std::vector<double> weights(n);
+  for (std::size_t b = 0; b < n; ++b)
+    weights[b] = total > 0.0 ? uniform / static_cast<double>(n) + (1.0 - uniform) * hard[b] / total
+                             : 1.0 / static_cast<double>(n);
+  return weights;
+}
+
+}  // namespace
+
+void TrackingStatistics::clear() {
+  reward_terms.fill(0.0);
+  reward = saturated_joints = 0.0;
+  steps = 0;
+  for (auto* table : {&falls, &visits})
+    for (auto& row : *table) std::fill(row.begin(), row.end(), 0);
+}
+
+void TrackingStatistics::add(const TrackingStatistics& other) {
+  for (std::size_t k = 0; k < kRewardTerms; ++k) reward_terms[k] += other.reward_terms[k];
+  reward += other.reward;
+  saturated_joints += other.saturated_joints;
+  steps += other.steps;
+  for (std::size_t c = 0; c < falls.size(); ++c)
+    for (std::size_t b = 0; b < falls[c].size(); ++b) {
+      falls[c][b] += other.falls[c][b];
+      visits[c][b] += other.visits[c][b];
+    }
+}
+
+TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const TrackingClip>> clips,
+                                         const TrackingConfig& config, int characters, int group_size,
+                                         std::uint64_t seed)
+    : clips_(std::move(clips)), config_(config), group_size_(group_size), seed_(seed) {
+  if (clips_.empty()) throw std::invalid_argument("TrackingEnvironment: no clips");
+  if (group_size < kLanes || group_size % kLanes != 0 || characters < group_size ||
+      characters % group_size != 0)
+    throw std::invalid_argument(
+        "TrackingEnvironment: characters must be a multiple of the group size, "
+        "and that a multiple of the pack's lanes");
+  for (const auto& clip : clips_) {
+    const auto bins = static_cast<std::size_t>(bins_of(*clip, config_));
+    last_.falls.emplace_back(bins, 0);
+    last_.visits.emplace_back(bins, 0);
+    fall_rates_.emplace_back(bins, 0.0);
+    start_weights_.push_back(weights_of(fall_rates_.back(), config_.uniform_starts));
+  }
+  groups_.resize(static_cast<std::size_t>(characters / group_size));
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    Group& group = groups_[g];
+    group.clip = g % clips_.size();
+    group.packs.assign(static_cast<std::size_t>(group_size / kLanes),
+                       TrackingPack(clips_[group.clip], config_));
+    group.episodes.assign(static_cast<std::size_t>(group_size), 0);
+    group.scratch = std::make_unique<Data<TrackingPack::P>>();
+    group.statistics = last_;
+    for (int character = 0; character < group_size; ++character) restart(static_cast<int>(g), character);
+  }
+}
+
+int TrackingEnvironment::draw_start(std::size_t clip, int group, int character, std::int64_t episode) const {
+  Random random(seed_, {kStartStream, static_cast<std::uint64_t>(group),
+                        static_cast<std::uint64_t>(character), static_cast<std::uint64_t>(episode)});
+  const std::vector<double>& weights = start_weights_[clip];
+  double draw = random.uniform();
+  std::size_t bin = 0;
+  while (bin + 1 < weights.size() && draw >= weights[bin]) draw -= weights[bin++];
+  const int frame = static_cast<int>(bin) * config_.bin_frames +
+                    static_cast<int>(random.below(static_cast<std::uint32_t>(config_.bin_frames)));
+  return std::min(frame, clips_[clip]->size() - 2);  // at least one step to the end
+}
+
+void TrackingEnvironment::restart(int g, int character) {
+  Group& group = groups_[static_cast<std::size_t>(g)];
+  const std::int64_t episode = group.episodes[static_cast<std::size_t>(character)]++;
+  group.packs[static_cast<std::size_t>(character / kLanes)].reset(
+      character % kLanes, draw_start(group.clip, g, character, episode));
+}
+
+void TrackingEnvironment::observe(int g, Eigen::Ref<nn::Matrix<float>> observations) const {
+  const Group& group = groups_[static_cast<std::size_t>(g)];
+  for (int n = 0; n < group_size_; ++n)
+    group.packs[static_cast<std::size_t>(n / kLanes)].observe(n % kLanes, observations.row(n).data());
+}
+
+void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>& actions,
+                               StepResult& result) {
+  Group& group = groups_[static_cast<std::size_t>(g)];
+  TrackingStatistics& statistics = group.statistics;
+  auto& falls = statistics.falls[group.clip];
+  auto& visits = statistics.visits[group.clip];
+  for (int n = 0; n < group_size_; ++n)
+    group.packs[static_cast<std::size_t>(n / kLanes)].act(n % kLanes, actions.row(n).data());
+  for (TrackingPack& pack : group.packs) pack.advance(*group.scratch);
+  for (int n = 0; n < group_size_; ++n) {
+    TrackingPack& pack = group.packs[static_cast<std::size_t>(n / kLanes)];
+    const int lane = n % kLanes, frame = pack.frame(lane);
+    const Reward reward = pack.reward(lane);
+    const bool fell = !(pack.worst_distance(lane) <= config_.terminate_distance);
+    const bool ended = frame >= pack.clip().size() - 1;
+    result.reward[n] = static_cast<float>(reward.total);
+    result.terminated[n] = fell;
+    result.truncated[n] = ended && !fell;
+    for (std::size_t k = 0; k < kRewardTerms; ++k) statistics.reward_terms[k] += reward.term[k];
+    statistics.reward += reward.total;
+    statistics.saturated_joints += pack.saturated_joints(lane);
+    ++statistics.steps;
+    const auto bin = static_cast<std::size_t>(frame / config_.bin_frames);
+    ++visits[bin];
+    if (fell) ++falls[bin];
+    if (result.truncated[n]) pack.observe(lane, result.final_observations.row(n).data());
+    if (fell || ended) restart(g, n);
+  }
+}
+
+void TrackingEnvironment::end_iteration() {
+  last_.clear();
+  for (Group& group : groups_) {
+    last_.add(group.statistics);
+    group.statistics.clear();
+  }
+  for (std::size_t c = 0; c < clips_.size(); ++c) {
+    for (std::size_t b = 0; b < fall_rates_[c].size(); ++b) {
+      if (last_.visits[c][b] == 0) continue;
+      const double rate = static_cast<double>(last_.falls[c][b]) / static_cast<double>(last_.visits[c][b]);
+      fall_rates_[c][b] = kFallRateMemory * fall_rates_[c][b] + (1.0 - kFallRateMemory) * rate;
+    }
+    start_weights_[c] = weights_of(fall_rates_[c], config_.uniform_starts);
+  }
+}
+
+void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::string key = prefix + "group" + std::to_string(g) + ".";
+    const Group& group = groups_[g];
+    for (std::size_t p = 0; p < group.packs.size(); ++p) {
+      const std::vector<float> values = group.packs[p].save();
+      archive.set(key + "pack" + std::to_string(p), NpyArray::from_float({values.size()}, values.data()));
+    }
+    archive.set(key + "episodes", NpyArray::from_int64({group.episodes.size()}, group.episodes.data()));
+  }
+  for (std::size_t c = 0; c < clips_.size(); ++c)
+    archive.set(prefix + "fall_rates" + std::to_string(c),
+                NpyArray::from_double({fall_rates_[c].size()}, fall_rates_[c].data()));
+}
+
+void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::string key = prefix + "group" + std::to_string(g) + ".";
+    Group& group = groups_[g];
+    for (std::size_t p = 0; p < group.packs.size(); ++p) {
+      const std::vector<double> values = archive.at(key + "pack" + std::to_string(p)).to_double();
+      group.packs[p].load(std::vector<float>(values.begin(), values.end()));
+    }
+    const std::vector<double> episodes = archive.at(key + "episodes").to_double();
+    group.episodes.assign(episodes.begin(), episodes.end());
+    group.statistics.clear();
+  }
+  for (std::size_t c = 0; c < clips_.size(); ++c) {
+    fall_rates_[c] = archive.at(prefix + "fall_rates" + std::to_string(c)).to_double();
+    start_weights_[c] = weights_of(fall_rates_[c], config_.uniform_starts);
+  }
+}
+
+}  // namespace mimicx::rl

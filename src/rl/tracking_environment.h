@@ -1,0 +1,74 @@
+/// The tracking task as the learner's environment: packs of characters in groups, episodes, starts.
+///
+/// Episodes start anywhere on the clip (reference-state initialisation), more often where characters fall;
+/// they end early when a body is farther than `terminate_distance` from its reference (a true end), and at
+/// the end of the clip (a time limit: the learner bootstraps there).                METHOD §7
+/// Group g follows clip g mod clips. Every start is drawn from a stream keyed by seed, character and episode.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rl/environment.h"
+#include "rl/tracking_pack.h"
+
+namespace mimicx::rl {
+
+/// What happened on the clips during one roll-out.
+struct TrackingStatistics {
+  std::array<double, kRewardTerms> reward_terms{};  ///< sums over steps
+  double reward = 0.0;                              ///< sum
+  double saturated_joints = 0.0;                    ///< sum
+  std::int64_t steps = 0;
+  std::vector<std::vector<std::int64_t>> falls, visits;  ///< [clip][bin] of the frame reached
+
+  void clear();
+  void add(const TrackingStatistics& other);
+};
+
+class TrackingEnvironment {
+ public:
+  /// @param characters  in all; a multiple of group_size
+  /// @param group_size  a multiple of kLanes
+  /// @throws std::invalid_argument for sizes that do not fit, or no clips
+  TrackingEnvironment(std::vector<std::shared_ptr<const TrackingClip>> clips, const TrackingConfig& config,
+                      int characters, int group_size, std::uint64_t seed);
+
+  int groups() const { return static_cast<int>(groups_.size()); }
+  int group_size() const { return group_size_; }
+  int observation_dim() const { return kStateSize; }
+  int action_dim() const { return kDofs; }
+  void observe(int group, Eigen::Ref<nn::Matrix<float>> observations) const;
+  void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result);
+  void end_iteration();
+  void save(Npz& archive, const std::string& prefix) const;
+  void load(const Npz& archive, const std::string& prefix);
+
+  /// Of the roll-out that `end_iteration` has just closed.
+  const TrackingStatistics& statistics() const { return last_; }
+  /// Smoothed share of the visits to a bin that end in a fall. [clip][bin]
+  const std::vector<std::vector<double>>& fall_rates() const { return fall_rates_; }
+
+ private:
+  struct Group {
+    std::size_t clip = 0;
+    std::vector<TrackingPack> packs;
+    std::vector<std::int64_t> episodes;  ///< [group_size] episodes begun
+    std::unique_ptr<Data<TrackingPack::P>> scratch;
+    TrackingStatistics statistics;
+  };
+  int draw_start(std::size_t clip, int group, int character, std::int64_t episode) const;
+  void restart(int group, int character);
+
+  std::vector<std::shared_ptr<const TrackingClip>> clips_;
+  TrackingConfig config_;
+  int group_size_;
+  std::uint64_t seed_;
+  std::vector<Group> groups_;
+  std::vector<std::vector<double>> fall_rates_, start_weights_;
+  TrackingStatistics last_;
+};
+
+}  // namespace mimicx::rl

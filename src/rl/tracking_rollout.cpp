@@ -1,0 +1,76 @@
+#include "rl/tracking_rollout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mimicx::rl {
+namespace {
+
+using P = TrackingPack::P;
+
+Vector3d first_lane(const Vec3<P>& v, double scale) { return scale * Vector3d(v.x[0], v.y[0], v.z[0]); }
+Vector6d first_lane(const Wrench<P>& w, double scale) {
+  Vector6d out;
+  out << first_lane(w.n, scale), first_lane(w.f, scale);
+  return out;
+}
+
+void append_forces(const Applied<P>& applied, TrackingRollout& out) {
+  const double scale = applied.steps > 0 ? 1.0 / applied.steps : 0.0;
+  std::array<Vector3d, kBodies> torques;
+  std::array<Vector6d, kBodies> ground, self;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    torques[i] = first_lane(applied.joint_torque[i], scale);
+    ground[i] = first_lane(applied.ground[i], scale);
+    self[i] = first_lane(applied.self[i], scale);
+  }
+  out.joint_torques.push_back(torques);
+  out.ground_wrenches.push_back(ground);
+  out.self_contact_wrenches.push_back(self);
+}
+
+double mean_distance(const Pose& a, const Pose& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kBodies; ++i) sum += (a.p_WB[i] - b.p_WB[i]).norm();
+  return sum / kBodies;
+}
+
+}  // namespace
+
+TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
+                         const MeanAction& policy) {
+  TrackingRollout out;
+  TrackingPack pack(clip, config);  // every lane starts on frame 0; lane 0 is the one that is recorded
+  Data<P> scratch;
+  Applied<P> applied;
+  clear(applied);
+  out.poses.push_back(pack.pose(0));
+  out.rewards.push_back(pack.reward(0));
+  append_forces(applied, out);
+  std::array<float, kStateSize> state;
+  std::array<float, kDofs> action;
+  for (int t = 1; t < clip->size(); ++t) {
+    pack.observe(0, state.data());
+    policy(state.data(), action.data());
+    for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, action.data());
+    clear(applied);
+    pack.advance(scratch, &applied);
+    const double distance = pack.worst_distance(0);
+    out.worst_distance = std::max(out.worst_distance, distance);
+    if (!std::isfinite(distance)) {
+      out.broken = true;
+      break;
+    }
+    out.poses.push_back(pack.pose(0));
+    out.rewards.push_back(pack.reward(0));
+    append_forces(applied, out);
+    out.mean_reward += out.rewards.back().total;
+    out.mean_position_error += mean_distance(pack.pose(0), clip->poses[static_cast<std::size_t>(t)]);
+  }
+  const double steps = static_cast<double>(std::max<std::size_t>(out.poses.size() - 1, 1));
+  out.mean_reward /= steps;
+  out.mean_position_error /= steps;
+  return out;
+}
+
+}  // namespace mimicx::rl

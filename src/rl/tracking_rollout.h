@@ -1,0 +1,35 @@
+/// The result of a policy: one deterministic roll-out of a whole clip, with what acted on the character.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "rl/tracking_pack.h"
+
+namespace mimicx::rl {
+
+/// Mean action of a policy: s_t [570] → a_t [55].
+using MeanAction = std::function<void(const float* state, float* action)>;
+
+/// One simulated motion; index 0 is the start on the reference's first frame. Forces are means over the
+/// control interval that ends at the frame (zero at frame 0), as applied by the implicit solver.
+struct TrackingRollout {
+  std::vector<Pose> poses;                                   ///< [frames]
+  std::vector<Reward> rewards;                               ///< [frames]
+  std::vector<std::array<Vector3d, kBodies>> joint_torques;  ///< child's frame, N·m; entry 0 unused
+  std::vector<std::array<Vector6d, kBodies>>
+      ground_wrenches;  ///< (moment, force) about the joint centre, world axes
+  std::vector<std::array<Vector6d, kBodies>> self_contact_wrenches;
+  double worst_distance = 0;       ///< of any body from its reference, m
+  double mean_reward = 0;          ///< over frames 1 …
+  double mean_position_error = 0;  ///< all joints, world, frames 1 …, m
+  bool broken = false;             ///< the simulation went wrong; frames end there
+};
+
+/// Follows the clip from its first frame to its last, falls included: nothing is cut short but by a
+/// numerical failure.
+TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
+                         const MeanAction& policy);
+
+}  // namespace mimicx::rl
