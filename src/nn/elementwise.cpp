@@ -36,10 +36,7 @@ void apply_activation(Activation activation, const Matrix<S>& x, Matrix<S>& y) {
       map_unary(x, y, [](S v) { return v < S(0) ? S(0) : v; });
       break;
     case Activation::kElu:
-      map_unary(x, y, [](S v) {
-        const S negative = expm1_value(v);
-        return v > S(0) ? v : negative;
-      });
+      map_unary(x, y, [](S v) { return elu_value(v); });
       break;
     case Activation::kTanh:
       map_unary(x, y, [](S v) { return tanh_value(v); });
@@ -57,7 +54,7 @@ void multiply_by_slope(Activation activation, const Matrix<S>& g, const Matrix<S
       map_binary(g, y, result, [](S v, S out) { return out > S(0) ? v : S(0); });
       break;
     case Activation::kElu:
-      map_binary(g, y, result, [](S v, S out) { return v * (out > S(0) ? S(1) : out + S(1)); });
+      map_binary(g, y, result, [](S v, S out) { return v * ((out < S(0) ? out : S(0)) + S(1)); });
       break;
     case Activation::kTanh:
       map_binary(g, y, result, [](S v, S out) { return v * (S(1) - out * out); });

@@ -12,7 +12,9 @@
 /// exp saturates at |x| = 87 (float) and 708 (double) instead of overflowing or underflowing. NaN stays NaN.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "nn/activation.h"
@@ -32,7 +34,7 @@ struct ExpConstants<float> {
   static constexpr float kLn2Low = -2.12194440e-4f;
   static constexpr int kMantissaBits = 23;
   static constexpr Bits kBias = 127;
-  static constexpr int kDegree = 7;
+  static constexpr std::size_t kDegree = 7;
   static constexpr float kTanhLimit = 10.0f;  ///< tanh is 1 from here on
 };
 
@@ -45,7 +47,7 @@ struct ExpConstants<double> {
   static constexpr double kLn2Low = 1.42860682030941723212e-6;
   static constexpr int kMantissaBits = 52;
   static constexpr Bits kBias = 1023;
-  static constexpr int kDegree = 13;
+  static constexpr std::size_t kDegree = 13;
   static constexpr double kTanhLimit = 20.0;
 };
 
@@ -55,6 +57,18 @@ struct ExpParts {
   S scale, fraction;
 };
 
+/// [k] = 1/k!
+template <class S>
+constexpr auto inverse_factorials() {
+  std::array<S, ExpConstants<S>::kDegree + 1> result{S(1)};
+  double factorial = 1;
+  for (std::size_t k = 1; k < result.size(); ++k) {
+    factorial *= static_cast<double>(k);
+    result[k] = static_cast<S>(1.0 / factorial);
+  }
+  return result;
+}
+
 template <class S>
 inline ExpParts<S> exp_parts(S x) {
   using C = ExpConstants<S>;
@@ -63,11 +77,9 @@ inline ExpParts<S> exp_parts(S x) {
   const S shifted = x * S(1.44269504088896340736) + C::kRound;
   const S n = shifted - C::kRound;
   const S r = (x - n * C::kLn2High) - n * C::kLn2Low;
-  // Horner's scheme for r + r²/2! + … : s_k = (1 + r·s_{k+1}/…) written with 1/k! as constants.
-  S inverse_factorial[C::kDegree + 1] = {S(1)};
-  for (int k = 1; k <= C::kDegree; ++k) inverse_factorial[k] = inverse_factorial[k - 1] / S(k);
-  S tail = inverse_factorial[C::kDegree];
-  for (int k = C::kDegree - 1; k >= 2; --k) tail = tail * r + inverse_factorial[k];
+  constexpr auto kInverseFactorial = inverse_factorials<S>();
+  S tail = kInverseFactorial[C::kDegree];
+  for (std::size_t k = C::kDegree - 1; k >= 2; --k) tail = tail * r + kInverseFactorial[k];
   using Bits = typename C::Bits;
   const Bits exponent = std::bit_cast<Bits>(shifted) - std::bit_cast<Bits>(C::kRound) + C::kBias;
   return {std::bit_cast<S>(exponent << C::kMantissaBits), r + r * r * tail};
@@ -86,15 +98,21 @@ inline S expm1_value(S x) {
   return (scale - S(1)) + scale * fraction;
 }
 
-/// tanh x = e/(e + 2), e = e^{2x} − 1; odd symmetry is exact because it works on |x|.
+/// tanh x = e/(e + 2), e = e^{2x} − 1, on |x|: odd symmetry is exact.
 template <class S>
 inline S tanh_value(S x) {
   const S limit = ExpConstants<S>::kTanhLimit;
-  S magnitude = x < S(0) ? -x : x;
-  magnitude = magnitude > limit ? limit : magnitude;
+  const S magnitude = std::abs(x) > limit ? limit : std::abs(x);
   const S e = expm1_value(S(2) * magnitude);
-  const S y = e / (e + S(2));
-  return x < S(0) ? -y : y;
+  return std::copysign(e / (e + S(2)), x);
+}
+
+/// x where x > 0, else e^x − 1: the sum of the two sides, one of which is 0.
+template <class S>
+inline S elu_value(S x) {
+  const S negative = x < S(0) ? x : S(0);
+  const S positive = x < S(0) ? S(0) : x;
+  return positive + expm1_value(negative);
 }
 
 /// y = φ(x); y may be x.

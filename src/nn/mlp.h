@@ -1,13 +1,11 @@
 /// Multi-layer perceptron: the parameters, a differentiable forward pass and one without a tape.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "core/random.h"
 #include "nn/activation.h"
-#include "nn/gemm.h"
 #include "nn/ops.h"
 
 namespace mimicx::nn {
@@ -46,8 +44,7 @@ Var forward(Tape<S>& tape, const Mlp<S>& mlp, std::span<const Var> parameters, V
 /// Buffers of `evaluate`, one per worker.
 template <class S>
 struct Workspace {
-  std::array<Matrix<S>, 2> hidden;  ///< used in turn
-  GemmScratch<S> gemm;
+  std::vector<Matrix<S>> hidden;  ///< [hidden layer]
 };
 
 /// The value of `forward`, bit for bit, without a tape; allocates only when a shape changes.

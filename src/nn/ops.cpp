@@ -1,9 +1,9 @@
 #include "nn/ops.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include "nn/elementwise.h"
+#include "nn/gemm.h"
 
 namespace mimicx::nn {
 
@@ -63,7 +63,7 @@ Var matmul(Tape<S>& tape, Var a, Var b, bool transpose_a, bool transpose_b) {
   const Var c =
       tape.append({matmul_adjoint<S>, {a, b}, {}, {transpose_a, transpose_b}},
                   transpose_a ? left.cols() : left.rows(), transpose_b ? right.rows() : right.cols());
-  gemm<S>(transpose_a, transpose_b, left, right, nullptr, tape.buffer(c), tape.gemm_scratch());
+  gemm<S>(transpose_a, transpose_b, left, right, nullptr, tape.buffer(c));
   return c;
 }
 
@@ -132,7 +132,7 @@ Var affine(Tape<S>& tape, Var x, Var weight, Var bias, Activation activation) {
   const Var y = tape.append({affine_adjoint<S>, {x, weight, bias}, {}, {static_cast<int>(activation)}},
                             in.rows(), w.cols());
   Matrix<S>& out = tape.buffer(y);
-  gemm<S>(false, false, in, w, tape.value(bias).data(), out, tape.gemm_scratch());
+  gemm<S>(false, false, in, w, tape.value(bias).data(), out);
   if (activation != Activation::kLinear) apply_activation(activation, out, out);
   return y;
 }

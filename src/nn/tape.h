@@ -5,7 +5,7 @@
 /// a gradient can enter a loss that is differentiated once more (gradient penalty, METHOD §7).
 ///
 /// Memory. Node i of one pass uses the buffer that node i of the pass before `reset()` used: a tape that
-/// sees the same operations with the same shapes allocates nothing after its first pass. Use one tape per
+/// sees the same operations with the same shapes allocates no values after its first pass. Use one tape per
 /// worker and per kind of loss. References to values hold until the node's place is recorded anew.
 ///
 /// What it does not do: no threads, no broadcasting beyond the named operations, no in-place operations.
@@ -16,7 +16,6 @@
 #include <span>
 #include <vector>
 
-#include "nn/gemm.h"
 #include "nn/matrix.h"
 
 namespace mimicx::nn {
@@ -69,7 +68,6 @@ class Tape {
   /// For operations: a new node with a buffer of that shape and unspecified content.
   Var append(const Recipe& recipe, Eigen::Index rows, Eigen::Index cols);
   const Recipe& recipe(Var v) const { return node(v).recipe; }
-  GemmScratch<S>& gemm_scratch() { return gemm_scratch_; }
 
   /// Gradients of the 1×1 node `scalar` with respect to each of `wrt`, appended to the tape. Nothing is
   /// computed that no entry of `wrt` needs. An entry that `scalar` does not depend on gives zeros.
@@ -89,7 +87,6 @@ class Tape {
 
   std::deque<Node> nodes_;  ///< a deque, because references to values must survive growth
   int size_ = 0;
-  GemmScratch<S> gemm_scratch_;
   std::vector<char> depends_;  ///< [node] leads from a member of wrt
   std::vector<Var> adjoint_;   ///< [node] gradient of the scalar, as far as it has been gathered
 };

@@ -1,0 +1,91 @@
+#include "nn/normaliser.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/random.h"
+
+namespace mimicx::nn {
+namespace {
+
+/// Features of very different place and size; the last one never moves.
+Matrix<float> samples(int rows, std::uint64_t seed) {
+  Random random(seed);
+  Matrix<float> x(rows, 4);
+  for (int i = 0; i < rows; ++i)
+    x.row(i) << static_cast<float>(random.normal()), static_cast<float>(1000 + 0.5 * random.normal()),
+        static_cast<float>(1e-3 * random.normal()), 7.0f;
+  return x;
+}
+
+TEST(Moments, MergedChunksEqualTheWhole) {
+  const auto x = samples(1000, 1);
+  const std::vector<int> cuts = {0, 1, 1, 17, 400, 999, 1000};  // one chunk is empty
+  Moments merged = make_moments(4);
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    merge(merged, moments_of(Matrix<float>(x.middleRows(cuts[k], cuts[k + 1] - cuts[k]))));
+  EXPECT_EQ(merged.count, 1000);
+  for (int j = 0; j < 4; ++j) {
+    double mean = 0, squares = 0;
+    for (int i = 0; i < 1000; ++i) mean += double(x(i, j)) / 1000;
+    for (int i = 0; i < 1000; ++i) squares += (double(x(i, j)) - mean) * (double(x(i, j)) - mean);
+    EXPECT_NEAR(merged.mean(j), mean, 1e-12 * (1 + std::abs(mean)));
+    EXPECT_NEAR(merged.squares(j), squares, 1e-9 * squares);
+  }
+}
+
+TEST(Normaliser, OutputsHaveZeroMeanAndUnitDeviation) {
+  const auto x = samples(5000, 2);
+  auto normaliser = make_normaliser<float>(4);
+  const std::vector<Moments> batches = {moments_of(x)};
+  update<float>(normaliser, batches);
+  Matrix<float> y;
+  normalise(normaliser, x, y);
+  const Moments after = moments_of(y);
+  for (const int j : {0, 1}) {
+    EXPECT_NEAR(after.mean(j), 0.0, 1e-4);
+    EXPECT_NEAR(after.squares(j) / after.count, 1.0, 1e-4);
+  }
+  // A variance of 1e-6 meets the floor of 1e-6: half the unit variance is left.
+  EXPECT_NEAR(after.squares(2) / after.count, 0.5, 0.02);
+  EXPECT_TRUE(y.col(3).isZero(0));
+}
+
+TEST(Normaliser, ClipsAndIsInvertedByDenormaliseInside) {
+  const auto x = samples(500, 3);
+  auto normaliser = make_normaliser<float>(4, 2.0f);
+  const std::vector<Moments> batches = {moments_of(x)};
+  update<float>(normaliser, batches);
+  Matrix<float> y, back;
+  normalise(normaliser, x, y);
+  denormalise(normaliser, y, back);
+  EXPECT_EQ(y.cwiseAbs().maxCoeff(), 2.0f);
+  for (int i = 0; i < 500; ++i)
+    for (int j = 0; j < 4; ++j) {
+      if (std::abs(y(i, j)) == 2.0f) continue;
+      EXPECT_NEAR(back(i, j), x(i, j), 1e-6 * (1 + std::abs(x(i, j))));
+    }
+}
+
+TEST(Normaliser, KnowingNothingItIsTheIdentity) {
+  const auto normaliser = make_normaliser<double>(2);
+  const Matrix<double> x = (Matrix<double>(1, 2) << 3.5, -12.0).finished();
+  Matrix<double> y;
+  normalise(normaliser, x, y);
+  EXPECT_EQ(y, (Matrix<double>(1, 2) << 3.5, -10.0).finished());
+}
+
+TEST(Normaliser, OneUpdateWithTwoBatchesEqualsTwoUpdatesBitForBit) {
+  const std::vector<Moments> batches = {moments_of(samples(100, 4)), moments_of(samples(50, 5))};
+  auto once = make_normaliser<float>(4), twice = make_normaliser<float>(4);
+  update<float>(once, batches);
+  for (const Moments& batch : batches) update<float>(twice, std::span(&batch, 1));
+  EXPECT_EQ(once.moments.mean, twice.moments.mean);
+  EXPECT_EQ(once.moments.squares, twice.moments.squares);
+  EXPECT_EQ(once.factor, twice.factor);
+}
+
+}  // namespace
+}  // namespace mimicx::nn
