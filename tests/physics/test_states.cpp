@@ -1,0 +1,136 @@
+#include "physics/test_states.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace mimicx {
+namespace {
+
+Vector3d to_eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+Vector3d random_vector(Random& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return {x, y, z};
+}
+
+std::array<double, kBetas> random_betas(Random& random) {
+  std::array<double, kBetas> betas;
+  for (double& b : betas) b = random.uniform(-3.0, 3.0);
+  return betas;
+}
+
+Snapshot random_snapshot(Random& random, double angle, double speed, double height) {
+  Snapshot s;
+  s.p_root = {random.uniform(-1, 1), random.uniform(-1, 1), height};
+  s.v_root = speed * random_vector(random);
+  const auto rotation = [&](int i) {
+    const double size = random.uniform(0.0, i == 0 ? std::numbers::pi : angle);
+    const Vector3d axis = is_hinge(i) ? hinge_axis(i) : Vector3d(random_vector(random).normalized());
+    return exp_map(size * axis);
+  };
+  const auto spin = [&](int i) {
+    return is_hinge(i) ? Vector3d(speed * random.normal() * hinge_axis(i))
+                       : Vector3d(speed * random_vector(random));
+  };
+  for (int i = 0; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    s.q[n] = rotation(i);
+    s.omega[n] = spin(i);
+    s.target_q[n] = rotation(i);
+    s.target_omega[n] = i == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(0.3 * spin(i));
+  }
+  return s;
+}
+
+double lowest_point(const Character& character, const Snapshot& s) {
+  const BodyPoses poses = forward_kinematics(character, s.p_root, s.q);
+  double lowest = 1e9;
+  for (const ContactPoint& point : character.contact_points) {
+    const auto i = static_cast<std::size_t>(point.body);
+    lowest = std::min(lowest, (poses.p_WB[i] + poses.q_WB[i] * point.p_B).z() - point.radius);
+  }
+  return lowest;
+}
+
+Snapshot standing(const Character& character) {
+  Snapshot s;
+  s.omega.fill(Vector3d::Zero());
+  s.target_omega.fill(Vector3d::Zero());
+  s.q.fill(Quaterniond::Identity());
+  s.q[0] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
+  const double bend = 0.3;  // hip and ankle undo what the knee flexes: trunk upright, soles flat
+  for (std::size_t hip : {kLeftHip, kRightHip}) s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
+  for (std::size_t knee : {kLeftKnee, kRightKnee}) s.q[knee] = exp_map(Vector3d(bend, 0, 0));
+  for (std::size_t ankle : {kLeftAnkle, kRightAnkle}) s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
+  s.q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.25));
+  s.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.25));
+  s.q[kLeftElbow] = exp_map(0.3 * hinge_axis(kLeftElbow));
+  s.q[kRightElbow] = exp_map(0.3 * hinge_axis(kRightElbow));
+  s.p_root.z() -= lowest_point(character, s);
+  s.target_q = s.q;
+  return s;
+}
+
+BookPosition book_position(const Snapshot& s) {
+  BookPosition position;
+  position.p_root = s.p_root;
+  for (std::size_t i = 0; i < kBodies; ++i) position.R[i] = s.q[i].toRotationMatrix();
+  return position;
+}
+
+Eigen::VectorXd book_velocity(const Snapshot& s) {
+  Eigen::VectorXd qd(kBookDofs);
+  qd.segment<3>(0) = s.omega[0];
+  qd.segment<3>(3) = s.q[0].conjugate() * s.v_root;
+  int dof = 6;
+  for (int i = 1; i < kBodies; ++i) {
+    const Vector3d& w = s.omega[static_cast<std::size_t>(i)];
+    if (is_hinge(i)) {
+      qd(dof++) = hinge_axis(i).dot(w);
+    } else {
+      qd.segment<3>(dof) = w;
+      dof += 3;
+    }
+  }
+  return qd;
+}
+
+Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
+  Eigen::VectorXd qdd(kBookDofs);
+  const Matrix3d R = s.q[0].toRotationMatrix();
+  qdd.segment<3>(0) = R.transpose() * to_eigen(d.a_w[0]);
+  // The spatial acceleration differs from the classical one by ω × v.                  RBDA §2.11
+  qdd.segment<3>(3) = R.transpose() * to_eigen(d.a_v[0]) - s.omega[0].cross(R.transpose() * s.v_root);
+  const BodyPoses poses = forward_kinematics(Character{}, s.p_root, s.q);
+  int dof = 6;
+  for (int i = 1; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const Vector3d x = poses.q_WB[n].conjugate() * to_eigen(d.qdd[n]);
+    if (is_hinge(i)) {
+      qdd(dof++) = hinge_axis(i).dot(x);
+    } else {
+      qdd.segment<3>(dof) = x;
+      dof += 3;
+    }
+  }
+  return qdd;
+}
+
+Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(kBookDofs);
+  int dof = 6;
+  for (int i = 1; i < kBodies; ++i) {
+    const Vector3d t = to_eigen(tau[static_cast<std::size_t>(i)]);
+    if (is_hinge(i)) {
+      out(dof++) = hinge_axis(i).dot(t);
+    } else {
+      out.segment<3>(dof) = t;
+      dof += 3;
+    }
+  }
+  return out;
+}
+
+}  // namespace mimicx

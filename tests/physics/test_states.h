@@ -1,0 +1,107 @@
+/// States for the tests: one character in plain doubles, and its way in and out of the simulator's lanes and
+/// of the oracle.
+#pragma once
+
+#include "core/random.h"
+#include "oracles/book_dynamics.h"
+#include "physics/step.h"
+
+namespace mimicx {
+
+/// One character's state and PD target in doubles; conventions of physics/data.h.
+struct Snapshot {
+  Vector3d p_root = Vector3d::Zero(), v_root = Vector3d::Zero();
+  std::array<Quaterniond, kBodies> q;
+  std::array<Vector3d, kBodies> omega;
+  std::array<Quaterniond, kBodies> target_q;
+  std::array<Vector3d, kBodies> target_omega;
+};
+
+/// Upright with bent knees and arms down, at rest, PD target = pose; soles on the floor.
+Snapshot standing(const Character& character);
+/// Any orientation, joints up to `angle` rad from the T-pose, speeds of about `speed` m/s and rad/s;
+/// targets another such pose. Pelvis at `height`.
+Snapshot random_snapshot(Random& random, double angle, double speed, double height);
+std::array<double, kBetas> random_betas(Random& random);
+Vector3d random_vector(Random& random);
+
+/// Height of the lowest contact point (its sphere's lowest point), m.
+double lowest_point(const Character& character, const Snapshot& s);
+
+BookPosition book_position(const Snapshot& s);
+Eigen::VectorXd book_velocity(const Snapshot& s);
+/// Generalised acceleration that the simulator found, in the oracle's coordinates.
+Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d);
+/// Torques of the joints (entry 0 unused, child's frame) as the oracle's generalised forces.
+Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau);
+
+template <class T>
+Vector3d lane_of(const Vec3<T>& v, int lane) {
+  using Traits = ScalarTraits<T>;
+  return {Traits::get(v.x, lane), Traits::get(v.y, lane), Traits::get(v.z, lane)};
+}
+template <class T>
+void set_lane(Vec3<T>& out, int lane, const Vector3d& v) {
+  ScalarTraits<T>::set(out.x, lane, v.x());
+  ScalarTraits<T>::set(out.y, lane, v.y());
+  ScalarTraits<T>::set(out.z, lane, v.z());
+}
+template <class T>
+void set_lane(Quat<T>& out, int lane, const Quaterniond& q) {
+  ScalarTraits<T>::set(out.w, lane, q.w());
+  ScalarTraits<T>::set(out.x, lane, q.x());
+  ScalarTraits<T>::set(out.y, lane, q.y());
+  ScalarTraits<T>::set(out.z, lane, q.z());
+}
+template <class T>
+Quaterniond lane_of(const Quat<T>& q, int lane) {
+  using Traits = ScalarTraits<T>;
+  return Quaterniond(Traits::get(q.w, lane), Traits::get(q.x, lane), Traits::get(q.y, lane),
+                     Traits::get(q.z, lane));
+}
+
+template <class T>
+void set_lane(const Snapshot& s, int lane, State<T>& state, Target<T>& target) {
+  set_lane(state.p_root, lane, s.p_root);
+  set_lane(state.v_root, lane, s.v_root);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    set_lane(state.q[i], lane, s.q[i]);
+    set_lane(state.omega[i], lane, s.omega[i]);
+    set_lane(target.q[i], lane, s.target_q[i]);
+    set_lane(target.omega[i], lane, s.target_omega[i]);
+  }
+}
+/// The state of a lane; the targets are left as they are.
+template <class T>
+void read_lane(const State<T>& state, int lane, Snapshot& s) {
+  s.p_root = lane_of(state.p_root, lane);
+  s.v_root = lane_of(state.v_root, lane);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    s.q[i] = lane_of(state.q[i], lane);
+    s.omega[i] = lane_of(state.omega[i], lane);
+  }
+}
+
+/// State, target and scratch of one simulated character or pack, on the heap (a pack of 16 is large).
+template <class T>
+struct Simulation {
+  Model<RealOf<T>> model;
+  State<T> state{};
+  Target<T> target{};
+  Data<T> data{};
+  Applied<T> applied{};
+
+  Simulation(const Character& character, const SimulationOptions& options)
+      : model(make_model<RealOf<T>>(character, options)) {}
+  Simulation(const Character& character, const SimulationOptions& options, const Snapshot& s)
+      : Simulation(character, options) {
+    for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) set_lane(s, lane, state, target);
+  }
+  /// One step, with what acted in it (alone) in `applied`.
+  MaskOf<T> advance() {
+    clear(applied);
+    return step(model, target, state, data, &applied);
+  }
+};
+
+}  // namespace mimicx
