@@ -1,6 +1,11 @@
 /// A motion as it stands in a file: SMPL-style rotations and translations, before any reference is made.
 ///
-/// Layout (docs/formats in README): AMASS npz. The world is z up, metres; joint order is that of `Body`.
+/// Layout: AMASS npz. The world is z up, metres; joint order is that of `Body`; the first 22 joints of every
+/// SMPL-family model are the same. Where a file does not name its body model, the number of columns of
+/// `poses` does: 72 → smpl, 156 → smplh, 165 → smplx; 66 columns, or `root_orient` and `pose_body` alone, are
+/// the body part of SMPL-X.
+///
+/// What it does not do: no resampling, no repair, no change of axes (reference.h prepares a motion).
 #pragma once
 
 #include <array>
@@ -16,35 +21,42 @@ namespace mimicx {
 
 /// 2D detections and the pinhole camera that saw them.
 struct Keypoints {
-  std::vector<std::string> names;                 ///< [K]
-  std::vector<std::vector<Vector3d>> uvc;         ///< [frames][K] u, v in pixels and confidence in [0, 1]
+  std::vector<std::string> names;          ///< [K]
+  std::vector<std::vector<Vector3d>> uvc;  ///< [frames][K] u, v in pixels and confidence in [0, 1]
   Matrix3d intrinsics = Matrix3d::Identity();
-  std::vector<Eigen::Matrix4d> extrinsics;        ///< one, or one per frame: world → camera (x right, y down, z forward)
+  std::vector<Eigen::Matrix4d>
+      extrinsics;  ///< one, or one per frame: world → camera (x right, y down, z forward)
 };
 
 struct Clip {
-  std::string name;                               ///< file name without folder and suffix
+  std::string name;  ///< file name without folder and suffix
   double fps = 30.0;
-  std::vector<std::array<Vector3d, kBodies>> rotations;  ///< [frames][22] axis-angle: root in world, joints local
-  std::vector<Vector3d> trans;                    ///< [frames] SMPL's trans: pelvis = trans + J0(body_model)
-  std::array<double, kBetas> betas{};             ///< as in the file
+  std::vector<std::array<Vector3d, kBodies>>
+      rotations;                       ///< [frames][22] axis-angle: root in world, joints local
+  std::vector<Vector3d> trans;         ///< [frames] SMPL's trans: pelvis = trans + J0(body_model)
+  std::array<double, kBetas> betas{};  ///< as in the file
   std::string body_model = "mimicx";
   std::string gender = "neutral";
   std::optional<Keypoints> keypoints;
   std::vector<std::pair<std::string, NpyArray>> passthrough;  ///< members the program does not use
-  std::vector<std::string> warnings;              ///< one line each, e.g. a foreign beta that was set aside
+  std::vector<std::string> warnings;  ///< one line each, e.g. a foreign beta that was set aside
 
   int frames() const { return static_cast<int>(rotations.size()); }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.
   std::array<double, kBetas> usable_betas() const;
 };
 
-/// Reads an AMASS-style npz: `poses` of 66, 72, 156 or 165 columns or `root_orient` + `pose_body`;
-/// `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`.
+/// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
+/// 165 columns); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`. Columns of `poses` past the 66th
+/// are kept as the member `poses_rest`, unless the file holds them as named arrays. Undetected keypoints
+/// (not finite) get confidence 0.
 /// @throws DataError naming file and member.
 Clip read_clip(const std::filesystem::path& path);
 
-/// Writes our own motion file; `extra` members follow the standard ones.
+/// The members of our own motion file: the standard ones, keypoints and camera, what passed through, and
+/// `extra`, which replaces a member of the same name.
+Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra = {});
+/// Writes them.
 void write_clip(const std::filesystem::path& path, const Clip& clip,
                 const std::vector<std::pair<std::string, NpyArray>>& extra = {});
 

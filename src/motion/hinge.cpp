@@ -1,0 +1,108 @@
+/// Knees and elbows as hinges.                                                        METHOD §2
+///
+/// A limb is: upper body A (hip or shoulder), hinge body B (knee or elbow), end body C (ankle or wrist); in
+/// the world u is the vector from A's joint to B's and v the one from B's to C's. The hinge angle follows
+/// from the angle α between u and v alone. It fixes the distance |u + v|, so that turning A points its chain
+/// exactly at C's joint; what is left is the swivel ψ about the line from A's joint to C's, and one value ψ*
+/// of it puts B's joint where it was: then u, v and all joints are exact.
+///
+/// Near a straight limb ψ* loses its meaning (B's joint is nearly on that line) and would turn A by large
+/// angles for millimetres; ψ is then drawn, smoothly, to the swivel of A's own SMPL rotation. C's joint stays
+/// where it was; B's moves by a few millimetres. The bones of the rest pose are not in one plane with
+/// the hinge's normal: the limb cannot be straighter than about 8° (leg) or 5° (arm), the rest is residual.
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "motion/reference.h"
+
+namespace mimicx {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis: such a joint stays as it is
+constexpr double kStraightWeight = 0.06;           ///< κ²: pull to SMPL's own swivel, in units of sin²α
+constexpr double kStraightFrom = 15.0 * kDegree;   ///< the pull fades out …
+constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and is gone: above, the conversion is exact
+
+struct Limb {
+  int upper, hinge, end;
+};
+constexpr std::array<Limb, 4> kLimbs = {{{kLeftHip, kLeftKnee, kLeftAnkle},
+                                         {kRightHip, kRightKnee, kRightAnkle},
+                                         {kLeftShoulder, kLeftElbow, kLeftWrist},
+                                         {kRightShoulder, kRightElbow, kRightWrist}}};
+
+/// Angle of the rotation about `axis` closest to q, in (-π, π].
+double hinge_angle(const Quaterniond& q, const Vector3d& axis) {
+  return log_map(twist_about(q, axis)).dot(axis);
+}
+
+/// Angle in (-π, π] about the unit axis that turns `from` to `to`, both seen along the axis.
+double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
+  const Vector3d a = from - axis.dot(from) * axis, b = to - axis.dot(to) * axis;
+  return std::atan2(axis.dot(a.cross(b)), a.dot(b));
+}
+
+/// Flexing angle at which the bones a (upper) and b (lower, in the hinge's child) enclose a·b' = `dot`:
+/// a·Rot(axis, θ)b = axial + A cos θ + B sin θ, solved for θ at or past the straightest angle.
+double solve_hinge(const Vector3d& a, const Vector3d& b, const Vector3d& axis, double dot) {
+  const double axial = axis.dot(a) * axis.dot(b);
+  const double A = a.dot(b) - axial, B = a.dot(axis.cross(b));
+  return std::atan2(B, A) + std::acos(std::clamp((dot - axial) / std::hypot(A, B), -1.0, 1.0));
+}
+
+double smooth_step(double x) {
+  x = std::clamp(x, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+/// ψ between ψ* (the limb is bent) and 0 (it is straight): the minimiser of
+/// s·|e^{iψ} - e^{iψ*}|² + κ²·|e^{iψ} - 1|² with s the product of the true and the hinged limb's sines.
+double blended_swivel(double exact, double bend, double hinged_bend) {
+  const double pull =
+      kStraightWeight * (1.0 - smooth_step((bend - kStraightFrom) / (kStraightUntil - kStraightFrom)));
+  return std::arg(std::sin(bend) * std::sin(hinged_bend) * std::polar(1.0, exact) + pull);
+}
+
+double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// @param R  world rotations of the SMPL motion; @param q  joint rotations to change
+void convert_limb(const Character& character, const Limb& limb, const std::array<Quaterniond, kBodies>& R,
+                  std::array<Quaterniond, kBodies>& q) {
+  const auto A = static_cast<std::size_t>(limb.upper), B = static_cast<std::size_t>(limb.hinge);
+  const auto C = static_cast<std::size_t>(limb.end), P = static_cast<std::size_t>(kParents[A]);
+  const Vector3d axis = hinge_axis(limb.hinge);
+  const Quaterniond twist = twist_about(q[B], axis);
+  if (q[B].angularDistance(twist) < kAlreadyHinge) {
+    q[B] = exp_map(hinge_angle(twist, axis) * axis);
+    return;
+  }
+  const Vector3d &a = character.joint_offset[B], &b = character.joint_offset[C];
+  const Vector3d u = R[A] * a, v = R[B] * b, line = (u + v).normalized();
+  const Quaterniond bend = exp_map(solve_hinge(a, b, axis, u.dot(v)) * axis);
+  const Vector3d chain = a + bend * b;  // from A's joint to C's, in A's frame
+  const Quaterniond aimed = Quaterniond::FromTwoVectors(R[A] * chain, line) * R[A];
+  const double exact = angle_about(line, aimed * a, u);
+  const double swivel = blended_swivel(exact, angle_between(u, v), angle_between(a, bend * b));
+  const Quaterniond upper = (Quaterniond(Eigen::AngleAxisd(swivel, line)) * aimed).normalized();
+  q[A] = R[P].conjugate() * upper;
+  q[B] = bend;
+  q[C] = (upper * bend).conjugate() * R[C];
+}
+
+}  // namespace
+
+std::vector<std::array<Quaterniond, kBodies>> to_hinges(
+    const Character& character, const std::vector<std::array<Quaterniond, kBodies>>& smpl) {
+  std::vector<std::array<Quaterniond, kBodies>> out = smpl;
+  for (std::array<Quaterniond, kBodies>& q : out) {
+    std::array<Quaterniond, kBodies> R = q;
+    for (std::size_t i = 1; i < kBodies; ++i) R[i] = R[static_cast<std::size_t>(kParents[i])] * q[i];
+    for (const Limb& limb : kLimbs) convert_limb(character, limb, R, q);
+  }
+  return out;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,253 @@
+#include "motion/metrics.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mimicx {
+namespace {
+
+constexpr double kMm = 1000.0;
+constexpr double kContactHeight = 0.005;  ///< m; a point at or under it touches the floor
+constexpr double kStaticMotion = 0.010;   ///< m/frame; a foot point of the truth under it stands
+constexpr double kMaxBodyDistance = 0.5;  ///< m
+constexpr double kMaxMpjpe = 60.0;        ///< mm
+
+using Joints = std::array<Vector3d, kBodies>;
+
+/// Running mean.
+struct Mean {
+  double sum = 0.0;
+  std::size_t count = 0;
+  void add(double sample) {
+    sum += sample;
+    ++count;
+  }
+  MetricValue times(double factor) const {
+    return count == 0 ? MetricValue{} : MetricValue{factor * sum / static_cast<double>(count), count};
+  }
+};
+
+/// Order 1: Δp, 2: Δ²p, 3: Δ³p of joint j, at frames t .. t + order.
+Vector3d difference(const std::vector<Joints>& p, std::size_t t, std::size_t j, int order) {
+  switch (order) {
+    case 1:
+      return p[t + 1][j] - p[t][j];
+    case 2:
+      return p[t + 2][j] - 2.0 * p[t + 1][j] + p[t][j];
+    default:
+      return p[t + 3][j] - 3.0 * p[t + 2][j] + 3.0 * p[t + 1][j] - p[t][j];
+  }
+}
+
+/// Mean distance of the joints after the similarity transform that brings p closest to g.
+/// Umeyama, IEEE PAMI 13 (1991): rotation from the SVD of the cross-covariance, reflections excluded.
+double procrustes_error(const Joints& p, const Joints& g) {
+  using Points = Eigen::Matrix<double, 3, kBodies>;
+  Points P, G;
+  for (int j = 0; j < kBodies; ++j) {
+    P.col(j) = p[static_cast<std::size_t>(j)];
+    G.col(j) = g[static_cast<std::size_t>(j)];
+  }
+  P.colwise() -= Vector3d(P.rowwise().mean());
+  G.colwise() -= Vector3d(G.rowwise().mean());
+  const Eigen::JacobiSVD<Matrix3d> svd(Matrix3d(G * P.transpose()),
+                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3d sign = Vector3d::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) sign.z() = -1.0;
+  const Matrix3d R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  const double size = P.squaredNorm();
+  const double scale = size > 0.0 ? svd.singularValues().dot(sign) / size : 1.0;
+  return (scale * R * P - G).colwise().norm().mean();
+}
+
+void compare_with_truth(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {
+  const auto &p = motion.joints, &g = truth.joints;
+  Mean root, global, local, procrustes, vel, accel;
+  for (std::size_t t = 0; t < p.size(); ++t) {
+    root.add((p[t][0] - g[t][0]).norm());
+    for (std::size_t j = 0; j < kBodies; ++j) {
+      global.add((p[t][j] - g[t][j]).norm());
+      local.add(((p[t][j] - p[t][0]) - (g[t][j] - g[t][0])).norm());
+      if (t + 1 < p.size()) vel.add((difference(p, t, j, 1) - difference(g, t, j, 1)).norm());
+      if (t + 2 < p.size()) accel.add((difference(p, t, j, 2) - difference(g, t, j, 2)).norm());
+    }
+    procrustes.add(procrustes_error(p[t], g[t]));
+  }
+  m.mrpe = root.times(kMm);
+  m.gmpjpe = global.times(kMm);
+  m.mpjpe = local.times(kMm);
+  m.pa_mpjpe = procrustes.times(kMm);
+  m.vel = vel.times(kMm);
+  m.accel = accel.times(kMm);
+}
+
+double lowest(const std::vector<Vector3d>& points) {
+  double z = std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : points) z = std::min(z, p.z());
+  return z;
+}
+
+/// Mean horizontal displacement of the points at or under `height` in both frames; 0 without any.
+double slide(const std::vector<Vector3d>& now, const std::vector<Vector3d>& next, double height) {
+  Mean displacement;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (now[i].z() <= height && next[i].z() <= height) displacement.add((next[i] - now[i]).head<2>().norm());
+  return displacement.count == 0 ? 0.0 : displacement.times(1.0).value;
+}
+
+double mean_depth(const std::vector<Vector3d>& points) {
+  Mean depth;
+  for (const Vector3d& p : points)
+    if (p.z() < 0.0) depth.add(-p.z());
+  return depth.count == 0 ? 0.0 : depth.times(1.0).value;
+}
+
+double floating_height(const std::vector<Vector3d>& points) {
+  const double z = lowest(points);
+  return z > kContactHeight ? z : 0.0;
+}
+
+void judge_physics(const MotionSamples& motion, Metrics& m) {
+  const auto& surface = motion.surface;
+  Mean fs, fs_0, gp, gp_max, floating, jitter, self_pen;
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    if (t + 1 < surface.size()) {
+      fs.add(slide(surface[t], surface[t + 1], kContactHeight));
+      fs_0.add(slide(surface[t], surface[t + 1], 0.0));
+    }
+    gp.add(mean_depth(surface[t]));
+    gp_max.add(std::max(0.0, -lowest(surface[t])));
+    floating.add(floating_height(surface[t]));
+  }
+  for (const double depth : motion.self_depth) self_pen.add(depth);
+  for (std::size_t t = 0; t + 3 < motion.joints.size(); ++t)
+    for (std::size_t j = 0; j < kBodies; ++j) jitter.add(difference(motion.joints, t, j, 3).norm());
+  m.fs = fs.times(kMm);
+  m.fs_0 = fs_0.times(kMm);
+  m.gp = gp.times(kMm);
+  m.gp_max = gp_max.times(kMm);
+  m.floating = floating.times(kMm);
+  m.self_pen = self_pen.times(kMm);
+  m.jitter = jitter.times(std::pow(motion.fps, 3) / 10.0);
+}
+
+void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {
+  const auto &p = motion.surface, &g = truth.surface;
+  Mean slide, floating;
+  for (std::size_t t = 0; t < p.size(); ++t) {
+    if (lowest(g[t]) <= kContactHeight) floating.add(floating_height(p[t]));
+    for (std::size_t i = 0; i < kFootPoints && t + 1 < p.size(); ++i)
+      if ((g[t + 1][i] - g[t][i]).norm() < kStaticMotion) slide.add((p[t + 1][i] - p[t][i]).norm());
+  }
+  m.fs_gt = slide.times(kMm);
+  m.float_gt = floating.times(kMm);
+}
+
+double self_depth(const Character& character, const BodyPoses& poses) {
+  Mean depth;
+  for (const auto& [i, j] : character.self_pairs) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const Capsule &A = character.capsule[a], &B = character.capsule[b];
+    const auto world = [&](std::size_t body, const Vector3d& p_B) {
+      return poses.p_WB[body] + poses.q_WB[body] * p_B;
+    };
+    const double gap = segment_distance(world(a, A.a_B), world(a, A.b_B), world(b, B.a_B), world(b, B.b_B)) -
+                       A.radius - B.radius;
+    if (gap < 0.0) depth.add(-gap);
+  }
+  return depth.count == 0 ? 0.0 : depth.times(1.0).value;
+}
+
+}  // namespace
+
+double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1) {
+  // Ericson, "Real-Time Collision Detection" (2005), section 5.1.9: clamp the parameters of the lines.
+  const Vector3d d1 = a1 - a0, d2 = b1 - b0, r = a0 - b0;
+  const double a = d1.squaredNorm(), e = d2.squaredNorm(), b = d1.dot(d2), c = d1.dot(r), f = d2.dot(r);
+  const auto clamped = [](double numerator, double denominator) {
+    return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0.0;
+  };
+  double s = clamped(b * f - c * e, a * e - b * b);
+  double t = clamped(b * s + f, e);
+  s = clamped(b * t - c, a);
+  return (r + s * d1 - t * d2).norm();
+}
+
+MotionSamples sample_motion(const Character& character, const std::vector<BodyPoses>& poses, double fps) {
+  const std::vector<SurfacePoint> points = surface_points(character);
+  MotionSamples samples;
+  samples.fps = fps;
+  for (const BodyPoses& pose : poses) {
+    samples.joints.push_back(pose.p_WB);
+    samples.surface.push_back(surface_positions(points, pose));
+    samples.self_depth.push_back(self_depth(character, pose));
+  }
+  return samples;
+}
+
+const std::vector<MetricDefinition>& metric_definitions() {
+  static const std::vector<MetricDefinition> definitions = {
+      {"MRPE", "mm", "mean distance of the pelvis from the truth's, no alignment", &Metrics::mrpe},
+      {"gMPJPE", "mm", "mean distance of the 22 joints from the truth's, no alignment", &Metrics::gmpjpe},
+      {"MPJPE", "mm", "the same after moving both pelvises to the origin", &Metrics::mpjpe},
+      {"PA-MPJPE", "mm", "the same after a similarity Procrustes per frame", &Metrics::pa_mpjpe},
+      {"Vel", "mm/frame", "mean norm of the difference of joint velocities", &Metrics::vel},
+      {"Accel", "mm/frame^2", "mean norm of the difference of joint accelerations", &Metrics::accel},
+      {"FS", "mm/frame", "horizontal displacement of surface points at z <= 5 mm in both frames",
+       &Metrics::fs},
+      {"GP", "mm", "mean depth of the surface points below the floor, per frame", &Metrics::gp},
+      {"Float", "mm", "height of the lowest surface point where it exceeds 5 mm, else 0", &Metrics::floating},
+      {"FS_0", "mm/frame", "FS of the points at z <= 0", &Metrics::fs_0},
+      {"FS_gt", "mm/frame", "displacement of foot points where the truth's move less than 10 mm/frame",
+       &Metrics::fs_gt},
+      {"GP_max", "mm", "depth of the lowest surface point, mean over frames", &Metrics::gp_max},
+      {"Float_gt", "mm", "Float over the frames where the truth's lowest point is at z <= 5 mm",
+       &Metrics::float_gt},
+      {"Jitter", "10 m/s^3", "mean norm of the third difference of joint positions", &Metrics::jitter},
+      {"SelfPen", "mm", "mean overlap of the capsule pairs that collide, per frame", &Metrics::self_pen},
+  };
+  return definitions;
+}
+
+Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth) {
+  const auto complete = [](const MotionSamples& s) { return s.surface.size() == s.joints.size(); };
+  if (!complete(motion) || (truth && !complete(*truth)))
+    throw std::invalid_argument("evaluate_motion: joints and surface differ in length");
+  Metrics m;
+  judge_physics(motion, m);
+  if (!truth) return m;
+  if (truth->frames() != motion.frames() || truth->fps != motion.fps)
+    throw std::invalid_argument("evaluate_motion: truth and motion differ in length or frame rate");
+  for (const MotionSamples* s : {&motion, truth})
+    for (const auto& points : s->surface)
+      if (points.size() < kFootPoints) throw std::invalid_argument("evaluate_motion: a surface without feet");
+  compare_with_truth(motion, *truth, m);
+  judge_where_truth_stands(motion, *truth, m);
+  return m;
+}
+
+Success judge_success(const MotionSamples& simulated, const MotionSamples& reference) {
+  Success s;
+  const auto frames = static_cast<std::size_t>(std::min(simulated.frames(), reference.frames()));
+  Mean mpjpe;
+  for (std::size_t t = 0; t < frames; ++t)
+    for (std::size_t j = 0; j < kBodies; ++j) {
+      const Vector3d &p = simulated.joints[t][j], &g = reference.joints[t][j];
+      s.max_distance_m = std::max(s.max_distance_m, (p - g).norm());
+      mpjpe.add(((p - simulated.joints[t][0]) - (g - reference.joints[t][0])).norm());
+    }
+  s.mpjpe_mm = mpjpe.times(kMm).value;
+  if (simulated.frames() != reference.frames() || frames == 0)
+    s.reason = "only " + std::to_string(frames) + " of " + std::to_string(reference.frames()) +
+               " frames were simulated";
+  else if (!(s.max_distance_m <= kMaxBodyDistance))
+    s.reason = "a body was " + std::to_string(s.max_distance_m) + " m from its reference (limit 0.5 m)";
+  else if (!(s.mpjpe_mm <= kMaxMpjpe))
+    s.reason = "MPJPE to the reference is " + std::to_string(s.mpjpe_mm) + " mm (limit 60 mm)";
+  s.success = s.reason.empty();
+  return s;
+}
+
+}  // namespace mimicx

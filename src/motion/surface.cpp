@@ -1,0 +1,62 @@
+#include "motion/surface.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace mimicx {
+namespace {
+
+constexpr int kRingPoints = 8;
+
+/// Points on the half sphere at `end`, whose pole is `outward`: a ring on its rim, a staggered ring halfway
+/// up, the tip.
+void add_cap(std::vector<SurfacePoint>& points, int body, const Vector3d& end, const Vector3d& outward,
+             double radius) {
+  const Vector3d side = outward.unitOrthogonal(), other = outward.cross(side);
+  for (int ring = 0; ring < 2; ++ring) {
+    const double latitude = ring * std::numbers::pi / 4.0;
+    for (int k = 0; k < kRingPoints; ++k) {
+      const double longitude = 2.0 * std::numbers::pi * (k + 0.5 * ring) / kRingPoints;
+      const Vector3d around = std::cos(longitude) * side + std::sin(longitude) * other;
+      points.push_back({body, end + radius * (std::cos(latitude) * around + std::sin(latitude) * outward)});
+    }
+  }
+  points.push_back({body, end + radius * outward});
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> surface_points(const Character& character) {
+  std::vector<SurfacePoint> points;
+  for (std::size_t i = 0; i < kFootPoints; ++i)
+    points.push_back({character.contact_points[i].body, character.contact_points[i].p_B});
+  for (const Capsule& c : character.capsule) {
+    if (c.body == kLeftAnkle || c.body == kRightAnkle || c.body == kLeftFoot || c.body == kRightFoot)
+      continue;
+    const Vector3d axis = (c.b_B - c.a_B).normalized();
+    add_cap(points, c.body, c.a_B, -axis, c.radius);
+    add_cap(points, c.body, c.b_B, axis, c.radius);
+  }
+  return points;
+}
+
+std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
+  std::array<Matrix3d, kBodies> R_WB;
+  for (std::size_t i = 0; i < kBodies; ++i) R_WB[i] = poses.q_WB[i].toRotationMatrix();
+  std::vector<Vector3d> positions;
+  positions.reserve(points.size());
+  for (const SurfacePoint& point : points) {
+    const auto body = static_cast<std::size_t>(point.body);
+    positions.push_back(poses.p_WB[body] + R_WB[body] * point.p_B);
+  }
+  return positions;
+}
+
+double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : surface_positions(points, poses)) lowest = std::min(lowest, p.z());
+  return lowest;
+}
+
+}  // namespace mimicx
