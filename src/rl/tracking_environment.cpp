@@ -16,9 +16,9 @@ int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
   return (clip.size() + config.bin_frames - 1) / config.bin_frames;
 }
 
-/// Where to start: a uniform share, and the rest in the bins that lead to falls. A fall in bin b is learned
-/// from starts in b and in the two bins before it.
-std::vector<double> weights_of(const std::vector<double>& fall_rates, double uniform) {
+}  // namespace
+
+std::vector<double> start_weights(const std::vector<double>& fall_rates, double uniform) {
   const std::size_t n = fall_rates.size();
   std::vector<double> hard(n, 0.0);
   for (std::size_t b = 0; b < n; ++b)
@@ -31,8 +31,6 @@ std::vector<double> weights_of(const std::vector<double>& fall_rates, double uni
                              : 1.0 / static_cast<double>(n);
   return weights;
 }
-
-}  // namespace
 
 void TrackingStatistics::clear() {
   reward_terms.fill(0.0);
@@ -69,7 +67,7 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
     last_.falls.emplace_back(bins, 0);
     last_.visits.emplace_back(bins, 0);
     fall_rates_.emplace_back(bins, 0.0);
-    start_weights_.push_back(weights_of(fall_rates_.back(), config_.uniform_starts));
+    start_weights_.push_back(start_weights(fall_rates_.back(), config_.uniform_starts));
   }
   groups_.resize(static_cast<std::size_t>(characters / group_size));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -151,7 +149,7 @@ void TrackingEnvironment::end_iteration() {
       const double rate = static_cast<double>(last_.falls[c][b]) / static_cast<double>(last_.visits[c][b]);
       fall_rates_[c][b] = kFallRateMemory * fall_rates_[c][b] + (1.0 - kFallRateMemory) * rate;
     }
-    start_weights_[c] = weights_of(fall_rates_[c], config_.uniform_starts);
+    start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }
 }
 
@@ -184,7 +182,7 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   }
   for (std::size_t c = 0; c < clips_.size(); ++c) {
     fall_rates_[c] = archive.at(prefix + "fall_rates" + std::to_string(c)).to_double();
-    start_weights_[c] = weights_of(fall_rates_[c], config_.uniform_starts);
+    start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }
 }
 

@@ -28,6 +28,10 @@ struct TrackingStatistics {
   void add(const TrackingStatistics& other);
 };
 
+/// Probability of starting in each bin: a uniform share, and the rest in the bins that lead to falls. A fall
+/// in bin b is learned from starts in b and in the two bins before it.
+std::vector<double> start_weights(const std::vector<double>& fall_rates, double uniform_share);
+
 class TrackingEnvironment {
  public:
   /// @param characters  in all; a multiple of group_size

@@ -37,6 +37,21 @@ double mean_distance(const Pose& a, const Pose& b) {
 
 }  // namespace
 
+MeanAction mean_action(const Agent& agent) {
+  struct Actor {
+    Agent agent;
+    nn::Matrix<float> state, normalised, mean;
+    nn::Workspace<float> workspace;
+  };
+  auto actor = std::make_shared<Actor>(Actor{agent, nn::Matrix<float>(1, kStateSize), {}, {}, {}});
+  return [actor](const float* state, float* action) {
+    std::copy(state, state + kStateSize, actor->state.data());
+    nn::normalise(actor->agent.observations, actor->state, actor->normalised);
+    nn::evaluate(actor->agent.actor, actor->normalised, actor->workspace, actor->mean);
+    std::copy(actor->mean.data(), actor->mean.data() + kDofs, action);
+  };
+}
+
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy) {
   TrackingRollout out;

@@ -5,12 +5,15 @@
 #include <memory>
 #include <vector>
 
+#include "rl/policy.h"
 #include "rl/tracking_pack.h"
 
 namespace mimicx::rl {
 
 /// Mean action of a policy: s_t [570] → a_t [55].
 using MeanAction = std::function<void(const float* state, float* action)>;
+/// That of an agent; the agent is copied.
+MeanAction mean_action(const Agent& agent);
 
 /// One simulated motion; index 0 is the start on the reference's first frame. Forces are means over the
 /// control interval that ends at the frame (zero at frame 0), as applied by the implicit solver.
