@@ -74,7 +74,7 @@ void ball_joint_inertia(std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa
   const Inertia<T>& IA = d.IA[i];
   const T delta = d.delta[i];
   d.D_inv[i] = inverse(add_diagonal(IA.A, delta));  // D = SᵀU + δ
-  d.u[i] = d.tau[i] - d.pA[i].n;                    // u = τ − SᵀpA
+  d.u[i] = d.tau[i] + d.tau_range[i] - d.pA[i].n;   // u = τ − SᵀpA
   const Mat3<T> M = d.D_inv[i] * IA.B;              // D⁻¹B
   const T minus_delta_2 = -(delta * delta);
   Ia.A = {fma(minus_delta_2, d.D_inv[i].xx, delta),
@@ -97,7 +97,7 @@ void hinge_inertia(const Vec3<T>& axis, std::size_t i, Data<T>& d, Inertia<T>& I
   const Inertia<T>& IA = d.IA[i];
   const Vec3<T> U_n = IA.A * axis, U_f = transpose_times(IA.B, axis);  // U = IA S
   const T D_inv = T(1.0) / (dot(axis, U_n) + d.delta[i]);
-  const T u = dot(axis, d.tau[i] - d.pA[i].n);
+  const T u = dot(axis, d.tau[i] + d.tau_range[i] - d.pA[i].n);
   d.D_inv[i].xx = D_inv;
   d.u[i].x = u;
   const Vec3<T> n = D_inv * U_n, f = D_inv * U_f;

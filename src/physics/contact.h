@@ -83,16 +83,30 @@ void add_ground(const GroundContact<T>& c, Inertia<T>& IA, Wrench<T>& pA) {
   pA.n -= cross(a, f);
 }
 
-/// After an acceleration pass: the force that acted, and the coefficients for the next pass if there is one.
+/// Acceleration of the touching point after a solve.
 template <class T>
-void update_ground(const Model<RealOf<T>>& model, bool relinearise, Data<T>& d) {
-  const T dt(model.dt);
+Vec3<T> point_acceleration(const Model<RealOf<T>>& model, const GroundContact<T>& c, const Data<T>& d) {
+  const auto i = static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(c.index)].body);
+  return d.a_v[i] + cross(d.a_w[i], c.arm) + c.centripetal;
+}
+
+/// Between two passes: the coefficients at the velocities that the last pass predicts.
+template <class T>
+void relinearise_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
     GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
-    const auto i = static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(c.index)].body);
-    const Vec3<T> a = d.a_v[i] + cross(d.a_w[i], c.arm) + c.centripetal;
+    const Vec3<T> v_end = add_scaled(c.velocity, T(model.dt), point_acceleration(model, c, d));
+    linearise_ground(model.options, T(model.dt), v_end, c);
+  }
+}
+
+/// After the last pass: the forces that acted.
+template <class T>
+void find_applied_ground(const Model<RealOf<T>>& model, Data<T>& d) {
+  for (int k = 0; k < d.ground_count; ++k) {
+    GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
+    const Vec3<T> a = point_acceleration(model, c, d);
     c.applied = {fma(-c.W_t, a.x, c.f.x), fma(-c.W_t, a.y, c.f.y), fma(-c.W_n, a.z, c.f.z)};
-    if (relinearise) linearise_ground(model.options, dt, add_scaled(c.velocity, dt, a), c);
   }
 }
 

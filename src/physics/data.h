@@ -66,9 +66,9 @@ struct Data {
   // joints: τ at the start of the step and the implicit diagonal, PD and anatomical range apart
   std::array<Vec3<T>, kBodies> tau_pd, tau_range;  ///< N·m
   std::array<T, kBodies> delta_pd, delta_range;    ///< kg·m²
-  std::array<Vec3<T>, kBodies> tau;                ///< in use in this pass (torque bound applied)
+  std::array<Vec3<T>, kBodies> tau;                ///< of the PD in use in this pass (bound applied)
   std::array<T, kBodies> delta;                    ///< in use in this pass, armature included
-  std::array<MaskOf<T>, kBodies> saturated;
+  std::array<MaskOf<T>, kBodies> saturated;        ///< PD torque is a constant at its bound
 
   // articulated bodies (RBDA table 7.1): for a ball joint U = [A; Bᵀ], for a hinge U = (U_n; U_f)
   std::array<Inertia<T>, kBodies> IA;
@@ -87,6 +87,7 @@ struct Data {
 template <class T>
 struct Applied {
   std::array<Vec3<T>, kBodies> joint_torque;    ///< child's frame, N·m (PD and range; without armature)
+  std::array<Vec3<T>, kBodies> range_torque;    ///< the part of it that came from the anatomical range
   std::array<Wrench<T>, kBodies> ground, self;  ///< about the body's joint centre, world axes
   std::array<T, kMaxContacts> point_force;      ///< normal force per Model::contacts entry, N
   int steps = 0;

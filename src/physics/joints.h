@@ -4,8 +4,9 @@
 ///     τ = kp·φ − (kd + dt·kp)·ω + kd·ω*  −  δ·q̈,      δ = dt·kd + dt²·kp,      φ = log(q⁻¹ q*),
 /// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3
 /// A joint outside its range gets the same form with the range's own stiffness, pushing back along the
-/// gradient of the range ellipsoid. The bound holds for the torque of the PD controller; the range is the
-/// bone's, not the muscle's.
+/// gradient of the range ellipsoid. The bound holds for the torque of the PD controller, strictly: joints
+/// that exceed it after the last pass are made constant too and the step is solved again. The range is the
+/// bone's, not the muscle's, and has no bound.
 #pragma once
 
 #include "physics/data.h"
@@ -48,35 +49,65 @@ void compute_joint_torques(const Model<RealOf<T>>& model, const State<T>& state,
     d.tau_pd[i] = d.R_WB[i] * tau;
     d.delta_pd[i] = dt * fma(dt, kp, kd);
     compute_range(model, state, i, d);
-    d.saturated[i] = T(0.0) > T(1.0);
   }
 }
 
-/// Chooses what this pass uses: the implicit law, or the constant bound where the law would exceed it.
-/// A joint that saturates in one pass of a step stays saturated in the next ones; the direction is renewed.
-template <class T>
-void apply_torque_bounds(const Model<RealOf<T>>& model, bool first_pass, Data<T>& d) {
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const T limit(model.torque_limit[i]), armature(model.armature[i]);
-    const Vec3<T> law = first_pass ? d.tau_pd[i] : add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
-    const T size = norm(law);  // of a hinge both vectors lie along its axis
-    const auto over = size > limit;
-    if (!first_pass) d.saturated[i] = d.saturated[i] | over;
-    const T scale = limit / max(size, limit);
-    d.tau[i] = select<T>(d.saturated[i], scale * law, d.tau_pd[i]) + d.tau_range[i];
-    d.delta[i] = armature + select(d.saturated[i], T(0.0), d.delta_pd[i]) + d.delta_range[i];
-  }
-}
-
-/// Torque of the PD controller that acted in the last pass, world axes.
+/// Torque of the PD controller that acted in the last solve, world axes.
 template <class T>
 Vec3<T> applied_pd_torque(const Data<T>& d, std::size_t i) {
-  const Vec3<T> constant = d.tau[i] - d.tau_range[i];
-  return add_scaled(constant, select(d.saturated[i], T(0.0), -d.delta_pd[i]), d.qdd[i]);
+  return add_scaled(d.tau[i], select(d.saturated[i], T(0.0), -d.delta_pd[i]), d.qdd[i]);
 }
 template <class T>
 Vec3<T> applied_range_torque(const Data<T>& d, std::size_t i) {
   return add_scaled(d.tau_range[i], -d.delta_range[i], d.qdd[i]);
+}
+
+/// The first pass uses the implicit law in every joint.
+template <class T>
+void use_pd_law(const Model<RealOf<T>>& model, Data<T>& d) {
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    d.saturated[i] = T(0.0) > T(1.0);
+    d.tau[i] = d.tau_pd[i];
+    d.delta[i] = T(model.armature[i]) + d.delta_pd[i] + d.delta_range[i];
+  }
+}
+
+/// Before a later pass: where the law, with the accelerations of the pass before, exceeds the bound, the
+/// torque becomes a constant of the bound's size along the law; elsewhere it is the implicit law. This is the
+/// active-set form of Newton's method for τ = clamp(law − δ·q̈).
+template <class T>
+void apply_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const T limit(model.torque_limit[i]), armature(model.armature[i]);
+    const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
+    const T size = norm(law);  // of a hinge both vectors lie along its axis
+    d.saturated[i] = size > limit;
+    const T scale = limit / max(size, limit);
+    d.tau[i] = select<T>(d.saturated[i], scale * law, d.tau_pd[i]);
+    d.delta[i] = armature + select(d.saturated[i], T(0.0), d.delta_pd[i]) + d.delta_range[i];
+  }
+}
+
+/// After the last pass: saturates the joints that exceed their bound only now, and leaves every other joint
+/// and lane as it is, so that solving again repeats an unaffected lane bit by bit.
+/// @return mask of the lanes that must be solved again; each call that returns one saturates at least one
+///         more joint of it, so that a lane needs at most 21 repetitions
+template <class T>
+MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
+  MaskOf<T> again = T(0.0) > T(1.0);
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const T limit(model.torque_limit[i]);
+    const Vec3<T> torque = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
+    const T size_2 = dot(torque, torque);
+    const MaskOf<T> over = (size_2 > limit * limit) & !d.saturated[i];
+    if (!any(over)) continue;
+    again = again | over;
+    d.saturated[i] = d.saturated[i] | over;
+    const T scale = limit / sqrt(max(size_2, limit * limit));
+    d.tau[i] = select<T>(over, scale * torque, d.tau[i]);
+    d.delta[i] = select(over, T(model.armature[i]) + d.delta_range[i], d.delta[i]);
+  }
+  return again;
 }
 
 }  // namespace mimicx

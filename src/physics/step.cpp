@@ -21,6 +21,14 @@ void integrate(const Model<RealOf<T>>& model, const Data<T>& d, State<T>& s) {
   }
 }
 
+/// Accelerations under the joint torques and contacts as they are linearised now.
+template <class T>
+void solve(const Model<RealOf<T>>& model, Data<T>& d) {
+  aba_initialise(model, d);
+  aba_inertia_pass(model, d);
+  aba_acceleration_pass(model, d);
+}
+
 /// Lanes whose state is not finite or has run away. Comparisons with NaN are false, hence the negations.
 template <class T>
 MaskOf<T> gone_wrong(const Model<RealOf<T>>& model, const State<T>& s) {
@@ -46,11 +54,10 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
   d.ground_count = 0;
   for (std::size_t i = 1; i < kBodies; ++i) {
     d.tau[i] = d.R_WB[i] * tau[i];
+    d.tau_range[i] = zero3<T>();
     d.delta[i] = T(model.armature[i]);
   }
-  aba_initialise(model, d);
-  aba_inertia_pass(model, d);
-  aba_acceleration_pass(model, d);
+  solve(model, d);
 }
 
 template <class T>
@@ -62,13 +69,15 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
   if (model.options.self_contact) add_self_contact(model, d);
   detect_ground(model, d);
   compute_joint_torques(model, state, target, d);
-  for (int pass = 0; pass < model.options.passes; ++pass) {
-    apply_torque_bounds(model, pass == 0, d);
-    aba_initialise(model, d);
-    aba_inertia_pass(model, d);
-    aba_acceleration_pass(model, d);
-    update_ground(model, pass + 1 < model.options.passes, d);
+  use_pd_law(model, d);
+  solve(model, d);
+  for (int pass = 1; pass < model.options.passes; ++pass) {
+    relinearise_ground(model, d);
+    apply_torque_bounds(model, d);
+    solve(model, d);
   }
+  while (any(saturate_exceeding(model, d))) solve(model, d);
+  find_applied_ground(model, d);
 }
 
 template <class T>
@@ -82,9 +91,11 @@ MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>&
 
 template <class T>
 void record_applied(const Model<RealOf<T>>& model, const Data<T>& d, Applied<T>& applied) {
-  for (std::size_t i = 1; i < kBodies; ++i)
-    applied.joint_torque[i] +=
-        transpose_times(d.R_WB[i], applied_pd_torque(d, i) + applied_range_torque(d, i));
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const Vec3<T> range = applied_range_torque(d, i);
+    applied.joint_torque[i] += transpose_times(d.R_WB[i], applied_pd_torque(d, i) + range);
+    applied.range_torque[i] += transpose_times(d.R_WB[i], range);
+  }
   for (int k = 0; k < d.ground_count; ++k) {
     const GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
     const auto index = static_cast<std::size_t>(c.index);
@@ -104,6 +115,7 @@ template <class T>
 void clear(Applied<T>& applied) {
   const Wrench<T> zero = {zero3<T>(), zero3<T>()};
   applied.joint_torque.fill(zero3<T>());
+  applied.range_torque.fill(zero3<T>());
   applied.ground.fill(zero);
   applied.self.fill(zero);
   applied.point_force.fill(T(0.0));
