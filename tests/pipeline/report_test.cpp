@@ -28,7 +28,7 @@ std::vector<std::uint8_t> decode_base64(const std::string& text) {
 
 BodyPoses turned_pose(const Character& character, double angle) {
   std::array<Quaterniond, kBodies> q;
-  q.fill(exp_map({0.1 * angle, -0.2 * angle, 0.05}));
+  q.fill(exp_map(Vector3d(0.1 * angle, -0.2 * angle, 0.05)));
   return forward_kinematics(character, {1.5, -2.0, 0.9}, q);
 }
 

@@ -1,0 +1,41 @@
+/// `mimicx evaluate`: motions against their truth, file by file.
+///
+/// Pairs are files of the same name in two folders. Both sides go through forward kinematics with their own
+/// shape and free joints: nothing is prepared, moved or resampled, so that every row of a table has been
+/// treated alike. A mean is the mean over the files of their values, files without a value left out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "motion/metrics.h"
+
+namespace mimicx {
+
+struct EvaluatedMotion {
+  std::string name;  ///< file name without suffix
+  bool ok = false;
+  std::string reason;  ///< why it could not be evaluated
+  int frames = 0;
+  Metrics metrics;
+};
+
+struct Evaluation {
+  std::vector<EvaluatedMotion> motions;  ///< by name
+  std::vector<std::string> unmatched;    ///< truths that have no motion
+};
+
+/// @throws DataError when a folder is none or `motions` holds no .npz
+Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions);
+
+/// Mean over the evaluated motions; NaN where none has a value.
+double mean_of(const Evaluation& evaluation, const MetricDefinition& metric);
+
+/// A line per motion and one of means, columns aligned.
+std::string format_evaluation(const Evaluation& evaluation);
+/// {"motions": [{name, status, reason, frames, metrics}], "mean": {...}, "definitions": {...}, "unmatched":
+/// [...]}
+std::string evaluation_json(const Evaluation& evaluation);
+
+}  // namespace mimicx

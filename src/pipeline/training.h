@@ -1,0 +1,68 @@
+/// Training of one policy on one reference: the seam between files and the learner.
+///
+/// `train` runs PPO until the samples are spent, writes the complete state of the training to a checkpoint
+/// now and then, and takes a training up again where its checkpoint left it: interrupted or not, the bytes of
+/// the agent and of the log are the same. It reads and writes only the files it is given.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/manifest.h"
+#include "pipeline/table.h"
+#include "rl/policy.h"
+#include "rl/ppo_config.h"
+#include "rl/tracking_pack.h"
+
+namespace mimicx {
+
+/// Everything that the result of a training depends on. Defaults: docs/experiments.md.
+struct TrainingConfig {
+  std::int64_t samples = 4'000'000;      ///< budget: character steps
+  std::uint64_t seed = 1;                ///< the one root of every random number
+  int characters = 512;                  ///< simulated side by side
+  int group_size = 64;                   ///< characters that one worker carries through a roll-out
+  std::vector<int> hidden = {256, 256};  ///< of actor and critic
+  rl::PpoConfig ppo;                     ///< its seed is replaced by `seed`
+  rl::TrackingConfig tracking;
+};
+
+/// Every number of the configuration but samples and seed, by name: for the manifest.
+NamedValues settings_of(const TrainingConfig& config);
+
+struct TrainingFiles {
+  std::filesystem::path checkpoint;  ///< complete state
+  std::filesystem::path log;         ///< a row per iteration
+  std::filesystem::path falls;       ///< share of the visits that end in a fall, over the clip's frames
+  /// Identifies the input; a checkpoint of another input is not taken up.
+  std::string input_checksum;
+};
+
+struct TrainingControl {
+  int threads = 1;
+  double limit_seconds = 0.0;         ///< safety stop; 0: none
+  double checkpoint_seconds = 20.0;   ///< between checkpoints
+  std::function<bool()> should_stop;  ///< asked after every iteration
+  /// Called before the first iteration (with what a checkpoint brought) and after every one.
+  std::function<void(std::int64_t samples, const std::string& detail)> progress;
+};
+
+struct TrainingResult {
+  rl::Agent agent;
+  std::int64_t samples = 0;
+  Ending ending = Ending::kBudget;
+  bool interrupted = false;  ///< `should_stop` said so: the state is in the checkpoint
+  double seconds = 0.0;      ///< of this call
+};
+
+TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const TrainingConfig& config,
+                     const TrainingFiles& files, const TrainingControl& control);
+
+/// The agent before its first sample.
+rl::Agent untrained_agent(const TrainingConfig& config);
+
+}  // namespace mimicx

@@ -1,0 +1,73 @@
+#include "pipeline/training.h"
+
+namespace mimicx {
+
+NamedValues settings_of(const TrainingConfig& config) {
+  NamedValues values;
+  const auto add = [&values](const std::string& name, auto value) {
+    values.emplace_back(name, static_cast<double>(value));
+  };
+  add("characters", config.characters);
+  add("group_size", config.group_size);
+  for (std::size_t i = 0; i < config.hidden.size(); ++i)
+    add("hidden_" + std::to_string(i + 1), config.hidden[i]);
+
+  const rl::PpoConfig& p = config.ppo;
+  add("horizon", p.horizon);
+  add("gamma", p.gamma);
+  add("lambda", p.lambda);
+  add("sigma_start", p.sigma_start);
+  add("sigma_end", p.sigma_end);
+  add("sigma_samples", p.sigma_samples);
+  add("epochs", p.epochs);
+  add("minibatch", p.minibatch);
+  add("clip", p.clip);
+  add("gradient_norm", p.gradient_norm);
+  add("critic_step_size", p.critic_step_size);
+  add("return_rate", p.return_rate);
+  add("step_size", p.step_size);
+  add("step_factor", p.step_factor);
+  add("step_min", p.step_min);
+  add("step_max", p.step_max);
+  add("kl_target", p.kl_target);
+  add("kl_stop", p.kl_stop);
+  add("penalty_weight", p.penalty_weight);
+  add("penalty_fraction", p.penalty_fraction);
+  add("bound_weight", p.bound_weight);
+  add("mean_bound", p.mean_bound);
+  add("gradient_slots", p.gradient_slots);
+  add("pass_rows", p.pass_rows);
+
+  const rl::TrackingConfig& t = config.tracking;
+  add("residual_actions", t.action_mode == rl::ActionMode::kResidual);
+  add("velocity_feed_forward", t.velocity_feed_forward);
+  add("max_action", t.max_action);
+  add("reward_root_position", t.reward.root_position);
+  add("reward_root_rotation", t.reward.root_rotation);
+  add("reward_pose", t.reward.pose);
+  add("reward_velocity", t.reward.velocity);
+  add("reward_end_effector", t.reward.end_effector);
+  add("reward_projection", t.reward.projection);
+  add("terminate_distance", t.terminate_distance);
+  add("bin_frames", t.bin_frames);
+  add("uniform_starts", t.uniform_starts);
+
+  const SimulationOptions& s = t.simulation;
+  add("physics_rate", s.rate);
+  add("physics_passes", s.passes);
+  add("gravity", s.gravity);
+  add("ground_stiffness", s.ground_stiffness);
+  add("ground_damping", s.ground_damping);
+  add("friction", s.friction);
+  add("slip_speed", s.slip_speed);
+  add("skin", s.skin);
+  add("self_contact", s.self_contact);
+  add("self_stiffness", s.self_stiffness);
+  add("self_damping", s.self_damping);
+  add("limit_stiffness", s.limit_stiffness);
+  add("limit_damping", s.limit_damping);
+  add("max_speed", s.max_speed);
+  return values;
+}
+
+}  // namespace mimicx

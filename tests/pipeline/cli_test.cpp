@@ -1,0 +1,113 @@
+// The built program as a user meets it: exit statuses, messages, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/npz.h"
+#include "pipeline/run_folder.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+struct Call {
+  int status;
+  std::string text;  ///< both streams
+};
+
+Call mimicx(const std::string& arguments) {
+  FILE* pipe = popen((std::string(MIMICX_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
+  Call call{-1, {}};
+  char buffer[4096];
+  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) call.text.append(buffer, n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) call.status = WEXITSTATUS(status);
+  return call;
+}
+
+bool says(const Call& call, const std::string& words) { return call.text.find(words) != std::string::npos; }
+
+struct Cli : testing::Test {
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  TemporaryFolder folder;
+};
+
+TEST_F(Cli, HelpIsEverywhere) {
+  EXPECT_EQ(mimicx("--help").status, 0);
+  for (const char* command : {"imitate", "evaluate", "info", "convert", "synth"}) {
+    const Call call = mimicx(std::string(command) + " --help");
+    EXPECT_EQ(call.status, 0) << command;
+    EXPECT_TRUE(says(call, command)) << call.text;
+    EXPECT_TRUE(says(mimicx("--help"), command));
+  }
+}
+
+TEST_F(Cli, VersionNamesTheInstructionSet) {
+  const Call call = mimicx("--version");
+  EXPECT_EQ(call.status, 0);
+  EXPECT_TRUE(says(call, MIMICX_TARGET)) << call.text;
+}
+
+TEST_F(Cli, WrongUsageIsStatusTwo) {
+  write_clip(path("a.npz"), standing_clip(20));
+  const std::string a = path("a.npz"), out = " --out " + path("out");
+  for (const std::string& arguments :
+       {std::string(), std::string("dance"), std::string("imitate"), "imitate " + a, "imitate" + out,
+        "imitate " + a + out + " --samples 0", "imitate " + a + out + " --samples many",
+        "imitate " + a + out + " --threads 0", "imitate " + a + out + " --limit-seconds -1",
+        "imitate " + a + " " + a + out, "imitate " + a + out + " --frobnicate", std::string("evaluate"),
+        std::string("info"), "convert " + a, "convert " + a + " " + path("b.bvh"), std::string("synth")}) {
+    const Call call = mimicx(arguments);
+    EXPECT_EQ(call.status, 2) << "mimicx " << arguments << '\n' << call.text;
+    EXPECT_FALSE(call.text.empty());
+  }
+}
+
+TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
+  std::ofstream(path("bad.npz")) << "PK nonsense";
+  for (const std::string& arguments : {"info " + path("bad.npz"), "info " + path("none.npz"),
+                                       "convert " + path("bad.npz") + " " + path("o.npz"),
+                                       "imitate " + path("bad.npz") + " --out " + path("out")}) {
+    const Call call = mimicx(arguments);
+    EXPECT_EQ(call.status, 1) << arguments << '\n' << call.text;
+    EXPECT_TRUE(says(call, ".npz")) << call.text;
+  }
+}
+
+TEST_F(Cli, InfoSaysWhatTheFileHolds) {
+  write_clip(path("a.npz"), standing_clip(20));
+  const Call call = mimicx("info " + path("a.npz"));
+  EXPECT_EQ(call.status, 0);
+  EXPECT_TRUE(says(call, "20 at 30 fps")) << call.text;
+  EXPECT_TRUE(says(call, "mimicx")) << call.text;
+}
+
+TEST_F(Cli, ConvertKeepsTheMotion) {
+  const Clip clip = standing_clip(20);
+  write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("convert " + path("a.npz") + " " + path("new/b.npz")).status, 0);
+  const Clip back = read_clip(path("new/b.npz"));
+  EXPECT_EQ(back.rotations, clip.rotations);
+  EXPECT_EQ(back.trans, clip.trans);
+}
+
+TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
+  write_clip(path("a.npz"), standing_clip(20));
+  const std::string command =
+      "imitate " + path("none.npz") + " " + path("a.npz") + " --samples 1 --threads 1 --out " + path("out");
+  const Call call = mimicx(command);
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(std::filesystem::exists(path("out/motions/a.npz"))) << call.text;
+  const auto manifest = nlohmann::json::parse(read_file(path("out/manifest.json")));
+  ASSERT_EQ(manifest["sequences"].size(), 2u);
+  EXPECT_EQ(manifest["sequences"][0]["status"], "failed");
+  EXPECT_EQ(manifest["sequences"][1]["input"], path("a.npz"));
+  EXPECT_EQ(mimicx(command + " --seed 2").status, 2) << "a folder of another seed";
+}
+
+}  // namespace
+}  // namespace mimicx

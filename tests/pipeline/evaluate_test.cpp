@@ -1,0 +1,96 @@
+#include "pipeline/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+struct Evaluate : testing::Test {
+  void SetUp() override {
+    std::filesystem::create_directory(truth);
+    std::filesystem::create_directory(motions);
+  }
+  /// A truth and a motion that is the truth moved by `metres` to the side.
+  void add_pair(const std::string& name, double metres) const {
+    Clip clip = standing_clip(20);
+    write_clip(truth / (name + ".npz"), clip);
+    for (auto& t : clip.trans) t.x() += metres;
+    write_clip(motions / (name + ".npz"), clip);
+  }
+  double metric(const EvaluatedMotion& m, const std::string& name) const {
+    for (const auto& d : metric_definitions())
+      if (name == d.name) return (m.metrics.*d.value).value;
+    throw std::invalid_argument(name);
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path truth = folder.path / "truth", motions = folder.path / "motions";
+};
+
+TEST_F(Evaluate, AShiftedMotionScoresItsShift) {
+  add_pair("a", 0.030);
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 1u);
+  ASSERT_TRUE(e.motions[0].ok) << e.motions[0].reason;
+  EXPECT_NEAR(metric(e.motions[0], "MRPE"), 30.0, 1e-6);
+  EXPECT_NEAR(metric(e.motions[0], "gMPJPE"), 30.0, 1e-6);
+  EXPECT_NEAR(metric(e.motions[0], "MPJPE"), 0.0, 1e-6);
+}
+
+TEST_F(Evaluate, TheMeanIsOverTheFilesThatHaveAValue) {
+  add_pair("a", 0.010);
+  add_pair("b", 0.030);
+  std::ofstream(motions / "c.npz") << "broken";
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 3u);
+  EXPECT_FALSE(e.motions[2].ok);
+  EXPECT_NEAR(mean_of(e, metric_definitions().front()), 20.0, 1e-6);
+}
+
+TEST_F(Evaluate, WhatHasNoPartnerIsSaid) {
+  add_pair("a", 0.0);
+  write_clip(truth / "only_truth.npz", standing_clip(20));
+  write_clip(motions / "only_motion.npz", standing_clip(20));
+  const Evaluation e = evaluate_folders(truth, motions);
+  EXPECT_EQ(e.unmatched, std::vector<std::string>{"only_truth"});
+  ASSERT_EQ(e.motions.size(), 2u);
+  EXPECT_FALSE(e.motions[1].ok);
+  EXPECT_NE(e.motions[1].reason.find("only_motion"), std::string::npos);
+}
+
+TEST_F(Evaluate, LengthsThatDifferAreAFailureOfThatFileAlone) {
+  add_pair("a", 0.0);
+  add_pair("b", 0.0);
+  write_clip(motions / "a.npz", standing_clip(15));
+  const Evaluation e = evaluate_folders(truth, motions);
+  EXPECT_FALSE(e.motions[0].ok);
+  EXPECT_TRUE(e.motions[1].ok);
+}
+
+TEST_F(Evaluate, FoldersWithoutMotionsAreRefused) {
+  EXPECT_THROW(evaluate_folders(truth, motions), DataError);
+  EXPECT_THROW(evaluate_folders(truth, folder.path / "none"), DataError);
+}
+
+TEST_F(Evaluate, JsonHasEveryMetricWithItsDefinition) {
+  add_pair("a", 0.010);
+  const auto json = nlohmann::json::parse(evaluation_json(evaluate_folders(truth, motions)));
+  EXPECT_EQ(json["definitions"].size(), metric_definitions().size());
+  for (const auto& d : metric_definitions()) {
+    EXPECT_FALSE(json["definitions"][d.name]["definition"].get<std::string>().empty());
+    EXPECT_TRUE(json["motions"][0]["metrics"].contains(d.name));
+    EXPECT_TRUE(json["mean"].contains(d.name));
+  }
+  EXPECT_NEAR(json["mean"]["MRPE"].get<double>(), 10.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,226 @@
+#include "pipeline/imitate.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/npz.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+/// Small enough for a test, large enough for several iterations, groups and checkpoints.
+ImitateOptions small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
+  ImitateOptions options;
+  options.inputs = inputs;
+  options.out = out;
+  options.training.samples = 6 * 64 * 8;
+  options.training.characters = 64;
+  options.training.group_size = 16;
+  options.training.hidden = {16};
+  options.training.ppo.horizon = 8;
+  options.training.ppo.minibatch = 256;
+  options.training.ppo.pass_rows = 64;
+  return options;
+}
+
+struct Outcome {
+  ImitateOutcome value;
+  std::string messages;
+};
+
+/// @param iterations  asks to stop after that many; negative: never
+Outcome run(const ImitateOptions& options, int iterations = -1) {
+  std::ostringstream messages;
+  Progress progress(messages, false, steady_seconds);
+  int asked = 0;
+  const auto value = imitate(options, {progress, messages, [&] { return ++asked == iterations; }});
+  return {value, messages.str()};
+}
+
+/// Bytes of every file of a run but its times, by relative path.
+std::map<std::string, std::string> results_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder))
+    if (file.is_regular_file() && file.path().filename() != "timing.json")
+      files[std::filesystem::relative(file.path(), folder).string()] = read_file(file.path());
+  return files;
+}
+
+struct Imitate : testing::Test {
+  void SetUp() override {
+    write_clip(folder.path / "stand.npz", standing_clip(20));
+    write_clip(folder.path / "other.npz", standing_clip(25));
+    stand = (folder.path / "stand.npz").string();
+    other = (folder.path / "other.npz").string();
+  }
+  std::filesystem::path out(const std::string& name) const { return folder.path / name; }
+
+  TemporaryFolder folder;
+  std::string stand, other;
+};
+
+TEST_F(Imitate, LeavesEveryFileTheDocumentationNames) {
+  run(small_run(out("run"), {stand}));
+  const auto files = results_of(out("run"));
+  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz",
+                           "training/stand.csv", "training/stand.falls.csv", "checkpoints/stand.npz"})
+    EXPECT_TRUE(files.contains(name)) << name;
+  EXPECT_EQ(files.size(), 7u);
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "timing.json"));
+  const Table log = read_csv(out("run") / "training" / "stand.csv");
+  EXPECT_EQ(log.rows.size(), 6u);
+  EXPECT_EQ(log.rows.back()[log.column("samples")], 6 * 64 * 8);
+}
+
+TEST_F(Imitate, TheMotionHasAFrameForEveryFrameOfTheInput) {
+  run(small_run(out("run"), {stand}));
+  const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
+  for (const auto& [name, shape] :
+       std::map<std::string, std::vector<std::size_t>>{{"poses", {20, 66}},
+                                                       {"trans", {20, 3}},
+                                                       {"joints", {20, 22, 3}},
+                                                       {"joint_torques", {20, 55}},
+                                                       {"ground_wrenches", {20, 22, 6}},
+                                                       {"self_contact_wrenches", {20, 22, 6}},
+                                                       {"reward", {20}}})
+    EXPECT_EQ(motion.at(name).shape, shape) << name;
+}
+
+TEST_F(Imitate, SupportsTheBodyWithTheFloor) {
+  run(small_run(out("run"), {stand}));
+  const auto wrenches = read_npz(out("run") / "motions" / "stand.npz").at("ground_wrenches").to_double();
+  double vertical = 0.0;  // of all bodies, mean over frames 5 … 19
+  for (std::size_t t = 5; t < 20; ++t)
+    for (std::size_t body = 0; body < kBodies; ++body)
+      vertical += wrenches[(t * kBodies + body) * 6 + 5] / 15.0;
+  const double weight = 9.81 * make_character().total_mass();
+  EXPECT_NEAR(vertical / weight, 1.0, 0.25);
+}
+
+TEST_F(Imitate, IsTheSameBytesTwiceAndForOneAndTwoThreads) {
+  ImitateOptions options = small_run(out("one"), {stand, other});
+  run(options);
+  options.out = out("again");
+  run(options);
+  options.out = out("two");
+  options.threads = 2;
+  run(options);
+  EXPECT_EQ(results_of(out("one")), results_of(out("again")));
+  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+}
+
+TEST_F(Imitate, IsTheSameBytesAfterInterruptions) {
+  ImitateOptions options = small_run(out("whole"), {stand, other});
+  run(options);
+  options.out = out("interrupted");
+  EXPECT_EQ(run(options, 2).value, ImitateOutcome::kInterrupted);
+  EXPECT_EQ(run(options, 7).value, ImitateOutcome::kInterrupted);  // in the second clip
+  run(options);
+  EXPECT_EQ(results_of(out("whole")), results_of(out("interrupted")));
+}
+
+TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
+  ImitateOptions options = small_run(out("whole"), {stand});
+  run(options);
+  options.out = out("killed");
+  EXPECT_EQ(run(options, 2).value, ImitateOutcome::kInterrupted);
+  // The log is written before the checkpoint: a kill between the two leaves rows too many.
+  Table log = read_csv(out("killed") / "training" / "stand.csv");
+  ASSERT_EQ(log.rows.size(), 2u);
+  log.rows.push_back(log.rows.back());
+  std::ofstream(out("killed") / "training" / "stand.csv") << format_csv(log);
+  run(options);
+  EXPECT_EQ(results_of(out("whole")), results_of(out("killed")));
+}
+
+TEST_F(Imitate, KeepsWhatIsFinished) {
+  const ImitateOptions options = small_run(out("run"), {stand});
+  run(options);
+  const auto before = results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz");
+  run(options);
+  EXPECT_EQ(results_of(out("run")), before);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz"), written);
+}
+
+TEST_F(Imitate, StartsOverWhenTheInputChanged) {
+  const ImitateOptions options = small_run(out("run"), {stand});
+  run(options);
+  write_clip(stand, standing_clip(25));
+  run(options);
+  EXPECT_EQ(read_npz(out("run") / "motions" / "stand.npz").at("poses").shape.at(0), 25u);
+}
+
+TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
+  const std::string broken = (folder.path / "broken.npz").string(),
+                    none = (folder.path / "none.npz").string();
+  std::ofstream(broken) << "not an archive";
+  const Outcome outcome = run(small_run(out("run"), {broken, none, stand}));
+  EXPECT_EQ(outcome.value, ImitateOutcome::kSomeFailed);
+  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  ASSERT_EQ(manifest.sequences.size(), 3u);
+  EXPECT_FALSE(manifest.sequences[0].ok);
+  EXPECT_NE(manifest.sequences[0].reason.find("broken.npz"), std::string::npos);
+  EXPECT_NE(manifest.sequences[1].reason.find("none.npz"), std::string::npos);
+  EXPECT_EQ(manifest.sequences[2].output, "motions/stand.npz");
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
+}
+
+TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
+  const std::string late = (folder.path / "late.npz").string();
+  const ImitateOptions options = small_run(out("run"), {late});
+  EXPECT_EQ(run(options).value, ImitateOutcome::kSomeFailed);
+  write_clip(late, standing_clip(20));
+  run(options);
+  EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
+}
+
+TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
+  ImitateOptions options = small_run(out("run"), {stand});
+  run(options);
+  const auto before = results_of(out("run"));
+  options.training.seed = 2;
+  EXPECT_THROW(run(options), std::invalid_argument);
+  options = small_run(out("run"), {stand});
+  options.training.ppo.gamma = 0.5;
+  EXPECT_THROW(run(options), std::invalid_argument);
+  EXPECT_EQ(results_of(out("run")), before);
+}
+
+TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
+  ImitateOptions options = small_run(out("run"), {stand});
+  options.limit_seconds = 1e-9;
+  run(options);
+  const SequenceEntry stopped = read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(stopped.ending, Ending::kLimitSeconds);
+  EXPECT_EQ(stopped.samples, 64 * 8);
+  EXPECT_EQ(stopped.output, "motions/stand.npz");
+  options.limit_seconds = 0.0;
+  run(options);
+  const SequenceEntry done = read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(done.ending, Ending::kBudget);
+  EXPECT_EQ(done.samples, 6 * 64 * 8);
+}
+
+TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
+  ImitateOptions options = small_run(out("one"), {stand});
+  run(options);
+  options.out = out("two");
+  options.training.seed = 2;
+  run(options);
+  EXPECT_NE(results_of(out("one")).at("training/stand.csv"), results_of(out("two")).at("training/stand.csv"));
+}
+
+TEST(Settings, NameEveryParameterOnce) {
+  const NamedValues values = settings_of({});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(values[i].first, values[j].first);
+}
+
+}  // namespace
+}  // namespace mimicx

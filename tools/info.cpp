@@ -1,0 +1,61 @@
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "motion/clip.h"
+#include "motion/reference.h"
+
+namespace mimicx {
+namespace {
+
+void describe_file(const Clip& clip) {
+  std::printf("frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
+  std::printf("body model   %s, gender %s\n", clip.body_model.c_str(), clip.gender.c_str());
+  std::printf("betas       ");
+  for (double b : clip.betas) std::printf(" %g", b);
+  std::printf("\n");
+  if (clip.keypoints)
+    std::printf("keypoints    %zu per frame, %s camera\n", clip.keypoints->names.size(),
+                clip.keypoints->extrinsics.size() > 1 ? "moving" : "static");
+  else
+    std::printf("keypoints    none\n");
+  if (!clip.passthrough.empty()) {
+    std::printf("passed on   ");
+    for (const auto& [key, array] : clip.passthrough) std::printf(" %s", key.c_str());
+    std::printf("\n");
+  }
+}
+
+void describe_preparation(const Reference& reference, const PreparationReport& report) {
+  std::printf("prepared     %d frames at %g fps\n", reference.size(), reference.fps);
+  std::printf("  floor      moved by %.1f mm, at most %.1f mm in a frame\n", report.floor_shift_mm,
+              report.max_floor_shift_mm);
+  std::printf("  hinges     joints moved by %.2f mm on average, %.2f mm at most\n",
+              report.hinge_residual_mean_mm, report.hinge_residual_max_mm);
+  std::printf("  change     %.1f mm on average, %.1f mm at most\n", report.change_mean_mm,
+              report.change_max_mm);
+  std::printf("  flagged    %d frames\n", report.flagged_frames);
+  for (const auto& note : report.notes) std::printf("  note       %s\n", note.c_str());
+}
+
+int info(const std::string& path) {
+  const Clip clip = read_clip(path);
+  PreparationReport report;
+  const Reference reference = prepare_reference(clip, {}, &report);
+  describe_file(clip);
+  describe_preparation(reference, report);
+  for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
+  return kAllGood;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run) {
+  auto* command = app.add_subcommand("info", "What a motion file holds and what preparation does to it");
+  const auto file = std::make_shared<std::string>();
+  command->add_option("FILE", *file, "motion: AMASS-style .npz")->required();
+  command->callback([&run, file] { run = [file] { return info(*file); }; });
+}
+
+}  // namespace mimicx
