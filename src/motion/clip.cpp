@@ -211,6 +211,23 @@ std::array<double, kBetas> Clip::usable_betas() const {
   return body_model == "mimicx" ? betas : std::array<double, kBetas>{};
 }
 
+std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip) {
+  std::vector<std::array<Quaterniond, kBodies>> q(clip.rotations.size());
+  for (std::size_t t = 0; t < q.size(); ++t)
+    for (std::size_t j = 0; j < kBodies; ++j) q[t][j] = exp_map(clip.rotations[t][j]);
+  return q;
+}
+
+std::vector<BodyPoses> poses_of(const Clip& clip) {
+  const Character character = make_character(clip.usable_betas());
+  const Vector3d pelvis = rest_pelvis(clip.body_model);
+  const auto q = joint_rotations(clip);
+  std::vector<BodyPoses> poses;
+  for (std::size_t t = 0; t < q.size(); ++t)
+    poses.push_back(forward_kinematics(character, clip.trans[t] + pelvis, q[t]));
+  return poses;
+}
+
 Clip read_clip(const std::filesystem::path& path) {
   const Npz npz = read_npz(path);
   Clip clip;

@@ -46,6 +46,16 @@ struct Clip {
   std::array<double, kBetas> usable_betas() const;
 };
 
+/// Joint rotations as quaternions, [frames][22].
+std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip);
+
+/// World poses of the clip as it stands, every joint spherical, on the character of its usable betas.
+std::vector<BodyPoses> poses_of(const Clip& clip);
+
+/// The clip at another frame rate, from its first frame on, rotations by slerp; unchanged where the rate is
+/// the same. Members with one row per frame that passed through are left out, with a warning.
+Clip resampled(const Clip& clip, double fps);
+
 /// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
 /// 165 columns); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`. Columns of `poses` past the 66th
 /// are kept as the member `poses_rest`, unless the file holds them as named arrays. Undetected keypoints

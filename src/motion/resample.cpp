@@ -1,0 +1,79 @@
+/// Change of frame rate; declared in clip.h.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "motion/clip.h"
+
+namespace mimicx {
+namespace {
+
+/// A time of the output between two frames of the input.
+struct Between {
+  std::size_t frame, next;
+  double share;  ///< of the next frame
+};
+
+Between locate(double frame, std::size_t frames) {
+  const auto before = std::min(static_cast<std::size_t>(frame), frames - 1);
+  return {before, std::min(before + 1, frames - 1),
+          std::clamp(frame - static_cast<double>(before), 0.0, 1.0)};
+}
+
+/// Detected in both frames: linear, with the lower confidence; else that of the nearer frame.
+Vector3d interpolate_keypoint(const Vector3d& a, const Vector3d& b, double share) {
+  if (a.z() <= 0.0 || b.z() <= 0.0) return share < 0.5 ? a : b;
+  Vector3d uvc = (1.0 - share) * a + share * b;
+  uvc.z() = std::min(a.z(), b.z());
+  return uvc;
+}
+
+Eigen::Matrix4d interpolate_pose(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b, double share) {
+  const Quaterniond p(Matrix3d(a.topLeftCorner<3, 3>())), q(Matrix3d(b.topLeftCorner<3, 3>()));
+  Eigen::Matrix4d pose = (1.0 - share) * a + share * b;
+  pose.topLeftCorner<3, 3>() = p.slerp(share, q).toRotationMatrix();
+  return pose;
+}
+
+}  // namespace
+
+Clip resampled(const Clip& clip, double fps) {
+  if (!(fps > 0.0)) throw std::invalid_argument("resampled: the frame rate must be positive");
+  if (clip.fps == fps || clip.frames() == 0) return clip;
+  const auto frames = static_cast<std::size_t>(clip.frames());
+  const auto q = joint_rotations(clip);
+  const double ratio = clip.fps / fps;
+  // The last frame counts as reached when rounding alone keeps it away.
+  const auto count = static_cast<std::size_t>(static_cast<double>(frames - 1) / ratio + 1e-9) + 1;
+  Clip out = clip;
+  out.fps = fps;
+  out.rotations.resize(count);
+  out.trans.resize(count);
+  if (out.keypoints) {
+    out.keypoints->uvc.resize(count);
+    if (clip.keypoints->extrinsics.size() > 1) out.keypoints->extrinsics.resize(count);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [t, n, share] = locate(static_cast<double>(k) * ratio, frames);
+    for (std::size_t j = 0; j < kBodies; ++j) out.rotations[k][j] = log_map(q[t][j].slerp(share, q[n][j]));
+    out.trans[k] = (1.0 - share) * clip.trans[t] + share * clip.trans[n];
+    if (!out.keypoints) continue;
+    const auto &a = clip.keypoints->uvc[t], &b = clip.keypoints->uvc[n];
+    out.keypoints->uvc[k].resize(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      out.keypoints->uvc[k][i] = interpolate_keypoint(a[i], b[i], share);
+    const auto& camera = clip.keypoints->extrinsics;
+    if (camera.size() > 1) out.keypoints->extrinsics[k] = interpolate_pose(camera[t], camera[n], share);
+  }
+  std::string dropped;
+  std::erase_if(out.passthrough, [&](const auto& member) {
+    const bool per_frame = !member.second.shape.empty() && member.second.shape[0] == frames;
+    if (per_frame) dropped += (dropped.empty() ? "" : ", ") + member.first;
+    return per_frame;
+  });
+  if (!dropped.empty())
+    out.warnings.push_back("resampling leaves out members with one row per frame: " + dropped);
+  return out;
+}
+
+}  // namespace mimicx
