@@ -1,5 +1,6 @@
 #include "core/character.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -159,9 +160,13 @@ Capsule capsule_of(const Character& c, const Scales& s, int body) {
     case kHead:
       return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
     case kLeftHip:
-      return bone(kLeftKnee, 0.20, 0.95, 0.064);
-    case kRightHip:
-      return bone(kRightKnee, 0.20, 0.95, 0.064);
+    case kRightHip: {
+      // Heavy thighs flatten against each other; rigid ones stop short of the middle instead, because a
+      // pair that overlaps at rest would never stop pushing.
+      Capsule thigh = bone(body == kLeftHip ? kLeftKnee : kRightKnee, 0.20, 0.95, 0.064);
+      thigh.radius = std::min(thigh.radius, std::abs(offset(body).x() + thigh.a_B.x()) - 0.001);
+      return thigh;
+    }
     case kLeftKnee:
       return bone(kLeftAnkle, 0.05, 0.92, 0.046);
     case kRightKnee:

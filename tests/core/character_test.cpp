@@ -1,0 +1,219 @@
+#include "core/character.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "core/random.h"
+
+namespace mimicx {
+namespace {
+
+using Betas = std::array<double, kBetas>;
+
+Betas random_betas(Random& random, double bound) {
+  Betas betas;
+  for (double& b : betas) b = random.uniform(-bound, bound);
+  return betas;
+}
+
+std::array<Quaterniond, kBodies> rest_rotations() {
+  std::array<Quaterniond, kBodies> q;
+  q.fill(Quaterniond::Identity());
+  return q;
+}
+
+int mirror_of(int body) {
+  const std::string name(kBodyNames[static_cast<std::size_t>(body)]);
+  for (const auto& [side, other] : {std::pair{"left", "right"}, std::pair{"right", "left"}})
+    if (name.starts_with(side))
+      for (int i = 0; i < kBodies; ++i)
+        if (kBodyNames[static_cast<std::size_t>(i)] == other + name.substr(std::string(side).size()))
+          return i;
+  return body;
+}
+
+Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
+
+/// Distance of two segments by brute force over a grid of both, refined around the best.
+double segment_gap(const Capsule& a, const Vector3d& pa, const Capsule& b, const Vector3d& pb) {
+  double best = 1e9;
+  for (int i = 0; i <= 60; ++i)
+    for (int j = 0; j <= 60; ++j) {
+      const Vector3d x = pa + a.a_B + (i / 60.0) * (a.b_B - a.a_B),
+                     y = pb + b.a_B + (j / 60.0) * (b.b_B - b.a_B);
+      best = std::min(best, (x - y).norm());
+    }
+  return best - a.radius - b.radius;
+}
+
+TEST(Character, DegreesOfFreedomAddUpTo55) {
+  int dofs = 0;
+  for (int i = 1; i < kBodies; ++i) {
+    EXPECT_EQ(first_dof(i), dofs);
+    EXPECT_LT(kParents[static_cast<std::size_t>(i)], i);
+    dofs += is_hinge(i) ? 1 : 3;
+  }
+  EXPECT_EQ(dofs, 55);
+}
+
+TEST(Character, StandardBodyWeighs70KgAndMassesArePositive) {
+  EXPECT_NEAR(make_character().total_mass(), 70.0, 1e-9);
+  Random random(1, {1});
+  for (int n = 0; n < 20; ++n) {
+    const Character c = make_character(random_betas(random, 3.0));
+    EXPECT_NEAR(std::accumulate(c.mass.begin(), c.mass.end(), 0.0), c.total_mass(), 1e-9);
+    for (const double m : c.mass) EXPECT_GT(m, 0.0);
+  }
+}
+
+TEST(Character, LeftIsTheMirrorImageOfRight) {
+  Random random(1, {2});
+  for (int n = 0; n < 10; ++n) {
+    const Character c = make_character(random_betas(random, 3.0));
+    for (std::size_t i = 0; i < kBodies; ++i) {
+      const auto m = static_cast<std::size_t>(mirror_of(static_cast<int>(i)));
+      EXPECT_LT((mirrored(c.joint_offset[i]) - c.joint_offset[m]).norm(), 1e-12) << i;
+      EXPECT_NEAR(c.mass[i], c.mass[m], 1e-12);
+      EXPECT_LT((mirrored(c.com_B[i]) - c.com_B[m]).norm(), 1e-12);
+      const Matrix3d S = Vector3d(-1, 1, 1).asDiagonal();
+      EXPECT_LT((S * c.inertia_B[i] * S - c.inertia_B[m]).norm(), 1e-12) << i;
+      if (i > 0) {
+        EXPECT_EQ(c.joint[i].kp, c.joint[m].kp);
+        EXPECT_EQ(c.joint[i].torque_limit, c.joint[m].torque_limit);
+        // Under the mirror rotations about y and z change sign; a hinge's component does so with its axis.
+        const Vector3d centre = c.joint[i].centre;
+        if (!is_hinge(static_cast<int>(i))) {
+          EXPECT_LT((Vector3d(centre.x(), -centre.y(), -centre.z()) - c.joint[m].centre).norm(), 1e-12) << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(Character, JointPositionsAreAffineInBeta) {
+  Random random(1, {3});
+  for (int n = 0; n < 20; ++n) {
+    const Betas a = random_betas(random, 2.0), b = random_betas(random, 2.0);
+    Betas mix;
+    for (std::size_t k = 0; k < kBetas; ++k) mix[k] = 0.3 * a[k] + 0.7 * b[k];
+    const auto at = [](const Betas& betas) {
+      return forward_kinematics(make_character(betas), Vector3d::Zero(), rest_rotations()).p_WB;
+    };
+    const auto pa = at(a), pb = at(b), pm = at(mix);
+    for (std::size_t i = 0; i < kBodies; ++i) EXPECT_LT((0.3 * pa[i] + 0.7 * pb[i] - pm[i]).norm(), 1e-12);
+  }
+}
+
+TEST(Character, EveryBetaChangesTheShapeAndLargeOnesAreRefused) {
+  const Character standard = make_character();
+  for (std::size_t k = 0; k < kBetas; ++k) {
+    Betas betas{};
+    betas[k] = 1.0;
+    const Character c = make_character(betas);
+    double change = 0.0;
+    for (std::size_t i = 0; i < kBodies; ++i)
+      change +=
+          (c.joint_offset[i] - standard.joint_offset[i]).norm() + std::abs(c.mass[i] - standard.mass[i]);
+    EXPECT_GT(change, 1e-3) << k;
+    betas[k] = 5.1;
+    EXPECT_THROW(make_character(betas), std::invalid_argument);
+    betas[k] = std::nan("");
+    EXPECT_THROW(make_character(betas), std::invalid_argument);
+  }
+}
+
+TEST(Character, SelfPairsAreApartInTheRestPose) {
+  Random random(1, {4});
+  for (int n = 0; n < 30; ++n) {
+    const Character c = make_character(random_betas(random, 3.0));
+    const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
+    for (const auto& [i, j] : c.self_pairs) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      EXPECT_GT(segment_gap(c.capsule[a], rest.p_WB[a], c.capsule[b], rest.p_WB[b]), 0.0)
+          << kBodyNames[a] << " and " << kBodyNames[b];
+    }
+  }
+}
+
+TEST(Character, InertiaIsThatOfASolidCapsule) {
+  const Character c = make_character();
+  Random random(1, {5});
+  for (const int body : {kLeftHip, kPelvis, kLeftWrist}) {
+    const Capsule& capsule = c.capsule[static_cast<std::size_t>(body)];
+    const Vector3d low = capsule.a_B.cwiseMin(capsule.b_B).array() - capsule.radius;
+    const Vector3d high = capsule.a_B.cwiseMax(capsule.b_B).array() + capsule.radius;
+    Vector3d centre = Vector3d::Zero();
+    Matrix3d second = Matrix3d::Zero();
+    int inside = 0;
+    while (inside < 100000) {  // Monte Carlo over the bounding box
+      Vector3d p;
+      for (int k = 0; k < 3; ++k) p[k] = random.uniform(low[k], high[k]);
+      const Vector3d d = capsule.b_B - capsule.a_B;
+      const double t = std::clamp((p - capsule.a_B).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      if ((p - capsule.a_B - t * d).norm() > capsule.radius) continue;
+      ++inside;
+      centre += p;
+      second += p * p.transpose();
+    }
+    centre /= inside;
+    second = second / inside - centre * centre.transpose();
+    const Matrix3d inertia =
+        c.mass[static_cast<std::size_t>(body)] * (second.trace() * Matrix3d::Identity() - second);
+    const Matrix3d& I = c.inertia_B[static_cast<std::size_t>(body)];
+    EXPECT_LT((inertia - I).norm(), 0.015 * I.norm()) << body;
+    EXPECT_LT((centre - c.com_B[static_cast<std::size_t>(body)]).norm(), 0.002) << body;
+  }
+}
+
+TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
+  Random random(1, {6});
+  for (int n = 0; n < 10; ++n) {
+    const Character c = make_character(random_betas(random, 3.0));
+    const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
+    const double sole = rest.p_WB[kLeftAnkle].y() + c.contact_points[0].p_B.y();
+    for (std::size_t i = 0; i < 12; ++i) {
+      const ContactPoint& p = c.contact_points[i];
+      EXPECT_TRUE(p.body == (i < 4    ? kLeftAnkle
+                             : i < 6  ? kLeftFoot
+                             : i < 10 ? kRightAnkle
+                                      : kRightFoot))
+          << i;
+      EXPECT_EQ(p.radius, 0.0);
+      EXPECT_NEAR((rest.p_WB[static_cast<std::size_t>(p.body)] + p.p_B).y(), sole, 1e-12) << i;
+    }
+  }
+}
+
+TEST(ForwardKinematics, EqualsTheProductOfHomogeneousMatrices) {
+  Random random(1, {7});
+  const Character c = make_character(random_betas(random, 2.0));
+  std::array<Quaterniond, kBodies> q;
+  for (Quaterniond& r : q)
+    r = Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+  const Vector3d root(0.3, -2.0, 1.1);
+  const BodyPoses poses = forward_kinematics(c, root, q);
+  for (std::size_t body = 0; body < kBodies; ++body) {
+    Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
+    for (int i = static_cast<int>(body); i >= 0; i = kParents[static_cast<std::size_t>(i)]) {
+      Eigen::Matrix4d step = Eigen::Matrix4d::Identity();
+      step.topLeftCorner<3, 3>() = q[static_cast<std::size_t>(i)].toRotationMatrix();
+      step.topRightCorner<3, 1>() = i == 0 ? root : c.joint_offset[static_cast<std::size_t>(i)];
+      T = step * T;
+    }
+    EXPECT_LT((T.topRightCorner<3, 1>() - poses.p_WB[body]).norm(), 1e-12) << body;
+    EXPECT_LT((T.topLeftCorner<3, 3>() - poses.q_WB[body].toRotationMatrix()).norm(), 1e-12) << body;
+  }
+}
+
+TEST(RestPelvis, KnowsTheModelsAndRefusesOthers) {
+  EXPECT_LT((rest_pelvis("smpl") - Vector3d(-0.002, -0.223, 0.028)).norm(), 1e-12);
+  EXPECT_EQ(rest_pelvis("mimicx"), rest_pelvis("smplx"));
+  EXPECT_THROW(rest_pelvis("ghum"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mimicx
