@@ -140,6 +140,16 @@ TEST(Tape, ComputesNoGradientThatNobodyAskedFor) {
   EXPECT_EQ(nodes_of_gradient(true), 6);
 }
 
+TEST(Tape, GathersNothingForConstants) {
+  Tape<double> tape;
+  const Var x = tape.constant(2, 2, 1.0), c = tape.constant(2, 2, 3.0);
+  const Var loss = sum(tape, add(tape, add(tape, x, c), c));
+  const int before = tape.size();
+  const std::array wrt = {x};
+  gradient<double>(tape, loss, wrt);
+  EXPECT_EQ(tape.size() - before, 2);  // seed and broadcast; adding up what reaches c would be a third
+}
+
 TEST(Tape, ASecondPassReusesEveryBufferOfTheFirst) {
   Random random(8);
   const auto x = random_matrix(32, 6, random), w = random_matrix(6, 3, random);
