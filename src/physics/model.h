@@ -24,11 +24,11 @@ struct SimulationOptions {
   double slip_speed = 0.002;      ///< v_s of the regularised friction, m/s
   double skin = 0.0005;           ///< the floor acts this far above z = 0, m
   bool self_contact = true;
-  double self_stiffness = 1e4;     ///< N/m
-  double self_damping = 30.0;      ///< N·s/m
-  double limit_stiffness = 600.0;  ///< of joint ranges, N·m/rad
-  double limit_damping = 6.0;      ///< N·m·s/rad
-  double max_speed = 100.0;        ///< a body part faster than this (m/s) or 6 × as many rad/s has run away
+  double self_stiffness = 1e4;      ///< N/m
+  double self_damping = 30.0;       ///< N·s/m
+  double limit_stiffness = 5000.0;  ///< of joint ranges, N·m/rad
+  double limit_damping = 50.0;      ///< N·m·s/rad
+  double max_speed = 100.0;         ///< a body part faster than this (m/s) or 6 × as many rad/s has run away
 };
 
 template <class Real>

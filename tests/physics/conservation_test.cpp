@@ -1,0 +1,207 @@
+// What mechanics demands of the whole system, whatever the joints and contacts do.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "physics/test_states.h"
+
+namespace mimicx {
+namespace {
+
+/// Momentum of the whole about the world's origin (moment; linear), or its rate of change.
+struct Momentum {
+  Vector3d angular = Vector3d::Zero(), linear = Vector3d::Zero();
+};
+
+/// Bodies in a lane's last solve.
+template <class T>
+struct Bodies {
+  const Character& c;
+  const Data<T>& d;
+  int lane;
+  Vector3d at(const std::array<Vec3<T>, kBodies>& x, std::size_t i) const { return lane_of(x[i], lane); }
+  Matrix3d R(std::size_t i) const { return lane_of(d.q_WB[i], lane).normalized().toRotationMatrix(); }
+  Vector3d com_arm(std::size_t i) const { return R(i) * c.com_B[i]; }
+  Vector3d com(std::size_t i) const { return at(d.p_WB, i) + com_arm(i); }
+  Matrix3d inertia(std::size_t i) const { return R(i) * c.inertia_B[i] * R(i).transpose(); }
+};
+
+template <class T>
+Momentum momentum(const Bodies<T>& b) {
+  Momentum sum;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    const Vector3d w = b.at(b.d.w, i), p = b.c.mass[i] * (b.at(b.d.v, i) + w.cross(b.com_arm(i)));
+    sum.linear += p;
+    sum.angular += b.inertia(i) * w + b.com(i).cross(p);
+  }
+  return sum;
+}
+
+template <class T>
+Momentum momentum_rate(const Bodies<T>& b) {
+  Momentum sum;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    const Vector3d w = b.at(b.d.w, i), alpha = b.at(b.d.a_w, i), arm = b.com_arm(i);
+    const Vector3d f = b.c.mass[i] * (b.at(b.d.a_v, i) + alpha.cross(arm) + w.cross(w.cross(arm)));
+    sum.linear += f;
+    sum.angular += b.inertia(i) * alpha + w.cross(b.inertia(i) * w) + b.com(i).cross(f);
+  }
+  return sum;
+}
+
+template <class T>
+Momentum external(const Bodies<T>& b, const std::array<Wrench<T>, kBodies>& ground, double gravity) {
+  Momentum sum;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    const Vector3d weight(0, 0, -gravity * b.c.mass[i]), f = lane_of(ground[i].f, b.lane);
+    sum.linear += weight + f;
+    sum.angular += b.com(i).cross(weight) + lane_of(ground[i].n, b.lane) + b.at(b.d.p_WB, i).cross(f);
+  }
+  return sum;
+}
+
+/// A violent second: the largest mismatch between the rate of momentum and the external forces, relative to
+/// the largest rate so far, and the largest self-contact force.
+struct Audit {
+  double mismatch = 0, self_force = 0;
+};
+template <class T>
+Audit audit_momentum(std::uint64_t trial) {
+  Random random(31, {trial});
+  const Character character = make_character(random_betas(random));
+  const auto s =
+      std::make_unique<Simulation<T>>(character, SimulationOptions{}, random_snapshot(random, 1.5, 4.0, 0.9));
+  Audit audit;
+  double linear = 0, angular = 0;
+  for (int k = 0; k < 240; ++k) {
+    s->advance();
+    const Bodies<T> bodies{character, s->data, 0};
+    const Momentum rate = momentum_rate(bodies);
+    const Momentum forces = external(bodies, s->applied.ground, s->model.options.gravity);
+    linear = std::max(linear, rate.linear.norm());
+    angular = std::max(angular, rate.angular.norm());
+    audit.mismatch = std::max({audit.mismatch, (rate.linear - forces.linear).norm() / linear,
+                               (rate.angular - forces.angular).norm() / angular});
+    for (const Wrench<T>& w : s->applied.self)
+      audit.self_force = std::max(audit.self_force, lane_of(w.f, 0).norm());
+  }
+  EXPECT_GT(linear, 2000.0) << "no impact in trial " << trial;
+  return audit;
+}
+
+TEST(Step, MomentumChangesByGravityAndRecordedGroundForcesAlone) {
+  double self_force = 0;
+  for (std::uint64_t trial = 0; trial < 6; ++trial) {
+    const Audit exact = audit_momentum<double>(trial), packed = audit_momentum<Pack<8>>(trial);
+    EXPECT_LT(exact.mismatch, 1e-9);
+    EXPECT_LT(packed.mismatch, 2e-3);
+    self_force = std::max(self_force, exact.self_force);
+  }
+  EXPECT_GT(self_force, 100.0) << "self contact took no part";
+}
+
+// Newton–Euler, with the recorded wrenches as external forces, must give back the recorded joint torques
+// and nothing at the pelvis: this ties every exported quantity to the motion, joint by joint.
+TEST(Step, RneaWithRecordedWrenchesGivesTheRecordedTorques) {
+  for (std::uint64_t trial = 0; trial < 6; ++trial) {
+    Random random(32, {trial});
+    const Character character = make_character(random_betas(random));
+    Simulation<double> s(character, {}, random_snapshot(random, 1.5, 4.0, 0.9));
+    const BookModel book = make_book_model(character, s.model.options.gravity);
+    for (int k = 0; k < 240; ++k) {
+      Snapshot before;
+      read_lane(s.state, 0, before);
+      s.advance();
+      BookForces forces;
+      for (std::size_t i = 0; i < kBodies; ++i) {
+        forces[i].head<3>() = lane_of(s.applied.ground[i].n, 0) + lane_of(s.applied.self[i].n, 0);
+        forces[i].tail<3>() = lane_of(s.applied.ground[i].f, 0) + lane_of(s.applied.self[i].f, 0);
+      }
+      const Eigen::VectorXd expected = book_torque(s.applied.joint_torque);
+      const Eigen::VectorXd tau = book_inverse_dynamics(book, book_position(before), book_velocity(before),
+                                                        book_acceleration(before, s.data), forces);
+      double scale = 100.0;  // N·m; impacts reach far more
+      for (const Vector6d& f : forces) scale = std::max(scale, f.norm());
+      ASSERT_LT((tau - expected).cwiseAbs().maxCoeff(), 1e-9 * scale) << "trial " << trial << " step " << k;
+    }
+  }
+}
+
+/// A character of limp joints in free flight: no PD, no ranges, the floor out of reach.
+Character limp() {
+  Character c = make_character();
+  for (JointParameters& j : c.joint) j.kp = j.kd = 0;
+  return c;
+}
+SimulationOptions flight(double rate) {
+  SimulationOptions o;
+  o.rate = rate;
+  o.limit_stiffness = o.limit_damping = 0;
+  o.self_contact = false;
+  return o;
+}
+
+/// Kinetic (armature included) and potential energy of a state.
+double energy(const Character& c, Simulation<double>& s) {
+  update_kinematics(s.model, s.state, s.data);
+  const Bodies<double> b{c, s.data, 0};
+  double sum = 0;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    const Vector3d w = b.at(s.data.w, i), v = b.at(s.data.v, i) + w.cross(b.com_arm(i));
+    sum += 0.5 * c.mass[i] * v.squaredNorm() + 0.5 * w.dot(b.inertia(i) * w) +
+           c.mass[i] * s.model.options.gravity * b.com(i).z();
+    if (i > 0) sum += 0.5 * c.joint[i].armature * lane_of(s.state.omega[i], 0).squaredNorm();
+  }
+  return sum;
+}
+
+TEST(Step, FreeTumbleEnergyErrorIsOfFirstOrderInTheTimeStep) {
+  const Character c = limp();
+  Random random(33);
+  const Snapshot start = random_snapshot(random, 0.8, 2.0, 100.0);
+  std::array<double, 4> error;
+  for (std::size_t k = 0; k < error.size(); ++k) {
+    const double rate = 480.0 * static_cast<double>(1 << k);
+    Simulation<double> s(c, flight(rate), start);
+    const double before = energy(c, s);
+    for (int n = 0; n < static_cast<int>(0.5 * rate); ++n) s.advance();
+    error[k] = energy(c, s) - before;
+  }
+  for (std::size_t k = 1; k < error.size(); ++k) {
+    EXPECT_GT(error[k - 1] / error[k], 1.7) << "halving " << k;
+    EXPECT_LT(error[k - 1] / error[k], 2.6) << "halving " << k;
+  }
+  EXPECT_LT(std::abs(error.back()), 2.0);  // J, of several hundred
+}
+
+TEST(Step, FreeFallConservesAngularMomentum) {
+  const Character c = make_character();  // PD and ranges at work: internal torques must not matter
+  Random random(34);
+  const Snapshot start = random_snapshot(random, 0.8, 1.0, 100.0);
+  std::array<double, 3> drift;
+  for (std::size_t k = 0; k < drift.size(); ++k) {
+    const double rate = 240.0 * static_cast<double>(1 << (2 * k));
+    SimulationOptions options;
+    options.rate = rate;
+    options.gravity = 0.0;
+    Simulation<double> s(c, options, start);
+    update_kinematics(s.model, s.state, s.data);
+    const Momentum before = momentum(Bodies<double>{c, s.data, 0});
+    double worst = 0;
+    for (int n = 0; n < static_cast<int>(rate); ++n) {
+      s.advance();
+      const Momentum rate_of = momentum_rate(Bodies<double>{c, s.data, 0});
+      worst = std::max(worst, rate_of.angular.norm() / (before.angular.norm() * rate));
+    }
+    EXPECT_LT(worst, 1e-9);  // the continuous law holds in every step ...
+    update_kinematics(s.model, s.state, s.data);
+    drift[k] =
+        (momentum(Bodies<double>{c, s.data, 0}).angular - before.angular).norm() / before.angular.norm();
+  }
+  EXPECT_LT(drift[0], 0.1);  // ... and the integrator keeps it to its order
+  EXPECT_GT(drift[0] / drift[1], 3.0);
+  EXPECT_GT(drift[1] / drift[2], 3.0);
+}
+
+}  // namespace
+}  // namespace mimicx

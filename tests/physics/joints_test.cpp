@@ -1,0 +1,242 @@
+// PD control, torque bounds and anatomical ranges inside the implicit scheme.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "physics/joints.h"
+#include "physics/test_states.h"
+
+namespace mimicx {
+namespace {
+
+constexpr auto kKnee = static_cast<std::size_t>(kLeftKnee);
+
+/// The left knee as a lone oscillator: pelvis and thigh too heavy to move, nothing below the shank, no
+/// gravity, no ranges.
+struct KneeOscillator {
+  Character character = make_character();
+  SimulationOptions options;
+  double inertia;  ///< of the shank about the knee's axis plus armature, kg·m²
+
+  explicit KneeOscillator(double rate) {
+    options.rate = rate;
+    options.gravity = options.limit_stiffness = options.limit_damping = 0;
+    options.self_contact = false;
+    for (std::size_t i : {kPelvis, kLeftHip}) {
+      character.mass[i] = 1e12;
+      character.inertia_B[i] = 1e12 * Matrix3d::Identity();
+    }
+    for (std::size_t i : {kLeftAnkle, kLeftFoot}) {
+      character.mass[i] = 0;
+      character.inertia_B[i].setZero();
+    }
+    JointParameters& j = character.joint[kKnee];
+    j.kp = 100;
+    j.kd = 4;
+    j.torque_limit = 1e9;
+    const Vector3d axis = hinge_axis(kLeftKnee), d = character.com_B[kKnee];
+    inertia = axis.dot(character.inertia_B[kKnee] * axis) +
+              character.mass[kKnee] * d.cross(axis).squaredNorm() + j.armature;
+  }
+  Simulation<double> start(double angle, double speed) const {
+    Snapshot s;
+    s.p_root = {0, 0, 50};
+    s.q.fill(Quaterniond::Identity());
+    s.target_q = s.q;
+    s.omega.fill(Vector3d::Zero());
+    s.target_omega = s.omega;
+    s.q[kKnee] = exp_map(angle * hinge_axis(kLeftKnee));
+    s.omega[kKnee] = speed * hinge_axis(kLeftKnee);
+    return Simulation<double>(character, options, s);
+  }
+};
+double knee_angle(const Simulation<double>& s) {
+  return hinge_axis(kLeftKnee).dot(log_map(lane_of(s.state.q[kKnee], 0)));
+}
+
+TEST(ImplicitPd, HingeFollowsImplicitEulerOfTheOscillator) {
+  const KneeOscillator knee(240);
+  const JointParameters& j = knee.character.joint[kKnee];
+  Simulation<double> s = knee.start(0.5, 2.0);
+  const double dt = 1.0 / knee.options.rate;
+  double angle = 0.5, speed = 2.0;
+  for (int k = 0; k < 240; ++k) {
+    s.advance();
+    // (I + dt kd + dt² kp) ω' = I ω − dt kp q: velocities and positions of the end of the step.
+    speed = (knee.inertia * speed - dt * j.kp * angle) / (knee.inertia + dt * j.kd + dt * dt * j.kp);
+    angle += dt * speed;
+    ASSERT_NEAR(knee_angle(s), angle, 1e-9) << "step " << k;
+  }
+}
+
+TEST(ImplicitPd, ConvergesToTheClosedFormOfTheDampedOscillator) {
+  std::array<double, 3> error;
+  for (std::size_t k = 0; k < error.size(); ++k) {
+    const double rate = 600.0 * static_cast<double>(1 << (2 * k)), time = 0.25;
+    const KneeOscillator knee(rate);
+    Simulation<double> s = knee.start(0.5, 0.0);
+    for (int n = 0; n < static_cast<int>(time * rate); ++n) s.advance();
+    const double decay = 4.0 / (2 * knee.inertia), w = std::sqrt(100.0 / knee.inertia - decay * decay);
+    const double exact =
+        0.5 * std::exp(-decay * time) * (std::cos(w * time) + decay / w * std::sin(w * time));
+    error[k] = std::abs(knee_angle(s) - exact);
+  }
+  EXPECT_LT(error[2], 1e-3);
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.6);
+  EXPECT_NEAR(error[1] / error[2], 4.0, 0.6);
+}
+
+TEST(ImplicitPd, VelocityFeedForwardTracksARampWithoutLag) {
+  const KneeOscillator knee(240);
+  Simulation<double> s = knee.start(0.0, 0.0);
+  const double speed = 1.5;
+  double angle = 0.0;
+  for (int k = 0; k < 480; ++k) {
+    angle = speed * (k + 1) / 240.0;  // the target is where the joint shall be at the end of the step
+    set_lane(s.target.q[kKnee], 0, exp_map(angle * hinge_axis(kLeftKnee)));
+    set_lane(s.target.omega[kKnee], 0, Vector3d(speed * hinge_axis(kLeftKnee)));
+    s.advance();
+    if (angle > 2.5) break;
+  }
+  EXPECT_NEAR(knee_angle(s), angle, 1e-6);
+}
+
+/// Sixteen characters thrown about with new far-away PD targets 30 times a second.
+template <class Check>
+void thrash(double rate, int passes, Check&& check) {
+  using P = Pack<kLanes>;
+  SimulationOptions options;
+  options.rate = rate;
+  options.passes = passes;
+  const Character character = make_character();
+  const auto s = std::make_unique<Simulation<P>>(character, options);
+  std::array<Snapshot, kLanes> start;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    Random random(41, {static_cast<std::uint64_t>(lane)});
+    start[static_cast<std::size_t>(lane)] = random_snapshot(random, 1.0, 3.0, 1.0);
+    set_lane(start[static_cast<std::size_t>(lane)], lane, s->state, s->target);
+  }
+  const int interval = static_cast<int>(rate / 30.0);
+  for (int k = 0; k < static_cast<int>(rate); ++k) {
+    for (int lane = 0; k % interval == 0 && lane < kLanes; ++lane) {
+      Random random(42, {static_cast<std::uint64_t>(lane), static_cast<std::uint64_t>(k)});
+      for (std::size_t i = 1; i < kBodies; ++i) {
+        const Vector3d turn = 0.4 * random_vector(random);
+        const bool hinge = is_hinge(static_cast<int>(i));
+        const Vector3d along = hinge ? Vector3d(turn.x() * hinge_axis(static_cast<int>(i))) : turn;
+        set_lane(s->target.q[i], lane, start[static_cast<std::size_t>(lane)].target_q[i] * exp_map(along));
+      }
+    }
+    s->advance();
+    check(*s);
+  }
+}
+
+TEST(TorqueBound, IsNeverExceededHoweverTheCharacterThrashes) {
+  using P = Pack<kLanes>;
+  for (double rate : {120.0, 240.0, 480.0})
+    for (int passes : {1, 2, 3}) {
+      double worst = 0;
+      long saturated = 0, samples = 0;
+      thrash(rate, passes, [&](const Simulation<P>& s) {
+        for (std::size_t i = 1; i < kBodies; ++i) {
+          const Vec3<P> torque = applied_pd_torque(s.data, i);
+          for (int lane = 0; lane < kLanes; ++lane) {
+            const double share = lane_of(torque, lane).norm() / s.model.torque_limit[i];
+            worst = std::max(worst, share);
+            ++samples;
+            saturated += share > 0.999;
+          }
+        }
+      });
+      EXPECT_LE(worst, 1.0 + 1e-6) << rate << " Hz, " << passes << " passes";
+      EXPECT_GT(saturated, samples / 50) << "the test must drive joints into their bounds";
+    }
+}
+
+// The bound would also hold if the controller did nothing: where no bound is near, the solve is the law's.
+TEST(TorqueBound, LeavesUnsaturatedJointsToTheImplicitLaw) {
+  const Character character = make_character();
+  SimulationOptions options;
+  Snapshot start = standing(character);
+  start.target_q[kLeftShoulder] = start.q[kLeftShoulder] * exp_map(Vector3d(0, 0, 0.05));
+  Simulation<double> s(character, options, start);
+  s.advance();
+  const JointParameters& j = character.joint[kLeftShoulder];
+  const double dt = 1.0 / options.rate;
+  Snapshot end;
+  read_lane(s.state, 0, end);
+  // The law at the end of the step, to first order: φ − dt ω.
+  const Vector3d phi = log_map(start.q[kLeftShoulder].conjugate() * start.target_q[kLeftShoulder]);
+  const Vector3d omega = end.omega[kLeftShoulder];
+  const Vector3d expected = j.kp * (phi - dt * omega) - j.kd * omega;
+  EXPECT_LT((lane_of(s.applied.joint_torque[kLeftShoulder], 0) - expected).norm(), 1e-9);
+}
+
+/// The joint's rotation to the centre of its range and back, hinges about their axis.
+Quaterniond range_centre(const JointParameters& j, int body) {
+  return exp_map(is_hinge(body) ? Vector3d(j.centre.x() * hinge_axis(body)) : j.centre);
+}
+
+/// How far outside its range ellipsoid a joint is, rad along the way to the centre; 0 inside.
+double excess(const JointParameters& j, int body, const Quaterniond& q) {
+  const Vector3d r = log_map(range_centre(j, body).conjugate() * q);
+  const Vector3d inverse = (2.0 * (0.5 * j.half_range.array()).sin()).inverse().matrix();
+  const auto outside = [&](double scale) {
+    const Vector3d chord = 2.0 * std::sin(0.5 * scale * r.norm()) * r.normalized();
+    return chord.cwiseProduct(inverse).norm() > 1.0;
+  };
+  if (!outside(1.0)) return 0.0;
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < 60; ++k) (outside(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+  return (1.0 - low) * r.norm();
+}
+
+struct Excess {
+  double largest, held;  ///< while the limb slams into the range; at the end, pressed against it
+};
+
+/// One joint driven from the centre of its range about `axis` with all the torque it has.
+Excess drive(const Character& character, int body, const Vector3d& axis) {
+  SimulationOptions options;
+  options.gravity = 0;
+  options.self_contact = false;
+  Snapshot s;
+  s.p_root = {0, 0, 50};
+  s.omega.fill(Vector3d::Zero());
+  s.target_omega = s.omega;
+  for (int b = 0; b < kBodies; ++b)
+    s.q[static_cast<std::size_t>(b)] = range_centre(character.joint[static_cast<std::size_t>(b)], b);
+  s.target_q = s.q;
+  const auto i = static_cast<std::size_t>(body);
+  s.target_q[i] = s.q[i] * exp_map(3.0 * axis);
+  Simulation<double> simulation(character, options, s);
+  Excess result{0, 0};
+  for (int k = 0; k < 240; ++k) {
+    simulation.advance();
+    result.held = excess(character.joint[i], body, lane_of(simulation.state.q[i], 0));
+    result.largest = std::max(result.largest, result.held);
+  }
+  return result;
+}
+
+TEST(JointRange, HoldsAgainstTheFullTorqueOfItsJoint) {
+  const Character character = make_character();
+  const SimulationOptions options;
+  for (int body = 1; body < kBodies; ++body)
+    for (int direction = 0; direction < (is_hinge(body) ? 2 : 6); ++direction) {
+      const double sign = direction % 2 ? 1.0 : -1.0;
+      const Vector3d axis = sign * (is_hinge(body) ? hinge_axis(body) : Vector3d::Unit(direction / 2));
+      const Excess e = drive(character, body, axis);
+      // The range is a spring on the chord 2 sin(θ/2), so on the angle it is cos(θ/2) times as stiff.
+      const JointParameters& j = character.joint[static_cast<std::size_t>(body)];
+      const double half = j.half_range(is_hinge(body) ? 0 : direction / 2);
+      const double give = j.torque_limit / (options.limit_stiffness * std::cos(0.5 * half));
+      EXPECT_NEAR(e.held, give, 0.1 * give) << kBodyNames[static_cast<std::size_t>(body)] << axis.transpose();
+      EXPECT_LT(e.largest, 0.21) << kBodyNames[static_cast<std::size_t>(body)] << axis.transpose();
+    }
+}
+
+}  // namespace
+}  // namespace mimicx
