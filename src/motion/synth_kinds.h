@@ -1,0 +1,48 @@
+/// The kinds of synthetic motion, as plans.
+///
+/// A kind draws its parameters from the random stream it is given and fills one `PlanFrame` per frame.
+/// To add a kind: write its plan (standing kinds in synth_kinds_standing.cpp, those that leave their place in
+/// synth_kinds_stepping.cpp) and name it in `synth_kinds()`.
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "motion/synth_plan.h"
+
+namespace mimicx {
+
+inline constexpr double kSynthFps = 30.0;
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// What a plan is made for.
+struct PlanRequest {
+  const Character& character;
+  Random& random;
+  int frames;
+
+  double seconds() const { return (frames - 1) / kSynthFps; }
+};
+
+struct SynthKind {
+  std::string name;
+  std::vector<PlanFrame> (*plan)(const PlanRequest&);
+};
+
+const std::vector<SynthKind>& synth_kinds();
+
+/// A frame that stands at ease on `feet` with slightly bent knees, and the height of its centre of mass.
+PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
+
+/// Time of a frame, s.
+inline double time_of(std::size_t frame) { return static_cast<double>(frame) / kSynthFps; }
+
+std::vector<PlanFrame> plan_stand(const PlanRequest& request);
+std::vector<PlanFrame> plan_squat(const PlanRequest& request);
+std::vector<PlanFrame> plan_wave(const PlanRequest& request);
+std::vector<PlanFrame> plan_walk(const PlanRequest& request);
+std::vector<PlanFrame> plan_jump(const PlanRequest& request);
+
+}  // namespace mimicx
