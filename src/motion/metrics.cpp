@@ -150,7 +150,7 @@ double self_depth(const Character& character, const BodyPoses& poses) {
   for (const auto& [i, j] : character.self_pairs) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const Capsule &A = character.capsule[a], &B = character.capsule[b];
-    const auto world = [&](std::size_t body, const Vector3d& p_B) {
+    const auto world = [&](std::size_t body, const Vector3d& p_B) -> Vector3d {
       return poses.p_WB[body] + poses.q_WB[body] * p_B;
     };
     const double gap = segment_distance(world(a, A.a_B), world(a, A.b_B), world(b, B.a_B), world(b, B.b_B)) -
