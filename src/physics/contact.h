@@ -90,13 +90,18 @@ Vec3<T> point_acceleration(const Model<RealOf<T>>& model, const GroundContact<T>
   return d.a_v[i] + cross(d.a_w[i], c.arm) + c.centripetal;
 }
 
-/// Between two passes: the coefficients at the velocities that the last pass predicts.
+/// Between two solves: the coefficients at the velocities that the last one predicts, in the lanes that are
+/// to be solved again.
 template <class T>
-void relinearise_ground(const Model<RealOf<T>>& model, Data<T>& d) {
+void relinearise_ground(const Model<RealOf<T>>& model, const MaskOf<T>& lanes, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
     GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
+    GroundContact<T> renewed = c;
     const Vec3<T> v_end = add_scaled(c.velocity, T(model.dt), point_acceleration(model, c, d));
-    linearise_ground(model.options, T(model.dt), v_end, c);
+    linearise_ground(model.options, T(model.dt), v_end, renewed);
+    c.f = select<T>(lanes, renewed.f, c.f);
+    c.W_t = select(lanes, renewed.W_t, c.W_t);
+    c.W_n = select(lanes, renewed.W_n, c.W_n);
   }
 }
 

@@ -71,12 +71,16 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
   compute_joint_torques(model, state, target, d);
   use_pd_law(model, d);
   solve(model, d);
+  const MaskOf<T> all = T(1.0) > T(0.0);
   for (int pass = 1; pass < model.options.passes; ++pass) {
-    relinearise_ground(model, d);
+    relinearise_ground(model, all, d);
     apply_torque_bounds(model, d);
     solve(model, d);
   }
-  while (any(saturate_exceeding(model, d))) solve(model, d);
+  for (MaskOf<T> again = saturate_exceeding(model, d); any(again); again = saturate_exceeding(model, d)) {
+    relinearise_ground(model, again, d);
+    solve(model, d);
+  }
   find_applied_ground(model, d);
 }
 
