@@ -11,7 +11,8 @@ using P = TrackingPack::P;
 Vector3d first_lane(const Vec3<P>& v, double scale) { return scale * Vector3d(v.x[0], v.y[0], v.z[0]); }
 Vector6d first_lane(const Wrench<P>& w, double scale) {
   Vector6d out;
-  out << first_lane(w.n, scale), first_lane(w.f, scale);
+  out.head<3>() = first_lane(w.n, scale);
+  out.tail<3>() = first_lane(w.f, scale);
   return out;
 }
 
