@@ -94,6 +94,7 @@ std::vector<double> smooth_noise(Random& random, int count, double frames);
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps);
 
 /// A camera 4 to 6 m away (farther only when the motion would leave the picture), 1.2 to 1.8 m high.
+/// @throws std::invalid_argument when the motion would leave it at any distance
 Camera place_camera(const std::vector<BodyPoses>& truth, std::uint64_t seed);
 
 /// Detections of the clean motion. @param truth  poses of every frame

@@ -1,0 +1,40 @@
+/// What the files of the noise model share and nobody else needs: the purposes of its random streams, and
+/// intervals that begin at random.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+
+namespace mimicx {
+
+enum NoiseStream : std::uint64_t {
+  kJointStream = 0x4E4F4901,
+  kRootStream,
+  kHeadingStream,
+  kPathStream,
+  kDepthStream,
+  kDriftStream,
+  kHeightStream,
+  kBurstStream,
+  kToldShapeStream,
+  kToldCameraStream,
+  kCameraStream,
+  kKeypointBiasStream,
+  kKeypointStream,
+  kSwapStream,
+  kDropStream
+};
+
+inline constexpr double kHeightTau = 1.5;  ///< of the slow term of the height, s
+
+struct Interval {
+  int first, length;  ///< frames
+};
+
+/// A Poisson process of `rate` beginnings per second; lengths uniform in [shortest, longest], cut at the end.
+std::vector<Interval> poisson_intervals(Random& random, double rate, double shortest, double longest,
+                                        int frames, double fps);
+
+}  // namespace mimicx
