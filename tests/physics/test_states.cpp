@@ -73,6 +73,60 @@ Snapshot standing(const Character& character) {
   return s;
 }
 
+namespace {
+
+Vector3d centre_of_mass(const Character& c, const BodyPoses& poses) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < kBodies; ++i) sum += c.mass[i] * (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i]);
+  return sum / c.total_mass();
+}
+
+/// Mean of the sole points of the given feet (bodies of the balls and their ankles), world.
+Vector3d middle_of_soles(const Character& c, std::initializer_list<int> feet, const BodyPoses& poses) {
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (const ContactPoint& point : c.contact_points)
+    for (int foot : feet)
+      if (point.body == foot || point.body == kParents[static_cast<std::size_t>(foot)]) {
+        const auto i = static_cast<std::size_t>(point.body);
+        sum += poses.p_WB[i] + poses.q_WB[i] * point.p_B;
+        count += 1;
+      }
+  return sum / count;
+}
+
+}  // namespace
+
+void balance(const Character& character, std::initializer_list<int> feet, Snapshot& s) {
+  const Quaterniond flat = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
+  const Quaterniond upright = s.q[0];
+  Vector3d lean = Vector3d::Zero();
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    s.q[0] = exp_map(lean) * upright;
+    BodyPoses poses = forward_kinematics(character, s.p_root, s.q);
+    for (int foot : feet) {
+      const auto ankle = static_cast<std::size_t>(kParents[static_cast<std::size_t>(foot)]);
+      s.q[ankle] = poses.q_WB[static_cast<std::size_t>(kParents[ankle])].conjugate() * flat;
+      s.q[static_cast<std::size_t>(foot)] = Quaterniond::Identity();
+    }
+    poses = forward_kinematics(character, s.p_root, s.q);
+    const Vector3d offset = centre_of_mass(character, poses) - middle_of_soles(character, feet, poses);
+    // A lean about x by α moves the centre of mass, offset.z above the soles, by −α·z in y.
+    lean += Vector3d(offset.y(), -offset.x(), 0) / offset.z();
+  }
+  s.p_root.z() -= lowest_point(character, s);
+  s.target_q = s.q;
+}
+
+Character stiffened(Character character) {
+  for (JointParameters& j : character.joint) {
+    j.kp *= 40;
+    j.kd *= 40;
+    j.torque_limit *= 40;
+  }
+  return character;
+}
+
 BookPosition book_position(const Snapshot& s) {
   BookPosition position;
   position.p_root = s.p_root;

@@ -2,6 +2,8 @@
 /// of the oracle.
 #pragma once
 
+#include <initializer_list>
+
 #include "core/random.h"
 #include "oracles/book_dynamics.h"
 #include "physics/step.h"
@@ -19,6 +21,12 @@ struct Snapshot {
 
 /// Upright with bent knees and arms down, at rest, PD target = pose; soles on the floor.
 Snapshot standing(const Character& character);
+/// Leans the whole body over its ankles until the centre of mass is above the middle of the soles of `feet`
+/// (kLeftFoot, kRightFoot), these soles flat on the floor; PD target = pose.
+void balance(const Character& character, std::initializer_list<int> feet, Snapshot& s);
+/// The same character with joints so stiff that standing needs no policy (with the true gains the ankles are
+/// softer than m g h and a passive stance tips over).
+Character stiffened(Character character);
 /// Any orientation, joints up to `angle` rad from the T-pose, speeds of about `speed` m/s and rad/s;
 /// targets another such pose. Pelvis at `height`.
 Snapshot random_snapshot(Random& random, double angle, double speed, double height);

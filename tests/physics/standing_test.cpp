@@ -1,0 +1,95 @@
+// The floor under a standing and a lying character.
+#include <gtest/gtest.h>
+
+#include "physics/test_states.h"
+
+namespace mimicx {
+namespace {
+
+std::vector<Vector3d> contact_positions(const Character& c, const Simulation<double>& s) {
+  Snapshot now;
+  read_lane(s.state, 0, now);
+  const BodyPoses poses = forward_kinematics(c, now.p_root, now.q);
+  std::vector<Vector3d> points;
+  for (const ContactPoint& p : c.contact_points) {
+    const auto i = static_cast<std::size_t>(p.body);
+    points.push_back(poses.p_WB[i] + poses.q_WB[i] * p.p_B - Vector3d(0, 0, p.radius));
+  }
+  return points;
+}
+
+/// What the sole points of the standing feet did between the second and the fourth second, m and m/s.
+struct SoleMotion {
+  double lowest = 1, highest = -1, creep = 0;
+};
+
+SoleMotion stand(const Character& c, const Snapshot& pose, double rate, std::size_t sole_points) {
+  SimulationOptions options;
+  options.rate = rate;
+  Simulation<double> s(c, options, pose);
+  const int settle = static_cast<int>(2 * rate);
+  for (int k = 0; k < settle; ++k) s.advance();
+  SoleMotion motion;
+  std::vector<Vector3d> last = contact_positions(c, s);
+  for (int k = 0; k < settle; ++k) {
+    s.advance();
+    const std::vector<Vector3d> now = contact_positions(c, s);
+    for (std::size_t i = 0; i < sole_points; ++i) {  // contact points begin with the left foot's six
+      motion.lowest = std::min(motion.lowest, now[i].z());
+      motion.highest = std::max(motion.highest, now[i].z());
+      motion.creep = std::max(motion.creep, (now[i] - last[i]).head<2>().norm() * rate);
+    }
+    last = now;
+  }
+  return motion;
+}
+
+TEST(Standing, BothSolesStayWithinAMillimetreOfTheFloorAndDoNotCreep) {
+  const Character c = stiffened(make_character());
+  Snapshot pose = standing(c);
+  balance(c, {kLeftFoot, kRightFoot}, pose);
+  for (double rate : {120.0, 240.0, 480.0}) {
+    const SoleMotion m = stand(c, pose, rate, 12);
+    EXPECT_GT(m.lowest, -1e-3) << rate << " Hz";
+    EXPECT_LT(m.highest, 1e-3) << rate << " Hz";
+    EXPECT_LT(m.creep, 0.5e-3) << rate << " Hz";
+  }
+}
+
+TEST(Standing, TheSoleUnderTheWholeWeightStaysWithinAMillimetreOfTheFloor) {
+  const Character c = stiffened(make_character());
+  Snapshot pose = standing(c);
+  pose.q[kRightHip] = exp_map(Vector3d(-0.9, 0, 0));
+  pose.q[kRightKnee] = exp_map(1.2 * hinge_axis(kRightKnee));
+  balance(c, {kLeftFoot}, pose);
+  for (double rate : {120.0, 240.0, 480.0}) {
+    const SoleMotion m = stand(c, pose, rate, 6);
+    EXPECT_GT(m.lowest, -1e-3) << rate << " Hz";
+    EXPECT_LT(m.highest, 1e-3) << rate << " Hz";
+    EXPECT_LT(m.creep, 0.5e-3) << rate << " Hz";
+  }
+}
+
+TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
+  const Character c = make_character();
+  Snapshot pose = standing(c);
+  pose.q[0] = exp_map(Vector3d(0, 0, 0));  // face up: z of the body is forward
+  pose.p_root.z() += 0.02 - lowest_point(c, pose);
+  SimulationOptions options;
+  Simulation<double> s(c, options, pose);
+  for (int k = 0; k < 960; ++k) s.advance();
+  double force = 0, points = 0;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    force += s.applied.ground[i].f.z;
+    EXPECT_LT(lane_of(s.data.v[i], 0).norm(), 0.01) << kBodyNames[i];
+  }
+  for (double f : s.applied.point_force) points += f;
+  EXPECT_NEAR(force, c.total_mass() * options.gravity, 2.0);
+  EXPECT_NEAR(points, force, 1e-9 * force);
+  double lowest = 1;
+  for (const Vector3d& p : contact_positions(c, s)) lowest = std::min(lowest, p.z());
+  EXPECT_GT(lowest, -2.5e-3);
+}
+
+}  // namespace
+}  // namespace mimicx
