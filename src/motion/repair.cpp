@@ -9,7 +9,7 @@ namespace {
 constexpr double kMaxJointSpeed = 12.0;      ///< m/s
 constexpr double kMaxJointRate = 25.0;       ///< rad/s
 constexpr double kOverNeighbours = 3.0;      ///< a jump is this much faster than the motion around it
-constexpr int kNeighbours = 7;               ///< steps on either side that count as around
+constexpr int kNeighbours = 3;               ///< steps on either side that count as around
 constexpr double kMaxGlitch = 1.0 / 3.0;     ///< s
 constexpr double kMaxEndGlitch = 1.0 / 6.0;  ///< s, at either end of the clip
 
@@ -94,9 +94,8 @@ std::vector<bool> find_glitches(const Clip& clip) {
   std::vector<std::ptrdiff_t> jumps = {
       -1};  // a jump at t separates frames t and t + 1; the clip's ends count as two
   for (std::size_t t = 0; t < step.size(); ++t) {
-    std::vector<double> around = window(step, t, kNeighbours);
-    if (step[t] > 1.0 && step[t] > kOverNeighbours * percentile(around, 1.0 / 3.0))
-      jumps.push_back(static_cast<std::ptrdiff_t>(t));
+    const double around = percentile(window(step, t, kNeighbours), 0.5);
+    if (step[t] > 1.0 && step[t] > kOverNeighbours * around) jumps.push_back(static_cast<std::ptrdiff_t>(t));
   }
   jumps.push_back(frames - 1);
   for (std::size_t i = 0; i + 1 < jumps.size(); ++i)

@@ -4,7 +4,7 @@
 /// There is no mesh: the points lie on the collision shapes. They are fixed to their bodies, because the
 /// moving "lowest point of a capsule" would read rolling as sliding. Heel, ball and toe of each foot come
 /// first (Character::contact_points), then rings and tips on the capsules of every other body. Between the
-/// points of a cap a rounded shape may reach lower by up to 8 % of its radius.
+/// points of a cap a rounded shape may reach lower by up to 12 % of its radius.
 #pragma once
 
 #include <vector>
