@@ -1,0 +1,164 @@
+// Speed of the simulator on one core: character-steps per second for double and for the training pack, self
+// contact on and off, one to three passes; beside MuJoCo's mj_step of the same character where that library
+// is installed. 240 Hz; every roll-out starts standing, with small random joint velocities, and is started
+// again after two seconds, in which it has sunk, fallen and come to lie. The PD target is the pose of the
+// start. Best of the repetitions, by processor time. Ends with the ratios to MuJoCo.
+//   bench_physics [any option of Google Benchmark]
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "core/random.h"
+#include "physics/step.h"
+#ifdef MIMICX_HAVE_MUJOCO
+#include "oracles/mujoco_character.h"
+#endif
+
+namespace mimicx {
+namespace {
+
+constexpr int kStepsPerRollout = 480;
+
+/// Where a roll-out starts: arms down, joint velocities of 0.3 rad/s.
+struct Start {
+  Vector3d p_root{0, 0, 0.951};
+  std::array<Quaterniond, kBodies> q;
+  std::array<Vector3d, kBodies> omega;
+
+  explicit Start(std::uint64_t number) {
+    Random random(1, {number});
+    for (int i = 0; i < kBodies; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      q[n] = Quaterniond::Identity();
+      const double x = 0.3 * random.normal(), y = 0.3 * random.normal(), z = 0.3 * random.normal();
+      omega[n] = is_hinge(i) ? Vector3d(x * hinge_axis(i)) : Vector3d(x, y, z);
+    }
+    q[kPelvis] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
+    q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.2));
+    q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.2));
+  }
+};
+
+template <class T>
+void put(Vec3<T>& out, int lane, const Vector3d& v) {
+  ScalarTraits<T>::set(out.x, lane, v.x());
+  ScalarTraits<T>::set(out.y, lane, v.y());
+  ScalarTraits<T>::set(out.z, lane, v.z());
+}
+template <class T>
+void put(Quat<T>& out, int lane, const Quaterniond& q) {
+  ScalarTraits<T>::set(out.w, lane, q.w());
+  ScalarTraits<T>::set(out.x, lane, q.x());
+  ScalarTraits<T>::set(out.y, lane, q.y());
+  ScalarTraits<T>::set(out.z, lane, q.z());
+}
+
+template <class T>
+void simulate(benchmark::State& timer, bool self_contact, int passes) {
+  SimulationOptions options;
+  options.self_contact = self_contact;
+  options.passes = passes;
+  const auto model = make_model<RealOf<T>>(make_character(), options);
+  const auto start = std::make_unique<State<T>>(), state = std::make_unique<State<T>>();
+  const auto target = std::make_unique<Target<T>>();
+  const auto data = std::make_unique<Data<T>>();
+  for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) {
+    const Start s(static_cast<std::uint64_t>(lane));
+    put(start->p_root, lane, s.p_root);
+    put(start->v_root, lane, Vector3d::Zero());
+    for (std::size_t i = 0; i < kBodies; ++i) {
+      put(start->q[i], lane, s.q[i]);
+      put(start->omega[i], lane, s.omega[i]);
+      put(target->q[i], lane, s.q[i]);
+      put(target->omega[i], lane, Vector3d::Zero());
+    }
+  }
+  int k = 0;
+  for (auto _ : timer) {
+    if (k++ % kStepsPerRollout == 0) *state = *start;
+    benchmark::DoNotOptimize(step(model, *target, *state, *data));
+  }
+  timer.SetItemsProcessed(timer.iterations() * ScalarTraits<T>::kSize);
+}
+
+#ifdef MIMICX_HAVE_MUJOCO
+void simulate_mujoco(benchmark::State& timer) {
+  MujocoCharacter mujoco(make_character(), {});
+  const Start start(0);
+  for (int i = 1; i < kBodies; ++i) mujoco.set_target(i, start.q[static_cast<std::size_t>(i)]);
+  int k = 0;
+  for (auto _ : timer) {
+    if (k++ % kStepsPerRollout == 0) {
+      mj_resetData(&mujoco.model(), &mujoco.data());
+      mujoco.set_root(start.p_root, start.q[0], Vector3d::Zero(), start.omega[0]);
+      for (int i = 1; i < kBodies; ++i)
+        mujoco.set_joint(i, start.q[static_cast<std::size_t>(i)], start.omega[static_cast<std::size_t>(i)]);
+    }
+    mj_step(&mujoco.model(), &mujoco.data());
+  }
+  timer.SetItemsProcessed(timer.iterations());
+}
+#endif
+
+/// Prints as usual and keeps the best rate of every benchmark.
+class BestReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs)
+      if (run.run_type == Run::RT_Iteration && !run.error_occurred) {
+        double& best = best_[run.run_name.function_name];
+        best = std::max(best, run.counters.at("items_per_second").value);
+      }
+  }
+  const std::map<std::string, double>& best() const { return best_; }
+
+ private:
+  std::map<std::string, double> best_;
+};
+
+void register_all() {
+  const auto add = [](const std::string& name, auto function) {
+    benchmark::RegisterBenchmark(name.c_str(), function)->MinTime(0.25)->Repetitions(5);
+  };
+  using P = Pack<kLanes>;
+  for (bool self_contact : {false, true})
+    for (int passes : {1, 2, 3}) {
+      const std::string suffix =
+          std::string(self_contact ? " self contact" : "") + ", passes " + std::to_string(passes);
+      add("double" + suffix, [=](benchmark::State& s) { simulate<double>(s, self_contact, passes); });
+      add("pack" + suffix, [=](benchmark::State& s) { simulate<P>(s, self_contact, passes); });
+    }
+#ifdef MIMICX_HAVE_MUJOCO
+  add("mujoco", simulate_mujoco);
+#endif
+}
+
+void print_summary(const std::map<std::string, double>& best) {
+  const auto mujoco = best.find("mujoco");
+  std::printf("\ncharacter-steps per second, best of the repetitions (%s, packs of %d)\n", MIMICX_TARGET,
+              kLanes);
+  for (const auto& [name, rate] : best) {
+    std::printf("  %-34s %10.0f", name.c_str(), rate);
+    if (mujoco != best.end()) std::printf("  %7.1f x mj_step", rate / mujoco->second);
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+}  // namespace mimicx
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  mimicx::register_all();
+  mimicx::BestReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  mimicx::print_summary(reporter.best());
+  return 0;
+}
