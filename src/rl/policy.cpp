@@ -52,16 +52,11 @@ void unscale_values(const ReturnScale& scale, nn::Matrix<float>& values) {
   values = (values.array() * static_cast<float>(scale.deviation()) + static_cast<float>(scale.mean)).matrix();
 }
 
-void rescale_returns(Agent& agent, double mean, double square, double rate) {
-  const ReturnScale old = agent.returns;
-  const double blend = old.batches == 0 ? 1.0 : rate;
-  agent.returns = {old.mean + blend * (mean - old.mean), old.square + blend * (square - old.square),
-                   old.batches + 1};
-  const double ratio = old.deviation() / agent.returns.deviation();
-  const double shift = (old.mean - agent.returns.mean) / agent.returns.deviation();
-  agent.critic.weights.back() *= static_cast<float>(ratio);
-  auto bias = agent.critic.biases.back().array();
-  bias = bias * static_cast<float>(ratio) + static_cast<float>(shift);
+void follow_returns(ReturnScale& scale, double mean, double square, double rate) {
+  const double blend = scale.batches == 0 ? 1.0 : rate;
+  scale.mean += blend * (mean - scale.mean);
+  scale.square += blend * (square - scale.square);
+  ++scale.batches;
 }
 
 void save(Npz& archive, const std::string& prefix, const Agent& agent) {

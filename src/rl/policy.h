@@ -5,9 +5,10 @@
 /// the same for the old and the new policy, the normalising constant of the density cancels in every ratio
 /// and is left out: `log_density` is −‖a − μ‖²/2σ².
 ///
-/// The critic predicts (V − mean)/deviation of recent returns. When those two numbers move, the critic's
-/// last layer is rewritten so that V stays what it was (van Hasselt et al., "Learning values across many
-/// orders of magnitude", NeurIPS 2016, Eq. 9, "PopArt").
+/// The critic predicts (V − mean)/deviation of recent returns, so that one step size suits every task. When
+/// those two numbers move, V moves with them: returns that grow or shrink as a whole need no relearning. (The
+/// rewriting of the last layer that keeps V instead, van Hasselt et al. 2016, made the critic diverge on a
+/// task whose returns shrink a hundredfold.)
 #pragma once
 
 #include <cstdint>
@@ -59,10 +60,9 @@ void sample_actions(const nn::Matrix<float>& means, double sigma, Random& random
 /// Scaled predictions [n × 1] → values V, in place.
 void unscale_values(const ReturnScale& scale, nn::Matrix<float>& values);
 
-/// Blends the statistics of a batch of returns in (the first batch wholly, later ones at `rate`) and rewrites
-/// the critic's last layer so that its unscaled predictions stay the same.
+/// Blends the statistics of a batch of returns in: the first batch wholly, later ones at `rate`.
 /// @param mean, square  mean of the returns and of their squares over the batch
-void rescale_returns(Agent& agent, double mean, double square, double rate);
+void follow_returns(ReturnScale& scale, double mean, double square, double rate);
 
 void save(Npz& archive, const std::string& prefix, const Agent& agent);
 Agent load_agent(const Npz& archive, const std::string& prefix);

@@ -51,7 +51,8 @@ AdvantageScale advantage_scale(const RolloutBuffer& buffer, std::span<const int>
   return {static_cast<float>(mean), static_cast<float>(1.0 / (deviation + 1e-8))};
 }
 
-void update_return_scale(Agent& agent, const RolloutBuffer& buffer, std::span<const int> rows, double rate) {
+void update_return_scale(ReturnScale& scale, const RolloutBuffer& buffer, std::span<const int> rows,
+                         double rate) {
   double sum = 0.0, squares = 0.0;
   for (const int row : rows) {
     const double value = target(place(buffer, row));
@@ -59,7 +60,7 @@ void update_return_scale(Agent& agent, const RolloutBuffer& buffer, std::span<co
     squares += value * value;
   }
   const double count = static_cast<double>(rows.size());
-  rescale_returns(agent, sum / count, squares / count, rate);
+  follow_returns(scale, sum / count, squares / count, rate);
 }
 
 /// Fisher–Yates.
@@ -259,7 +260,7 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
   if (rows.empty()) return;
   stats.learned = true;
   stats.step_size = learner.step_size;
-  update_return_scale(learner.agent, buffer, rows, config.return_rate);
+  update_return_scale(learner.agent.returns, buffer, rows, config.return_rate);
   const AdvantageScale advantages = advantage_scale(buffer, rows);
   const auto minibatches =
       static_cast<std::size_t>(std::max(1L, std::lround(double(rows.size()) / double(config.minibatch))));
@@ -289,8 +290,9 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
     if (!stopped) stats.kl = epoch_kl / static_cast<double>(minibatches);
   }
   average(stats);
-  // A single step cannot see its own KL.
-  if (stats.minibatches > 1) learner.step_size = adapted_step_size(config, learner.step_size, stats.kl);
+  // A single step cannot see its own KL, unless the minibatch after it was the one that stopped.
+  if (stopped || stats.minibatches > 1)
+    learner.step_size = adapted_step_size(config, learner.step_size, stats.kl);
 }
 
 void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationStats& stats) {

@@ -1,0 +1,156 @@
+/// PPO on tasks whose answer is known. Seeds are fixed, so each of these passes always or never.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rl/toy_environments.h"
+#include "rl/trainer.h"
+
+namespace mimicx::rl {
+namespace {
+
+using namespace toy;
+
+constexpr int kThreads = 1;
+
+Agent agent_for(int observations, int actions, std::uint64_t seed) {
+  AgentShape shape;
+  shape.observation_dim = observations;
+  shape.action_dim = actions;
+  shape.hidden = {32, 32};
+  shape.activation = nn::Activation::kTanh;
+  return make_agent(shape, seed);
+}
+
+PpoConfig toy_config() {
+  PpoConfig config;
+  config.minibatch = 1024;
+  config.step_max = 1e-2;
+  config.critic_step_size = 1e-3;
+  return config;
+}
+
+/// Gain K of u = −K·x that minimises Σ γᵗ(xᵀQx + R u²): the discounted Riccati equation, iterated. Noise that
+/// is added to u does not change it.
+Eigen::RowVector2d riccati_gain(double gamma) {
+  using Task = DoubleIntegrator;
+  const Eigen::Matrix2d a = (Eigen::Matrix2d() << 1.0, Task::kDt, 0.0, 1.0).finished();
+  const Eigen::Vector2d b(0.0, Task::kDt);
+  const Eigen::Matrix2d q = Eigen::Vector2d(Task::kPositionCost, Task::kVelocityCost).asDiagonal();
+  Eigen::Matrix2d p = q;
+  Eigen::RowVector2d gain;
+  for (int k = 0; k < 2000; ++k) {
+    gain = gamma * (b.transpose() * p * a) / (Task::kForceCost + gamma * b.dot(p * b));
+    p = q + gamma * a.transpose() * p * (a - b * gain);
+  }
+  return gain;
+}
+
+/// μ(x) = −K·x + μ(0) of a linear actor behind its normaliser: (K, μ(0)).
+Eigen::RowVector3d linear_law(const Agent& agent) {
+  const Eigen::RowVector2d gain =
+      -(agent.actor.weights[0].col(0).transpose().array() * agent.observations.factor.row(0).array())
+           .cast<double>()
+           .matrix();
+  const double at_zero = agent.actor.biases[0](0) + gain.dot(agent.observations.shift.row(0).cast<double>());
+  return {gain[0], gain[1], at_zero};
+}
+
+TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
+  ToyEnvironment<DoubleIntegrator> world(4, 64, 1);
+  PpoConfig config = toy_config();
+  config.minibatch = 2048;
+  config.sigma_start = config.sigma_end = 0.4;
+  Agent agent = agent_for(2, 1, 1);
+  Random random(1);
+  agent.actor = nn::make_mlp<float>({2, 1}, nn::Activation::kLinear, 0.02F, random);
+  PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, agent, world);
+  Eigen::RowVector3d law = Eigen::RowVector3d::Zero();
+  for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
+  for (int k = 0; k < 50; ++k) {  // it goes on trembling about the optimum: take the mean
+    trainer.iterate(kThreads);
+    law += linear_law(trainer.learner().agent) / 50.0;
+  }
+  const Eigen::RowVector2d expected = riccati_gain(config.gamma);
+  EXPECT_NEAR(law[0] / expected[0], 1.0, 0.05) << law << " instead of " << expected;
+  EXPECT_NEAR(law[1] / expected[1], 1.0, 0.05) << law << " instead of " << expected;
+  EXPECT_NEAR(law[2], 0.0, 0.05);
+}
+
+/// Mean undiscounted return of the mean policy over one episode of 64 characters.
+double pendulum_return(const Agent& agent) {
+  nn::Matrix<float> raw(64, Pendulum::kObservation), x, means;
+  nn::Workspace<float> workspace;
+  Random random(77);
+  std::vector<Pendulum::State> states;
+  for (int i = 0; i < 64; ++i) states.push_back(Pendulum::reset(random));
+  double total = 0.0;
+  for (int t = 0; t < Pendulum::kLimit; ++t) {
+    for (std::size_t i = 0; i < 64; ++i)
+      Pendulum::observe(states[i], raw.row(static_cast<Eigen::Index>(i)).data());
+    nn::normalise(agent.observations, raw, x);
+    nn::evaluate(agent.actor, x, workspace, means);
+    for (std::size_t i = 0; i < 64; ++i)
+      total += Pendulum::step(states[i], means.row(static_cast<Eigen::Index>(i)).data(), random).reward;
+  }
+  return total / 64.0;
+}
+
+TEST(ToyTasks, PendulumSwingsUp) {
+  ToyEnvironment<Pendulum> world(4, 32, 2);
+  PpoConfig config = toy_config();
+  config.sigma_start = 0.6;
+  config.sigma_end = 0.15;
+  config.sigma_samples = 600'000;
+  const Agent untrained = agent_for(3, 1, 3);
+  PpoTrainer<ToyEnvironment<Pendulum>> trainer(config, untrained, world);
+  for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
+  EXPECT_LT(pendulum_return(untrained), -800.0);
+  EXPECT_GT(pendulum_return(trainer.learner().agent), -250.0);
+}
+
+template <class Task>
+double learned_value(const PpoConfig& config) {
+  ToyEnvironment<Task> world(2, 32, 4);
+  PpoTrainer<ToyEnvironment<Task>> trainer(config, agent_for(2, 1, 4), world);
+  for (int k = 0; k < 150; ++k) trainer.iterate(kThreads);
+  double sum = 0.0;
+  for (const GroupRollout& group : trainer.buffer().groups) sum += group.values.cast<double>().sum();
+  return sum / trainer.buffer().rows();
+}
+
+TEST(ToyTasks, TimeLimitsDoNotBiasTheValue) {
+  PpoConfig config = toy_config();
+  config.gamma = 0.9;
+  // Ten steps of reward 1 would be worth at most 6.5 to a critic that took the limit for an end.
+  EXPECT_NEAR(learned_value<ConstantReward>(config), 1.0 / (1.0 - config.gamma), 0.2);
+}
+
+TEST(ToyTasks, TerminationsEndTheValue) {
+  PpoConfig config = toy_config();
+  config.gamma = 0.9;
+  const double expected = 1.0 / (1.0 - config.gamma * (1.0 - MortalReward::kDeath));
+  EXPECT_NEAR(learned_value<MortalReward>(config), expected, 0.1);
+}
+
+TEST(ToyTasks, StepSizeFindsTheTargetKlFromFarBelowAndAbove) {
+  for (const double start : {1e-6, 0.1}) {
+    ToyEnvironment<DoubleIntegrator> world(4, 32, 5);
+    PpoConfig config = toy_config();
+    config.sigma_start = config.sigma_end = 0.1;
+    config.step_size = start;
+    config.step_max = 1.0;
+    PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, agent_for(2, 1, 5), world);
+    for (int k = 0; k < 40; ++k) trainer.iterate(kThreads);
+    double kl = 0.0;
+    for (int k = 0; k < 20; ++k) kl += trainer.iterate(kThreads).kl / 20.0;
+    // The step size rests while the KL is within a factor 2 of its target; single iterations scatter.
+    EXPECT_GT(kl, config.kl_target / 3.0) << start;
+    EXPECT_LT(kl, config.kl_target * 3.0) << start;
+    EXPECT_GT(trainer.learner().step_size, 1e-4);
+    EXPECT_LT(trainer.learner().step_size, 5e-2);
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::rl
