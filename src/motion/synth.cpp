@@ -37,7 +37,7 @@ Clip synthesize(const SynthOptions& options) {
   if (kind == kinds.end()) throw std::invalid_argument("synthesize: unknown kind '" + options.kind + "'");
   const auto index = static_cast<std::uint64_t>(kind - kinds.begin());
   Random random(options.seed, {kPlanStream, index}), place(options.seed, {kPlaceStream, index});
-  const double chosen = random.uniform(4.6, 5.4);
+  const double chosen = random.uniform(kind->shortest, kind->longest);
   const double seconds = options.seconds == 0.0 ? chosen : options.seconds;
   if (!(seconds >= 4.0 && seconds <= 60.0))
     throw std::invalid_argument("synthesize: the length must be 4 to 60 s");

@@ -5,11 +5,11 @@
 namespace mimicx {
 
 const std::vector<SynthKind>& synth_kinds() {
-  static const std::vector<SynthKind> kinds = {{"stand", plan_stand},
-                                               {"walk", plan_walk},
-                                               {"squat", plan_squat},
-                                               {"wave", plan_wave},
-                                               {"jump", plan_jump}};
+  static const std::vector<SynthKind> kinds = {{"stand", 4.4, 5.4, plan_stand},
+                                               {"walk", 4.8, 6.0, plan_walk},
+                                               {"squat", 5.7, 6.0, plan_squat},
+                                               {"wave", 4.4, 5.4, plan_wave},
+                                               {"jump", 4.0, 4.4, plan_jump}};
   return kinds;
 }
 

@@ -28,6 +28,7 @@ struct PlanRequest {
 
 struct SynthKind {
   std::string name;
+  double shortest, longest;  ///< range of the length where none is asked for, s
   std::vector<PlanFrame> (*plan)(const PlanRequest&);
 };
 

@@ -71,12 +71,12 @@ std::vector<PlanFrame> plan_squat(const PlanRequest& request) {
   for (ArmPosture& arm : low.arm) arm = {random.uniform(95.0, 110.0) * kDegree, 6.0 * kDegree, 0.0, 0.2};
   low.com_height =
       com_height_for_knee(request.character, low, low.pressure, random.uniform(88.0, 100.0) * kDegree);
-  const double begin = random.uniform(0.4, 0.6), down = random.uniform(1.0, 1.25),
-               hold = random.uniform(0.2, 0.5), up = random.uniform(0.9, 1.15),
-               pause = random.uniform(0.3, 0.5);
+  const double begin = random.uniform(0.25, 0.40), down = random.uniform(0.95, 1.10);
+  const double hold = random.uniform(0.15, 0.35), up = random.uniform(0.85, 1.00),
+               pause = random.uniform(0.20, 0.35);
   std::vector<PostureKey> keys = {{0.0, stand}};
   std::vector<Knot> height = {{0.0, stand.com_height}};
-  for (double t = begin; t + down + hold + up < request.seconds() - 0.2; t += down + hold + up + pause) {
+  for (double t = begin; t + down + hold + up < request.seconds() - 0.1; t += down + hold + up + pause) {
     const double bottom = t + down, rise = bottom + hold, top = rise + up;
     keys.insert(keys.end(), {{t, stand}, {bottom, low}, {rise, low}, {top, stand}});
     height.insert(

@@ -85,7 +85,6 @@ namespace {
 /// A jump in numbers: times in s, heights of the centre of mass in m.
 struct JumpTiming {
   double begin, crouch, leave, land, settle, end;
-  double lead;  ///< between bottom of the crouch and leaving, and again after landing
   double distance;
   double leave_height, land_height, velocity;
 
@@ -95,6 +94,54 @@ struct JumpTiming {
   }
   double velocity_in_flight(double t) const { return velocity - kGravity * (t - leave); }
 };
+
+/// Postures the jump goes through, with the heights of those that fix the height.
+struct JumpPostures {
+  PlanFrame stand, crouch, leave, land, soft;
+};
+
+JumpTiming jump_timing(Random& random) {
+  const auto on_frame = [](double t) { return std::round(t * kSynthFps) / kSynthFps; };
+  JumpTiming jump{};
+  jump.begin = random.uniform(0.5, 0.75);
+  jump.crouch = jump.begin + random.uniform(0.65, 0.8);
+  // Leaving and landing fall on frames: the discrete motion is then exactly ballistic in between.
+  jump.leave = on_frame(jump.crouch + random.uniform(0.30, 0.34));
+  jump.land = jump.leave + on_frame(random.uniform(0.30, 0.37));
+  jump.settle = jump.land + 0.36;
+  jump.end = jump.settle + random.uniform(0.8, 1.0);
+  jump.distance = random.uniform(0.0, 0.25);
+  return jump;
+}
+
+/// Arms back in the crouch, up while leaving, and down with the landing.
+JumpPostures jump_postures(const Character& character, const PlanFrame& stand, Random& random) {
+  JumpPostures p{stand, stand, stand, stand, stand};
+  const double arms_back = random.uniform(30.0, 40.0) * kDegree,
+               arms_up = random.uniform(60.0, 90.0) * kDegree;
+  p.crouch.pelvis.x() = 18.0 * kDegree;
+  p.crouch.trunk.x() = 16.0 * kDegree;
+  p.crouch.head.x() = -18.0 * kDegree;
+  p.leave.pelvis.x() = p.land.pelvis.x() = p.land.trunk.x() = 4.0 * kDegree;
+  p.soft.pelvis.x() = 16.0 * kDegree;
+  p.soft.trunk.x() = 14.0 * kDegree;
+  p.soft.head.x() = -14.0 * kDegree;
+  for (std::size_t side = 0; side < 2; ++side) {
+    p.crouch.arm[side].forward = -arms_back;
+    p.leave.arm[side].forward = arms_up;
+    p.land.arm[side].forward = arms_up - 10.0 * kDegree;
+    p.soft.arm[side].forward = 35.0 * kDegree;
+  }
+  const auto height = [&](const PlanFrame& frame, double knee_degrees) {
+    return com_height_for_knee(character, frame, frame.pressure, knee_degrees * kDegree);
+  };
+  PlanFrame on_toes = p.leave;
+  for (FootTarget& foot : on_toes.foot) foot.heel_rise = 36.0 * kDegree;
+  p.leave.com_height = height(on_toes, 38.0);
+  p.crouch.com_height = height(p.crouch, random.uniform(72.0, 84.0));
+  p.soft.com_height = height(p.soft, random.uniform(68.0, 80.0));
+  return p;
+}
 
 /// Both feet at once: up on the toes, off, and back on the toes.
 FeetTracks jumping_feet(const Character& character, const std::array<FootTarget, 2>& start,
@@ -132,59 +179,25 @@ FeetTracks jumping_feet(const Character& character, const std::array<FootTarget,
 std::vector<PlanFrame> plan_jump(const PlanRequest& request) {
   Random& random = request.random;
   const Character& character = request.character;
-  const auto frame_time = [](double t) { return std::round(t * kSynthFps) / kSynthFps; };
   const auto start =
       feet_apart(rest_half_width(character) * random.uniform(1.0, 1.2), random.uniform(4.0, 10.0) * kDegree);
-  JumpTiming jump{};
-  jump.begin = random.uniform(0.6, 0.9);
-  jump.crouch = jump.begin + random.uniform(0.65, 0.8);
-  jump.lead = random.uniform(0.30, 0.34);
-  // Leaving and landing fall on frames: the discrete motion is then exactly ballistic in between.
-  jump.leave = frame_time(jump.crouch + jump.lead);
-  jump.land = jump.leave + frame_time(random.uniform(0.30, 0.37));
-  jump.settle = jump.land + 0.36;
-  jump.end = jump.settle + random.uniform(0.8, 1.0);
-  jump.distance = random.uniform(0.0, 0.25);
-
+  JumpTiming jump = jump_timing(random);
   const PlanFrame stand = standing_frame(character, standing_feet(character, start));
-  PlanFrame crouch = stand, leave = stand, land = stand, soft = stand;
-  const double arms_back = random.uniform(30.0, 40.0) * kDegree,
-               arms_up = random.uniform(60.0, 90.0) * kDegree;
-  crouch.pelvis.x() = 18.0 * kDegree;
-  crouch.trunk.x() = 16.0 * kDegree;
-  crouch.head.x() = -18.0 * kDegree;
-  leave.pelvis.x() = land.pelvis.x() = 4.0 * kDegree;
-  land.trunk.x() = 4.0 * kDegree;
-  soft.pelvis.x() = 16.0 * kDegree;
-  soft.trunk.x() = 14.0 * kDegree;
-  soft.head.x() = -14.0 * kDegree;
-  for (std::size_t side = 0; side < 2; ++side) {
-    crouch.arm[side].forward = -arms_back;
-    leave.arm[side].forward = arms_up;
-    land.arm[side].forward = arms_up - 10.0 * kDegree;
-    soft.arm[side].forward = 35.0 * kDegree;
-  }
-  const std::vector<PostureKey> keys = {{0.0, stand},        {jump.begin, stand}, {jump.crouch, crouch},
-                                        {jump.leave, leave}, {jump.land, land},   {jump.settle, soft},
-                                        {jump.end, stand}};
-
-  PlanFrame toes = leave;
-  for (FootTarget& foot : toes.foot) foot.heel_rise = 36.0 * kDegree;
-  jump.leave_height = com_height_for_knee(character, toes, toes.pressure, 38.0 * kDegree);
-  jump.land_height = jump.leave_height - 0.02;
+  const JumpPostures p = jump_postures(character, stand, random);
   const double flight = jump.land - jump.leave;
+  jump.leave_height = p.leave.com_height;
+  jump.land_height = jump.leave_height - 0.02;
   jump.velocity = (jump.land_height - jump.leave_height) / flight + 0.5 * kGravity * flight;
-  const double low =
-      com_height_for_knee(character, crouch, crouch.pressure, random.uniform(72.0, 84.0) * kDegree);
-  const double soft_low =
-      com_height_for_knee(character, soft, soft.pressure, random.uniform(68.0, 80.0) * kDegree);
   const FeetTracks feet = jumping_feet(character, start, jump);
   const MinJerkTrack height({{jump.begin, stand.com_height},
-                             {jump.crouch, low, 0.0, 6.0},
+                             {jump.crouch, p.crouch.com_height, 0.0, 6.0},
                              {jump.leave, jump.leave_height, jump.velocity, -kGravity},
                              {jump.land, jump.land_height, jump.velocity_in_flight(jump.land), -kGravity},
-                             {jump.settle, soft_low, 0.0, 1.5},
+                             {jump.settle, p.soft.com_height, 0.0, 1.5},
                              {jump.end, stand.com_height}});
+  const std::vector<PostureKey> keys = {{0.0, stand},          {jump.begin, stand}, {jump.crouch, p.crouch},
+                                        {jump.leave, p.leave}, {jump.land, p.land}, {jump.settle, p.soft},
+                                        {jump.end, stand}};
   std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const double t = time_of(i);
