@@ -211,7 +211,7 @@ std::string one_member_zip(const std::string& content, std::uint32_t declared, s
   for (int c = 0; c < copies; ++c) {
     put(out, 0x02014b50, 4), put(out, 20, 2);
     out += fields;
-    put(out, 0, 10), put(out, 0, 4);
+    put(out, 0, 8), put(out, 0, 6);
     out += "x.npy";
   }
   const std::size_t size = out.size() - start;
