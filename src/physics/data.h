@@ -9,8 +9,6 @@
 
 namespace mimicx {
 
-inline constexpr int kMaxContacts = 48;
-
 /// Generalised coordinates and velocities.
 template <class T>
 struct State {

@@ -64,6 +64,8 @@ void fill_contacts(const Character& c, Model<Real>& m) {
 template <class Real>
 Model<Real> make_model(const Character& c, const SimulationOptions& options) {
   check(options);
+  if (c.contact_points.size() > kMaxContacts)
+    throw std::invalid_argument("make_model: too many contact points");
   Model<Real> m{};
   m.options = options;
   m.dt = static_cast<Real>(1.0 / options.rate);

@@ -13,6 +13,8 @@
 
 namespace mimicx {
 
+inline constexpr int kMaxContacts = 48;  ///< contact points a character may have
+
 /// Numerical parameters; the defaults are measured in docs/physics.md.
 struct SimulationOptions {
   double rate = 240.0;            ///< physics steps per second
@@ -54,7 +56,7 @@ struct Model {
   Real dt;  ///< 1 / rate, s
 };
 
-/// @throws std::invalid_argument for options outside their range.
+/// @throws std::invalid_argument for options outside their range or more than kMaxContacts contact points.
 template <class Real>
 Model<Real> make_model(const Character& character, const SimulationOptions& options = {});
 

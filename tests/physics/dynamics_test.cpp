@@ -143,7 +143,7 @@ TEST(Aba, ReproducesTheTwoBodyExampleWorkedByHand) {
   c.mass.fill(0.0);
   c.com_B.fill(Vector3d::Zero());
   c.inertia_B.fill(Matrix3d::Zero());
-  for (std::size_t i : {kPelvis, kLeftHip}) {
+  for (auto i : std::initializer_list<std::size_t>{kPelvis, kLeftHip}) {
     c.mass[i] = 1.0;
     c.inertia_B[i] = Matrix3d::Identity();
   }

@@ -23,11 +23,11 @@ struct KneeOscillator {
     options.rate = rate;
     options.gravity = options.limit_stiffness = options.limit_damping = 0;
     options.self_contact = false;
-    for (std::size_t i : {kPelvis, kLeftHip}) {
+    for (auto i : std::initializer_list<std::size_t>{kPelvis, kLeftHip}) {
       character.mass[i] = 1e12;
       character.inertia_B[i] = 1e12 * Matrix3d::Identity();
     }
-    for (std::size_t i : {kLeftAnkle, kLeftFoot}) {
+    for (auto i : std::initializer_list<std::size_t>{kLeftAnkle, kLeftFoot}) {
       character.mass[i] = 0;
       character.inertia_B[i].setZero();
     }

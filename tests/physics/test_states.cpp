@@ -61,9 +61,12 @@ Snapshot standing(const Character& character) {
   s.q.fill(Quaterniond::Identity());
   s.q[0] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
   const double bend = 0.3;  // hip and ankle undo what the knee flexes: trunk upright, soles flat
-  for (std::size_t hip : {kLeftHip, kRightHip}) s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
-  for (std::size_t knee : {kLeftKnee, kRightKnee}) s.q[knee] = exp_map(Vector3d(bend, 0, 0));
-  for (std::size_t ankle : {kLeftAnkle, kRightAnkle}) s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
+  for (auto hip : std::initializer_list<std::size_t>{kLeftHip, kRightHip})
+    s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
+  for (auto knee : std::initializer_list<std::size_t>{kLeftKnee, kRightKnee})
+    s.q[knee] = exp_map(Vector3d(bend, 0, 0));
+  for (auto ankle : std::initializer_list<std::size_t>{kLeftAnkle, kRightAnkle})
+    s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
   s.q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.25));
   s.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.25));
   s.q[kLeftElbow] = exp_map(0.3 * hinge_axis(kLeftElbow));
