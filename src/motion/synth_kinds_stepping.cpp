@@ -57,7 +57,7 @@ std::vector<PlanFrame> plan_walk(const PlanRequest& request) {
   const double speed = random.uniform(1.10, 1.20),
                step = 0.75 * random.uniform(0.96, 1.04) * leg_length(request.character);
   const double period = step / speed, swing = random.uniform(0.80, 0.82) * period;
-  const double begin = random.uniform(0.65, 0.75), rest = 0.85;
+  const double begin = random.uniform(0.85, 0.95), rest = 0.90;
   const int first = static_cast<int>(random.below(2));
   const auto start = feet_apart(half_width, toes_out);
   std::vector<FootSwing> swings;

@@ -1,0 +1,445 @@
+#include "motion/synth.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "motion/metrics.h"
+#include "motion/synth_kinds.h"
+
+namespace mimicx {
+namespace {
+
+constexpr double kG = 9.81, kDt = 1.0 / 30.0;
+
+/// A clip as the tests look at it: everything from its own rotations by forward kinematics.
+struct Motion {
+  std::string kind;
+  Clip clip;
+  Character character;
+  std::vector<BodyPoses> poses;
+  std::vector<std::array<Vector3d, 12>> sole;  ///< heel, ball and toe of both feet
+
+  Vector3d joint(std::size_t t, int body) const { return poses[t].p_WB[static_cast<std::size_t>(body)]; }
+  Vector3d mass_center(std::size_t t, std::size_t b) const {
+    return poses[t].p_WB[b] + poses[t].q_WB[b] * character.com_B[b];
+  }
+  Vector3d com(std::size_t t) const {
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t b = 0; b < kBodies; ++b) sum += character.mass[b] * mass_center(t, b);
+    return sum / character.total_mass();
+  }
+  double lowest(std::size_t t) const {
+    double z = 1e9;
+    for (const Vector3d& point : sole[t]) z = std::min(z, point.z());
+    return z;
+  }
+  std::size_t frames() const { return poses.size(); }
+};
+
+Motion make_motion(const SynthOptions& options) {
+  Motion m{options.kind, synthesize(options), {}, {}, {}};
+  m.character = make_character(m.clip.betas);
+  for (std::size_t t = 0; t < m.clip.rotations.size(); ++t) {
+    std::array<Quaterniond, kBodies> q;
+    for (std::size_t b = 0; b < kBodies; ++b) q[b] = exp_map(m.clip.rotations[t][b]);
+    m.poses.push_back(forward_kinematics(m.character, m.clip.trans[t] + rest_pelvis("mimicx"), q));
+    m.sole.emplace_back();
+    for (std::size_t i = 0; i < 12; ++i) {
+      const ContactPoint& point = m.character.contact_points[i];
+      const auto b = static_cast<std::size_t>(point.body);
+      m.sole[t][i] = m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * point.p_B;
+    }
+  }
+  return m;
+}
+
+/// Three seeds of the standard body and three of other bodies, of one kind or of all.
+const std::vector<Motion>& motions(const std::string& kind) {
+  static std::map<std::string, std::vector<Motion>> cache;
+  std::vector<Motion>& list = cache[kind];
+  if (list.empty())
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      SynthOptions options;
+      options.kind = kind;
+      options.seed = seed;
+      options.betas_from_seed = seed >= 3;
+      list.push_back(make_motion(options));
+    }
+  return list;
+}
+template <class Check>
+void for_all(const Check& check) {
+  for (const std::string& kind : synthetic_kinds())
+    for (const Motion& motion : motions(kind)) {
+      SCOPED_TRACE(motion.clip.name);
+      check(motion);
+    }
+}
+
+/// Force on the body and its moment about the world's origin at frame t, from accelerations of every body.
+struct Wrench {
+  Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
+};
+Wrench required_wrench(const Motion& m, std::size_t t) {
+  Wrench wrench;
+  for (std::size_t b = 0; b < kBodies; ++b) {
+    const Vector3d p = m.mass_center(t, b);
+    const Vector3d a = (m.mass_center(t + 1, b) - 2.0 * p + m.mass_center(t - 1, b)) / (kDt * kDt);
+    const Vector3d f = m.character.mass[b] * (a + kG * Vector3d::UnitZ());
+    const auto spin = [&](std::size_t i, std::size_t j) {  // angular momentum about the body's own centre
+      const Quaterniond &q_i = m.poses[i].q_WB[b], &q_j = m.poses[j].q_WB[b];
+      const Vector3d omega_B = log_map(q_i.conjugate() * q_j) / kDt;
+      return Vector3d(q_i.slerp(0.5, q_j) * (m.character.inertia_B[b] * omega_B));
+    };
+    wrench.force += f;
+    wrench.moment += p.cross(f) + (spin(t, t + 1) - spin(t - 1, t)) / kDt;
+  }
+  return wrench;
+}
+
+/// Distance of p outside the convex hull of the points, 0 inside: the largest gap over all directions.
+double outside(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& points) {
+  double gap = 0.0;
+  for (int k = 0; k < 720; ++k) {
+    const Eigen::Vector2d direction(std::cos(k * M_PI / 360.0), std::sin(k * M_PI / 360.0));
+    double farthest = -1e9;
+    for (const Eigen::Vector2d& point : points) farthest = std::max(farthest, direction.dot(point));
+    gap = std::max(gap, direction.dot(p) - farthest);
+  }
+  return gap;
+}
+
+/// How far the centre of pressure a frame needs lies outside the points that touch the floor, m.
+double pressure_outside(const Motion& m, std::size_t t, const Wrench& wrench) {
+  const Eigen::Vector2d pressure(-wrench.moment.y() / wrench.force.z(), wrench.moment.x() / wrench.force.z());
+  std::vector<Eigen::Vector2d> support;
+  for (const Vector3d& point : m.sole[t])
+    if (point.z() < 0.004) support.emplace_back(point.x(), point.y());
+  return outside(pressure, support);
+}
+
+TEST(Synthesize, TurnsKneesAndElbowsAboutTheirHingesOnly) {
+  for_all([](const Motion& m) {
+    for (const auto& rotations : m.clip.rotations)
+      for (int body : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow}) {
+        const Vector3d& r = rotations[static_cast<std::size_t>(body)];
+        const double flexion = r.dot(hinge_axis(body));
+        ASSERT_LT((r - flexion * hinge_axis(body)).norm(), 1e-15);
+        ASSERT_GT(flexion, 0.08);  // never straight, where the leg would be singular
+      }
+  });
+}
+
+TEST(Synthesize, LetsPlantedFeetNeitherSlideNorSink) {
+  for_all([](const Motion& m) {
+    for (std::size_t t = 0; t < m.frames(); ++t)
+      for (std::size_t i = 0; i < 12; ++i) {
+        ASSERT_GT(m.sole[t][i].z(), -0.0001);
+        if (t == 0 || m.sole[t][i].z() > 0.0005 || m.sole[t - 1][i].z() > 0.0005) continue;
+        ASSERT_LT((m.sole[t][i] - m.sole[t - 1][i]).norm(), 0.0005);
+      }
+  });
+}
+
+TEST(Synthesize, KeepsTheBodyClearOfItself) {
+  for_all([](const Motion& m) {
+    for (std::size_t t = 0; t < m.frames(); ++t)
+      for (const auto& [i, j] : m.character.self_pairs) {
+        const auto ends = [&](int body) {
+          const Capsule& capsule = m.character.capsule[static_cast<std::size_t>(body)];
+          const auto b = static_cast<std::size_t>(body);
+          return std::array<Vector3d, 2>{m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * capsule.a_B,
+                                         m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * capsule.b_B};
+        };
+        const auto a = ends(i), b = ends(j);
+        const double radii = m.character.capsule[static_cast<std::size_t>(i)].radius +
+                             m.character.capsule[static_cast<std::size_t>(j)].radius;
+        ASSERT_GT(segment_distance(a[0], a[1], b[0], b[1]), radii + 0.005)
+            << kBodyNames[static_cast<std::size_t>(i)] << " and " << kBodyNames[static_cast<std::size_t>(j)];
+      }
+  });
+}
+
+TEST(Synthesize, StaysWithinTheRangesOfTheJoints) {
+  for_all([](const Motion& m) {
+    for (const auto& rotations : m.clip.rotations)
+      for (int body = 1; body < kBodies; ++body) {
+        const auto b = static_cast<std::size_t>(body);
+        const JointParameters& joint = m.character.joint[b];
+        if (is_hinge(body)) {
+          const double flexion = rotations[b].dot(hinge_axis(body));
+          ASSERT_LT(std::abs(flexion - joint.centre.x()), joint.half_range.x());
+        } else {
+          const Vector3d off = log_map(exp_map(joint.centre).conjugate() * exp_map(rotations[b]));
+          ASSERT_LT(off.cwiseQuotient(joint.half_range).norm(), 1.0) << kBodyNames[b];
+        }
+      }
+  });
+}
+
+TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
+  for_all([](const Motion& m) {
+    const double weight = m.character.total_mass() * kG;
+    const double tolerance = m.kind == "walk" || m.kind == "jump" ? 0.03 : 0.0;
+    for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
+      const Wrench wrench = required_wrench(m, t);
+      ASSERT_GT(wrench.force.z(), -1e-3 * weight);
+      ASSERT_LT(wrench.force.z(), 3.0 * weight);
+      if (wrench.force.z() < 0.3 * weight) continue;  // about to fly: the quotient says little
+      ASSERT_LE(pressure_outside(m, t, wrench), tolerance) << "frame " << t;
+      const double friction = wrench.force.head<2>().norm() / wrench.force.z();
+      ASSERT_LT(friction, 0.6) << "frame " << t;
+    }
+  });
+}
+
+TEST(Synthesize, AcceleratesSmoothly) {
+  for_all([](const Motion& m) {
+    const double bound = m.kind == "walk"   ? 80.0
+                         : m.kind == "jump" ? 150.0
+                                            : 20.0;  // m/s²: feet leave and land
+    for (std::size_t t = 1; t + 1 < m.frames(); ++t)
+      for (int body = 0; body < kBodies; ++body) {
+        const Vector3d a =
+            (m.joint(t + 1, body) - 2.0 * m.joint(t, body) + m.joint(t - 1, body)) / (kDt * kDt);
+        ASSERT_LT(a.norm(), bound) << kBodyNames[static_cast<std::size_t>(body)] << ", frame " << t;
+      }
+  });
+}
+
+TEST(Synthesize, BeginsAndEndsStandingStill) {
+  for_all([](const Motion& m) {
+    const std::size_t last = m.frames() - 1;
+    for (std::size_t t : {std::size_t{0}, last - 1})
+      for (int body = 0; body < kBodies; ++body)
+        ASSERT_LT((m.joint(t + 1, body) - m.joint(t, body)).norm() / kDt, 0.10);
+    for (std::size_t t : {std::size_t{0}, last}) {
+      for (const Vector3d& point : m.sole[t]) ASSERT_LT(std::abs(point.z()), 1e-6);
+      ASSERT_GT(m.joint(t, kHead).z(), 1.55 * m.joint(t, kPelvis).z());
+    }
+  });
+}
+
+TEST(Jump, FliesOnAParabola) {
+  for (const Motion& m : motions("jump")) {
+    int flying = 0;
+    for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
+      if (std::min({m.lowest(t - 1), m.lowest(t), m.lowest(t + 1)}) < 0.001) continue;
+      const Vector3d a = (m.com(t + 1) - 2.0 * m.com(t) + m.com(t - 1)) / (kDt * kDt);
+      EXPECT_NEAR(a.x(), 0.0, 1e-6);
+      EXPECT_NEAR(a.y(), 0.0, 1e-6);
+      EXPECT_NEAR(a.z(), -kG, 1e-6);
+      ++flying;
+    }
+    EXPECT_GE(flying, 6);
+  }
+}
+
+TEST(Jump, RisesAndLandsOnItsFeet) {
+  for (const Motion& m : motions("jump")) {
+    double highest = 0.0, clearance = 0.0;
+    for (std::size_t t = 0; t < m.frames(); ++t) {
+      highest = std::max(highest, m.com(t).z());
+      clearance = std::max(clearance, m.lowest(t));
+    }
+    EXPECT_GT(highest, m.com(0).z() + 0.10);
+    EXPECT_GT(clearance, 0.03);
+  }
+}
+
+TEST(Walk, GoesAtWalkingSpeedAlongItsHeading) {
+  for (const Motion& m : motions("walk")) {
+    const double leg = (m.character.joint_offset[kLeftKnee] + m.character.joint_offset[kLeftAnkle]).norm();
+    const std::size_t from = m.frames() / 2 - 16, to = m.frames() / 2 + 16;  // two steps, about
+    const Vector3d travelled = m.com(to) - m.com(from);
+    const double speed = travelled.head<2>().norm() / (32 * kDt);
+    EXPECT_GT(speed, 1.0 * leg / 0.79);
+    EXPECT_LT(speed, 1.3);
+    const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[0])) * Vector3d::UnitX();
+    EXPECT_GT(travelled.normalized().dot(forward), 0.99);
+  }
+}
+
+TEST(Walk, NeverFliesStandsOnBothFeetBetweenStepsAndLiftsTheSwingingFoot) {
+  for (const Motion& m : motions("walk")) {
+    int both = 0, steps = 0;
+    double highest = 0.0;
+    const std::size_t begin = 15, end = m.frames() - 20;
+    for (std::size_t t = begin; t < end; ++t) {
+      double low[2] = {1e9, 1e9};
+      for (std::size_t i = 0; i < 12; ++i) low[i / 6] = std::min(low[i / 6], m.sole[t][i].z());
+      ASSERT_LT(std::min(low[0], low[1]), 1e-6);
+      const double swinging = std::max(low[0], low[1]);
+      if (swinging > 1e-4) {
+        highest = std::max(highest, swinging);
+      } else {
+        ++both;
+        if (highest > 0.0) {  // a step has ended
+          ++steps;
+          EXPECT_GT(highest, 0.03);
+        }
+        highest = 0.0;
+      }
+    }
+    EXPECT_GE(steps, 5);
+    EXPECT_GE(both, steps);
+  }
+}
+
+TEST(Walk, SwingsTheArmsAgainstTheLegs) {
+  for (const Motion& m : motions("walk")) {
+    const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[0])) * Vector3d::UnitX();
+    double product = 0.0, legs_squared = 0.0, arms_squared = 0.0;
+    for (std::size_t t = 0; t < m.frames(); ++t) {
+      const double legs = forward.dot(m.joint(t, kLeftAnkle) - m.joint(t, kRightAnkle));
+      const double arms = forward.dot(m.joint(t, kLeftWrist) - m.joint(t, kRightWrist));
+      product += legs * arms;
+      legs_squared += legs * legs;
+      arms_squared += arms * arms;
+    }
+    EXPECT_LT(product / std::sqrt(legs_squared * arms_squared), -0.9);
+    EXPECT_GT(std::sqrt(arms_squared / legs_squared), 0.3);
+  }
+}
+
+TEST(Squat, GoesDeepTwiceWithItsHeelsOnTheFloor) {
+  for (const Motion& m : motions("squat")) {
+    int descents = 0;
+    for (std::size_t t = 1; t < m.frames(); ++t) {
+      const auto knee = [&](std::size_t i) { return m.clip.rotations[i][kLeftKnee].x(); };
+      if (knee(t - 1) < 1.4 && knee(t) >= 1.4) ++descents;
+      for (const Vector3d& point : m.sole[t]) ASSERT_LT(std::abs(point.z()), 1e-6);
+    }
+    EXPECT_EQ(descents, 2);
+  }
+}
+
+TEST(Wave, RaisesOneHandOverTheHeadAndMovesItSideways) {
+  for (const Motion& m : motions("wave")) {
+    int raised[2] = {0, 0}, turns = 0;
+    const Vector3d left = m.poses[0].q_WB[0] * Vector3d::UnitX();
+    for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
+      for (int side : {0, 1})
+        if (m.joint(t, kLeftWrist + side).z() > m.joint(t, kHead).z()) ++raised[side];
+      const int side = raised[0] > 0 ? 0 : 1;
+      const auto aside = [&](std::size_t i) { return left.dot(m.joint(i, kLeftWrist + side)); };
+      if ((aside(t + 1) - aside(t)) * (aside(t) - aside(t - 1)) < 0.0) ++turns;
+    }
+    EXPECT_EQ(std::min(raised[0], raised[1]), 0);
+    EXPECT_GT(std::max(raised[0], raised[1]), 30);
+    EXPECT_GE(turns, 5);
+  }
+}
+
+TEST(Stand, SwaysWithoutLeavingItsPlace) {
+  for (const Motion& m : motions("stand")) {
+    Vector3d low = m.com(0), high = low;
+    for (std::size_t t = 0; t < m.frames(); ++t) {
+      low = low.cwiseMin(m.com(t));
+      high = high.cwiseMax(m.com(t));
+    }
+    EXPECT_GT((high - low).head<2>().norm(), 0.01);
+    EXPECT_LT((high - low).head<2>().norm(), 0.08);
+  }
+}
+
+TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
+  for (const std::string& kind : synthetic_kinds()) {
+    SynthOptions options;
+    options.kind = kind;
+    options.seed = 1;
+    const Clip again = synthesize(options);
+    const Clip &same = motions(kind)[1].clip, &other = motions(kind)[2].clip;
+    EXPECT_TRUE(same.rotations == again.rotations && same.trans == again.trans);
+    EXPECT_GT((same.rotations[30][kPelvis] - other.rotations[30][kPelvis]).norm(), 1e-3);
+  }
+}
+
+TEST(Synthesize, TakesTheShapeItIsGivenAndOneFromTheSeedOnlyWhenAsked) {
+  SynthOptions options;
+  options.betas[2] = 1.5;
+  EXPECT_EQ(synthesize(options).betas, options.betas);
+  options.betas_from_seed = true;
+  EXPECT_NE(synthesize(options).betas, options.betas);
+  EXPECT_EQ(synthesize(options).betas, synthesize(options).betas);
+}
+
+TEST(Synthesize, MakesEveryLengthAsked) {
+  for (const std::string& kind : synthetic_kinds())
+    for (double seconds : {4.0, 12.0}) {
+      SynthOptions options;
+      options.kind = kind;
+      options.seconds = seconds;
+      EXPECT_EQ(synthesize(options).frames(), static_cast<int>(30 * seconds) + 1) << kind;
+    }
+}
+
+TEST(Synthesize, ServesExtremeShapes) {
+  Random random(3);
+  for (const std::string& kind : synthetic_kinds())
+    for (int trial = 0; trial < 4; ++trial) {
+      SynthOptions options;
+      options.kind = kind;
+      for (double& beta : options.betas) beta = random.uniform(-3.0, 3.0);
+      const Motion m = make_motion(options);
+      for (std::size_t t = 0; t < m.frames(); ++t) ASSERT_GT(m.lowest(t), -0.0005) << kind;
+    }
+}
+
+TEST(Synthesize, RefusesUnknownKindsAndLengths) {
+  SynthOptions options;
+  options.kind = "fly";
+  EXPECT_THROW(synthesize(options), std::invalid_argument);
+  options.kind = "walk";
+  for (double seconds : {-1.0, 2.0, 61.0, std::nan("")}) {
+    options.seconds = seconds;
+    EXPECT_THROW(synthesize(options), std::invalid_argument);
+  }
+}
+
+std::string file_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(SyntheticSet, IsRegeneratedByteForByte) {
+  const std::filesystem::path kept = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic",
+                              fresh = std::filesystem::path(testing::TempDir()) / "mimicx_synthetic";
+  std::filesystem::remove_all(fresh);
+  write_synthetic_set(fresh);
+  std::uintmax_t total = 0;
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(fresh)) {
+    if (!entry.is_regular_file()) continue;
+    const auto name = std::filesystem::relative(entry.path(), fresh);
+    EXPECT_TRUE(file_bytes(entry.path()) == file_bytes(kept / name)) << name;
+    total += entry.file_size();
+    ++files;
+  }
+  EXPECT_EQ(files, 2 * static_cast<int>(synthetic_kinds().size()));
+  EXPECT_LE(total, 2'000'000u);
+  std::filesystem::remove_all(fresh);
+}
+
+TEST(SyntheticSet, KeepsTheTruthOutOfTheNoisyFiles) {
+  const std::filesystem::path kept = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic";
+  for (const std::string& kind : synthetic_kinds()) {
+    const Clip truth = read_clip(kept / "truth" / (kind + ".npz")),
+               noisy = read_clip(kept / "noisy" / (kind + ".npz"));
+    ASSERT_EQ(truth.frames(), noisy.frames());
+    ASSERT_TRUE(noisy.keypoints.has_value());
+    EXPECT_FALSE(truth.keypoints.has_value());
+    EXPECT_TRUE(noisy.passthrough.empty());
+    EXPECT_NE(truth.betas, noisy.betas);
+    for (int t = 0; t < truth.frames(); ++t)
+      EXPECT_GT((truth.trans[static_cast<std::size_t>(t)] - noisy.trans[static_cast<std::size_t>(t)]).norm(),
+                1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace mimicx
