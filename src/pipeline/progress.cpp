@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>
@@ -35,6 +36,7 @@ void Progress::start(const std::string& label, double done, double total) {
 void Progress::update(double done, const std::string& detail) {
   const double now = now_();
   if (now < next_) return;
+  done = std::min(done, total_);  // a last iteration may draw more than was asked for
   next_ = now + (live_ ? kLivePeriod : kPlainPeriod);
   const double elapsed = now - started_;
   const double rate = elapsed > 0.0 ? (done - done_at_start_) / elapsed : 0.0;

@@ -1,37 +1,50 @@
 #include "pipeline/run_report.h"
 
-#include <cmath>
+#include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "core/npz.h"
-#include "motion/reference.h"
+#include "motion/clip.h"
+#include "motion/metrics.h"
 #include "pipeline/report.h"
 #include "pipeline/table.h"
 
 namespace mimicx {
 namespace {
 
+std::string with_unit(const std::string& metric) {
+  for (const auto& d : metric_definitions())
+    if (metric == d.name) return metric + ", " + d.unit;
+  return metric;
+}
+
+std::string note_of(const std::pair<std::string, double>& value) {
+  char text[32];
+  std::snprintf(text, sizeof text, " %.2f", value.second);
+  return "preparation: " + value.first + text;
+}
+
 /// Rows of both lists, in the order of the second, then what only the first has.
 std::vector<ReportMetric> rows_of(const NamedValues& input, const NamedValues& simulated) {
   std::vector<ReportMetric> rows;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [name, value] : simulated) rows.push_back({name, {none, value}});
+  for (const auto& [name, value] : simulated) rows.push_back({with_unit(name), {none, value}});
   for (const auto& [name, value] : input) {
     bool found = false;
     for (auto& row : rows) {
-      if (row.name != name) continue;
+      if (row.name != with_unit(name)) continue;
       row.values[0] = value;
       found = true;
     }
-    if (!found) rows.push_back({name, {value, none}});
+    if (!found) rows.push_back({with_unit(name), {value, none}});
   }
   return rows;
 }
 
 std::vector<std::string> notes_of(const SequenceEntry& entry) {
   std::vector<std::string> notes = entry.notes;
-  for (const auto& [name, value] : entry.preparation)
-    notes.push_back("preparation: " + name + " " + format_number(value));
+  for (const auto& value : entry.preparation) notes.push_back(note_of(value));
   return notes;
 }
 

@@ -36,7 +36,7 @@ Scores score_simulated(const Reference& reference, const rl::TrackingRollout& ro
   Scores scores;
   scores.values = named_values(evaluate_motion(simulated, &same_length));
   const Success success = judge_success(simulated, asked);
-  scores.values.emplace_back("max_distance", 1000.0 * success.max_distance_m);
+  scores.values.emplace_back("max_distance_mm", 1000.0 * success.max_distance_m);
   scores.success = success.success;
   scores.reason = success.reason;
   return scores;

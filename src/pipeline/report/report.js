@@ -147,8 +147,10 @@ function draw(canvas) {
 
 // ---- curves ---------------------------------------------------------------------------------------
 
-const short = (v) => v === null ? '–' : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3)
-    ? v.toExponential(1) : String(Number(v.toPrecision(4)));
+const short = (v) => v === null ? '–'
+    : Math.abs(v) >= 1e6 ? (v / 1e6).toFixed(2) + 'M'
+    : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential(1) : String(Number(v.toPrecision(4)));
+const fixed = (v) => v === null ? '–' : v.toFixed(2);
 
 // lines: [{name, values}], all over the same xs. Returns the chart's element.
 function chart(title, xs, x_unit, lines) {
@@ -205,7 +207,7 @@ function show_curves() {
       chart(s.title, s.values.map((_, i) => i * s.step), 's', [{name: s.title, values: s.values}])));
   const columns = clip.log.columns, at = columns.indexOf('samples');
   const values = (i) => clip.log.rows.map((row) => row[i]);
-  const groups = new Map();  // columns "term x", "term y" share one chart
+  const groups = new Map();  // columns "title:part" share one chart
   columns.forEach((name, i) => {
     if (name === 'iteration' || name === 'samples') return;
     const title = name.includes(':') ? name.split(':')[0] : name;
@@ -236,7 +238,7 @@ function show_clip(index) {
   $('status').textContent = clip.status + (clip.reason ? `: ${clip.reason}` : '');
   $('status').className = clip.status;
   $('metrics').replaceChildren(row_of(['', ...clip.metrics.columns], 'th'),
-      ...clip.metrics.rows.map((r) => row_of([r.name, ...r.values.map(short)], 'td')));
+      ...clip.metrics.rows.map((r) => row_of([r.name, ...r.values.map(fixed)], 'td')));
   $('notes').replaceChildren(...clip.notes.map((text) => {
     const item = document.createElement('li');
     item.textContent = text;
