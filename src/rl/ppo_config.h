@@ -31,7 +31,7 @@ struct PpoConfig {
   double clip = 0.2;           ///< ratio stays in 1 ± clip [S, Eq. 7]
   double gradient_norm = 1.0;  ///< limit of each network's gradient; the critic's loss is in scaled returns
   double critic_step_size = 5e-4;  ///< Adam's, constant: the critic's steps do not move the policy
-  double return_rate = 0.1;       ///< how fast the scale of the returns follows
+  double return_rate = 0.1;        ///< how fast the scale of the returns follows
 
   // Step size of the actor: divided (multiplied) by `step_factor` after an iteration whose last epoch saw a
   // KL(old ‖ new) above twice (under half) the target [R]; an iteration ends early where a minibatch finds
