@@ -29,10 +29,13 @@ Random::Random(std::uint64_t seed, std::initializer_list<std::uint64_t> key)
 
 std::uint32_t Random::bits() {
   const std::uint64_t block = position_ / 4;
-  const auto words = philox4x32(
-      {static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32), stream_[0], stream_[1]},
-      key_);
-  return words[position_++ % 4];
+  if (block != block_) {
+    words_ = philox4x32(
+        {static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32), stream_[0], stream_[1]},
+        key_);
+    block_ = block;
+  }
+  return words_[position_++ % 4];
 }
 
 double Random::uniform() {
