@@ -1,6 +1,7 @@
 // What mechanics demands of the whole system, whatever the joints and contacts do.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <memory>
 
 #include "physics/test_states.h"
@@ -167,6 +168,8 @@ TEST(Step, FreeTumbleEnergyErrorIsOfFirstOrderInTheTimeStep) {
     for (int n = 0; n < static_cast<int>(0.5 * rate); ++n) s.advance();
     error[k] = energy(c, s) - before;
   }
+  std::printf("  measured: energy error after 0.5 s at 480, 960, 1920, 3840 Hz: %.3f %.3f %.3f %.3f J\n",
+              error[0], error[1], error[2], error[3]);
   for (std::size_t k = 1; k < error.size(); ++k) {
     EXPECT_GT(error[k - 1] / error[k], 1.7) << "halving " << k;
     EXPECT_LT(error[k - 1] / error[k], 2.6) << "halving " << k;

@@ -1,6 +1,8 @@
 // The floor under a standing and a lying character.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "physics/test_states.h"
 
 namespace mimicx {
@@ -41,6 +43,8 @@ SoleMotion stand(const Character& c, const Snapshot& pose, double rate, std::siz
     }
     last = now;
   }
+  std::printf("  measured: %zu points at %.0f Hz: soles %.2f .. %.2f mm, fastest creep %.3f mm/s\n",
+              sole_points, rate, 1e3 * motion.lowest, 1e3 * motion.highest, 1e3 * motion.creep);
   return motion;
 }
 
@@ -88,6 +92,7 @@ TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
   EXPECT_NEAR(points, force, 1e-9 * force);
   double lowest = 1;
   for (const Vector3d& p : contact_positions(c, s)) lowest = std::min(lowest, p.z());
+  std::printf("  measured: lowest point of the lying body %.2f mm\n", 1e3 * lowest);
   EXPECT_GT(lowest, -2.5e-3);
 }
 
