@@ -201,6 +201,8 @@ Keypoints detect_keypoints(const std::vector<BodyPoses>& truth, const Camera& ca
                            const std::vector<Burst>& bursts, std::uint64_t seed, double fps) {
   const std::vector<Landmark> points = landmarks(set);
   const auto hidden = hidden_by(bursts, points, truth.size());
+  std::vector<double> box;
+  for (const BodyPoses& poses : truth) box.push_back(box_size(camera, poses));
   Keypoints keypoints;
   keypoints.names = keypoint_names(set);
   keypoints.intrinsics = camera.intrinsics;
@@ -211,8 +213,8 @@ Keypoints detect_keypoints(const std::vector<BodyPoses>& truth, const Camera& ca
     const auto b = static_cast<std::size_t>(points[k].body);
     for (std::size_t t = 0; t < truth.size(); ++t) {
       const Vector3d seen = project(camera, truth[t].p_WB[b] + truth[t].q_WB[b] * points[k].p_B);
-      const double box = box_size(camera, truth[t]);
-      keypoints.uvc[t][k] = {seen.x() + box * errors[t].x(), seen.y() + box * errors[t].y(), errors[t].z()};
+      keypoints.uvc[t][k] = {seen.x() + box[t] * errors[t].x(), seen.y() + box[t] * errors[t].y(),
+                             errors[t].z()};
     }
   }
   swap_sides(points, seed, fps, keypoints.uvc);

@@ -5,80 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 
+#include "core/random.h"
 #include "motion/metrics.h"
-#include "motion/synth_kinds.h"
+#include "motion/synth_motions.h"
 
 namespace mimicx {
 namespace {
 
-constexpr double kG = 9.81, kDt = 1.0 / 30.0;
-
-/// A clip as the tests look at it: everything from its own rotations by forward kinematics.
-struct Motion {
-  std::string kind;
-  Clip clip;
-  Character character;
-  std::vector<BodyPoses> poses;
-  std::vector<std::array<Vector3d, 12>> sole;  ///< heel, ball and toe of both feet
-
-  Vector3d joint(std::size_t t, int body) const { return poses[t].p_WB[static_cast<std::size_t>(body)]; }
-  Vector3d mass_center(std::size_t t, std::size_t b) const {
-    return poses[t].p_WB[b] + poses[t].q_WB[b] * character.com_B[b];
-  }
-  Vector3d com(std::size_t t) const {
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t b = 0; b < kBodies; ++b) sum += character.mass[b] * mass_center(t, b);
-    return sum / character.total_mass();
-  }
-  double lowest(std::size_t t) const {
-    double z = 1e9;
-    for (const Vector3d& point : sole[t]) z = std::min(z, point.z());
-    return z;
-  }
-  std::size_t frames() const { return poses.size(); }
-};
-
-Motion make_motion(const SynthOptions& options) {
-  Motion m{options.kind, synthesize(options), {}, {}, {}};
-  m.character = make_character(m.clip.betas);
-  for (std::size_t t = 0; t < m.clip.rotations.size(); ++t) {
-    std::array<Quaterniond, kBodies> q;
-    for (std::size_t b = 0; b < kBodies; ++b) q[b] = exp_map(m.clip.rotations[t][b]);
-    m.poses.push_back(forward_kinematics(m.character, m.clip.trans[t] + rest_pelvis("mimicx"), q));
-    m.sole.emplace_back();
-    for (std::size_t i = 0; i < 12; ++i) {
-      const ContactPoint& point = m.character.contact_points[i];
-      const auto b = static_cast<std::size_t>(point.body);
-      m.sole[t][i] = m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * point.p_B;
-    }
-  }
-  return m;
-}
-
-/// Three seeds of the standard body and three of other bodies, of one kind or of all.
-const std::vector<Motion>& motions(const std::string& kind) {
-  static std::map<std::string, std::vector<Motion>> cache;
-  std::vector<Motion>& list = cache[kind];
-  if (list.empty())
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
-      SynthOptions options;
-      options.kind = kind;
-      options.seed = seed;
-      options.betas_from_seed = seed >= 3;
-      list.push_back(make_motion(options));
-    }
-  return list;
-}
-template <class Check>
-void for_all(const Check& check) {
-  for (const std::string& kind : synthetic_kinds())
-    for (const Motion& motion : motions(kind)) {
-      SCOPED_TRACE(motion.clip.name);
-      check(motion);
-    }
-}
+using namespace test;
 
 /// Force on the body and its moment about the world's origin at frame t, from accelerations of every body.
 struct Wrench {
@@ -222,129 +157,6 @@ TEST(Synthesize, BeginsAndEndsStandingStill) {
       ASSERT_GT(m.joint(t, kHead).z(), 1.55 * m.joint(t, kPelvis).z());
     }
   });
-}
-
-TEST(Jump, FliesOnAParabola) {
-  for (const Motion& m : motions("jump")) {
-    int flying = 0;
-    for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
-      if (std::min({m.lowest(t - 1), m.lowest(t), m.lowest(t + 1)}) < 0.001) continue;
-      const Vector3d a = (m.com(t + 1) - 2.0 * m.com(t) + m.com(t - 1)) / (kDt * kDt);
-      EXPECT_NEAR(a.x(), 0.0, 1e-6);
-      EXPECT_NEAR(a.y(), 0.0, 1e-6);
-      EXPECT_NEAR(a.z(), -kG, 1e-6);
-      ++flying;
-    }
-    EXPECT_GE(flying, 6);
-  }
-}
-
-TEST(Jump, RisesAndLandsOnItsFeet) {
-  for (const Motion& m : motions("jump")) {
-    double highest = 0.0, clearance = 0.0;
-    for (std::size_t t = 0; t < m.frames(); ++t) {
-      highest = std::max(highest, m.com(t).z());
-      clearance = std::max(clearance, m.lowest(t));
-    }
-    EXPECT_GT(highest, m.com(0).z() + 0.10);
-    EXPECT_GT(clearance, 0.03);
-  }
-}
-
-TEST(Walk, GoesAtWalkingSpeedAlongItsHeading) {
-  for (const Motion& m : motions("walk")) {
-    const double leg = (m.character.joint_offset[kLeftKnee] + m.character.joint_offset[kLeftAnkle]).norm();
-    const std::size_t from = m.frames() / 2 - 16, to = m.frames() / 2 + 16;  // two steps, about
-    const Vector3d travelled = m.com(to) - m.com(from);
-    const double speed = travelled.head<2>().norm() / (32 * kDt);
-    EXPECT_GT(speed, 1.0 * leg / 0.79);
-    EXPECT_LT(speed, 1.3);
-    const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[0])) * Vector3d::UnitX();
-    EXPECT_GT(travelled.normalized().dot(forward), 0.99);
-  }
-}
-
-TEST(Walk, NeverFliesStandsOnBothFeetBetweenStepsAndLiftsTheSwingingFoot) {
-  for (const Motion& m : motions("walk")) {
-    int both = 0, steps = 0;
-    double highest = 0.0;
-    const std::size_t begin = 15, end = m.frames() - 20;
-    for (std::size_t t = begin; t < end; ++t) {
-      double low[2] = {1e9, 1e9};
-      for (std::size_t i = 0; i < 12; ++i) low[i / 6] = std::min(low[i / 6], m.sole[t][i].z());
-      ASSERT_LT(std::min(low[0], low[1]), 1e-6);
-      const double swinging = std::max(low[0], low[1]);
-      if (swinging > 1e-4) {
-        highest = std::max(highest, swinging);
-      } else {
-        ++both;
-        if (highest > 0.0) {  // a step has ended
-          ++steps;
-          EXPECT_GT(highest, 0.03);
-        }
-        highest = 0.0;
-      }
-    }
-    EXPECT_GE(steps, 5);
-    EXPECT_GE(both, steps);
-  }
-}
-
-TEST(Walk, SwingsTheArmsAgainstTheLegs) {
-  for (const Motion& m : motions("walk")) {
-    const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[0])) * Vector3d::UnitX();
-    double product = 0.0, legs_squared = 0.0, arms_squared = 0.0;
-    for (std::size_t t = 0; t < m.frames(); ++t) {
-      const double legs = forward.dot(m.joint(t, kLeftAnkle) - m.joint(t, kRightAnkle));
-      const double arms = forward.dot(m.joint(t, kLeftWrist) - m.joint(t, kRightWrist));
-      product += legs * arms;
-      legs_squared += legs * legs;
-      arms_squared += arms * arms;
-    }
-    EXPECT_LT(product / std::sqrt(legs_squared * arms_squared), -0.9);
-    EXPECT_GT(std::sqrt(arms_squared / legs_squared), 0.3);
-  }
-}
-
-TEST(Squat, GoesDeepTwiceWithItsHeelsOnTheFloor) {
-  for (const Motion& m : motions("squat")) {
-    int descents = 0;
-    for (std::size_t t = 1; t < m.frames(); ++t) {
-      const auto knee = [&](std::size_t i) { return m.clip.rotations[i][kLeftKnee].x(); };
-      if (knee(t - 1) < 1.4 && knee(t) >= 1.4) ++descents;
-      for (const Vector3d& point : m.sole[t]) ASSERT_LT(std::abs(point.z()), 1e-6);
-    }
-    EXPECT_EQ(descents, 2);
-  }
-}
-
-TEST(Wave, RaisesOneHandOverTheHeadAndMovesItSideways) {
-  for (const Motion& m : motions("wave")) {
-    int raised[2] = {0, 0}, turns = 0;
-    const Vector3d left = m.poses[0].q_WB[0] * Vector3d::UnitX();
-    for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
-      for (int side : {0, 1})
-        if (m.joint(t, kLeftWrist + side).z() > m.joint(t, kHead).z()) ++raised[side];
-      const int side = raised[0] > 0 ? 0 : 1;
-      const auto aside = [&](std::size_t i) { return left.dot(m.joint(i, kLeftWrist + side)); };
-      if ((aside(t + 1) - aside(t)) * (aside(t) - aside(t - 1)) < 0.0) ++turns;
-    }
-    EXPECT_EQ(std::min(raised[0], raised[1]), 0);
-    EXPECT_GT(std::max(raised[0], raised[1]), 30);
-    EXPECT_GE(turns, 5);
-  }
-}
-
-TEST(Stand, SwaysWithoutLeavingItsPlace) {
-  for (const Motion& m : motions("stand")) {
-    Vector3d low = m.com(0), high = low;
-    for (std::size_t t = 0; t < m.frames(); ++t) {
-      low = low.cwiseMin(m.com(t));
-      high = high.cwiseMax(m.com(t));
-    }
-    EXPECT_GT((high - low).head<2>().norm(), 0.01);
-    EXPECT_LT((high - low).head<2>().norm(), 0.08);
-  }
 }
 
 TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
