@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "core/npz.h"
 #include "pipeline/progress.h"
 #include "rl/tracking_environment.h"
+#include "rl/tracking_rollout.h"
 #include "rl/trainer.h"
 
 namespace mimicx {
@@ -15,6 +17,23 @@ using Trainer = rl::PpoTrainer<rl::TrackingEnvironment>;
 
 constexpr const char* kChecksumKey = "input_checksum";
 constexpr const char* kTrainerPrefix = "trainer.";
+constexpr const char* kBestPrefix = "best.";
+constexpr const char* kBestScoreKey = "best_score";
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The agent whose mean action followed the whole clip best so far. Exploration noise hides how good a mean
+/// action is, and late updates may unlearn a hard moment: the roll-out decides, not the last iteration.
+struct Best {
+  rl::Agent agent;
+  double score = std::numeric_limits<double>::infinity();
+};
+
+/// Mean position error, m; a body that strayed beyond the limit of success (docs/metrics.md) outweighs it.
+double score_of(const rl::TrackingRollout& rollout) {
+  constexpr double kLost = 0.5;
+  if (rollout.broken) return 1e3;
+  return rollout.mean_position_error + (rollout.worst_distance > kLost ? rollout.worst_distance : 0.0);
+}
 
 Table empty_log() {
   Table log;
@@ -31,19 +50,25 @@ Table empty_log() {
                      "gradient_norm:critic",
                      "penalty",
                      "saturation:actions",
-                     "saturation:torques"};
+                     "saturation:torques",
+                     "evaluation:reward",
+                     "evaluation:position_error_mm"};
   log.columns.insert(log.columns.end(), rest.begin(), rest.end());
   return log;
 }
 
-std::vector<double> log_row(const rl::IterationStats& s, const rl::TrackingStatistics& tracking) {
+/// @param rollout  of the mean action after this iteration, or null
+std::vector<double> log_row(const rl::IterationStats& s, const rl::TrackingStatistics& tracking,
+                            const rl::TrackingRollout* rollout) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(tracking.steps, 1));
   std::vector<double> row = {static_cast<double>(s.iteration), static_cast<double>(s.samples), s.mean_reward,
                              s.mean_episode_length};
   for (double term : tracking.reward_terms) row.push_back(term / steps);
-  row.insert(row.end(), {s.kl, s.step_size, s.sigma, s.policy_loss, s.value_loss, s.explained_variance,
-                         s.clip_fraction, s.actor_gradient, s.critic_gradient, s.penalty, s.saturation,
-                         tracking.saturated_joints / (steps * kJoints)});
+  row.insert(row.end(),
+             {s.kl, s.step_size, s.sigma, s.policy_loss, s.value_loss, s.explained_variance, s.clip_fraction,
+              s.actor_gradient, s.critic_gradient, s.penalty, s.saturation,
+              tracking.saturated_joints / (steps * kJoints), rollout != nullptr ? rollout->mean_reward : kNan,
+              rollout != nullptr ? 1e3 * rollout->mean_position_error : kNan});
   return row;
 }
 
@@ -56,21 +81,25 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
 
 /// The log first: a checkpoint never stands beside a log that lacks its rows.
 void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, const TrainingConfig& config,
-          const TrainingFiles& files, const Table& log) {
+          const TrainingFiles& files, const Best& best, const Table& log) {
   write_file_atomically(files.log, format_csv(log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;
   archive.set(kChecksumKey, NpyArray::scalar_text(files.input_checksum));
   trainer.save(archive, kTrainerPrefix);
+  rl::save(archive, kBestPrefix, best.agent);
+  archive.set(kBestScoreKey, NpyArray::scalar(best.score));
   write_npz(files.checkpoint, archive);
 }
 
 /// Takes up the checkpoint, if there is one of this input, and drops the log's rows after it.
-void resume(Trainer& trainer, const TrainingFiles& files, Table& log) {
+void resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log) {
   if (!std::filesystem::exists(files.checkpoint)) return;
   const Npz archive = read_npz(files.checkpoint);
   if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum}) return;
   trainer.load(archive, kTrainerPrefix);
+  best.agent = rl::load_agent(archive, kBestPrefix);
+  best.score = archive.at(kBestScoreKey).to_double().at(0);
   log.rows = read_csv(files.log).rows;
   const auto iterations = static_cast<std::size_t>(trainer.learner().iteration);
   if (log.rows.size() > iterations) log.rows.resize(iterations);
@@ -79,6 +108,7 @@ void resume(Trainer& trainer, const TrainingFiles& files, Table& log) {
 rl::PpoConfig seeded(const TrainingConfig& config) {
   rl::PpoConfig ppo = config.ppo;
   ppo.seed = config.seed;
+  ppo.sigma_samples = static_cast<std::int64_t>(config.sigma_share * static_cast<double>(config.samples));
   return ppo;
 }
 
@@ -105,7 +135,8 @@ TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const 
                                       config.seed);
   Trainer trainer(seeded(config), untrained_agent(config), environment);
   Table log = empty_log();
-  resume(trainer, files, log);
+  Best best{trainer.learner().agent};
+  resume(trainer, files, best, log);
   control.progress(trainer.learner().samples, "");
 
   const double started = steady_seconds();
@@ -113,14 +144,22 @@ TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const 
   TrainingResult result;
   while (trainer.learner().samples < config.samples) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
-    log.rows.push_back(log_row(stats, environment.statistics()));
+    const bool last = stats.samples >= config.samples;
+    if (last || stats.iteration % config.evaluate_iterations == 0) {
+      const rl::TrackingRollout rollout =
+          rl::roll_out(clip, config.tracking, rl::mean_action(trainer.learner().agent));
+      if (score_of(rollout) < best.score) best = {trainer.learner().agent, score_of(rollout)};
+      log.rows.push_back(log_row(stats, environment.statistics(), &rollout));
+    } else {
+      log.rows.push_back(log_row(stats, environment.statistics(), nullptr));
+    }
     control.progress(stats.samples, detail_of(stats));
     const double now = steady_seconds();
     if (now - saved >= control.checkpoint_seconds) {
-      save(trainer, environment, config, files, log);
+      save(trainer, environment, config, files, best, log);
       saved = now;
     }
-    if (stats.samples >= config.samples) break;
+    if (last) break;
     if (control.should_stop()) {
       result.interrupted = true;
       break;
@@ -130,8 +169,8 @@ TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const 
       break;
     }
   }
-  save(trainer, environment, config, files, log);
-  result.agent = trainer.learner().agent;
+  save(trainer, environment, config, files, best, log);
+  result.agent = best.agent;
   result.samples = trainer.learner().samples;
   result.seconds = steady_seconds() - started;
   return result;

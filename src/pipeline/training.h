@@ -20,14 +20,27 @@
 
 namespace mimicx {
 
+/// PPO for tracking: many small iterations with a generous KL, measured in docs/experiments.md.
+inline rl::PpoConfig tracking_ppo() {
+  rl::PpoConfig ppo;
+  ppo.horizon = 16;
+  ppo.minibatch = 1024;
+  ppo.pass_rows = 256;
+  ppo.kl_target = 0.06;
+  ppo.step_size = 1e-4;
+  return ppo;
+}
+
 /// Everything that the result of a training depends on. Defaults: docs/experiments.md.
 struct TrainingConfig {
   std::int64_t samples = 4'000'000;      ///< budget: character steps
   std::uint64_t seed = 1;                ///< the one root of every random number
-  int characters = 512;                  ///< simulated side by side
+  int characters = 256;                  ///< simulated side by side
   int group_size = 64;                   ///< characters that one worker carries through a roll-out
-  std::vector<int> hidden = {256, 256};  ///< of actor and critic
-  rl::PpoConfig ppo;                     ///< its seed is replaced by `seed`
+  std::vector<int> hidden = {128, 128};  ///< of actor and critic
+  double sigma_share = 0.75;             ///< share of the budget during which σ falls
+  int evaluate_iterations = 20;          ///< between roll-outs of the mean action; the best agent is kept
+  rl::PpoConfig ppo = tracking_ppo();    ///< its seed and sigma_samples follow from the members above
   rl::TrackingConfig tracking;
 };
 
@@ -52,7 +65,7 @@ struct TrainingControl {
 };
 
 struct TrainingResult {
-  rl::Agent agent;
+  rl::Agent agent;  ///< the best of those that were rolled out during the training
   std::int64_t samples = 0;
   Ending ending = Ending::kBudget;
   bool interrupted = false;  ///< `should_stop` said so: the state is in the checkpoint

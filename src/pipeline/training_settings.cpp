@@ -12,13 +12,15 @@ NamedValues settings_of(const TrainingConfig& config) {
   for (std::size_t i = 0; i < config.hidden.size(); ++i)
     add("hidden_" + std::to_string(i + 1), config.hidden[i]);
 
+  add("sigma_share", config.sigma_share);
+  add("evaluate_iterations", config.evaluate_iterations);
+
   const rl::PpoConfig& p = config.ppo;
   add("horizon", p.horizon);
   add("gamma", p.gamma);
   add("lambda", p.lambda);
   add("sigma_start", p.sigma_start);
   add("sigma_end", p.sigma_end);
-  add("sigma_samples", p.sigma_samples);
   add("epochs", p.epochs);
   add("minibatch", p.minibatch);
   add("clip", p.clip);

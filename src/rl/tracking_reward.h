@@ -16,7 +16,7 @@ namespace mimicx::rl {
 
 /// Defaults: docs/method.md §5 and docs/experiments.md.
 struct RewardWeights {
-  double root_position = 30.0;  ///< 1/m²
+  double root_position = 100.0; ///< 1/m²
   double root_rotation = 8.0;   ///< 1/rad²
   double pose = 20.0;           ///< 1/rad², mean over the 21 joints
   double velocity = 0.05;       ///< s²/rad², mean over the 21 joints
