@@ -71,7 +71,8 @@ TEST(Hinges, TurnAboutTheirAxisOnlyTowardsTheFlexingSide) {
 TEST(Hinges, OtherJointsAreUntouched) {
   Random random(1, {3});
   const Rotations smpl = random_rotations(random, 0.6), q = to_hinges(make_character(), {smpl})[0];
-  for (const std::size_t body : {kPelvis, kSpine1, kSpine3, kLeftFoot, kHead, kLeftCollar})
+  for (const std::size_t body :
+       std::initializer_list<std::size_t>{kPelvis, kSpine1, kSpine3, kLeftFoot, kHead, kLeftCollar})
     EXPECT_EQ(q[body].coeffs(), smpl[body].coeffs()) << kBodyNames[body];
 }
 

@@ -85,7 +85,7 @@ TEST(Differentiate, IntegratesBackToTheMotion) {
   for (std::size_t t = 1; t + 2 < r.frames.size(); ++t) {
     const ReferenceFrame &f = r.frames[t], &next = r.frames[t + 1];
     EXPECT_LT((f.p_root + 0.5 / 30.0 * (f.v_root + next.v_root) - next.p_root).norm(), 0.003);
-    for (const std::size_t j : {kPelvis, kSpine1, kNeck, kLeftCollar})
+    for (const std::size_t j : std::initializer_list<std::size_t>{kPelvis, kSpine1, kNeck, kLeftCollar})
       EXPECT_LT((f.q[j] * exp_map(0.5 / 30.0 * (f.omega[j] + next.omega[j]))).angularDistance(next.q[j]),
                 0.02);
   }
