@@ -124,6 +124,7 @@ struct Report {
   double energy_ratio = 0;  ///< largest energy over the first one
   double outside_cone = 0;  ///< impulse of friction beyond μ f_n, share of the normal impulse
   double adhesion = 0;      ///< impulse pulling on the ground, share of the normal impulse
+  double deepest = 0;       ///< m under the floor, of any point at any time
 };
 
 Report run(Scene scene, double rate, int passes) {
@@ -146,7 +147,9 @@ Report run(Scene scene, double rate, int passes) {
       if (k == 0) start = now;
       report.energy_ratio = std::max(report.energy_ratio, now / start);
       for (int n = 0; n < s->data.ground_count; ++n) {
-        const Vector3d f = lane_of(s->data.ground[static_cast<std::size_t>(n)].applied, lane);
+        const GroundContact<P>& contact = s->data.ground[static_cast<std::size_t>(n)];
+        const Vector3d f = lane_of(contact.applied, lane);
+        report.deepest = std::max(report.deepest, ScalarTraits<P>::get(contact.depth, lane) - o.skin);
         const double f_n = std::max(0.0, f.z());
         normal += f_n;
         pull += std::max(0.0, -f.z());
@@ -156,10 +159,10 @@ Report run(Scene scene, double rate, int passes) {
   }
   report.outside_cone = beyond / normal;
   report.adhesion = pull / normal;
-  std::printf(
-      "  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, energy ratio %.3f\n",
-      kSceneNames[static_cast<int>(scene)], rate, passes, 100 * report.outside_cone, 100 * report.adhesion,
-      report.energy_ratio);
+  std::printf("  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, ",
+              kSceneNames[static_cast<int>(scene)], rate, passes, 100 * report.outside_cone,
+              100 * report.adhesion);
+  std::printf("energy ratio %.3f, deepest %.0f mm\n", report.energy_ratio, 1e3 * report.deepest);
   return report;
 }
 
