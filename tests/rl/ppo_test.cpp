@@ -67,15 +67,22 @@ TEST(Ppo, ResumingGivesTheBytesOfNeverHavingStopped) {
   ToyEnvironment<DoubleIntegrator> whole_world(4, 16, 2), first_world(4, 16, 2), second_world(4, 16, 99);
   Trainer whole(small_config(), small_agent(), whole_world);
   Trainer first(small_config(), small_agent(), first_world);
-  for (int k = 0; k < 7; ++k) whole.iterate(2);
-  for (int k = 0; k < 3; ++k) first.iterate(2);
+  for (int k = 0; k < 3; ++k) {
+    whole.iterate(2);
+    first.iterate(2);
+  }
   PpoConfig other = small_config();
   other.step_size *= 7.0;  // the step size comes from the checkpoint
   Trainer resumed(other, small_agent(), second_world);
   // The world's own random numbers are keyed by its seed, which is configuration.
   second_world = ToyEnvironment<DoubleIntegrator>(4, 16, 2);
   resumed.load(state_of(first), "t.");
-  for (int k = 0; k < 4; ++k) resumed.iterate(2);
+  for (int k = 0; k < 4; ++k) {
+    const IterationStats expected = whole.iterate(2), found = resumed.iterate(2);
+    EXPECT_EQ(found.mean_episode_length, expected.mean_episode_length);
+    EXPECT_EQ(found.samples, expected.samples);
+    EXPECT_EQ(found.kl, expected.kl);
+  }
   expect_same_bytes(state_of(whole), state_of(resumed));
 }
 
@@ -83,6 +90,31 @@ TEST(Ppo, LoadRefusesAnotherNumberOfCharacters) {
   ToyEnvironment<DoubleIntegrator> small(2, 8, 1), large(3, 8, 1);
   Trainer a(small_config(), small_agent(), small), b(small_config(), small_agent(), large);
   EXPECT_THROW(b.load(state_of(a), "t."), DataError);
+}
+
+TEST(Ppo, NoiseNeverRepeatsBetweenGroupsIterationsAndSeeds) {
+  const auto noise = [](const Trainer& trainer, std::size_t group) {
+    const GroupRollout& g = trainer.buffer().groups[group];
+    return nn::Matrix<float>(g.actions - g.means);
+  };
+  ToyEnvironment<DoubleIntegrator> world(2, 8, 1), other_world(2, 8, 1);
+  PpoConfig other_seed = small_config();
+  ++other_seed.seed;
+  Trainer trainer(small_config(), small_agent(), world), other(other_seed, small_agent(), other_world);
+  trainer.iterate(1);
+  other.iterate(1);
+  const nn::Matrix<float> first = noise(trainer, 0), beside = noise(trainer, 1), elsewhere = noise(other, 0);
+  trainer.iterate(1);
+  for (const nn::Matrix<float>& m : {beside, elsewhere, noise(trainer, 0)})
+    EXPECT_GT((m - first).cwiseAbs().minCoeff(), 0.0F);
+}
+
+TEST(Ppo, RollOutLeavesTheScaleOfItsObservationsBehind) {
+  ToyEnvironment<DoubleIntegrator> world(2, 8, 1);
+  Trainer trainer(small_config(), small_agent(), world);
+  for (int k = 0; k < 3; ++k) trainer.iterate(2);
+  EXPECT_EQ(trainer.learner().agent.observations.moments.count, 3 * trainer.buffer().rows());
+  EXPECT_EQ(trainer.learner().samples, 3 * trainer.buffer().rows());
 }
 
 /// A roll-out of random numbers, as if an untrained agent had acted.
@@ -170,6 +202,30 @@ TEST(Ppo, FirstMinibatchSeesNoDifferenceFromTheOldPolicy) {
   EXPECT_EQ(stats.clip_fraction, 0.0);
   EXPECT_NEAR(stats.policy_loss, 0.0, 1e-5);  // normalised advantages sum to nothing
   EXPECT_EQ(learner.step_size, config.step_size) << "one step cannot see its own KL";
+}
+
+TEST(Ppo, ReportedKlIsThatOfThePolicyBeforeTheLastStep) {
+  const double sigma = 0.3;
+  PpoConfig config = small_config();
+  config.minibatch = 400;
+  config.kl_stop = 1e9;
+  config.step_size = 3e-3;
+  const RolloutBuffer buffer = random_rollout(small_agent(), 8);
+  UpdateScratch scratch(config);
+  IterationStats two_steps, one_step;
+  Learner after_two = make_learner(config, small_agent()), after_one = after_two;
+  update(after_two, config, buffer, rows_from(0, 400), sigma, 0, 1, scratch, two_steps);
+  config.epochs = 1;
+  update(after_one, config, buffer, rows_from(0, 400), sigma, 0, 1, scratch, one_step);
+  double kl = 0.0;
+  nn::Workspace<float> workspace;
+  nn::Matrix<float> means;
+  for (const GroupRollout& group : buffer.groups) {
+    nn::evaluate(after_one.agent.actor, group.observations, workspace, means);
+    kl += (means - group.means).cast<double>().squaredNorm() / (2.0 * sigma * sigma) / 400.0;
+  }
+  EXPECT_GT(kl, 1e-5);
+  EXPECT_NEAR(two_steps.kl / kl, 1.0, 1e-3);
 }
 
 TEST(Ppo, StopsAnIterationThatRunsAway) {
