@@ -1,10 +1,10 @@
 /// The articulated-body algorithm.                                              RBDA chapter 7, table 7.1
 ///
 /// Three passes: kinematics (kinematics.h), inertia tip-to-root, accelerations root-to-tip. Deviations from
-/// the book, all derived in docs/physics.md:
+/// the book, all derived in docs/physics.md §2:
 ///  - world-parallel axes about the body's own joint centre and classical accelerations, so that X is a
 ///    translation and a ball joint's S is [1; 0];
-///  - D carries an extra diagonal δ (armature and the implicit part of PD and range torques), and for a
+///  - D carries an extra diagonal δ (armature and the implicit part of PD and range torques), and, (3), for a
 ///    ball joint this simplifies  Ia = IA − U D⁻¹ Uᵀ  to  [δ − δ²D⁻¹, δ D⁻¹ B; ·, C − Bᵀ D⁻¹ B];
 ///  - IA and pA start from the rigid body plus its floor contacts.
 #pragma once

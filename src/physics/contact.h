@@ -1,6 +1,6 @@
 /// Contact with the floor, implicit; contact between bodies, explicit.
 ///
-/// Floor (docs/physics.md §4). A point at depth s, with velocity v, pushes with
+/// Floor (docs/physics.md §4, (7) to (9)). A point at depth s, with velocity v, pushes with
 ///     f_n = k s − (c + k dt) v_z       while that is positive,
 ///     f_t = −c_t v_t,   c_t = μ f_n / √(|v_t|² + v_s²)                (regularised Coulomb friction),
 /// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt),

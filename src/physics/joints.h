@@ -2,7 +2,7 @@
 ///
 /// A spring–damper evaluated at the end of the step is, to first order in dt,
 ///     τ = kp·φ − (kd + dt·kp)·ω + kd·ω*  −  δ·q̈,      δ = dt·kd + dt²·kp,      φ = log(q⁻¹ q*),
-/// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3
+/// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3, (5)
 /// A joint outside its range gets the same form with the range's own stiffness, pushing back along the
 /// gradient of the range ellipsoid. The bound holds for the torque of the PD controller, strictly: joints
 /// that exceed it after the last pass are made constant too and the step is solved again. The range is the

@@ -3,7 +3,7 @@
 ///
 /// With the body's own joint centre as origin and world-parallel axes, X_λ(i) is a translation by r, and
 /// using classical accelerations of the joint centre the joint's velocity-product term is
-///     c = (ω_λ × ω_J ;  ω_λ × (ω_λ × r)),          derived in docs/physics.md §2.
+///     c = (ω_λ × ω_J ;  ω_λ × (ω_λ × r)),          derived in docs/physics.md §2, (2).
 #pragma once
 
 #include "physics/data.h"
@@ -33,7 +33,8 @@ void compute_kinematics(const Model<RealOf<T>>& model, const State<T>& state, Da
 }
 
 /// Rigid-body inertia in world axes and the force the body needs for its velocity-product acceleration,
-/// minus its weight:  (ω × I_o ω − d × m g ;  m ω × (ω × d) − m g).           RBDA eq. 2.72 in our axes
+/// minus its weight:  (ω × I_o ω − d × m g ;  m ω × (ω × d) − m g).           RBDA eq. 2.72; docs/physics.md
+/// (1)
 template <class T>
 void compute_rigid_bodies(const Model<RealOf<T>>& model, Data<T>& d) {
   const T g(model.options.gravity);
