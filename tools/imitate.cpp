@@ -1,5 +1,6 @@
 #include "pipeline/imitate.h"
 
+#include <charconv>
 #include <csignal>
 #include <iostream>
 #include <memory>
@@ -39,6 +40,22 @@ int run_imitate(const ImitateOptions& options) {
   return kSomeFailed;
 }
 
+void set(const std::vector<std::string>& settings, TrainingConfig& config) {
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    double value = 0.0;
+    const char* end = setting.data() + setting.size();
+    if (equals == std::string::npos || std::from_chars(setting.data() + equals + 1, end, value).ptr != end ||
+        equals + 1 == setting.size())
+      throw CLI::ValidationError("--set", "expected NAME=NUMBER, found '" + setting + "'");
+    try {
+      apply_setting(config, setting.substr(0, equals), value);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError("--set", setting + ": " + error.what());
+    }
+  }
+}
+
 }  // namespace
 
 void add_imitate(CLI::App& app, Run& run) {
@@ -62,6 +79,11 @@ void add_imitate(CLI::App& app, Run& run) {
           "safety stop per motion: ends its training early, makes the result depend on the machine, and is "
           "recorded as such")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--set", [options](const std::vector<std::string>& settings) { set(settings, options->training); },
+          "NAME=VALUE: change a setting by the name it has in the manifest, for experiments; repeatable")
+      ->take_all();
   command->callback([&run, options] { run = [options] { return run_imitate(*options); }; });
 }
 

@@ -46,6 +46,9 @@ struct TrainingConfig {
 
 /// Every number of the configuration but samples and seed, by name: for the manifest.
 NamedValues settings_of(const TrainingConfig& config);
+/// Changes one of them, for experiments and ablations.
+/// @throws std::invalid_argument for an unknown name or a fraction where a whole number is expected
+void apply_setting(TrainingConfig& config, const std::string& name, double value);
 
 struct TrainingFiles {
   std::filesystem::path checkpoint;  ///< complete state

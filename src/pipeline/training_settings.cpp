@@ -1,12 +1,14 @@
+#include <stdexcept>
+
 #include "pipeline/training.h"
 
 namespace mimicx {
 
-NamedValues settings_of(const TrainingConfig& config) {
-  NamedValues values;
-  const auto add = [&values](const std::string& name, auto value) {
-    values.emplace_back(name, static_cast<double>(value));
-  };
+namespace {
+
+/// Calls visit(name, field) for every number of the configuration but samples and seed.
+template <class Config, class Visit>
+void for_each_setting(Config& config, const Visit& add) {
   add("characters", config.characters);
   add("group_size", config.group_size);
   for (std::size_t i = 0; i < config.hidden.size(); ++i)
@@ -15,7 +17,7 @@ NamedValues settings_of(const TrainingConfig& config) {
   add("sigma_share", config.sigma_share);
   add("evaluate_iterations", config.evaluate_iterations);
 
-  const rl::PpoConfig& p = config.ppo;
+  auto& p = config.ppo;
   add("horizon", p.horizon);
   add("gamma", p.gamma);
   add("lambda", p.lambda);
@@ -40,8 +42,8 @@ NamedValues settings_of(const TrainingConfig& config) {
   add("gradient_slots", p.gradient_slots);
   add("pass_rows", p.pass_rows);
 
-  const rl::TrackingConfig& t = config.tracking;
-  add("residual_actions", t.action_mode == rl::ActionMode::kResidual);
+  auto& t = config.tracking;
+  add("residual_actions", t.action_mode);
   add("velocity_feed_forward", t.velocity_feed_forward);
   add("max_action", t.max_action);
   add("reward_root_position", t.reward.root_position);
@@ -54,7 +56,7 @@ NamedValues settings_of(const TrainingConfig& config) {
   add("bin_frames", t.bin_frames);
   add("uniform_starts", t.uniform_starts);
 
-  const SimulationOptions& s = t.simulation;
+  auto& s = t.simulation;
   add("physics_rate", s.rate);
   add("physics_passes", s.passes);
   add("gravity", s.gravity);
@@ -69,7 +71,43 @@ NamedValues settings_of(const TrainingConfig& config) {
   add("limit_stiffness", s.limit_stiffness);
   add("limit_damping", s.limit_damping);
   add("max_speed", s.max_speed);
+}
+
+double value_of(rl::ActionMode mode) { return mode == rl::ActionMode::kResidual ? 1.0 : 0.0; }
+template <class T>
+double value_of(T value) {
+  return static_cast<double>(value);
+}
+
+void assign(rl::ActionMode& mode, double value) {
+  mode = value != 0.0 ? rl::ActionMode::kResidual : rl::ActionMode::kAbsolute;
+}
+template <class T>
+void assign(T& field, double value) {
+  field = static_cast<T>(value);
+  if (static_cast<double>(field) != value)
+    throw std::invalid_argument("a fraction where a whole number is expected");
+}
+
+}  // namespace
+
+NamedValues settings_of(const TrainingConfig& config) {
+  NamedValues values;
+  for_each_setting(config, [&](const std::string& name, const auto& field) {
+    values.emplace_back(name, value_of(field));
+  });
   return values;
+}
+
+void apply_setting(TrainingConfig& config, const std::string& name, double value) {
+  bool found = false;
+  for_each_setting(config, [&](const std::string& known, auto& field) {
+    if (known != name) return;
+    assign(field, value);
+    found = true;
+  });
+  if (!found)
+    throw std::invalid_argument("unknown setting '" + name + "': the manifest of a run lists them all");
 }
 
 }  // namespace mimicx

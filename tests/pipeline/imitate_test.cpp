@@ -216,6 +216,22 @@ TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
   EXPECT_NE(results_of(out("one")).at("training/stand.csv"), results_of(out("two")).at("training/stand.csv"));
 }
 
+TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
+  const NamedValues defaults = settings_of({});
+  for (const auto& [name, value] : defaults) {
+    const bool flag = name == "residual_actions" || name == "self_contact" || name == "velocity_feed_forward";
+    const double other = flag ? 1.0 - value : value + 1.0;
+    TrainingConfig config;
+    apply_setting(config, name, other);
+    const NamedValues changed = settings_of(config);
+    for (std::size_t k = 0; k < defaults.size(); ++k)
+      EXPECT_EQ(changed[k].second, defaults[k].first == name ? other : defaults[k].second) << name;
+  }
+  TrainingConfig config;
+  EXPECT_THROW(apply_setting(config, "no_such_setting", 1.0), std::invalid_argument);
+  EXPECT_THROW(apply_setting(config, "epochs", 1.5), std::invalid_argument);
+}
+
 TEST(Settings, NameEveryParameterOnce) {
   const NamedValues values = settings_of({});
   for (std::size_t i = 0; i < values.size(); ++i)
