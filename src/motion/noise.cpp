@@ -235,7 +235,8 @@ std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, in
   for (const Interval& interval : poisson_intervals(random, preset.burst_rate, preset.burst_frames_min,
                                                     preset.burst_frames_max, frames, fps)) {
     const int joint = kLimbs[random.below(kLimbs.size())];
-    Vector3d axis(random.normal(), random.normal(), random.normal());
+    Vector3d axis;
+    for (double& component : axis) component = random.normal();
     const double size = kDegree * random.uniform(preset.burst_min, preset.burst_max);
     bursts.push_back({joint, interval.first, interval.length, size * axis.normalized()});
   }

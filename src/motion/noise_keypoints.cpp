@@ -123,17 +123,23 @@ std::vector<std::vector<char>> hidden_by(const std::vector<Burst>& bursts,
   return hidden;
 }
 
+/// Two draws, in an order that does not depend on the compiler.
+Eigen::Vector2d normal_pair(Random& random) {
+  const double u = random.normal(), v = random.normal();
+  return {u, v};
+}
+
 /// Errors of one keypoint over time, in units of the box, and its confidence.
 std::vector<Vector3d> detector_errors(const Landmark& point, std::size_t k, std::uint64_t seed,
                                       const std::vector<std::vector<char>>& hidden) {
   Random still(seed, {kKeypointBiasStream, k}), random(seed, {kKeypointStream, k});
   const double factor = point.body == kLeftWrist || point.body == kRightWrist ? kWristFactor : 1.0;
-  const Eigen::Vector2d bias(kBias * still.normal(), kBias * still.normal());
-  Eigen::Vector2d wandering(random.normal(), random.normal());  // unit variance at every frame
+  const Eigen::Vector2d bias = kBias * normal_pair(still);
+  Eigen::Vector2d wandering = normal_pair(random);  // unit variance at every frame
   std::vector<Vector3d> errors;
   for (const std::vector<char>& frame : hidden) {
-    const Eigen::Vector2d white(random.normal(), random.normal()), step(random.normal(), random.normal());
-    const Eigen::Vector2d occlusion(random.normal(), random.normal());
+    const Eigen::Vector2d white = normal_pair(random), step = normal_pair(random);
+    const Eigen::Vector2d occlusion = normal_pair(random);
     const double seen = std::clamp(0.93 + 0.04 * random.normal(), 0.0, 1.0),
                  covered = random.uniform(0.2, 0.6);
     Eigen::Vector2d error = bias + factor * (kCorrelated * wandering + kWhite * white);

@@ -47,7 +47,8 @@ Clip synthesize(const SynthOptions& options) {
       solve_plan(character, kind->plan({character, random, frames}), kSynthFps);
 
   const Quaterniond heading = rotation_z(place.uniform(-std::numbers::pi, std::numbers::pi));
-  const Vector3d origin(place.uniform(-1.0, 1.0), place.uniform(-1.0, 1.0), 0.0);
+  const double x = place.uniform(-1.0, 1.0), y = place.uniform(-1.0, 1.0);
+  const Vector3d origin(x, y, 0.0);
   std::vector<Vector3d> p_root;
   std::vector<std::array<Quaterniond, kBodies>> q;
   for (const SynthPose& pose : motion) {

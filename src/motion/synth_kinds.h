@@ -1,6 +1,7 @@
 /// The kinds of synthetic motion, as plans.
 ///
-/// A kind draws its parameters from the random stream it is given and fills one `PlanFrame` per frame.
+/// A kind draws its parameters from the random stream it is given and fills one `PlanFrame` per frame. Two
+/// draws never stand in one argument list: compilers differ in the order of evaluation.
 /// To add a kind: write its plan (standing kinds in synth_kinds_standing.cpp, those that leave their place in
 /// synth_kinds_stepping.cpp) and name it in `synth_kinds()`.
 #pragma once
@@ -36,6 +37,11 @@ const std::vector<SynthKind>& synth_kinds();
 
 /// A frame that stands at ease on `feet` with slightly bent knees, and the height of its centre of mass.
 PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
+
+/// Two feet apart at random. @param narrow, wide  half width in units of the rest pose's
+/// @param least_out, most_out  how far the toes turn out, degrees
+std::array<FootTarget, 2> random_stance(const PlanRequest& request, double narrow, double wide,
+                                        double least_out, double most_out);
 
 /// Time of a frame, s.
 inline double time_of(std::size_t frame) { return static_cast<double>(frame) / kSynthFps; }

@@ -35,8 +35,7 @@ struct Wander {
 
 std::vector<PlanFrame> plan_stand(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = feet_apart(rest_half_width(request.character) * random.uniform(0.95, 1.2),
-                                random.uniform(4.0, 14.0) * kDegree);
+  const auto start = random_stance(request, 0.95, 1.2, 4.0, 14.0);
   const FeetTracks feet = standing_feet(request.character, start);
   const PlanFrame stand = standing_frame(request.character, feet);
   const MinJerkTrack part = fade(request.seconds(), 0.8);
@@ -60,8 +59,7 @@ std::vector<PlanFrame> plan_stand(const PlanRequest& request) {
 
 std::vector<PlanFrame> plan_squat(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = feet_apart(rest_half_width(request.character) * random.uniform(1.35, 1.6),
-                                random.uniform(14.0, 20.0) * kDegree);
+  const auto start = random_stance(request, 1.35, 1.6, 14.0, 20.0);
   const FeetTracks feet = standing_feet(request.character, start);
   const PlanFrame stand = standing_frame(request.character, feet);
   PlanFrame low = stand;  // hips back, arms to the front as a counterweight, looking ahead
@@ -94,8 +92,7 @@ std::vector<PlanFrame> plan_squat(const PlanRequest& request) {
 
 std::vector<PlanFrame> plan_wave(const PlanRequest& request) {
   Random& random = request.random;
-  const auto start = feet_apart(rest_half_width(request.character) * random.uniform(0.95, 1.15),
-                                random.uniform(4.0, 12.0) * kDegree);
+  const auto start = random_stance(request, 0.95, 1.15, 4.0, 12.0);
   const FeetTracks feet = standing_feet(request.character, start);
   const PlanFrame stand = standing_frame(request.character, feet);
   const std::size_t side = random.below(2);

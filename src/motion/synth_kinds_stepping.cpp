@@ -179,8 +179,7 @@ FeetTracks jumping_feet(const Character& character, const std::array<FootTarget,
 std::vector<PlanFrame> plan_jump(const PlanRequest& request) {
   Random& random = request.random;
   const Character& character = request.character;
-  const auto start =
-      feet_apart(rest_half_width(character) * random.uniform(1.0, 1.2), random.uniform(4.0, 10.0) * kDegree);
+  const auto start = random_stance(request, 1.0, 1.2, 4.0, 10.0);
   JumpTiming jump = jump_timing(random);
   const PlanFrame stand = standing_frame(character, standing_feet(character, start));
   const JumpPostures p = jump_postures(character, stand, random);

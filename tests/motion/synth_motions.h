@@ -37,6 +37,16 @@ struct Motion {
     return z;
   }
   std::size_t frames() const { return poses.size(); }
+
+  void add(const Vector3d& p_root, const std::array<Quaterniond, kBodies>& q) {
+    poses.push_back(forward_kinematics(character, p_root, q));
+    sole.emplace_back();
+    for (std::size_t i = 0; i < 12; ++i) {
+      const ContactPoint& point = character.contact_points[i];
+      const auto b = static_cast<std::size_t>(point.body);
+      sole.back()[i] = poses.back().p_WB[b] + poses.back().q_WB[b] * point.p_B;
+    }
+  }
 };
 
 inline Motion make_motion(const SynthOptions& options) {
@@ -45,13 +55,7 @@ inline Motion make_motion(const SynthOptions& options) {
   for (std::size_t t = 0; t < m.clip.rotations.size(); ++t) {
     std::array<Quaterniond, kBodies> q;
     for (std::size_t b = 0; b < kBodies; ++b) q[b] = exp_map(m.clip.rotations[t][b]);
-    m.poses.push_back(forward_kinematics(m.character, m.clip.trans[t] + rest_pelvis("mimicx"), q));
-    m.sole.emplace_back();
-    for (std::size_t i = 0; i < 12; ++i) {
-      const ContactPoint& point = m.character.contact_points[i];
-      const auto b = static_cast<std::size_t>(point.body);
-      m.sole[t][i] = m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * point.p_B;
-    }
+    m.add(m.clip.trans[t] + rest_pelvis("mimicx"), q);
   }
   return m;
 }

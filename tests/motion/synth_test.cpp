@@ -8,6 +8,8 @@
 
 #include "core/random.h"
 #include "motion/metrics.h"
+#include "motion/synth_balance.h"
+#include "motion/synth_kinds.h"
 #include "motion/synth_motions.h"
 
 namespace mimicx {
@@ -130,6 +132,30 @@ TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
       ASSERT_LT(friction, 0.6) << "frame " << t;
     }
   });
+}
+
+/// The tests' own inverse dynamics against the plan the motion was solved from.
+TEST(SolvePlan, PutsTheCentreOfPressureWhereThePlanHasIt) {
+  const std::map<std::string, double> tolerances = {
+      {"stand", 1e-4},
+      {"wave", 1e-3},
+      {"squat", 2e-3},
+      {"walk", 0.015}};  // m; ℓ is a fixed point not quite reached
+  for (const SynthKind& kind : synth_kinds()) {
+    if (!tolerances.contains(kind.name)) continue;  // a jump has no centre of pressure in flight
+    Random random(9);
+    Motion m;
+    m.character = make_character();
+    const std::vector<PlanFrame> plan = kind.plan({m.character, random, 150});
+    for (const SynthPose& pose : solve_plan(m.character, plan, kSynthFps)) m.add(pose.p_root, pose.q);
+    for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
+      const Wrench wrench = required_wrench(m, t);
+      const Eigen::Vector2d pressure =
+          Eigen::Vector2d(-wrench.moment.y(), wrench.moment.x()) / wrench.force.z();
+      ASSERT_LT((pressure - plan[t].pressure).norm(), tolerances.at(kind.name))
+          << kind.name << ", frame " << t;
+    }
+  }
 }
 
 TEST(Synthesize, AcceleratesSmoothly) {
