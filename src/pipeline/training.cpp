@@ -51,8 +51,8 @@ Table empty_log() {
                      "penalty",
                      "saturation:actions",
                      "saturation:torques",
-                     "evaluation:reward",
-                     "evaluation:position_error_mm"};
+                     "rollout_reward",
+                     "rollout_position_error_mm"};
   log.columns.insert(log.columns.end(), rest.begin(), rest.end());
   return log;
 }
