@@ -38,7 +38,7 @@ class Random {
  private:
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 2> stream_;
-  std::uint64_t position_ = 0;  ///< words drawn so far
+  std::uint64_t position_ = 0;               ///< words drawn so far
   std::uint64_t block_ = ~std::uint64_t{0};  ///< the one that `words_` holds
   std::array<std::uint32_t, 4> words_{};
 };

@@ -16,12 +16,12 @@ namespace mimicx::rl {
 
 /// Defaults: docs/method.md §5 and docs/experiments.md.
 struct RewardWeights {
-  double root_position = 100.0; ///< 1/m²
-  double root_rotation = 8.0;   ///< 1/rad²
-  double pose = 20.0;           ///< 1/rad², mean over the 21 joints
-  double velocity = 0.05;       ///< s²/rad², mean over the 21 joints
-  double end_effector = 40.0;   ///< 1/m², mean over hands and feet
-  double projection = 100.0;    ///< per (box height)², confidence-weighted mean over the keypoints
+  double root_position = 100.0;  ///< 1/m²
+  double root_rotation = 8.0;    ///< 1/rad²
+  double pose = 20.0;            ///< 1/rad², mean over the 21 joints
+  double velocity = 0.05;        ///< s²/rad², mean over the 21 joints
+  double end_effector = 40.0;    ///< 1/m², mean over hands and feet
+  double projection = 100.0;     ///< per (box height)², confidence-weighted mean over the keypoints
 };
 
 inline constexpr int kRewardTerms = 6;
