@@ -1,31 +1,35 @@
-/// The subcommands of `mimicx`, one file each.
+/// The subcommands of `mimicx`, one file each: what the command line asks for, and the work.
 ///
-/// Every `add_…` declares its options and sets `run` when its subcommand is the one that was called. `run`
-/// returns the exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage.
-/// A command prints results on standard output, progress and complaints on standard error.
+/// mimicx.cpp declares the options and calls these. Each returns the exit status. A command prints results on
+/// standard output, progress and complaints on standard error.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "pipeline/imitate.h"
 
 namespace mimicx {
 
 inline constexpr int kAllGood = 0;
 inline constexpr int kSomeFailed = 1;
 inline constexpr int kWrongUsage = 2;
+inline constexpr int kInterrupted = 130;  ///< as shells report an interrupt
 
 /// The command line asks for something that cannot be: exit status 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-using Run = std::function<int()>;
-
-void add_imitate(CLI::App& app, Run& run);
-void add_evaluate(CLI::App& app, Run& run);
-void add_info(CLI::App& app, Run& run);
-void add_convert(CLI::App& app, Run& run);
-void add_synth(CLI::App& app, Run& run);
+/// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
+int run_imitate(ImitateOptions options, const std::vector<std::string>& settings);
+/// @param json  where to write every value as well; empty: nowhere
+int run_evaluate(const std::filesystem::path& truth, const std::filesystem::path& motions,
+                 const std::filesystem::path& json);
+int run_info(const std::filesystem::path& file);
+int run_convert(const std::filesystem::path& in, const std::filesystem::path& out);
+int run_synth(const std::filesystem::path& out);
 
 }  // namespace mimicx

@@ -1,6 +1,4 @@
 #include <cstdio>
-#include <iostream>
-#include <memory>
 
 #include "commands.h"
 #include "motion/clip.h"
@@ -39,23 +37,16 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
   for (const auto& note : report.notes) std::printf("  note       %s\n", note.c_str());
 }
 
-int info(const std::string& path) {
-  const Clip clip = read_clip(path);
+}  // namespace
+
+int run_info(const std::filesystem::path& file) {
+  const Clip clip = read_clip(file);
   PreparationReport report;
   const Reference reference = prepare_reference(clip, {}, &report);
   describe_file(clip);
   describe_preparation(reference, report);
   for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
   return kAllGood;
-}
-
-}  // namespace
-
-void add_info(CLI::App& app, Run& run) {
-  auto* command = app.add_subcommand("info", "What a motion file holds and what preparation does to it");
-  const auto file = std::make_shared<std::string>();
-  command->add_option("FILE", *file, "motion: AMASS-style .npz")->required();
-  command->callback([&run, file] { run = [file] { return info(*file); }; });
 }
 
 }  // namespace mimicx

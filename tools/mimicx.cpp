@@ -1,33 +1,107 @@
-/// `mimicx`: one binary, a subcommand per task.
+/// `mimicx`: one binary, a subcommand per task. This file is the whole command line.
 
+#include <CLI/CLI.hpp>
 #include <exception>
+#include <functional>
 #include <iostream>
 
 #include "commands.h"
+#include "core/parallel.h"
 
-int main(int argc, char** argv) {
-  using namespace mimicx;
+namespace mimicx {
+namespace {
+
+/// What the command line holds; the members of the subcommand that was not called stay as they are.
+struct Arguments {
+  ImitateOptions imitate;
+  std::vector<std::string> settings;
+  std::string truth, motions, json;
+  std::string file, in, out;
+  std::function<int()> run;
+};
+
+void declare_imitate(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("imitate", "Train a simulated character to follow each motion");
+  a.imitate.threads = available_threads();
+  command->add_option("FILE", a.imitate.inputs, "motions: AMASS-style .npz")->required();
+  command->add_option("--out", a.imitate.out, "folder of the run; the same command continues what is there")
+      ->required();
+  command
+      ->add_option("--samples", a.imitate.training.samples, "training budget per motion, in character steps")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", a.imitate.training.seed, "root of every random number")
+      ->capture_default_str();
+  command->add_option("--threads", a.imitate.threads, "worker threads; no influence on the results")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--limit-seconds", a.imitate.limit_seconds,
+                   "safety stop per motion: ends its training early, makes the result depend on the machine, "
+                   "and is recorded as such")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--set", a.settings,
+                   "NAME=NUMBER: change a setting by the name it has in the manifest, for experiments; "
+                   "repeatable")
+      ->take_all();
+  command->callback([&a] { a.run = [&a] { return run_imitate(a.imitate, a.settings); }; });
+}
+
+void declare_evaluate(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("evaluate", "Score motions against their truth, pairing files by name");
+  command->add_option("--truth", a.truth, "folder of true motions")->required();
+  command->add_option("--motions", a.motions, "folder of motions to score")->required();
+  command->add_option("--json", a.json, "also write every value, its count and its definition here");
+  command->callback([&a] { a.run = [&a] { return run_evaluate(a.truth, a.motions, a.json); }; });
+}
+
+void declare_file_commands(CLI::App& app, Arguments& a) {
+  auto* info = app.add_subcommand("info", "What a motion file holds and what preparation does to it");
+  info->add_option("FILE", a.file, "motion: AMASS-style .npz")->required();
+  info->callback([&a] { a.run = [&a] { return run_info(a.file); }; });
+
+  auto* convert = app.add_subcommand("convert", "Write a motion in this program's own layout");
+  convert->add_option("IN", a.in, "motion: AMASS-style .npz")->required();
+  convert->add_option("OUT", a.out, "where to write it: .npz")->required();
+  convert->callback([&a] { a.run = [&a] { return run_convert(a.in, a.out); }; });
+
+  auto* synth =
+      app.add_subcommand("synth", "Write the synthetic motions: truth/ and noisy/, a file per kind");
+  synth->add_option("--out", a.out, "folder to write to")->required();
+  synth->callback([&a] { a.run = [&a] { return run_synth(a.out); }; });
+}
+
+int run(int argc, char** argv) {
   CLI::App app("Physically plausible human motion from noisy motion.");
   app.name("mimicx");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET);
-  app.footer("Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage.");
-  Run run;
-  add_imitate(app, run);
-  add_evaluate(app, run);
-  add_info(app, run);
-  add_convert(app, run);
-  add_synth(app, run);
+  app.footer(
+      "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
+  Arguments arguments;
+  declare_imitate(app, arguments);
+  declare_evaluate(app, arguments);
+  declare_file_commands(app, arguments);
   try {
     app.parse(argc, argv);
-    return run();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kAllGood : kWrongUsage;  // --help and --version end here as well
-  } catch (const UsageError& error) {
+  }
+  return arguments.run();
+}
+
+}  // namespace
+}  // namespace mimicx
+
+int main(int argc, char** argv) {
+  try {
+    return mimicx::run(argc, argv);
+  } catch (const mimicx::UsageError& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
-    return kWrongUsage;
+    return mimicx::kWrongUsage;
   } catch (const std::exception& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
-    return kSomeFailed;
+    return mimicx::kSomeFailed;
   }
 }

@@ -27,11 +27,11 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-/// JSON has no NaN. Seven digits are more than a curve shows.
+/// JSON has no NaN. Five digits are more than a curve shows.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
   if (value == 0.0) return 0.0;
-  const double scale = std::pow(10.0, 6.0 - std::floor(std::log10(std::abs(value))));
+  const double scale = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
   const double rounded = std::round(value * scale) / scale;
   return std::isfinite(rounded) ? rounded : value;
 }

@@ -178,7 +178,7 @@ function chart(title, xs, x_unit, lines) {
   lines.forEach((line, n) => {
     let path = '', pen = 'M';
     line.values.forEach((v, i) => {
-      if (v === null) { pen = 'M'; return; }
+      if (v === null) return;  // what is measured now and then is joined up
       path += `${pen}${X(xs[i]).toFixed(2)} ${Y(v).toFixed(2)}`;
       pen = 'L';
     });
