@@ -15,8 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 using Type = NpyArray::Type;
 
+/// A folder per test: tests run side by side.
 fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_npz_test";
+  const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_npz_test" /
+                          ::testing::UnitTest::GetInstance()->current_test_info()->name();
   fs::create_directories(folder);
   return folder / name;
 }
