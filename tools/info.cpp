@@ -33,6 +33,7 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
               report.hinge_residual_mean_mm, report.hinge_residual_max_mm);
   std::printf("  change     %.1f mm on average, %.1f mm at most\n", report.change_mean_mm,
               report.change_max_mm);
+  std::printf("  feet       levelled by %.1f degrees\n", report.foot_level_deg);
   std::printf("  flagged    %d frames\n", report.flagged_frames);
   for (const auto& note : report.notes) std::printf("  note       %s\n", note.c_str());
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "motion/feet.h"
 #include "motion/repair.h"
 #include "motion/surface.h"
 
@@ -74,17 +75,29 @@ void forward(Reference& reference) {
 }
 
 /// Puts the reference on the floor and reports by how much it moved.
-void align_with_floor(Reference& reference, PreparationReport& report) {
+/// @param feet  the motion's toes may be bent: they do not count where their foot does not stand
+void align_with_floor(bool feet, Reference& reference, PreparationReport& report) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
+  std::vector<double> moved(reference.frames.size(), 0.0);
+  const auto align = [&](const std::vector<double>& lowest) {
+    const FloorCorrection floor = floor_correction(lowest, reference.fps);
+    report.floor_shift_mm += kMm * floor.shift;
+    for (std::size_t t = 0; t < reference.frames.size(); ++t) {
+      reference.frames[t].p_root.z() += floor.height[t];
+      moved[t] += floor.height[t];
+    }
+    forward(reference);
+  };
+  if (feet) {
+    align(support_heights(reference));
+    bend_toes(reference);
+    forward(reference);
+  }
   std::vector<double> lowest;
   for (const BodyPoses& pose : reference.poses) lowest.push_back(lowest_height(points, pose));
-  const FloorCorrection floor = floor_correction(lowest, reference.fps);
-  report.floor_shift_mm = kMm * floor.shift;
-  for (std::size_t t = 0; t < reference.frames.size(); ++t) {
-    reference.frames[t].p_root.z() += floor.height[t];
-    report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(floor.height[t]));
-  }
-  forward(reference);
+  align(lowest);
+  for (double height : moved)
+    report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(height));
 }
 
 }  // namespace
@@ -116,7 +129,11 @@ Reference prepare_reference(const Clip& clip, const PreparationOptions& options,
   const Distance hinge = distance_mm(poses_of(bridged), out.poses);
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
-  if (options.ground) align_with_floor(out, r);
+  if (options.level_feet) {
+    r.foot_level_deg = level_feet(out);
+    if (r.foot_level_deg > 0.0) forward(out);
+  }
+  if (options.ground) align_with_floor(options.level_feet, out, r);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;

@@ -39,18 +39,21 @@ struct PreparationReport {
   double max_floor_shift_mm = 0;  ///< largest per-frame height change, static part included
   double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< METHOD §2
   double change_mean_mm = 0,
-         change_max_mm = 0;  ///< of joint positions against the input (both on the standard skeleton)
+         change_max_mm = 0;   ///< of joint positions against the input (both on the standard skeleton)
+  double foot_level_deg = 0;  ///< largest constant rotation that levelled a sole or toes (motion/feet.h)
   int flagged_frames = 0;
   std::vector<std::string> notes;
 };
 
 struct PreparationOptions {
   double fps = 30.0;
+  bool level_feet = true;      ///< remove a constant error in the pitch and roll of standing feet
   bool ground = true;          ///< align with the floor
   bool bridge_flagged = true;  ///< interpolate over implausible frames
 };
 
-/// Resample, convert hinges, align with the floor, flag and bridge implausible frames, differentiate.
+/// Resample, convert hinges, level the feet, align with the floor, flag and bridge implausible frames,
+/// differentiate.
 /// @throws DataError for fewer than 2 frames or non-finite values.
 Reference prepare_reference(const Clip& clip, const PreparationOptions& options, PreparationReport* report);
 

@@ -68,6 +68,7 @@ NamedValues values_of(const PreparationReport& r) {
           {"hinge_residual_max_mm", r.hinge_residual_max_mm},
           {"change_mean_mm", r.change_mean_mm},
           {"change_max_mm", r.change_max_mm},
+          {"foot_level_deg", r.foot_level_deg},
           {"flagged_frames", static_cast<double>(r.flagged_frames)}};
 }
 
