@@ -130,7 +130,6 @@ void clear(Applied<T>& applied) {
   applied.steps = 0;
 }
 
-// Template arguments cannot be put in parentheses.  NOLINTBEGIN(bugprone-macro-parentheses)
 #define MIMICX_INSTANTIATE(T)                                                                              \
   template void forward_dynamics<T>(const Model<RealOf<T>>&, const State<T>&,                              \
                                     const std::array<Vec3<T>, kBodies>&, Data<T>&);                        \
@@ -140,8 +139,6 @@ void clear(Applied<T>& applied) {
   template void record_applied<T>(const Model<RealOf<T>>&, const Data<T>&, Applied<T>&);                   \
   template void clear<T>(Applied<T>&);                                                                     \
   template void update_kinematics<T>(const Model<RealOf<T>>&, const State<T>&, Data<T>&);
-
-// NOLINTEND(bugprone-macro-parentheses)
 
 MIMICX_INSTANTIATE(double)
 MIMICX_INSTANTIATE(Pack<8>)

@@ -1,0 +1,66 @@
+// Whole trainings with the default configuration: what the README promises. Minutes each.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "core/parallel.h"
+#include "motion/synth.h"
+#include "pipeline/imitate.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+SequenceEntry imitate_one(const std::filesystem::path& input) {
+  const TemporaryFolder folder;
+  ImitateOptions options;
+  options.inputs = {input.string()};
+  options.out = folder.path / "run";
+  options.threads = available_threads();
+  Progress progress(std::cout, false, steady_seconds);
+  imitate(options, {progress, std::cout, [] { return false; }});
+  return read_manifest(options.out / "manifest.json").sequences.at(0);
+}
+
+double metric(const SequenceEntry& entry, const std::string& name) {
+  for (const auto& [known, value] : entry.metrics)
+    if (known == name) return value;
+  throw std::invalid_argument(name);
+}
+
+struct SyntheticLimit {
+  const char* kind;
+  double millimetres;
+};
+struct FollowsSynthetic : testing::TestWithParam<SyntheticLimit> {};
+
+TEST_P(FollowsSynthetic, WithinItsGlobalPositionError) {
+  const TemporaryFolder folder;
+  SynthOptions options;
+  options.kind = GetParam().kind;
+  write_clip(folder.path / "clip.npz", synthesize(options));
+  const SequenceEntry entry = imitate_one(folder.path / "clip.npz");
+  EXPECT_TRUE(entry.ok) << entry.reason;
+  EXPECT_LE(metric(entry, "gMPJPE"), GetParam().millimetres);
+}
+INSTANTIATE_TEST_SUITE_P(Learning, FollowsSynthetic,
+                         testing::Values(SyntheticLimit{"walk", 25.0}, SyntheticLimit{"squat", 20.0}),
+                         [](const auto& test) { return std::string(test.param.kind); });
+
+struct FollowsReal : testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(FollowsReal, ToItsEnd) {
+  const std::filesystem::path clip = std::filesystem::path(MIMICX_SHARED_DIR) / "motions" / GetParam().second;
+  if (!std::filesystem::exists(clip)) GTEST_SKIP() << "no real motions beside the source tree";
+  const SequenceEntry entry = imitate_one(clip);
+  EXPECT_TRUE(entry.ok) << entry.reason;
+}
+INSTANTIATE_TEST_SUITE_P(
+    Learning, FollowsReal,
+    testing::Values(std::pair("video_walk", "video/video_walk_level1_filter_amass.npz"),
+                    std::pair("video_squat", "video/video_squat_level1_filter_amass.npz"),
+                    std::pair("bandai_walk", "amass/bandai_dataset-1_walk_normal_001_poses.npz")),
+    [](const auto& test) { return std::string(test.param.first); });
+
+}  // namespace
+}  // namespace mimicx
