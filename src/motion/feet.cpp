@@ -14,7 +14,7 @@ constexpr double kStandingHeight = 0.06;  // m over the low percentile
 constexpr double kLowShare = 0.1;
 constexpr int kFewestFrames = 10;
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSmallest = 1.0 * kDegree, kLargest = 30.0 * kDegree;
+constexpr double kSmallest = 10.0 * kDegree, kLargest = 30.0 * kDegree;
 constexpr double kLargestBend = 60.0 * kDegree;
 
 double quantile(std::vector<double> values, double share) {

@@ -22,7 +22,8 @@ namespace mimicx {
 std::vector<bool> standing_frames(const std::vector<BodyPoses>& poses, int ankle, double fps);
 
 /// Levels both soles and both toes by constant rotations of at most 30°; `poses` must be those of `frames`
-/// and are stale afterwards. Feet with fewer than 10 standing frames, or less than 1° off, stay as they are.
+/// and are stale afterwards. Feet with fewer than 10 standing frames, or less than 10° off,
+/// stay as they are: a policy corrects small errors itself, and the feet of such clips drift about as much.
 /// @return largest rotation applied, degrees
 double level_feet(Reference& reference);
 

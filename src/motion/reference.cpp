@@ -75,8 +75,9 @@ void forward(Reference& reference) {
 }
 
 /// Puts the reference on the floor and reports by how much it moved.
-/// @param feet  the motion's toes may be bent: they do not count where their foot does not stand
-void align_with_floor(bool feet, Reference& reference, PreparationReport& report) {
+/// @param bend  the feet were levelled: their stiff toes may be bent, and do not count where the foot does
+/// not stand
+void align_with_floor(bool bend, Reference& reference, PreparationReport& report) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
   std::vector<double> moved(reference.frames.size(), 0.0);
   const auto align = [&](const std::vector<double>& lowest) {
@@ -88,7 +89,7 @@ void align_with_floor(bool feet, Reference& reference, PreparationReport& report
     }
     forward(reference);
   };
-  if (feet) {
+  if (bend) {
     align(support_heights(reference));
     bend_toes(reference);
     forward(reference);
@@ -133,7 +134,7 @@ Reference prepare_reference(const Clip& clip, const PreparationOptions& options,
     r.foot_level_deg = level_feet(out);
     if (r.foot_level_deg > 0.0) forward(out);
   }
-  if (options.ground) align_with_floor(options.level_feet, out, r);
+  if (options.ground) align_with_floor(r.foot_level_deg > 0.0, out, r);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;
