@@ -51,6 +51,7 @@ Table empty_log() {
                      "penalty",
                      "saturation:actions",
                      "saturation:torques",
+                     "sharpness",
                      "rollout_reward",
                      "rollout_position_error_mm"};
   log.columns.insert(log.columns.end(), rest.begin(), rest.end());
@@ -59,16 +60,16 @@ Table empty_log() {
 
 /// @param rollout  of the mean action after this iteration, or null
 std::vector<double> log_row(const rl::IterationStats& s, const rl::TrackingStatistics& tracking,
-                            const rl::TrackingRollout* rollout) {
+                            double sharpness, const rl::TrackingRollout* rollout) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(tracking.steps, 1));
   std::vector<double> row = {static_cast<double>(s.iteration), static_cast<double>(s.samples), s.mean_reward,
                              s.mean_episode_length};
   for (double term : tracking.reward_terms) row.push_back(term / steps);
-  row.insert(row.end(),
-             {s.kl, s.step_size, s.sigma, s.policy_loss, s.value_loss, s.explained_variance, s.clip_fraction,
-              s.actor_gradient, s.critic_gradient, s.penalty, s.saturation,
-              tracking.saturated_joints / (steps * kJoints), rollout != nullptr ? rollout->mean_reward : kNan,
-              rollout != nullptr ? 1e3 * rollout->mean_position_error : kNan});
+  row.insert(row.end(), {s.kl, s.step_size, s.sigma, s.policy_loss, s.value_loss, s.explained_variance,
+                         s.clip_fraction, s.actor_gradient, s.critic_gradient, s.penalty, s.saturation,
+                         tracking.saturated_joints / (steps * kJoints), sharpness,
+                         rollout != nullptr ? rollout->mean_reward : kNan,
+                         rollout != nullptr ? 1e3 * rollout->mean_position_error : kNan});
   return row;
 }
 
@@ -149,9 +150,9 @@ TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const 
       const rl::TrackingRollout rollout =
           rl::roll_out(clip, config.tracking, rl::mean_action(trainer.learner().agent));
       if (score_of(rollout) < best.score) best = {trainer.learner().agent, score_of(rollout)};
-      log.rows.push_back(log_row(stats, environment.statistics(), &rollout));
+      log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), &rollout));
     } else {
-      log.rows.push_back(log_row(stats, environment.statistics(), nullptr));
+      log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), nullptr));
     }
     control.progress(stats.samples, detail_of(stats));
     const double now = steady_seconds();

@@ -52,6 +52,8 @@ void for_each_setting(Config& config, const Visit& add) {
   add("reward_velocity", t.reward.velocity);
   add("reward_end_effector", t.reward.end_effector);
   add("reward_projection", t.reward.projection);
+  add("reward_target", t.reward_target);
+  add("softest_reward", t.softest_reward);
   add("terminate_distance", t.terminate_distance);
   add("bin_frames", t.bin_frames);
   add("uniform_starts", t.uniform_starts);

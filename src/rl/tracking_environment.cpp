@@ -1,6 +1,7 @@
 #include "rl/tracking_environment.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::uint64_t kStartStream = 0x7374617274;  // "start"
 constexpr double kFallRateMemory = 0.8;               // share of the old estimate kept per iteration
+constexpr double kSharpnessStep = 1.01;               // factor per iteration
 
 int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
   return (clip.size() + config.bin_frames - 1) / config.bin_frames;
@@ -34,7 +36,7 @@ std::vector<double> start_weights(const std::vector<double>& fall_rates, double 
 
 void TrackingStatistics::clear() {
   reward_terms.fill(0.0);
-  reward = saturated_joints = 0.0;
+  reward = learned_reward = saturated_joints = 0.0;
   steps = 0;
   for (auto* table : {&falls, &visits})
     for (auto& row : *table) std::fill(row.begin(), row.end(), 0);
@@ -43,6 +45,7 @@ void TrackingStatistics::clear() {
 void TrackingStatistics::add(const TrackingStatistics& other) {
   for (std::size_t k = 0; k < kRewardTerms; ++k) reward_terms[k] += other.reward_terms[k];
   reward += other.reward;
+  learned_reward += other.learned_reward;
   saturated_joints += other.saturated_joints;
   steps += other.steps;
   for (std::size_t c = 0; c < falls.size(); ++c)
@@ -122,11 +125,13 @@ void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>&
     const Reward reward = pack.reward(lane);
     const bool fell = !(pack.worst_distance(lane) <= config_.terminate_distance);
     const bool ended = frame >= pack.clip().size() - 1;
-    result.reward[n] = static_cast<float>(reward.total);
+    const double learned = sharpness_ == 1.0 ? reward.total : std::pow(reward.total, sharpness_);
+    result.reward[n] = static_cast<float>(learned);
     result.terminated[n] = fell;
     result.truncated[n] = ended && !fell;
     for (std::size_t k = 0; k < kRewardTerms; ++k) statistics.reward_terms[k] += reward.term[k];
     statistics.reward += reward.total;
+    statistics.learned_reward += learned;
     statistics.saturated_joints += pack.saturated_joints(lane);
     ++statistics.steps;
     const auto bin = static_cast<std::size_t>(frame / config_.bin_frames);
@@ -143,6 +148,11 @@ void TrackingEnvironment::end_iteration() {
     last_.add(group.statistics);
     group.statistics.clear();
   }
+  if (config_.reward_target > 0.0) {
+    const bool mastered = last_.learned_reward >= config_.reward_target * static_cast<double>(last_.steps);
+    sharpness_ = std::clamp(mastered ? sharpness_ * kSharpnessStep : sharpness_ / kSharpnessStep,
+                            config_.softest_reward, 1.0);
+  }
   for (std::size_t c = 0; c < clips_.size(); ++c) {
     for (std::size_t b = 0; b < fall_rates_[c].size(); ++b) {
       if (last_.visits[c][b] == 0) continue;
@@ -154,6 +164,7 @@ void TrackingEnvironment::end_iteration() {
 }
 
 void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
+  archive.set(prefix + "sharpness", NpyArray::scalar(sharpness_));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::string key = prefix + "group" + std::to_string(g) + ".";
     const Group& group = groups_[g];
@@ -169,6 +180,7 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
 }
 
 void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
+  sharpness_ = archive.at(prefix + "sharpness").to_double().at(0);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::string key = prefix + "group" + std::to_string(g) + ".";
     Group& group = groups_[g];

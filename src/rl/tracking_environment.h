@@ -3,6 +3,9 @@
 /// Episodes start anywhere on the clip (reference-state initialisation), more often where characters fall;
 /// they end early when a body is farther than `terminate_distance` from its reference (a true end), and at
 /// the end of the clip (a time limit: the learner bootstraps there).                METHOD §7
+/// A motion that is hard to follow keeps the sharp product of Eq. 2 near zero, where it teaches little. The
+/// learner's reward is therefore the product to a power, that is, all weights times one factor: it falls
+/// while the mean stays under `reward_target` and returns to 1 as the motion is mastered. (docs/method.md §5)
 /// Group g follows clip g mod clips. Every start is drawn from a stream keyed by seed, character and episode.
 #pragma once
 
@@ -19,7 +22,8 @@ namespace mimicx::rl {
 /// What happened on the clips during one roll-out.
 struct TrackingStatistics {
   std::array<double, kRewardTerms> reward_terms{};  ///< sums over steps
-  double reward = 0.0;                              ///< sum
+  double reward = 0.0;                              ///< sum, of the unsoftened product
+  double learned_reward = 0.0;                      ///< sum, of what the learner saw
   double saturated_joints = 0.0;                    ///< sum
   std::int64_t steps = 0;
   std::vector<std::vector<std::int64_t>> falls, visits;  ///< [clip][bin] of the frame reached
@@ -54,6 +58,8 @@ class TrackingEnvironment {
   const TrackingStatistics& statistics() const { return last_; }
   /// Smoothed share of the visits to a bin that end in a fall. [clip][bin]
   const std::vector<std::vector<double>>& fall_rates() const { return fall_rates_; }
+  /// Power of the product that the learner is given: 1, or less where the motion is hard.
+  double sharpness() const { return sharpness_; }
 
  private:
   struct Group {
@@ -72,6 +78,7 @@ class TrackingEnvironment {
   std::uint64_t seed_;
   std::vector<Group> groups_;
   std::vector<std::vector<double>> fall_rates_, start_weights_;
+  double sharpness_ = 1.0;
   TrackingStatistics last_;
 };
 

@@ -33,6 +33,8 @@ struct TrackingConfig {
   double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m
   int bin_frames = 10;              ///< starts and failures are counted in bins of this many frames
   double uniform_starts = 0.4;      ///< share of the starts drawn uniformly; the rest where it fails
+  double reward_target = 0.5;       ///< mean reward under which the learner's reward is softened; 0: never
+  double softest_reward = 0.1;      ///< least exponent of the softened reward
 };
 
 /// A reference made ready for the simulator: immutable, shared by packs and threads.
