@@ -1,0 +1,76 @@
+/// Motions sorted into clusters of similar ones, and the file that says so.               METHOD §6
+///
+/// Motions are points of R⁶⁸ (motion/features.h); the clusters are the leaves of hierarchical k-means
+/// (kmeans.h). One option policy is trained per cluster. Numbers run from 0, the calmer branch of every split
+/// first, and do not depend on the order of the input.
+///
+/// The file is JSON: {"settings", "units", "tree", "clusters"}; distances and diameters are in the features'
+/// units, centres in SI units under the features' names. It is refused by a program with other features or
+/// units, because its distances would mean something else there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motion/features.h"
+
+namespace mimicx {
+
+struct NamedFeatures {
+  std::string name;  ///< of the motion
+  MotionFeatures features;
+};
+
+/// l_max without a wish for another: about the spread of one kind of motion (docs/method.md, §6).
+inline constexpr double kDefaultClusterRadius = 2.0;
+
+struct ClusterSettings {
+  double radius = kDefaultClusterRadius;  ///< l_max: no two members of a cluster are farther apart
+  std::optional<int> clusters;            ///< how many to make instead; `radius` then follows from it
+  std::uint64_t seed = 0;
+};
+
+struct MotionCluster {
+  std::string description;           ///< what its motions are like, in words
+  std::vector<std::string> members;  ///< names, sorted
+  MotionFeatures centre{};           ///< mean of their features, SI units
+  double diameter = 0.0;             ///< largest distance between two of them
+};
+
+struct ClusterBranch {
+  int parent = -1;   ///< -1: the root
+  int cluster = -1;  ///< number of the cluster it is; -1 where it is split further
+  int motions = 0;
+  double diameter = 0.0;
+};
+
+struct Clusters {
+  ClusterSettings settings;             ///< `radius` as it was in the end
+  std::vector<ClusterBranch> tree;      ///< depth first; [0] is the root
+  std::vector<MotionCluster> clusters;  ///< by number
+};
+
+/// @throws std::invalid_argument without motions, for two of one name, for more clusters than distinct
+///         motions, and for a radius below 0
+Clusters cluster_motions(std::vector<NamedFeatures> motions, const ClusterSettings& settings);
+
+/// Number of the cluster whose centre is nearest; of equally near ones the first.
+int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
+
+/// What a motion of these features is like: how it travels, turns, how high it is, what arms and legs do, how
+/// vigorous it is. Absolute thresholds, from the features alone.
+std::string describe_motion(const MotionFeatures& features);
+
+/// The tree with its members, indented, for people.
+std::string format_cluster_tree(const Clusters& clusters);
+
+std::string format_clusters(const Clusters& clusters);
+/// Under a temporary name first, then renamed.
+void write_clusters(const std::filesystem::path& path, const Clusters& clusters);
+/// @throws DataError for a file that is none, or one of other features or units
+Clusters read_clusters(const std::filesystem::path& path);
+
+}  // namespace mimicx

@@ -1,0 +1,73 @@
+/// Hierarchical k-means: clusters that are no wider than asked for.                     METHOD §6
+///
+/// A cluster whose diameter (the largest distance between two of its members, which the paper calls its
+/// radius) exceeds the bound l_max is split by k-means with k = 2, and its parts again, until none does.
+/// k-means is Lloyd's iteration from k-means++ centres (Arthur and Vassilvitskii 2007), the best of a few
+/// starts.
+///
+/// How a node is split depends on its members and the seed alone, never on l_max. So there is one complete
+/// tree, down to single points, and a bound cuts it: a smaller l_max only ever splits further, and the l_max
+/// that gives C clusters can be read off the diameters.
+///
+/// The order of the points is irrelevant to the result: work is done in lexicographic order of the points,
+/// and random numbers are drawn for places in that order. Equal points always share a cluster.
+///
+/// What it does not do: it keeps no names and knows no features (clusters.h); all pairs of members are
+/// compared, so it is made for thousands of points, not for millions.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mimicx {
+
+/// Points are rows: [N][D].
+using Points = Eigen::MatrixXd;
+
+struct Partition {
+  std::vector<int> cluster;  ///< [N] nearest centre; of equally near ones the first
+  Points centres;            ///< [k][D] means of the members
+  double cost = 0.0;         ///< sum of squared distances to the centres
+};
+
+/// Lloyd's iteration from the given centres until nothing changes. A centre that loses its last point moves
+/// to the point farthest from its own centre, so no cluster of the result is empty.
+/// @throws std::invalid_argument when there are fewer distinct points than centres
+Partition lloyd(const Points& points, Points centres);
+
+/// Best of 8 starts. @throws std::invalid_argument as `lloyd`
+Partition k_means(const Points& points, int k, std::uint64_t seed);
+
+struct ClusterNode {
+  int parent = -1;                      ///< -1 for the root
+  std::array<int, 2> children{-1, -1};  ///< -1 for a leaf; the calmer one (smaller sum of the centre) first
+  std::vector<int> members;             ///< rows of the points, ascending
+  Eigen::VectorXd centre;               ///< their mean, [D]
+  double diameter = 0.0;                ///< largest distance between two of them
+
+  bool is_leaf() const { return children[0] < 0; }
+};
+
+/// Nodes in depth-first order, first child first; [0] is the root. The leaves, in this order, are the
+/// clusters 0, 1, ….
+using ClusterTree = std::vector<ClusterNode>;
+
+/// The complete tree: every leaf holds equal points only. @throws std::invalid_argument without points
+ClusterTree complete_tree(const Points& points, std::uint64_t seed);
+
+/// The top of a tree: nodes wider than `radius` keep their children, the others become leaves.
+/// @throws std::invalid_argument for a negative radius
+ClusterTree cut_tree(const ClusterTree& tree, double radius);
+
+/// The largest l_max that gives at least `clusters` clusters: exactly as many, unless nodes of equal diameter
+/// can only be split together.
+/// @param tree  complete
+/// @throws std::invalid_argument when there are fewer distinct points, or for less than 1 cluster
+double radius_for_clusters(const ClusterTree& tree, int clusters);
+
+/// Indices of the leaves, in order.
+std::vector<int> leaves_of(const ClusterTree& tree);
+
+}  // namespace mimicx
