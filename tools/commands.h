@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/synth_set.h"
 #include "pipeline/imitate.h"
 
 namespace mimicx {
@@ -30,6 +31,13 @@ int run_evaluate(const std::filesystem::path& truth, const std::filesystem::path
                  const std::filesystem::path& json);
 int run_info(const std::filesystem::path& file);
 int run_convert(const std::filesystem::path& in, const std::filesystem::path& out);
-int run_synth(const std::filesystem::path& out);
+
+struct SynthArguments {
+  std::filesystem::path out;  ///< folder of a set; empty: none is written
+  std::filesystem::path
+      data_set;  ///< folder that gets the project's own test and training split; empty: none
+  SynthSetOptions set;
+};
+int run_synth(const SynthArguments& arguments);
 
 }  // namespace mimicx

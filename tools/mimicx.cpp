@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <map>
 
 #include "commands.h"
 #include "core/parallel.h"
@@ -14,6 +15,7 @@ namespace {
 /// What the command line holds; the members of the subcommand that was not called stay as they are.
 struct Arguments {
   ImitateOptions imitate;
+  SynthArguments synth;
   std::vector<std::string> settings;
   std::string truth, motions, json;
   std::string file, in, out;
@@ -65,11 +67,36 @@ void declare_file_commands(CLI::App& app, Arguments& a) {
   convert->add_option("IN", a.in, "motion: AMASS-style .npz")->required();
   convert->add_option("OUT", a.out, "where to write it: .npz")->required();
   convert->callback([&a] { a.run = [&a] { return run_convert(a.in, a.out); }; });
+}
 
-  auto* synth =
-      app.add_subcommand("synth", "Write the synthetic motions: truth/ and noisy/, a file per kind");
-  synth->add_option("--out", a.out, "folder to write to")->required();
-  synth->callback([&a] { a.run = [&a] { return run_synth(a.out); }; });
+void declare_synth(CLI::App& app, Arguments& a) {
+  auto* command =
+      app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
+  SynthSetOptions& set = a.synth.set;
+  auto* out = command->add_option("--out", a.synth.out, "folder to write to");
+  command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--kinds", set.kinds, "kinds to make, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(synthetic_kinds()));
+  command->add_option("--noise", set.noise, "what estimates it for noisy/: gvhmr, vibe, or none (exact)")
+      ->check(CLI::IsMember({"gvhmr", "vibe", "none"}))
+      ->capture_default_str();
+  command->add_option("--camera", set.camera, "how well its camera is known: calibrated, perturbed or wild")
+      ->check(CLI::IsMember({"calibrated", "perturbed", "wild"}))
+      ->capture_default_str();
+  static const std::map<std::string, KeypointSet> kSets = {{"joints22", KeypointSet::kJoints22},
+                                                           {"coco17", KeypointSet::kCoco17}};
+  command->add_option("--keypoints", set.keypoints, "which points are detected: joints22 (default) or coco17")
+      ->transform(CLI::CheckedTransformer(kSets));
+  command
+      ->add_option("--seed", set.seed, "seed of the first motion of every kind; 101 and up: training split")
+      ->capture_default_str();
+  command
+      ->add_option("--data-set", a.synth.data_set,
+                   "write the project's own small set, test/ and train/, to this folder instead")
+      ->excludes(out);
+  command->callback([&a] { a.run = [&a] { return run_synth(a.synth); }; });
 }
 
 int run(int argc, char** argv) {
@@ -83,6 +110,7 @@ int run(int argc, char** argv) {
   declare_imitate(app, arguments);
   declare_evaluate(app, arguments);
   declare_file_commands(app, arguments);
+  declare_synth(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

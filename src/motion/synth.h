@@ -4,15 +4,15 @@
 /// high the centre of mass is and how trunk and arms are held, all as minimum-jerk tracks. One solver turns
 /// every plan into motion: the horizontal path of the centre of mass follows from the centre of pressure
 /// (docs/method.md, "Synthetic motions"), the legs from inverse kinematics with planted feet. Knees and
-/// elbows are exact hinges, flight is ballistic. A new kind is a new plan in synth_kinds.cpp, nothing else.
+/// elbows are exact hinges, flight is ballistic. A new kind is a new plan (synth_kinds.h), nothing else.
 ///
 /// Conventions: 30 frames per second, world z up, floor z = 0; `body_model` "mimicx".
-/// What it does not do: no torques (the motion is plausible, not simulated), no floor but the flat one.
+/// What it does not do: no torques (pipeline/feasibility.h asks for them), no files (synth_set.h), no floor
+/// but the flat one.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,7 +25,7 @@ struct SynthOptions {
   std::uint64_t seed = 0;              ///< varies amplitudes, timing, heading and place
   std::array<double, kBetas> betas{};  ///< shape of the body
   bool betas_from_seed = false;        ///< add N(0, 0.7) per entry, within ±2, to `betas`
-  double seconds = 0.0;                ///< length; 0 lets the kind choose (4 to 6 s); otherwise 4 to 60 s
+  double seconds = 0.0;                ///< length; 0 lets the kind choose (4 to 10 s); otherwise 4 to 60 s
 };
 
 /// Names accepted as `SynthOptions::kind`, in a fixed order.
@@ -34,10 +34,5 @@ std::vector<std::string> synthetic_kinds();
 /// The exact motion; same options, same bytes. The clip is named kind_seed.
 /// @throws std::invalid_argument for an unknown kind, a length outside 4 to 60 s, or a shape with |β_k| > 5.
 Clip synthesize(const SynthOptions& options);
-
-/// Writes the data set in data/synthetic: truth/KIND.npz and noisy/KIND.npz (gvhmr-like, perturbed
-/// camera) for every kind. Numbers are rounded to a fixed binary grid (2⁻²⁰ rad and m, 2⁻¹⁰ px), so that a
-/// last-bit difference between math libraries does not reach the files.
-void write_synthetic_set(const std::filesystem::path& directory);
 
 }  // namespace mimicx
