@@ -1,0 +1,41 @@
+/// The linear system of the keypoint fit: a symmetric positive definite block band with a border.
+///
+///   ⎡ A   B ⎤ ⎡ x ⎤   ⎡ a ⎤     A: frames × frames blocks of n × n, block bandwidth 2 (neighbours and
+///   ⎣ Bᵀ  C ⎦ ⎣ g ⎦ = ⎣ b ⎦        the frames after them); C: m × m of unknowns that every frame shares
+///
+/// Block Cholesky A = L Lᵀ, then the Schur complement C − Bᵀ A⁻¹ B for the border. Work grows linearly with
+/// the number of frames. One thread, a fixed order of summation.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace mimicx {
+
+struct BorderedBand {
+  using MatrixXd = Eigen::MatrixXd;
+  using VectorXd = Eigen::VectorXd;
+
+  std::vector<MatrixXd> diagonal;  ///< [frames] n × n: block (t, t)
+  std::vector<MatrixXd> next;      ///< [frames] n × n: block (t + 1, t); unused for the last frame
+  std::vector<MatrixXd> second;    ///< [frames] n × n: block (t + 2, t); unused for the last two
+  std::vector<MatrixXd> border;    ///< [frames] n × m: rows of B
+  MatrixXd corner;                 ///< m × m: C
+  std::vector<VectorXd> rhs;       ///< [frames] n: a
+  VectorXd rhs_border;             ///< m: b
+
+  /// All zero.
+  BorderedBand(int frames, int n, int m);
+  int frames() const { return static_cast<int>(diagonal.size()); }
+};
+
+struct BandSolution {
+  std::vector<Eigen::VectorXd> x;  ///< [frames] n
+  Eigen::VectorXd g;               ///< m
+};
+
+/// Solves the system; overwrites it with its factors.
+/// @throws std::domain_error when it is not positive definite
+BandSolution solve(BorderedBand& system);
+
+}  // namespace mimicx
