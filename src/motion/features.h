@@ -32,13 +32,11 @@ inline constexpr int kFeatures = 2 + 3 * kBodies;
 using MotionFeatures = std::array<double, kFeatures>;
 
 /// Index of the first entry of each kind; joint entries follow the order of `Body`.
-enum Feature : int {
-  kRootHeight = 0,
-  kRootTurning = 1,
-  kPlanarVelocity = 2,
-  kVerticalVelocity = kPlanarVelocity + kBodies,
-  kAcceleration = kVerticalVelocity + kBodies,
-};
+inline constexpr int kRootHeight = 0;
+inline constexpr int kRootTurning = 1;
+inline constexpr int kPlanarVelocity = 2;
+inline constexpr int kVerticalVelocity = kPlanarVelocity + kBodies;
+inline constexpr int kAcceleration = kVerticalVelocity + kBodies;
 
 /// "root_height", …, "acceleration.right_wrist".
 const std::array<std::string, kFeatures>& feature_names();

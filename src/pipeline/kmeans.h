@@ -35,7 +35,7 @@ struct Partition {
 /// Lloyd's iteration from the given centres until nothing changes. A centre that loses its last point moves
 /// to the point farthest from its own centre, so no cluster of the result is empty.
 /// @throws std::invalid_argument when there are fewer distinct points than centres
-Partition lloyd(const Points& points, Points centres);
+Partition lloyd(const Points& points, const Points& centres);
 
 /// Best of 8 starts. @throws std::invalid_argument as `lloyd`
 Partition k_means(const Points& points, int k, std::uint64_t seed);
