@@ -6,10 +6,19 @@ namespace mimicx {
 
 const std::vector<SynthKind>& synth_kinds() {
   static const std::vector<SynthKind> kinds = {{"stand", 4.4, 5.4, plan_stand},
-                                               {"walk", 4.8, 6.0, plan_walk},
+                                               {"walk", 5.0, 6.5, plan_walk},
                                                {"squat", 5.7, 6.0, plan_squat},
                                                {"wave", 4.4, 5.4, plan_wave},
-                                               {"jump", 4.0, 4.4, plan_jump}};
+                                               {"jump", 4.0, 4.4, plan_jump},
+                                               {"walk_turn", 6.0, 7.5, plan_walk_turn},
+                                               {"side_step", 6.0, 7.5, plan_side_step},
+                                               {"kick", 5.5, 7.0, plan_kick},
+                                               {"lunge", 6.0, 8.0, plan_lunge},
+                                               {"punch", 5.0, 6.5, plan_punch},
+                                               {"bow", 4.6, 6.0, plan_bow},
+                                               {"turn_in_place", 5.5, 7.5, plan_turn_in_place},
+                                               {"dance", 8.0, 10.0, plan_dance},
+                                               {"jog", 5.0, 6.5, plan_jog}};
   return kinds;
 }
 

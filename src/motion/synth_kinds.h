@@ -2,8 +2,8 @@
 ///
 /// A kind draws its parameters from the random stream it is given and fills one `PlanFrame` per frame. Two
 /// draws never stand in one argument list: compilers differ in the order of evaluation.
-/// To add a kind: write its plan (standing kinds in synth_kinds_standing.cpp, those that leave their place in
-/// synth_kinds_stepping.cpp) and name it in `synth_kinds()`.
+/// To add a kind: write its plan beside its like (synth_kinds_standing, _walking, _jump, _fighting …) and
+/// name it at the end of `synth_kinds()`: the random streams are keyed by the place in that list.
 #pragma once
 
 #include <numbers>
@@ -49,7 +49,16 @@ inline double time_of(std::size_t frame) { return static_cast<double>(frame) / k
 std::vector<PlanFrame> plan_stand(const PlanRequest& request);
 std::vector<PlanFrame> plan_squat(const PlanRequest& request);
 std::vector<PlanFrame> plan_wave(const PlanRequest& request);
+std::vector<PlanFrame> plan_bow(const PlanRequest& request);
 std::vector<PlanFrame> plan_walk(const PlanRequest& request);
+std::vector<PlanFrame> plan_walk_turn(const PlanRequest& request);
+std::vector<PlanFrame> plan_side_step(const PlanRequest& request);
+std::vector<PlanFrame> plan_turn_in_place(const PlanRequest& request);
 std::vector<PlanFrame> plan_jump(const PlanRequest& request);
+std::vector<PlanFrame> plan_jog(const PlanRequest& request);
+std::vector<PlanFrame> plan_dance(const PlanRequest& request);
+std::vector<PlanFrame> plan_kick(const PlanRequest& request);
+std::vector<PlanFrame> plan_punch(const PlanRequest& request);
+std::vector<PlanFrame> plan_lunge(const PlanRequest& request);
 
 }  // namespace mimicx

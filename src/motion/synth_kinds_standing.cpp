@@ -125,4 +125,29 @@ std::vector<PlanFrame> plan_wave(const PlanRequest& request) {
   return plan;
 }
 
+std::vector<PlanFrame> plan_bow(const PlanRequest& request) {
+  Random& random = request.random;
+  const auto start = random_stance(request, 0.95, 1.15, 4.0, 12.0);
+  const FeetTracks feet = standing_feet(request.character, start);
+  const PlanFrame stand = standing_frame(request.character, feet);
+  const double begin = random.uniform(0.3, 0.5);
+  std::vector<PostureKey> keys = {{0.0, stand}};
+  for (double t = begin;;) {
+    PlanFrame bowed = stand;  // hips back, arms along the sides
+    bowed.pelvis.x() = random.uniform(22.0, 34.0) * kDegree;
+    bowed.trunk.x() = random.uniform(18.0, 28.0) * kDegree;
+    bowed.head.x() = random.uniform(0.0, 10.0) * kDegree;
+    for (ArmPosture& arm : bowed.arm) arm.forward = 0.35 * (bowed.pelvis.x() + bowed.trunk.x());
+    bowed.com_height = com_height_for_knee(request.character, bowed, bowed.pressure, 12.0 * kDegree);
+    const double down = t + random.uniform(0.80, 1.05), up = down + random.uniform(0.25, 0.60),
+                 end = up + random.uniform(0.85, 1.10);
+    if (end > request.seconds() - 0.15) break;
+    keys.insert(keys.end(), {{t, stand}, {down, bowed}, {up, bowed}, {end, stand}});
+    t = end + random.uniform(0.20, 0.45);
+  }
+  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
+  for (std::size_t i = 0; i < plan.size(); ++i) hold_postures(keys, time_of(i), plan[i]);
+  return plan;
+}
+
 }  // namespace mimicx

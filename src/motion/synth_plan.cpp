@@ -44,9 +44,9 @@ void add_glide(double start, double end, double from, double to, std::vector<Kno
 void add_swing(const FootSwing& swing, const FootTarget& from, double leg, FootKnots& knots) {
   const double duration = swing.end - swing.start;
   const auto at = [&](double part) { return swing.start + part * duration; };
-  add_glide(at(0.04), at(0.94), from.place.x(), swing.place.x(), knots.x);
-  add_glide(at(0.04), at(0.94), from.place.y(), swing.place.y(), knots.y);
-  add_glide(at(0.04), at(0.94), from.yaw, swing.yaw, knots.yaw);
+  add_glide(at(0.06), at(0.94), from.place.x(), swing.place.x(), knots.x);
+  add_glide(at(0.06), at(0.94), from.place.y(), swing.place.y(), knots.y);
+  add_glide(at(0.06), at(0.94), from.yaw, swing.yaw, knots.yaw);
   knots.lift.insert(knots.lift.end(), {{at(0.0), 0.0}, {at(0.45), swing.clearance}, {at(1.0), 0.0}});
   const Eigen::Vector2d forward(std::cos(swing.yaw), std::sin(swing.yaw));
   const double stride = (swing.place - from.place).dot(forward) / (kLongStride * leg);
@@ -153,6 +153,8 @@ double leg_length(const Character& c) {
 double forefoot_length(const Character& c) {
   return c.joint_offset[kLeftFoot].z() + c.contact_points[4].p_B.z();
 }
+
+double feet_middle(const Character& c) { return kMidFoot * forefoot_length(c); }
 
 PlanFrame relaxed_posture(const Character& c) {
   // The forearm hangs beside the widest of pelvis, belly and thighs.

@@ -80,6 +80,9 @@ double leg_length(const Character& character);
 /// Distance from the ankle to the toe points along the foot, m.
 double forefoot_length(const Character& character);
 
+/// Where the load acts in a foot that stands flat, m ahead of the ankle.
+double feet_middle(const Character& character);
+
 /// Posture of someone standing at ease, the arms hanging clear of trunk and thighs.
 PlanFrame relaxed_posture(const Character& character);
 

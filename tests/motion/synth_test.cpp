@@ -117,10 +117,16 @@ TEST(Synthesize, StaysWithinTheRangesOfTheJoints) {
   });
 }
 
+bool stands_in_place(const std::string& kind) {
+  return kind == "stand" || kind == "squat" || kind == "wave" || kind == "bow" || kind == "punch";
+}
+
 TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
   for_all([](const Motion& m) {
     const double weight = m.character.total_mass() * kG;
-    const double tolerance = m.kind == "walk" || m.kind == "jump" ? 0.03 : 0.0;
+    const double tolerance = stands_in_place(m.kind) ? 0.0
+                             : m.kind == "jog"       ? 0.05
+                                                     : 0.03;  // ℓ is a fixed point not quite reached
     for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
       const Wrench wrench = required_wrench(m, t);
       ASSERT_GT(wrench.force.z(), -1e-3 * weight);
@@ -159,15 +165,48 @@ TEST(SolvePlan, PutsTheCentreOfPressureWhereThePlanHasIt) {
 
 TEST(Synthesize, AcceleratesSmoothly) {
   for_all([](const Motion& m) {
-    const double bound = m.kind == "walk"   ? 80.0
-                         : m.kind == "jump" ? 150.0
-                                            : 20.0;  // m/s²: feet leave and land
+    const double bound = m.kind == "jump" ? 150.0 : 90.0;  // m/s²: feet leave and land
     for (std::size_t t = 1; t + 1 < m.frames(); ++t)
       for (int body = 0; body < kBodies; ++body) {
         const Vector3d a =
             (m.joint(t + 1, body) - 2.0 * m.joint(t, body) + m.joint(t - 1, body)) / (kDt * kDt);
         ASSERT_LT(a.norm(), bound) << kBodyNames[static_cast<std::size_t>(body)] << ", frame " << t;
       }
+  });
+}
+
+TEST(Synthesize, TurnsNoJointFasterThanAPersonCan) {
+  for_all([](const Motion& m) {
+    for (std::size_t t = 1; t < m.frames(); ++t)
+      for (std::size_t b = 1; b < kBodies; ++b) {
+        const auto at = [&](std::size_t i) { return exp_map(m.clip.rotations[i][b]); };
+        ASSERT_LT(log_map(at(t - 1).conjugate() * at(t)).norm() / kDt, 15.0)
+            << kBodyNames[b] << ", frame " << t;
+      }
+  });
+}
+
+/// Grazing feet are what a simulated character stumbles over; long stands on one leg are what it falls from.
+TEST(Synthesize, LiftsEveryFootClearAndStandsOnOneLegForAMomentOnly) {
+  for_all([](const Motion& m) {
+    std::array<double, 2> highest{};
+    int alone = 0;
+    for (std::size_t t = 0; t < m.frames(); ++t) {
+      int standing = 0;
+      for (std::size_t side = 0; side < 2; ++side) {
+        double low = 1e9;
+        for (std::size_t i = 0; i < 6; ++i) low = std::min(low, m.sole[t][6 * side + i].z());
+        if (low > 1e-4) {
+          highest[side] = std::max(highest[side], low);
+          continue;
+        }
+        ++standing;
+        ASSERT_TRUE(highest[side] == 0.0 || highest[side] > 0.04) << "frame " << t;
+        highest[side] = 0.0;
+      }
+      alone = standing == 1 ? alone + 1 : 0;
+      ASSERT_LE(alone, 40) << "frame " << t;
+    }
   });
 }
 
