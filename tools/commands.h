@@ -4,13 +4,17 @@
 /// standard output, progress and complaints on standard error.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "motion/synth_set.h"
-#include "pipeline/imitate.h"
+#include "pipeline/clusters.h"
+#include "pipeline/pretrain.h"
+#include "pipeline/sequences.h"
 
 namespace mimicx {
 
@@ -25,10 +29,22 @@ struct UsageError : std::runtime_error {
 };
 
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
-int run_imitate(ImitateOptions options, const std::vector<std::string>& settings);
+int run_imitate(RunOptions options, const std::vector<std::string>& settings);
+/// @param trained  options to start from: a file, or a folder with options.npz
+int run_adapt(RunOptions options, const std::filesystem::path& trained,
+              const std::vector<std::string>& settings);
+/// @param samples  per option; none: what the preset says
+int run_pretrain(PretrainOptions options, const std::string& preset, std::optional<std::int64_t> samples,
+                 const std::vector<std::string>& settings);
+/// All stages: pretrain on a folder, then adapt all of it. @param samples  of the pre-training, per option
+int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainOptions options,
+            RunOptions adapt, std::optional<std::int64_t> samples);
 /// @param json  where to write every value as well; empty: nowhere
 int run_evaluate(const std::filesystem::path& truth, const std::filesystem::path& motions,
                  const std::filesystem::path& json);
+/// @param inputs  files, and folders of .npz files
+int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
+                const ClusterSettings& settings);
 int run_info(const std::filesystem::path& file);
 int run_convert(const std::filesystem::path& in, const std::filesystem::path& out);
 

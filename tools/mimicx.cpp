@@ -5,6 +5,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <optional>
 
 #include "commands.h"
 #include "core/parallel.h"
@@ -14,40 +15,130 @@ namespace {
 
 /// What the command line holds; the members of the subcommand that was not called stay as they are.
 struct Arguments {
-  ImitateOptions imitate;
+  RunOptions imitate, adapt;
+  PretrainOptions pretrain;
+  std::string preset = "small";
+  std::optional<std::int64_t> pretrain_samples;
+  std::string options = "data/options";
   SynthArguments synth;
   std::vector<std::string> settings;
   std::string truth, motions, json;
   std::string file, in, out;
+  std::vector<std::string> inputs;
+  ClusterSettings cluster;
   std::function<int()> run;
 };
 
-void declare_imitate(CLI::App& app, Arguments& a) {
-  auto* command = app.add_subcommand("imitate", "Train a simulated character to follow each motion");
-  a.imitate.threads = available_threads();
-  command->add_option("FILE", a.imitate.inputs, "motions: AMASS-style .npz")->required();
-  command->add_option("--out", a.imitate.out, "folder of the run; the same command continues what is there")
-      ->required();
+void add_settings(CLI::App& command, Arguments& a) {
   command
-      ->add_option("--samples", a.imitate.training.samples, "training budget per motion, in character steps")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seed", a.imitate.training.seed, "root of every random number")
-      ->capture_default_str();
-  command->add_option("--threads", a.imitate.threads, "worker threads; no influence on the results")
+      .add_option("--set", a.settings,
+                  "NAME=NUMBER: change a setting by the name it has in the manifest, for experiments; "
+                  "repeatable")
+      ->take_all();
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  threads = available_threads();
+  command.add_option("--threads", threads, "worker threads; no influence on the results")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+}
+
+/// What imitate and adapt have in common. @param samples  name of the option for the budget
+void add_run_options(CLI::App& command, Arguments& a, RunOptions& run, const std::string& samples) {
+  command.add_option("FILE", run.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command.add_option("--out", run.out, "folder of the run; the same command continues what is there")
+      ->required();
+  command.add_option(samples, run.training.samples, "training budget per motion, in character steps")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--seed", run.training.seed, "root of every random number")->capture_default_str();
+  add_threads(command, run.threads);
   command
-      ->add_option("--limit-seconds", a.imitate.limit_seconds,
-                   "safety stop per motion: ends its training early, makes the result depend on the machine, "
-                   "and is recorded as such")
+      .add_option("--limit-seconds", run.limit_seconds,
+                  "safety stop per motion: ends its training early, makes the result depend on the machine, "
+                  "and is recorded as such")
       ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--set", a.settings,
-                   "NAME=NUMBER: change a setting by the name it has in the manifest, for experiments; "
-                   "repeatable")
-      ->take_all();
+  add_settings(command, a);
+}
+
+void declare_imitate(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("imitate", "Train a simulated character to follow each motion");
+  add_run_options(*command, a, a.imitate, "--samples");
+  command->add_flag("--fit", a.imitate.fit, "move motions onto their keypoints first, where they have any");
   command->callback([&a] { a.run = [&a] { return run_imitate(a.imitate, a.settings); }; });
+}
+
+void declare_adapt(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand(
+      "adapt", "Clean motions: keypoint fit, then trained options chosen and fine-tuned for each");
+  add_run_options(*command, a, a.adapt, "--budget-samples");
+  command->add_flag("--fit,!--no-fit", a.adapt.fit,
+                    "move motions onto their keypoints first, where they have any (default)");
+  command->add_option("--options", a.options, "trained options: a file, or a folder with options.npz")
+      ->capture_default_str();
+  command->add_option("--switch-penalty", a.adapt.switch_penalty, "w_p of Eq. 4, in rewards; not positive")
+      ->check(CLI::Range(-1e9, 0.0))
+      ->capture_default_str();
+  command->callback([&a] { a.run = [&a] { return run_adapt(a.adapt, a.options, a.settings); }; });
+}
+
+void add_pretrain_options(CLI::App& command, Arguments& a, const std::string& samples) {
+  command.add_option(samples, a.pretrain_samples, "training budget per option, in character steps")
+      ->check(CLI::NonNegativeNumber);
+  auto* radius = command
+                     .add_option("--radius", a.pretrain.clusters.radius,
+                                 "no two motions of a cluster are farther apart than this")
+                     ->check(CLI::NonNegativeNumber)
+                     ->capture_default_str();
+  command.add_option("--clusters", a.pretrain.clusters.clusters, "how many clusters, and options, instead")
+      ->check(CLI::PositiveNumber)
+      ->excludes(radius);
+}
+
+void declare_pretrain(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("pretrain", "Train an option policy for every cluster of motions");
+  command->add_option("DIR", a.pretrain.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command
+      ->add_option("--out", a.pretrain.out, "folder of the options; the same command continues what is there")
+      ->required();
+  add_pretrain_options(*command, a, "--samples");
+  command->add_option("--preset", a.preset, "sizes of the networks: small (128-128) or paper (1024-1024-512)")
+      ->check(CLI::IsMember({"small", "paper"}))
+      ->capture_default_str();
+  command->add_option("--seed", a.pretrain.training.seed, "root of every random number")
+      ->capture_default_str();
+  add_threads(*command, a.pretrain.threads);
+  command->add_flag("--encoder,!--no-encoder", a.pretrain.use_encoder,
+                    "policies see their reference through a denoising encoder (default)");
+  command->add_flag("--fit,!--no-fit", a.pretrain.fit,
+                    "move motions onto their keypoints first, where they have any (default)");
+  add_settings(*command, a);
+  command->callback(
+      [&a] { a.run = [&a] { return run_pretrain(a.pretrain, a.preset, a.pretrain_samples, a.settings); }; });
+}
+
+void declare_run(CLI::App& app, Arguments& a) {
+  auto* command =
+      app.add_subcommand("run", "All stages on a folder: pretrain options on it, then adapt all of it");
+  command->add_option("DIR", a.in, "folder of motions (AMASS-style .npz)")->required();
+  command->add_option("--out", a.out, "folder of the run: options/ and clean/")->required();
+  add_pretrain_options(*command, a, "--pretrain-samples");
+  command
+      ->add_option("--budget-samples", a.adapt.training.samples,
+                   "fine-tuning budget per motion, in character steps")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--seed", a.pretrain.training.seed, "root of every random number")
+      ->capture_default_str();
+  add_threads(*command, a.pretrain.threads);
+  command->callback([&a] {
+    a.run = [&a] {
+      a.adapt.training.seed = a.pretrain.training.seed;
+      a.adapt.threads = a.pretrain.threads;
+      return run_all(a.in, a.out, a.pretrain, a.adapt, a.pretrain_samples);
+    };
+  });
 }
 
 void declare_evaluate(CLI::App& app, Arguments& a) {
@@ -56,6 +147,22 @@ void declare_evaluate(CLI::App& app, Arguments& a) {
   command->add_option("--motions", a.motions, "folder of motions to score")->required();
   command->add_option("--json", a.json, "also write every value, its count and its definition here");
   command->callback([&a] { a.run = [&a] { return run_evaluate(a.truth, a.motions, a.json); }; });
+}
+
+void declare_cluster(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("cluster", "Sort motions into clusters of similar ones");
+  command->add_option("FILE", a.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command->add_option("--out", a.out, "where to write the clusters: .json")->required();
+  auto* radius = command
+                     ->add_option("--radius", a.cluster.radius,
+                                  "no two motions of a cluster are farther apart than this")
+                     ->check(CLI::NonNegativeNumber)
+                     ->capture_default_str();
+  command->add_option("--clusters", a.cluster.clusters, "how many clusters to make instead")
+      ->check(CLI::PositiveNumber)
+      ->excludes(radius);
+  command->add_option("--seed", a.cluster.seed, "root of every random number")->capture_default_str();
+  command->callback([&a] { a.run = [&a] { return run_cluster(a.inputs, a.out, a.cluster); }; });
 }
 
 void declare_file_commands(CLI::App& app, Arguments& a) {
@@ -107,8 +214,14 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
   Arguments arguments;
+  arguments.adapt.training = fine_tuning_defaults();
+  arguments.adapt.fit = true;
+  declare_run(app, arguments);
+  declare_pretrain(app, arguments);
+  declare_adapt(app, arguments);
   declare_imitate(app, arguments);
   declare_evaluate(app, arguments);
+  declare_cluster(app, arguments);
   declare_file_commands(app, arguments);
   declare_synth(app, arguments);
   try {

@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 3> kEndings = {"none", "budget", "limit-seconds"};
+constexpr std::array<std::string_view, 5> kEndings = {"none", "budget", "threshold", "stall",
+                                                      "limit-seconds"};
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 double number(const Json& json) {
@@ -47,7 +48,11 @@ Json to_json(const SequenceEntry& e) {
           {"samples", e.samples},
           {"reward_before", number(e.reward_before)},
           {"reward_after", number(e.reward_after)},
+          {"arrangement", e.arrangement},
+          {"fit", to_json(e.fit)},
           {"input_metrics", to_json(e.input_metrics)},
+          {"metrics_before", to_json(e.metrics_before)},
+          {"ok_before", e.ok_before},
           {"metrics", to_json(e.metrics)},
           {"preparation", to_json(e.preparation)},
           {"notes", e.notes}};
@@ -73,6 +78,10 @@ SequenceEntry entry_of(const Json& json) {
   e.samples = json.at("samples");
   e.reward_before = number(json.at("reward_before"));
   e.reward_after = number(json.at("reward_after"));
+  e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
+  e.fit = named_values(json.at("fit"));
+  e.metrics_before = named_values(json.at("metrics_before"));
+  e.ok_before = json.at("ok_before");
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
   e.preparation = named_values(json.at("preparation"));
@@ -88,7 +97,7 @@ bool same(const NamedValues& a, const NamedValues& b) {
 
 bool Manifest::same_settings(const Manifest& other) const {
   return version == other.version && target == other.target && seed == other.seed &&
-         samples == other.samples && same(settings, other.settings);
+         samples == other.samples && options == other.options && same(settings, other.settings);
 }
 
 const SequenceEntry* Manifest::find(const std::string& input) const {
@@ -112,6 +121,7 @@ std::string format_manifest(const Manifest& manifest) {
                  {"target", manifest.target},
                  {"seed", manifest.seed},
                  {"samples", manifest.samples},
+                 {"options", manifest.options},
                  {"settings", to_json(manifest.settings)}}},
                {"sequences", Json::array()}};
   for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
@@ -128,6 +138,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
     manifest.target = run.at("target");
     manifest.seed = run.at("seed");
     manifest.samples = run.at("samples");
+    manifest.options = run.at("options");
     manifest.settings = named_values(run.at("settings"));
     for (const auto& e : json.at("sequences")) manifest.sequences.push_back(entry_of(e));
     return manifest;

@@ -5,6 +5,7 @@
 /// of threads or where the folder stands: times are in timing.json.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -20,6 +21,8 @@ using NamedValues = std::vector<std::pair<std::string, double>>;
 enum class Ending {
   kNone,          ///< there was none: the input could not be used
   kBudget,        ///< all samples were spent
+  kThreshold,     ///< a roll-out was good enough
+  kStall,         ///< roll-outs no longer became better
   kLimitSeconds,  ///< the safety stop: the results depend on the machine's speed
 };
 
@@ -38,9 +41,14 @@ struct SequenceEntry {
   /// Mean reward per frame of the mean-action roll-out, before and after training.
   double reward_before = std::numeric_limits<double>::quiet_NaN();
   double reward_after = std::numeric_limits<double>::quiet_NaN();
-  NamedValues input_metrics;  ///< of the input as it came, against the prepared reference
-  NamedValues metrics;        ///< of the simulated motion, against the prepared reference
-  NamedValues preparation;    ///< what preparation did to the input
+  /// Which option acts from which frame on: {first frame, option}; empty for a training from scratch.
+  std::vector<std::array<int, 2>> arrangement;
+  NamedValues fit;             ///< what the keypoint fit did; empty without one
+  NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
+  NamedValues metrics;         ///< of the simulated motion, against the prepared reference
+  NamedValues metrics_before;  ///< of the simulated motion before training
+  bool ok_before = false;      ///< whether it was a success already
+  NamedValues preparation;     ///< what preparation did to the input
   std::vector<std::string> notes;
 
   /// Whether the same command may keep this result instead of doing it again.
@@ -53,6 +61,7 @@ struct Manifest {
   std::uint64_t seed = 0;
   std::int64_t samples = 0;  ///< budget per sequence
   NamedValues settings;      ///< every other parameter that the results depend on
+  std::string options;       ///< checksum of the options started from; empty: from scratch
   std::vector<SequenceEntry> sequences;
 
   /// Whether the results of `other` may stand beside those of this run.

@@ -5,6 +5,7 @@
 ///     DIR/report.html            the run to look at
 ///     DIR/motions/NAME.npz       simulated motions
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
+///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
@@ -28,6 +29,7 @@ struct RunFolder {
   std::filesystem::path reference(const std::string& name) const {
     return root / "references" / (name + ".npz");
   }
+  std::filesystem::path fit(const std::string& name) const { return root / "fits" / (name + ".npz"); }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");

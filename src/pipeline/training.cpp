@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/npz.h"
+#include "core/parallel.h"
 #include "pipeline/progress.h"
 #include "rl/tracking_environment.h"
 #include "rl/tracking_rollout.h"
@@ -19,20 +20,59 @@ constexpr const char* kChecksumKey = "input_checksum";
 constexpr const char* kTrainerPrefix = "trainer.";
 constexpr const char* kBestPrefix = "best.";
 constexpr const char* kBestScoreKey = "best_score";
+constexpr const char* kBestAgeKey = "best_age";
+constexpr double kBetter = 0.99;  ///< a score under this share of the best one starts the stall anew
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// The agent whose mean action followed the whole clip best so far. Exploration noise hides how good a mean
+using Clips = std::vector<std::shared_ptr<const rl::TrackingClip>>;
+
+/// The agents whose mean actions followed the clips best so far. Exploration noise hides how good a mean
 /// action is, and late updates may unlearn a hard moment: the roll-out decides, not the last iteration.
 struct Best {
-  rl::Agent agent;
+  std::vector<rl::Agent> agents;
   double score = std::numeric_limits<double>::infinity();
+  int age = 0;  ///< roll-outs since the score last became markedly better
+};
+
+/// Roll-outs of the mean actions over all clips.
+struct Evaluation {
+  double score = 0.0;           ///< m, mean over clips; smaller is better
+  double reward = 0.0;          ///< mean over clips
+  double position_error = 0.0;  ///< m, mean over clips
 };
 
 /// Mean position error, m; a body that strayed beyond the limit of success (docs/metrics.md) outweighs it.
 double score_of(const rl::TrackingRollout& rollout) {
-  constexpr double kLost = 0.5;
-  if (rollout.broken) return 1e3;
-  return rollout.mean_position_error + (rollout.worst_distance > kLost ? rollout.worst_distance : 0.0);
+  constexpr double kLost = 0.5, kFarthest = 3.0;
+  if (rollout.broken) return kFarthest;
+  return std::min(kFarthest, rollout.mean_position_error +
+                                 (rollout.worst_distance > kLost ? rollout.worst_distance : 0.0));
+}
+
+Evaluation evaluate(const Clips& clips, const rl::TrackingConfig& config,
+                    const std::vector<rl::Agent>& agents, int threads) {
+  std::vector<Evaluation> each(clips.size());
+  parallel_for(static_cast<int>(clips.size()), threads, [&](int k) {
+    const auto index = static_cast<std::size_t>(k);
+    const rl::TrackingRollout rollout = rl::roll_out(clips[index], config, rl::mean_action(agents));
+    each[index] = {score_of(rollout), rollout.mean_reward, rollout.mean_position_error};
+  });
+  Evaluation mean;
+  for (const Evaluation& e : each) {
+    mean.score += e.score / static_cast<double>(clips.size());
+    mean.reward += e.reward / static_cast<double>(clips.size());
+    mean.position_error += e.position_error / static_cast<double>(clips.size());
+  }
+  return mean;
+}
+
+/// Keeps the agents where they are the best so far, and counts how long none has been markedly better.
+void consider(Best& best, const Trainer& trainer, double score) {
+  best.age = score < kBetter * best.score ? 0 : best.age + 1;
+  if (score < best.score) {
+    best.score = score;
+    best.agents = trainer.agents();
+  }
 }
 
 Table empty_log() {
@@ -58,9 +98,9 @@ Table empty_log() {
   return log;
 }
 
-/// @param rollout  of the mean action after this iteration, or null
+/// @param rollout  of the mean actions after this iteration, or null
 std::vector<double> log_row(const rl::IterationStats& s, const rl::TrackingStatistics& tracking,
-                            double sharpness, const rl::TrackingRollout* rollout) {
+                            double sharpness, const Evaluation* rollout) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(tracking.steps, 1));
   std::vector<double> row = {static_cast<double>(s.iteration), static_cast<double>(s.samples), s.mean_reward,
                              s.mean_episode_length};
@@ -68,8 +108,8 @@ std::vector<double> log_row(const rl::IterationStats& s, const rl::TrackingStati
   row.insert(row.end(), {s.kl, s.step_size, s.sigma, s.policy_loss, s.value_loss, s.explained_variance,
                          s.clip_fraction, s.actor_gradient, s.critic_gradient, s.penalty, s.saturation,
                          tracking.saturated_joints / (steps * kJoints), sharpness,
-                         rollout != nullptr ? rollout->mean_reward : kNan,
-                         rollout != nullptr ? 1e3 * rollout->mean_position_error : kNan});
+                         rollout != nullptr ? rollout->reward : kNan,
+                         rollout != nullptr ? 1e3 * rollout->position_error : kNan});
   return row;
 }
 
@@ -88,8 +128,10 @@ void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, co
   Npz archive;
   archive.set(kChecksumKey, NpyArray::scalar_text(files.input_checksum));
   trainer.save(archive, kTrainerPrefix);
-  rl::save(archive, kBestPrefix, best.agent);
+  for (std::size_t k = 0; k < best.agents.size(); ++k)
+    rl::save(archive, kBestPrefix + std::to_string(k) + ".", best.agents[k]);
   archive.set(kBestScoreKey, NpyArray::scalar(best.score));
+  archive.set(kBestAgeKey, NpyArray::scalar_int(best.age));
   write_npz(files.checkpoint, archive);
 }
 
@@ -99,10 +141,12 @@ void resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log
   const Npz archive = read_npz(files.checkpoint);
   if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum}) return;
   trainer.load(archive, kTrainerPrefix);
-  best.agent = rl::load_agent(archive, kBestPrefix);
+  for (std::size_t k = 0; k < best.agents.size(); ++k)
+    best.agents[k] = rl::load_agent(archive, kBestPrefix + std::to_string(k) + ".");
   best.score = archive.at(kBestScoreKey).to_double().at(0);
+  best.age = static_cast<int>(archive.at(kBestAgeKey).to_double().at(0));
   log.rows = read_csv(files.log).rows;
-  const auto iterations = static_cast<std::size_t>(trainer.learner().iteration);
+  const auto iterations = static_cast<std::size_t>(trainer.iterations());
   if (log.rows.size() > iterations) log.rows.resize(iterations);
 }
 
@@ -122,35 +166,40 @@ std::string detail_of(const rl::IterationStats& s) {
 
 }  // namespace
 
-rl::Agent untrained_agent(const TrainingConfig& config) {
+rl::Agent untrained_agent(const TrainingConfig& config, int state_size) {
   rl::AgentShape shape;
-  shape.observation_dim = rl::kStateSize;
+  shape.observation_dim = state_size;
   shape.action_dim = kDofs;
   shape.hidden = config.hidden;
   return rl::make_agent(shape, config.seed);
 }
 
-TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const TrainingConfig& config,
-                     const TrainingFiles& files, const TrainingControl& control) {
-  rl::TrackingEnvironment environment({clip}, config.tracking, config.characters, config.group_size,
+TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
+                     std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
+                     const TrainingControl& control) {
+  rl::TrackingEnvironment environment(clips, config.tracking, config.characters, config.group_size,
                                       config.seed);
-  Trainer trainer(seeded(config), untrained_agent(config), environment);
+  Best best{agents};
+  Trainer trainer(seeded(config), std::move(agents), environment);
   Table log = empty_log();
-  Best best{trainer.learner().agent};
   resume(trainer, files, best, log);
-  control.progress(trainer.learner().samples, "");
+  control.progress(trainer.samples(), "");
 
   const double started = steady_seconds();
   double saved = started;
   TrainingResult result;
-  while (trainer.learner().samples < config.samples) {
+  if (trainer.samples() == 0)  // a good start may be the best there is
+    consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
+  while (trainer.samples() < config.samples) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
     const bool last = stats.samples >= config.samples;
+    bool good = false, stalled = false;
     if (last || stats.iteration % config.evaluate_iterations == 0) {
-      const rl::TrackingRollout rollout =
-          rl::roll_out(clip, config.tracking, rl::mean_action(trainer.learner().agent));
-      if (score_of(rollout) < best.score) best = {trainer.learner().agent, score_of(rollout)};
+      const Evaluation rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
+      consider(best, trainer, rollout.score);
       log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), &rollout));
+      good = config.stop_reward > 0.0 && rollout.reward >= config.stop_reward;
+      stalled = config.stall_evaluations > 0 && best.age >= config.stall_evaluations;
     } else {
       log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), nullptr));
     }
@@ -161,6 +210,10 @@ TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const 
       saved = now;
     }
     if (last) break;
+    if (good || stalled) {
+      result.ending = good ? Ending::kThreshold : Ending::kStall;
+      break;
+    }
     if (control.should_stop()) {
       result.interrupted = true;
       break;
@@ -171,8 +224,8 @@ TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const 
     }
   }
   save(trainer, environment, config, files, best, log);
-  result.agent = best.agent;
-  result.samples = trainer.learner().samples;
+  result.agents = best.agents;
+  result.samples = trainer.samples();
   result.seconds = steady_seconds() - started;
   return result;
 }

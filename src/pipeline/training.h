@@ -1,8 +1,10 @@
-/// Training of one policy on one reference: the seam between files and the learner.
+/// Training of policies on references: the seam between files and the learner.
 ///
-/// `train` runs PPO until the samples are spent, writes the complete state of the training to a checkpoint
-/// now and then, and takes a training up again where its checkpoint left it: interrupted or not, the bytes of
-/// the agent and of the log are the same. It reads and writes only the files it is given.
+/// One policy on one clip (imitation), one on many clips (an option's pre-training), or several options on
+/// one clip under its arrangement (joint fine-tuning) are the same loop. `train` runs PPO until the samples
+/// are spent, writes the complete state of the training to a checkpoint now and then, and takes a training up
+/// again where its checkpoint left it: interrupted or not, the bytes of the agent and of the log are the
+/// same. It reads and writes only the files it is given.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +41,9 @@ struct TrainingConfig {
   int group_size = 64;                   ///< characters that one worker carries through a roll-out
   std::vector<int> hidden = {128, 128};  ///< of actor and critic
   double sigma_share = 0.75;             ///< share of the budget during which σ falls
-  int evaluate_iterations = 20;          ///< between roll-outs of the mean action; the best agent is kept
+  int evaluate_iterations = 20;          ///< between roll-outs of the mean action; the best agents are kept
+  double stop_reward = 0.0;              ///< mean reward of a roll-out that is good enough; 0: none is
+  int stall_evaluations = 0;             ///< roll-outs without a better one that end a training; 0: none do
   rl::PpoConfig ppo = tracking_ppo();    ///< its seed and sigma_samples follow from the members above
   rl::TrackingConfig tracking;
 };
@@ -68,17 +72,20 @@ struct TrainingControl {
 };
 
 struct TrainingResult {
-  rl::Agent agent;  ///< the best of those that were rolled out during the training
+  std::vector<rl::Agent> agents;  ///< the best of those that were rolled out during the training
   std::int64_t samples = 0;
   Ending ending = Ending::kBudget;
   bool interrupted = false;  ///< `should_stop` said so: the state is in the checkpoint
   double seconds = 0.0;      ///< of this call
 };
 
-TrainingResult train(const std::shared_ptr<const rl::TrackingClip>& clip, const TrainingConfig& config,
-                     const TrainingFiles& files, const TrainingControl& control);
+/// @param clips   of one state size; options act in each as its arrangement says
+/// @param agents  what to start from, one per option of the arrangements
+TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
+                     std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
+                     const TrainingControl& control);
 
-/// The agent before its first sample.
-rl::Agent untrained_agent(const TrainingConfig& config);
+/// An agent before its first sample.
+rl::Agent untrained_agent(const TrainingConfig& config, int state_size = rl::kStateSize);
 
 }  // namespace mimicx

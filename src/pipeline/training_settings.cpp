@@ -16,6 +16,8 @@ void for_each_setting(Config& config, const Visit& add) {
 
   add("sigma_share", config.sigma_share);
   add("evaluate_iterations", config.evaluate_iterations);
+  add("stop_reward", config.stop_reward);
+  add("stall_evaluations", config.stall_evaluations);
 
   auto& p = config.ppo;
   add("horizon", p.horizon);

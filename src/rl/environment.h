@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <string>
+#include <vector>
 
 #include "core/npz.h"
 #include "nn/matrix.h"
@@ -27,12 +28,14 @@ struct StepResult {
   Flags terminated;                      ///< [group_size]; wins where both flags are set
   Flags truncated;                       ///< [group_size]
   nn::Matrix<float> final_observations;  ///< [group_size × observation_dim]; a row is read where truncated
+  std::vector<int> final_actors;         ///< [group_size] whose observation that is: 0 for a single agent
 
   StepResult(int group_size, int observation_dim)
       : reward(Eigen::ArrayXf::Zero(group_size)),
         terminated(Flags::Constant(group_size, false)),
         truncated(Flags::Constant(group_size, false)),
-        final_observations(nn::Matrix<float>::Zero(group_size, observation_dim)) {}
+        final_observations(nn::Matrix<float>::Zero(group_size, observation_dim)),
+        final_actors(static_cast<std::size_t>(group_size), 0) {}
 };
 
 template <class E>
@@ -50,5 +53,15 @@ concept Environment = requires(E environment, const E& constant, int group,
   constant.save(archive, prefix);            // everything an exact continuation needs
   environment.load(constant_archive, prefix);
 };
+
+/// Which agent acts for a character now: environments for several agents have a member `actor(group,
+/// character)`; in all others there is one agent, number 0.
+template <Environment E>
+int acting_agent(const E& environment, int group, int character) {
+  if constexpr (requires { environment.actor(group, character); })
+    return environment.actor(group, character);
+  else
+    return 0;
+}
 
 }  // namespace mimicx::rl

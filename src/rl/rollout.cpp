@@ -1,9 +1,47 @@
 #include "rl/rollout.h"
 
+#include <algorithm>
+
 namespace mimicx::rl {
 
+namespace {
+
+/// Calls visit(agent index, its raw observations [n × dim]) for every agent with rows; `scratch.rows` are
+/// those rows.
+template <class Visit>
+void for_each_actor(const Agents& agents, const std::vector<int>& actors, const nn::Matrix<float>& raw,
+                    CollectScratch& scratch, const Visit& visit) {
+  for (std::size_t agent = 0; agent < agents.size(); ++agent) {
+    scratch.rows.clear();
+    for (std::size_t i = 0; i < actors.size(); ++i)
+      if (actors[i] == static_cast<int>(agent)) scratch.rows.push_back(static_cast<int>(i));
+    if (scratch.rows.empty()) continue;
+    scratch.part_raw = raw(scratch.rows, Eigen::all);
+    visit(agent, scratch.part_raw);
+  }
+}
+
+/// V of the agent that acts: [n × 1] in scratch.part_values; leaves the normalised observations.
+void value_part(const Agent& agent, const nn::Matrix<float>& raw, CollectScratch& scratch) {
+  nn::normalise(agent.observations, raw, scratch.part_normalised);
+  nn::evaluate(agent.critic, scratch.part_normalised, scratch.critic, scratch.part_values);
+  unscale_values(agent.returns, scratch.part_values);
+}
+
+/// V of every row → scratch.values [G × 1].
+void value_all(const Agents& agents, const std::vector<int>& actors, const nn::Matrix<float>& raw,
+               CollectScratch& scratch) {
+  scratch.values.resize(raw.rows(), 1);
+  for_each_actor(agents, actors, raw, scratch, [&](std::size_t agent, const nn::Matrix<float>& part) {
+    value_part(*agents[agent], part, scratch);
+    scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
+  });
+}
+
+}  // namespace
+
 RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int observation_dim,
-                                  int action_dim) {
+                                  int action_dim, int agents) {
   const int rows = horizon * group_size;
   const nn::Matrix<float> per_step = nn::Matrix<float>::Zero(horizon, group_size);
   const FlagMatrix no_flags = FlagMatrix::Constant(horizon, group_size, false);
@@ -14,33 +52,41 @@ RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int o
   group.log_density = group.rewards = group.values = group.final_values = group.advantages = per_step;
   group.last_values.setZero(1, group_size);
   group.terminated = group.truncated = no_flags;
-  group.moments = nn::make_moments(observation_dim);
+  group.actors.assign(static_cast<std::size_t>(rows), 0);
+  group.moments.assign(static_cast<std::size_t>(agents), nn::make_moments(observation_dim));
   group.ages.assign(static_cast<std::size_t>(group_size), 0);
   return {horizon, group_size, std::vector<GroupRollout>(static_cast<std::size_t>(groups), group)};
 }
 
 void begin_rollout(GroupRollout& rollout) {
-  rollout.moments = nn::make_moments(static_cast<int>(rollout.observations.cols()));
+  for (nn::Moments& moments : rollout.moments)
+    moments = nn::make_moments(static_cast<int>(rollout.observations.cols()));
   rollout.ended_episodes = rollout.ended_steps = 0;
 }
 
-void record_decision(const Agent& agent, double sigma, int t, Random& random, CollectScratch& scratch,
+void record_decision(const Agents& agents, double sigma, int t, Random& random, CollectScratch& scratch,
                      GroupRollout& rollout) {
   const Eigen::Index size = scratch.raw.rows(), first = t * size;
-  nn::merge(rollout.moments, nn::moments_of(scratch.raw));
-  nn::normalise(agent.observations, scratch.raw, scratch.normalised);
-  nn::evaluate(agent.critic, scratch.normalised, scratch.critic, scratch.values);
-  unscale_values(agent.returns, scratch.values);
-  nn::evaluate(agent.actor, scratch.normalised, scratch.actor, scratch.means);
+  scratch.means.resize(size, rollout.means.cols());
+  scratch.values.resize(size, 1);
+  for_each_actor(
+      agents, scratch.actors, scratch.raw, scratch, [&](std::size_t index, const nn::Matrix<float>& part) {
+        const Agent& agent = *agents[index];
+        nn::merge(rollout.moments[index], nn::moments_of(part));
+        value_part(agent, part, scratch);
+        nn::evaluate(agent.actor, scratch.part_normalised, scratch.actor, scratch.part_means);
+        scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
+        scratch.means(scratch.rows, Eigen::all) = scratch.part_means;
+        rollout.observations.middleRows(first, size)(scratch.rows, Eigen::all) = scratch.part_normalised;
+      });
   sample_actions(scratch.means, sigma, random, scratch.actions, rollout.log_density.row(t).transpose());
-
-  rollout.observations.middleRows(first, size) = scratch.normalised;
   rollout.values.row(t) = scratch.values.transpose();
   rollout.means.middleRows(first, size) = scratch.means;
   rollout.actions.middleRows(first, size) = scratch.actions;
+  std::copy(scratch.actors.begin(), scratch.actors.end(), rollout.actors.begin() + first);
 }
 
-void record_result(const Agent& agent, int t, CollectScratch& scratch, GroupRollout& rollout) {
+void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRollout& rollout) {
   const StepResult& result = scratch.result;
   rollout.rewards.row(t) = result.reward.matrix().transpose();
   rollout.terminated.row(t) = result.terminated.matrix().transpose();
@@ -55,17 +101,13 @@ void record_result(const Agent& agent, int t, CollectScratch& scratch, GroupRoll
     age = 0;
   }
   if (!result.truncated.any()) return;
-  nn::normalise(agent.observations, result.final_observations, scratch.normalised);
-  nn::evaluate(agent.critic, scratch.normalised, scratch.critic, scratch.values);
-  unscale_values(agent.returns, scratch.values);
+  value_all(agents, result.final_actors, result.final_observations, scratch);
   rollout.final_values.row(t) = scratch.values.transpose();
 }
 
-void finish_rollout(const Agent& agent, double gamma, double lambda, CollectScratch& scratch,
+void finish_rollout(const Agents& agents, double gamma, double lambda, CollectScratch& scratch,
                     GroupRollout& rollout) {
-  nn::normalise(agent.observations, scratch.raw, scratch.normalised);
-  nn::evaluate(agent.critic, scratch.normalised, scratch.critic, scratch.values);
-  unscale_values(agent.returns, scratch.values);
+  value_all(agents, scratch.actors, scratch.raw, scratch);
   rollout.last_values = scratch.values.transpose();
   estimate_advantages({rollout.rewards, rollout.values, rollout.last_values, rollout.terminated,
                        rollout.truncated, rollout.final_values},

@@ -5,7 +5,10 @@
 /// whole buffer is group·T·G + t·G + i. Observations are kept as the networks saw them (normalised), since
 /// the statistics stay fixed while a roll-out is collected and learned from.
 ///
-/// The recording functions know an agent and no environment; who acts in which row is the caller's choice.
+/// Several agents may share a roll-out: each acts, and values, the rows that name it. The value of an
+/// observation is always that of the agent who acts there, so a return that crosses from one agent's rows
+/// into another's is bootstrapped with the other's critic.                                        METHOD §9
+/// The recording functions know agents and no environment; who acts in which row is the caller's choice.
 #pragma once
 
 #include <span>
@@ -19,6 +22,9 @@
 
 namespace mimicx::rl {
 
+/// The agents of a roll-out, referred to.
+using Agents = std::vector<const Agent*>;
+
 struct GroupRollout {
   nn::Matrix<float> observations;    ///< [T·G × observation_dim], normalised
   nn::Matrix<float> actions;         ///< [T·G × action_dim]
@@ -31,10 +37,12 @@ struct GroupRollout {
   nn::Matrix<float> advantages;      ///< [T][G]
   FlagMatrix terminated, truncated;  ///< [T][G]
 
-  nn::Moments moments;              ///< of the raw observations of this roll-out
-  std::vector<std::int64_t> ages;   ///< [G] steps since the last reset; lives on from roll-out to roll-out
-  std::int64_t ended_episodes = 0;  ///< in this roll-out
-  std::int64_t ended_steps = 0;     ///< lengths of those episodes together
+  std::vector<int> actors;  ///< [T·G] who acted
+
+  std::vector<nn::Moments> moments;  ///< [agent] of the raw observations it saw in this roll-out
+  std::vector<std::int64_t> ages;    ///< [G] steps since the last reset; lives on from roll-out to roll-out
+  std::int64_t ended_episodes = 0;   ///< in this roll-out
+  std::int64_t ended_steps = 0;      ///< lengths of those episodes together
 };
 
 struct RolloutBuffer {
@@ -47,45 +55,57 @@ struct RolloutBuffer {
 };
 
 RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int observation_dim,
-                                  int action_dim);
+                                  int action_dim, int agents = 1);
 
 /// Buffers of one group's collection.
 struct CollectScratch {
-  nn::Matrix<float> raw;         ///< [G × observation_dim] as observed
-  nn::Matrix<float> normalised;  ///< [G × observation_dim]
-  nn::Matrix<float> means, actions, values;
-  nn::Workspace<float> actor, critic;
+  nn::Matrix<float> raw;                     ///< [G × observation_dim] as observed
+  std::vector<int> actors;                   ///< [G] who acts
+  nn::Matrix<float> means, actions, values;  ///< [G × …]
   StepResult result;
 
+  // Of one agent's rows.
+  std::vector<int> rows;
+  nn::Matrix<float> part_raw, part_normalised, part_means, part_values;
+  nn::Workspace<float> actor, critic;
+
   CollectScratch(int group_size, int observation_dim)
-      : raw(group_size, observation_dim), result(group_size, observation_dim) {}
+      : raw(group_size, observation_dim),
+        actors(static_cast<std::size_t>(group_size), 0),
+        result(group_size, observation_dim) {}
 };
 
 /// Forgets the last roll-out but keeps the ages.
 void begin_rollout(GroupRollout& rollout);
-/// Reads scratch.raw; records observation, value, mean, action and density of step t; leaves scratch.actions.
-void record_decision(const Agent& agent, double sigma, int t, Random& random, CollectScratch& scratch,
+/// Reads scratch.raw and scratch.actors; records observation, value, mean, action and density of step t;
+/// leaves scratch.actions.
+void record_decision(const Agents& agents, double sigma, int t, Random& random, CollectScratch& scratch,
                      GroupRollout& rollout);
 /// Reads scratch.result: reward, flags, values of truncated characters' final observations, episode lengths.
-void record_result(const Agent& agent, int t, CollectScratch& scratch, GroupRollout& rollout);
-/// Reads scratch.raw, the observation after the last step: bootstrap values and advantages.
-void finish_rollout(const Agent& agent, double gamma, double lambda, CollectScratch& scratch,
+void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRollout& rollout);
+/// Reads scratch.raw and scratch.actors after the last step: bootstrap values and advantages.
+void finish_rollout(const Agents& agents, double gamma, double lambda, CollectScratch& scratch,
                     GroupRollout& rollout);
 
 /// One group over the whole horizon. @param random  keyed by iteration and group
 template <Environment E>
-void collect_group(E& environment, int group, const Agent& agent, double sigma, double gamma, double lambda,
+void collect_group(E& environment, int group, const Agents& agents, double sigma, double gamma, double lambda,
                    Random random, CollectScratch& scratch, GroupRollout& rollout) {
+  const auto observe = [&] {
+    environment.observe(group, scratch.raw);
+    for (std::size_t i = 0; i < scratch.actors.size(); ++i)
+      scratch.actors[i] = acting_agent(environment, group, static_cast<int>(i));
+  };
   begin_rollout(rollout);
   const int horizon = static_cast<int>(rollout.rewards.rows());
   for (int t = 0; t < horizon; ++t) {
-    environment.observe(group, scratch.raw);
-    record_decision(agent, sigma, t, random, scratch, rollout);
+    observe();
+    record_decision(agents, sigma, t, random, scratch, rollout);
     environment.step(group, scratch.actions, scratch.result);
-    record_result(agent, t, scratch, rollout);
+    record_result(agents, t, scratch, rollout);
   }
-  environment.observe(group, scratch.raw);
-  finish_rollout(agent, gamma, lambda, scratch, rollout);
+  observe();
+  finish_rollout(agents, gamma, lambda, scratch, rollout);
 }
 
 }  // namespace mimicx::rl

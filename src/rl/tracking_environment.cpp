@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint64_t kStartStream = 0x7374617274;  // "start"
 constexpr double kFallRateMemory = 0.8;               // share of the old estimate kept per iteration
+constexpr std::int64_t kClipIterations = 16;          // that a pack stays with a clip
 constexpr double kSharpnessStep = 1.01;               // factor per iteration
 
 int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
@@ -75,14 +76,38 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
   groups_.resize(static_cast<std::size_t>(characters / group_size));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
-    group.clip = g % clips_.size();
-    group.packs.assign(static_cast<std::size_t>(group_size / kLanes),
-                       TrackingPack(clips_[group.clip], config_));
+    const auto packs = static_cast<std::size_t>(group_size / kLanes);
+    group.clips.assign(packs, 0);
+    group.packs.assign(packs, TrackingPack(clips_.front(), config_));
     group.episodes.assign(static_cast<std::size_t>(group_size), 0);
     group.scratch = std::make_unique<Data<TrackingPack::P>>();
     group.statistics = last_;
-    for (int character = 0; character < group_size; ++character) restart(static_cast<int>(g), character);
+    for (std::size_t p = 0; p < packs; ++p) {
+      follow(static_cast<int>(g), p, next_clip_);
+      next_clip_ = (next_clip_ + 1) % clips_.size();
+    }
   }
+}
+
+/// Puts a pack on a clip, every lane at a start of its own.
+void TrackingEnvironment::follow(int g, std::size_t p, std::size_t clip) {
+  Group& group = groups_[static_cast<std::size_t>(g)];
+  group.clips[p] = clip;
+  group.packs[p] = TrackingPack(clips_[clip], config_);
+  for (int lane = 0; lane < kLanes; ++lane) restart(g, static_cast<int>(p) * kLanes + lane);
+}
+
+/// Moves every pack whose turn it is to the next clip.
+void TrackingEnvironment::move_on() {
+  const std::size_t per_group = groups_.front().packs.size();
+  if (clips_.size() <= groups_.size() * per_group) return;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::size_t p = 0; p < per_group; ++p) {
+      const auto turn = static_cast<std::int64_t>(g * per_group + p);
+      if ((iteration_ + turn) % kClipIterations != 0) continue;
+      follow(static_cast<int>(g), p, next_clip_);
+      next_clip_ = (next_clip_ + 1) % clips_.size();
+    }
 }
 
 int TrackingEnvironment::draw_start(std::size_t clip, int group, int character, std::int64_t episode) const {
@@ -100,8 +125,14 @@ int TrackingEnvironment::draw_start(std::size_t clip, int group, int character, 
 void TrackingEnvironment::restart(int g, int character) {
   Group& group = groups_[static_cast<std::size_t>(g)];
   const std::int64_t episode = group.episodes[static_cast<std::size_t>(character)]++;
-  group.packs[static_cast<std::size_t>(character / kLanes)].reset(
-      character % kLanes, draw_start(group.clip, g, character, episode));
+  const auto pack = static_cast<std::size_t>(character / kLanes);
+  group.packs[pack].reset(character % kLanes, draw_start(group.clips[pack], g, character, episode));
+}
+
+int TrackingEnvironment::actor(int g, int character) const {
+  const TrackingPack& pack =
+      groups_[static_cast<std::size_t>(g)].packs[static_cast<std::size_t>(character / kLanes)];
+  return pack.clip().option_at(pack.frame(character % kLanes));
 }
 
 void TrackingEnvironment::observe(int g, Eigen::Ref<nn::Matrix<float>> observations) const {
@@ -114,13 +145,12 @@ void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>&
                                StepResult& result) {
   Group& group = groups_[static_cast<std::size_t>(g)];
   TrackingStatistics& statistics = group.statistics;
-  auto& falls = statistics.falls[group.clip];
-  auto& visits = statistics.visits[group.clip];
   for (int n = 0; n < group_size_; ++n)
     group.packs[static_cast<std::size_t>(n / kLanes)].act(n % kLanes, actions.row(n).data());
   for (TrackingPack& pack : group.packs) pack.advance(*group.scratch);
   for (int n = 0; n < group_size_; ++n) {
-    TrackingPack& pack = group.packs[static_cast<std::size_t>(n / kLanes)];
+    const auto p = static_cast<std::size_t>(n / kLanes);
+    TrackingPack& pack = group.packs[p];
     const int lane = n % kLanes, frame = pack.frame(lane);
     const Reward reward = pack.reward(lane);
     const bool fell = !(pack.worst_distance(lane) <= config_.terminate_distance);
@@ -135,9 +165,12 @@ void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>&
     statistics.saturated_joints += pack.saturated_joints(lane);
     ++statistics.steps;
     const auto bin = static_cast<std::size_t>(frame / config_.bin_frames);
-    ++visits[bin];
-    if (fell) ++falls[bin];
-    if (result.truncated[n]) pack.observe(lane, result.final_observations.row(n).data());
+    ++statistics.visits[group.clips[p]][bin];
+    if (fell) ++statistics.falls[group.clips[p]][bin];
+    if (result.truncated[n]) {
+      pack.observe(lane, result.final_observations.row(n).data());
+      result.final_actors[static_cast<std::size_t>(n)] = actor(g, n);
+    }
     if (fell || ended) restart(g, n);
   }
 }
@@ -161,10 +194,14 @@ void TrackingEnvironment::end_iteration() {
     }
     start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }
+  ++iteration_;
+  move_on();
 }
 
 void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
   archive.set(prefix + "sharpness", NpyArray::scalar(sharpness_));
+  archive.set(prefix + "iteration", NpyArray::scalar_int(iteration_));
+  archive.set(prefix + "next_clip", NpyArray::scalar_int(static_cast<std::int64_t>(next_clip_)));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::string key = prefix + "group" + std::to_string(g) + ".";
     const Group& group = groups_[g];
@@ -172,6 +209,8 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
       const std::vector<float> values = group.packs[p].save();
       archive.set(key + "pack" + std::to_string(p), NpyArray::from_float({values.size()}, values.data()));
     }
+    const std::vector<std::int64_t> clips(group.clips.begin(), group.clips.end());
+    archive.set(key + "clips", NpyArray::from_int64({clips.size()}, clips.data()));
     archive.set(key + "episodes", NpyArray::from_int64({group.episodes.size()}, group.episodes.data()));
   }
   for (std::size_t c = 0; c < clips_.size(); ++c)
@@ -180,11 +219,17 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
 }
 
 void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
-  sharpness_ = archive.at(prefix + "sharpness").to_double().at(0);
+  const auto number = [&](const char* name) { return archive.at(prefix + name).to_double().at(0); };
+  sharpness_ = number("sharpness");
+  iteration_ = static_cast<std::int64_t>(number("iteration"));
+  next_clip_ = static_cast<std::size_t>(number("next_clip"));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::string key = prefix + "group" + std::to_string(g) + ".";
     Group& group = groups_[g];
+    const std::vector<double> clips = archive.at(key + "clips").to_double();
     for (std::size_t p = 0; p < group.packs.size(); ++p) {
+      group.clips[p] = static_cast<std::size_t>(clips.at(p));
+      group.packs[p] = TrackingPack(clips_.at(group.clips[p]), config_);
       const std::vector<double> values = archive.at(key + "pack" + std::to_string(p)).to_double();
       group.packs[p].load(std::vector<float>(values.begin(), values.end()));
     }

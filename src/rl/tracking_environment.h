@@ -6,7 +6,9 @@
 /// A motion that is hard to follow keeps the sharp product of Eq. 2 near zero, where it teaches little. The
 /// learner's reward is therefore the product to a power, that is, all weights times one factor: it falls
 /// while the mean stays under `reward_target` and returns to 1 as the motion is mastered. (docs/method.md §5)
-/// Group g follows clip g mod clips. Every start is drawn from a stream keyed by seed, character and episode.
+/// Every pack of characters follows one clip. Where there are more clips than packs, packs move on to the
+/// next clip in turn, one after the other, so that all clips have their share. Every start is drawn from a
+/// stream keyed by seed, character and episode.
 #pragma once
 
 #include <cstdint>
@@ -40,14 +42,17 @@ class TrackingEnvironment {
  public:
   /// @param characters  in all; a multiple of group_size
   /// @param group_size  a multiple of kLanes
+  /// @param clips       of one state size
   /// @throws std::invalid_argument for sizes that do not fit, or no clips
   TrackingEnvironment(std::vector<std::shared_ptr<const TrackingClip>> clips, const TrackingConfig& config,
                       int characters, int group_size, std::uint64_t seed);
 
   int groups() const { return static_cast<int>(groups_.size()); }
   int group_size() const { return group_size_; }
-  int observation_dim() const { return kStateSize; }
+  int observation_dim() const { return clips_.front()->state_size(); }
   int action_dim() const { return kDofs; }
+  /// The option that acts for a character now: that of its clip's arrangement.
+  int actor(int group, int character) const;
   void observe(int group, Eigen::Ref<nn::Matrix<float>> observations) const;
   void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result);
   void end_iteration();
@@ -63,7 +68,7 @@ class TrackingEnvironment {
 
  private:
   struct Group {
-    std::size_t clip = 0;
+    std::vector<std::size_t> clips;  ///< [pack] which clip it follows
     std::vector<TrackingPack> packs;
     std::vector<std::int64_t> episodes;  ///< [group_size] episodes begun
     std::unique_ptr<Data<TrackingPack::P>> scratch;
@@ -71,6 +76,8 @@ class TrackingEnvironment {
   };
   int draw_start(std::size_t clip, int group, int character, std::int64_t episode) const;
   void restart(int group, int character);
+  void follow(int group, std::size_t pack, std::size_t clip);
+  void move_on();
 
   std::vector<std::shared_ptr<const TrackingClip>> clips_;
   TrackingConfig config_;
@@ -78,6 +85,8 @@ class TrackingEnvironment {
   std::uint64_t seed_;
   std::vector<Group> groups_;
   std::vector<std::vector<double>> fall_rates_, start_weights_;
+  std::int64_t iteration_ = 0;
+  std::size_t next_clip_ = 0;  ///< where the next pack moves on to
   double sharpness_ = 1.0;
   TrackingStatistics last_;
 };

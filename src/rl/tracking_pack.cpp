@@ -102,9 +102,35 @@ void TrackingPack::reset(int lane, int frame) {
   }
 }
 
-void TrackingPack::observe(int lane, float* out) const {
+void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
+  const auto to = static_cast<std::size_t>(lane), at = static_cast<std::size_t>(from);
+  put(state_.p_root, lane, get(other.state_.p_root, from));
+  put(state_.v_root, lane, get(other.state_.v_root, from));
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    put(state_.q[i], lane, get(other.state_.q[i], from));
+    put(state_.omega[i], lane, get(other.state_.omega[i], from));
+    put(to_.q[i], lane, get(other.to_.q[i], from));
+    put(to_.omega[i], lane, get(other.to_.omega[i], from));
+    put(from_.q[i], lane, get(other.from_.q[i], from));
+    put(from_.omega[i], lane, get(other.from_.omega[i], from));
+  }
+  frames_[to] = other.frames_[at];
+  poses_[to] = other.poses_[at];
+  broken_[to] = other.broken_[at];
+  fresh_[to] = other.fresh_[at];
+  saturated_[to] = other.saturated_[at];
+}
+
+void TrackingPack::observe(int lane, int option, float* out) const {
   const auto next = static_cast<std::size_t>(frame(lane) + 1);
-  tracking_state(clip_->poses[next], clip_->joints[next], clip_->reference.character.betas, pose(lane), out);
+  const auto& betas = clip_->reference.character.betas;
+  if (!clip_->encoded.empty()) {
+    const EncodedReference& encoded = clip_->encoded[static_cast<std::size_t>(option)];
+    const float* code = encoded.codes.data() + next * static_cast<std::size_t>(encoded.code_size);
+    encoded_state(code, encoded.code_size, encoded.decoded[next], clip_->poses[next], betas, pose(lane), out);
+    return;
+  }
+  tracking_state(clip_->poses[next], clip_->joints[next], betas, pose(lane), out);
 }
 
 void TrackingPack::act(int lane, const float* action) {

@@ -37,6 +37,13 @@ struct TrackingConfig {
   double softest_reward = 0.1;      ///< least exponent of the softened reward
 };
 
+/// What an option's encoder makes of a clip's poses.
+struct EncodedReference {
+  int code_size = 0;                                      ///< entries of z
+  std::vector<float> codes;                               ///< [frames + 1][code_size] z = E(P)
+  std::vector<std::array<float, kPoseFeatures>> decoded;  ///< [frames + 1] D(z), own heading frame
+};
+
 /// A reference made ready for the simulator: immutable, shared by packs and threads.
 struct TrackingClip {
   Reference reference;
@@ -44,7 +51,14 @@ struct TrackingClip {
   std::vector<Pose> poses;                                ///< [frames + 1]: the last one repeated, at rest
   std::vector<std::array<float, kJointFeatures>> joints;  ///< [frames + 1]
   std::vector<KeypointFrame> keypoints;                   ///< [frames], or empty
+  std::vector<EncodedReference> encoded;  ///< [option], or empty: every policy sees the reference itself
+  std::vector<int> arrangement;           ///< [frames] option that acts at a frame; empty: the first
 
+  int option_at(int frame) const {
+    return arrangement.empty() ? 0 : arrangement[static_cast<std::size_t>(frame)];
+  }
+  /// Length of s_t; the same for every option.
+  int state_size() const { return encoded.empty() ? kStateSize : kEncodedRest + encoded.front().code_size; }
   int size() const { return static_cast<int>(poses.size()) - 1; }
 };
 /// @throws std::invalid_argument unless the reference has ≥ 2 frames and the physics rate is a multiple of
@@ -60,10 +74,14 @@ class TrackingPack {
 
   /// Puts a lane on the reference at `frame`, moving as the reference moves.
   void reset(int lane, int frame);
+  /// Puts `lane` into the state of the lane `from`, of this pack or another one on the same clip.
+  void copy_lane(int lane, const TrackingPack& other, int from);
   /// The lane's frame on the clip: its state belongs to this frame. 0 .. size()-1.
   int frame(int lane) const { return frames_[static_cast<std::size_t>(lane)]; }
-  /// s_t [570].
-  void observe(int lane, float* out) const;
+  /// s_t [state_size of the clip] as the option sees it.
+  void observe(int lane, int option, float* out) const;
+  /// … as the option sees it that acts at the lane's frame.
+  void observe(int lane, float* out) const { observe(lane, clip_->option_at(frame(lane)), out); }
   /// Sets what the lane aims at during the next control step. @param action  [55]
   void act(int lane, const float* action);
   /// One control step of every lane; frames advance by one. @param applied  sums of what acted, or null

@@ -38,17 +38,18 @@ double mean_distance(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-MeanAction mean_action(const Agent& agent) {
+MeanAction mean_action(const std::vector<Agent>& agents) {
   struct Actor {
-    Agent agent;
+    std::vector<Agent> agents;
     nn::Matrix<float> state, normalised, mean;
     nn::Workspace<float> workspace;
   };
-  auto actor = std::make_shared<Actor>(Actor{agent, nn::Matrix<float>(1, kStateSize), {}, {}, {}});
-  return [actor](const float* state, float* action) {
-    std::copy(state, state + kStateSize, actor->state.data());
-    nn::normalise(actor->agent.observations, actor->state, actor->normalised);
-    nn::evaluate(actor->agent.actor, actor->normalised, actor->workspace, actor->mean);
+  auto actor = std::make_shared<Actor>(Actor{agents, {}, {}, {}, {}});
+  return [actor](int option, const float* state, float* action) {
+    const Agent& agent = actor->agents[static_cast<std::size_t>(option)];
+    actor->state = Eigen::Map<const nn::Matrix<float>>(state, 1, agent.actor.inputs());
+    nn::normalise(agent.observations, actor->state, actor->normalised);
+    nn::evaluate(agent.actor, actor->normalised, actor->workspace, actor->mean);
     std::copy(actor->mean.data(), actor->mean.data() + kDofs, action);
   };
 }
@@ -63,11 +64,11 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
   out.poses.push_back(pack.pose(0));
   out.rewards.push_back(pack.reward(0));
   append_forces(applied, out);
-  std::array<float, kStateSize> state;
+  std::vector<float> state(static_cast<std::size_t>(clip->state_size()));
   std::array<float, kDofs> action;
   for (int t = 1; t < clip->size(); ++t) {
     pack.observe(0, state.data());
-    policy(state.data(), action.data());
+    policy(clip->option_at(pack.frame(0)), state.data(), action.data());
     for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, action.data());
     clear(applied);
     pack.advance(scratch, &applied);

@@ -10,10 +10,10 @@
 
 namespace mimicx::rl {
 
-/// Mean action of a policy: s_t [570] → a_t [55].
-using MeanAction = std::function<void(const float* state, float* action)>;
-/// That of an agent; the agent is copied.
-MeanAction mean_action(const Agent& agent);
+/// Mean action of a policy: s_t [state_size of the clip] → a_t [55].
+using MeanAction = std::function<void(int option, const float* state, float* action)>;
+/// That of agents, one per option; they are copied.
+MeanAction mean_action(const std::vector<Agent>& agents);
 
 /// One simulated motion; index 0 is the start on the reference's first frame. Forces are means over the
 /// control interval that ends at the frame (zero at frame 0), as applied by the implicit solver.
@@ -30,8 +30,8 @@ struct TrackingRollout {
   bool broken = false;             ///< the simulation went wrong; frames end there
 };
 
-/// Follows the clip from its first frame to its last, falls included: nothing is cut short but by a
-/// numerical failure.
+/// Follows the clip from its first frame to its last under the clip's arrangement, falls included: nothing
+/// is cut short but by a numerical failure.
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy);
 

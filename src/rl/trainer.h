@@ -1,11 +1,11 @@
-/// The training loop: collect → advantages → update, for one agent in one environment.
+/// The training loop: collect → advantages → update, for one or several agents in one environment.
 ///
-/// Random numbers are keyed by what they are for: the noise of the actions by (seed, purpose, iteration,
-/// group). `save` takes the complete state between two iterations; loading it into a trainer of the same
-/// configuration and environment and going on gives the same bytes as never having stopped.
+/// Several agents learn jointly (METHOD §9): the environment says who acts where, every agent's critic values
+/// its own rows, and every agent learns from its own rows. Random numbers are keyed by what they are for: the
+/// noise of the actions by (seed, purpose, iteration, group). `save` takes the complete state between two
+/// iterations; loading it into a trainer of the same configuration and environment and going on gives the
+/// same bytes as never having stopped.
 #pragma once
-
-#include <numeric>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -17,45 +17,65 @@ namespace mimicx::rl {
 template <Environment E>
 class PpoTrainer {
  public:
+  /// @param agents       at least one, all of one shape
   /// @param environment  referred to, must outlive the trainer
-  PpoTrainer(const PpoConfig& config, Agent agent, E& environment)
+  PpoTrainer(const PpoConfig& config, std::vector<Agent> agents, E& environment)
       : config_(config),
         environment_(environment),
-        learner_(make_learner(config, std::move(agent))),
         buffer_(make_rollout_buffer(environment.groups(), environment.group_size(), config.horizon,
-                                    environment.observation_dim(), environment.action_dim())),
+                                    environment.observation_dim(), environment.action_dim(),
+                                    static_cast<int>(agents.size()))),
         collect_(static_cast<std::size_t>(environment.groups()),
                  CollectScratch(environment.group_size(), environment.observation_dim())),
         update_(config),
-        rows_(static_cast<std::size_t>(buffer_.rows())) {
-    std::iota(rows_.begin(), rows_.end(), 0);
+        rows_(agents.size()) {
+    for (Agent& agent : agents) learners_.push_back(make_learner(config, std::move(agent)));
   }
+  PpoTrainer(const PpoConfig& config, Agent agent, E& environment)
+      : PpoTrainer(config, std::vector<Agent>{std::move(agent)}, environment) {}
 
   /// One iteration. The result does not depend on the number of threads.
   IterationStats iterate(int threads) {
     IterationStats stats;
-    stats.iteration = learner_.iteration;
-    stats.sigma = exploration_sigma(config_, learner_.samples);
+    stats.iteration = iteration_;
+    stats.sigma = exploration_sigma(config_, samples_);
 
     collect(stats.sigma, threads);
     environment_.end_iteration();
-    learner_.samples += buffer_.rows();
-    stats.samples = learner_.samples;
+    samples_ += buffer_.rows();
+    stats.samples = samples_;
     describe_rollout(buffer_, config_.mean_bound, stats);
-
-    // Nothing is learned before the observations have a scale: what the networks saw would not match.
-    if (learner_.agent.observations.moments.count > 0)
-      update(learner_, config_, buffer_, rows_, stats.sigma, 0, threads, update_, stats);
+    assign_rows();
+    std::vector<IterationStats> parts(learners_.size(), stats);
+    for (std::size_t k = 0; k < learners_.size(); ++k) {
+      Learner& learner = learners_[k];
+      // Nothing is learned before the observations have a scale: what the networks saw would not match.
+      if (learner.agent.observations.moments.count > 0)
+        update(learner, config_, buffer_, rows_[k], stats.sigma, k, threads, update_, parts[k]);
+      learner.samples += static_cast<std::int64_t>(rows_[k].size());
+      ++learner.iteration;
+    }
     absorb_observations();
-    ++learner_.iteration;
-    return stats;
+    ++iteration_;
+    return average(parts);
   }
 
-  const Learner& learner() const { return learner_; }
+  std::int64_t iterations() const { return iteration_; }
+  std::int64_t samples() const { return samples_; }  ///< of all agents
+  const std::vector<Learner>& learners() const { return learners_; }
+  const Learner& learner() const { return learners_.front(); }
   const RolloutBuffer& buffer() const { return buffer_; }
+  std::vector<Agent> agents() const {
+    std::vector<Agent> agents;
+    for (const Learner& learner : learners_) agents.push_back(learner.agent);
+    return agents;
+  }
 
   void save(Npz& archive, const std::string& prefix) const {
-    rl::save(archive, prefix + "learner.", learner_);
+    for (std::size_t k = 0; k < learners_.size(); ++k)
+      rl::save(archive, prefix + "learner" + std::to_string(k) + ".", learners_[k]);
+    archive.set(prefix + "iteration", NpyArray::scalar_int(iteration_));
+    archive.set(prefix + "samples", NpyArray::scalar_int(samples_));
     std::vector<std::int64_t> ages;
     for (const GroupRollout& group : buffer_.groups)
       ages.insert(ages.end(), group.ages.begin(), group.ages.end());
@@ -65,7 +85,10 @@ class PpoTrainer {
 
   /// @throws DataError where the archive does not fit this trainer.
   void load(const Npz& archive, const std::string& prefix) {
-    learner_ = load_learner(archive, prefix + "learner.");
+    for (std::size_t k = 0; k < learners_.size(); ++k)
+      learners_[k] = load_learner(archive, prefix + "learner" + std::to_string(k) + ".");
+    iteration_ = static_cast<std::int64_t>(archive.at(prefix + "iteration").to_double().at(0));
+    samples_ = static_cast<std::int64_t>(archive.at(prefix + "samples").to_double().at(0));
     const std::vector<double> ages = archive.at(prefix + "ages").to_double();
     const auto size = static_cast<std::size_t>(buffer_.group_size);
     if (ages.size() != size * buffer_.groups.size())
@@ -79,29 +102,66 @@ class PpoTrainer {
 
  private:
   void collect(double sigma, int threads) {
+    Agents agents;
+    for (const Learner& learner : learners_) agents.push_back(&learner.agent);
     parallel_for(static_cast<int>(buffer_.groups.size()), threads, [&](int group) {
       const auto index = static_cast<std::size_t>(group);
-      const Random random(config_.seed, {kActionNoise, static_cast<std::uint64_t>(learner_.iteration),
+      const Random random(config_.seed, {kActionNoise, static_cast<std::uint64_t>(iteration_),
                                          static_cast<std::uint64_t>(group)});
-      collect_group(environment_, group, learner_.agent, sigma, config_.gamma, config_.lambda, random,
+      collect_group(environment_, group, agents, sigma, config_.gamma, config_.lambda, random,
                     collect_[index], buffer_.groups[index]);
     });
   }
 
+  /// rows_[k]: the rows of the buffer in which agent k acted.
+  void assign_rows() {
+    for (auto& rows : rows_) rows.clear();
+    int row = 0;
+    for (const GroupRollout& group : buffer_.groups)
+      for (const int actor : group.actors) rows_[static_cast<std::size_t>(actor)].push_back(row++);
+  }
+
   /// The roll-out's observations join the statistics only now: acting and learning saw the same scale.
   void absorb_observations() {
-    std::vector<nn::Moments> moments;
-    for (const GroupRollout& group : buffer_.groups) moments.push_back(group.moments);
-    nn::update(learner_.agent.observations, std::span<const nn::Moments>(moments));
+    for (std::size_t k = 0; k < learners_.size(); ++k) {
+      std::vector<nn::Moments> moments;
+      for (const GroupRollout& group : buffer_.groups) moments.push_back(group.moments[k]);
+      nn::update(learners_[k].agent.observations, std::span<const nn::Moments>(moments));
+    }
+  }
+
+  /// Of the learners' statistics, weighted by their rows.
+  IterationStats average(const std::vector<IterationStats>& parts) const {
+    if (parts.size() == 1) return parts.front();
+    IterationStats total = parts.front();
+    const auto mean = [&](double IterationStats::*member) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        sum += parts[k].*member * static_cast<double>(rows_[k].size());
+      return sum / buffer_.rows();
+    };
+    for (const auto member :
+         {&IterationStats::policy_loss, &IterationStats::value_loss, &IterationStats::penalty,
+          &IterationStats::clip_fraction, &IterationStats::actor_gradient, &IterationStats::critic_gradient,
+          &IterationStats::kl, &IterationStats::step_size})
+      total.*member = mean(member);
+    total.minibatches = 0;
+    total.learned = false;
+    for (const IterationStats& part : parts) {
+      total.minibatches += part.minibatches;
+      total.learned = total.learned || part.learned;
+    }
+    return total;
   }
 
   PpoConfig config_;
   E& environment_;
-  Learner learner_;
+  std::vector<Learner> learners_;
+  std::int64_t iteration_ = 0, samples_ = 0;
   RolloutBuffer buffer_;
   std::vector<CollectScratch> collect_;
   UpdateScratch update_;
-  std::vector<int> rows_;  ///< all rows of the buffer
+  std::vector<std::vector<int>> rows_;  ///< [agent]
 };
 
 }  // namespace mimicx::rl

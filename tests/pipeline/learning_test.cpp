@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 #include "motion/synth.h"
-#include "pipeline/imitate.h"
+#include "pipeline/sequences.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx {
@@ -13,12 +13,12 @@ namespace {
 
 SequenceEntry imitate_one(const std::filesystem::path& input) {
   const TemporaryFolder folder;
-  ImitateOptions options;
+  RunOptions options;
   options.inputs = {input.string()};
   options.out = folder.path / "run";
   options.threads = available_threads();
   Progress progress(std::cout, false, steady_seconds);
-  imitate(options, {progress, std::cout, [] { return false; }});
+  run_sequences(options, {progress, std::cout, [] { return false; }});
   return read_manifest(options.out / "manifest.json").sequences.at(0);
 }
 

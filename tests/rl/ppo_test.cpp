@@ -127,16 +127,16 @@ RolloutBuffer random_rollout(const Agent& agent, std::uint64_t seed) {
     for (int t = 0; t < 10; ++t) {
       for (Eigen::Index k = 0; k < scratch.raw.size(); ++k)
         scratch.raw.data()[k] = static_cast<float>(random.normal());
-      record_decision(agent, 0.3, t, random, scratch, group);
+      record_decision({&agent}, 0.3, t, random, scratch, group);
       for (int i = 0; i < 20; ++i) {
         scratch.result.reward[i] = static_cast<float>(random.normal());
         scratch.result.terminated[i] = random.uniform() < 0.1;
         scratch.result.truncated[i] = random.uniform() < 0.1;
         scratch.result.final_observations.row(i).setConstant(static_cast<float>(random.normal()));
       }
-      record_result(agent, t, scratch, group);
+      record_result({&agent}, t, scratch, group);
     }
-    finish_rollout(agent, 0.97, 0.95, scratch, group);
+    finish_rollout({&agent}, 0.97, 0.95, scratch, group);
   }
   return buffer;
 }
@@ -250,14 +250,14 @@ TEST(Rollout, BootstrapsTruncatedEpisodesFromTheirOwnFinalObservation) {
   Random random(1);
   begin_rollout(group);
   scratch.raw.setConstant(0.1F);
-  record_decision(agent, 0.1, 0, random, scratch, group);
+  record_decision({&agent}, 0.1, 0, random, scratch, group);
   scratch.result.reward.setConstant(1.0F);
   scratch.result.truncated[1] = true;
   scratch.result.terminated[2] = true;
   scratch.result.final_observations.setConstant(0.7F);
-  record_result(agent, 0, scratch, group);
+  record_result({&agent}, 0, scratch, group);
   scratch.raw.setConstant(-0.4F);
-  finish_rollout(agent, 0.9, 0.95, scratch, group);
+  finish_rollout({&agent}, 0.9, 0.95, scratch, group);
 
   nn::Workspace<float> workspace;
   const auto value = [&](float x) {

@@ -312,8 +312,8 @@ TEST(TrackingEnvironment, LearnsWhereItFalls) {
 TEST(TrackingRollout, FollowsAStandingReferenceAndReportsTheForcesThatCarryIt) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(16), config);
-  const TrackingRollout rollout =
-      roll_out(clip, config, [](const float*, float* action) { std::fill(action, action + kDofs, 0.0F); });
+  const TrackingRollout rollout = roll_out(
+      clip, config, [](int, const float*, float* action) { std::fill(action, action + kDofs, 0.0F); });
   ASSERT_EQ(rollout.poses.size(), 16U);
   EXPECT_FALSE(rollout.broken);
   EXPECT_LT(rollout.worst_distance, 0.15);

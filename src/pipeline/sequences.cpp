@@ -1,4 +1,4 @@
-#include "pipeline/imitate.h"
+#include "pipeline/sequences.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,35 +6,43 @@
 #include <stdexcept>
 
 #include "core/npz.h"
-#include "motion/reference.h"
 #include "pipeline/motion_output.h"
+#include "pipeline/preparation.h"
 #include "pipeline/run_report.h"
 #include "pipeline/scores.h"
+#include "pipeline/selector.h"
+#include "rl/side_by_side.h"
 #include "rl/tracking_rollout.h"
 
 namespace mimicx {
 namespace {
 
 struct RunState {
-  const ImitateOptions& options;
-  const ImitateContext& context;
+  const RunOptions& options;
+  const RunContext& context;
   RunFolder folder;
   Manifest manifest;
   std::vector<Timing> timings;
 };
 
-Manifest manifest_of(const ImitateOptions& options) {
+Manifest manifest_of(const RunOptions& options) {
   Manifest manifest;
   manifest.version = MIMICX_VERSION;
   manifest.target = MIMICX_TARGET;
   manifest.seed = options.training.seed;
   manifest.samples = options.training.samples;
   manifest.settings = settings_of(options.training);
+  manifest.settings.emplace_back("fit", options.fit ? 1.0 : 0.0);
+  if (options.options) {
+    manifest.options = options.options->checksum;
+    manifest.settings.emplace_back("switch_penalty", options.switch_penalty);
+    manifest.settings.emplace_back("rescue_reward", options.rescue_reward);
+  }
   return manifest;
 }
 
 /// The folder's own manifest where it is one of this run's settings; a new one where there is none.
-Manifest open_manifest(const ImitateOptions& options, const RunFolder& folder) {
+Manifest open_manifest(const RunOptions& options, const RunFolder& folder) {
   for (std::size_t i = 0; i < options.inputs.size(); ++i)
     if (std::count(options.inputs.begin(), options.inputs.end(), options.inputs[i]) > 1)
       throw std::invalid_argument(options.inputs[i] + " is given twice");
@@ -61,17 +69,6 @@ Timing& timing_of(RunState& run, const std::string& name) {
   return run.timings.back();
 }
 
-NamedValues values_of(const PreparationReport& r) {
-  return {{"floor_shift_mm", r.floor_shift_mm},
-          {"max_floor_shift_mm", r.max_floor_shift_mm},
-          {"hinge_residual_mean_mm", r.hinge_residual_mean_mm},
-          {"hinge_residual_max_mm", r.hinge_residual_max_mm},
-          {"change_mean_mm", r.change_mean_mm},
-          {"change_max_mm", r.change_max_mm},
-          {"foot_level_deg", r.foot_level_deg},
-          {"flagged_frames", static_cast<double>(r.flagged_frames)}};
-}
-
 TrainingControl control_of(const RunState& run, const SequenceEntry& entry) {
   TrainingControl control;
   control.threads = run.options.threads;
@@ -88,48 +85,102 @@ TrainingControl control_of(const RunState& run, const SequenceEntry& entry) {
   return control;
 }
 
-/// Rolls the policy out and writes what came of it. @return the roll-out's scores in the entry
-void finish_sequence(const RunState& run, const Clip& clip,
-                     const std::shared_ptr<const rl::TrackingClip>& tracking, const TrainingResult& training,
-                     SequenceEntry& entry) {
-  const TrainingConfig& config = run.options.training;
-  const auto before = rl::roll_out(tracking, config.tracking, rl::mean_action(untrained_agent(config)));
-  const auto after = rl::roll_out(tracking, config.tracking, rl::mean_action(training.agent));
-  const Reference& reference = tracking->reference;
+/// The clip with what acts on it, and the agents to start from.
+struct Task {
+  std::shared_ptr<const rl::TrackingClip> clip;
+  std::vector<rl::Agent> agents;
+};
+
+/// The arrangement as {first frame, option} per stretch.
+std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options) {
+  std::vector<std::array<int, 2>> stretches;
+  for (std::size_t t = 0; t < options.size(); ++t)
+    if (t == 0 || options[t] != options[t - 1]) stretches.push_back({static_cast<int>(t), options[t]});
+  return stretches;
+}
+
+/// Chooses the options of every frame (Eq. 4) and keeps those that occur.
+Task arrange(const RunOptions& run, const std::shared_ptr<const rl::TrackingClip>& plain,
+             SequenceEntry& entry) {
+  std::vector<const rl::Option*> all;
+  for (const TrainedOption& trained : run.options->options) all.push_back(&trained.option);
+  const auto seen = rl::encoded_for(plain, all);
+  const rl::SideBySide rewards =
+      rl::roll_out_side_by_side(seen, run.training.tracking, all, run.rescue_reward);
+  // The option of frame t acts towards frame t + 1: the reward of its choice is found there.
+  std::vector<std::vector<double>> earned(rewards.rewards.begin() + 1, rewards.rewards.end());
+  std::vector<int> chosen = select_options(earned, run.switch_penalty).options;
+  chosen.push_back(chosen.back());
+  entry.arrangement = stretches_of(chosen);
+  if (!rewards.breaks.empty())
+    entry.notes.push_back("no option could follow at " + std::to_string(rewards.breaks.size()) +
+                          " frames, first at frame " + std::to_string(rewards.breaks.front()));
+
+  std::vector<int> used = chosen;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<const rl::Option*> kept;
+  Task task;
+  for (const int option : used) {
+    kept.push_back(all[static_cast<std::size_t>(option)]);
+    task.agents.push_back(kept.back()->agent);
+  }
+  auto clip = std::make_shared<rl::TrackingClip>(*rl::encoded_for(plain, kept));
+  for (const int option : chosen)
+    clip->arrangement.push_back(
+        static_cast<int>(std::lower_bound(used.begin(), used.end(), option) - used.begin()));
+  task.clip = clip;
+  return task;
+}
+
+/// Rolls the policies out and writes what came of it. @return the roll-out's scores in the entry
+void finish_sequence(const RunState& run, const PreparedMotion& motion, const Task& task,
+                     const TrainingResult& training, SequenceEntry& entry) {
+  const rl::TrackingConfig& config = run.options.training.tracking;
+  const auto before = rl::roll_out(task.clip, config, rl::mean_action(task.agents));
+  const auto after = rl::roll_out(task.clip, config, rl::mean_action(training.agents));
+  const Reference& reference = motion.reference;
   entry.samples = training.samples;
   entry.ending = training.ending;
   entry.reward_before = before.mean_reward;
   entry.reward_after = after.mean_reward;
-  write_simulated(run.folder.motion(entry.name), clip, reference, after, entry.notes);
+  if (motion.has_fit) {
+    std::filesystem::create_directories(run.folder.fit(entry.name).parent_path());
+    write_clip(run.folder.fit(entry.name), motion.fitted);
+  }
+  write_simulated(run.folder.motion(entry.name), motion.input, reference, after, entry.notes);
   write_reference(run.folder.reference(entry.name), reference);
   entry.output = RunFolder::motion_name(entry.name);
-  const Scores scores = score_simulated(reference, after);
-  entry.metrics = scores.values;
-  entry.ok = scores.success;
-  entry.reason = scores.reason;
+  const Scores first = score_simulated(reference, before), last = score_simulated(reference, after);
+  entry.metrics_before = first.values;
+  entry.ok_before = first.success;
+  entry.metrics = last.values;
+  entry.ok = last.success;
+  entry.reason = last.reason;
 }
 
 /// @return whether the sequence was interrupted
 bool train_sequence(RunState& run, SequenceEntry& entry) {
   const double started = steady_seconds();
-  const Clip clip = read_clip(entry.input);
-  entry.notes = clip.warnings;
-  PreparationReport report;
-  const Reference reference = prepare_reference(clip, {}, &report);
-  entry.frames = reference.size();
-  entry.fps = reference.fps;
-  entry.preparation = values_of(report);
-  entry.notes.insert(entry.notes.end(), report.notes.begin(), report.notes.end());
-  entry.input_metrics = score_input(clip, reference);
+  const TrainingConfig& config = run.options.training;
+  const PreparedMotion motion = prepare_motion(entry.input, run.options.fit);
+  entry.frames = motion.reference.size();
+  entry.fps = motion.reference.fps;
+  entry.fit = motion.fit_values;
+  entry.preparation = motion.preparation_values;
+  entry.notes = motion.notes;
+  entry.input_metrics = score_input(motion.input, motion.reference);
 
-  const auto tracking = rl::make_tracking_clip(reference, run.options.training.tracking);
+  const auto plain = rl::make_tracking_clip(motion.reference, config.tracking);
+  const Task task =
+      run.options.options ? arrange(run.options, plain, entry) : Task{plain, {untrained_agent(config)}};
   const TrainingFiles files = {run.folder.checkpoint(entry.name), run.folder.log(entry.name),
                                run.folder.falls(entry.name), entry.input_checksum};
-  const TrainingResult training = train(tracking, run.options.training, files, control_of(run, entry));
+  const TrainingResult training = train({task.clip}, task.agents, config, files, control_of(run, entry));
   Timing& timing = timing_of(run, entry.name);
   timing.training_seconds += training.seconds;
   timing.threads = run.options.threads;
-  if (!training.interrupted) finish_sequence(run, clip, tracking, training, entry);
+  if (!training.interrupted) finish_sequence(run, motion, task, training, entry);
   timing.seconds += steady_seconds() - started;
   return training.interrupted;
 }
@@ -164,7 +215,17 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
 
 }  // namespace
 
-ImitateOutcome imitate(const ImitateOptions& options, const ImitateContext& context) {
+TrainingConfig fine_tuning_defaults() {
+  TrainingConfig config;
+  config.samples = 2'000'000;
+  config.ppo.sigma_start = 0.05;
+  config.ppo.sigma_end = 0.03;
+  config.stop_reward = 0.95;
+  config.stall_evaluations = 12;
+  return config;
+}
+
+RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
   const RunFolder folder{options.out};
   RunState run{options, context, folder, open_manifest(options, folder), read_timing(folder.timing())};
   folder.create();
@@ -176,7 +237,7 @@ ImitateOutcome imitate(const ImitateOptions& options, const ImitateContext& cont
       if (begin_entry(run, input, entry) && train_sequence(run, entry)) {
         write_records(run);
         context.progress.finish(entry.name + ": interrupted; the same command continues");
-        return ImitateOutcome::kInterrupted;
+        return RunOutcome::kInterrupted;
       }
     } catch (const std::exception& error) {
       entry.ok = false;
@@ -189,7 +250,7 @@ ImitateOutcome imitate(const ImitateOptions& options, const ImitateContext& cont
     context.progress.finish(summary_of(entry));
     for (const auto& note : entry.notes) context.messages << "  " << note << '\n';
   }
-  return all_good ? ImitateOutcome::kAllGood : ImitateOutcome::kSomeFailed;
+  return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
 }
 
 }  // namespace mimicx

@@ -1,4 +1,4 @@
-#include "pipeline/imitate.h"
+#include "pipeline/sequences.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace mimicx {
 namespace {
 
 /// Small enough for a test, large enough for several iterations, groups and checkpoints.
-ImitateOptions small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
-  ImitateOptions options;
+RunOptions small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
+  RunOptions options;
   options.inputs = inputs;
   options.out = out;
   options.training.samples = 6 * 64 * 8;
@@ -29,16 +29,16 @@ ImitateOptions small_run(const std::filesystem::path& out, const std::vector<std
 }
 
 struct Outcome {
-  ImitateOutcome value;
+  RunOutcome value;
   std::string messages;
 };
 
 /// @param iterations  asks to stop after that many; negative: never
-Outcome run(const ImitateOptions& options, int iterations = -1) {
+Outcome run(const RunOptions& options, int iterations = -1) {
   std::ostringstream messages;
   Progress progress(messages, false, steady_seconds);
   int asked = 0;
-  const auto value = imitate(options, {progress, messages, [&] { return ++asked == iterations; }});
+  const auto value = run_sequences(options, {progress, messages, [&] { return ++asked == iterations; }});
   return {value, messages.str()};
 }
 
@@ -103,7 +103,7 @@ TEST_F(Imitate, SupportsTheBodyWithTheFloor) {
 }
 
 TEST_F(Imitate, IsTheSameBytesTwiceAndForOneAndTwoThreads) {
-  ImitateOptions options = small_run(out("one"), {stand, other});
+  RunOptions options = small_run(out("one"), {stand, other});
   run(options);
   options.out = out("again");
   run(options);
@@ -115,20 +115,20 @@ TEST_F(Imitate, IsTheSameBytesTwiceAndForOneAndTwoThreads) {
 }
 
 TEST_F(Imitate, IsTheSameBytesAfterInterruptions) {
-  ImitateOptions options = small_run(out("whole"), {stand, other});
+  RunOptions options = small_run(out("whole"), {stand, other});
   run(options);
   options.out = out("interrupted");
-  EXPECT_EQ(run(options, 2).value, ImitateOutcome::kInterrupted);
-  EXPECT_EQ(run(options, 7).value, ImitateOutcome::kInterrupted);  // in the second clip
+  EXPECT_EQ(run(options, 2).value, RunOutcome::kInterrupted);
+  EXPECT_EQ(run(options, 7).value, RunOutcome::kInterrupted);  // in the second clip
   run(options);
   EXPECT_EQ(results_of(out("whole")), results_of(out("interrupted")));
 }
 
 TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
-  ImitateOptions options = small_run(out("whole"), {stand});
+  RunOptions options = small_run(out("whole"), {stand});
   run(options);
   options.out = out("killed");
-  EXPECT_EQ(run(options, 2).value, ImitateOutcome::kInterrupted);
+  EXPECT_EQ(run(options, 2).value, RunOutcome::kInterrupted);
   // The log is written before the checkpoint: a kill between the two leaves rows too many.
   Table log = read_csv(out("killed") / "training" / "stand.csv");
   ASSERT_EQ(log.rows.size(), 2u);
@@ -139,7 +139,7 @@ TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
 }
 
 TEST_F(Imitate, KeepsWhatIsFinished) {
-  const ImitateOptions options = small_run(out("run"), {stand});
+  const RunOptions options = small_run(out("run"), {stand});
   run(options);
   const auto before = results_of(out("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz");
@@ -149,7 +149,7 @@ TEST_F(Imitate, KeepsWhatIsFinished) {
 }
 
 TEST_F(Imitate, StartsOverWhenTheInputChanged) {
-  const ImitateOptions options = small_run(out("run"), {stand});
+  const RunOptions options = small_run(out("run"), {stand});
   run(options);
   write_clip(stand, standing_clip(25));
   run(options);
@@ -161,7 +161,7 @@ TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
                     none = (folder.path / "none.npz").string();
   std::ofstream(broken) << "not an archive";
   const Outcome outcome = run(small_run(out("run"), {broken, none, stand}));
-  EXPECT_EQ(outcome.value, ImitateOutcome::kSomeFailed);
+  EXPECT_EQ(outcome.value, RunOutcome::kSomeFailed);
   const Manifest manifest = read_manifest(out("run") / "manifest.json");
   ASSERT_EQ(manifest.sequences.size(), 3u);
   EXPECT_FALSE(manifest.sequences[0].ok);
@@ -173,15 +173,15 @@ TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
 
 TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
   const std::string late = (folder.path / "late.npz").string();
-  const ImitateOptions options = small_run(out("run"), {late});
-  EXPECT_EQ(run(options).value, ImitateOutcome::kSomeFailed);
+  const RunOptions options = small_run(out("run"), {late});
+  EXPECT_EQ(run(options).value, RunOutcome::kSomeFailed);
   write_clip(late, standing_clip(20));
   run(options);
   EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
 }
 
 TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
-  ImitateOptions options = small_run(out("run"), {stand});
+  RunOptions options = small_run(out("run"), {stand});
   run(options);
   const auto before = results_of(out("run"));
   options.training.seed = 2;
@@ -193,7 +193,7 @@ TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
 }
 
 TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
-  ImitateOptions options = small_run(out("run"), {stand});
+  RunOptions options = small_run(out("run"), {stand});
   options.limit_seconds = 1e-9;
   run(options);
   const SequenceEntry stopped = read_manifest(out("run") / "manifest.json").sequences.at(0);
@@ -208,7 +208,7 @@ TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
 }
 
 TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
-  ImitateOptions options = small_run(out("one"), {stand});
+  RunOptions options = small_run(out("one"), {stand});
   run(options);
   options.out = out("two");
   options.training.seed = 2;

@@ -1,0 +1,93 @@
+#include "nn/autoencoder.h"
+
+#include <algorithm>
+
+#include "nn/adam.h"
+#include "nn/checkpoint.h"
+
+namespace mimicx::nn {
+namespace {
+
+enum RandomPurpose : std::uint64_t { kEncoderInit = 0x6101, kDecoderInit, kBatches };
+
+/// A network's parameters and optimiser.
+struct Trained {
+  Mlp<float>& mlp;
+  Adam<float> adam;
+  explicit Trained(Mlp<float>& m) : mlp(m), adam(make_adam<float>(parameters(m))) {}
+};
+
+}  // namespace
+
+AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderConfig& config,
+                              std::uint64_t seed, AutoEncoderStats* stats) {
+  const auto features = static_cast<int>(samples.cols());
+  Random encoder_random(seed, {kEncoderInit}), decoder_random(seed, {kDecoderInit}), random(seed, {kBatches});
+  AutoEncoder coder{
+      make_normaliser<float>(features, 5.0F),
+      make_mlp<float>({features, config.hidden, config.code}, Activation::kElu, 1.0F, encoder_random),
+      make_mlp<float>({config.code, config.hidden, features}, Activation::kElu, 1.0F, decoder_random)};
+  const Moments moments = moments_of(samples);
+  update(coder.inputs, std::span<const Moments>(&moments, 1));
+  Matrix<float> clean_samples;
+  normalise(coder.inputs, samples, clean_samples);
+
+  Trained encoder(coder.encoder), decoder(coder.decoder);
+  Tape<float> tape;
+  Matrix<float> clean(config.minibatch, features), corrupted(config.minibatch, features);
+  const int window = std::max(1, config.steps / 100);
+  double first = 0.0, last = 0.0;
+  for (int step = 0; step < config.steps; ++step) {
+    for (Eigen::Index row = 0; row < clean.rows(); ++row) {
+      clean.row(row) = clean_samples.row(random.below(static_cast<std::uint32_t>(samples.rows())));
+      for (Eigen::Index k = 0; k < features; ++k)
+        corrupted(row, k) = clean(row, k) + static_cast<float>(config.corruption * random.normal());
+    }
+    tape.reset();
+    const auto encoder_parameters = parameters_on_tape(tape, coder.encoder);
+    const auto decoder_parameters = parameters_on_tape(tape, coder.decoder);
+    const Var code = forward(tape, coder.encoder, encoder_parameters, tape.refer(corrupted));
+    const Var decoded = forward(tape, coder.decoder, decoder_parameters, code);
+    const Var loss = mean(tape, square(tape, sub(tape, decoded, tape.refer(clean))));
+    const double value = double{tape.scalar(loss)};
+    if (step < window) first += value / window;
+    if (step >= config.steps - window) last += value / window;
+
+    std::vector<Var> all = encoder_parameters;
+    all.insert(all.end(), decoder_parameters.begin(), decoder_parameters.end());
+    const std::vector<Var> gradients = tape.gradient(loss, all);
+    const double progress = static_cast<double>(step) / config.steps;
+    const auto step_size = static_cast<float>(config.step_size * (1.0 - 0.9 * progress));
+    std::size_t next = 0;
+    for (Trained* trained : {&encoder, &decoder}) {
+      std::vector<Matrix<float>> values;
+      for (std::size_t k = 0; k < trained->adam.first.size(); ++k)
+        values.push_back(tape.value(gradients[next++]));
+      adam_step<float>(trained->adam, parameters(trained->mlp), values, step_size);
+    }
+  }
+  if (stats != nullptr) *stats = {first, last};
+  return coder;
+}
+
+void encode(const AutoEncoder& coder, const Matrix<float>& x, Matrix<float>& code, Matrix<float>& decoded) {
+  Workspace<float> workspace;
+  Matrix<float> normalised;
+  normalise(coder.inputs, x, normalised);
+  evaluate(coder.encoder, normalised, workspace, code);
+  evaluate(coder.decoder, code, workspace, decoded);
+  denormalise(coder.inputs, Matrix<float>(decoded), decoded);
+}
+
+void save(Npz& archive, const std::string& prefix, const AutoEncoder& coder) {
+  save(archive, prefix + "inputs.", coder.inputs);
+  save(archive, prefix + "encoder.", coder.encoder);
+  save(archive, prefix + "decoder.", coder.decoder);
+}
+
+AutoEncoder load_autoencoder(const Npz& archive, const std::string& prefix) {
+  return {load_normaliser<float>(archive, prefix + "inputs."), load_mlp<float>(archive, prefix + "encoder."),
+          load_mlp<float>(archive, prefix + "decoder.")};
+}
+
+}  // namespace mimicx::nn

@@ -1,0 +1,71 @@
+#include "pipeline/preparation.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mimicx {
+namespace {
+
+NamedValues values_of(const PreparationReport& r) {
+  return {{"floor_shift_mm", r.floor_shift_mm},
+          {"max_floor_shift_mm", r.max_floor_shift_mm},
+          {"hinge_residual_mean_mm", r.hinge_residual_mean_mm},
+          {"hinge_residual_max_mm", r.hinge_residual_max_mm},
+          {"change_mean_mm", r.change_mean_mm},
+          {"change_max_mm", r.change_max_mm},
+          {"foot_level_deg", r.foot_level_deg},
+          {"flagged_frames", static_cast<double>(r.flagged_frames)}};
+}
+
+NamedValues values_of(const FitReport& r) {
+  return {{"residual_before_percent", r.residual_before},
+          {"residual_after_percent", r.residual_after},
+          {"iterations", static_cast<double>(r.iterations)},
+          {"focal_scale", r.focal_scale},
+          {"tilt_deg", r.tilt_deg},
+          {"shape_change", r.shape_change},
+          {"swapped_frames", static_cast<double>(r.swapped_frames)},
+          {"dropped_points", static_cast<double>(r.dropped_points)},
+          {"change_mean_mm", r.change_mean_mm},
+          {"change_max_mm", r.change_max_mm}};
+}
+
+}  // namespace
+
+PreparedMotion prepare_motion(const std::filesystem::path& path, bool fit) {
+  PreparedMotion motion;
+  motion.input = read_clip(path);
+  motion.notes = motion.input.warnings;
+  motion.has_fit = fit && motion.input.keypoints.has_value();
+  if (motion.has_fit) {
+    FitReport report;
+    motion.fitted = fit_keypoints(motion.input, {}, &report);
+    motion.fit_values = values_of(report);
+    motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
+  } else {
+    motion.fitted = motion.input;
+  }
+  PreparationReport report;
+  motion.reference = prepare_reference(motion.fitted, {}, &report);
+  motion.preparation_values = values_of(report);
+  motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
+  return motion;
+}
+
+std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
+  std::vector<std::string> files;
+  for (const std::string& input : inputs) {
+    if (!std::filesystem::is_directory(input)) {
+      files.push_back(input);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (const auto& entry : std::filesystem::directory_iterator(input))
+      if (entry.path().extension() == ".npz") files.push_back(entry.path().string());
+    if (files.size() == before) throw std::invalid_argument(input + ": a folder without any .npz");
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  return files;
+}
+
+}  // namespace mimicx

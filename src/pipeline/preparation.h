@@ -1,0 +1,34 @@
+/// From a file's motion to a reference: keypoint fit, then preparation. The first arrow of every stage.
+///
+/// What it never does: open any ground truth.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "motion/fit.h"
+#include "motion/reference.h"
+#include "pipeline/manifest.h"
+
+namespace mimicx {
+
+struct PreparedMotion {
+  Clip input;   ///< as it stands in the file
+  Clip fitted;  ///< on its keypoints; the input itself where there are none, or no fit is wanted
+  bool has_fit = false;
+  Reference reference;
+  NamedValues fit_values;          ///< of the fit's report; empty without a fit
+  NamedValues preparation_values;  ///< of the preparation's report
+  std::vector<std::string> notes;  ///< warnings of all steps
+};
+
+/// @param fit  move the motion onto its keypoints first, where it has any
+/// @throws DataError as reading, fitting and preparing do
+PreparedMotion prepare_motion(const std::filesystem::path& path, bool fit);
+
+/// The motions that files and folders name: a folder stands for its *.npz, sorted by name.
+/// @throws std::invalid_argument for a folder without any
+std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs);
+
+}  // namespace mimicx

@@ -1,0 +1,210 @@
+#include "pipeline/pretrain.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "core/npz.h"
+#include "pipeline/preparation.h"
+
+namespace mimicx {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Motions {
+  std::vector<Reference> references;
+  std::vector<NamedFeatures> features;
+  Json record = Json::array();  ///< of every input
+  bool all_good = true;
+};
+
+Motions read_motions(const std::vector<std::string>& files, bool fit, const RunContext& context) {
+  Motions motions;
+  context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::string reason;
+    try {
+      PreparedMotion motion = prepare_motion(files[i], fit);
+      // Names tell motions apart inside the set; the same file name in two folders is two motions.
+      std::vector<std::string> taken;
+      for (const auto& named : motions.features) taken.push_back(named.name);
+      motions.features.push_back({unique_name(files[i], taken), motion_features(motion.reference)});
+      motions.references.push_back(std::move(motion.reference));
+    } catch (const std::exception& error) {
+      reason = error.what();
+      motions.all_good = false;
+      context.messages << "  " << reason << '\n';
+    }
+    motions.record.push_back(
+        {{"input", files[i]}, {"status", reason.empty() ? "ok" : "failed"}, {"reason", reason}});
+    context.progress.update(static_cast<double>(i + 1), "");
+  }
+  context.progress.finish("prepared " + std::to_string(motions.references.size()) + " of " +
+                          std::to_string(files.size()) + " motions");
+  return motions;
+}
+
+Json settings_json(const PretrainOptions& options) {
+  Json settings = Json::object();
+  for (const auto& [name, value] : settings_of(options.training)) settings[name] = value;
+  settings["fit"] = options.fit;
+  settings["encoder"] = options.use_encoder;
+  settings["encoder_code"] = options.encoder.code;
+  settings["encoder_hidden"] = options.encoder.hidden;
+  settings["encoder_corruption"] = options.encoder.corruption;
+  settings["encoder_steps"] = options.encoder.steps;
+  settings["cluster_radius"] = options.clusters.radius;
+  settings["clusters"] = options.clusters.clusters.value_or(0);
+  return settings;
+}
+
+/// What the results depend on; a folder holds one run of one such record.
+Json run_record(const PretrainOptions& options, const std::vector<std::string>& files) {
+  Json inputs = Json::array();
+  for (const std::string& file : files) {
+    std::string checksum;
+    try {
+      checksum = file_checksum(file);
+    } catch (const DataError&) {  // told when the motion is read
+    }
+    inputs.push_back({{"input", file}, {"checksum", checksum}});
+  }
+  return {{"version", MIMICX_VERSION},          {"target", MIMICX_TARGET},
+          {"seed", options.training.seed},      {"samples_per_option", options.training.samples},
+          {"settings", settings_json(options)}, {"inputs", inputs}};
+}
+
+/// @throws std::invalid_argument when the folder holds a run of other settings or inputs
+void check_folder(const std::filesystem::path& manifest, const Json& record) {
+  if (!std::filesystem::exists(manifest)) return;
+  const Json there = Json::parse(read_file(manifest), nullptr, false);
+  if (there.is_discarded() || there.value("run", Json()) != record)
+    throw std::invalid_argument(manifest.parent_path().string() +
+                                " holds a pre-training of other settings or inputs: give another folder, or "
+                                "remove it first");
+}
+
+nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
+                             const nn::AutoEncoderConfig& config, std::uint64_t seed,
+                             nn::AutoEncoderStats& stats) {
+  Eigen::Index rows = 0;
+  for (const auto& clip : clips) rows += static_cast<Eigen::Index>(clip->poses.size());
+  nn::Matrix<float> samples(rows, rl::kPoseFeatures);
+  Eigen::Index next = 0;
+  for (const auto& clip : clips) {
+    const nn::Matrix<float> inputs = rl::encoder_inputs(*clip);
+    samples.middleRows(next, inputs.rows()) = inputs;
+    next += inputs.rows();
+  }
+  return nn::train_autoencoder(samples, config, seed, &stats);
+}
+
+struct OptionRun {
+  TrainedOption trained;
+  Json record;
+  bool interrupted = false;
+};
+
+/// Encoder and policy of one cluster.
+OptionRun train_option(const PretrainOptions& options, const RunContext& context, const Clusters& clusters,
+                       int index, const Motions& motions) {
+  const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(index)];
+  const std::string name = "option" + std::to_string(index);
+  TrainingConfig config = options.training;
+  config.seed += static_cast<std::uint64_t>(index);
+  std::vector<std::shared_ptr<const rl::TrackingClip>> clips;
+  for (const std::string& member : cluster.members)
+    for (std::size_t i = 0; i < motions.features.size(); ++i)
+      if (motions.features[i].name == member)
+        clips.push_back(rl::make_tracking_clip(motions.references[i], config.tracking));
+
+  OptionRun run;
+  rl::Option option;
+  nn::AutoEncoderStats losses;
+  if (options.use_encoder) option.encoder = make_encoder(clips, options.encoder, config.seed, losses);
+  for (auto& clip : clips) clip = rl::encoded_for(clip, {&option});
+  const rl::Agent start = untrained_agent(config, clips.front()->state_size());
+
+  const RunFolder folder{options.out};
+  const TrainingFiles files = {folder.checkpoint(name), folder.log(name), folder.falls(name), name};
+  TrainingControl control;
+  control.threads = options.threads;
+  control.should_stop = context.should_stop;
+  control.progress = [&, started = false](std::int64_t samples, const std::string& detail) mutable {
+    const auto done = static_cast<double>(samples);
+    if (!started)
+      context.progress.start(name + " (" + std::to_string(clips.size()) + " motions)", done,
+                             static_cast<double>(config.samples));
+    started = true;
+    context.progress.update(done, detail);
+  };
+  const TrainingResult result = train(clips, {start}, config, files, control);
+  option.agent = result.agents.front();
+  run.interrupted = result.interrupted;
+  run.trained = {option, cluster.description, cluster.centre, static_cast<int>(clips.size()), result.samples};
+  run.record = {{"name", name},
+                {"description", cluster.description},
+                {"members", cluster.members},
+                {"samples", result.samples},
+                {"seed", config.seed},
+                {"encoder_loss_first", losses.first_loss},
+                {"encoder_loss_last", losses.last_loss}};
+  return run;
+}
+
+}  // namespace
+
+TrainingConfig pretrain_preset(const std::string& name) {
+  TrainingConfig config;
+  config.samples = 20'000'000;
+  config.characters = 512;
+  config.ppo.minibatch = 2048;
+  config.evaluate_iterations = 100;
+  config.ppo.sigma_end = 0.05;
+  if (name == "paper")
+    config.hidden = {1024, 1024, 512};
+  else if (name != "small")
+    throw std::invalid_argument("unknown preset '" + name + "': small or paper");
+  return config;
+}
+
+RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
+  const std::vector<std::string> files = expand_inputs(options.inputs);
+  const RunFolder folder{options.out};
+  const Json record = run_record(options, files);
+  check_folder(folder.manifest(), record);
+  folder.create();
+  write_file_atomically(folder.manifest(), Json({{"run", record}}).dump(1) + "\n");
+
+  const Motions motions = read_motions(files, options.fit, context);
+  if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
+  const Clusters clusters = cluster_motions(motions.features, options.clusters);
+  write_clusters(options.out / "clusters.json", clusters);
+  context.messages << format_cluster_tree(clusters);
+
+  OptionSet set;
+  Json trained = Json::array();
+  for (int index = 0; index < static_cast<int>(clusters.clusters.size()); ++index) {
+    OptionRun run = train_option(options, context, clusters, index, motions);
+    if (run.interrupted) {
+      context.progress.finish("interrupted; the same command continues");
+      return RunOutcome::kInterrupted;
+    }
+    context.progress.finish(run.record["name"].get<std::string>() + ": done, " + run.trained.description);
+    set.options.push_back(std::move(run.trained));
+    trained.push_back(run.record);
+  }
+  write_options(options.out / "options.npz", set);
+  write_file_atomically(folder.manifest(), Json({{"run", record},
+                                                 {"inputs", motions.record},
+                                                 {"options", trained},
+                                                 {"checksum", file_checksum(options.out / "options.npz")}})
+                                                   .dump(1) +
+                                               "\n");
+  return motions.all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
+}
+
+}  // namespace mimicx

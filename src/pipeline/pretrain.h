@@ -1,0 +1,40 @@
+/// `mimicx pretrain`: a folder of motions in, a set of options out.
+///
+/// Read → fit → prepare → features → clusters; then, cluster by cluster, the denoising encoder and the
+/// policy, trained by PPO on all of the cluster's motions. Clips that cannot be read are named and left out.
+///
+///     DIR/options.npz              the set
+///     DIR/clusters.json            which motion is in which cluster
+///     DIR/training/optionK.csv     a row per iteration
+///     DIR/checkpoints/optionK.npz  the complete state of the training
+///     DIR/manifest.json            inputs, settings, samples and losses
+///
+/// The same command continues an interrupted run; the bytes are those of never having stopped.
+/// What it never does: open any ground truth.
+#pragma once
+
+#include "nn/autoencoder.h"
+#include "pipeline/clusters.h"
+#include "pipeline/sequences.h"
+
+namespace mimicx {
+
+struct PretrainOptions {
+  std::vector<std::string> inputs;  ///< files and folders
+  std::filesystem::path out;
+  TrainingConfig training = {};  ///< `samples` are per option
+  ClusterSettings clusters;
+  nn::AutoEncoderConfig encoder;
+  bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
+  bool fit = true;
+  int threads = 1;
+};
+
+/// The named sizes of networks and batches.                                 docs/method.md §7
+/// "small": 128-128, what two cores fine-tune fast; "paper": [1024, 1024, 512].
+/// @throws std::invalid_argument for another name
+TrainingConfig pretrain_preset(const std::string& name);
+
+RunOutcome pretrain(const PretrainOptions& options, const RunContext& context);
+
+}  // namespace mimicx
