@@ -26,7 +26,7 @@ struct FitOptions {
 
   // Keypoints, in heights of the person's box.
   double keypoint_sigma = 0.003;       ///< what changes from frame to frame; wrists three times as much
-  double keypoint_bias_sigma = 0.007;  ///< static offset of a keypoint over the clip
+  double keypoint_bias_sigma = 0.005;  ///< static offset of a keypoint over the clip
   double keypoint_kernel = 0.03;       ///< residual at which a detection has lost half its weight
 
   // What is known of camera and body; 0 keeps what the file says.
@@ -34,20 +34,23 @@ struct FitOptions {
   double tilt_sigma = 0.3;          ///< degrees
   double beta_sigma = 0.15;         ///< per entry, where the shape is of our own body model
   double foreign_beta_sigma = 1.0;  ///< where the file's shape means nothing here (standard body)
+  /// Errors of neighbouring frames are alike, so the frames together know less than their number says: camera
+  /// and shape in the file count this many times.
+  double told_weight = 10.0;
 
   // Corrections: size, and change from frame to frame at 30 fps.
   double joint_sigma = 6.0;          ///< degrees, times a weight per joint (fit_problem.h)
   double root_rotation_sigma = 4.0;  ///< degrees
-  double root_position_sigma = 0.3;  ///< m
+  double root_position_sigma = 1.0;  ///< m
   double prior_frames = 30.0;  ///< errors are alike over about so many frames: the size counts once for them
-  double joint_rate = 0.4;     ///< degrees per frame, times the weight per joint
-  double joint_bend = 0.06;    ///< degrees per frame²
+  double joint_rate = 0.6;     ///< degrees per frame, times the weight per joint
+  double joint_bend = 0.1;     ///< degrees per frame²
   double root_rate = 0.003;    ///< m per frame
   double root_bend = 0.0006;   ///< m per frame²
 
   // The result.
   double acceleration_sigma = 0.012;  ///< m per frame², of every joint
-  double floor_sigma = 0.01;          ///< m, height of a foot point that stands
+  double floor_sigma = 0.02;          ///< m, height of a foot point that stands
   double slip_sigma = 0.002;          ///< m per frame, of a foot point that stands
   double penetration_sigma = 0.003;   ///< m, of a foot point below the floor
 };

@@ -77,9 +77,9 @@ void Assembler::globals() {
   const FitOptions& o = problem.options;
   VectorXd weight(problem.globals());
   weight.setConstant(information(o.keypoint_bias_sigma));
-  weight[kTilt] = information(kDegree * o.tilt_sigma);
-  weight[kLogFocal] = information(o.focal_sigma);
-  weight.segment<kBetas>(kFirstBeta).setConstant(information(problem.beta_sigma));
+  weight[kTilt] = o.told_weight * information(kDegree * o.tilt_sigma);
+  weight[kLogFocal] = o.told_weight * information(o.focal_sigma);
+  weight.segment<kBetas>(kFirstBeta).setConstant(o.told_weight * information(problem.beta_sigma));
   system.corner.diagonal() += weight;
   system.rhs_border -= weight.cwiseProduct(state.g);
 }
