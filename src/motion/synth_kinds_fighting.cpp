@@ -170,7 +170,7 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
   const double leg = leg_length(character);
   const auto start = random_stance(request, 1.05, 1.25, 4.0, 8.0);
   const std::size_t front = random.below(2), rear = 1 - front;
-  const double length = random.uniform(0.80, 0.95) * leg;
+  const double length = random.uniform(0.62, 0.74) * leg;
   const double swing = random.uniform(0.52, 0.60), down = random.uniform(0.75, 0.90),
                hold = random.uniform(0.10, 0.30), up = random.uniform(0.70, 0.85),
                pause = random.uniform(0.95, 1.10);
@@ -179,7 +179,7 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
   auto apart = start;
   apart[front].place.x() += length;
   PlanFrame low = standing_frame(character, standing_feet(character, apart));
-  const double heel = 46.0 * kDegree, knee = random.uniform(66.0, 80.0);
+  const double heel = 46.0 * kDegree, knee = random.uniform(64.0, 78.0);
   low.pelvis.x() = 4.0 * kDegree;
   low.trunk.x() = random.uniform(2.0, 8.0) * kDegree;
   for (ArmPosture& arm : low.arm) arm = {12.0 * kDegree, 22.0 * kDegree, 0.0, 40.0 * kDegree};
@@ -189,7 +189,7 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
   const PlanFrame stand = standing_frame(character, standing_feet(character, start));
   PlanFrame split = stand;  // just landed, or about to step back
   split.arm = low.arm;
-  split.com_height -= 0.13 * leg;
+  split.com_height -= 0.09 * leg;
   std::vector<FootSwing> swings;
   std::vector<PostureKey> keys = {{0.0, stand}};
   std::vector<Knot> heel_rise = {{0.0, 0.0}}, pressure = {{0.0, feet_middle(character)}};
@@ -199,10 +199,10 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
     swings.push_back({side, t, land, apart[front].place, apart[front].yaw, 0.06});
     swings.push_back({side, leave, leave + swing, start[front].place, start[front].yaw, 0.06});
     heel_rise.insert(heel_rise.end(),
-                     {{land - 0.25, 0.0}, {land + 0.25, heel}, {leave - 0.35, heel}, {leave + 0.2, 0.0}});
+                     {{land - 0.25, 0.0}, {land + 0.25, heel}, {leave - 0.45, heel}, {leave + 0.12, 0.0}});
     const double toes = 0.85 * forefoot_length(character), middle = feet_middle(character);
     pressure.insert(pressure.end(),
-                    {{t + 0.05, middle}, {land - 0.12, toes}, {leave - 0.1, toes}, {leave + 0.25, middle}});
+                    {{t + 0.05, middle}, {land - 0.12, toes}, {leave + 0.02, toes}, {leave + 0.27, middle}});
     keys.insert(keys.end(), {{t - 0.4, stand},
                              {land, split},
                              {bottom, low},

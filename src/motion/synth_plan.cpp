@@ -10,9 +10,10 @@ namespace {
 constexpr double kMidFoot = 0.27, kHeelStrike = -0.15, kToeOff = 0.95;
 // Pitch of a foot that takes a long stride, rad; shorter ones pitch less.
 constexpr double kStrikePitch = 0.30, kSwingPitch = 0.75;
-constexpr double kLongStride = 1.4;  ///< in leg lengths
-constexpr double kHeelLead = 0.20;   ///< the heel rises this long before the foot leaves the floor, s
-constexpr double kRollDown = 0.10;   ///< from heel strike to flat foot, s
+constexpr double kLongStride = 1.4;      ///< in leg lengths
+constexpr double kHeelLead = 0.20;       ///< the heel rises this long before the foot leaves the floor, s,
+constexpr double kHeelLeadShare = 0.40;  ///< and not before this last share of the time the foot stands
+constexpr double kRollDown = 0.10;       ///< from heel strike to flat foot, s
 
 struct FootKnots {
   std::vector<Knot> x, y, yaw, lift, heel_rise, toe_rise, pressure;
@@ -41,8 +42,10 @@ void add_glide(double start, double end, double from, double to, std::vector<Kno
 }
 
 /// The foot rises before it travels and lands before it is put down, so that it never scrapes.
-void add_swing(const FootSwing& swing, const FootTarget& from, double leg, FootKnots& knots) {
+/// @param landed  when the foot was put down, s
+void add_swing(const FootSwing& swing, const FootTarget& from, double landed, double leg, FootKnots& knots) {
   const double duration = swing.end - swing.start;
+  const double lead = std::min(kHeelLead, kHeelLeadShare * (swing.start - landed));
   const auto at = [&](double part) { return swing.start + part * duration; };
   add_glide(at(0.06), at(0.94), from.place.x(), swing.place.x(), knots.x);
   add_glide(at(0.06), at(0.94), from.place.y(), swing.place.y(), knots.y);
@@ -53,7 +56,7 @@ void add_swing(const FootSwing& swing, const FootTarget& from, double leg, FootK
   const double rise = kSwingPitch * std::clamp(stride, 0.25, 1.0),
                strike = kStrikePitch * std::clamp(stride, 0.0, 1.0);
   knots.heel_rise.insert(knots.heel_rise.end(),
-                         {{swing.start - kHeelLead, 0.0}, {at(0.18), rise}, {at(0.80), 0.0}});
+                         {{swing.start - lead, 0.0}, {at(0.18), rise}, {at(0.80), 0.0}});
   knots.toe_rise.insert(knots.toe_rise.end(),
                         {{at(0.50), 0.0}, {at(1.0), strike}, {swing.end + kRollDown, 0.0}});
 }
@@ -97,7 +100,7 @@ FeetTracks stepping_feet(const Character& character, const std::array<FootTarget
     double landed = -2.0 * settle;
     for (const FootSwing& swing : swings) {
       if (swing.side != static_cast<int>(side)) continue;
-      add_swing(swing, from, leg, knots);
+      add_swing(swing, from, landed, leg, knots);
       add_rest(landed, swing.start, settle, kMidFoot * forefoot, knots.pressure);
       knots.pressure.push_back({swing.start, kToeOff * forefoot});
       knots.pressure.push_back({swing.end, kHeelStrike * forefoot});
