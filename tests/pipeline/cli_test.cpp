@@ -38,7 +38,7 @@ struct Cli : testing::Test {
 
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
-  for (const char* command : {"imitate", "evaluate", "info", "convert", "synth"}) {
+  for (const char* command : {"imitate", "cluster", "evaluate", "info", "convert", "synth"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;
@@ -55,12 +55,28 @@ TEST_F(Cli, VersionNamesTheInstructionSet) {
 TEST_F(Cli, WrongUsageIsStatusTwo) {
   write_clip(path("a.npz"), standing_clip(20));
   const std::string a = path("a.npz"), out = " --out " + path("out");
-  for (const std::string& arguments :
-       {std::string(), std::string("dance"), std::string("imitate"), "imitate " + a, "imitate" + out,
-        "imitate " + a + out + " --samples 0", "imitate " + a + out + " --samples many",
-        "imitate " + a + out + " --threads 0", "imitate " + a + out + " --limit-seconds -1",
-        "imitate " + a + " " + a + out, "imitate " + a + out + " --frobnicate", std::string("evaluate"),
-        std::string("info"), "convert " + a, "convert " + a + " " + path("b.bvh"), std::string("synth")}) {
+  for (const std::string& arguments : {std::string(),
+                                       std::string("dance"),
+                                       std::string("imitate"),
+                                       "imitate " + a,
+                                       "imitate" + out,
+                                       "imitate " + a + out + " --samples 0",
+                                       "imitate " + a + out + " --samples many",
+                                       "imitate " + a + out + " --threads 0",
+                                       "imitate " + a + out + " --limit-seconds -1",
+                                       "imitate " + a + " " + a + out,
+                                       "imitate " + a + out + " --frobnicate",
+                                       std::string("evaluate"),
+                                       std::string("info"),
+                                       "convert " + a,
+                                       "convert " + a + " " + path("b.bvh"),
+                                       std::string("synth"),
+                                       std::string("cluster"),
+                                       "cluster " + a,
+                                       "cluster " + a + out + " --radius -1",
+                                       "cluster " + a + out + " --clusters 0",
+                                       "cluster " + a + out + " --clusters 2",
+                                       "cluster " + a + out + " --clusters 1 --radius 2"}) {
     const Call call = mimicx(arguments);
     EXPECT_EQ(call.status, 2) << "mimicx " << arguments << '\n' << call.text;
     EXPECT_FALSE(call.text.empty());
@@ -107,6 +123,25 @@ TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
   EXPECT_EQ(manifest["sequences"][0]["status"], "failed");
   EXPECT_EQ(manifest["sequences"][1]["input"], path("a.npz"));
   EXPECT_EQ(mimicx(command + " --seed 2").status, 2) << "a folder of another seed";
+}
+
+TEST_F(Cli, ClusterTakesFilesAndFoldersInAnyOrderAndLeavesOutWhatFails) {
+  std::filesystem::create_directory(path("more"));
+  write_clip(path("a.npz"), standing_clip(20));
+  write_clip(path("more/a.npz"), standing_clip(40));
+  write_clip(path("more/b.npz"), standing_clip(60));
+  std::ofstream(path("more/bad.npz")) << "PK nonsense";
+  const std::string end = " --clusters 2 --out ";
+  const Call call = mimicx("cluster " + path("a.npz") + " " + path("more") + end + path("c.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "more/bad.npz: left out")) << call.text;
+  for (const char* line : {"3 motions", "cluster 0: ", "cluster 1: ", "- a\n", "- a-2\n", "- b\n"})
+    EXPECT_TRUE(says(call, line)) << line << call.text;
+  const std::string bytes = read_file(path("c.json"));
+  std::filesystem::remove(path("more/bad.npz"));
+  const Call other = mimicx("cluster " + path("more") + " " + path("a.npz") + end + path("d.json"));
+  EXPECT_EQ(other.status, 0) << other.text;
+  EXPECT_EQ(read_file(path("d.json")), bytes);
 }
 
 }  // namespace
