@@ -24,8 +24,8 @@ struct NamedFeatures {
   MotionFeatures features;
 };
 
-/// l_max without a wish for another: about the spread of one kind of motion (docs/method.md, §6).
-inline constexpr double kDefaultClusterRadius = 2.0;
+/// l_max without a wish for another: groups kinds of motion without lumping a walk with a jump (METHOD §6).
+inline constexpr double kDefaultClusterRadius = 3.0;
 
 struct ClusterSettings {
   double radius = kDefaultClusterRadius;  ///< l_max: no two members of a cluster are farther apart

@@ -12,7 +12,7 @@
 namespace mimicx {
 namespace {
 
-constexpr double kOptimum = 1e-12;  ///< relative: two orders of the same sum
+constexpr double kRounding = 1e-12;  ///< relative: two orders of the same sum
 
 /// Blobs of normal points around random centres, with some points twice.
 Points random_points(std::uint64_t seed, int count, int dimensions = 3) {
@@ -76,7 +76,7 @@ TEST(KMeans, FindsTheBestOfAllPartitionsOfAFewPoints) {
       }
       best = std::min(best, cost);
     }
-    EXPECT_NEAR(k_means(points, 2, seed).cost, best, kOptimum * best) << "seed " << seed;
+    EXPECT_NEAR(k_means(points, 2, seed).cost, best, kRounding * best) << "seed " << seed;
   }
 }
 
