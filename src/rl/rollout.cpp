@@ -6,6 +6,8 @@ namespace mimicx::rl {
 
 namespace {
 
+constexpr int kNobody = -1;
+
 /// Calls visit(agent index, its raw observations [n × dim]) for every agent with rows; `scratch.rows` are
 /// those rows.
 template <class Visit>
@@ -31,7 +33,7 @@ void value_part(const Agent& agent, const nn::Matrix<float>& raw, CollectScratch
 /// V of every row → scratch.values [G × 1].
 void value_all(const Agents& agents, const std::vector<int>& actors, const nn::Matrix<float>& raw,
                CollectScratch& scratch) {
-  scratch.values.resize(raw.rows(), 1);
+  scratch.values.resize(raw.rows(), 1);  // rows of nobody stay as they are
   for_each_actor(agents, actors, raw, scratch, [&](std::size_t agent, const nn::Matrix<float>& part) {
     value_part(*agents[agent], part, scratch);
     scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
@@ -101,7 +103,12 @@ void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRo
     age = 0;
   }
   if (!result.truncated.any()) return;
-  value_all(agents, result.final_actors, result.final_observations, scratch);
+  // Only these rows: the bits of a product may depend on which rows stand beside each other.
+  scratch.final_actors = result.final_actors;
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!result.truncated[i]) scratch.final_actors[static_cast<std::size_t>(i)] = kNobody;
+  scratch.values.setZero(size, 1);
+  value_all(agents, scratch.final_actors, result.final_observations, scratch);
   rollout.final_values.row(t) = scratch.values.transpose();
 }
 

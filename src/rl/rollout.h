@@ -65,7 +65,7 @@ struct CollectScratch {
   StepResult result;
 
   // Of one agent's rows.
-  std::vector<int> rows;
+  std::vector<int> rows, final_actors;
   nn::Matrix<float> part_raw, part_normalised, part_means, part_values;
   nn::Workspace<float> actor, critic;
 

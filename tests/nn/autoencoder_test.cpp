@@ -1,0 +1,79 @@
+#include "nn/autoencoder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mimicx::nn {
+namespace {
+
+/// Points of a plane in 12 dimensions. @param seed  of the points; the plane is always the same
+Matrix<float> plane_points(int n, std::uint64_t seed) {
+  Random plane(7), random(seed);
+  Eigen::Matrix<double, 2, 12> axes;
+  for (int k = 0; k < axes.size(); ++k) axes.data()[k] = plane.normal();
+  Matrix<float> points(n, 12);
+  for (int row = 0; row < n; ++row) {
+    const double u = random.normal();
+    const Eigen::RowVector2d at(u, random.normal());
+    points.row(row) = (at * axes).cast<float>();
+  }
+  return points;
+}
+
+AutoEncoderConfig small() {
+  AutoEncoderConfig config;
+  config.hidden = 32;
+  config.code = 2;
+  config.corruption = 0.15;
+  config.steps = 4000;
+  config.minibatch = 64;
+  config.step_size = 5e-3;
+  return config;
+}
+
+double rms(const Matrix<float>& m) { return std::sqrt(m.squaredNorm() / static_cast<float>(m.size())); }
+
+TEST(AutoEncoder, RemovesTheNoiseThatTheSamplesDoNotShare) {
+  AutoEncoderStats stats;
+  const AutoEncoder coder = train_autoencoder(plane_points(500, 1), small(), 3, &stats);
+  EXPECT_LT(stats.last_loss, 0.3 * stats.first_loss);
+  const Matrix<float> clean = plane_points(200, 2);
+  Matrix<float> noisy = clean;
+  Random random(4);
+  for (Eigen::Index k = 0; k < noisy.size(); ++k)
+    noisy.data()[k] += static_cast<float>(0.3 * random.normal());
+  Matrix<float> code, decoded;
+  encode(coder, noisy, code, decoded);
+  EXPECT_EQ(code.cols(), 2);
+  // Two of twelve dimensions of the noise lie in the plane: the projection leaves √(2/12) = 0.41 of it.
+  EXPECT_LT(rms(decoded - clean), 0.75 * rms(noisy - clean));
+}
+
+TEST(AutoEncoder, IsTheSameBitsAgainAndOthersFromAnotherSeed) {
+  const Matrix<float> samples = plane_points(100, 5);
+  AutoEncoderConfig config = small();
+  config.steps = 50;
+  const AutoEncoder a = train_autoencoder(samples, config, 1), b = train_autoencoder(samples, config, 1),
+                    c = train_autoencoder(samples, config, 2);
+  EXPECT_TRUE(a.encoder.weights[0] == b.encoder.weights[0] && a.decoder.weights[1] == b.decoder.weights[1]);
+  EXPECT_FALSE(a.encoder.weights[0] == c.encoder.weights[0]);
+}
+
+TEST(AutoEncoder, ComesBackFromAnArchiveToTheBit) {
+  AutoEncoderConfig config = small();
+  config.steps = 20;
+  const Matrix<float> samples = plane_points(50, 6);
+  const AutoEncoder coder = train_autoencoder(samples, config, 1);
+  Npz archive;
+  save(archive, "e.", coder);
+  const AutoEncoder back = load_autoencoder(archive, "e.");
+  Matrix<float> code, decoded, code_back, decoded_back;
+  encode(coder, samples, code, decoded);
+  encode(back, samples, code_back, decoded_back);
+  EXPECT_TRUE(code == code_back);
+  EXPECT_TRUE(decoded == decoded_back);
+}
+
+}  // namespace
+}  // namespace mimicx::nn
