@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/fit.h"
 #include "motion/synth_set.h"
 #include "pipeline/clusters.h"
 #include "pipeline/pretrain.h"
@@ -45,6 +46,9 @@ int run_evaluate(const std::filesystem::path& truth, const std::filesystem::path
 /// @param inputs  files, and folders of .npz files
 int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
                 const ClusterSettings& settings);
+/// @param inputs  files, and folders of .npz files; the fitted motions get their names
+int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
+            const FitOptions& options);
 int run_info(const std::filesystem::path& file);
 int run_convert(const std::filesystem::path& in, const std::filesystem::path& out);
 

@@ -26,6 +26,7 @@ struct Arguments {
   std::string file, in, out;
   std::vector<std::string> inputs;
   ClusterSettings cluster;
+  FitOptions fit;
   std::function<int()> run;
 };
 
@@ -165,6 +166,21 @@ void declare_cluster(CLI::App& app, Arguments& a) {
   command->callback([&a] { a.run = [&a] { return run_cluster(a.inputs, a.out, a.cluster); }; });
 }
 
+void declare_fit(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("fit", "Move motions onto their 2D keypoints, where they have any");
+  command->add_option("FILE", a.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command->add_option("--out", a.out, "folder for the fitted motions")->required();
+  const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
+    command->add_option(name, sigma, "standard error of " + what + "; 0: it is exact")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+  };
+  add_sigma("--focal-sigma", a.fit.focal_sigma, "the focal length in the file, relative");
+  add_sigma("--tilt-sigma", a.fit.tilt_sigma, "the camera's tilt in the file, degrees");
+  add_sigma("--beta-sigma", a.fit.beta_sigma, "each entry of the shape in the file");
+  command->callback([&a] { a.run = [&a] { return run_fit(a.inputs, a.out, a.fit); }; });
+}
+
 void declare_file_commands(CLI::App& app, Arguments& a) {
   auto* info = app.add_subcommand("info", "What a motion file holds and what preparation does to it");
   info->add_option("FILE", a.file, "motion: AMASS-style .npz")->required();
@@ -222,6 +238,7 @@ int run(int argc, char** argv) {
   declare_imitate(app, arguments);
   declare_evaluate(app, arguments);
   declare_cluster(app, arguments);
+  declare_fit(app, arguments);
   declare_file_commands(app, arguments);
   declare_synth(app, arguments);
   try {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "motion/fit_problem.h"
@@ -93,6 +94,7 @@ Residual residual_of(const FitProblem& problem, const FitState& state, const Eva
 double advance(const BandSolution& step, FitState& state) {
   double turn = 0.0, longest = 0.0;
   for (const VectorXd& x : step.x) {
+    if (!x.allFinite()) throw std::domain_error("keypoint fit: a step is not finite");
     turn = std::max(turn, x.tail(kFrameUnknowns - kRootRotation).cwiseAbs().maxCoeff());
     longest = std::max(longest, x.cwiseAbs().maxCoeff());
   }
@@ -182,7 +184,12 @@ Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* repor
   require_usable(clip);
   FitProblem problem = make_problem(clip, options);
   if (const std::string why = reason_to_refuse(problem); !why.empty()) return unchanged(why);
-  const FitState state = iterate(problem, r);
+  FitState state;
+  try {
+    state = iterate(problem, r);
+  } catch (const std::domain_error& error) {
+    return unchanged(std::string(error.what()) + ": left as it is");
+  }
   const Clip fitted = result_of(clip, problem, state);
   r.focal_scale = std::exp(state.g[kLogFocal]);
   r.tilt_deg = state.g[kTilt] / kDegree;

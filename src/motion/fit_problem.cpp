@@ -68,7 +68,10 @@ void add_points(const Keypoints& keypoints, FitProblem& problem) {
   }
   for (const auto& frame : keypoints.uvc) {
     problem.uvc.emplace_back();
-    for (const FitPoint& point : problem.points) problem.uvc.back().push_back(frame[point.column]);
+    for (const FitPoint& point : problem.points) {
+      const Vector3d& seen = frame[point.column];
+      problem.uvc.back().push_back(seen.allFinite() ? seen : Vector3d::Zero());
+    }
   }
   problem.intrinsics = keypoints.intrinsics;
   problem.extrinsics = keypoints.extrinsics;
