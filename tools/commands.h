@@ -57,6 +57,7 @@ struct SynthArguments {
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
   SynthSetOptions set;
+  bool report = false;  ///< print what each motion of the set demands of a body
 };
 int run_synth(const SynthArguments& arguments);
 

@@ -219,6 +219,9 @@ void declare_synth(CLI::App& app, Arguments& a) {
       ->add_option("--data-set", a.synth.data_set,
                    "write the project's own small set, test/ and train/, to this folder instead")
       ->excludes(out);
+  command->add_flag(
+      "--report", a.synth.report,
+      "print the forces and torques that each motion of the set demands; --out may be left out");
   command->callback([&a] { a.run = [&a] { return run_synth(a.synth); }; });
 }
 

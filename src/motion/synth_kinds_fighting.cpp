@@ -199,10 +199,10 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
     swings.push_back({side, t, land, apart[front].place, apart[front].yaw, 0.06});
     swings.push_back({side, leave, leave + swing, start[front].place, start[front].yaw, 0.06});
     heel_rise.insert(heel_rise.end(),
-                     {{land - 0.25, 0.0}, {land + 0.25, heel}, {leave - 0.45, heel}, {leave + 0.12, 0.0}});
+                     {{land + 0.05, 0.0}, {land + 0.50, heel}, {leave - 0.60, heel}, {leave - 0.05, 0.0}});
     const double toes = 0.85 * forefoot_length(character), middle = feet_middle(character);
     pressure.insert(pressure.end(),
-                    {{t + 0.05, middle}, {land - 0.12, toes}, {leave + 0.02, toes}, {leave + 0.27, middle}});
+                    {{land - 0.10, middle}, {land + 0.30, toes}, {leave - 0.20, toes}, {leave + 0.10, middle}});
     keys.insert(keys.end(), {{t - 0.4, stand},
                              {land, split},
                              {bottom, low},

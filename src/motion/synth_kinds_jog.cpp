@@ -18,10 +18,10 @@ struct Contact {
 
 double on_frame(double t) { return std::round(t * kSynthFps) / kSynthFps; }
 
-constexpr double kFlight = 3.0 / kSynthFps, kStance = 8.0 / kSynthFps;
+constexpr double kFlight = 3.0 / kSynthFps, kStance = 9.0 / kSynthFps;
 constexpr double kBoth = 3.0 / kSynthFps;      ///< both feet on the floor, in the first and the last step
 constexpr double kFirstSwing = 0.40;           ///< s
-constexpr double kSettle = 0.55, kRest = 0.9;  ///< s
+constexpr double kSettle = 0.55, kRest = 1.1;  ///< s
 
 /// From standing over steps of growing length to full steps, and back. The first contact is the foot that
 /// stands while the other takes the first step, the last one the foot that is put down beside the other.
@@ -84,7 +84,7 @@ MinJerkTrack jogging_height(const Character& character, const PlanFrame& stand,
   PlanFrame landing = stand;
   const double away = 0.5 * step * kStance / (kStance + kFlight);
   const double low =
-      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), 24.0 * kDegree);
+      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), 20.0 * kDegree);
   const double velocity = 0.5 * kGravity * kFlight;
   const double begin = contacts[1].land - on_frame(kFirstSwing);
   std::vector<Knot> height = {{begin - 0.3, stand.com_height}, {contacts[1].land, low - 0.01}};
@@ -106,7 +106,7 @@ std::vector<PlanFrame> plan_jog(const PlanRequest& request) {
   const Character& character = request.character;
   const double half_width = rest_half_width(character) * random.uniform(0.70, 0.82);
   const auto start = feet_apart(half_width, random.uniform(3.0, 6.0) * kDegree);
-  const double step = random.uniform(0.85, 1.0) * leg_length(character);
+  const double step = random.uniform(0.74, 0.88) * leg_length(character);
   const std::vector<Contact> contacts = draw_contacts(request, step);
   const FeetTracks feet = jogging_feet(character, start, contacts, random.uniform(0.11, 0.15));
   const PlanFrame stand = standing_frame(character, feet);

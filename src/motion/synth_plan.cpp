@@ -7,12 +7,12 @@ namespace mimicx {
 namespace {
 
 // Where the load acts in a foot, as a share of the way from the ankle to the toe points.
-constexpr double kMidFoot = 0.27, kHeelStrike = -0.15, kToeOff = 0.95;
+constexpr double kMidFoot = 0.27, kHeelStrike = -0.15, kToeOff = 0.88;
 // Pitch of a foot that takes a long stride, rad; shorter ones pitch less.
 constexpr double kStrikePitch = 0.30, kSwingPitch = 0.75;
 constexpr double kLongStride = 1.4;      ///< in leg lengths
-constexpr double kHeelLead = 0.20;       ///< the heel rises this long before the foot leaves the floor, s,
-constexpr double kHeelLeadShare = 0.40;  ///< and not before this last share of the time the foot stands
+constexpr double kHeelLead = 0.14;       ///< the heel rises this long before the foot leaves the floor, s,
+constexpr double kHeelLeadShare = 0.25;  ///< and not before this last share of the time the foot stands
 constexpr double kRollDown = 0.10;       ///< from heel strike to flat foot, s
 
 struct FootKnots {

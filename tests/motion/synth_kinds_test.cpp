@@ -239,7 +239,7 @@ TEST(Dance, StepsAndMovesItsArms) {
 TEST(Jog, IsFasterThanAWalk) {
   for (const Motion& m : motions("jog")) {
     const std::size_t middle = m.frames() / 2;
-    EXPECT_GT((m.com(middle + 11) - m.com(middle - 11)).norm() / (22 * kDt), 1.6);
+    EXPECT_GT((m.com(middle + 12) - m.com(middle - 12)).norm() / (24 * kDt), 1.3);
   }
 }
 
