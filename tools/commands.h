@@ -34,10 +34,10 @@ int run_imitate(RunOptions options, const std::vector<std::string>& settings);
 /// @param trained  options to start from: a file, or a folder with options.npz
 int run_adapt(RunOptions options, const std::filesystem::path& trained,
               const std::vector<std::string>& settings);
-/// @param samples  per option; none: what the preset says
+/// @param samples  of all options together; none: what the preset says
 int run_pretrain(PretrainOptions options, const std::string& preset, std::optional<std::int64_t> samples,
                  const std::vector<std::string>& settings);
-/// All stages: pretrain on a folder, then adapt all of it. @param samples  of the pre-training, per option
+/// All stages: pretrain on a folder, then adapt all of it. @param samples  of the pre-training
 int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainOptions options,
             RunOptions adapt, std::optional<std::int64_t> samples);
 /// @param json  where to write every value as well; empty: nowhere

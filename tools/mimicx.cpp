@@ -85,7 +85,7 @@ void declare_adapt(CLI::App& app, Arguments& a) {
 }
 
 void add_pretrain_options(CLI::App& command, Arguments& a, const std::string& samples) {
-  command.add_option(samples, a.pretrain_samples, "training budget per option, in character steps")
+  command.add_option(samples, a.pretrain_samples, "training budget of all options together, in character steps")
       ->check(CLI::NonNegativeNumber);
   auto* radius = command
                      .add_option("--radius", a.pretrain.clusters.radius,

@@ -110,7 +110,11 @@ Vector6d share_out(const Vector3d& center, const Vector6d& wanted, std::vector<T
   Matrix6X A(6, kEdges * static_cast<Eigen::Index>(touches.size()));
   for (Eigen::Index i = 0; i < A.cols(); ++i) {
     const Vector3d arm = touches[static_cast<std::size_t>(i / kEdges)].p - center;
-    A.col(i) << arm.cross(edge(i % kEdges)), edge(i % kEdges);
+    const Vector3d force = edge(i % kEdges), moment = arm.cross(force);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      A(k, i) = moment[k];
+      A(3 + k, i) = force[k];
+    }
   }
   const Eigen::VectorXd x = non_negative_least_squares(A, wanted);
   for (Eigen::Index i = 0; i < A.cols(); ++i)

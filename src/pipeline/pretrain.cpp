@@ -1,6 +1,7 @@
 #include "pipeline/pretrain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -73,7 +74,7 @@ Json run_record(const PretrainOptions& options, const std::vector<std::string>& 
     inputs.push_back({{"input", file}, {"checksum", checksum}});
   }
   return {{"version", MIMICX_VERSION},          {"target", MIMICX_TARGET},
-          {"seed", options.training.seed},      {"samples_per_option", options.training.samples},
+          {"seed", options.training.seed},      {"samples", options.training.samples},
           {"settings", settings_json(options)}, {"inputs", inputs}};
 }
 
@@ -110,11 +111,12 @@ struct OptionRun {
 
 /// Encoder and policy of one cluster.
 OptionRun train_option(const PretrainOptions& options, const RunContext& context, const Clusters& clusters,
-                       int index, const Motions& motions) {
+                       int index, std::int64_t samples, const Motions& motions) {
   const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(index)];
   const std::string name = "option" + std::to_string(index);
   TrainingConfig config = options.training;
   config.seed += static_cast<std::uint64_t>(index);
+  config.samples = samples;
   std::vector<std::shared_ptr<const rl::TrackingClip>> clips;
   for (const std::string& member : cluster.members)
     for (std::size_t i = 0; i < motions.features.size(); ++i)
@@ -159,7 +161,7 @@ OptionRun train_option(const PretrainOptions& options, const RunContext& context
 
 TrainingConfig pretrain_preset(const std::string& name) {
   TrainingConfig config;
-  config.samples = 20'000'000;
+  config.samples = 80'000'000;
   config.characters = 512;
   config.ppo.minibatch = 2048;
   config.evaluate_iterations = 100;
@@ -169,6 +171,15 @@ TrainingConfig pretrain_preset(const std::string& name) {
   else if (name != "small")
     throw std::invalid_argument("unknown preset '" + name + "': small or paper");
   return config;
+}
+
+std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions) {
+  double total = 0.0;
+  for (const int n : motions) total += std::sqrt(n);
+  std::vector<std::int64_t> shares;
+  for (const int n : motions)
+    shares.push_back(std::llround(static_cast<double>(samples) * std::sqrt(n) / total));
+  return shares;
 }
 
 RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
@@ -185,10 +196,15 @@ RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
   write_clusters(options.out / "clusters.json", clusters);
   context.messages << format_cluster_tree(clusters);
 
+  std::vector<int> sizes;
+  for (const MotionCluster& cluster : clusters.clusters)
+    sizes.push_back(static_cast<int>(cluster.members.size()));
+  const std::vector<std::int64_t> samples = share_samples(options.training.samples, sizes);
   OptionSet set;
   Json trained = Json::array();
   for (int index = 0; index < static_cast<int>(clusters.clusters.size()); ++index) {
-    OptionRun run = train_option(options, context, clusters, index, motions);
+    OptionRun run =
+        train_option(options, context, clusters, index, samples[static_cast<std::size_t>(index)], motions);
     if (run.interrupted) {
       context.progress.finish("interrupted; the same command continues");
       return RunOutcome::kInterrupted;

@@ -22,7 +22,7 @@ namespace mimicx {
 struct PretrainOptions {
   std::vector<std::string> inputs;  ///< files and folders
   std::filesystem::path out;
-  TrainingConfig training = {};  ///< `samples` are per option
+  TrainingConfig training;  ///< its samples are of all options together
   ClusterSettings clusters;
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
@@ -34,6 +34,10 @@ struct PretrainOptions {
 /// "small": 128-128, what two cores fine-tune fast; "paper": [1024, 1024, 512].
 /// @throws std::invalid_argument for another name
 TrainingConfig pretrain_preset(const std::string& name);
+
+/// Samples of every option: in proportion to the square root of the number of its motions, since what a
+/// policy learns on one motion helps it on the next. @param motions  of every option, ≥ 1
+std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions);
 
 RunOutcome pretrain(const PretrainOptions& options, const RunContext& context);
 
