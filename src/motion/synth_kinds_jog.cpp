@@ -18,7 +18,7 @@ struct Contact {
 
 double on_frame(double t) { return std::round(t * kSynthFps) / kSynthFps; }
 
-constexpr double kFlight = 3.0 / kSynthFps, kStance = 9.0 / kSynthFps;
+constexpr double kFlight = 3.0 / kSynthFps, kStance = 10.0 / kSynthFps;
 constexpr double kBoth = 3.0 / kSynthFps;      ///< both feet on the floor, in the first and the last step
 constexpr double kFirstSwing = 0.40;           ///< s
 constexpr double kSettle = 0.55, kRest = 1.1;  ///< s
@@ -84,10 +84,10 @@ MinJerkTrack jogging_height(const Character& character, const PlanFrame& stand,
   PlanFrame landing = stand;
   const double away = 0.5 * step * kStance / (kStance + kFlight);
   const double low =
-      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), 20.0 * kDegree);
+      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), 16.0 * kDegree);
   const double velocity = 0.5 * kGravity * kFlight;
   const double begin = contacts[1].land - on_frame(kFirstSwing);
-  std::vector<Knot> height = {{begin - 0.3, stand.com_height}, {contacts[1].land, low - 0.01}};
+  std::vector<Knot> height = {{begin - 0.3, stand.com_height}, {contacts[1].land, low}};
   for (std::size_t i = 1; i + 2 < contacts.size(); ++i) {
     if (!contacts[i].flight) continue;
     height.push_back({contacts[i].leave, low, velocity, -kGravity});
