@@ -57,8 +57,8 @@ struct FitOptions {
 
 /// What the fit did; every figure goes into the manifest.
 struct FitReport {
-  double residual_before = 0,
-         residual_after = 0;  ///< RMS over keypoints weighted by confidence, % of the box
+  /// RMS over keypoints weighted by confidence, % of the box; after: without the static offsets.
+  double residual_before = 0, residual_after = 0;
   int iterations = 0;
   double focal_scale = 1.0;   ///< estimated focal length over the one in the file
   double tilt_deg = 0.0;      ///< estimated turn of the camera about its horizontal axis

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "motion/reference.h"
 #include "motion/surface.h"
 

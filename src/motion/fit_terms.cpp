@@ -1,4 +1,5 @@
 /// The terms of the keypoint fit and their normal equations.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,7 @@ constexpr double kFps = 30.0;          ///< frame rate at which the options' rat
 constexpr double kWristFactor = 3.0;   ///< wrists move fast and blur
 constexpr double kFloorKernel = 0.03;  ///< m: a "standing" foot so far off the floor has lost half its weight
 constexpr double kAccelerationKernel = 3.0;  ///< in its σ: landings and kicks may be sharp
+constexpr double kSlipKernel = 5.0;          ///< in its σ: a foot that begins to move
 constexpr double kFixed = 1e-6;              ///< σ of an unknown that is not estimated
 
 using JointsJacobian = Eigen::Matrix<double, 3 * kBodies, kFrameUnknowns>;
@@ -23,6 +25,7 @@ double cauchy(double squared_residual, double width) {
 }
 double information(double sigma) { return 1.0 / square(std::max(sigma, kFixed)); }
 
+/// Adds the terms of one linearisation to a system, term by term.
 struct Assembler {
   const FitProblem& problem;
   const FitState& state;
@@ -41,7 +44,8 @@ struct Assembler {
   void slipping(std::size_t t);
 };
 
-/// Adds weight · ½|J δ + r|² where J has columns of the frame and, in `at`, of the globals.
+/// Projected joints against detections. J: by the unknowns of the frame; G: by those of the clip; r:
+/// residuals, all over σ and under the kernel. σ grows with 1/confidence².
 void Assembler::keypoints(std::size_t t) {
   const auto rows = static_cast<Eigen::Index>(2 * problem.points.size());
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, kFrameUnknowns),
@@ -200,7 +204,7 @@ void Assembler::slipping(std::size_t t) {
   for (std::size_t i = 0; i < kFootPoints; ++i) {
     if (!contacts[t][i] || !contacts[t + 1][i]) continue;
     const Vector3d d = feet[t + 1][i] - feet[t][i];
-    const double w = information(sigma) * cauchy(d.squaredNorm(), 5.0 * sigma);
+    const double w = information(sigma) * cauchy(d.squaredNorm(), kSlipKernel * sigma);
     const PointJacobian J0 = foot_jacobian(motion[t], feet[t], i),
                         J1 = foot_jacobian(motion[t + 1], feet[t + 1], i);
     system.diagonal[t].noalias() += w * J0.transpose() * J0;

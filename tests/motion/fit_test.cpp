@@ -122,8 +122,10 @@ TEST(Fit, ABurstOfExchangedSidesIsHealed) {
   const Clip expected = fit_keypoints(input, exact_camera(), nullptr);
   Clip swapped = input;
   for (std::size_t t = 30; t < 38; ++t) {
-    for (std::size_t b : {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
-      std::swap(swapped.keypoints->uvc[t][b], swapped.keypoints->uvc[t][b + 1]);
+    for (const Body left :
+         {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
+      std::swap(swapped.keypoints->uvc[t][static_cast<std::size_t>(left)],
+                swapped.keypoints->uvc[t][static_cast<std::size_t>(left) + 1]);
   }
   FitReport report;
   const Clip fitted = fit_keypoints(swapped, exact_camera(), &report);
