@@ -10,24 +10,25 @@ namespace {
 
 using namespace test;
 
-/// The kind, and the least number of frames in flight.
-struct Flying : testing::TestWithParam<std::pair<const char*, int>> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, Flying, testing::Values(std::pair{"jump", 6}, std::pair{"jog", 8}));
-
-TEST_P(Flying, MovesItsCentreOfMassOnAParabola) {
-  for (const Motion& m : motions(GetParam().first)) {
+/// @param clear  soles higher than this are surely off the floor, m
+/// @param frames  in flight, at least
+void expect_parabolas(const std::string& kind, double clear, int frames) {
+  for (const Motion& m : motions(kind)) {
     int flying = 0;
     for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
-      if (m.lowest(t) < 0.002) continue;
+      if (m.lowest(t) < clear) continue;
       const Vector3d a = (m.com(t + 1) - 2.0 * m.com(t) + m.com(t - 1)) / (kDt * kDt);
-      EXPECT_NEAR(a.x(), 0.0, 1e-6);
-      EXPECT_NEAR(a.y(), 0.0, 1e-6);
-      EXPECT_NEAR(a.z(), -kG, 1e-6);
+      EXPECT_LT((a + kG * Vector3d::UnitZ()).norm(), 1e-6) << m.clip.name << ", frame " << t;
       ++flying;
     }
-    EXPECT_GE(flying, GetParam().second);
+    EXPECT_GE(flying, frames);
   }
 }
+
+/// The feet of a jump lift a moment before the body leaves the floor.
+TEST(Jump, FliesOnAParabola) { expect_parabolas("jump", 0.01, 6); }
+
+TEST(Jog, FliesOnAParabolaBetweenItsSteps) { expect_parabolas("jog", 0.001, 10); }
 
 TEST(Jump, RisesAndLandsOnItsFeet) {
   for (const Motion& m : motions("jump")) {
@@ -239,7 +240,7 @@ TEST(Dance, StepsAndMovesItsArms) {
 TEST(Jog, IsFasterThanAWalk) {
   for (const Motion& m : motions("jog")) {
     const std::size_t middle = m.frames() / 2;
-    EXPECT_GT((m.com(middle + 12) - m.com(middle - 12)).norm() / (24 * kDt), 1.3);
+    EXPECT_GT((m.com(middle + 12) - m.com(middle - 12)).norm() / (24 * kDt), 1.25);
   }
 }
 
