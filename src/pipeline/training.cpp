@@ -21,6 +21,7 @@ constexpr const char* kTrainerPrefix = "trainer.";
 constexpr const char* kBestPrefix = "best.";
 constexpr const char* kBestScoreKey = "best_score";
 constexpr const char* kBestAgeKey = "best_age";
+constexpr const char* kEndingKey = "ending";
 constexpr double kBetter = 0.99;  ///< a score under this share of the best one starts the stall anew
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -122,7 +123,7 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
 
 /// The log first: a checkpoint never stands beside a log that lacks its rows.
 void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, const TrainingConfig& config,
-          const TrainingFiles& files, const Best& best, const Table& log) {
+          const TrainingFiles& files, const Best& best, Ending ending, const Table& log) {
   write_file_atomically(files.log, format_csv(log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;
@@ -132,14 +133,16 @@ void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, co
     rl::save(archive, kBestPrefix + std::to_string(k) + ".", best.agents[k]);
   archive.set(kBestScoreKey, NpyArray::scalar(best.score));
   archive.set(kBestAgeKey, NpyArray::scalar_int(best.age));
+  archive.set(kEndingKey, NpyArray::scalar_int(static_cast<int>(ending)));
   write_npz(files.checkpoint, archive);
 }
 
 /// Takes up the checkpoint, if there is one of this input, and drops the log's rows after it.
-void resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log) {
-  if (!std::filesystem::exists(files.checkpoint)) return;
+/// @return how that training had ended; kNone where it goes on
+Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log) {
+  if (!std::filesystem::exists(files.checkpoint)) return Ending::kNone;
   const Npz archive = read_npz(files.checkpoint);
-  if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum}) return;
+  if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum}) return Ending::kNone;
   trainer.load(archive, kTrainerPrefix);
   for (std::size_t k = 0; k < best.agents.size(); ++k)
     best.agents[k] = rl::load_agent(archive, kBestPrefix + std::to_string(k) + ".");
@@ -148,6 +151,7 @@ void resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log
   log.rows = read_csv(files.log).rows;
   const auto iterations = static_cast<std::size_t>(trainer.iterations());
   if (log.rows.size() > iterations) log.rows.resize(iterations);
+  return static_cast<Ending>(static_cast<int>(archive.at(kEndingKey).to_double().at(0)));
 }
 
 rl::PpoConfig seeded(const TrainingConfig& config) {
@@ -182,7 +186,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
   Best best{agents};
   Trainer trainer(seeded(config), std::move(agents), environment);
   Table log = empty_log();
-  resume(trainer, files, best, log);
+  Ending ending = resume(trainer, files, best, log);
   control.progress(trainer.samples(), "");
 
   const double started = steady_seconds();
@@ -190,29 +194,27 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
   TrainingResult result;
   if (trainer.samples() == 0)  // a good start may be the best there is
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
-  while (trainer.samples() < config.samples) {
+  if (config.samples == 0) ending = Ending::kBudget;
+  while (ending == Ending::kNone) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
-    const bool last = stats.samples >= config.samples;
-    bool good = false, stalled = false;
-    if (last || stats.iteration % config.evaluate_iterations == 0) {
+    if (stats.samples >= config.samples) ending = Ending::kBudget;
+    if (ending == Ending::kBudget || stats.iteration % config.evaluate_iterations == 0) {
       const Evaluation rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
       consider(best, trainer, rollout.score);
       log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), &rollout));
-      good = config.stop_reward > 0.0 && rollout.reward >= config.stop_reward;
-      stalled = config.stall_evaluations > 0 && best.age >= config.stall_evaluations;
+      if (config.stop_reward > 0.0 && rollout.reward >= config.stop_reward)
+        ending = Ending::kThreshold;
+      else if (config.stall_evaluations > 0 && best.age >= config.stall_evaluations)
+        ending = Ending::kStall;
     } else {
       log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), nullptr));
     }
     control.progress(stats.samples, detail_of(stats));
+    if (ending != Ending::kNone) break;
     const double now = steady_seconds();
     if (now - saved >= control.checkpoint_seconds) {
-      save(trainer, environment, config, files, best, log);
+      save(trainer, environment, config, files, best, ending, log);
       saved = now;
-    }
-    if (last) break;
-    if (good || stalled) {
-      result.ending = good ? Ending::kThreshold : Ending::kStall;
-      break;
     }
     if (control.should_stop()) {
       result.interrupted = true;
@@ -223,7 +225,8 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
       break;
     }
   }
-  save(trainer, environment, config, files, best, log);
+  save(trainer, environment, config, files, best, ending, log);
+  if (ending != Ending::kNone) result.ending = ending;
   result.agents = best.agents;
   result.samples = trainer.samples();
   result.seconds = steady_seconds() - started;
