@@ -40,8 +40,9 @@ int run_pretrain(PretrainOptions options, const std::string& preset, std::option
 /// All stages: pretrain on a folder, then adapt all of it. @param samples  of the pre-training
 int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainOptions options,
             RunOptions adapt, std::optional<std::int64_t> samples);
+/// @param motions  one folder: every motion and their mean; several: a row of means per folder
 /// @param json  where to write every value as well; empty: nowhere
-int run_evaluate(const std::filesystem::path& truth, const std::filesystem::path& motions,
+int run_evaluate(const std::filesystem::path& truth, const std::vector<std::string>& motions,
                  const std::filesystem::path& json);
 /// @param inputs  files, and folders of .npz files
 int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,

@@ -8,9 +8,15 @@
 
 namespace mimicx {
 
-int run_evaluate(const std::filesystem::path& truth, const std::filesystem::path& motions,
+int run_evaluate(const std::filesystem::path& truth, const std::vector<std::string>& motions,
                  const std::filesystem::path& json) {
-  const Evaluation evaluation = evaluate_folders(truth, motions);
+  if (motions.size() > 1) {
+    const Comparison comparison = compare_folders(truth, motions);
+    std::cout << format_comparison(comparison);
+    if (!json.empty()) write_file_atomically(json, comparison_json(comparison));
+    return kAllGood;
+  }
+  const Evaluation evaluation = evaluate_folders(truth, motions.front());
   std::cout << format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
   if (!json.empty()) write_file_atomically(json, evaluation_json(evaluation));

@@ -22,7 +22,8 @@ struct Arguments {
   std::string options = "data/options";
   SynthArguments synth;
   std::vector<std::string> settings;
-  std::string truth, motions, json;
+  std::string truth, json;
+  std::vector<std::string> motions;
   std::string file, in, out;
   std::vector<std::string> inputs;
   ClusterSettings cluster;
@@ -85,7 +86,8 @@ void declare_adapt(CLI::App& app, Arguments& a) {
 }
 
 void add_pretrain_options(CLI::App& command, Arguments& a, const std::string& samples) {
-  command.add_option(samples, a.pretrain_samples, "training budget of all options together, in character steps")
+  command
+      .add_option(samples, a.pretrain_samples, "training budget of all options together, in character steps")
       ->check(CLI::NonNegativeNumber);
   auto* radius = command
                      .add_option("--radius", a.pretrain.clusters.radius,
@@ -145,7 +147,12 @@ void declare_run(CLI::App& app, Arguments& a) {
 void declare_evaluate(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("evaluate", "Score motions against their truth, pairing files by name");
   command->add_option("--truth", a.truth, "folder of true motions")->required();
-  command->add_option("--motions", a.motions, "folder of motions to score")->required();
+  command
+      ->add_option(
+          "--motions", a.motions,
+          "folder of motions to score; several folders are compared by their means over the motions that all "
+          "of them hold")
+      ->required();
   command->add_option("--json", a.json, "also write every value, its count and its definition here");
   command->callback([&a] { a.run = [&a] { return run_evaluate(a.truth, a.motions, a.json); }; });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -53,6 +54,16 @@ std::string padded(const std::string& name, std::size_t width) {
   return name + std::string(width > name.size() ? width - name.size() : 0, ' ');
 }
 
+std::string titles() {
+  std::string text;
+  for (const auto& d : metric_definitions()) {
+    char title[32];
+    std::snprintf(title, sizeof title, " %9s", d.name);
+    text += title;
+  }
+  return text;
+}
+
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const EvaluatedMotion& m) {
@@ -89,15 +100,51 @@ double mean_of(const Evaluation& evaluation, const MetricDefinition& metric) {
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
+Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders) {
+  Comparison comparison;
+  std::map<std::string, std::size_t> evaluated;  // in how many folders
+  for (const std::string& folder : folders) {
+    comparison.labels.push_back(folder);
+    comparison.evaluations.push_back(evaluate_folders(truth, folder));
+    for (const EvaluatedMotion& m : comparison.evaluations.back().motions) evaluated[m.name] += m.ok ? 1 : 0;
+  }
+  for (Evaluation& evaluation : comparison.evaluations)
+    std::erase_if(evaluation.motions, [&](const auto& m) { return evaluated.at(m.name) < folders.size(); });
+  for (const auto& [name, count] : evaluated) comparison.left_out += count < folders.size() ? 1 : 0;
+  return comparison;
+}
+
+std::string format_comparison(const Comparison& comparison) {
+  std::size_t width = 0;
+  for (const std::string& label : comparison.labels) width = std::max(width, label.size());
+  std::string text = padded("", width) + titles();
+  for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
+    text += '\n' + padded(comparison.labels[k], width);
+    for (const auto& d : metric_definitions()) text += cell(mean_of(comparison.evaluations[k], d));
+  }
+  text += "\nmeans over " + std::to_string(comparison.evaluations.front().motions.size()) + " motions";
+  if (comparison.left_out > 0)
+    text += "; " + std::to_string(comparison.left_out) + " that some folder lacks are left out";
+  return text + '\n';
+}
+
+std::string comparison_json(const Comparison& comparison) {
+  Json json = {{"rows", Json::array()}, {"motions", Json::array()}, {"left_out", comparison.left_out}};
+  for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
+    Json mean = Json::object();
+    for (const auto& d : metric_definitions()) mean[d.name] = number(mean_of(comparison.evaluations[k], d));
+    json["rows"].push_back({{"folder", comparison.labels[k]}, {"mean", mean}});
+  }
+  for (const EvaluatedMotion& m : comparison.evaluations.front().motions) json["motions"].push_back(m.name);
+  for (const auto& d : metric_definitions())
+    json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string format_evaluation(const Evaluation& evaluation) {
   std::size_t width = 4;
   for (const auto& m : evaluation.motions) width = std::max(width, m.name.size());
-  std::string text = padded("", width);
-  for (const auto& d : metric_definitions()) {
-    char title[32];
-    std::snprintf(title, sizeof title, " %9s", d.name);
-    text += title;
-  }
+  std::string text = padded("", width) + titles();
   for (const auto& m : evaluation.motions) {
     text += '\n' + padded(m.name, width);
     if (!m.ok) text += "  " + m.reason;

@@ -32,6 +32,19 @@ Evaluation evaluate_folders(const std::filesystem::path& truth, const std::files
 /// Mean over the evaluated motions; NaN where none has a value.
 double mean_of(const Evaluation& evaluation, const MetricDefinition& metric);
 
+/// Several folders of the same motions (input, fit, cleaned …), reduced to those that all of them hold.
+struct Comparison {
+  std::vector<std::string> labels;      ///< [folder]
+  std::vector<Evaluation> evaluations;  ///< [folder], all of the same motions
+  int left_out = 0;                     ///< motions that some folder lacks or that could not be evaluated
+};
+/// @throws DataError as `evaluate_folders`
+Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders);
+/// A line of means per folder.
+std::string format_comparison(const Comparison& comparison);
+/// {"rows": [{folder, mean}], "motions": [names], "left_out", "definitions"}
+std::string comparison_json(const Comparison& comparison);
+
 /// A line per motion and one of means, columns aligned.
 std::string format_evaluation(const Evaluation& evaluation);
 /// {"motions": [{name, status, reason, frames, metrics}], "mean": {...}, "definitions": {...}, "unmatched":

@@ -3,7 +3,8 @@
 ///     DIR/manifest.json          what was done with every input
 ///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
 ///     DIR/report.html            the run to look at
-///     DIR/motions/NAME.npz       simulated motions
+///     DIR/motions/NAME.npz       simulated motions: the clean set
+///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/training/NAME.csv      a row per iteration
@@ -25,7 +26,6 @@ struct RunFolder {
   std::filesystem::path manifest() const { return root / "manifest.json"; }
   std::filesystem::path timing() const { return root / "timing.json"; }
   std::filesystem::path report() const { return root / "report.html"; }
-  std::filesystem::path motion(const std::string& name) const { return root / motion_name(name); }
   std::filesystem::path reference(const std::string& name) const {
     return root / "references" / (name + ".npz");
   }
@@ -39,7 +39,9 @@ struct RunFolder {
   }
 
   /// Relative to the folder, as the manifest names it.
-  static std::string motion_name(const std::string& name) { return "motions/" + name + ".npz"; }
+  static std::string motion_name(const std::string& name, bool success) {
+    return (success ? "motions/" : "rejected/") + name + ".npz";
+  }
 
   /// @throws std::runtime_error when the folders cannot be made.
   void create() const;

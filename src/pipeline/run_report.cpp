@@ -63,14 +63,14 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   s.notes = notes_of(entry);
   s.character = make_character();
   if (entry.output.empty()) return s;
-  const Clip simulated = read_clip(folder.motion(entry.name));
+  const Clip simulated = read_clip(folder.root / entry.output);
   s.fps = entry.fps;
   s.character = make_character(simulated.usable_betas());
   s.simulated = poses_of(simulated);
   s.reference = poses_of(read_clip(folder.reference(entry.name)));
   s.metric_columns = {"input", "simulated"};
   s.metrics = rows_of(entry.input_metrics, entry.metrics);
-  const Npz motion = read_npz(folder.motion(entry.name));
+  const Npz motion = read_npz(folder.root / entry.output);
   s.series.push_back({"reward over the clip", 1.0 / entry.fps, motion.at("reward").to_double()});
   const Table falls = read_csv(folder.falls(entry.name));
   const std::vector<double> frames = column_of(falls, "frame");

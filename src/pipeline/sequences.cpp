@@ -148,15 +148,17 @@ void finish_sequence(const RunState& run, const PreparedMotion& motion, const Ta
     std::filesystem::create_directories(run.folder.fit(entry.name).parent_path());
     write_clip(run.folder.fit(entry.name), motion.fitted);
   }
-  write_simulated(run.folder.motion(entry.name), motion.input, reference, after, entry.notes);
   write_reference(run.folder.reference(entry.name), reference);
-  entry.output = RunFolder::motion_name(entry.name);
   const Scores first = score_simulated(reference, before), last = score_simulated(reference, after);
   entry.metrics_before = first.values;
   entry.ok_before = first.success;
   entry.metrics = last.values;
   entry.ok = last.success;
   entry.reason = last.reason;
+  entry.output = RunFolder::motion_name(entry.name, entry.ok);
+  std::filesystem::create_directories((run.folder.root / entry.output).parent_path());
+  std::filesystem::remove(run.folder.root / RunFolder::motion_name(entry.name, !entry.ok));
+  write_simulated(run.folder.root / entry.output, motion.input, reference, after, entry.notes);
 }
 
 /// @return whether the sequence was interrupted

@@ -60,7 +60,7 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        std::string("imitate"),
                                        "imitate " + a,
                                        "imitate" + out,
-                                       "imitate " + a + out + " --samples 0",
+                                       "imitate " + a + out + " --samples -1",
                                        "imitate " + a + out + " --samples many",
                                        "imitate " + a + out + " --threads 0",
                                        "imitate " + a + out + " --limit-seconds -1",
