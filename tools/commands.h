@@ -31,9 +31,8 @@ struct UsageError : std::runtime_error {
 
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
 int run_imitate(RunOptions options, const std::vector<std::string>& settings);
-/// @param trained  options to start from: a file, or a folder with options.npz
-int run_adapt(RunOptions options, const std::filesystem::path& trained,
-              const std::vector<std::string>& settings);
+/// @param trained  options to start from: a file, or a folder with options.npz; empty: those in data/options
+int run_adapt(RunOptions options, std::filesystem::path trained, const std::vector<std::string>& settings);
 /// @param samples  of all options together; none: what the preset says
 int run_pretrain(PretrainOptions options, const std::string& preset, std::optional<std::int64_t> samples,
                  const std::vector<std::string>& settings);

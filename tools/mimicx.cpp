@@ -19,7 +19,7 @@ struct Arguments {
   PretrainOptions pretrain;
   std::string preset = "small";
   std::optional<std::int64_t> pretrain_samples;
-  std::string options = "data/options";
+  std::string options;
   SynthArguments synth;
   std::vector<std::string> settings;
   std::string truth, json;
@@ -77,8 +77,9 @@ void declare_adapt(CLI::App& app, Arguments& a) {
   add_run_options(*command, a, a.adapt, "--budget-samples");
   command->add_flag("--fit,!--no-fit", a.adapt.fit,
                     "move motions onto their keypoints first, where they have any (default)");
-  command->add_option("--options", a.options, "trained options: a file, or a folder with options.npz")
-      ->capture_default_str();
+  command->add_option(
+      "--options", a.options,
+      "trained options: a file, or a folder with options.npz; default: those in data/options");
   command->add_option("--switch-penalty", a.adapt.switch_penalty, "w_p of Eq. 4, in rewards; not positive")
       ->check(CLI::Range(-1e9, 0.0))
       ->capture_default_str();

@@ -62,6 +62,18 @@ int with_context(const Work& work) {
   }
 }
 
+/// data/options of the source tree that holds this program, or of the folder it was started in.
+std::filesystem::path shipped_options() {
+  const std::filesystem::path relative = std::filesystem::path("data") / "options";
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (std::filesystem::path at = program.parent_path(); !error && at != at.root_path();
+       at = at.parent_path())
+    if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
+  if (std::filesystem::exists(relative / "options.npz")) return relative;
+  throw UsageError("found no data/options beside the program: name trained options with --options");
+}
+
 }  // namespace
 
 int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
@@ -72,8 +84,8 @@ int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
   });
 }
 
-int run_adapt(RunOptions options, const std::filesystem::path& trained,
-              const std::vector<std::string>& settings) {
+int run_adapt(RunOptions options, std::filesystem::path trained, const std::vector<std::string>& settings) {
+  if (trained.empty()) trained = shipped_options();
   options.options = read_options(trained);
   return run_imitate(std::move(options), settings);
 }

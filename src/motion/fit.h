@@ -43,8 +43,8 @@ struct FitOptions {
   double root_rotation_sigma = 4.0;  ///< degrees
   double root_position_sigma = 1.0;  ///< m
   double prior_frames = 30.0;  ///< errors are alike over about so many frames: the size counts once for them
-  double joint_rate = 0.6;     ///< degrees per frame, times the weight per joint
-  double joint_bend = 0.1;     ///< degrees per frame²
+  double joint_rate = 2.0;     ///< degrees per frame, times the weight per joint
+  double joint_bend = 0.6;     ///< degrees per frame²
   double root_rate = 0.003;    ///< m per frame
   double root_bend = 0.0006;   ///< m per frame²
 

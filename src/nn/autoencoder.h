@@ -16,10 +16,10 @@
 namespace mimicx::nn {
 
 struct AutoEncoderConfig {
-  int hidden = 128;         ///< width of the hidden layer of E and of D
-  int code = 48;            ///< entries of z
+  int hidden = 256;         ///< width of the hidden layer of E and of D
+  int code = 64;            ///< entries of z
   double corruption = 0.1;  ///< σ of the noise on the normalised input
-  int steps = 6000;         ///< minibatches
+  int steps = 10000;        ///< minibatches
   int minibatch = 256;      ///< rows
   double step_size = 1e-3;  ///< Adam's at the start; falls linearly to a tenth
 };

@@ -1,5 +1,6 @@
 #include "pipeline/run_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <utility>
@@ -13,38 +14,48 @@
 namespace mimicx {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 std::string with_unit(const std::string& metric) {
   for (const auto& d : metric_definitions())
     if (metric == d.name) return metric + ", " + d.unit;
   return metric;
 }
 
-std::string note_of(const std::pair<std::string, double>& value) {
+std::string note_of(const std::string& step, const std::pair<std::string, double>& value) {
   char text[32];
   std::snprintf(text, sizeof text, " %.2f", value.second);
-  return "preparation: " + value.first + text;
+  return step + ": " + value.first + text;
 }
 
-/// Rows of both lists, in the order of the second, then what only the first has.
-std::vector<ReportMetric> rows_of(const NamedValues& input, const NamedValues& simulated) {
+/// "options: 1 from frame 0, 3 from frame 42"
+std::string arrangement_note(const std::vector<std::array<int, 2>>& arrangement) {
+  std::string text = "options:";
+  for (const auto& [frame, option] : arrangement)
+    text +=
+        (text.back() == ':' ? " " : ", ") + std::to_string(option) + " from frame " + std::to_string(frame);
+  return text;
+}
+
+/// A row per metric that some column has, in the order of the last column, then what others have besides.
+std::vector<ReportMetric> rows_of(const std::vector<NamedValues>& columns) {
   std::vector<ReportMetric> rows;
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [name, value] : simulated) rows.push_back({with_unit(name), {none, value}});
-  for (const auto& [name, value] : input) {
-    bool found = false;
-    for (auto& row : rows) {
-      if (row.name != with_unit(name)) continue;
-      row.values[0] = value;
-      found = true;
+  for (std::size_t c = columns.size(); c-- > 0;)
+    for (const auto& [name, value] : columns[c]) {
+      auto row =
+          std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == with_unit(name); });
+      if (row == rows.end())
+        row = rows.insert(rows.end(), {with_unit(name), std::vector<double>(columns.size(), kNone)});
+      row->values[c] = value;
     }
-    if (!found) rows.push_back({with_unit(name), {value, none}});
-  }
   return rows;
 }
 
 std::vector<std::string> notes_of(const SequenceEntry& entry) {
   std::vector<std::string> notes = entry.notes;
-  for (const auto& value : entry.preparation) notes.push_back(note_of(value));
+  if (!entry.arrangement.empty()) notes.push_back(arrangement_note(entry.arrangement));
+  for (const auto& value : entry.fit) notes.push_back(note_of("keypoint fit", value));
+  for (const auto& value : entry.preparation) notes.push_back(note_of("preparation", value));
   return notes;
 }
 
@@ -68,8 +79,8 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   s.character = make_character(simulated.usable_betas());
   s.simulated = poses_of(simulated);
   s.reference = poses_of(read_clip(folder.reference(entry.name)));
-  s.metric_columns = {"input", "simulated"};
-  s.metrics = rows_of(entry.input_metrics, entry.metrics);
+  s.metric_columns = {"input", "before training", "simulated"};
+  s.metrics = rows_of({entry.input_metrics, entry.metrics_before, entry.metrics});
   const Npz motion = read_npz(folder.root / entry.output);
   s.series.push_back({"reward over the clip", 1.0 / entry.fps, motion.at("reward").to_double()});
   const Table falls = read_csv(folder.falls(entry.name));
