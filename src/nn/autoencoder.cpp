@@ -20,7 +20,8 @@ struct Trained {
 }  // namespace
 
 AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderConfig& config,
-                              std::uint64_t seed, AutoEncoderStats* stats) {
+                              std::uint64_t seed, AutoEncoderStats* stats,
+                              const std::function<void(int steps)>& progress) {
   const auto features = static_cast<int>(samples.cols());
   Random encoder_random(seed, {kEncoderInit}), decoder_random(seed, {kDecoderInit}), random(seed, {kBatches});
   AutoEncoder coder{
@@ -56,8 +57,8 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
     std::vector<Var> all = encoder_parameters;
     all.insert(all.end(), decoder_parameters.begin(), decoder_parameters.end());
     const std::vector<Var> gradients = tape.gradient(loss, all);
-    const double progress = static_cast<double>(step) / config.steps;
-    const auto step_size = static_cast<float>(config.step_size * (1.0 - 0.9 * progress));
+    const double done = static_cast<double>(step) / config.steps;
+    const auto step_size = static_cast<float>(config.step_size * (1.0 - 0.9 * done));
     std::size_t next = 0;
     for (Trained* trained : {&encoder, &decoder}) {
       std::vector<Matrix<float>> values;
@@ -65,6 +66,7 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
         values.push_back(tape.value(gradients[next++]));
       adam_step<float>(trained->adam, parameters(trained->mlp), values, step_size);
     }
+    if (progress && (step + 1) % window == 0) progress(step + 1);
   }
   if (stats != nullptr) *stats = {first, last};
   return coder;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "core/npz.h"
 #include "nn/mlp.h"
@@ -19,8 +20,8 @@ struct AutoEncoderConfig {
   int hidden = 256;         ///< width of the hidden layer of E and of D
   int code = 64;            ///< entries of z
   double corruption = 0.1;  ///< σ of the noise on the normalised input
-  int steps = 10000;        ///< minibatches
-  int minibatch = 256;      ///< rows
+  int steps = 6000;         ///< minibatches
+  int minibatch = 128;      ///< rows
   double step_size = 1e-3;  ///< Adam's at the start; falls linearly to a tenth
 };
 
@@ -37,9 +38,11 @@ struct AutoEncoderStats {
   double last_loss = 0.0;   ///< mean of the last hundredth
 };
 
-/// @param samples  [n, features], n ≥ 1
+/// @param samples   [n, features], n ≥ 1
+/// @param progress  called with the steps done after every hundredth; may be empty
 AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderConfig& config,
-                              std::uint64_t seed, AutoEncoderStats* stats = nullptr);
+                              std::uint64_t seed, AutoEncoderStats* stats = nullptr,
+                              const std::function<void(int steps)>& progress = {});
 
 /// z = E(x) [n, code]; decoded = D(z) [n, features], in the units of x.
 void encode(const AutoEncoder& coder, const Matrix<float>& x, Matrix<float>& code, Matrix<float>& decoded);

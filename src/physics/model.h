@@ -20,11 +20,11 @@ struct SimulationOptions {
   double rate = 240.0;            ///< physics steps per second
   int passes = 2;                 ///< linearisations of contact and torque bounds per step, ≥ 1
   double gravity = 9.81;          ///< m/s², downwards
-  double ground_stiffness = 2e5;  ///< k of a contact point, N/m
-  double ground_damping = 2e3;    ///< c, N·s/m
+  double ground_stiffness = 4e5;  ///< k of a contact point, N/m
+  double ground_damping = 4e3;    ///< c, N·s/m
   double friction = 1.0;          ///< μ
   double slip_speed = 0.002;      ///< v_s of the regularised friction, m/s
-  double skin = 0.0005;           ///< the floor acts this far above z = 0, m
+  double skin = 0.0008;           ///< the floor acts this far above z = 0, m
   bool self_contact = true;
   double self_stiffness = 1e4;      ///< N/m
   double self_damping = 30.0;       ///< N·s/m

@@ -24,7 +24,7 @@ struct Motions {
 
 Motions read_motions(const std::vector<std::string>& files, bool fit, const RunContext& context) {
   Motions motions;
-  context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()));
+  context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
     try {
@@ -90,7 +90,7 @@ void check_folder(const std::filesystem::path& manifest, const Json& record) {
 
 nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
                              const nn::AutoEncoderConfig& config, std::uint64_t seed,
-                             nn::AutoEncoderStats& stats) {
+                             nn::AutoEncoderStats& stats, const std::function<void(int)>& progress) {
   Eigen::Index rows = 0;
   for (const auto& clip : clips) rows += static_cast<Eigen::Index>(clip->poses.size());
   nn::Matrix<float> samples(rows, rl::kPoseFeatures);
@@ -100,7 +100,7 @@ nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::Trackin
     samples.middleRows(next, inputs.rows()) = inputs;
     next += inputs.rows();
   }
-  return nn::train_autoencoder(samples, config, seed, &stats);
+  return nn::train_autoencoder(samples, config, seed, &stats, progress);
 }
 
 struct OptionRun {
@@ -126,7 +126,11 @@ OptionRun train_option(const PretrainOptions& options, const RunContext& context
   OptionRun run;
   rl::Option option;
   nn::AutoEncoderStats losses;
-  if (options.use_encoder) option.encoder = make_encoder(clips, options.encoder, config.seed, losses);
+  if (options.use_encoder) {
+    context.progress.start(name + ", encoder", 0.0, options.encoder.steps, "steps");
+    option.encoder = make_encoder(clips, options.encoder, config.seed, losses,
+                                  [&](int steps) { context.progress.update(steps, ""); });
+  }
   for (auto& clip : clips) clip = rl::encoded_for(clip, {&option});
   const rl::Agent start = untrained_agent(config, clips.front()->state_size());
 

@@ -25,8 +25,9 @@ std::string print(const char* format, Args... args) {
 Progress::Progress(std::ostream& out, bool live, std::function<double()> now)
     : out_(out), live_(live), now_(std::move(now)) {}
 
-void Progress::start(const std::string& label, double done, double total) {
+void Progress::start(const std::string& label, double done, double total, const std::string& unit) {
   label_ = label;
+  unit_ = unit;
   total_ = total;
   done_at_start_ = done;
   started_ = now_();
@@ -40,7 +41,7 @@ void Progress::update(double done, const std::string& detail) {
   next_ = now + (live_ ? kLivePeriod : kPlainPeriod);
   const double elapsed = now - started_;
   const double rate = elapsed > 0.0 ? (done - done_at_start_) / elapsed : 0.0;
-  std::string line = label_ + "  " + format_count(done) + " of " + format_count(total_) + " samples  " +
+  std::string line = label_ + "  " + format_count(done) + " of " + format_count(total_) + " " + unit_ + "  " +
                      print("%.0f %%", total_ > 0.0 ? 100.0 * done / total_ : 100.0);
   if (rate > 0.0)
     line += "  " + format_count(rate) + "/s  " + format_duration((total_ - done) / rate) + " left";

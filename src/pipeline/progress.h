@@ -16,8 +16,8 @@ class Progress {
   /// @param now   seconds of a clock that never goes back
   Progress(std::ostream& out, bool live, std::function<double()> now);
 
-  /// Starts a job of `total` samples of which `done` were there already.
-  void start(const std::string& label, double done, double total);
+  /// Starts a job of `total` units of which `done` were there already.
+  void start(const std::string& label, double done, double total, const std::string& unit = "samples");
   /// @param detail  what else is worth seeing, for example the mean reward
   void update(double done, const std::string& detail);
   /// Ends the job with a line of its own.
@@ -29,7 +29,7 @@ class Progress {
   std::ostream& out_;
   bool live_;
   std::function<double()> now_;
-  std::string label_;
+  std::string label_, unit_;
   double total_ = 0.0, done_at_start_ = 0.0, started_ = 0.0;
   double next_ = 0.0;  ///< time of the next line
 };
