@@ -219,7 +219,7 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
 
 TrainingConfig fine_tuning_defaults() {
   TrainingConfig config;
-  config.samples = 2'000'000;
+  config.samples = 4'000'000;
   config.ppo.sigma_start = 0.05;
   config.ppo.sigma_end = 0.03;
   config.stop_reward = 0.95;

@@ -42,9 +42,11 @@ struct Evaluation {
   double position_error = 0.0;  ///< m, mean over clips
 };
 
+constexpr double kLost = 0.5;  ///< a body farther than this from its reference is no success, m
+
 /// Mean position error, m; a body that strayed beyond the limit of success (docs/metrics.md) outweighs it.
 double score_of(const rl::TrackingRollout& rollout) {
-  constexpr double kLost = 0.5, kFarthest = 3.0;
+  constexpr double kFarthest = 3.0;
   if (rollout.broken) return kFarthest;
   return std::min(kFarthest, rollout.mean_position_error +
                                  (rollout.worst_distance > kLost ? rollout.worst_distance : 0.0));
@@ -67,9 +69,11 @@ Evaluation evaluate(const Clips& clips, const rl::TrackingConfig& config,
   return mean;
 }
 
-/// Keeps the agents where they are the best so far, and counts how long none has been markedly better.
+/// Keeps the agents where they are the best so far, and counts how long none has been markedly better. What
+/// is not followed to its end yet does not stall: there the next roll-out may succeed at once.
 void consider(Best& best, const Trainer& trainer, double score) {
-  best.age = score < kBetter * best.score ? 0 : best.age + 1;
+  const bool followed = best.score < kLost;
+  best.age = !followed || score < kBetter * best.score ? 0 : best.age + 1;
   if (score < best.score) {
     best.score = score;
     best.agents = trainer.agents();

@@ -43,8 +43,9 @@ struct TrainingConfig {
   double sigma_share = 0.75;             ///< share of the budget during which σ falls
   int evaluate_iterations = 20;          ///< between roll-outs of the mean action; the best agents are kept
   double stop_reward = 0.0;              ///< mean reward of a roll-out that is good enough; 0: none is
-  int stall_evaluations = 0;             ///< roll-outs without a better one that end a training; 0: none do
-  rl::PpoConfig ppo = tracking_ppo();    ///< its seed and sigma_samples follow from the members above
+  int stall_evaluations = 0;  ///< roll-outs without a better one that end the training of a motion that is
+                              ///< followed to its end; 0: none do
+  rl::PpoConfig ppo = tracking_ppo();  ///< its seed and sigma_samples follow from the members above
   rl::TrackingConfig tracking;
 };
 

@@ -38,7 +38,8 @@ struct Cli : testing::Test {
 
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
-  for (const char* command : {"imitate", "cluster", "evaluate", "info", "convert", "synth"}) {
+  for (const char* command :
+       {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info", "convert", "synth"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;

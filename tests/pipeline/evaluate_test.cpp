@@ -75,6 +75,25 @@ TEST_F(Evaluate, LengthsThatDifferAreAFailureOfThatFileAlone) {
   EXPECT_TRUE(e.motions[1].ok);
 }
 
+TEST_F(Evaluate, SeveralFoldersAreComparedOverTheMotionsTheyShare) {
+  add_pair("a", 0.010);
+  add_pair("b", 0.030);
+  add_pair("c", 0.090);
+  const std::filesystem::path fewer = folder.path / "fewer";
+  std::filesystem::create_directory(fewer);
+  for (const char* name : {"a.npz", "b.npz"})  // exact ones
+    std::filesystem::copy(truth / name, fewer / name);
+  const Comparison comparison = compare_folders(truth, {motions.string(), fewer.string()});
+  EXPECT_EQ(comparison.left_out, 1);
+  ASSERT_EQ(comparison.evaluations.size(), 2u);
+  EXPECT_NEAR(mean_of(comparison.evaluations[0], metric_definitions().front()), 20.0, 1e-6);
+  EXPECT_NEAR(mean_of(comparison.evaluations[1], metric_definitions().front()), 0.0, 1e-6);
+  EXPECT_NE(format_comparison(comparison).find("means over 2 motions"), std::string::npos);
+  const auto json = nlohmann::json::parse(comparison_json(comparison));
+  EXPECT_EQ(json.at("motions").size(), 2u);
+  EXPECT_NEAR(json.at("rows").at(0).at("mean").at("MRPE").get<double>(), 20.0, 1e-6);
+}
+
 TEST_F(Evaluate, FoldersWithoutMotionsAreRefused) {
   EXPECT_THROW(evaluate_folders(truth, motions), DataError);
   EXPECT_THROW(evaluate_folders(truth, folder.path / "none"), DataError);

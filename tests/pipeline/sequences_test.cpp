@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "core/npz.h"
@@ -168,6 +169,21 @@ TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
   EXPECT_NE(manifest.sequences[0].reason.find("broken.npz"), std::string::npos);
   EXPECT_NE(manifest.sequences[1].reason.find("none.npz"), std::string::npos);
   EXPECT_EQ(manifest.sequences[2].output, "motions/stand.npz");
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
+}
+
+TEST_F(Imitate, AMotionThatCannotBeFollowedStandsApartFromTheCleanOnes) {
+  Clip leaning = standing_clip(60);  // by 45° to the side, for two seconds: it falls
+  for (auto& frame : leaning.rotations)
+    frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
+  const std::string lean = (folder.path / "lean.npz").string();
+  write_clip(lean, leaning);
+  EXPECT_EQ(run(small_run(out("run"), {lean, stand})).value, RunOutcome::kSomeFailed);
+  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  EXPECT_FALSE(manifest.sequences.at(0).ok);
+  EXPECT_EQ(manifest.sequences.at(0).output, "rejected/lean.npz");
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "rejected" / "lean.npz"));
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "motions" / "lean.npz"));
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
 }
 
