@@ -201,8 +201,9 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
     heel_rise.insert(heel_rise.end(),
                      {{land + 0.05, 0.0}, {land + 0.50, heel}, {leave - 0.60, heel}, {leave - 0.05, 0.0}});
     const double toes = 0.85 * forefoot_length(character), middle = feet_middle(character);
-    pressure.insert(pressure.end(),
-                    {{land - 0.10, middle}, {land + 0.30, toes}, {leave - 0.20, toes}, {leave + 0.10, middle}});
+    pressure.insert(
+        pressure.end(),
+        {{land - 0.10, middle}, {land + 0.30, toes}, {leave - 0.20, toes}, {leave + 0.10, middle}});
     keys.insert(keys.end(), {{t - 0.4, stand},
                              {land, split},
                              {bottom, low},
