@@ -1,5 +1,6 @@
 #include "core/character.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,8 @@
 
 namespace mimicx {
 namespace {
+
+constexpr double kMaxBeta = 5.0;
 
 Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 
@@ -203,6 +206,78 @@ void add_body_points(Character& c) {
   for (int body : {kLeftShoulder, kRightShoulder}) add(body, 0.3);
 }
 
+using Offsets = std::array<Vector3d, kBodies>;
+
+/// Joint offsets of a shape.
+Offsets offsets_of(const std::array<double, kBetas>& betas) {
+  Offsets offsets;
+  for (int i = 0; i < kBodies; ++i) {
+    const Vector3d standard = standard_offset(i);
+    Vector3d gain = Vector3d::Ones();
+    for (std::size_t k = 0; k < kBetas; ++k) gain += betas[k] * gain_of(shape_components()[k], i);
+    const Vector3d offset = standard.cwiseProduct(gain);
+    offsets[static_cast<std::size_t>(i)] = is_right(i) ? mirrored(offset) : offset;
+  }
+  return offsets;
+}
+
+/// The shape whose bones are nearest: least squares on the offsets, which are affine in β, with the prior
+/// that β is standard normal and that bodies differ by kBoneSigma in what β does not describe.
+std::array<double, kBetas> nearest_betas(const Offsets& offsets) {
+  constexpr double kBoneSigma = 0.02;  // m
+  const Offsets standard = offsets_of({});
+  Eigen::Matrix<double, 3 * kBodies, kBetas> by_beta;
+  Eigen::Matrix<double, 3 * kBodies, 1> wanted;
+  for (std::size_t k = 0; k < kBetas; ++k) {
+    std::array<double, kBetas> unit{};
+    unit[k] = 1.0;
+    const Offsets moved = offsets_of(unit);
+    for (std::size_t i = 0; i < kBodies; ++i)
+      by_beta.block<3, 1>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(k)) =
+          moved[i] - standard[i];
+  }
+  for (std::size_t i = 0; i < kBodies; ++i)
+    wanted.segment<3>(static_cast<Eigen::Index>(3 * i)) = offsets[i] - standard[i];
+  using Square = Eigen::Matrix<double, kBetas, kBetas>;
+  const Square normal = by_beta.transpose() * by_beta + kBoneSigma * kBoneSigma * Square::Identity();
+  const Eigen::Matrix<double, kBetas, 1> solution = normal.llt().solve(by_beta.transpose() * wanted);
+  std::array<double, kBetas> betas;
+  for (std::size_t k = 0; k < kBetas; ++k)
+    betas[k] = std::clamp(solution[static_cast<Eigen::Index>(k)], -kMaxBeta, kMaxBeta);
+  return betas;
+}
+
+/// Everything else that belongs to joints at these offsets. @param betas  for what bones do not tell
+Character assemble(const Offsets& offsets, const std::array<double, kBetas>& betas) {
+  Character c;
+  c.betas = betas;
+  c.joint_offset = offsets;
+  const Scales scales = scales_of(betas);
+  Character standard;
+  standard.joint_offset = offsets_of({});
+  for (int i = 0; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    c.capsule[n] = capsule_of(c, scales, i);
+    const double growth = capsule_volume(c.capsule[n]) / capsule_volume(capsule_of(standard, Scales{}, i));
+    c.mass[n] = kStandardMass * mass_share(i) * growth;
+    c.com_B[n] = 0.5 * (c.capsule[n].a_B + c.capsule[n].b_B);
+    c.inertia_B[n] = capsule_inertia(c.capsule[n], c.mass[n]);
+  }
+  add_foot_points(c, scales, 1);
+  add_foot_points(c, scales, -1);
+  add_body_points(c);
+  c.self_pairs = make_self_pairs();
+  const double strength = c.total_mass() / kStandardMass;
+  for (int i = 1; i < kBodies; ++i) {
+    JointParameters j = standard_joint(i);
+    j.kp *= strength;
+    j.kd *= strength;
+    j.torque_limit *= strength;
+    c.joint[static_cast<std::size_t>(i)] = j;
+  }
+  return c;
+}
+
 }  // namespace
 
 const std::array<std::string_view, kBodies> kBodyNames = {
@@ -233,47 +308,24 @@ double Character::total_mass() const {
 
 Character make_character(const std::array<double, kBetas>& betas) {
   for (double b : betas)
-    if (!(std::abs(b) <= 5.0)) throw std::invalid_argument("make_character: every |beta| must be at most 5");
-  Character c;
-  c.betas = betas;
-  const Scales scales = scales_of(betas);
-  for (int i = 0; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const Vector3d offset = standard_offset(i);
-    Vector3d gain = Vector3d::Ones();
-    for (int k = 0; k < kBetas; ++k)
-      gain +=
-          betas[static_cast<std::size_t>(k)] * gain_of(shape_components()[static_cast<std::size_t>(k)], i);
-    c.joint_offset[n] = is_right(i) ? mirrored(offset.cwiseProduct(gain)) : offset.cwiseProduct(gain);
-  }
-  Character standard;
-  standard.joint_offset = {};
-  for (int i = 0; i < kBodies; ++i)
-    standard.joint_offset[static_cast<std::size_t>(i)] =
-        is_right(i) ? mirrored(standard_offset(i)) : standard_offset(i);
-  for (int i = 0; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    c.capsule[n] = capsule_of(c, scales, i);
-    const double growth = capsule_volume(c.capsule[n]) / capsule_volume(capsule_of(standard, Scales{}, i));
-    c.mass[n] = kStandardMass * mass_share(i) * growth;
-    c.com_B[n] = 0.5 * (c.capsule[n].a_B + c.capsule[n].b_B);
-    c.inertia_B[n] = capsule_inertia(c.capsule[n], c.mass[n]);
-  }
-  add_foot_points(c, scales, 1);
-  add_foot_points(c, scales, -1);
-  add_body_points(c);
-  c.self_pairs = make_self_pairs();
-  const double strength = c.total_mass() / kStandardMass;
-  for (int i = 1; i < kBodies; ++i) {
-    JointParameters j = standard_joint(i);
-    j.kp *= strength;
-    j.kd *= strength;
-    j.torque_limit *= strength;
-    c.joint[static_cast<std::size_t>(i)] = j;
-  }
-  return c;
+    if (!(std::abs(b) <= kMaxBeta))
+      throw std::invalid_argument("make_character: every |beta| must be at most 5");
+  return assemble(offsets_of(betas), betas);
 }
 
+Character make_character_of_joints(const RestJoints& joints) {
+  const Offsets standard = offsets_of({});
+  Offsets offsets;
+  offsets[0].setZero();
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    offsets[i] = joints[i] - joints[static_cast<std::size_t>(kParents[i])];
+    const double ratio = offsets[i].norm() / standard[i].norm();
+    if (!(ratio > 1.0 / 3.0 && ratio < 3.0))
+      throw std::invalid_argument("the bone to " + std::string(kBodyNames[i]) +
+                                  " is shorter than a third or longer than three times the standard one");
+  }
+  return assemble(offsets, nearest_betas(offsets));
+}
 Vector3d rest_pelvis(std::string_view body_model) {
   if (body_model == "mimicx" || body_model == "smplx") return {0.003, -0.351, 0.012};
   if (body_model == "smplh" || body_model == "smpl") return {-0.002, -0.223, 0.028};

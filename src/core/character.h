@@ -120,6 +120,15 @@ struct Character {
 /// @throws std::invalid_argument unless every |β_k| ≤ 5.
 Character make_character(const std::array<double, kBetas>& betas = {});
 
+/// Rest positions of the joints in a body model's frame (y up), m; index = Body.
+using RestJoints = std::array<Vector3d, kBodies>;
+
+/// The character of a body whose joints are known, but not as a shape of ours: bones exactly as given,
+/// everything else (radii, masses, contact points) as the shape of ours has it whose bones are nearest; its β
+/// is in `betas`.
+/// @throws std::invalid_argument for a bone shorter than a third or longer than three times the standard one
+Character make_character_of_joints(const RestJoints& joints);
+
 /// Rest position of the pelvis J0 (m) in the y-up frame of a body model: pelvis = trans + J0.  METHOD §2
 /// Known: "mimicx", "smplx", "smplh", "smpl".
 Vector3d rest_pelvis(std::string_view body_model);

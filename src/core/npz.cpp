@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
+
+#include "core/file.h"
 #ifdef MIMICX_WITH_ZLIB
 #include <zlib.h>
 #endif
@@ -161,10 +162,10 @@ std::vector<std::uint8_t> inflated(const std::uint8_t*, const Entry& e, const By
 }
 #endif
 
-std::vector<std::uint8_t> read_member(const Bytes& bytes, const Entry& e, std::size_t max_bytes) {
+std::vector<std::uint8_t> read_member(const Bytes& bytes, const Entry& e) {
   if (e.flags & 1) bytes.fail(e.name, "a plain member", "an encrypted one");
-  if (e.unpacked > std::min<std::uint64_t>(max_bytes, kSaturated32 - 1) || e.packed >= kSaturated32)
-    bytes.fail(e.name, "at most " + std::to_string(max_bytes) + " bytes", std::to_string(e.unpacked));
+  if (e.unpacked >= kSaturated32 || e.packed >= kSaturated32)
+    bytes.fail(e.name, "a member under 4 GiB", std::to_string(e.unpacked) + " bytes");
   if (bytes.number(e.local, 4) != kLocalHeader) bytes.fail(e.name, "a zip member", "other content (damaged)");
   // The sizes of the local header may be missing (streamed archives): the directory's count.
   const std::uint64_t start =
@@ -230,14 +231,20 @@ void Npz::set(const std::string& key, NpyArray array) {
   members_.emplace_back(key, std::move(array));
 }
 
-Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_bytes) {
+Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_bytes,
+              const std::vector<std::string>& keys) {
   const Bytes bytes(data, path);
   Npz archive;
   archive.path = path;
+  std::size_t left = max_bytes;  // for all members together: a bomb may have many small ones
   for (const Entry& e : read_directory(bytes)) {
     if (!e.name.ends_with(".npy")) continue;
-    const std::vector<std::uint8_t> content = read_member(bytes, e, max_bytes);
     const std::string key = e.name.substr(0, e.name.size() - 4);
+    if (!keys.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
+    if (e.unpacked > left)
+      bytes.fail(e.name, "at most " + std::to_string(max_bytes) + " bytes after unpacking", "more");
+    left -= e.unpacked;
+    const std::vector<std::uint8_t> content = read_member(bytes, e);
     try {
       archive.set(key, parse_npy(content.data(), content.size(), path, key, max_bytes));
     } catch (const UnsupportedArray& why) {
@@ -247,13 +254,8 @@ Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_
   return archive;
 }
 
-Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path))
-    throw DataError(path.string(), "", "a readable file", "none");
-  std::ostringstream content;
-  content << in.rdbuf();
-  return parse_npz(content.str(), path.string(), max_bytes);
+Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes, const std::vector<std::string>& keys) {
+  return parse_npz(read_file(path), path.string(), max_bytes, keys);
 }
 
 std::string format_npz(const Npz& archive) {

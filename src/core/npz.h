@@ -68,14 +68,18 @@ class Npz {
   std::vector<std::pair<std::string, UnsupportedArray>> unsupported_;
 };
 
+/// Unpacked bytes of an archive, or of one array: 2 GiB are 20 hours of SMPL-X poses at 30 fps.
 inline constexpr std::size_t kMaxMemberBytes = std::size_t{1} << 31;
 
 /// Members whose name does not end in ".npy" are not arrays and are left out.
+/// @param keys  which members to read; none: all
 /// @throws DataError for anything that is not a readable archive; never allocates more than
-///         `max_bytes` for one member, whatever its header says.
-Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes = kMaxMemberBytes);
+///         `max_bytes` for its members, whatever their headers say.
+Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes = kMaxMemberBytes,
+             const std::vector<std::string>& keys = {});
 /// The same from bytes in memory. @param path  for messages
-Npz parse_npz(const std::string& bytes, const std::string& path, std::size_t max_bytes = kMaxMemberBytes);
+Npz parse_npz(const std::string& bytes, const std::string& path, std::size_t max_bytes = kMaxMemberBytes,
+              const std::vector<std::string>& keys = {});
 void write_npz(const std::filesystem::path& path, const Npz& archive);
 /// The bytes `write_npz` writes.
 std::string format_npz(const Npz& archive);

@@ -139,16 +139,34 @@ void read_betas(const Npz& npz, Clip& clip) {
     betas.fail("one row of shape parameters", betas.shape());
   const std::size_t count = std::min<std::size_t>(shape.back(), kBetas);
   std::copy_n(betas.values.begin(), count, clip.betas.begin());
+  if (shape.back() > kBetas)
+    clip.passthrough.emplace_back(
+        "betas_rest", NpyArray::from_double({shape.back() - kBetas}, betas.values.data() + kBetas));
   const bool any = std::any_of(clip.betas.begin(), clip.betas.end(), [](double b) { return b != 0.0; });
   if (clip.body_model == "mimicx") {
     for (const double b : clip.betas)
       if (std::abs(b) > kMaxBeta) betas.fail("shape parameters within ±5", std::to_string(b));
-  } else if (any) {
-    clip.warnings.push_back("betas of body model '" + clip.body_model +
-                            "' have no meaning without that model: the standard body is used");
+  } else if (any && !clip.rest_joints) {
+    clip.warnings.push_back(foreign_betas_warning(clip.body_model));
   }
   if (any && per_frame)
     clip.warnings.push_back("betas are given per frame: those of the first frame are used");
+}
+
+/// The body of a motion that was simulated with the user's own body model.
+void read_rest_joints(const Npz& npz, Clip& clip) {
+  if (!npz.has("rest_joints")) return;
+  const Member joints(npz, "rest_joints");
+  joints.expect_shape({kBodies, 3});
+  joints.expect_finite();
+  clip.rest_joints.emplace();
+  for (std::size_t i = 0; i < kBodies; ++i)
+    (*clip.rest_joints)[i] = Eigen::Map<const Vector3d>(joints.values.data() + 3 * i);
+  try {
+    make_character_of_joints(*clip.rest_joints);
+  } catch (const std::invalid_argument& error) {
+    joints.fail("the joints of a human", error.what());
+  }
 }
 
 void check_joint_names(const Npz& npz) {
@@ -205,6 +223,37 @@ void add_keypoints(Npz& npz, const Keypoints& k) {
                                                      values.data()));
 }
 
+/// A member that passed through, or nullptr.
+const NpyArray* passed_on(const Clip& clip, const std::string& key) {
+  for (const auto& [name, array] : clip.passthrough)
+    if (name == key) return &array;
+  return nullptr;
+}
+
+/// Columns of two matrices side by side, float64; the first alone where the rows differ.
+NpyArray beside(const NpyArray& left, const NpyArray& right) {
+  if (right.shape.size() != 2 || right.shape[0] != left.shape[0]) return left;
+  Eigen::MatrixXd both(to_matrix(left).rows(), to_matrix(left).cols() + to_matrix(right).cols());
+  both << to_matrix(left), to_matrix(right);
+  return from_matrix(both);
+}
+
+/// The betas in use and those past the tenth.
+NpyArray all_betas(const Clip& clip) {
+  std::vector<double> betas(clip.betas.begin(), clip.betas.end());
+  if (const NpyArray* rest = passed_on(clip, "betas_rest")) {
+    const std::vector<double> values = rest->to_double();
+    betas.insert(betas.end(), values.begin(), values.end());
+  }
+  return NpyArray::from_double({betas.size()}, betas.data());
+}
+
+NpyArray rest_joints_member(const RestJoints& joints) {
+  std::vector<double> values;
+  for (const Vector3d& p : joints) values.insert(values.end(), p.data(), p.data() + 3);
+  return NpyArray::from_double({kBodies, 3}, values.data());
+}
+
 }  // namespace
 
 std::array<double, kBetas> Clip::usable_betas() const {
@@ -218,9 +267,26 @@ std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip) 
   return q;
 }
 
+Character character_of(const Clip& clip) {
+  return clip.rest_joints ? make_character_of_joints(*clip.rest_joints) : make_character(clip.usable_betas());
+}
+
+Vector3d rest_pelvis(const Clip& clip) {
+  return clip.rest_joints ? (*clip.rest_joints)[0] : rest_pelvis(clip.body_model);
+}
+
+void put_on_body_of(const Clip& other, Clip& clip) {
+  const Vector3d moved = rest_pelvis(clip) - rest_pelvis(other);
+  for (Vector3d& trans : clip.trans) trans += moved;
+  clip.body_model = other.body_model;
+  clip.betas = other.betas;
+  clip.gender = other.gender;
+  clip.rest_joints = other.rest_joints;
+}
+
 std::vector<BodyPoses> poses_of(const Clip& clip) {
-  const Character character = make_character(clip.usable_betas());
-  const Vector3d pelvis = rest_pelvis(clip.body_model);
+  const Character character = character_of(clip);
+  const Vector3d pelvis = rest_pelvis(clip);
   const auto q = joint_rotations(clip);
   std::vector<BodyPoses> poses;
   for (std::size_t t = 0; t < q.size(); ++t)
@@ -228,10 +294,16 @@ std::vector<BodyPoses> poses_of(const Clip& clip) {
   return poses;
 }
 
-Clip read_clip(const std::filesystem::path& path) {
-  const Npz npz = read_npz(path);
+std::string foreign_betas_warning(const std::string& body_model) {
+  return "betas of body model '" + body_model +
+         "' have no meaning without that model: the standard body is used";
+}
+
+Clip read_clip(const std::filesystem::path& path) { return clip_from(read_npz(path), path.stem().string()); }
+
+Clip clip_from(const Npz& npz, const std::string& name) {
   Clip clip;
-  clip.name = path.stem().string();
+  clip.name = name;
   check_joint_names(npz);
   clip.fps = read_fps(npz);
   clip.body_model = read_body_model(npz, read_rotations(npz, clip));
@@ -242,20 +314,16 @@ Clip read_clip(const std::filesystem::path& path) {
     trans.fail(std::to_string(frames) + " frames as in the rotations", trans.shape());
   for (std::size_t t = 0; t < frames; ++t)
     clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t));
+  read_rest_joints(npz, clip);
   read_betas(npz, clip);
   if (npz.has("gender")) clip.gender = text_of(npz, "gender");
 
-  std::vector<std::string> used = {"poses",
-                                   "root_orient",
-                                   "pose_body",
-                                   "trans",
-                                   "betas",
-                                   "gender",
-                                   "joint_names",
-                                   "mocap_framerate",
-                                   "mocap_frame_rate",
-                                   "body_model",
-                                   "surface_model_type"};
+  std::vector<std::string> used = {"poses",           "root_orient",
+                                   "pose_body",       "trans",
+                                   "rest_joints",     "betas",
+                                   "gender",          "joint_names",
+                                   "mocap_framerate", "mocap_frame_rate",
+                                   "body_model",      "surface_model_type"};
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
     clip.keypoints = read_keypoints(npz, frames);
     used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
@@ -272,20 +340,31 @@ Clip read_clip(const std::filesystem::path& path) {
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra) {
   Npz npz;
   const auto frames = static_cast<std::size_t>(clip.frames());
-  std::vector<double> poses, trans;
-  for (const auto& frame : clip.rotations)
-    for (const Vector3d& r : frame) poses.insert(poses.end(), r.data(), r.data() + 3);
+  std::vector<double> root, body, trans;
+  for (const auto& frame : clip.rotations) {
+    root.insert(root.end(), frame[0].data(), frame[0].data() + 3);
+    for (std::size_t j = 1; j < kBodies; ++j) body.insert(body.end(), frame[j].data(), frame[j].data() + 3);
+  }
   for (const Vector3d& p : clip.trans) trans.insert(trans.end(), p.data(), p.data() + 3);
-  npz.set("poses", NpyArray::from_double({frames, kPoseColumns}, poses.data()));
+  const NpyArray root_orient = NpyArray::from_double({frames, 3}, root.data());
+  const NpyArray pose_body = NpyArray::from_double({frames, 3 * kJoints}, body.data());
+  const NpyArray* rest = passed_on(clip, "poses_rest");
+  npz.set("poses", beside(beside(root_orient, pose_body), rest ? *rest : NpyArray{}));
   npz.set("trans", NpyArray::from_double({frames, 3}, trans.data()));
-  npz.set("betas", NpyArray::from_double({kBetas}, clip.betas.data()));
+  npz.set("betas", all_betas(clip));
   npz.set("mocap_framerate", NpyArray::scalar(clip.fps));
   npz.set("gender", NpyArray::scalar_text(clip.gender));
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
   npz.set("body_model", NpyArray::scalar_text(clip.body_model));
+  if (clip.rest_joints) npz.set("rest_joints", rest_joints_member(*clip.rest_joints));
   if (clip.keypoints) add_keypoints(npz, *clip.keypoints);
+  if (passed_on(clip, "pose_hand")) {  // readers of SMPL-X files expect these
+    npz.set("root_orient", root_orient);
+    npz.set("pose_body", pose_body);
+    npz.set("mocap_frame_rate", NpyArray::scalar(clip.fps));
+  }
   for (const auto& [key, array] : clip.passthrough)
-    if (!npz.has(key)) npz.set(key, array);
+    if (!npz.has(key) && key != "poses_rest" && key != "betas_rest") npz.set(key, array);
   for (const auto& [key, array] : extra) npz.set(key, array);
   return npz;
 }

@@ -39,32 +39,52 @@ struct Clip {
   std::string gender = "neutral";
   std::optional<Keypoints> keypoints;
   std::vector<std::pair<std::string, NpyArray>> passthrough;  ///< members the program does not use
-  std::vector<std::string> warnings;  ///< one line each, e.g. a foreign beta that was set aside
+  std::vector<std::string> warnings;   ///< one line each, e.g. a foreign beta that was set aside
+  std::vector<std::string> decisions;  ///< what reading decided, one line each
+  /// Joints of the file's own body where they are known: J(β) of a licensed model. They replace the standard
+  /// body and the mean J0.
+  std::optional<RestJoints> rest_joints;
+  bool on_floor = false;  ///< the floor is z = 0 because the user says so: nothing moves the whole motion
 
   int frames() const { return static_cast<int>(rotations.size()); }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.
   std::array<double, kBetas> usable_betas() const;
 };
 
+/// The body a clip is played on: its own joints where they are known, else that of its usable betas.
+Character character_of(const Clip& clip);
+/// Where that body has its pelvis at rest: pelvis = trans + rest_pelvis(clip).
+Vector3d rest_pelvis(const Clip& clip);
+
+/// Gives a clip the body of another one: body model, betas, gender, rest joints. Rotations and the place of
+/// the pelvis in the world stay.
+void put_on_body_of(const Clip& other, Clip& clip);
+
 /// Joint rotations as quaternions, [frames][22].
 std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip);
 
-/// World poses of the clip as it stands, every joint spherical, on the character of its usable betas.
+/// World poses of the clip as it stands, every joint spherical, on its body.
 std::vector<BodyPoses> poses_of(const Clip& clip);
 
 /// The clip at another frame rate, from its first frame on, rotations by slerp; unchanged where the rate is
 /// the same. Members with one row per frame that passed through are left out, with a warning.
 Clip resampled(const Clip& clip, double fps);
 
+/// What to say of a shape that was set aside because its body model is not at hand.
+std::string foreign_betas_warning(const std::string& body_model);
+
 /// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
 /// 165 columns); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`. Columns of `poses` past the 66th
-/// are kept as the member `poses_rest`, unless the file holds them as named arrays. Undetected keypoints
-/// (not finite) get confidence 0.
+/// are kept as the member `poses_rest`, unless the file holds them as named arrays; betas past the tenth as
+/// `betas_rest`. Undetected keypoints (not finite) get confidence 0.
 /// @throws DataError naming file and member.
 Clip read_clip(const std::filesystem::path& path);
+/// The same from an archive in memory.
+Clip clip_from(const Npz& npz, const std::string& name);
 
 /// The members of our own motion file: the standard ones, keypoints and camera, what passed through, and
-/// `extra`, which replaces a member of the same name.
+/// `extra`, which replaces a member of the same name. `poses_rest` and `betas_rest` go back to where they
+/// came from; beside named arrays of SMPL-X the motion also stands in `root_orient` and `pose_body`.
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra = {});
 /// Writes them.
 void write_clip(const std::filesystem::path& path, const Clip& clip,

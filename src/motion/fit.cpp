@@ -123,9 +123,12 @@ Clip result_of(const Clip& input, const FitProblem& problem, const FitState& sta
     q.push_back(rotations_of(problem, state, t));
   }
   Clip out = to_clip(input.name, input.fps, character_of(problem, state), p_root, q);
+  if (input.rest_joints) put_on_body_of(input, out);
   out.gender = input.gender;
   out.passthrough = input.passthrough;
   out.warnings = input.warnings;
+  out.decisions = input.decisions;
+  out.on_floor = input.on_floor;
   out.keypoints = input.keypoints;
   correct_keypoints(problem, state, *out.keypoints);
   return out;

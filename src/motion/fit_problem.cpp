@@ -178,10 +178,12 @@ FitProblem make_problem(const Clip& clip, const FitOptions& options) {
   problem.fps = clip.fps;
   problem.betas = clip.usable_betas();
   problem.beta_sigma = clip.body_model == "mimicx" ? options.beta_sigma : options.foreign_beta_sigma;
-  const Character character = make_character(problem.betas);
+  problem.rest_joints = clip.rest_joints;
+  if (clip.rest_joints) problem.beta_sigma = 0.0;
+  const Character character = character_of(clip);
   const auto input = joint_rotations(clip);
   problem.q = to_hinges(character, input);
-  for (const Vector3d& trans : clip.trans) problem.p_root.push_back(trans + rest_pelvis(clip.body_model));
+  for (const Vector3d& trans : clip.trans) problem.p_root.push_back(trans + rest_pelvis(clip));
   if (!clip.keypoints) return problem;
   add_points(*clip.keypoints, problem);
   add_shape_derivatives(problem);
@@ -196,6 +198,7 @@ FitState initial_state(const FitProblem& problem) {
 }
 
 Character character_of(const FitProblem& problem, const FitState& state) {
+  if (problem.rest_joints) return make_character_of_joints(*problem.rest_joints);
   std::array<double, kBetas> betas = problem.betas;
   for (std::size_t i = 0; i < kBetas; ++i)
     betas[i] = std::clamp(betas[i] + state.g[kFirstBeta + static_cast<int>(i)], -kMaxBeta, kMaxBeta);

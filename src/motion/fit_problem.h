@@ -42,6 +42,7 @@ struct FitProblem {
   double fps = 30.0;
   std::array<double, kBetas> betas{};  ///< told
   double beta_sigma = 0.0;
+  std::optional<RestJoints> rest_joints;              ///< of the clip; its shape is known and stays
   std::vector<Vector3d> p_root;                       ///< [frames] of the input, m
   std::vector<std::array<Quaterniond, kBodies>> q;    ///< [frames] of the input, knees and elbows hinges
   std::array<ShapeJacobian, kBodies> offset_by_beta;  ///< of Character::joint_offset (affine in β)

@@ -77,11 +77,12 @@ void forward(Reference& reference) {
 /// Puts the reference on the floor and reports by how much it moved.
 /// @param bend  the feet were levelled: their stiff toes may be bent, and do not count where the foot does
 /// not stand
-void align_with_floor(bool bend, Reference& reference, PreparationReport& report) {
+/// @param known  z = 0 is the floor: the motion as a whole stays where it is
+void align_with_floor(bool bend, bool known, Reference& reference, PreparationReport& report) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
   std::vector<double> moved(reference.frames.size(), 0.0);
   const auto align = [&](const std::vector<double>& lowest) {
-    const FloorCorrection floor = floor_correction(lowest, reference.fps);
+    const FloorCorrection floor = floor_correction(lowest, reference.fps, known);
     report.floor_shift_mm += kMm * floor.shift;
     for (std::size_t t = 0; t < reference.frames.size(); ++t) {
       reference.frames[t].p_root.z() += floor.height[t];
@@ -112,14 +113,14 @@ Reference prepare_reference(const Clip& clip, const PreparationOptions& options,
   Reference out;
   out.name = clip.name;
   out.fps = options.fps;
-  out.character = make_character(clip.usable_betas());
+  out.character = character_of(clip);
   out.keypoints = input.keypoints;
   out.flagged = find_glitches(input);
   r.flagged_frames = static_cast<int>(std::count(out.flagged.begin(), out.flagged.end(), true));
   if (options.bridge_flagged) bridge_glitches(bridged, out.flagged);
 
   const auto q = to_hinges(out.character, joint_rotations(bridged));
-  const Vector3d pelvis = rest_pelvis(clip.body_model);
+  const Vector3d pelvis = rest_pelvis(clip);
   for (std::size_t t = 0; t < q.size(); ++t) {
     ReferenceFrame frame;
     frame.p_root = bridged.trans[t] + pelvis;
@@ -134,7 +135,7 @@ Reference prepare_reference(const Clip& clip, const PreparationOptions& options,
     r.foot_level_deg = level_feet(out);
     if (r.foot_level_deg > 0.0) forward(out);
   }
-  if (options.ground) align_with_floor(r.foot_level_deg > 0.0, out, r);
+  if (options.ground) align_with_floor(r.foot_level_deg > 0.0, clip.on_floor, out, r);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;

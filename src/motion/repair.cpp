@@ -134,9 +134,9 @@ void bridge_glitches(Clip& clip, const std::vector<bool>& flagged) {
   }
 }
 
-FloorCorrection floor_correction(const std::vector<double>& lowest, double fps) {
+FloorCorrection floor_correction(const std::vector<double>& lowest, double fps, bool known) {
   FloorCorrection out;
-  out.shift = -percentile(lowest, kSupportShare);
+  out.shift = known ? 0.0 : -percentile(lowest, kSupportShare);
   const auto radius = static_cast<std::size_t>(0.5 * kSupportWindow * fps);
   std::vector<double> drift = sliding(lowest, radius, [&](const std::vector<double>& w) {
     return std::clamp(-percentile(w, kSupportShare) - out.shift, -kMaxDrift, kMaxDrift);

@@ -30,6 +30,7 @@ struct FloorCorrection {
 /// count) is brought to the floor, slowly and by at most 0.15 m; last, what is still deeper than 10 mm
 /// is lifted. A jump keeps its height, because no correction looks at less than a second but the last, which
 /// only acts on penetration.
-FloorCorrection floor_correction(const std::vector<double>& lowest, double fps);
+/// @param known  the floor is known to be at 0: there is no static shift
+FloorCorrection floor_correction(const std::vector<double>& lowest, double fps, bool known = false);
 
 }  // namespace mimicx

@@ -25,7 +25,7 @@ std::vector<std::string> npz_names(const std::filesystem::path& folder) {
 }
 
 MotionSamples samples_of(const Clip& clip) {
-  return sample_motion(make_character(clip.usable_betas()), poses_of(clip), clip.fps);
+  return sample_motion(character_of(clip), poses_of(clip), clip.fps);
 }
 
 EvaluatedMotion evaluate_file(const std::filesystem::path& truth, const std::filesystem::path& motion) {

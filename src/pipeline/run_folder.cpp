@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "core/error.h"
@@ -27,13 +25,6 @@ std::string unique_name(const std::filesystem::path& input, const std::vector<st
   std::string name = stem;
   for (int n = 2; !free(name); ++n) name = stem + "-" + std::to_string(n);
   return name;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw DataError(path.string(), "", "a readable file", "none");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 std::string file_checksum(const std::filesystem::path& path) {

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "core/file.h"
+
 namespace mimicx {
 
 struct RunFolder {
@@ -54,8 +56,5 @@ std::string unique_name(const std::filesystem::path& input, const std::vector<st
 /// 64-bit FNV-1a of a file's bytes in hexadecimal: tells an input that changed. Not cryptographic.
 /// @throws DataError when the file cannot be read.
 std::string file_checksum(const std::filesystem::path& path);
-
-/// The whole file. @throws DataError when it cannot be read.
-std::string read_file(const std::filesystem::path& path);
 
 }  // namespace mimicx

@@ -76,7 +76,7 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   if (entry.output.empty()) return s;
   const Clip simulated = read_clip(folder.root / entry.output);
   s.fps = entry.fps;
-  s.character = make_character(simulated.usable_betas());
+  s.character = character_of(simulated);
   s.simulated = poses_of(simulated);
   s.reference = poses_of(read_clip(folder.reference(entry.name)));
   s.metric_columns = {"input", "before training", "simulated"};

@@ -43,7 +43,7 @@ Scores score_simulated(const Reference& reference, const rl::TrackingRollout& ro
 }
 
 NamedValues score_input(const Clip& input, const Reference& reference) {
-  const Character character = make_character(input.usable_betas());
+  const Character character = character_of(input);
   const MotionSamples raw = sample_motion(character, poses_of(input), input.fps);
   if (raw.frames() != reference.size() || input.fps != reference.fps)
     return named_values(evaluate_motion(raw, nullptr));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -185,6 +186,36 @@ TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
       EXPECT_EQ(p.radius, 0.0);
       EXPECT_NEAR((rest.p_WB[static_cast<std::size_t>(p.body)] + p.p_B).y(), sole, 1e-12) << i;
     }
+  }
+}
+
+/// Rest joints of a character, its pelvis at the model's.
+RestJoints rest_joints(const Character& c) {
+  RestJoints joints;
+  joints[0] = rest_pelvis("mimicx");
+  for (std::size_t i = 1; i < kBodies; ++i)
+    joints[i] = joints[static_cast<std::size_t>(kParents[i])] + c.joint_offset[i];
+  return joints;
+}
+
+TEST(CharacterOfJoints, HasTheBonesItWasGivenAndTheNearestShape) {
+  const std::array<double, kBetas> betas = {1.5, 0, -1, 0.5, 1, -0.5, 0.3, 1, 0, 0.4};
+  const Character shaped = make_character(betas), made = make_character_of_joints(rest_joints(shaped));
+  for (std::size_t i = 0; i < kBodies; ++i)
+    EXPECT_LT((made.joint_offset[i] - shaped.joint_offset[i]).norm(), 1e-14);
+  // The prior pulls the shape a little towards the standard one.
+  EXPECT_NEAR(made.betas[0], betas[0], 0.3);
+  EXPECT_NEAR(made.total_mass(), shaped.total_mass(), 0.03 * shaped.total_mass());
+  const Character standard = make_character(), same = make_character_of_joints(rest_joints(standard));
+  for (std::size_t k = 0; k < kBetas; ++k) EXPECT_NEAR(same.betas[k], 0.0, 1e-9);
+  EXPECT_NEAR(same.total_mass(), standard.total_mass(), 1e-9);
+}
+
+TEST(CharacterOfJoints, RefusesBonesThatNoHumanHas) {
+  for (const double factor : {0.1, 4.0, std::numeric_limits<double>::quiet_NaN()}) {
+    RestJoints joints = rest_joints(make_character());
+    joints[kLeftKnee] = joints[kLeftHip] + factor * (joints[kLeftKnee] - joints[kLeftHip]);
+    EXPECT_THROW(make_character_of_joints(joints), std::invalid_argument) << factor;
   }
 }
 

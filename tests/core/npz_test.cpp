@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/file.h"
 #include "core/random.h"
 
 namespace mimicx {
@@ -361,6 +362,44 @@ TEST(NumPy, WritesWhatWeReadStoredAndDeflated) {
     EXPECT_THROW(npz.at("objects"), UnsupportedArray);
     EXPECT_FALSE(npz.has("objects"));
   }
+}
+
+TEST(Zip, AllMembersTogetherAreBounded) {
+  Npz npz;
+  for (int i = 0; i < 10; ++i) npz.set("m" + std::to_string(i), from_matrix(Eigen::MatrixXd::Zero(10, 10)));
+  const std::string bytes = format_npz(npz);
+  EXPECT_EQ(parse_npz(bytes, "file.npz", 10 * 1000).members().size(), 10u);
+  EXPECT_THROW(parse_npz(bytes, "file.npz", 5 * 1000), DataError) << "each is under 1 kB";
+}
+
+TEST(Zip, OnlyTheMembersAskedForAreUnpacked) {
+  Npz npz;
+  npz.set("large", from_matrix(Eigen::MatrixXd::Zero(1000, 10)));
+  npz.set("small", NpyArray::scalar(3.0));
+  const Npz part = parse_npz(format_npz(npz), "file.npz", 1000, {"small", "absent"});
+  ASSERT_EQ(part.members().size(), 1u);
+  EXPECT_EQ(part.at("small").to_double(), std::vector<double>{3.0});
+}
+
+TEST(ReadFile, SaysWhatIsInTheWay) {
+  const auto why = [](const fs::path& path, std::uintmax_t most = kMaxFileBytes) -> std::string {
+    try {
+      return read_file(path, most);
+    } catch (const DataError& error) {
+      return error.what();
+    }
+  };
+  const fs::path file = scratch("file"), folder = scratch("folder");
+  std::ofstream(file) << "content";
+  fs::create_directories(folder);
+  EXPECT_EQ(why(file), "content");
+  EXPECT_EQ(why(scratch("none")), scratch("none").string() + ": expected a readable file, found none");
+  EXPECT_EQ(why(folder), folder.string() + ": expected a file, found a folder");
+  EXPECT_EQ(why("/dev/zero"), "/dev/zero: expected a regular file, found something else");
+  EXPECT_EQ(why(file, 3), file.string() + ": expected at most 3 bytes, found 7");
+  fs::permissions(file, fs::perms::none);
+  if (std::ifstream(file)) GTEST_SKIP() << "this user may read everything";
+  EXPECT_EQ(why(file), file.string() + ": expected a readable file, found Permission denied");
 }
 
 }  // namespace

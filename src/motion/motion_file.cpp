@@ -1,0 +1,212 @@
+#include "motion/motion_file.h"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "core/file.h"
+#include "motion/body_model.h"
+#include "motion/motionx.h"
+#include "motion/plausibility.h"
+#include "motion/world.h"
+
+namespace mimicx {
+namespace {
+
+constexpr double kOddRate = 1.25;           ///< factor between the file's frame rate and that of a fall
+constexpr double kFloorWorthSaying = 0.05;  ///< m
+
+void require_sense(const ReadOptions& o) {
+  const auto require = [](bool sense, const char* what) {
+    if (!sense) throw std::invalid_argument(what);
+  };
+  require(!o.scale || (*o.scale > 0.0 && std::isfinite(*o.scale)), "the scale must be positive");
+  require(!o.fps || (*o.fps > 0.0 && *o.fps <= 2000.0), "the frame rate must lie between 0 and 2000 Hz");
+  require(!o.floor || std::isfinite(*o.floor), "the height of the floor must be a number");
+  if (o.up) rotation_to_z_up(*o.up);
+}
+
+/// The file's own body: nothing of it, its joints by the licensed model, or what its model says.
+void choose_body(const ReadOptions& o, Clip& clip) {
+  const bool foreign = clip.body_model != "mimicx";
+  if (o.standard_body) {
+    const Vector3d pelvis = rest_pelvis(clip);
+    clip.rest_joints.reset();
+    clip.betas = {};
+    for (Vector3d& trans : clip.trans) trans += pelvis - rest_pelvis(clip);
+    std::erase(clip.warnings, foreign_betas_warning(clip.body_model));
+    clip.decisions.emplace_back("body: the standard one, as asked for");
+  } else if (clip.rest_joints) {
+    clip.decisions.emplace_back("body: the joints that the file holds");
+  } else if (foreign && !o.smplx.empty() && clip.body_model == "smplx") {
+    const RestJoints joints = read_body_model(o.smplx).joints(clip.betas);
+    try {
+      make_character_of_joints(joints);
+    } catch (const std::invalid_argument& error) {
+      throw DataError(o.smplx.string(), "", "the joints of a human for the betas of " + clip.name,
+                      error.what());
+    }
+    clip.rest_joints = joints;
+    std::erase(clip.warnings, foreign_betas_warning(clip.body_model));
+    clip.decisions.push_back("body: joints of " + o.smplx.filename().string() + " at the file's betas");
+  } else if (foreign) {
+    clip.decisions.push_back("body: the standard one, the file's model is " + clip.body_model);
+  }
+}
+
+void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.scale) {
+    scale_world(*o.scale, clip);
+    clip.decisions.push_back("scale: " + format_number(*o.scale) + " m per unit, as asked for");
+    return;
+  }
+  if (believed) return;
+  const double before = support_speed(clip), scale = detect_scale(clip);
+  if (scale == 1.0) return;
+  scale_world(scale, clip);
+  clip.decisions.push_back("scale: the translation is taken to be in " +
+                           std::string(scale == 0.01 ? "centimetres" : "millimetres") +
+                           " (in metres the stiller foot would move at " + format_number(before) +
+                           " m/s, now it does at " + format_number(support_speed(clip)) +
+                           "; --scale overrides)");
+}
+
+void settle_up(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.up) {
+    rotate_world(rotation_to_z_up(*o.up), clip);
+    clip.decisions.push_back("up axis: " + axis_name(*o.up) + ", as asked for");
+    return;
+  }
+  if (believed) return;
+  const UpAxis up = detect_up(clip);
+  const std::string along = " (the body stands along it: " + format_number(up.along) + ")";
+  if (!up.sure) {
+    clip.decisions.emplace_back("up axis: z, as the format has it (the body lies, crawls or turns over)");
+  } else if (up.axis == 'z') {
+    clip.decisions.push_back("up axis: z" + along);
+  } else {
+    rotate_world(rotation_to_z_up(up.axis), clip);
+    clip.decisions.push_back((up.axis == 'Z' ? "up axis: upside down, turned over"
+                                             : "up axis: " + axis_name(up.axis) + ", turned to z") +
+                             along + "; --up overrides");
+  }
+}
+
+/// The frame rate next to `fps` of those in use, where one is within a tenth; else 0.
+double usual_rate(double fps) {
+  for (const double rate : {20.0, 24.0, 25.0, 30.0, 50.0, 60.0, 90.0, 100.0, 120.0, 200.0, 240.0, 250.0})
+    if (std::abs(fps / rate - 1.0) < 0.1) return rate;
+  return 0.0;
+}
+
+void settle_fps(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.fps) {
+    clip.decisions.push_back("frame rate: " + format_number(*o.fps) + " fps, as asked for (the file says " +
+                             format_number(clip.fps) + ")");
+    clip.fps = *o.fps;
+    return;
+  }
+  if (believed) return;
+  const std::optional<FallRate> fall = rate_from_flights(clip);
+  const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
+  std::string line = "frame rate: " + format_number(clip.fps) + " fps, as the file says";
+  if (fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0) {
+    line = "frame rate: " + format_number(usual) + " fps, not " + format_number(clip.fps);
+    clip.fps = usual;
+  }
+  if (fall)
+    line += " (the body falls with " + format_number(fall->acceleration) +
+            " m/s² at the file's rate; --fps overrides)";
+  clip.decisions.push_back(line);
+}
+
+void settle_floor(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.floor) {
+    shift_world({0.0, 0.0, -*o.floor}, clip);
+    clip.on_floor = true;
+    clip.decisions.push_back("floor: at " + format_number(*o.floor) + " m, as asked for");
+    return;
+  }
+  if (believed) return;
+  const double height = detect_floor(clip);
+  if (std::abs(height) > kFloorWorthSaying)
+    clip.decisions.push_back("floor: at " + format_number(height) +
+                             " m, where the lowest points are; preparation puts it at 0 (--floor overrides)");
+}
+
+Clip read_any(const std::filesystem::path& path, const ReadOptions& o) {
+  const std::string bytes = read_file(path), name = path.stem().string();
+  switch (recognise(bytes)) {
+    case MotionFormat::kNpz: {
+      Clip clip = clip_from(parse_npz(bytes, path.string()), name);
+      clip.decisions.insert(clip.decisions.begin(), "format: AMASS-like npz, body model " + clip.body_model);
+      return clip;
+    }
+    case MotionFormat::kNpy: {
+      const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+      return motionx_from(parse_npy(data, bytes.size(), path.string(), ""), name, path.string(), !o.scale);
+    }
+    case MotionFormat::kUnknown:
+      break;
+  }
+  throw DataError(path.string(), "", "a motion (npz or npy)",
+                  bytes.empty() ? "an empty file" : "other content");
+}
+
+}  // namespace
+
+std::string ReadOptions::text() const {
+  std::string out;
+  const auto add = [&](const std::string& what) { out += (out.empty() ? "" : " ") + what; };
+  const auto number = [&](const char* name, const std::optional<double>& value) {
+    char digits[64];
+    if (!value) return;
+    std::snprintf(digits, sizeof digits, "%s=%.17g", name, *value);
+    add(digits);
+  };
+  if (up) add("up=" + axis_name(*up));
+  number("scale", scale);
+  number("fps", fps);
+  number("floor", floor);
+  if (standard_body) add("body=standard");
+  if (!smplx.empty()) add("smplx=" + smplx.string());
+  if (!joint_map.empty()) add("joint_map=" + joint_map.string());
+  return out;
+}
+
+MotionFormat recognise(const std::string& bytes) {
+  if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06")) return MotionFormat::kNpz;
+  if (bytes.starts_with("\x93NUMPY")) return MotionFormat::kNpy;
+  return MotionFormat::kUnknown;
+}
+
+Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) {
+  require_sense(options);
+  Clip clip = read_any(path, options);
+  const bool believed = clip.body_model == "mimicx" || clip.rest_joints.has_value();
+  choose_body(options, clip);
+  settle_scale(options, believed, clip);
+  settle_up(options, believed, clip);
+  settle_fps(options, believed, clip);
+  settle_floor(options, believed, clip);
+  if (!believed)
+    for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
+  return clip;
+}
+
+bool has_motion_suffix(const std::filesystem::path& path) {
+  return path.extension() == ".npz" || path.extension() == ".npy";
+}
+
+void write_motion(const std::filesystem::path& path, const Clip& clip) {
+  const std::string suffix = path.extension().string();
+  if (suffix == ".npz")
+    write_clip(path, clip);
+  else if (suffix == ".npy")
+    write_motionx(path, clip);
+  else
+    throw std::invalid_argument(path.string() + ": motions are written as .npz or .npy, not '" + suffix +
+                                "'");
+}
+
+}  // namespace mimicx

@@ -1,0 +1,46 @@
+/// Motions as people have them on disk: the format is recognised from the content, foreign conventions end
+/// here, and everything that was decided on the way stands in `Clip::decisions`.
+///
+/// Formats: AMASS-like npz (clip.h) and Motion-X npy (motionx.h). Traps and thresholds: docs/formats.md.
+///
+/// Files of our own layout (body_model "mimicx") are believed: z up, metres. What the user says (options) is
+/// believed of every file.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "motion/clip.h"
+
+namespace mimicx {
+
+/// What the user knows better than the file.
+struct ReadOptions {
+  std::optional<char> up;  ///< axis that points up in the file: x, y, z; capital letters: the negative axes
+  std::optional<double> scale;  ///< metres per unit of length of the file
+  std::optional<double> fps;    ///< the frame rate the motion was recorded at
+  std::optional<double> floor;  ///< height of the floor in the file, after axes and scale, m
+  bool standard_body = false;   ///< ignore the file's body shape
+  std::filesystem::path smplx;  ///< licensed SMPL-X model: gives the body its joints where betas are SMPL-X's
+  std::filesystem::path joint_map;  ///< more joint names for foreign skeletons
+
+  /// Everything that was set, in one line: two runs that read alike have equal lines. Empty: nothing.
+  std::string text() const;
+};
+
+/// What a file is, by its first bytes.
+enum class MotionFormat { kNpz, kNpy, kUnknown };
+MotionFormat recognise(const std::string& bytes);
+
+/// @throws DataError for a file that cannot be read, std::invalid_argument for an option that makes no sense
+Clip read_motion(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The suffixes a folder is searched for.
+bool has_motion_suffix(const std::filesystem::path& path);
+
+/// Writes a motion in the format that the suffix names: .npz (our own layout, docs/formats.md) or .npy
+/// (Motion-X). @throws std::invalid_argument for another suffix
+void write_motion(const std::filesystem::path& path, const Clip& clip);
+
+}  // namespace mimicx

@@ -1,0 +1,26 @@
+/// Motion-X files: one npy array (frames, 322) at 30 fps, y up, SMPL-X.
+///
+/// Columns: 0:3 root_orient, 3:66 pose_body, 66:156 hands, 156:159 jaw, 159:209 expression, 209:309 face
+/// shape, 309:312 trans, 312:322 betas.            Source: github.com/IDEA-Research/Motion-X, README, "Data
+/// loading" Part of the data set (AIST) has trans in units of 1/94 m with z negated, part of that again not:
+/// which it is shows in the speed. Hands, jaw, expression and face shape pass through as the members
+/// pose_hand, pose_jaw, expression and face_shape.
+#pragma once
+
+#include "motion/clip.h"
+
+namespace mimicx {
+
+inline constexpr std::size_t kMotionxColumns = 322;
+
+/// @throws DataError naming the file for another shape, for text, and for numbers that are not finite
+/// @param may_scale  look for the AIST scale; false where the user names a scale
+Clip motionx_from(const NpyArray& array, const std::string& name, const std::string& path,
+                  bool may_scale = true);
+
+/// (frames, 322), float64, y up. Columns of what the clip does not have are zero.
+/// @throws std::invalid_argument unless the clip is at 30 fps
+NpyArray to_motionx(const Clip& clip);
+void write_motionx(const std::filesystem::path& path, const Clip& clip);
+
+}  // namespace mimicx
