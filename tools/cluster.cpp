@@ -5,22 +5,17 @@
 #include <iostream>
 
 #include "commands.h"
+#include "pipeline/preparation.h"
 #include "pipeline/run_folder.h"
 
 namespace mimicx {
 namespace {
 
-/// The files named, and the .npz files of the folders named, each once and in order of their paths.
+/// The files named, and the motions of the folders named, each once and in order of their paths.
 std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& inputs) {
   std::vector<std::filesystem::path> files;
-  for (const std::string& input : inputs) {
-    if (!std::filesystem::is_directory(input)) {
-      files.push_back(std::filesystem::path(input).lexically_normal());
-      continue;
-    }
-    for (const auto& file : std::filesystem::directory_iterator(input))
-      if (file.path().extension() == ".npz") files.push_back(file.path().lexically_normal());
-  }
+  for (const std::string& file : expand_inputs(inputs))
+    files.push_back(std::filesystem::path(file).lexically_normal());
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
@@ -29,14 +24,16 @@ std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& 
 }  // namespace
 
 int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-                const ClusterSettings& settings) {
+                const ClusterSettings& settings, const ReadOptions& read) {
   std::vector<NamedFeatures> motions;
   std::vector<std::string> names;
   bool all_good = true;
   for (const auto& file : motion_files(inputs)) {
     names.push_back(unique_name(file, names));
     try {
-      motions.push_back({names.back(), motion_features(prepare_reference(read_clip(file), {}, nullptr))});
+      const Clip clip = read_motion(file, read);
+      tell_decisions(file.string(), clip, std::cerr);
+      motions.push_back({names.back(), motion_features(prepare_reference(clip, {}, nullptr))});
     } catch (const std::exception& error) {
       std::cerr << file.string() << ": left out: " << error.what() << '\n';
       all_good = false;

@@ -31,7 +31,9 @@ struct UsageError : std::runtime_error {
 
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
 int run_imitate(RunOptions options, const std::vector<std::string>& settings);
-/// @param trained  options to start from: a file, or a folder with options.npz; empty: those in data/options
+/// Without a folder in `options.out`, every input gets one beside it (NAME.mimicx) and its clean motion
+/// beside it (NAME.clean.EXT). @param trained  options to start from: a file, or a folder with options.npz;
+/// empty: those in data/options
 int run_adapt(RunOptions options, std::filesystem::path trained, const std::vector<std::string>& settings);
 /// @param samples  of all options together; none: what the preset says
 int run_pretrain(PretrainOptions options, const std::string& preset, std::optional<std::int64_t> samples,
@@ -43,14 +45,16 @@ int run_all(const std::filesystem::path& in, const std::filesystem::path& out, P
 /// @param json  where to write every value as well; empty: nowhere
 int run_evaluate(const std::filesystem::path& truth, const std::vector<std::string>& motions,
                  const std::filesystem::path& json);
-/// @param inputs  files, and folders of .npz files
+/// @param inputs  files, and folders of motion files
 int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-                const ClusterSettings& settings);
-/// @param inputs  files, and folders of .npz files; the fitted motions get their names
+                const ClusterSettings& settings, const ReadOptions& read);
+/// @param inputs  files, and folders of motion files; the fitted motions get their names
 int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-            const FitOptions& options);
-int run_info(const std::filesystem::path& file);
-int run_convert(const std::filesystem::path& in, const std::filesystem::path& out);
+            const FitOptions& options, const ReadOptions& read);
+int run_info(const std::filesystem::path& file, const ReadOptions& read);
+/// @param fps  of the output; 0: the input's
+int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadOptions& read,
+                double fps);
 
 struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written

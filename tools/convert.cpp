@@ -1,19 +1,21 @@
 #include <iostream>
 
 #include "commands.h"
-#include "motion/clip.h"
+#include "motion/motion_file.h"
+#include "pipeline/preparation.h"
 
 namespace mimicx {
 
-int run_convert(const std::filesystem::path& in, const std::filesystem::path& out) {
-  for (const auto& path : {in, out})
-    if (path.extension() != ".npz")
-      throw UsageError(path.string() + ": convert reads and writes .npz in the AMASS layout, not '" +
-                       path.extension().string() + "'");
-  const Clip clip = read_clip(in);
-  for (const auto& warning : clip.warnings) std::cerr << in.string() << ": " << warning << '\n';
+int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadOptions& read,
+                double fps) {
+  if (!is_written(out.extension().string()))
+    throw UsageError(out.string() + ": motions are written as " + written_suffixes() + ", not '" +
+                     out.extension().string() + "'");
+  Clip clip = read_motion(in, read);
+  if (fps > 0.0) clip = resampled(clip, fps);
+  tell_decisions(in.string(), clip, std::cerr);
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  write_clip(out, clip);
+  write_motion(out, clip);
   return kAllGood;
 }
 

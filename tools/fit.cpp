@@ -19,7 +19,7 @@ void print(const std::string& name, const FitReport& r) {
 }  // namespace
 
 int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-            const FitOptions& options) {
+            const FitOptions& options, const ReadOptions& read) {
   std::filesystem::create_directories(out);
   std::printf("%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n",
               "motion", "before", "after", "focal", "tilt", "shape", "swaps", "drops", "change", "largest",
@@ -30,7 +30,9 @@ int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path&
     names.push_back(unique_name(file, names));
     try {
       FitReport report;
-      write_clip(out / (names.back() + ".npz"), fit_keypoints(read_clip(file), options, &report));
+      const Clip clip = read_motion(file, read);
+      tell_decisions(file, clip, std::cerr);
+      write_clip(out / (names.back() + ".npz"), fit_keypoints(clip, options, &report));
       print(names.back(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {

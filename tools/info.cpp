@@ -1,13 +1,14 @@
 #include <cstdio>
 
 #include "commands.h"
-#include "motion/clip.h"
+#include "motion/motion_file.h"
 #include "motion/reference.h"
 
 namespace mimicx {
 namespace {
 
 void describe_file(const Clip& clip) {
+  for (const auto& decision : clip.decisions) std::printf("decided      %s\n", decision.c_str());
   std::printf("frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
   std::printf("body model   %s, gender %s\n", clip.body_model.c_str(), clip.gender.c_str());
   std::printf("betas       ");
@@ -40,8 +41,8 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
 
 }  // namespace
 
-int run_info(const std::filesystem::path& file) {
-  const Clip clip = read_clip(file);
+int run_info(const std::filesystem::path& file, const ReadOptions& read) {
+  const Clip clip = read_motion(file, read);
   PreparationReport report;
   const Reference reference = prepare_reference(clip, {}, &report);
   describe_file(clip);

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "core/parallel.h"
+#include "motion/motion_file.h"
 
 namespace mimicx {
 namespace {
@@ -28,6 +29,8 @@ struct Arguments {
   std::vector<std::string> inputs;
   ClusterSettings cluster;
   FitOptions fit;
+  ReadOptions read;
+  std::string rate = "input";
   std::function<int()> run;
 };
 
@@ -46,11 +49,44 @@ void add_threads(CLI::App& command, int& threads) {
       ->capture_default_str();
 }
 
+/// What the user knows better than the files.
+void add_read_options(CLI::App& command, ReadOptions& read) {
+  static const std::map<std::string, char> kAxes = {{"x", 'x'},  {"y", 'y'},  {"z", 'z'},
+                                                    {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}};
+  command
+      .add_option_function<std::string>(
+          "--up", [&read](const std::string& axis) { read.up = kAxes.at(axis); },
+          "the axis that points up in the files; default: looked for")
+      ->check(CLI::IsMember(kAxes));
+  command.add_option("--scale", read.scale, "metres per unit of length in the files; default: looked for")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--fps", read.fps, "frame rate the motions were recorded at; default: what the files say")
+      ->check(CLI::Range(0.1, 2000.0));
+  command.add_option("--floor", read.floor,
+                     "height of the floor in the files, m, z up; default: where the motion stands");
+  command
+      .add_option_function<std::string>(
+          "--body", [&read](const std::string& body) { read.standard_body = body == "standard"; },
+          "file (default): the body shape of the file, where it is known; standard: the standard body")
+      ->check(CLI::IsMember({"file", "standard"}));
+  command.add_option("--smplx", read.smplx, "your SMPLX_NEUTRAL.npz: gives SMPL-X betas their joints")
+      ->check(CLI::ExistingFile);
+}
+
 /// What imitate and adapt have in common. @param samples  name of the option for the budget
 void add_run_options(CLI::App& command, Arguments& a, RunOptions& run, const std::string& samples) {
-  command.add_option("FILE", run.inputs, "motions (AMASS-style .npz) and folders of them")->required();
-  command.add_option("--out", run.out, "folder of the run; the same command continues what is there")
-      ->required();
+  command.add_option("FILE", run.inputs, "motions and folders of them")->required();
+  command.add_option(
+      "--out", run.out,
+      "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
+      "every input, and its clean motion beside it as NAME.clean.EXT");
+  add_read_options(command, run.read);
+  command
+      .add_option_function<std::string>(
+          "--rate", [&run](const std::string& rate) { run.input_rate = rate == "input"; },
+          "frame rate of the clean copies in the inputs' own formats: 30 (default) or input")
+      ->check(CLI::IsMember({"30", "input"}));
   command.add_option(samples, run.training.samples, "training budget per motion, in character steps")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -102,11 +138,12 @@ void add_pretrain_options(CLI::App& command, Arguments& a, const std::string& sa
 
 void declare_pretrain(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("pretrain", "Train an option policy for every cluster of motions");
-  command->add_option("DIR", a.pretrain.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command->add_option("DIR", a.pretrain.inputs, "motions and folders of them")->required();
   command
       ->add_option("--out", a.pretrain.out, "folder of the options; the same command continues what is there")
       ->required();
   add_pretrain_options(*command, a, "--samples");
+  add_read_options(*command, a.pretrain.read);
   command->add_option("--preset", a.preset, "sizes of the networks: small (128-128) or paper (1024-1024-512)")
       ->check(CLI::IsMember({"small", "paper"}))
       ->capture_default_str();
@@ -125,9 +162,10 @@ void declare_pretrain(CLI::App& app, Arguments& a) {
 void declare_run(CLI::App& app, Arguments& a) {
   auto* command =
       app.add_subcommand("run", "All stages on a folder: pretrain options on it, then adapt all of it");
-  command->add_option("DIR", a.in, "folder of motions (AMASS-style .npz)")->required();
+  command->add_option("DIR", a.in, "folder of motions")->required();
   command->add_option("--out", a.out, "folder of the run: options/ and clean/")->required();
   add_pretrain_options(*command, a, "--pretrain-samples");
+  add_read_options(*command, a.pretrain.read);
   command
       ->add_option("--budget-samples", a.adapt.training.samples,
                    "fine-tuning budget per motion, in character steps")
@@ -140,6 +178,7 @@ void declare_run(CLI::App& app, Arguments& a) {
     a.run = [&a] {
       a.adapt.training.seed = a.pretrain.training.seed;
       a.adapt.threads = a.pretrain.threads;
+      a.adapt.read = a.pretrain.read;
       return run_all(a.in, a.out, a.pretrain, a.adapt, a.pretrain_samples);
     };
   });
@@ -160,8 +199,9 @@ void declare_evaluate(CLI::App& app, Arguments& a) {
 
 void declare_cluster(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("cluster", "Sort motions into clusters of similar ones");
-  command->add_option("FILE", a.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command->add_option("FILE", a.inputs, "motions and folders of them")->required();
   command->add_option("--out", a.out, "where to write the clusters: .json")->required();
+  add_read_options(*command, a.read);
   auto* radius = command
                      ->add_option("--radius", a.cluster.radius,
                                   "no two motions of a cluster are farther apart than this")
@@ -171,13 +211,14 @@ void declare_cluster(CLI::App& app, Arguments& a) {
       ->check(CLI::PositiveNumber)
       ->excludes(radius);
   command->add_option("--seed", a.cluster.seed, "root of every random number")->capture_default_str();
-  command->callback([&a] { a.run = [&a] { return run_cluster(a.inputs, a.out, a.cluster); }; });
+  command->callback([&a] { a.run = [&a] { return run_cluster(a.inputs, a.out, a.cluster, a.read); }; });
 }
 
 void declare_fit(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("fit", "Move motions onto their 2D keypoints, where they have any");
-  command->add_option("FILE", a.inputs, "motions (AMASS-style .npz) and folders of them")->required();
+  command->add_option("FILE", a.inputs, "motions and folders of them")->required();
   command->add_option("--out", a.out, "folder for the fitted motions")->required();
+  add_read_options(*command, a.read);
   const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
     command->add_option(name, sigma, "standard error of " + what + "; 0: it is exact")
         ->check(CLI::NonNegativeNumber)
@@ -186,18 +227,25 @@ void declare_fit(CLI::App& app, Arguments& a) {
   add_sigma("--focal-sigma", a.fit.focal_sigma, "the focal length in the file, relative");
   add_sigma("--tilt-sigma", a.fit.tilt_sigma, "the camera's tilt in the file, degrees");
   add_sigma("--beta-sigma", a.fit.beta_sigma, "each entry of the shape in the file");
-  command->callback([&a] { a.run = [&a] { return run_fit(a.inputs, a.out, a.fit); }; });
+  command->callback([&a] { a.run = [&a] { return run_fit(a.inputs, a.out, a.fit, a.read); }; });
 }
 
 void declare_file_commands(CLI::App& app, Arguments& a) {
-  auto* info = app.add_subcommand("info", "What a motion file holds and what preparation does to it");
-  info->add_option("FILE", a.file, "motion: AMASS-style .npz")->required();
-  info->callback([&a] { a.run = [&a] { return run_info(a.file); }; });
+  auto* info =
+      app.add_subcommand("info", "What a motion file holds, what reading decides, what preparation does");
+  info->add_option("FILE", a.file, "motion")->required();
+  add_read_options(*info, a.read);
+  info->callback([&a] { a.run = [&a] { return run_info(a.file, a.read); }; });
 
-  auto* convert = app.add_subcommand("convert", "Write a motion in this program's own layout");
-  convert->add_option("IN", a.in, "motion: AMASS-style .npz")->required();
-  convert->add_option("OUT", a.out, "where to write it: .npz")->required();
-  convert->callback([&a] { a.run = [&a] { return run_convert(a.in, a.out); }; });
+  auto* convert = app.add_subcommand("convert", "Write a motion in another format, chosen by the suffix");
+  convert->add_option("IN", a.in, "motion")->required();
+  convert->add_option("OUT", a.out, "where to write it: " + written_suffixes())->required();
+  add_read_options(*convert, a.read);
+  convert->add_option("--rate", a.rate, "frame rate of OUT: input or 30")
+      ->check(CLI::IsMember({"input", "30"}))
+      ->capture_default_str();
+  convert->callback(
+      [&a] { a.run = [&a] { return run_convert(a.in, a.out, a.read, a.rate == "30" ? 30.0 : 0.0); }; });
 }
 
 void declare_synth(CLI::App& app, Arguments& a) {

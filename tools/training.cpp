@@ -79,8 +79,21 @@ std::filesystem::path shipped_options() {
 int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
   apply(settings, options.training);
   return with_context([&](const RunContext& context) {
-    options.inputs = expand_inputs(options.inputs);
-    return run_sequences(options, context);
+    const std::vector<std::string> files = expand_inputs(options.inputs);
+    if (!options.out.empty()) {
+      options.inputs = files;
+      return run_sequences(options, context);
+    }
+    RunOutcome all = RunOutcome::kAllGood;
+    options.beside = true;
+    for (const std::filesystem::path file : files) {
+      options.inputs = {file.string()};
+      options.out = file.parent_path() / (file.stem().string() + ".mimicx");
+      const RunOutcome outcome = run_sequences(options, context);
+      if (outcome == RunOutcome::kInterrupted) return outcome;
+      if (outcome != RunOutcome::kAllGood) all = outcome;
+    }
+    return all;
   });
 }
 

@@ -57,7 +57,7 @@ void choose_body(const ReadOptions& o, Clip& clip) {
 void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
   if (o.scale) {
     scale_world(*o.scale, clip);
-    clip.decisions.push_back("scale: " + format_number(*o.scale) + " m per unit, as asked for");
+    clip.decisions.push_back("scale: " + short_number(*o.scale) + " m per unit, as asked for");
     return;
   }
   if (believed) return;
@@ -66,8 +66,8 @@ void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
   scale_world(scale, clip);
   clip.decisions.push_back("scale: the translation is taken to be in " +
                            std::string(scale == 0.01 ? "centimetres" : "millimetres") +
-                           " (in metres the stiller foot would move at " + format_number(before) +
-                           " m/s, now it does at " + format_number(support_speed(clip)) +
+                           " (in metres the stiller foot would move at " + short_number(before) +
+                           " m/s, now it does at " + short_number(support_speed(clip)) +
                            "; --scale overrides)");
 }
 
@@ -79,7 +79,7 @@ void settle_up(const ReadOptions& o, bool believed, Clip& clip) {
   }
   if (believed) return;
   const UpAxis up = detect_up(clip);
-  const std::string along = " (the body stands along it: " + format_number(up.along) + ")";
+  const std::string along = " (the body stands along it: " + short_number(up.along) + ")";
   if (!up.sure) {
     clip.decisions.emplace_back("up axis: z, as the format has it (the body lies, crawls or turns over)");
   } else if (up.axis == 'z') {
@@ -101,21 +101,21 @@ double usual_rate(double fps) {
 
 void settle_fps(const ReadOptions& o, bool believed, Clip& clip) {
   if (o.fps) {
-    clip.decisions.push_back("frame rate: " + format_number(*o.fps) + " fps, as asked for (the file says " +
-                             format_number(clip.fps) + ")");
+    clip.decisions.push_back("frame rate: " + short_number(*o.fps) + " fps, as asked for (the file says " +
+                             short_number(clip.fps) + ")");
     clip.fps = *o.fps;
     return;
   }
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  std::string line = "frame rate: " + format_number(clip.fps) + " fps, as the file says";
+  std::string line = "frame rate: " + short_number(clip.fps) + " fps, as the file says";
   if (fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0) {
-    line = "frame rate: " + format_number(usual) + " fps, not " + format_number(clip.fps);
+    line = "frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps);
     clip.fps = usual;
   }
   if (fall)
-    line += " (the body falls with " + format_number(fall->acceleration) +
+    line += " (the body falls with " + short_number(fall->acceleration) +
             " m/s² at the file's rate; --fps overrides)";
   clip.decisions.push_back(line);
 }
@@ -124,13 +124,13 @@ void settle_floor(const ReadOptions& o, bool believed, Clip& clip) {
   if (o.floor) {
     shift_world({0.0, 0.0, -*o.floor}, clip);
     clip.on_floor = true;
-    clip.decisions.push_back("floor: at " + format_number(*o.floor) + " m, as asked for");
+    clip.decisions.push_back("floor: at " + short_number(*o.floor) + " m, as asked for");
     return;
   }
   if (believed) return;
   const double height = detect_floor(clip);
   if (std::abs(height) > kFloorWorthSaying)
-    clip.decisions.push_back("floor: at " + format_number(height) +
+    clip.decisions.push_back("floor: at " + short_number(height) +
                              " m, where the lowest points are; preparation puts it at 0 (--floor overrides)");
 }
 
@@ -194,9 +194,13 @@ Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) 
   return clip;
 }
 
-bool has_motion_suffix(const std::filesystem::path& path) {
+bool is_motion_file(const std::filesystem::path& path) {
   return path.extension() == ".npz" || path.extension() == ".npy";
 }
+
+bool is_written(const std::string& suffix) { return suffix == ".npz" || suffix == ".npy"; }
+
+std::string written_suffixes() { return ".npz or .npy"; }
 
 void write_motion(const std::filesystem::path& path, const Clip& clip) {
   const std::string suffix = path.extension().string();
@@ -205,8 +209,8 @@ void write_motion(const std::filesystem::path& path, const Clip& clip) {
   else if (suffix == ".npy")
     write_motionx(path, clip);
   else
-    throw std::invalid_argument(path.string() + ": motions are written as .npz or .npy, not '" + suffix +
-                                "'");
+    throw std::invalid_argument(path.string() + ": motions are written as " + written_suffixes() + ", not '" +
+                                suffix + "'");
 }
 
 }  // namespace mimicx

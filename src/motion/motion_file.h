@@ -36,8 +36,12 @@ MotionFormat recognise(const std::string& bytes);
 /// @throws DataError for a file that cannot be read, std::invalid_argument for an option that makes no sense
 Clip read_motion(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The suffixes a folder is searched for.
-bool has_motion_suffix(const std::filesystem::path& path);
+/// Whether a folder's entry is taken for a motion, by its suffix.
+bool is_motion_file(const std::filesystem::path& path);
+
+/// Whether `write_motion` knows a suffix; those it knows, for messages.
+bool is_written(const std::string& suffix);
+std::string written_suffixes();
 
 /// Writes a motion in the format that the suffix names: .npz (our own layout, docs/formats.md) or .npy
 /// (Motion-X). @throws std::invalid_argument for another suffix

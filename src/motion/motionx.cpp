@@ -49,7 +49,7 @@ void undo_aist(Clip& clip) {
   clip = corrected;
   clip.decisions.push_back(
       "scale: 1/94 with z negated, the known slip of Motion-X's AIST part (the stillest joint moved at " +
-      format_number(before) + " m/s, now at " + format_number(after) + ")");
+      short_number(before) + " m/s, now at " + short_number(after) + ")");
 }
 
 }  // namespace

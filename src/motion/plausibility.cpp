@@ -122,7 +122,7 @@ Parabola fit_parabola(const std::vector<double>& z, std::size_t first, std::size
 
 }  // namespace
 
-std::string format_number(double value) {
+std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
@@ -226,10 +226,10 @@ std::vector<std::string> implausible_speeds(const Clip& clip) {
   }
   std::vector<std::string> said;
   if (const double speed = percentile(pelvis, 0.5); speed > kFastPelvis)
-    said.push_back("the pelvis moves at " + format_number(speed) +
+    said.push_back("the pelvis moves at " + short_number(speed) +
                    " m/s in the median: are scale and frame rate right? (--scale, --fps)");
   if (const double speed = percentile(fastest, 0.99); speed > kFastJoint)
-    said.push_back("a joint reaches " + format_number(speed) +
+    said.push_back("a joint reaches " + short_number(speed) +
                    " m/s: are scale and frame rate right? (--scale, --fps)");
   return said;
 }

@@ -16,7 +16,7 @@
 namespace mimicx {
 
 /// A number with three significant digits, for sentences.
-std::string format_number(double value);
+std::string short_number(double value);
 
 /// Median over the frames of the speed of the stillest joint, m/s: what carries the body hardly moves.
 double support_speed(const Clip& clip);

@@ -55,6 +55,7 @@ Json to_json(const SequenceEntry& e) {
           {"ok_before", e.ok_before},
           {"metrics", to_json(e.metrics)},
           {"preparation", to_json(e.preparation)},
+          {"decisions", e.decisions},
           {"notes", e.notes}};
 }
 
@@ -85,6 +86,7 @@ SequenceEntry entry_of(const Json& json) {
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
   e.preparation = named_values(json.at("preparation"));
+  e.decisions = json.value("decisions", std::vector<std::string>{});
   e.notes = json.at("notes").get<std::vector<std::string>>();
   return e;
 }
@@ -97,7 +99,8 @@ bool same(const NamedValues& a, const NamedValues& b) {
 
 bool Manifest::same_settings(const Manifest& other) const {
   return version == other.version && target == other.target && seed == other.seed &&
-         samples == other.samples && options == other.options && same(settings, other.settings);
+         samples == other.samples && options == other.options && reading == other.reading &&
+         same(settings, other.settings);
 }
 
 const SequenceEntry* Manifest::find(const std::string& input) const {
@@ -122,6 +125,7 @@ std::string format_manifest(const Manifest& manifest) {
                  {"seed", manifest.seed},
                  {"samples", manifest.samples},
                  {"options", manifest.options},
+                 {"reading", manifest.reading},
                  {"settings", to_json(manifest.settings)}}},
                {"sequences", Json::array()}};
   for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
@@ -139,6 +143,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
     manifest.seed = run.at("seed");
     manifest.samples = run.at("samples");
     manifest.options = run.at("options");
+    manifest.reading = run.value("reading", "");
     manifest.settings = named_values(run.at("settings"));
     for (const auto& e : json.at("sequences")) manifest.sequences.push_back(entry_of(e));
     return manifest;

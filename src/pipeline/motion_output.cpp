@@ -62,6 +62,7 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
     joints.push_back(pose.p_WB);
   }
   Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) put_on_body_of(input, clip);
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   for (const auto& member : input.passthrough) {
@@ -78,7 +79,7 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
   write_clip(path, clip, extra);
 }
 
-void write_reference(const std::filesystem::path& path, const Reference& reference) {
+void write_reference(const std::filesystem::path& path, const Clip& input, const Reference& reference) {
   std::vector<Vector3d> p_root;
   std::vector<std::array<Quaterniond, kBodies>> q;
   std::vector<std::array<Vector3d, kBodies>> joints;
@@ -88,6 +89,7 @@ void write_reference(const std::filesystem::path& path, const Reference& referen
     joints.push_back(reference.poses[t].p_WB);
   }
   Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) put_on_body_of(input, clip);
   clip.keypoints = reference.keypoints;
   write_clip(path, clip, {{"joints", joints_member(joints)}});
 }

@@ -16,7 +16,7 @@ namespace mimicx {
 void write_simulated(const std::filesystem::path& path, const Clip& input, const Reference& reference,
                      const rl::TrackingRollout& rollout, std::vector<std::string>& notes);
 
-/// The prepared reference.
-void write_reference(const std::filesystem::path& path, const Reference& reference);
+/// The prepared reference of an input.
+void write_reference(const std::filesystem::path& path, const Clip& input, const Reference& reference);
 
 }  // namespace mimicx

@@ -32,10 +32,9 @@ NamedValues values_of(const FitReport& r) {
 
 }  // namespace
 
-PreparedMotion prepare_motion(const std::filesystem::path& path, bool fit) {
+PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptions& read, bool fit) {
   PreparedMotion motion;
-  motion.input = read_clip(path);
-  motion.notes = motion.input.warnings;
+  motion.input = read_motion(path, read);
   motion.has_fit = fit && motion.input.keypoints.has_value();
   if (motion.has_fit) {
     FitReport report;
@@ -52,6 +51,11 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, bool fit) {
   return motion;
 }
 
+void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out) {
+  for (const auto* lines : {&clip.decisions, &clip.warnings})
+    for (const std::string& line : *lines) out << file << ": " << line << '\n';
+}
+
 std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
   std::vector<std::string> files;
   for (const std::string& input : inputs) {
@@ -61,8 +65,9 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
     }
     const std::size_t before = files.size();
     for (const auto& entry : std::filesystem::directory_iterator(input))
-      if (entry.path().extension() == ".npz") files.push_back(entry.path().string());
-    if (files.size() == before) throw std::invalid_argument(input + ": a folder without any .npz");
+      if (is_motion_file(entry.path()) && entry.path().stem().extension() != ".clean")
+        files.push_back(entry.path().string());
+    if (files.size() == before) throw std::invalid_argument(input + ": a folder without any motion file");
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   }
   return files;

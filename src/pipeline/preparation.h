@@ -4,17 +4,19 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "motion/fit.h"
+#include "motion/motion_file.h"
 #include "motion/reference.h"
 #include "pipeline/manifest.h"
 
 namespace mimicx {
 
 struct PreparedMotion {
-  Clip input;   ///< as it stands in the file
+  Clip input;   ///< as it was read, with what reading decided
   Clip fitted;  ///< on its keypoints; the input itself where there are none, or no fit is wanted
   bool has_fit = false;
   Reference reference;
@@ -25,9 +27,13 @@ struct PreparedMotion {
 
 /// @param fit  move the motion onto its keypoints first, where it has any
 /// @throws DataError as reading, fitting and preparing do
-PreparedMotion prepare_motion(const std::filesystem::path& path, bool fit);
+PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptions& read, bool fit);
 
-/// The motions that files and folders name: a folder stands for its *.npz, sorted by name.
+/// Prints what reading decided and what it warns of, a line each, behind the file's name.
+void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out);
+
+/// The motions that files and folders name: a folder stands for its motion files, sorted by name, but not for
+/// clean copies (NAME.clean.EXT) that an earlier run left there.
 /// @throws std::invalid_argument for a folder without any
 std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs);
 

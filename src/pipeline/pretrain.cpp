@@ -22,13 +22,15 @@ struct Motions {
   bool all_good = true;
 };
 
-Motions read_motions(const std::vector<std::string>& files, bool fit, const RunContext& context) {
+Motions read_motions(const std::vector<std::string>& files, const PretrainOptions& options,
+                     const RunContext& context) {
   Motions motions;
   context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
     try {
-      PreparedMotion motion = prepare_motion(files[i], fit);
+      PreparedMotion motion = prepare_motion(files[i], options.read, options.fit);
+      tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
       std::vector<std::string> taken;
       for (const auto& named : motions.features) taken.push_back(named.name);
@@ -73,9 +75,13 @@ Json run_record(const PretrainOptions& options, const std::vector<std::string>& 
     }
     inputs.push_back({{"input", file}, {"checksum", checksum}});
   }
-  return {{"version", MIMICX_VERSION},          {"target", MIMICX_TARGET},
-          {"seed", options.training.seed},      {"samples", options.training.samples},
-          {"settings", settings_json(options)}, {"inputs", inputs}};
+  return {{"version", MIMICX_VERSION},
+          {"target", MIMICX_TARGET},
+          {"seed", options.training.seed},
+          {"samples", options.training.samples},
+          {"settings", settings_json(options)},
+          {"reading", options.read.text()},
+          {"inputs", inputs}};
 }
 
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs
@@ -194,7 +200,7 @@ RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
   folder.create();
   write_file_atomically(folder.manifest(), Json({{"run", record}}).dump(1) + "\n");
 
-  const Motions motions = read_motions(files, options.fit, context);
+  const Motions motions = read_motions(files, options, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
   const Clusters clusters = cluster_motions(motions.features, options.clusters);
   write_clusters(options.out / "clusters.json", clusters);

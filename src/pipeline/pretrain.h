@@ -13,6 +13,7 @@
 /// What it never does: open any ground truth.
 #pragma once
 
+#include "motion/motion_file.h"
 #include "nn/autoencoder.h"
 #include "pipeline/clusters.h"
 #include "pipeline/sequences.h"
@@ -27,6 +28,7 @@ struct PretrainOptions {
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
   bool fit = true;
+  ReadOptions read;
   int threads = 1;
 };
 

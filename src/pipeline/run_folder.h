@@ -7,6 +7,7 @@
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
+///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
@@ -32,6 +33,9 @@ struct RunFolder {
     return root / "references" / (name + ".npz");
   }
   std::filesystem::path fit(const std::string& name) const { return root / "fits" / (name + ".npz"); }
+  std::filesystem::path clean(const std::string& name, const std::string& suffix) const {
+    return root / "clean" / (name + suffix);
+  }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/npz.h"
+#include "pipeline/clean_copy.h"
 #include "pipeline/motion_output.h"
 #include "pipeline/preparation.h"
 #include "pipeline/run_report.h"
@@ -33,6 +34,7 @@ Manifest manifest_of(const RunOptions& options) {
   manifest.samples = options.training.samples;
   manifest.settings = settings_of(options.training);
   manifest.settings.emplace_back("fit", options.fit ? 1.0 : 0.0);
+  manifest.reading = options.read.text();
   if (options.options) {
     manifest.options = options.options->checksum;
     manifest.settings.emplace_back("switch_penalty", options.switch_penalty);
@@ -148,7 +150,7 @@ void finish_sequence(const RunState& run, const PreparedMotion& motion, const Ta
     std::filesystem::create_directories(run.folder.fit(entry.name).parent_path());
     write_clip(run.folder.fit(entry.name), motion.fitted);
   }
-  write_reference(run.folder.reference(entry.name), reference);
+  write_reference(run.folder.reference(entry.name), motion.input, reference);
   const Scores first = score_simulated(reference, before), last = score_simulated(reference, after);
   entry.metrics_before = first.values;
   entry.ok_before = first.success;
@@ -165,11 +167,12 @@ void finish_sequence(const RunState& run, const PreparedMotion& motion, const Ta
 bool train_sequence(RunState& run, SequenceEntry& entry) {
   const double started = steady_seconds();
   const TrainingConfig& config = run.options.training;
-  const PreparedMotion motion = prepare_motion(entry.input, run.options.fit);
+  const PreparedMotion motion = prepare_motion(entry.input, run.options.read, run.options.fit);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
+  entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
   entry.input_metrics = score_input(motion.input, motion.reference);
 
@@ -215,6 +218,18 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
   return !stands;
 }
 
+/// Writes a success in its input's own format, where the clean set is not that already.
+void copy_clean(const RunState& run, const SequenceEntry& entry) {
+  const std::filesystem::path input(entry.input);
+  const std::string suffix = clean_suffix(input);
+  if (!entry.ok || (suffix == ".npz" && !run.options.beside && !run.options.input_rate)) return;
+  const std::filesystem::path copy = run.options.beside
+                                         ? input.parent_path() / (input.stem().string() + ".clean" + suffix)
+                                         : run.folder.clean(entry.name, suffix);
+  write_clean_copy(run.folder.root / entry.output, input, run.options.read, run.options.input_rate, copy);
+  if (run.options.beside) run.context.messages << "  clean motion: " << copy.string() << '\n';
+}
+
 }  // namespace
 
 TrainingConfig fine_tuning_defaults() {
@@ -241,6 +256,7 @@ RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
         context.progress.finish(entry.name + ": interrupted; the same command continues");
         return RunOutcome::kInterrupted;
       }
+      copy_clean(run, entry);
     } catch (const std::exception& error) {
       entry.ok = false;
       entry.reason = error.what();
@@ -250,6 +266,7 @@ RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
     write_records(run);
     write_report(folder, run.manifest);
     context.progress.finish(summary_of(entry));
+    for (const auto& decision : entry.decisions) context.messages << "  " << decision << '\n';
     for (const auto& note : entry.notes) context.messages << "  " << note << '\n';
   }
   return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;

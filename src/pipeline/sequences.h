@@ -6,7 +6,7 @@
 /// One input after the other; an input that fails is recorded with its reason and the others go on. The
 /// manifest is written after every input, so the same command continues a run that was interrupted: finished
 /// inputs are kept, a begun training is taken up again, and the files end up the same bytes as if nothing
-/// had happened.
+/// had happened. Every success is also written in its input's own format (clean_copy.h).
 ///
 /// What it never does: open any ground truth.
 #pragma once
@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_file.h"
 #include "pipeline/manifest.h"
 #include "pipeline/options.h"
 #include "pipeline/progress.h"
@@ -30,7 +31,10 @@ struct RunOptions {
   std::vector<std::string> inputs;  ///< as given; recorded as such
   std::filesystem::path out;
   TrainingConfig training;
-  bool fit = false;                          ///< move inputs onto their keypoints first, where they have any
+  ReadOptions read;
+  bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
+  bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
+  bool fit = false;         ///< move inputs onto their keypoints first, where they have any
   std::shared_ptr<const OptionSet> options;  ///< to start from; null: train from scratch
   double switch_penalty = -1.0;              ///< w_p of Eq. 4, in rewards; ≤ 0
   double rescue_reward = 0.1;                ///< σ of the side-by-side roll-out

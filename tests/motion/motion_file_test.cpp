@@ -126,7 +126,7 @@ TEST(ReadMotion, AFallTellsTheFrameRate) {
     }
     const Clip back = reread(wrong);
     EXPECT_EQ(back.fps, rate) << label;
-    EXPECT_TRUE(says(back, "frame rate: " + format_number(rate) + " fps, not " + format_number(label)));
+    EXPECT_TRUE(says(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
     ReadOptions asked;
     asked.fps = label;
     EXPECT_EQ(reread(wrong, asked).fps, label) << "the user is believed";

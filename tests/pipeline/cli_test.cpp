@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/npz.h"
+#include "motion/world.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
@@ -59,7 +60,6 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
   for (const std::string& arguments : {std::string(),
                                        std::string("dance"),
                                        std::string("imitate"),
-                                       "imitate " + a,
                                        "imitate" + out,
                                        "imitate " + a + out + " --samples -1",
                                        "imitate " + a + out + " --samples many",
@@ -70,7 +70,12 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        std::string("evaluate"),
                                        std::string("info"),
                                        "convert " + a,
-                                       "convert " + a + " " + path("b.bvh"),
+                                       "convert " + a + " " + path("b.fbx"),
+                                       "convert " + a + " " + path("b.npz") + " --rate 25",
+                                       "info " + a + " --up w",
+                                       "info " + a + " --scale 0",
+                                       "info " + a + " --body mine",
+                                       "info " + a + " --smplx " + path("none.npz"),
                                        std::string("synth"),
                                        std::string("cluster"),
                                        "cluster " + a,
@@ -110,6 +115,56 @@ TEST_F(Cli, ConvertKeepsTheMotion) {
   const Clip back = read_clip(path("new/b.npz"));
   EXPECT_EQ(back.rotations, clip.rotations);
   EXPECT_EQ(back.trans, clip.trans);
+}
+
+/// A standing motion as another program wrote it: SMPL-X, y up, at `fps`.
+Clip foreign_clip(double fps) {
+  Clip clip = standing_clip(40);
+  clip.body_model = "smplx";
+  clip.fps = fps;
+  rotate_world(rotation_to_z_up('y').conjugate(), clip);
+  std::vector<double> hands(40 * 90, 0.25);
+  clip.passthrough.emplace_back("pose_hand", NpyArray::from_double({40, 90}, hands.data()));
+  return clip;
+}
+
+TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndSaysWhatItDecided) {
+  write_clip(path("a.npz"), foreign_clip(60.0));
+  const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_TRUE(says(call, "a.npz: up axis: y, turned to z")) << call.text;
+  const Call info = mimicx("info " + path("b.npy"));
+  EXPECT_TRUE(says(info, "Motion-X") && says(info, "20 at 30 fps")) << info.text;
+  EXPECT_EQ(mimicx("convert " + path("a.npz") + " " + path("c.npy")).status, 1) << "60 fps do not fit";
+}
+
+TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
+  write_clip(path("a.npz"), foreign_clip(60.0));
+  // Untrained, the standing policy may fail; what is tested is where things go.
+  const std::string command = "imitate " + path("a.npz") + " --samples 1 --threads 1 --rate input";
+  const Call call = mimicx(command);
+  ASSERT_TRUE(std::filesystem::exists(path("a.mimicx/manifest.json"))) << call.text;
+  const auto manifest = nlohmann::json::parse(read_file(path("a.mimicx/manifest.json")));
+  const auto& entry = manifest["sequences"][0];
+  EXPECT_NE(entry["decisions"].dump().find("up axis: y"), std::string::npos) << entry["decisions"];
+  ASSERT_EQ(std::filesystem::exists(path("a.clean.npz")), entry["status"] == "ok") << call.text;
+  if (entry["status"] != "ok") GTEST_SKIP() << "the untrained policy fell";
+  const Clip input = read_clip(path("a.npz")), clean = read_clip(path("a.clean.npz"));
+  EXPECT_EQ(clean.body_model, "smplx");
+  EXPECT_EQ(clean.fps, 60.0);
+  EXPECT_EQ(clean.frames(), input.frames());
+  EXPECT_EQ(read_npz(path("a.clean.npz")).at("pose_hand").bytes, input.passthrough[0].second.bytes);
+  EXPECT_EQ(mimicx(command).status, 0) << "the same command keeps what is there";
+  // A folder stands for its inputs, not for clean copies.
+  EXPECT_FALSE(
+      says(mimicx("cluster " + folder.path.string() + " --clusters 1 --out " + path("c.json")), "clean"));
+}
+
+TEST_F(Cli, ARunOfOtherReadingIsRefused) {
+  write_clip(path("a.npz"), standing_clip(20));
+  const std::string command = "imitate " + path("a.npz") + " --samples 0 --threads 1 --out " + path("out");
+  mimicx(command);
+  EXPECT_EQ(mimicx(command + " --fps 25").status, 2);
 }
 
 TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
