@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "motion/motion_file.h"
 #include "pipeline/preparation.h"
+#include "pipeline/qpos.h"
 
 namespace mimicx {
 
@@ -15,7 +16,10 @@ int run_convert(const std::filesystem::path& in, const std::filesystem::path& ou
   if (fps > 0.0) clip = resampled(clip, fps);
   tell_decisions(in.string(), clip, std::cerr);
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  write_motion(out, clip);
+  if (out.stem().extension() == ".qpos" && out.extension() == ".npz")
+    write_qpos(out, clip);
+  else
+    write_motion(out, clip);
   return kAllGood;
 }
 

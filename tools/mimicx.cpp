@@ -239,7 +239,8 @@ void declare_file_commands(CLI::App& app, Arguments& a) {
 
   auto* convert = app.add_subcommand("convert", "Write a motion in another format, chosen by the suffix");
   convert->add_option("IN", a.in, "motion")->required();
-  convert->add_option("OUT", a.out, "where to write it: " + written_suffixes())->required();
+  convert->add_option("OUT", a.out, "where to write it: " + written_suffixes() + "; .qpos.npz: for MuJoCo")
+      ->required();
   add_read_options(*convert, a.read);
   convert->add_option("--rate", a.rate, "frame rate of OUT: input or 30")
       ->check(CLI::IsMember({"input", "30"}))

@@ -13,7 +13,8 @@
 namespace mimicx {
 namespace {
 
-constexpr double kOddRate = 1.25;           ///< factor between the file's frame rate and that of a fall
+constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
+constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
 constexpr double kFloorWorthSaying = 0.05;  ///< m
 
 void require_sense(const ReadOptions& o) {
@@ -134,8 +135,15 @@ void settle_floor(const ReadOptions& o, bool believed, Clip& clip) {
                              " m, where the lowest points are; preparation puts it at 0 (--floor overrides)");
 }
 
-Clip read_any(const std::filesystem::path& path, const ReadOptions& o) {
-  const std::string bytes = read_file(path), name = path.stem().string();
+void require_near(const std::filesystem::path& path, const Clip& clip) {
+  for (std::size_t t = 0; t < clip.trans.size(); ++t)
+    if (!(clip.trans[t].cwiseAbs().maxCoeff() < kFarthest))
+      throw DataError(path.string(), "frame " + std::to_string(t), "a place within 100 km of the origin",
+                      short_number(clip.trans[t].cwiseAbs().maxCoeff()) + " m");
+}
+
+Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& o) {
+  const std::string name = path.stem().string();
   switch (recognise(bytes)) {
     case MotionFormat::kNpz: {
       Clip clip = clip_from(parse_npz(bytes, path.string()), name);
@@ -181,8 +189,12 @@ MotionFormat recognise(const std::string& bytes) {
 }
 
 Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) {
+  return motion_from(read_file(path), path, options);
+}
+
+Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& options) {
   require_sense(options);
-  Clip clip = read_any(path, options);
+  Clip clip = read_any(bytes, path, options);
   const bool believed = clip.body_model == "mimicx" || clip.rest_joints.has_value();
   choose_body(options, clip);
   settle_scale(options, believed, clip);
@@ -191,6 +203,7 @@ Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) 
   settle_floor(options, believed, clip);
   if (!believed)
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
+  require_near(path, clip);
   return clip;
 }
 

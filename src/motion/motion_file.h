@@ -36,6 +36,10 @@ MotionFormat recognise(const std::string& bytes);
 /// @throws DataError for a file that cannot be read, std::invalid_argument for an option that makes no sense
 Clip read_motion(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// The same from bytes in memory. @param path  for messages; its stem is the motion's name
+Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
+                 const ReadOptions& options = {});
+
 /// Whether a folder's entry is taken for a motion, by its suffix.
 bool is_motion_file(const std::filesystem::path& path);
 

@@ -35,7 +35,9 @@ constexpr double kFloorShare = 0.05;
 constexpr double kFastPelvis = 8.0;  ///< m/s in the median: a sprinter's pace
 constexpr double kFastJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
 
+/// Of the finite values: absurd input may lead to others.
 double percentile(std::vector<double> values, double share) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return 0.0;
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

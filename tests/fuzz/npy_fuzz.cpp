@@ -1,0 +1,39 @@
+// Arrays: as a Motion-X file, and as each member of an archive, past the checksums that guard a zip.
+#include "fuzz/driver.h"
+#include "motion/made_motions.h"
+#include "motion/motion_file.h"
+#include "motion/motionx.h"
+
+namespace mimicx::fuzz {
+
+std::vector<std::string> seeds() {
+  Clip clip = test::random_clip(1, 3, 0.3);
+  clip.body_model = "smplx";
+  const Eigen::MatrixXf floats = to_matrix(to_motionx(clip)).cast<float>();
+  return {format_npy(to_motionx(clip)), format_npy(to_npz(clip).at("poses")),
+          format_npy(to_npz(clip).at("betas")), format_npy(to_npz(clip).at("joint_names")),
+          format_npy(NpyArray::from_float({3, 322}, floats.data()))};
+}
+
+void feed(const std::string& bytes) {
+  try {
+    motion_from(bytes, "fuzz.npy");
+  } catch (const DataError&) {
+  }
+  try {
+    const NpyArray array =
+        parse_npy(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), "fuzz.npy", "");
+    for (const char* member : {"poses", "trans", "betas", "mocap_framerate", "joint_names", "body_model",
+                               "keypoints_2d", "rest_joints", "gender"}) {
+      Npz npz = to_npz(test::random_clip(1, 3, 0.3));
+      npz.set(member, array);
+      try {
+        to_npz(clip_from(npz, "fuzz"));
+      } catch (const DataError&) {
+      }
+    }
+  } catch (const DataError&) {
+  }
+}
+
+}  // namespace mimicx::fuzz
