@@ -39,7 +39,8 @@ struct Clip {
   std::string gender = "neutral";
   std::optional<Keypoints> keypoints;
   std::vector<std::pair<std::string, NpyArray>> passthrough;  ///< members the program does not use
-  std::vector<std::string> warnings;  ///< one line each, e.g. a foreign beta that was set aside
+  std::vector<std::string> warnings;   ///< one line each, e.g. a foreign beta that was set aside
+  std::vector<std::string> decisions;  ///< what reading decided, one line each
 
   int frames() const { return static_cast<int>(rotations.size()); }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.

@@ -1,0 +1,36 @@
+/// Fuzzing of the readers: every target is one function that must survive any bytes.
+///
+/// A target is a source file that defines the two functions below. It is linked with driver.cpp, which runs
+/// it either as an ordinary program over a fixed number of mutated seeds (the default, part of ctest):
+///
+///     fuzz_NAME [--runs N] [--seed S] [--from K] [FILE...]
+///
+/// or, with clang and -DMIMICX_FUZZ=ON, under libFuzzer. Input k depends on the seed and k alone, so a
+/// failure is repeated by `--from K --runs 1`; FILEs are fed as they are, before the mutated inputs.
+///
+/// What it does not do: no coverage feedback without libFuzzer, and no limits on time and memory: ctest has
+/// one for time, and a target bounds memory by what it asks of its reader.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mimicx::fuzz {
+
+/// Inputs to start from: small, valid, made by the target itself.
+std::vector<std::string> seeds();
+
+/// Feeds one input to the reader. A `DataError` is the right answer to bad data and must be caught by the
+/// target; anything else that leaves it is a failure.
+void feed(const std::string& bytes);
+
+/// What `main` does. @return 0 when every input was survived, 1 when one was not, 2 for a wrong argument
+int run_fuzz(const std::vector<std::string>& arguments, const std::vector<std::string>& seeds,
+             void (*feed)(const std::string&));
+
+/// The k-th mutated input: one seed after one to eight edits (bytes changed, inserted, removed, repeated; the
+/// end cut off; a piece of another seed; numbers and words that readers tend to trust).
+std::string mutated_input(const std::vector<std::string>& seeds, std::uint64_t seed, std::uint64_t k);
+
+}  // namespace mimicx::fuzz
