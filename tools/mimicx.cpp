@@ -72,6 +72,10 @@ void add_read_options(CLI::App& command, ReadOptions& read) {
       ->check(CLI::IsMember({"file", "standard"}));
   command.add_option("--smplx", read.smplx, "your SMPLX_NEUTRAL.npz: gives SMPL-X betas their joints")
       ->check(CLI::ExistingFile);
+  command
+      .add_option("--joint-map", read.joint_map,
+                  "more joint names for BVH skeletons: a text file, docs/formats.md")
+      ->check(CLI::ExistingFile);
 }
 
 /// What imitate and adapt have in common. @param samples  name of the option for the budget

@@ -13,11 +13,13 @@ namespace mimicx {
 namespace {
 
 constexpr double kMm = 1000.0, kPercent = 100.0, kDegree = std::numbers::pi / 180.0;
-constexpr int kUnsettled = 3;             ///< iterations until the motion is on the floor
-constexpr double kLargestTurn = 0.35;     ///< rad: longest step of one joint in one iteration
-constexpr std::size_t kFewestPoints = 6;  ///< joints among the keypoints, else there is nothing to fit to
-constexpr double kFarOff = 3.0;           ///< kernels: a detection this far off was set aside
-constexpr double kSmallestStep = 1e-5;    ///< rad and m: below, the fit has converged
+constexpr int kFewestFrames = 4;           ///< that show a tremor
+constexpr int kUnsettled = 3;              ///< iterations until the motion is on the floor
+constexpr double kLargestTurn = 0.35;      ///< rad: longest step of one joint in one iteration
+constexpr std::size_t kFewestPoints = 6;   ///< joints among the keypoints, else there is nothing to fit to
+constexpr double kFarOff = 3.0;            ///< kernels: a detection this far off was set aside
+constexpr double kSmallestStep = 1e-5;     ///< rad and m: below, the fit has converged
+constexpr double kBlindPriorFrames = 5.0;  ///< `prior_frames` where nothing but the input tells of the pose
 
 void require_usable(const Clip& clip) {
   if (clip.frames() < 3) throw DataError(clip.name, "", "at least 3 frames", std::to_string(clip.frames()));
@@ -130,7 +132,7 @@ Clip result_of(const Clip& input, const FitProblem& problem, const FitState& sta
   out.decisions = input.decisions;
   out.on_floor = input.on_floor;
   out.keypoints = input.keypoints;
-  correct_keypoints(problem, state, *out.keypoints);
+  if (!problem.points.empty()) correct_keypoints(problem, state, *out.keypoints);
   return out;
 }
 
@@ -174,32 +176,54 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   return state;
 }
 
+/// The clip at the problem's solution; as it is, with a note, where there is none.
+Clip solved(const Clip& clip, FitProblem& problem, FitReport& report) {
+  try {
+    const FitState state = iterate(problem, report);
+    const Clip fitted = result_of(clip, problem, state);
+    report.focal_scale = std::exp(state.g[kLogFocal]);
+    report.tilt_deg = state.g[kTilt] / kDegree;
+    report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
+    report_change(clip, fitted, report);
+    return fitted;
+  } catch (const std::domain_error& error) {
+    report.notes.push_back(std::string(error.what()) + ": left as it is");
+    return clip;
+  }
+}
+
 }  // namespace
 
 Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* report) {
   FitReport r;
-  const auto unchanged = [&](const std::string& why) {
-    r.notes.push_back(why);
-    if (report) *report = r;
-    return clip;
-  };
-  if (!clip.keypoints) return unchanged("no keypoints: left as it is");
-  require_usable(clip);
-  FitProblem problem = make_problem(clip, options);
-  if (const std::string why = reason_to_refuse(problem); !why.empty()) return unchanged(why);
-  FitState state;
-  try {
-    state = iterate(problem, r);
-  } catch (const std::domain_error& error) {
-    return unchanged(std::string(error.what()) + ": left as it is");
+  Clip fitted = clip;
+  if (!clip.keypoints) {
+    r.notes.push_back("no keypoints: left as it is");
+  } else {
+    require_usable(clip);
+    FitProblem problem = make_problem(clip, options);
+    if (const std::string why = reason_to_refuse(problem); !why.empty())
+      r.notes.push_back(why);
+    else
+      fitted = solved(clip, problem, r);
   }
-  const Clip fitted = result_of(clip, problem, state);
-  r.focal_scale = std::exp(state.g[kLogFocal]);
-  r.tilt_deg = state.g[kTilt] / kDegree;
-  r.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
-  report_change(clip, fitted, r);
   if (report) *report = r;
   return fitted;
+}
+
+Clip steady(const Clip& clip, const FitOptions& options, FitReport* report) {
+  FitReport r;
+  if (report) *report = r;
+  if (clip.frames() < kFewestFrames) return clip;
+  require_usable(clip);
+  Clip blind = clip;
+  blind.keypoints.reset();
+  FitOptions trusting = options;
+  trusting.prior_frames = std::min(options.prior_frames, kBlindPriorFrames);
+  FitProblem problem = make_problem(blind, trusting);
+  Clip calm = problem.rotation_jitter < kTremor * kDegree ? clip : solved(clip, problem, r);
+  if (report) *report = r;
+  return calm;
 }
 
 }  // namespace mimicx

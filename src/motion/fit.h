@@ -75,4 +75,10 @@ struct FitReport {
 /// @throws DataError for fewer than 3 frames or values that are not finite
 Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* report);
 
+/// The same problem without detections: calms a motion that trembles from frame to frame, as single-frame
+/// estimators leave it, and plants its feet. Keypoints and shape stay as they are. A motion whose joints
+/// tremble by less than `kTremor`, or of fewer than 4 frames, comes back unchanged. @throws as fit_keypoints
+Clip steady(const Clip& clip, const FitOptions& options, FitReport* report);
+inline constexpr double kTremor = 0.3;  ///< degrees per axis of a knee, the white part of its rotation
+
 }  // namespace mimicx

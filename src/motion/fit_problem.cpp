@@ -177,17 +177,17 @@ FitProblem make_problem(const Clip& clip, const FitOptions& options) {
   problem.options = options;
   problem.fps = clip.fps;
   problem.betas = clip.usable_betas();
-  problem.beta_sigma = clip.body_model == "mimicx" ? options.beta_sigma : options.foreign_beta_sigma;
+  if (clip.keypoints && !clip.rest_joints)  // nothing else tells of the shape, or it is known
+    problem.beta_sigma = clip.body_model == "mimicx" ? options.beta_sigma : options.foreign_beta_sigma;
   problem.rest_joints = clip.rest_joints;
-  if (clip.rest_joints) problem.beta_sigma = 0.0;
   const Character character = character_of(clip);
   const auto input = joint_rotations(clip);
   problem.q = to_hinges(character, input);
   for (const Vector3d& trans : clip.trans) problem.p_root.push_back(trans + rest_pelvis(clip));
-  if (!clip.keypoints) return problem;
-  add_points(*clip.keypoints, problem);
   add_shape_derivatives(problem);
   measure_jitter(input, problem);
+  if (!clip.keypoints) return problem;
+  add_points(*clip.keypoints, problem);
   for (std::size_t t = 0; t < problem.q.size(); ++t)
     problem.box.push_back(box_of(problem, t, forward_kinematics(character, problem.p_root[t], problem.q[t])));
   return problem;

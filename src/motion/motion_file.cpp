@@ -1,19 +1,26 @@
 #include "motion/motion_file.h"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
 #include "core/file.h"
 #include "motion/body_model.h"
+#include "motion/bvh.h"
+#include "motion/deepmimic.h"
 #include "motion/motionx.h"
 #include "motion/plausibility.h"
+#include "motion/retarget.h"
 #include "motion/world.h"
 
 namespace mimicx {
 namespace {
 
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
+constexpr std::string_view kHierarchy = "HIERARCHY";
+constexpr std::size_t kFirstBytes = 64;  ///< bytes that tell a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
 constexpr double kFloorWorthSaying = 0.05;  ///< m
 
@@ -142,6 +149,18 @@ void require_near(const std::filesystem::path& path, const Clip& clip) {
                       short_number(clip.trans[t].cwiseAbs().maxCoeff()) + " m");
 }
 
+/// A motion of a foreign skeleton on our body, axes and unit settled.
+Clip retargeted(const SkeletonMotion& motion, const std::string& format, const ReadOptions& o) {
+  RetargetOptions options;
+  options.standard_body = o.standard_body;
+  options.scale = o.scale.value_or(0.0);
+  options.up = o.up;
+  options.joint_map = o.joint_map;
+  Clip clip = retarget(motion, options);
+  clip.decisions.insert(clip.decisions.begin(), "format: " + format);
+  return clip;
+}
+
 Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& o) {
   const std::string name = path.stem().string();
   switch (recognise(bytes)) {
@@ -154,10 +173,14 @@ Clip read_any(const std::string& bytes, const std::filesystem::path& path, const
       const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
       return motionx_from(parse_npy(data, bytes.size(), path.string(), ""), name, path.string(), !o.scale);
     }
+    case MotionFormat::kBvh:
+      return retargeted(parse_bvh(bytes, path), "BVH", o);
+    case MotionFormat::kDeepMimic:
+      return retargeted(parse_deepmimic(bytes, path), "DeepMimic", o);
     case MotionFormat::kUnknown:
       break;
   }
-  throw DataError(path.string(), "", "a motion (npz or npy)",
+  throw DataError(path.string(), "", "a motion (npz, npy, BVH or DeepMimic)",
                   bytes.empty() ? "an empty file" : "other content");
 }
 
@@ -185,6 +208,13 @@ std::string ReadOptions::text() const {
 MotionFormat recognise(const std::string& bytes) {
   if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06")) return MotionFormat::kNpz;
   if (bytes.starts_with("\x93NUMPY")) return MotionFormat::kNpy;
+  const std::size_t bom = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0,
+                    start = bytes.find_first_not_of(" \t\r\n", bom);
+  if (start == std::string::npos) return MotionFormat::kUnknown;
+  if (bytes[start] == '{') return MotionFormat::kDeepMimic;
+  std::string word = bytes.substr(start, kHierarchy.size());
+  for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  if (word == kHierarchy) return MotionFormat::kBvh;
   return MotionFormat::kUnknown;
 }
 
@@ -195,10 +225,14 @@ Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) 
 Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& options) {
   require_sense(options);
   Clip clip = read_any(bytes, path, options);
-  const bool believed = clip.body_model == "mimicx" || clip.rest_joints.has_value();
-  choose_body(options, clip);
-  settle_scale(options, believed, clip);
-  settle_up(options, believed, clip);
+  const MotionFormat format = recognise(bytes);
+  const bool skeleton = format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
+  const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
+  if (!skeleton) {
+    choose_body(options, clip);
+    settle_scale(options, believed, clip);
+    settle_up(options, believed, clip);
+  }
   settle_fps(options, believed, clip);
   settle_floor(options, believed, clip);
   if (!believed)
@@ -208,12 +242,21 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
 }
 
 bool is_motion_file(const std::filesystem::path& path) {
-  return path.extension() == ".npz" || path.extension() == ".npy";
+  const std::string suffix = path.extension().string();
+  if (suffix == ".txt") {
+    std::ifstream file(path, std::ios::binary);
+    std::string start(kFirstBytes, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    return recognise(start.substr(0, static_cast<std::size_t>(file.gcount()))) == MotionFormat::kDeepMimic;
+  }
+  return suffix == ".npz" || suffix == ".npy" || suffix == ".bvh";
 }
 
-bool is_written(const std::string& suffix) { return suffix == ".npz" || suffix == ".npy"; }
+bool is_written(const std::string& suffix) {
+  return suffix == ".npz" || suffix == ".npy" || suffix == ".bvh";
+}
 
-std::string written_suffixes() { return ".npz or .npy"; }
+std::string written_suffixes() { return ".npz, .npy or .bvh"; }
 
 void write_motion(const std::filesystem::path& path, const Clip& clip) {
   const std::string suffix = path.extension().string();
@@ -221,6 +264,8 @@ void write_motion(const std::filesystem::path& path, const Clip& clip) {
     write_clip(path, clip);
   else if (suffix == ".npy")
     write_motionx(path, clip);
+  else if (suffix == ".bvh")
+    write_bvh(path, clip);
   else
     throw std::invalid_argument(path.string() + ": motions are written as " + written_suffixes() + ", not '" +
                                 suffix + "'");

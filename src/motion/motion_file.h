@@ -1,7 +1,8 @@
 /// Motions as people have them on disk: the format is recognised from the content, foreign conventions end
 /// here, and everything that was decided on the way stands in `Clip::decisions`.
 ///
-/// Formats: AMASS-like npz (clip.h) and Motion-X npy (motionx.h). Traps and thresholds: docs/formats.md.
+/// Formats: AMASS-like npz (clip.h), Motion-X npy (motionx.h), BVH (bvh.h), DeepMimic JSON (deepmimic.h).
+/// Traps and thresholds: docs/formats.md.
 ///
 /// Files of our own layout (body_model "mimicx") are believed: z up, metres. What the user says (options) is
 /// believed of every file.
@@ -30,7 +31,7 @@ struct ReadOptions {
 };
 
 /// What a file is, by its first bytes.
-enum class MotionFormat { kNpz, kNpy, kUnknown };
+enum class MotionFormat { kNpz, kNpy, kBvh, kDeepMimic, kUnknown };
 MotionFormat recognise(const std::string& bytes);
 
 /// @throws DataError for a file that cannot be read, std::invalid_argument for an option that makes no sense
@@ -40,15 +41,15 @@ Clip read_motion(const std::filesystem::path& path, const ReadOptions& options =
 Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
                  const ReadOptions& options = {});
 
-/// Whether a folder's entry is taken for a motion, by its suffix.
+/// Whether a folder's entry is taken for a motion: by its suffix; a .txt by its content.
 bool is_motion_file(const std::filesystem::path& path);
 
 /// Whether `write_motion` knows a suffix; those it knows, for messages.
 bool is_written(const std::string& suffix);
 std::string written_suffixes();
 
-/// Writes a motion in the format that the suffix names: .npz (our own layout, docs/formats.md) or .npy
-/// (Motion-X). @throws std::invalid_argument for another suffix
+/// Writes a motion in the format that the suffix names: .npz (our own layout, docs/formats.md), .npy
+/// (Motion-X) or .bvh. @throws std::invalid_argument for another suffix
 void write_motion(const std::filesystem::path& path, const Clip& clip);
 
 }  // namespace mimicx

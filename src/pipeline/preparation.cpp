@@ -41,12 +41,17 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptio
     motion.fitted = fit_keypoints(motion.input, {}, &report);
     motion.fit_values = values_of(report);
     motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
-  } else {
-    motion.fitted = motion.input;
+  }
+  FitReport calmed;
+  if (!motion.has_fit) {
+    motion.fitted = steady(motion.input, {}, &calmed);
+    motion.notes.insert(motion.notes.end(), calmed.notes.begin(), calmed.notes.end());
   }
   PreparationReport report;
   motion.reference = prepare_reference(motion.fitted, {}, &report);
   motion.preparation_values = values_of(report);
+  motion.preparation_values.emplace_back("steadied_mean_mm", calmed.change_mean_mm);
+  motion.preparation_values.emplace_back("steadied_max_mm", calmed.change_max_mm);
   motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
   return motion;
 }

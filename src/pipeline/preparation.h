@@ -1,4 +1,5 @@
-/// From a file's motion to a reference: keypoint fit, then preparation. The first arrow of every stage.
+/// From a file's motion to a reference: keypoint fit (or, without it, a trembling motion is steadied), then
+/// preparation. The first arrow of every stage.
 ///
 /// What it never does: open any ground truth.
 #pragma once
@@ -17,7 +18,7 @@ namespace mimicx {
 
 struct PreparedMotion {
   Clip input;   ///< as it was read, with what reading decided
-  Clip fitted;  ///< on its keypoints; the input itself where there are none, or no fit is wanted
+  Clip fitted;  ///< on its keypoints; steadied where there are none, or no fit is wanted
   bool has_fit = false;
   Reference reference;
   NamedValues fit_values;          ///< of the fit's report; empty without a fit

@@ -42,10 +42,10 @@ std::vector<ReportMetric> rows_of(const std::vector<NamedValues>& columns) {
   std::vector<ReportMetric> rows;
   for (std::size_t c = columns.size(); c-- > 0;)
     for (const auto& [name, value] : columns[c]) {
-      auto row =
-          std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == with_unit(name); });
+      const std::string title = with_unit(name);
+      auto row = std::find_if(rows.begin(), rows.end(), [&title](const auto& r) { return r.name == title; });
       if (row == rows.end())
-        row = rows.insert(rows.end(), {with_unit(name), std::vector<double>(columns.size(), kNone)});
+        row = rows.insert(rows.end(), {title, std::vector<double>(columns.size(), kNone)});
       row->values[c] = value;
     }
   return rows;

@@ -292,5 +292,39 @@ TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
   EXPECT_EQ(files, 27);
 }
 
+TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
+  const fs::path root = fs::path(MIMICX_SHARED_DIR) / "motions";
+  if (!fs::exists(root)) GTEST_SKIP() << "no shared motions here";
+  int files = 0;
+  for (const char* folder : {"bvh", "deepmimic"})
+    for (const auto& file : fs::directory_iterator(root / folder)) {
+      const Clip clip = read_motion(file.path());
+      EXPECT_TRUE(is_motion_file(file.path())) << file.path();
+      EXPECT_TRUE(says(clip, "format: ")) << file.path();
+      for (const char* suffix : {"back.bvh", "back.npz"}) {
+        write_motion(scratch(suffix), clip);
+        EXPECT_LT(distance(read_motion(scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
+      }
+      ++files;
+    }
+  EXPECT_EQ(files, 28);
+  EXPECT_FALSE(is_motion_file(root / "README.md"));
+}
+
+TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
+  const Clip clip = foreign("walk");
+  const fs::path path = scratch("walk.npz");  // a BVH by another name
+  write_motion(scratch("walk.bvh"), clip);
+  fs::copy_file(scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
+  EXPECT_LT(distance(read_motion(path), clip), 1e-6);
+  ReadOptions asked;
+  asked.fps = 25.0;
+  EXPECT_EQ(read_motion(path, asked).fps, 25.0);
+  EXPECT_EQ(recognise("\xEF\xBB\xBF\r\n hierarchy\n"), MotionFormat::kBvh);
+  EXPECT_EQ(recognise(" {\"Loop\": 1}"), MotionFormat::kDeepMimic);
+  EXPECT_EQ(recognise("HIERARCH"), MotionFormat::kUnknown);
+  EXPECT_EQ(recognise(""), MotionFormat::kUnknown);
+}
+
 }  // namespace
 }  // namespace mimicx

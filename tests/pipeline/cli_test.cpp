@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/npz.h"
+#include "motion/bvh.h"
+#include "motion/motion_file.h"
 #include "motion/world.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/standing_clip.h"
@@ -158,6 +160,19 @@ TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
   // A folder stands for its inputs, not for clean copies.
   EXPECT_FALSE(
       says(mimicx("cluster " + folder.path.string() + " --clusters 1 --out " + path("c.json")), "clean"));
+}
+
+TEST_F(Cli, ABvhComesBackAsACleanBvh) {
+  write_bvh(path("clip.bvh"), standing_clip(40));
+  const Call call = mimicx("imitate " + path("clip.bvh") + " --samples 1 --threads 1");
+  ASSERT_TRUE(std::filesystem::exists(path("clip.mimicx/motions/clip.npz"))) << call.text;
+  EXPECT_EQ(call.status, 0);
+  const Clip clean = read_motion(path("clip.clean.bvh"));
+  EXPECT_EQ(clean.frames(), 40);
+  EXPECT_EQ(clean.fps, 30.0);
+  const auto simulated = poses_of(read_clip(path("clip.mimicx/motions/clip.npz"))), back = poses_of(clean);
+  for (std::size_t j = 0; j < kBodies; ++j)
+    EXPECT_LT((simulated[20].p_WB[j] - back[20].p_WB[j]).norm(), 1e-6) << j;
 }
 
 TEST_F(Cli, ARunOfOtherReadingIsRefused) {

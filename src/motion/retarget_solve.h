@@ -1,0 +1,42 @@
+/// The geometry of retargeting: how joints of a skeleton stand to bodies, and the pose that follows.
+///
+/// Every joint turns with a frame of its own, q_WJ; the body that it stands for has q_WB = q_WJ · q_JB with a
+/// constant q_JB, found in neutral poses, where the orientation of the bodies is known from the positions of
+/// the joints alone.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "motion/landmarks.h"
+
+namespace mimicx {
+
+struct Calibration {
+  std::array<Quaterniond, kBodies> q_JB;  ///< body in the frame of its joint
+  std::array<bool, kBodies> turns{};      ///< has a joint that turns; else the body follows its parent
+  Vector3d p_JS = Vector3d::Zero();       ///< middle of the shoulders in the chest joint's frame, m
+};
+
+/// Turns about thighs and upper arms, rad, that bring the hinges of knees and elbows into the planes in which
+/// they bend. Index: kLeftHip, kRightHip, kLeftShoulder, kRightShoulder; others 0.
+using Twists = std::array<double, kBodies>;
+
+/// @param neutral  poses that count as neutral, z up: bodies are taken to stand in them as they would had
+/// each bone
+///                 swung there from the T-pose by the shortest way, soles level
+/// @param turns    bodies that have a joint that turns
+Calibration calibrate(const Character& character, const std::vector<Landmarks>& neutral,
+                      const std::array<bool, kBodies>& turns, const JointMap& map, const Twists& twists = {});
+
+/// The twists, within ±90°, with which hinges of knees and elbows explain best how the lower bones move;
+/// towards 0 where they hardly bend. To a tenth of a degree.
+Twists measure_twists(const Character& character, const Calibration& calibration,
+                      const std::vector<Landmarks>& frames);
+
+/// World rotations of the bodies for a pose: q_WJ · q_JB, then limbs and trunk swung onto their exact
+/// directions.
+std::array<Quaterniond, kBodies> body_rotations(const Character& character, const Calibration& calibration,
+                                                const Landmarks& pose);
+
+}  // namespace mimicx

@@ -1,0 +1,52 @@
+/// A motion on a skeleton of its own, as BVH and DeepMimic files hold it.
+///
+/// Everything is in the file's units and axes, and joints are as many, and called what, the file has them. A
+/// joint's rotation and translation are relative to its parent; the translation stands at the rest offset
+/// unless the file moves it. End sites are joints that never turn, named after their parent with "_end".
+///
+/// What it does not do: nothing is known here of the human body; retarget.h finds it in the names and the
+/// geometry.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/so3.h"
+
+namespace mimicx {
+
+struct SkeletonJoint {
+  std::string name;  ///< printable UTF-8
+  int parent = -1;   ///< index of a joint before this one; -1 for the root, which is joint 0
+  Vector3d offset;   ///< rest position in the parent's frame, file's unit
+  bool end_site = false;
+};
+
+struct SkeletonMotion {
+  std::string name;  ///< file name without folder and suffix
+  std::string path;  ///< where it came from, for messages
+  double fps = 30.0;
+  bool metric_y_up = false;  ///< the format itself says metres and y up; else both are found by looking
+  std::vector<SkeletonJoint> joints;
+  std::vector<std::vector<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
+  std::vector<std::vector<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent
+  std::vector<std::string> warnings;               ///< one line each
+  std::vector<std::string> decisions;              ///< what reading decided, one line each
+
+  int frames() const { return static_cast<int>(rotation.size()); }
+};
+
+/// Joints times frames that a file may have: 16 M, 0.9 GB of memory; two hours of a body at 100 frames per
+/// second.
+inline constexpr std::size_t kMaxJointFrames = std::size_t{1} << 24;
+
+/// World poses of all joints, file's unit and axes.
+struct SkeletonPose {
+  std::vector<Vector3d> p;     ///< [joints]
+  std::vector<Quaterniond> q;  ///< [joints]
+};
+SkeletonPose pose_of(const SkeletonMotion& motion, int frame);
+/// Every rotation the identity, every translation the offset.
+SkeletonPose rest_pose(const SkeletonMotion& motion);
+
+}  // namespace mimicx
