@@ -26,6 +26,7 @@ struct Arguments {
   std::vector<std::string> motions;
   std::string file, in, out;
   std::vector<std::string> inputs;
+  std::vector<double> betas;
   ClusterSettings cluster;
   FitOptions fit;
   std::function<int()> run;
@@ -200,6 +201,18 @@ void declare_file_commands(CLI::App& app, Arguments& a) {
   convert->callback([&a] { a.run = [&a] { return run_convert(a.in, a.out); }; });
 }
 
+void declare_export_mjcf(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("export-mjcf", "Write the character of a shape as a MuJoCo model");
+  command->add_option("OUT", a.out, "where to write it: .xml")->required();
+  auto* betas = command
+                    ->add_option("--betas", a.betas,
+                                 "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0")
+                    ->delimiter(',')
+                    ->check(CLI::Range(-5.0, 5.0));
+  command->add_option("--motion", a.file, "take the shape of this motion")->excludes(betas);
+  command->callback([&a] { a.run = [&a] { return run_export_mjcf(a.betas, a.file, a.out); }; });
+}
+
 void declare_synth(CLI::App& app, Arguments& a) {
   auto* command =
       app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
@@ -251,6 +264,7 @@ int run(int argc, char** argv) {
   declare_cluster(app, arguments);
   declare_fit(app, arguments);
   declare_file_commands(app, arguments);
+  declare_export_mjcf(app, arguments);
   declare_synth(app, arguments);
   try {
     app.parse(argc, argv);

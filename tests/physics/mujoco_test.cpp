@@ -27,7 +27,6 @@ struct MujocoTrial {
   explicit MujocoTrial(std::uint64_t number) {
     Random random(51, {number});
     character = make_character(random_betas(random));
-    for (JointParameters& j : character.joint) j.kp = j.kd = 0;
     snapshot = random_snapshot(random, 2.5, 5.0, 50.0);
     mujoco = std::make_unique<MujocoCharacter>(character, options);
     mujoco->set_root(snapshot.p_root, snapshot.q[0], snapshot.v_root, snapshot.omega[0]);
@@ -84,6 +83,101 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     const Eigen::VectorXd qd = book_velocity(t.snapshot);
     ours.segment<3>(3) += qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
     const Eigen::VectorXd theirs = P * Eigen::Map<Eigen::VectorXd>(d.qacc, kBookDofs);
+    EXPECT_LT(relative_difference(ours, theirs), 1e-8) << "trial " << n;
+  }
+}
+
+TEST(Mjcf, OpensWithoutWarningsForEveryShape) {
+  static int warnings;
+  warnings = 0;
+  mju_user_warning = [](const char*) { ++warnings; };
+  Random random(53);
+  for (int n = 0; n < 40; ++n) {
+    std::array<double, kBetas> betas = random_betas(random);
+    if (n < 20)
+      for (double& b : betas) b = b < 0.0 ? -3.0 : 3.0;
+    MujocoCharacter mujoco(make_character(betas), {});  // throws where MuJoCo has anything to say
+    mj_forward(&mujoco.model(), &mujoco.data());
+    EXPECT_EQ(mujoco.model().nq, 7 + 17 * 4 + 4);
+    EXPECT_EQ(mujoco.model().nv, kBookDofs);
+    for (int k = 0; k < 20; ++k) mj_step(&mujoco.model(), &mujoco.data());
+    for (int kind = 0; kind < mjNWARNING; ++kind) EXPECT_EQ(mujoco.data().warning[kind].number, 0);
+  }
+  EXPECT_EQ(warnings, 0);
+  mju_user_warning = nullptr;
+}
+
+TEST(Mjcf, TheFileSaysWhereEveryJointStandsInMujocosCoordinates) {
+  const Character character = make_character();
+  const std::string text = to_mjcf(character, {});
+  MujocoCharacter mujoco(character, {});
+  for (int body = 0; body < kBodies; ++body) {
+    const std::string line = std::string(kBodyNames[static_cast<std::size_t>(body)]) + ": " +
+                             std::to_string(mujoco.qpos(body)) +
+                             (body == 0        ? " (7), "
+                              : is_hinge(body) ? " (1), "
+                                               : " (4), ") +
+                             std::to_string(mujoco.dof(body)) + " (";
+    EXPECT_NE(text.find("\n" + line), std::string::npos) << line;
+  }
+}
+
+TEST(Mjcf, JointCentresAreThoseOfForwardKinematics) {
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    MujocoTrial t(n);
+    mj_kinematics(&t.mujoco->model(), &t.mujoco->data());
+    const BodyPoses poses = forward_kinematics(t.character, t.snapshot.p_root, t.snapshot.q);
+    for (int i = 0; i < kBodies; ++i) {
+      const int id = mj_name2id(&t.mujoco->model(), mjOBJ_BODY,
+                                std::string(kBodyNames[static_cast<std::size_t>(i)]).c_str());
+      const Vector3d p = Eigen::Map<Vector3d>(t.mujoco->data().xpos + 3 * id);
+      EXPECT_LT((p - poses.p_WB[static_cast<std::size_t>(i)]).norm(), 1e-12);
+    }
+  }
+}
+
+// With wrenches on every body: MuJoCo's joint forces for an acceleration are those of inverse_dynamics.
+TEST(Mujoco, InverseDynamicsAgreesWithTheAudits) {
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    MujocoTrial t(n);
+    Random random(54, {n});
+    const MotionState state = random_motion(t.snapshot, random);
+    const BodyWrenches wrenches = random_wrenches(random);
+    const RequiredForces required = inverse_dynamics(t.character, t.options.gravity, state, wrenches);
+
+    mjModel& m = t.mujoco->model();
+    mjData& d = t.mujoco->data();
+    m.opt.disableflags |= mjDSBL_CONTACT;
+    Eigen::Map<Eigen::VectorXd> qacc(d.qacc, kBookDofs);
+    qacc.segment<3>(0) = state.a_root;
+    qacc.segment<3>(3) = state.omega_d[0];
+    for (int i = 1; i < kBodies; ++i) {
+      const Vector3d& x = state.omega_d[static_cast<std::size_t>(i)];
+      if (is_hinge(i))
+        qacc[t.mujoco->dof(i)] = hinge_axis(i).dot(x);
+      else
+        qacc.segment<3>(t.mujoco->dof(i)) = x;
+    }
+    mj_inverse(&m, &d);
+    Eigen::VectorXd theirs = Eigen::Map<Eigen::VectorXd>(d.qfrc_inverse, kBookDofs);
+    for (int i = 0; i < kBodies; ++i) {
+      const Vector6d& w = wrenches[static_cast<std::size_t>(i)];
+      const int id = mj_name2id(&m, mjOBJ_BODY, std::string(kBodyNames[static_cast<std::size_t>(i)]).c_str());
+      const Vector3d force = w.tail<3>(), moment = w.head<3>();
+      Eigen::VectorXd generalised = Eigen::VectorXd::Zero(kBookDofs);
+      mj_applyFT(&m, &d, force.data(), moment.data(), d.xpos + 3 * id, id, generalised.data());
+      theirs -= generalised;
+    }
+    Eigen::VectorXd ours(kBookDofs);
+    ours.segment<3>(0) = required.root.tail<3>();
+    ours.segment<3>(3) = state.q[0].conjugate() * required.root.head<3>();
+    for (int i = 1; i < kBodies; ++i) {
+      const Vector3d& x = required.joint[static_cast<std::size_t>(i)];
+      if (is_hinge(i))
+        ours[t.mujoco->dof(i)] = hinge_axis(i).dot(x);
+      else
+        ours.segment<3>(t.mujoco->dof(i)) = x;
+    }
     EXPECT_LT(relative_difference(ours, theirs), 1e-8) << "trial " << n;
   }
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/npz.h"
+#include "physics/mjcf.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
@@ -38,8 +39,8 @@ struct Cli : testing::Test {
 
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
-  for (const char* command :
-       {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info", "convert", "synth"}) {
+  for (const char* command : {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info",
+                              "convert", "export-mjcf", "synth"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;
@@ -72,6 +73,10 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "convert " + a,
                                        "convert " + a + " " + path("b.bvh"),
                                        std::string("synth"),
+                                       std::string("export-mjcf"),
+                                       "export-mjcf " + path("c.xml") + " --betas 6",
+                                       "export-mjcf " + path("c.xml") + " --betas 0,0,0,0,0,0,0,0,0,0,0",
+                                       "export-mjcf " + path("c.xml") + " --betas 1 --motion " + a,
                                        std::string("cluster"),
                                        "cluster " + a,
                                        "cluster " + a + out + " --radius -1",
@@ -110,6 +115,19 @@ TEST_F(Cli, ConvertKeepsTheMotion) {
   const Clip back = read_clip(path("new/b.npz"));
   EXPECT_EQ(back.rotations, clip.rotations);
   EXPECT_EQ(back.trans, clip.trans);
+}
+
+TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
+  Clip clip = standing_clip(20);
+  clip.betas[0] = 2.0;
+  clip.betas[3] = -1.5;
+  write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("export-mjcf --betas 2,0,0,-1.5 " + path("b.xml")).status, 0);
+  EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("m.xml")).status, 0);
+  EXPECT_EQ(mimicx("export-mjcf " + path("new/standard.xml")).status, 0);
+  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(make_character(clip.betas), {}));
+  EXPECT_EQ(read_file(path("m.xml")), read_file(path("b.xml")));
+  EXPECT_EQ(read_file(path("new/standard.xml")), to_mjcf(make_character(), {}));
 }
 
 TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
