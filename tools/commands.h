@@ -50,6 +50,10 @@ int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::p
 int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
             const FitOptions& options);
 int run_info(const std::filesystem::path& file);
+/// @param inputs  motions, physics steps, and folders of them
+/// @param poses_alone  look at the poses only, whatever a motion holds besides
+/// @param json  where to write every row as well; empty: nowhere
+int run_audit(const std::vector<std::string>& inputs, bool poses_alone, const std::filesystem::path& json);
 /// @param betas   at most 10, the others are 0; not looked at where there is a motion
 /// @param motion  whose shape to take; empty: none
 int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,

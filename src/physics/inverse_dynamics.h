@@ -3,7 +3,7 @@
 /// Source: R. Featherstone, "Rigid Body Dynamics Algorithms" (2008, "RBDA"), table 5.1, with its symbols:
 /// spatial vectors (angular; linear) in *body* coordinates, the Plücker transforms of table 2.2. Always in
 /// double, and apart from the simulator on purpose: it shares `Character` with it and nothing else, so that a
-/// motion can be audited by other equations than those that made it (docs/physics.md §8).
+/// motion can be audited by other equations than those that made it (docs/physics.md §9).
 ///
 /// Given position, velocity and acceleration of a character and the wrenches that floor and other bodies
 /// exert on it, the joints must supply `joint`, and something outside of the body would have to supply

@@ -48,6 +48,7 @@ struct SequenceEntry {
   NamedValues metrics;         ///< of the simulated motion, against the prepared reference
   NamedValues metrics_before;  ///< of the simulated motion before training
   bool ok_before = false;      ///< whether it was a success already
+  NamedValues audit;           ///< of the simulated motion: what its forces leave unexplained (audit.h)
   NamedValues preparation;     ///< what preparation did to the input
   std::vector<std::string> notes;
 

@@ -6,6 +6,7 @@
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
+///     DIR/substeps/NAME.npz      every physics step of it, where asked for
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
@@ -30,6 +31,9 @@ struct RunFolder {
     return root / "references" / (name + ".npz");
   }
   std::filesystem::path fit(const std::string& name) const { return root / "fits" / (name + ".npz"); }
+  std::filesystem::path substeps(const std::string& name) const {
+    return root / "substeps" / (name + ".npz");
+  }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");

@@ -30,7 +30,8 @@ struct RunOptions {
   std::vector<std::string> inputs;  ///< as given; recorded as such
   std::filesystem::path out;
   TrainingConfig training;
-  bool fit = false;                          ///< move inputs onto their keypoints first, where they have any
+  bool substeps = false;  ///< also write every physics step of the result; finished motions get theirs too
+  bool fit = false;       ///< move inputs onto their keypoints first, where they have any
   std::shared_ptr<const OptionSet> options;  ///< to start from; null: train from scratch
   double switch_penalty = -1.0;              ///< w_p of Eq. 4, in rewards; ≤ 0
   double rescue_reward = 0.1;                ///< σ of the side-by-side roll-out

@@ -40,7 +40,7 @@ struct Cli : testing::Test {
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
   for (const char* command : {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info",
-                              "convert", "export-mjcf", "synth"}) {
+                              "convert", "audit", "export-mjcf", "synth"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;
@@ -73,6 +73,7 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "convert " + a,
                                        "convert " + a + " " + path("b.bvh"),
                                        std::string("synth"),
+                                       std::string("audit"),
                                        std::string("export-mjcf"),
                                        "export-mjcf " + path("c.xml") + " --betas 6",
                                        "export-mjcf " + path("c.xml") + " --betas 0,0,0,0,0,0,0,0,0,0,0",
@@ -115,6 +116,24 @@ TEST_F(Cli, ConvertKeepsTheMotion) {
   const Clip back = read_clip(path("new/b.npz"));
   EXPECT_EQ(back.rotations, clip.rotations);
   EXPECT_EQ(back.trans, clip.trans);
+}
+
+TEST_F(Cli, AuditFailsLoudlyDoesTheRestAndWritesJson) {
+  Clip clip = standing_clip(20);
+  for (Vector3d& p : clip.trans) p.z() += 0.2;  // hovers
+  write_clip(path("hover.npz"), clip);
+  std::ofstream(path("bad.npz")) << "PK nonsense";
+  const Call call =
+      mimicx("audit " + path("bad.npz") + " " + path("hover.npz") + " --json " + path("audit.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "bad.npz: left out: ")) << call.text;
+  EXPECT_TRUE(says(call, "hover.npz: mean unexplained root force 687 N, 100 % of the weight")) << call.text;
+  EXPECT_TRUE(says(call, "no point within 1 cm of the floor in 100 % of the frames")) << call.text;
+  const auto json = nlohmann::json::parse(read_file(path("audit.json")));
+  const auto& audit = json["files"][0]["audits"][0];
+  EXPECT_EQ(audit["passed"], false);
+  EXPECT_EQ(audit["rows"]["root_force_N"].size(), 18u);
+  EXPECT_NEAR(audit["summary"]["root_force_mean_N"].get<double>(), 9.81 * 70.0, 1.0);
 }
 
 TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
