@@ -97,6 +97,74 @@ TEST(InverseDynamics, ReproducesTheTwoLinkArmWorkedByHand) {
   EXPECT_LT((forces.root.head<3>() - Vector3d(0, 0.59, 0)).norm(), 1e-14);
 }
 
+/// The place of a contact point when one degree of freedom (of the 61) has moved by h: finite differences of
+/// forward kinematics, which know nothing of velocities or forces.
+Vector3d moved_point(const Character& c, const Snapshot& s, const ContactPoint& point, int dof, double h) {
+  Snapshot m = s;
+  if (dof < 3) {
+    m.q[0] = s.q[0] * exp_map(h * Vector3d::Unit(dof));
+  } else if (dof < 6) {
+    m.p_root += s.q[0] * Vector3d(h * Vector3d::Unit(dof - 3));
+  } else {
+    int body = 1;
+    while (body + 1 < kBodies && first_dof(body + 1) <= dof - 6) ++body;
+    const auto i = static_cast<std::size_t>(body);
+    const Vector3d axis =
+        is_hinge(body) ? hinge_axis(body) : Vector3d(Vector3d::Unit(dof - 6 - first_dof(body)));
+    m.q[i] = s.q[i] * exp_map(h * axis);
+  }
+  const BodyPoses poses = forward_kinematics(c, m.p_root, m.q);
+  const auto b = static_cast<std::size_t>(point.body);
+  return poses.p_WB[b] + poses.q_WB[b] * point.p_B;
+}
+
+/// Jacobian of a contact point, 3 × 61, by differences.
+Eigen::Matrix3Xd point_jacobian(const Character& c, const Snapshot& s, const ContactPoint& point) {
+  constexpr double h = 1e-6;
+  Eigen::Matrix3Xd J(3, kBookDofs);
+  for (int dof = 0; dof < kBookDofs; ++dof)
+    J.col(dof) = (moved_point(c, s, point, dof, h) - moved_point(c, s, point, dof, -h)) / (2.0 * h);
+  return J;
+}
+
+TEST(Kinematics, PointVelocitiesAreTheJacobianOfDifferencesTimesTheRates) {
+  Random random(62);
+  const Character c = make_character(random_betas(random));
+  const Snapshot s = random_snapshot(random, 2.5, 3.0, 1.0);
+  Simulation<double> simulation(c, {}, s);
+  update_kinematics(simulation.model, simulation.state, simulation.data);
+  for (const ContactPoint& point : c.contact_points) {
+    const auto b = static_cast<std::size_t>(point.body);
+    const Vector3d arm = lane_of(simulation.data.q_WB[b], 0) * point.p_B;
+    const Vector3d v = lane_of(simulation.data.v[b], 0) + lane_of(simulation.data.w[b], 0).cross(arm);
+    EXPECT_LT((v - point_jacobian(c, s, point) * book_velocity(s)).norm(), 1e-7) << point.body;
+  }
+}
+
+// Virtual work: without motion and gravity, the joints must hold −Jᵀf against a force f on a point.
+TEST(InverseDynamics, AForceOnAPointIsHeldByTheTransposedJacobianOfDifferences) {
+  Random random(63);
+  const Character c = make_character(random_betas(random));
+  Snapshot s = random_snapshot(random, 2.5, 0.0, 1.0);
+  MotionState m;
+  m.p_root = s.p_root;
+  m.v_root = m.a_root = Vector3d::Zero();
+  m.q = s.q;
+  m.omega.fill(Vector3d::Zero());
+  m.omega_d.fill(Vector3d::Zero());
+  const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
+  for (const ContactPoint& point : c.contact_points) {
+    const auto b = static_cast<std::size_t>(point.body);
+    const Vector3d force = 100.0 * random_vector(random);
+    BodyWrenches wrenches;
+    wrenches.fill(Vector6d::Zero());
+    wrenches[b].head<3>() = (poses.q_WB[b] * point.p_B).cross(force);
+    wrenches[b].tail<3>() = force;
+    const Eigen::VectorXd held = book_forces(m, inverse_dynamics(c, 0.0, m, wrenches));
+    EXPECT_LT((held + point_jacobian(c, s, point).transpose() * force).norm(), 1e-6 * force.norm());
+  }
+}
+
 /// Standing still, the root lacks the weight that no wrench carries, about the pelvis.
 TEST(InverseDynamics, OfRestIsTheWeightAtTheCentreOfMass) {
   const Character c = make_character();
