@@ -88,7 +88,7 @@ void simulate(benchmark::State& timer, bool self_contact, int passes) {
 
 #ifdef MIMICX_HAVE_MUJOCO
 void simulate_mujoco(benchmark::State& timer) {
-  MujocoCharacter mujoco(make_character(), {});
+  MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
   const Start start(0);
   for (int i = 1; i < kBodies; ++i) mujoco.set_target(i, start.q[static_cast<std::size_t>(i)]);
   int k = 0;

@@ -55,6 +55,14 @@ int run_info(const std::filesystem::path& file, const ReadOptions& read);
 /// @param fps  of the output; 0: the input's
 int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadOptions& read,
                 double fps);
+/// @param inputs  motions, physics steps, and folders of them
+/// @param poses_alone  look at the poses only, whatever a motion holds besides
+/// @param json  where to write every row as well; empty: nowhere
+int run_audit(const std::vector<std::string>& inputs, bool poses_alone, const std::filesystem::path& json);
+/// @param betas   at most 10, the others are 0; not looked at where there is a motion
+/// @param motion  whose shape to take; empty: none
+int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
+                    const std::filesystem::path& out);
 
 struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written

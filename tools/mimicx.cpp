@@ -27,6 +27,8 @@ struct Arguments {
   std::vector<std::string> motions;
   std::string file, in, out;
   std::vector<std::string> inputs;
+  std::vector<double> betas;
+  bool poses_alone = false;
   ClusterSettings cluster;
   FitOptions fit;
   ReadOptions read;
@@ -94,6 +96,8 @@ void add_run_options(CLI::App& command, Arguments& a, RunOptions& run, const std
   command.add_option(samples, run.training.samples, "training budget per motion, in character steps")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command.add_flag("--substeps", run.substeps,
+                   "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
   command.add_option("--seed", run.training.seed, "root of every random number")->capture_default_str();
   add_threads(command, run.threads);
   command
@@ -253,6 +257,27 @@ void declare_file_commands(CLI::App& app, Arguments& a) {
       [&a] { a.run = [&a] { return run_convert(a.in, a.out, a.read, a.rate == "30" ? 30.0 : 0.0); }; });
 }
 
+void declare_audit(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("audit", "Do the forces in a file explain the motion in it?");
+  command->add_option("FILE", a.inputs, "motions and physics steps (.npz), and folders of them")->required();
+  command->add_flag("--poses", a.poses_alone,
+                    "look at the poses alone, under the best ground reaction that is physically possible");
+  command->add_option("--json", a.json, "also write every row and every value here");
+  command->callback([&a] { a.run = [&a] { return run_audit(a.inputs, a.poses_alone, a.json); }; });
+}
+
+void declare_export_mjcf(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand("export-mjcf", "Write the character of a shape as a MuJoCo model");
+  command->add_option("OUT", a.out, "where to write it: .xml")->required();
+  auto* betas = command
+                    ->add_option("--betas", a.betas,
+                                 "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0")
+                    ->delimiter(',')
+                    ->check(CLI::Range(-5.0, 5.0));
+  command->add_option("--motion", a.file, "take the shape of this motion")->excludes(betas);
+  command->callback([&a] { a.run = [&a] { return run_export_mjcf(a.betas, a.file, a.out); }; });
+}
+
 void declare_synth(CLI::App& app, Arguments& a) {
   auto* command =
       app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
@@ -304,6 +329,8 @@ int run(int argc, char** argv) {
   declare_cluster(app, arguments);
   declare_fit(app, arguments);
   declare_file_commands(app, arguments);
+  declare_audit(app, arguments);
+  declare_export_mjcf(app, arguments);
   declare_synth(app, arguments);
   try {
     app.parse(argc, argv);

@@ -9,7 +9,6 @@ namespace mimicx {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kTouching = 0.004;  ///< height up to which a point of a foot touches the floor, m
 constexpr double kFriction = 1.0;
 // Weight of the sum of squared forces beside the squared residual: it makes the forces unique and leaves less
 // than 1e-4 of the weight as residual.
@@ -87,13 +86,15 @@ struct Touch {
   Vector3d p, force;
 };
 
-std::vector<Touch> touching_points(const Character& c, const BodyPoses& poses) {
+std::vector<Touch> touching_points(const Character& c, const BodyPoses& poses, const Touching& touching) {
   constexpr std::size_t kFootPoints = 12;
+  const std::size_t count = touching.whole_body ? c.contact_points.size() : kFootPoints;
   std::vector<Touch> touches;
-  for (std::size_t i = 0; i < kFootPoints; ++i) {
-    const auto body = static_cast<std::size_t>(c.contact_points[i].body);
-    const Vector3d p = poses.p_WB[body] + poses.q_WB[body] * c.contact_points[i].p_B;
-    if (p.z() <= kTouching) touches.push_back({body, p, Vector3d::Zero()});
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactPoint& point = c.contact_points[i];
+    const auto body = static_cast<std::size_t>(point.body);
+    const Vector3d p = poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
+    if (p.z() <= touching.height && p.z() >= -touching.depth) touches.push_back({body, p, Vector3d::Zero()});
   }
   return touches;
 }
@@ -122,7 +123,8 @@ Vector6d share_out(const Vector3d& center, const Vector6d& wanted, std::vector<T
   return wanted - A * x;
 }
 
-FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, std::size_t t, double fps) {
+FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, std::size_t t, double fps,
+                      const Touching& touching) {
   const std::array<BodyLoad, kBodies> loads = body_loads(c, poses, t, fps);
   Vector3d center = Vector3d::Zero();
   for (std::size_t b = 0; b < kBodies; ++b) center += c.mass[b] * loads[b].p_com / c.total_mass();
@@ -131,7 +133,7 @@ FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, s
     wanted.head<3>() += load.moment + (load.p_com - center).cross(load.force);
     wanted.tail<3>() += load.force;
   }
-  std::vector<Touch> touches = touching_points(c, poses[t]);
+  std::vector<Touch> touches = touching_points(c, poses[t], touching);
   const Vector6d left = share_out(center, wanted, touches);
   FrameDemand demand;
   demand.residual_moment = left.head<3>();
@@ -158,7 +160,7 @@ FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, s
 
 }  // namespace
 
-std::vector<FrameDemand> motion_demands(const Clip& clip) {
+std::vector<FrameDemand> motion_demands(const Clip& clip, const Touching& touching) {
   if (clip.frames() < 3) throw std::invalid_argument("motion_demands: at least 3 frames are needed");
   if (clip.body_model != "mimicx")
     throw std::invalid_argument("motion_demands: the body model must be 'mimicx'");
@@ -166,7 +168,7 @@ std::vector<FrameDemand> motion_demands(const Clip& clip) {
   const std::vector<BodyPoses> poses = poses_of(clip);
   std::vector<FrameDemand> demands;
   for (std::size_t t = 1; t + 1 < poses.size(); ++t)
-    demands.push_back(demand_of(character, poses, t, clip.fps));
+    demands.push_back(demand_of(character, poses, t, clip.fps, touching));
   return demands;
 }
 

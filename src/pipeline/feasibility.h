@@ -1,16 +1,18 @@
 /// What a motion demands of a body: inverse dynamics of a clip, frame by frame.
 ///
 /// Newton and Euler over the character's masses and inertias, accelerations from second differences of the
-/// frames. Where a foot touches the floor, contact forces inside friction cones (μ = 1, cones of four edges)
-/// at its points take over what they can of the force and moment that the whole body needs: non-negative
-/// least squares (Lawson and Hanson, "Solving Least Squares Problems", 1974, ch. 23), moments about the
-/// centre of mass in N·m beside forces in N. What is left is the root residual: a hand that would have to
-/// hold the body. Joint torques follow from the motion of the bodies beyond a joint and the contact forces on
-/// them.
+/// frames. Where a foot touches the floor (or, where asked for, any body), contact forces inside friction
+/// cones (μ = 1, cones of four edges) at its points take over what they can of the force and moment that the
+/// whole body needs: non-negative least squares (Lawson and Hanson, "Solving Least Squares Problems", 1974,
+/// ch. 23), moments about the centre of mass in N·m beside forces in N. What is left is the root residual: a
+/// hand that would have to hold the body. Joint torques follow from the motion of the bodies beyond a joint
+/// and the contact forces on them.
 ///
-/// What it does not do: no armature of the joints, no contacts but the feet's points; while both feet stand
-/// the split of the load between them is that of the smallest forces, not that of a person.
+/// What it does not do: no armature of the joints, no contacts with anything but the floor; while both feet
+/// stand the split of the load between them is that of the smallest forces, not that of a person.
 #pragma once
+
+#include <cmath>
 
 #include "motion/clip.h"
 
@@ -23,9 +25,16 @@ struct FrameDemand {
   std::array<Vector3d, kBodies> torque;  ///< of the joint that connects a body to its parent, world axes, N·m
 };
 
+/// Which points may touch the floor.
+struct Touching {
+  double height = 0.004;    ///< up to which a point over the floor touches, m
+  double depth = HUGE_VAL;  ///< down to which a point in the floor does, m
+  bool whole_body = false;  ///< every contact point of the character, not the feet's alone
+};
+
 /// Demands of the frames 1 … n − 2 of an exact motion on the character of its β.
 /// @throws std::invalid_argument for fewer than 3 frames or another body model
-std::vector<FrameDemand> motion_demands(const Clip& clip);
+std::vector<FrameDemand> motion_demands(const Clip& clip, const Touching& touching = {});
 
 /// |τ| over the limit of the joint; for a hinge the part about its axis. Entry 0 is 0.
 /// @param poses  of the frame

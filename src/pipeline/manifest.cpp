@@ -54,6 +54,7 @@ Json to_json(const SequenceEntry& e) {
           {"metrics_before", to_json(e.metrics_before)},
           {"ok_before", e.ok_before},
           {"metrics", to_json(e.metrics)},
+          {"audit", to_json(e.audit)},
           {"preparation", to_json(e.preparation)},
           {"decisions", e.decisions},
           {"notes", e.notes}};
@@ -85,6 +86,7 @@ SequenceEntry entry_of(const Json& json) {
   e.ok_before = json.at("ok_before");
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
+  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // runs from before it have none
   e.preparation = named_values(json.at("preparation"));
   e.decisions = json.value("decisions", std::vector<std::string>{});
   e.notes = json.at("notes").get<std::vector<std::string>>();

@@ -43,12 +43,13 @@ struct SequenceEntry {
   double reward_after = std::numeric_limits<double>::quiet_NaN();
   /// Which option acts from which frame on: {first frame, option}; empty for a training from scratch.
   std::vector<std::array<int, 2>> arrangement;
-  NamedValues fit;                     ///< what the keypoint fit did; empty without one
-  NamedValues input_metrics;           ///< of the input as it came, against the prepared reference
-  NamedValues metrics;                 ///< of the simulated motion, against the prepared reference
-  NamedValues metrics_before;          ///< of the simulated motion before training
-  bool ok_before = false;              ///< whether it was a success already
-  NamedValues preparation;             ///< what preparation did to the input
+  NamedValues fit;             ///< what the keypoint fit did; empty without one
+  NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
+  NamedValues metrics;         ///< of the simulated motion, against the prepared reference
+  NamedValues metrics_before;  ///< of the simulated motion before training
+  bool ok_before = false;      ///< whether it was a success already
+  NamedValues audit;           ///< of the simulated motion: what its forces leave unexplained (audit.h)
+  NamedValues preparation;     ///< what preparation did to the input
   std::vector<std::string> decisions;  ///< what reading the input decided
   std::vector<std::string> notes;
 

@@ -3,38 +3,20 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/simulated_members.h"
+
 namespace mimicx {
 namespace {
 
+constexpr Precision kPrecision = Precision::kFloat64;  // as every member of a motion
+
 using Members = std::vector<std::pair<std::string, NpyArray>>;
 
-NpyArray joints_member(const std::vector<std::array<Vector3d, kBodies>>& frames) {
+NpyArray positions_member(const std::vector<std::array<Vector3d, kBodies>>& frames) {
   std::vector<double> values;
   for (const auto& frame : frames)
     for (const auto& p : frame) values.insert(values.end(), p.data(), p.data() + 3);
   return NpyArray::from_double({frames.size(), kBodies, 3}, values.data());
-}
-
-NpyArray wrenches_member(const std::vector<std::array<Vector6d, kBodies>>& frames) {
-  std::vector<double> values;
-  for (const auto& frame : frames)
-    for (const auto& w : frame) values.insert(values.end(), w.data(), w.data() + 6);
-  return NpyArray::from_double({frames.size(), kBodies, 6}, values.data());
-}
-
-/// [frames][22] torques → (T, 55): 3 numbers per spherical joint, 1 about the axis of a hinge.
-NpyArray torques_member(const std::vector<std::array<Vector3d, kBodies>>& frames) {
-  std::vector<double> values;
-  for (const auto& frame : frames) {
-    for (int body = 1; body < kBodies; ++body) {
-      const Vector3d& tau = frame[static_cast<std::size_t>(body)];
-      if (is_hinge(body))
-        values.push_back(tau.dot(hinge_axis(body)));
-      else
-        values.insert(values.end(), tau.data(), tau.data() + 3);
-    }
-  }
-  return NpyArray::from_double({frames.size(), kDofs}, values.data());
 }
 
 NpyArray rewards_member(const std::vector<rl::Reward>& rewards) {
@@ -55,11 +37,20 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
                      const rl::TrackingRollout& rollout, std::vector<std::string>& notes) {
   std::vector<Vector3d> p_root;
   std::vector<std::array<Quaterniond, kBodies>> q;
-  std::vector<std::array<Vector3d, kBodies>> joints;
+  std::vector<ReferenceFrame> states;
+  VectorRows joints, torques, ranges;
+  WrenchRows ground, self;
   for (const auto& pose : rollout.poses) {
     p_root.push_back(pose.frame.p_root);
     q.push_back(pose.frame.q);
     joints.push_back(pose.p_WB);
+    states.push_back(pose.frame);
+  }
+  for (const auto& forces : rollout.forces) {
+    torques.push_back(forces.joint_torque);
+    ranges.push_back(forces.range_torque);
+    ground.push_back(forces.ground);
+    self.push_back(forces.self_contact);
   }
   Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
   if (input.rest_joints) put_on_body_of(input, clip);
@@ -71,10 +62,12 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
     else
       notes.push_back("'" + member.first + "' of the input is not passed on: the frames no longer match");
   }
-  const Members extra = {{"joints", joints_member(joints)},
-                         {"joint_torques", torques_member(rollout.joint_torques)},
-                         {"ground_wrenches", wrenches_member(rollout.ground_wrenches)},
-                         {"self_contact_wrenches", wrenches_member(rollout.self_contact_wrenches)},
+  const Members extra = {{"joints", positions_member(joints)},
+                         {"velocities", velocities_member(states, kPrecision)},
+                         {"joint_torques", joints_member(torques, kPrecision)},
+                         {"range_torques", joints_member(ranges, kPrecision)},
+                         {"ground_wrenches", wrenches_member(ground, kPrecision)},
+                         {"self_contact_wrenches", wrenches_member(self, kPrecision)},
                          {"reward", rewards_member(rollout.rewards)}};
   write_clip(path, clip, extra);
 }
@@ -91,7 +84,7 @@ void write_reference(const std::filesystem::path& path, const Clip& input, const
   Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
   if (input.rest_joints) put_on_body_of(input, clip);
   clip.keypoints = reference.keypoints;
-  write_clip(path, clip, {{"joints", joints_member(joints)}});
+  write_clip(path, clip, {{"joints", positions_member(joints)}});
 }
 
 }  // namespace mimicx

@@ -1,17 +1,10 @@
 #include "pipeline/qpos.h"
 
 #include "motion/reference.h"
+#include "physics/mjcf.h"
 
 namespace mimicx {
 namespace {
-
-void append_children(int body, std::vector<int>& order) {
-  for (int child = body + 1; child < kBodies; ++child) {
-    if (kParents[static_cast<std::size_t>(child)] != body) continue;
-    order.push_back(child);
-    append_children(child, order);
-  }
-}
 
 void append(const Quaterniond& q, std::vector<double>& row) {
   row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
@@ -19,22 +12,17 @@ void append(const Quaterniond& q, std::vector<double>& row) {
 
 }  // namespace
 
-std::vector<int> mujoco_joint_order() {
-  std::vector<int> order;
-  append_children(kPelvis, order);
-  return order;
-}
-
 void write_qpos(const std::filesystem::path& path, const Clip& clip) {
   const auto q = to_hinges(character_of(clip), joint_rotations(clip));
   const Vector3d pelvis = rest_pelvis(clip);
-  const std::vector<int> order = mujoco_joint_order();
+  const std::array<int, kBodies> order = mjcf_order();
   std::vector<double> qpos;
   for (std::size_t t = 0; t < q.size(); ++t) {
     const Vector3d p = clip.trans[t] + pelvis;
     qpos.insert(qpos.end(), p.data(), p.data() + 3);
     append(q[t][kPelvis], qpos);
     for (const int body : order) {
+      if (body == kPelvis) continue;
       const Quaterniond& joint = q[t][static_cast<std::size_t>(body)];
       if (is_hinge(body))
         qpos.push_back(log_map(joint).dot(hinge_axis(body)));
@@ -43,7 +31,8 @@ void write_qpos(const std::filesystem::path& path, const Clip& clip) {
     }
   }
   std::vector<std::string> names;
-  for (const int body : order) names.emplace_back(kBodyNames[static_cast<std::size_t>(body)]);
+  for (const int body : order)
+    if (body != kPelvis) names.emplace_back(kBodyNames[static_cast<std::size_t>(body)]);
   Npz npz;
   npz.set("qpos", NpyArray::from_double({q.size(), kQpos}, qpos.data()));
   npz.set("fps", NpyArray::scalar(clip.fps));

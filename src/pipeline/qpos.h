@@ -12,7 +12,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "motion/clip.h"
 
@@ -20,8 +19,6 @@ namespace mimicx {
 
 inline constexpr std::size_t kQpos = 7 + 17 * 4 + 4;
 
-/// Bodies 1 … 21 depth first.
-std::vector<int> mujoco_joint_order();
 void write_qpos(const std::filesystem::path& path, const Clip& clip);
 
 }  // namespace mimicx

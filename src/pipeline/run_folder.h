@@ -6,6 +6,7 @@
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
+///     DIR/substeps/NAME.npz      every physics step of it, where asked for
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
 ///     DIR/training/NAME.csv      a row per iteration
@@ -35,6 +36,9 @@ struct RunFolder {
   std::filesystem::path fit(const std::string& name) const { return root / "fits" / (name + ".npz"); }
   std::filesystem::path clean(const std::string& name, const std::string& suffix) const {
     return root / "clean" / (name + suffix);
+  }
+  std::filesystem::path substeps(const std::string& name) const {
+    return root / "substeps" / (name + ".npz");
   }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {

@@ -55,6 +55,8 @@ std::vector<std::string> notes_of(const SequenceEntry& entry) {
   std::vector<std::string> notes = entry.notes;
   if (!entry.arrangement.empty()) notes.push_back(arrangement_note(entry.arrangement));
   for (const auto& value : entry.fit) notes.push_back(note_of("keypoint fit", value));
+  for (const auto& value : entry.audit)
+    if (value.first.starts_with("root_")) notes.push_back(note_of("audit", value));
   for (const auto& value : entry.preparation) notes.push_back(note_of("preparation", value));
   return notes;
 }

@@ -6,12 +6,14 @@
 #include <stdexcept>
 
 #include "core/npz.h"
+#include "pipeline/audit.h"
 #include "pipeline/clean_copy.h"
 #include "pipeline/motion_output.h"
 #include "pipeline/preparation.h"
 #include "pipeline/run_report.h"
 #include "pipeline/scores.h"
 #include "pipeline/selector.h"
+#include "pipeline/substeps.h"
 #include "rl/side_by_side.h"
 #include "rl/tracking_rollout.h"
 
@@ -135,12 +137,22 @@ Task arrange(const RunOptions& run, const std::shared_ptr<const rl::TrackingClip
   return task;
 }
 
+/// Whether the recorded forces explain the motion, into the entry.
+void audit_sequence(const Reference& reference, const SimulationOptions& simulation,
+                    const rl::TrackingRollout& rollout, SequenceEntry& entry) {
+  SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
+  for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
+  const Audit audit = audit_frames(motion, simulation);
+  entry.audit = summary_of(audit);
+  for (const std::string& failure : audit.failures) entry.notes.push_back("audit: " + failure);
+}
+
 /// Rolls the policies out and writes what came of it. @return the roll-out's scores in the entry
 void finish_sequence(const RunState& run, const PreparedMotion& motion, const Task& task,
                      const TrainingResult& training, SequenceEntry& entry) {
   const rl::TrackingConfig& config = run.options.training.tracking;
   const auto before = rl::roll_out(task.clip, config, rl::mean_action(task.agents));
-  const auto after = rl::roll_out(task.clip, config, rl::mean_action(training.agents));
+  const auto after = rl::roll_out(task.clip, config, rl::mean_action(training.agents), run.options.substeps);
   const Reference& reference = motion.reference;
   entry.samples = training.samples;
   entry.ending = training.ending;
@@ -157,10 +169,17 @@ void finish_sequence(const RunState& run, const PreparedMotion& motion, const Ta
   entry.metrics = last.values;
   entry.ok = last.success;
   entry.reason = last.reason;
+  audit_sequence(reference, config.simulation, after, entry);
   entry.output = RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::create_directories((run.folder.root / entry.output).parent_path());
   std::filesystem::remove(run.folder.root / RunFolder::motion_name(entry.name, !entry.ok));
   write_simulated(run.folder.root / entry.output, motion.input, reference, after, entry.notes);
+  std::filesystem::remove(run.folder.substeps(entry.name));
+  if (run.options.substeps) {
+    std::filesystem::create_directories(run.folder.substeps(entry.name).parent_path());
+    write_substeps(run.folder.substeps(entry.name),
+                   {reference.character, config.simulation, after.substeps, after.last_state});
+  }
 }
 
 /// @return whether the sequence was interrupted
@@ -213,7 +232,8 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
   entry.name = there ? there->name : unique_name(input, taken);
   entry.seed = run.options.training.seed;
   entry.input_checksum = file_checksum(input);
-  const bool stands = there && there->finished() && there->input_checksum == entry.input_checksum;
+  const bool complete = !run.options.substeps || std::filesystem::exists(run.folder.substeps(entry.name));
+  const bool stands = there && there->finished() && there->input_checksum == entry.input_checksum && complete;
   if (stands) entry = *there;
   return !stands;
 }

@@ -34,6 +34,7 @@ struct RunOptions {
   ReadOptions read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
+  bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
   bool fit = false;         ///< move inputs onto their keypoints first, where they have any
   std::shared_ptr<const OptionSet> options;  ///< to start from; null: train from scratch
   double switch_penalty = -1.0;              ///< w_p of Eq. 4, in rewards; ≤ 0

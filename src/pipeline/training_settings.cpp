@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "pipeline/simulation_settings.h"
 #include "pipeline/training.h"
 
 namespace mimicx {
@@ -60,21 +61,7 @@ void for_each_setting(Config& config, const Visit& add) {
   add("bin_frames", t.bin_frames);
   add("uniform_starts", t.uniform_starts);
 
-  auto& s = t.simulation;
-  add("physics_rate", s.rate);
-  add("physics_passes", s.passes);
-  add("gravity", s.gravity);
-  add("ground_stiffness", s.ground_stiffness);
-  add("ground_damping", s.ground_damping);
-  add("friction", s.friction);
-  add("slip_speed", s.slip_speed);
-  add("skin", s.skin);
-  add("self_contact", s.self_contact);
-  add("self_stiffness", s.self_stiffness);
-  add("self_damping", s.self_damping);
-  add("limit_stiffness", s.limit_stiffness);
-  add("limit_damping", s.limit_damping);
-  add("max_speed", s.max_speed);
+  for_each_simulation_setting(t.simulation, add);
 }
 
 double value_of(rl::ActionMode mode) { return mode == rl::ActionMode::kResidual ? 1.0 : 0.0; }

@@ -156,16 +156,19 @@ void TrackingPack::act(int lane, const float* action) {
   }
 }
 
-void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied) {
+void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepWatcher& watch) {
   const int substeps = static_cast<int>(std::lround(config_.simulation.rate / clip_->reference.fps));
-  Target<P> target;
+  Target<P> target{};
+  State<P> before;
   for (int k = 1; k <= substeps; ++k) {
     const P s(static_cast<float>(k) / static_cast<float>(substeps));
     for (std::size_t i = 1; i < kBodies; ++i) {
       target.q[i] = interpolate(from_.q[i], to_.q[i], s);
       target.omega[i] = add_scaled(from_.omega[i], s, to_.omega[i] - from_.omega[i]);
     }
+    if (watch) before = state_;
     const MaskOf<P> wrong = step(clip_->model, target, state_, scratch, applied);
+    if (watch) watch(before, target, scratch, state_);
     for (int lane = 0; lane < kLanes; ++lane)
       if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
   }

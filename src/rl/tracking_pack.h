@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bitset>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -69,6 +70,9 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& referenc
 class TrackingPack {
  public:
   using P = Pack<kLanes>;
+  /// Called after every physics step with the states around it, what it aimed at and how it was solved.
+  using SubstepWatcher = std::function<void(const State<P>& before, const Target<P>& target,
+                                            const Data<P>& solved, const State<P>& after)>;
 
   TrackingPack(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config);
 
@@ -85,7 +89,8 @@ class TrackingPack {
   /// Sets what the lane aims at during the next control step. @param action  [55]
   void act(int lane, const float* action);
   /// One control step of every lane; frames advance by one. @param applied  sums of what acted, or null
-  void advance(Data<P>& scratch, Applied<P>* applied = nullptr);
+  /// @param watch  sees every physics step and changes none; empty: nobody watches
+  void advance(Data<P>& scratch, Applied<P>* applied = nullptr, const SubstepWatcher& watch = {});
 
   /// After `advance`: reward of the lane's pose against the frame it has reached.
   Reward reward(int lane) const;

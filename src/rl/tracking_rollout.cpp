@@ -16,18 +16,45 @@ Vector6d first_lane(const Wrench<P>& w, double scale) {
   return out;
 }
 
-void append_forces(const Applied<P>& applied, TrackingRollout& out) {
+Quaterniond first_lane(const Quat<P>& q) { return {q.w[0], q.x[0], q.y[0], q.z[0]}; }
+
+/// Mean of what acted in the steps that are summed up.
+ActingForces forces_of(const Applied<P>& applied) {
   const double scale = applied.steps > 0 ? 1.0 / applied.steps : 0.0;
-  std::array<Vector3d, kBodies> torques;
-  std::array<Vector6d, kBodies> ground, self;
+  ActingForces forces;
   for (std::size_t i = 0; i < kBodies; ++i) {
-    torques[i] = first_lane(applied.joint_torque[i], scale);
-    ground[i] = first_lane(applied.ground[i], scale);
-    self[i] = first_lane(applied.self[i], scale);
+    forces.joint_torque[i] = first_lane(applied.joint_torque[i], scale);
+    forces.range_torque[i] = first_lane(applied.range_torque[i], scale);
+    forces.ground[i] = first_lane(applied.ground[i], scale);
+    forces.self_contact[i] = first_lane(applied.self[i], scale);
   }
-  out.joint_torques.push_back(torques);
-  out.ground_wrenches.push_back(ground);
-  out.self_contact_wrenches.push_back(self);
+  return forces;
+}
+
+ReferenceFrame first_lane(const State<P>& state) {
+  ReferenceFrame frame;
+  frame.p_root = first_lane(state.p_root, 1.0);
+  frame.v_root = first_lane(state.v_root, 1.0);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    frame.q[i] = first_lane(state.q[i]);
+    frame.omega[i] = first_lane(state.omega[i], 1.0);
+  }
+  return frame;
+}
+
+/// Appends every step to `out`. @param scratch  for one step's forces
+TrackingPack::SubstepWatcher recorder(const Model<float>& model, Applied<P>& scratch, TrackingRollout& out) {
+  return [&](const State<P>& before, const Target<P>& target, const Data<P>& solved, const State<P>& after) {
+    clear(scratch);
+    record_applied(model, solved, scratch);
+    Substep step{first_lane(before), {}, {}, forces_of(scratch)};
+    for (std::size_t i = 0; i < kBodies; ++i) {
+      step.target_q[i] = i == 0 ? Quaterniond::Identity() : first_lane(target.q[i]);
+      step.target_omega[i] = first_lane(target.omega[i], 1.0);
+    }
+    out.substeps.push_back(step);
+    out.last_state = first_lane(after);
+  };
 }
 
 double mean_distance(const Pose& a, const Pose& b) {
@@ -55,15 +82,17 @@ MeanAction mean_action(const std::vector<Agent>& agents) {
 }
 
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
-                         const MeanAction& policy) {
+                         const MeanAction& policy, bool substeps) {
   TrackingRollout out;
   TrackingPack pack(clip, config);  // every lane starts on frame 0; lane 0 is the one that is recorded
   Data<P> scratch;
-  Applied<P> applied;
+  Applied<P> applied, of_step;
+  const TrackingPack::SubstepWatcher watch =
+      substeps ? recorder(clip->model, of_step, out) : TrackingPack::SubstepWatcher{};
   clear(applied);
   out.poses.push_back(pack.pose(0));
   out.rewards.push_back(pack.reward(0));
-  append_forces(applied, out);
+  out.forces.push_back(forces_of(applied));
   std::vector<float> state(static_cast<std::size_t>(clip->state_size()));
   std::array<float, kDofs> action;
   for (int t = 1; t < clip->size(); ++t) {
@@ -71,7 +100,7 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
     policy(clip->option_at(pack.frame(0)), state.data(), action.data());
     for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, action.data());
     clear(applied);
-    pack.advance(scratch, &applied);
+    pack.advance(scratch, &applied, watch);
     const double distance = pack.worst_distance(0);
     out.worst_distance = std::max(out.worst_distance, distance);
     if (!std::isfinite(distance)) {
@@ -80,7 +109,7 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
     }
     out.poses.push_back(pack.pose(0));
     out.rewards.push_back(pack.reward(0));
-    append_forces(applied, out);
+    out.forces.push_back(forces_of(applied));
     out.mean_reward += out.rewards.back().total;
     out.mean_position_error += mean_distance(pack.pose(0), clip->poses[static_cast<std::size_t>(t)]);
   }

@@ -15,24 +15,41 @@ using MeanAction = std::function<void(int option, const float* state, float* act
 /// That of agents, one per option; they are copied.
 MeanAction mean_action(const std::vector<Agent>& agents);
 
+/// What acted on the character, as the implicit solver applied it.
+struct ActingForces {
+  std::array<Vector3d, kBodies> joint_torque;  ///< child's frame, N·m; entry 0 unused
+  std::array<Vector3d, kBodies> range_torque;  ///< the part of it that came from the joint's range
+  std::array<Vector6d, kBodies> ground;        ///< (moment, force) about the joint centre, world axes
+  std::array<Vector6d, kBodies> self_contact;  ///< the same
+};
+
+/// One physics step: the state at its start, in the very numbers of the simulator (quaternions are unit to
+/// float rounding), what the PD controllers aimed at, and what acted.
+struct Substep {
+  ReferenceFrame state;
+  std::array<Quaterniond, kBodies> target_q;   ///< entry 0 unused
+  std::array<Vector3d, kBodies> target_omega;  ///< child's frame, rad/s; entry 0 unused
+  ActingForces forces;
+};
+
 /// One simulated motion; index 0 is the start on the reference's first frame. Forces are means over the
-/// control interval that ends at the frame (zero at frame 0), as applied by the implicit solver.
+/// control interval that ends at the frame (zero at frame 0).
 struct TrackingRollout {
-  std::vector<Pose> poses;                                   ///< [frames]
-  std::vector<Reward> rewards;                               ///< [frames]
-  std::vector<std::array<Vector3d, kBodies>> joint_torques;  ///< child's frame, N·m; entry 0 unused
-  std::vector<std::array<Vector6d, kBodies>>
-      ground_wrenches;  ///< (moment, force) about the joint centre, world axes
-  std::vector<std::array<Vector6d, kBodies>> self_contact_wrenches;
-  double worst_distance = 0;       ///< of any body from its reference, m
-  double mean_reward = 0;          ///< over frames 1 …
-  double mean_position_error = 0;  ///< all joints, world, frames 1 …, m
-  bool broken = false;             ///< the simulation went wrong; frames end there
+  std::vector<Pose> poses;           ///< [frames]
+  std::vector<Reward> rewards;       ///< [frames]
+  std::vector<ActingForces> forces;  ///< [frames]
+  std::vector<Substep> substeps;     ///< [physics steps], where asked for
+  ReferenceFrame last_state;         ///< after the last of them
+  double worst_distance = 0;         ///< of any body from its reference, m
+  double mean_reward = 0;            ///< over frames 1 …
+  double mean_position_error = 0;    ///< all joints, world, frames 1 …, m
+  bool broken = false;               ///< the simulation went wrong; frames end there
 };
 
 /// Follows the clip from its first frame to its last under the clip's arrangement, falls included: nothing
 /// is cut short but by a numerical failure.
+/// @param substeps  also record every physics step; changes nothing else
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
-                         const MeanAction& policy);
+                         const MeanAction& policy, bool substeps = false);
 
 }  // namespace mimicx::rl

@@ -3,12 +3,13 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "oracles/mjcf.h"
+#include "physics/mjcf.h"
 
 namespace mimicx {
 
-MujocoCharacter::MujocoCharacter(const Character& character, const SimulationOptions& options) {
-  const std::string text = to_mjcf(character, options);
+MujocoCharacter::MujocoCharacter(const Character& character, const SimulationOptions& options,
+                                 const MjcfOptions& what) {
+  const std::string text = to_mjcf(character, options, what);
   const auto files = std::make_unique<mjVFS>();  // an in-memory file system: megabytes, not for the stack
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), "character.xml", static_cast<int>(text.size()));
@@ -16,7 +17,7 @@ MujocoCharacter::MujocoCharacter(const Character& character, const SimulationOpt
   char message[1000] = "";
   model_.reset(mj_loadXML("character.xml", files.get(), message, sizeof message));
   mj_deleteVFS(files.get());
-  if (!model_) throw std::runtime_error(std::string("MuJoCo: ") + message);
+  if (!model_ || message[0] != '\0') throw std::runtime_error(std::string("MuJoCo: ") + message);
   data_.reset(mj_makeData(model_.get()));
   for (std::size_t i = 0; i < kBodies; ++i) {
     const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, std::string(kBodyNames[i]).c_str());

@@ -8,14 +8,14 @@
 
 #include <memory>
 
-#include "physics/model.h"
+#include "physics/mjcf.h"
 
 namespace mimicx {
 
 class MujocoCharacter {
  public:
-  /// @throws std::runtime_error with the compiler's message if MuJoCo refuses the model.
-  MujocoCharacter(const Character& character, const SimulationOptions& options);
+  /// @throws std::runtime_error with the compiler's message if MuJoCo refuses the model or warns.
+  MujocoCharacter(const Character& character, const SimulationOptions& options, const MjcfOptions& what = {});
 
   mjModel& model() { return *model_; }
   mjData& data() { return *data_; }

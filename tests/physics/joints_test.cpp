@@ -104,14 +104,13 @@ TEST(ImplicitPd, VelocityFeedForwardTracksARampWithoutLag) {
   EXPECT_NEAR(knee_angle(s), angle, 1e-6);
 }
 
-/// Sixteen characters thrown about with new far-away PD targets 30 times a second.
+/// A pack of characters thrown about with new far-away PD targets 30 times a second.
 template <class Check>
-void thrash(double rate, int passes, Check&& check) {
+void thrash(const Character& character, double rate, int passes, Check&& check) {
   using P = Pack<kLanes>;
   SimulationOptions options;
   options.rate = rate;
   options.passes = passes;
-  const Character character = make_character();
   const auto s = std::make_unique<Simulation<P>>(character, options);
   std::array<Snapshot, kLanes> start;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -141,7 +140,7 @@ TEST(TorqueBound, IsNeverExceededHoweverTheCharacterThrashes) {
     for (int passes : {1, 2, 3}) {
       double worst = 0;
       long saturated = 0, samples = 0;
-      thrash(rate, passes, [&](const Simulation<P>& s) {
+      thrash(make_character(), rate, passes, [&](const Simulation<P>& s) {
         for (std::size_t i = 1; i < kBodies; ++i) {
           const Vec3<P> torque = applied_pd_torque(s.data, i);
           for (int lane = 0; lane < kLanes; ++lane) {
@@ -157,6 +156,38 @@ TEST(TorqueBound, IsNeverExceededHoweverTheCharacterThrashes) {
       EXPECT_LE(worst, 1.0 + 1e-6) << rate << " Hz, " << passes << " passes";
       EXPECT_GT(saturated, samples / 50) << "the test must drive joints into their bounds";
     }
+}
+
+/// The standard body, the largest and the smallest of every component at once, and another one.
+std::vector<Character> shapes() {
+  Random random(43);
+  std::array<double, kBetas> most, least;
+  most.fill(3.0);
+  least.fill(-3.0);
+  std::vector<Character> all = {make_character(), make_character(most), make_character(least)};
+  all.push_back(make_character(random_betas(random)));
+  return all;
+}
+
+TEST(TorqueBound, HoldsForEveryShapeAtEveryRateAndScalesWithTheMass) {
+  using P = Pack<kLanes>;
+  const Character standard = make_character();
+  for (const Character& character : shapes()) {
+    for (std::size_t i = 1; i < kBodies; ++i)
+      EXPECT_NEAR(character.joint[i].torque_limit / standard.joint[i].torque_limit,
+                  character.total_mass() / standard.total_mass(), 1e-12);
+    for (double rate : {120.0, 240.0, 480.0}) {
+      double worst = 0;
+      thrash(character, rate, 2, [&](const Simulation<P>& s) {
+        for (std::size_t i = 1; i < kBodies; ++i)
+          for (int lane = 0; lane < kLanes; ++lane)
+            worst = std::max(
+                worst, lane_of(applied_pd_torque(s.data, i), lane).norm() / character.joint[i].torque_limit);
+      });
+      EXPECT_LE(worst, 1.0 + 1e-6) << rate << " Hz, " << character.total_mass() << " kg";
+      EXPECT_GT(worst, 0.99) << "the test must drive joints into their bounds";
+    }
+  }
 }
 
 // The bound would also hold if the controller did nothing: where no bound is near, the solve is the law's.
@@ -202,8 +233,9 @@ struct Excess {
 };
 
 /// One joint driven from the centre of its range about `axis` with all the torque it has.
-Excess drive(const Character& character, int body, const Vector3d& axis) {
+Excess drive(const Character& character, int body, const Vector3d& axis, double rate = 240.0) {
   SimulationOptions options;
+  options.rate = rate;
   options.gravity = 0;
   options.self_contact = false;
   Snapshot s;
@@ -217,7 +249,7 @@ Excess drive(const Character& character, int body, const Vector3d& axis) {
   s.target_q[i] = s.q[i] * exp_map(3.0 * axis);
   Simulation<double> simulation(character, options, s);
   Excess result{0, 0};
-  for (int k = 0; k < 240; ++k) {
+  for (int k = 0; k < static_cast<int>(rate); ++k) {
     simulation.advance();
     result.held = excess(character.joint[i], body, lane_of(simulation.state.q[i], 0));
     result.largest = std::max(result.largest, result.held);
@@ -225,24 +257,46 @@ Excess drive(const Character& character, int body, const Vector3d& axis) {
   return result;
 }
 
-TEST(JointRange, HoldsAgainstTheFullTorqueOfItsJoint) {
-  const Character character = make_character();
+/// Every joint driven against its range from all sides for a second; what it then gives is (6) within
+/// `tolerance`, of it, for the free body still swings. @return the deepest slam, rad
+double drive_all(const Character& character, double rate, double tolerance) {
   const SimulationOptions options;
   double largest = 0;
   for (int body = 1; body < kBodies; ++body)
     for (int direction = 0; direction < (is_hinge(body) ? 2 : 6); ++direction) {
       const double sign = direction % 2 ? 1.0 : -1.0;
       const Vector3d axis = sign * (is_hinge(body) ? hinge_axis(body) : Vector3d::Unit(direction / 2));
-      const Excess e = drive(character, body, axis);
+      const Excess e = drive(character, body, axis, rate);
       // The range is a spring on the chord 2 sin(θ/2), so on the angle it is cos(θ/2) times as stiff.
       const JointParameters& j = character.joint[static_cast<std::size_t>(body)];
       const double half = j.half_range(is_hinge(body) ? 0 : direction / 2);
       const double give = j.torque_limit / (options.limit_stiffness * std::cos(0.5 * half));
-      EXPECT_NEAR(e.held, give, 0.1 * give) << kBodyNames[static_cast<std::size_t>(body)] << axis.transpose();
+      EXPECT_NEAR(e.held, give, tolerance * give)
+          << kBodyNames[static_cast<std::size_t>(body)] << " " << axis.transpose() << " at " << rate
+          << " Hz, " << character.total_mass() << " kg";
       largest = std::max(largest, e.largest);
-      EXPECT_LT(e.largest, 0.21) << kBodyNames[static_cast<std::size_t>(body)] << axis.transpose();
     }
-  std::printf("  measured: deepest slam into a range %.1f degrees\n", largest * 180.0 / std::numbers::pi);
+  return largest;
+}
+
+double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
+
+TEST(JointRange, HoldsAgainstTheFullTorqueOfItsJoint) {
+  const double largest = drive_all(make_character(), 240.0, 0.1);
+  std::printf("  measured: deepest slam into a range %.1f degrees\n", degrees(largest));
+  EXPECT_LT(largest, 0.21);
+}
+
+// Bounds grow with the mass, ranges do not stiffen: what a heavy body's joint gives is more, by (6).
+TEST(JointRange, HoldsForEveryShapeAtEveryRate) {
+  const double standard = make_character().total_mass();
+  for (const Character& character : shapes())
+    for (double rate : {120.0, 240.0, 480.0}) {
+      const double largest = drive_all(character, rate, 0.2), strength = character.total_mass() / standard;
+      std::printf("  measured: %.0f kg, %.0f Hz: deepest slam %.1f degrees\n", character.total_mass(), rate,
+                  degrees(largest));
+      EXPECT_LT(largest, 0.21 * std::max(strength, 1.0)) << rate << " Hz";
+    }
 }
 
 }  // namespace

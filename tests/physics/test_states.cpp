@@ -130,6 +130,29 @@ Character stiffened(Character character) {
   return character;
 }
 
+MotionState random_motion(const Snapshot& s, Random& random) {
+  MotionState m;
+  m.p_root = s.p_root;
+  m.v_root = s.v_root;
+  m.a_root = 20.0 * random_vector(random);
+  m.q = s.q;
+  m.omega = s.omega;
+  for (int i = 0; i < kBodies; ++i) {
+    const Vector3d x = 50.0 * random_vector(random);
+    m.omega_d[static_cast<std::size_t>(i)] = is_hinge(i) ? Vector3d(x.x() * hinge_axis(i)) : x;
+  }
+  return m;
+}
+
+BodyWrenches random_wrenches(Random& random) {
+  BodyWrenches wrenches;
+  for (Vector6d& w : wrenches) {
+    w.head<3>() = 30.0 * random_vector(random);
+    w.tail<3>() = 200.0 * random_vector(random);
+  }
+  return wrenches;
+}
+
 BookPosition book_position(const Snapshot& s) {
   BookPosition position;
   position.p_root = s.p_root;

@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "oracles/book_dynamics.h"
+#include "physics/inverse_dynamics.h"
 #include "physics/step.h"
 
 namespace mimicx {
@@ -32,6 +33,10 @@ Character stiffened(Character character);
 Snapshot random_snapshot(Random& random, double angle, double speed, double height);
 std::array<double, kBetas> random_betas(Random& random);
 Vector3d random_vector(Random& random);
+
+/// The snapshot's positions and velocities with random accelerations; wrenches on every body.
+MotionState random_motion(const Snapshot& s, Random& random);
+BodyWrenches random_wrenches(Random& random);
 
 /// Height of the lowest contact point (its sphere's lowest point), m.
 double lowest_point(const Character& character, const Snapshot& s);

@@ -10,6 +10,7 @@
 #include "motion/bvh.h"
 #include "motion/motion_file.h"
 #include "motion/world.h"
+#include "physics/mjcf.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
@@ -41,8 +42,8 @@ struct Cli : testing::Test {
 
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
-  for (const char* command :
-       {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info", "convert", "synth"}) {
+  for (const char* command : {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info",
+                              "convert", "audit", "export-mjcf", "synth"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;
@@ -79,6 +80,11 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "info " + a + " --body mine",
                                        "info " + a + " --smplx " + path("none.npz"),
                                        std::string("synth"),
+                                       std::string("audit"),
+                                       std::string("export-mjcf"),
+                                       "export-mjcf " + path("c.xml") + " --betas 6",
+                                       "export-mjcf " + path("c.xml") + " --betas 0,0,0,0,0,0,0,0,0,0,0",
+                                       "export-mjcf " + path("c.xml") + " --betas 1 --motion " + a,
                                        std::string("cluster"),
                                        "cluster " + a,
                                        "cluster " + a + out + " --radius -1",
@@ -180,6 +186,37 @@ TEST_F(Cli, ARunOfOtherReadingIsRefused) {
   const std::string command = "imitate " + path("a.npz") + " --samples 0 --threads 1 --out " + path("out");
   mimicx(command);
   EXPECT_EQ(mimicx(command + " --fps 25").status, 2);
+}
+
+TEST_F(Cli, AuditFailsLoudlyDoesTheRestAndWritesJson) {
+  Clip clip = standing_clip(20);
+  for (Vector3d& p : clip.trans) p.z() += 0.2;  // hovers
+  write_clip(path("hover.npz"), clip);
+  std::ofstream(path("bad.npz")) << "PK nonsense";
+  const Call call =
+      mimicx("audit " + path("bad.npz") + " " + path("hover.npz") + " --json " + path("audit.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "bad.npz: left out: ")) << call.text;
+  EXPECT_TRUE(says(call, "hover.npz: mean unexplained root force 687 N, 100 % of the weight")) << call.text;
+  EXPECT_TRUE(says(call, "no point within 1 cm of the floor in 100 % of the frames")) << call.text;
+  const auto json = nlohmann::json::parse(read_file(path("audit.json")));
+  const auto& audit = json["files"][0]["audits"][0];
+  EXPECT_EQ(audit["passed"], false);
+  EXPECT_EQ(audit["rows"]["root_force_N"].size(), 18u);
+  EXPECT_NEAR(audit["summary"]["root_force_mean_N"].get<double>(), 9.81 * 70.0, 1.0);
+}
+
+TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
+  Clip clip = standing_clip(20);
+  clip.betas[0] = 2.0;
+  clip.betas[3] = -1.5;
+  write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("export-mjcf --betas 2,0,0,-1.5 " + path("b.xml")).status, 0);
+  EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("m.xml")).status, 0);
+  EXPECT_EQ(mimicx("export-mjcf " + path("new/standard.xml")).status, 0);
+  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(make_character(clip.betas), {}));
+  EXPECT_EQ(read_file(path("m.xml")), read_file(path("b.xml")));
+  EXPECT_EQ(read_file(path("new/standard.xml")), to_mjcf(make_character(), {}));
 }
 
 TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {

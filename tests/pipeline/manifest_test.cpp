@@ -33,6 +33,7 @@ Manifest example() {
   e.reward_before = 0.1 + 0.2;
   e.reward_after = 0.9;
   e.metrics = {{"MPJPE", 17.3}, {"Float_gt", std::nan("")}};
+  e.audit = {{"root_force_max_N", 12.25}};
   e.preparation = {{"floor_shift_mm", -12.5}};
   e.notes = {"a note"};
   m.put(e);

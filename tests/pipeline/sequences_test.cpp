@@ -85,7 +85,9 @@ TEST_F(Imitate, TheMotionHasAFrameForEveryFrameOfTheInput) {
        std::map<std::string, std::vector<std::size_t>>{{"poses", {20, 66}},
                                                        {"trans", {20, 3}},
                                                        {"joints", {20, 22, 3}},
+                                                       {"velocities", {20, 61}},
                                                        {"joint_torques", {20, 55}},
+                                                       {"range_torques", {20, 55}},
                                                        {"ground_wrenches", {20, 22, 6}},
                                                        {"self_contact_wrenches", {20, 22, 6}},
                                                        {"reward", {20}}})
@@ -147,6 +149,34 @@ TEST_F(Imitate, KeepsWhatIsFinished) {
   run(options);
   EXPECT_EQ(results_of(out("run")), before);
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz"), written);
+}
+
+TEST_F(Imitate, AFinishedMotionGetsItsStepsWithoutTrainingAgain) {
+  RunOptions options = small_run(out("run"), {stand});
+  run(options);
+  auto before = results_of(out("run"));
+  options.substeps = true;
+  run(options);
+  auto after = results_of(out("run"));
+  const std::string steps = after.at("substeps/stand.npz");
+  after.erase("substeps/stand.npz");
+  EXPECT_EQ(after, before);
+  options.out = out("at once");
+  run(options);
+  EXPECT_EQ(results_of(out("at once")).at("substeps/stand.npz"), steps);
+}
+
+TEST_F(Imitate, TheManifestSaysWhatTheForcesLeaveUnexplained) {
+  run(small_run(out("run"), {stand}));
+  const NamedValues audit = read_manifest(out("run") / "manifest.json").sequences.at(0).audit;
+  const double weight = 9.81 * make_character().total_mass();
+  int found = 0;
+  for (const auto& [name, value] : audit)
+    if (name == "root_force_max_N" || name == "root_moment_max_Nm" || name == "torque_violations") {
+      EXPECT_LT(value, name == "torque_violations" ? 1.0 : 0.2 * weight) << name;
+      ++found;
+    }
+  EXPECT_EQ(found, 3);
 }
 
 TEST_F(Imitate, StartsOverWhenTheInputChanged) {

@@ -319,7 +319,7 @@ TEST(TrackingRollout, FollowsAStandingReferenceAndReportsTheForcesThatCarryIt) {
   EXPECT_LT(rollout.worst_distance, 0.15);
   double vertical = 0.0;  // mean over the last frames: the floor carries the weight
   for (std::size_t t = 8; t < 16; ++t)
-    for (const Vector6d& wrench : rollout.ground_wrenches[t]) vertical += wrench[5] / 8.0;
+    for (const Vector6d& wrench : rollout.forces[t].ground) vertical += wrench[5] / 8.0;
   const double weight = clip->reference.character.total_mass() * 9.81;
   EXPECT_NEAR(vertical, weight, 0.25 * weight);
 }

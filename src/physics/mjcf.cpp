@@ -1,4 +1,4 @@
-#include "oracles/mjcf.h"
+#include "physics/mjcf.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -15,7 +15,7 @@ std::string numbers(const Vector3d& v) {
   return out.str();
 }
 
-void write_joint(const Character& c, int body, std::ostream& out) {
+void write_joint(const Character& c, int body, const MjcfOptions& what, std::ostream& out) {
   const auto i = static_cast<std::size_t>(body);
   if (body == 0) {
     out << "<freejoint name=\"pelvis\"/>\n";
@@ -23,18 +23,26 @@ void write_joint(const Character& c, int body, std::ostream& out) {
   }
   const JointParameters& j = c.joint[i];
   out << "<joint name=\"" << kBodyNames[i] << "\" type=\"" << (is_hinge(body) ? "hinge" : "ball")
-      << "\" armature=\"" << j.armature << "\" stiffness=\"" << j.kp << "\" damping=\"" << j.kd << '"';
+      << "\" armature=\"" << j.armature << '"';
+  if (what.springs) out << " stiffness=\"" << j.kp << "\" damping=\"" << j.kd << '"';
   if (is_hinge(body)) out << " axis=\"" << numbers(hinge_axis(body)) << '"';
   out << "/>\n";
 }
 
-void write_body(const Character& c, int body, std::ostream& out) {
+/// Collides with nothing and weighs nothing: the inertia is written out.
+void write_shape(const Capsule& k, std::ostream& out) {
+  out << "<geom type=\"capsule\" size=\"" << k.radius << "\" fromto=\"" << numbers(k.a_B) << ' '
+      << numbers(k.b_B) << "\" contype=\"0\" conaffinity=\"0\" rgba=\"0.7 0.65 0.6 1\"/>\n";
+}
+
+void write_body(const Character& c, int body, const MjcfOptions& what, std::ostream& out) {
   const auto i = static_cast<std::size_t>(body);
   const Matrix3d& I = c.inertia_B[i];
   out << "<body name=\"" << kBodyNames[i] << "\" pos=\"" << numbers(c.joint_offset[i]) << "\">\n";
-  write_joint(c, body, out);
+  write_joint(c, body, what, out);
   out << "<inertial pos=\"" << numbers(c.com_B[i]) << "\" mass=\"" << c.mass[i] << "\" fullinertia=\""
       << numbers(I.diagonal()) << ' ' << numbers({I(0, 1), I(0, 2), I(1, 2)}) << "\"/>\n";
+  if (what.shapes) write_shape(c.capsule[i], out);
   for (const ContactPoint& point : c.contact_points) {
     if (point.body != body) continue;
     const double radius = std::max(point.radius, 0.005);
@@ -42,23 +50,53 @@ void write_body(const Character& c, int body, std::ostream& out) {
     out << "<geom type=\"sphere\" size=\"" << radius << "\" pos=\"" << numbers(centre) << "\"/>\n";
   }
   for (int child = body + 1; child < kBodies; ++child)
-    if (kParents[static_cast<std::size_t>(child)] == body) write_body(c, child, out);
+    if (kParents[static_cast<std::size_t>(child)] == body) write_body(c, child, what, out);
   out << "</body>\n";
+}
+
+void append_subtree(int body, std::array<int, kBodies>& order, std::size_t& count) {
+  order[count++] = body;
+  for (int child = body + 1; child < kBodies; ++child)
+    if (kParents[static_cast<std::size_t>(child)] == body) append_subtree(child, order, count);
+}
+
+/// Where each joint's numbers stand in qpos and qvel.
+void write_coordinates(std::ostream& out) {
+  out << "<!-- joint: first entry of qpos (how many), first entry of qvel (how many)\n";
+  int qpos = 0, qvel = 0;
+  for (const int body : mjcf_order()) {
+    const int positions = body == kPelvis ? 7 : is_hinge(body) ? 1 : 4;
+    const int velocities = body == kPelvis ? 6 : is_hinge(body) ? 1 : 3;
+    out << kBodyNames[static_cast<std::size_t>(body)] << ": " << qpos << " (" << positions << "), " << qvel
+        << " (" << velocities << ")\n";
+    qpos += positions;
+    qvel += velocities;
+  }
+  out << "-->\n";
 }
 
 }  // namespace
 
-std::string to_mjcf(const Character& character, const SimulationOptions& options) {
+std::array<int, kBodies> mjcf_order() {
+  std::array<int, kBodies> order{};
+  std::size_t count = 0;
+  append_subtree(kPelvis, order, count);
+  return order;
+}
+
+std::string to_mjcf(const Character& character, const SimulationOptions& options, const MjcfOptions& what) {
   std::ostringstream out;
   out << std::setprecision(std::numeric_limits<double>::max_digits10);
+  write_coordinates(out);
   out << "<mujoco model=\"humanoid\">\n"
       << "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
       << "<option timestep=\"" << 1.0 / options.rate << "\" gravity=\"0 0 " << -options.gravity << "\"/>\n"
       << "<default><geom contype=\"0\" conaffinity=\"1\" friction=\"" << options.friction
       << " 0.005 0.0001\"/></default>\n"
       << "<worldbody>\n"
+      << "<light pos=\"0 0 4\"/>\n"
       << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" contype=\"1\" conaffinity=\"0\"/>\n";
-  write_body(character, 0, out);
+  write_body(character, 0, what, out);
   out << "</worldbody>\n</mujoco>\n";
   return out.str();
 }
