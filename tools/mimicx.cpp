@@ -119,8 +119,10 @@ void declare_adapt(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand(
       "adapt", "Clean motions: keypoint fit, then trained options chosen and fine-tuned for each");
   add_run_options(*command, a, a.adapt, "--budget-samples");
-  command->add_flag("--fit,!--no-fit", a.adapt.fit,
-                    "move motions onto their keypoints first, where they have any (default)");
+  command->add_flag(
+      "--fit,!--no-fit", a.adapt.fit,
+      "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
+      "look at keypoints at all");
   command->add_option(
       "--options", a.options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");

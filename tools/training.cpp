@@ -98,6 +98,7 @@ int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
 }
 
 int run_adapt(RunOptions options, std::filesystem::path trained, const std::vector<std::string>& settings) {
+  options.keypoints = options.fit;  // a reference that is not on its keypoints contradicts Eq. 3
   if (trained.empty()) trained = shipped_options();
   options.options = read_options(trained);
   return run_imitate(std::move(options), settings);

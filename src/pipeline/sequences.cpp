@@ -36,6 +36,7 @@ Manifest manifest_of(const RunOptions& options) {
   manifest.samples = options.training.samples;
   manifest.settings = settings_of(options.training);
   manifest.settings.emplace_back("fit", options.fit ? 1.0 : 0.0);
+  manifest.settings.emplace_back("keypoints", options.keypoints ? 1.0 : 0.0);
   manifest.reading = options.read.text();
   if (options.options) {
     manifest.options = options.options->checksum;
@@ -186,7 +187,8 @@ void finish_sequence(const RunState& run, const PreparedMotion& motion, const Ta
 bool train_sequence(RunState& run, SequenceEntry& entry) {
   const double started = steady_seconds();
   const TrainingConfig& config = run.options.training;
-  const PreparedMotion motion = prepare_motion(entry.input, run.options.read, run.options.fit);
+  PreparedMotion motion = prepare_motion(entry.input, run.options.read, run.options.fit);
+  if (!run.options.keypoints) motion.reference.keypoints.reset();
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;

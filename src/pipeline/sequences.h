@@ -36,6 +36,7 @@ struct RunOptions {
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
   bool fit = false;         ///< move inputs onto their keypoints first, where they have any
+  bool keypoints = true;    ///< false: Eq. 3 does not see them either
   std::shared_ptr<const OptionSet> options;  ///< to start from; null: train from scratch
   double switch_penalty = -1.0;              ///< w_p of Eq. 4, in rewards; ≤ 0
   double rescue_reward = 0.1;                ///< σ of the side-by-side roll-out

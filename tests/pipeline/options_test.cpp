@@ -218,5 +218,30 @@ TEST_F(Options, NothingChangesWhereTheTruthIsDeleted) {
   EXPECT_EQ(with, results_of(out("without")));
 }
 
+TEST_F(Options, NothingDependsOnKeypointsThatAreNotWanted) {
+  const std::filesystem::path noisy =
+      std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
+  Clip clip = read_clip(noisy);
+  clip.keypoints.reset();
+  std::filesystem::create_directories(out("blind"));
+  write_clip(out("blind") / "stand_1.npz", clip);
+  run(pretraining("options"));
+  RunOptions options = adapting("seen", "options");
+  options.fit = false;
+  options.inputs = {noisy.string()};
+  const std::string log = "training/stand_1.csv";
+  run(options);
+  const std::string with_eq3 = results_of(out("seen")).at(log);
+  options.keypoints = false;
+  options.out = out("unwanted");
+  run(options);
+  const std::string unwanted = results_of(out("unwanted")).at(log);
+  options.inputs = {(out("blind") / "stand_1.npz").string()};
+  options.out = out("none");
+  run(options);
+  EXPECT_EQ(unwanted, results_of(out("none")).at(log));
+  EXPECT_NE(unwanted, with_eq3);
+}
+
 }  // namespace
 }  // namespace mimicx
