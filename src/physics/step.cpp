@@ -1,6 +1,7 @@
 #include "physics/step.h"
 
 #include "physics/aba.h"
+#include "physics/integration.h"
 
 namespace mimicx {
 namespace {
@@ -8,17 +9,6 @@ namespace {
 template <class T>
 void zero_self_contact(Data<T>& d) {
   for (auto& wrench : d.self_wrench) wrench = {zero3<T>(), zero3<T>()};
-}
-
-template <class T>
-[[gnu::flatten]] void integrate(const Model<RealOf<T>>& model, const Data<T>& d, State<T>& s) {
-  const T dt(model.dt);
-  s.v_root = add_scaled(s.v_root, dt, d.a_v[0]);
-  s.p_root = add_scaled(s.p_root, dt, s.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    s.omega[i] = add_scaled(s.omega[i], dt, transpose_times(d.R_WB[i], d.qdd[i]));
-    s.q[i] = renormalised(s.q[i] * exp_map(dt * s.omega[i]));
-  }
 }
 
 /// Lanes whose state is not finite or has run away. Comparisons with NaN are false, hence the negations.
