@@ -6,8 +6,12 @@
 ///    translation and a ball joint's S is [1; 0];
 ///  - D carries an extra diagonal δ (armature and the implicit part of PD and range torques), and, (3), for a
 ///    ball joint this simplifies  Ia = IA − U D⁻¹ Uᵀ  to  [δ − δ²D⁻¹, δ D⁻¹ B; ·, C − Bᵀ D⁻¹ B];
-///  - IA and pA start from the rigid body plus its floor contacts.
+///  - IA and pA start from the rigid body plus its floor contacts;
+///  - a step solves several times, with other contacts and torque bounds each time: branches in which nothing
+///    changed keep their IA and pA, which would come out the same bit by bit.
 #pragma once
+
+#include <cassert>
 
 #include "physics/contact.h"
 #include "physics/joints.h"
@@ -15,11 +19,19 @@
 
 namespace mimicx {
 
-/// IA, pA of the single bodies: rigid body and floor contact.                    RBDA eqs. 7.21, 7.22
+/// What changed in a body changes every body between it and the root.
 template <class T>
-void aba_initialise(const Model<RealOf<T>>& model, Data<T>& d) {
+void carry_changes_to_root(Data<T>& d) {
+  for (std::size_t i = kBodies - 1; i > 0; --i)
+    if (d.changed[i]) d.changed[static_cast<std::size_t>(kParents[i])] = true;
+}
+
+/// IA, pA of the changed bodies: rigid body and floor contact.                   RBDA eqs. 7.21, 7.22
+template <class T>
+[[gnu::flatten]] void aba_initialise(const Model<RealOf<T>>& model, Data<T>& d) {
   const T zero(0.0);
   for (std::size_t i = 0; i < kBodies; ++i) {
+    if (!d.changed[i]) continue;
     const T m(model.mass[i]);
     const Vec3<T> h = m * d.d[i];
     d.IA[i].A = d.I_o[i];
@@ -30,6 +42,7 @@ void aba_initialise(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
     const GroundContact<T>& contact = d.ground[static_cast<std::size_t>(k)];
     const auto i = static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(contact.index)].body);
+    assert(d.changed[i]);
     add_ground(contact, d.IA[i], d.pA[i]);
   }
 }
@@ -111,15 +124,16 @@ void hinge_inertia(const Vec3<T>& axis, std::size_t i, Data<T>& d, Inertia<T>& I
 
 /// Pass 2, tip to root.                                                          RBDA table 7.1
 template <class T>
-void aba_inertia_pass(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] void aba_inertia_pass(const Model<RealOf<T>>& model, Data<T>& d) {
   for (std::size_t i = kBodies - 1; i > 0; --i) {
+    const auto lambda = static_cast<std::size_t>(kParents[i]);
+    if (!d.changed[lambda]) continue;
     Inertia<T> Ia;
     Wrench<T> pa;
     if (is_hinge(static_cast<int>(i)))
       hinge_inertia(d.R_WB[i] * spread<T>(model.axis[i]), i, d, Ia, pa);
     else
       ball_joint_inertia(i, d, Ia, pa);
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
     add_to_parent(Ia, pa, d.r[i], d.IA[lambda], d.pA[lambda]);
   }
 }
@@ -143,7 +157,7 @@ void solve_root(Data<T>& d) {
 
 /// Pass 3, root to tip.                                                          RBDA table 7.1
 template <class T>
-void aba_acceleration_pass(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] void aba_acceleration_pass(const Model<RealOf<T>>& model, Data<T>& d) {
   solve_root(d);
   for (std::size_t i = 1; i < kBodies; ++i) {
     const auto lambda = static_cast<std::size_t>(kParents[i]);
@@ -161,6 +175,18 @@ void aba_acceleration_pass(const Model<RealOf<T>>& model, Data<T>& d) {
     d.a_w[i] = a_w + d.qdd[i];
     d.a_v[i] = a_v;
   }
+}
+
+/// Accelerations under the joint torques and contacts as they are linearised now; nothing to do where they
+/// are those of the solve before.
+template <class T>
+void solve(const Model<RealOf<T>>& model, Data<T>& d) {
+  carry_changes_to_root(d);
+  if (!d.changed[kPelvis]) return;
+  aba_initialise(model, d);
+  aba_inertia_pass(model, d);
+  aba_acceleration_pass(model, d);
+  d.changed.fill(false);
 }
 
 }  // namespace mimicx

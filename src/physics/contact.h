@@ -33,7 +33,7 @@ void linearise_ground(const SimulationOptions& o, T dt, const Vec3<T>& v_end, Gr
 
 /// Finds the points that touch in any lane and linearises them at the start of the step.
 template <class T>
-void detect_ground(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] void detect_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   const SimulationOptions& o = model.options;
   d.ground_count = 0;
   for (int index = 0; index < static_cast<int>(model.contacts.size()); ++index) {
@@ -93,7 +93,7 @@ Vec3<T> point_acceleration(const Model<RealOf<T>>& model, const GroundContact<T>
 /// Between two solves: the coefficients at the velocities that the last one predicts, in the lanes that are
 /// to be solved again.
 template <class T>
-void relinearise_ground(const Model<RealOf<T>>& model, const MaskOf<T>& lanes, Data<T>& d) {
+[[gnu::flatten]] void relinearise_ground(const Model<RealOf<T>>& model, const MaskOf<T>& lanes, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
     GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
     GroundContact<T> renewed = c;
@@ -102,12 +102,13 @@ void relinearise_ground(const Model<RealOf<T>>& model, const MaskOf<T>& lanes, D
     c.f = select<T>(lanes, renewed.f, c.f);
     c.W_t = select(lanes, renewed.W_t, c.W_t);
     c.W_n = select(lanes, renewed.W_n, c.W_n);
+    d.changed[static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(c.index)].body)] = true;
   }
 }
 
 /// After the last pass: the forces that acted.
 template <class T>
-void find_applied_ground(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] void find_applied_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
     GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
     const Vec3<T> a = point_acceleration(model, c, d);
@@ -133,7 +134,7 @@ void closest_on_segments(const Vec3<T>& p, const Vec3<T>& u, const Vec3<T>& q, c
 
 /// Penalty forces between capsules, added to the bias of both bodies and kept for export.
 template <class T>
-void add_self_contact(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] void add_self_contact(const Model<RealOf<T>>& model, Data<T>& d) {
   const T k(model.options.self_stiffness), damping(model.options.self_damping), zero(0.0);
   std::array<Vec3<T>, kBodies> arm, axis,
       middle;  // start of the capsule's axis, its vector; its middle in world

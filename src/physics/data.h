@@ -77,6 +77,10 @@ struct Data {
   std::array<Vec3<T>, kBodies>
       qdd;  ///< joint accelerations R·ω̇ in world axes; entry 0: the root's angular one
 
+  /// Bodies whose IA, pA the next solve forms anew, because a contact of the body, or a contact or joint
+  /// torque of the branch it carries, was linearised anew in some lane. The others keep theirs.
+  std::array<bool, kBodies> changed;
+
   std::array<GroundContact<T>, kMaxContacts> ground;
   int ground_count = 0;  ///< points that touch in at least one lane
 };

@@ -38,8 +38,8 @@ void compute_range(const Model<RealOf<T>>& model, const State<T>& state, std::si
 
 /// PD and range torques of every joint at the start of the step.
 template <class T>
-void compute_joint_torques(const Model<RealOf<T>>& model, const State<T>& state, const Target<T>& target,
-                           Data<T>& d) {
+[[gnu::flatten]] void compute_joint_torques(const Model<RealOf<T>>& model, const State<T>& state,
+                                            const Target<T>& target, Data<T>& d) {
   const T dt(model.dt);
   for (std::size_t i = 1; i < kBodies; ++i) {
     const T kp(model.kp[i]), kd(model.kd[i]);
@@ -76,12 +76,15 @@ void use_pd_law(const Model<RealOf<T>>& model, Data<T>& d) {
 /// torque becomes a constant of the bound's size along the law; elsewhere it is the implicit law. This is the
 /// active-set form of Newton's method for τ = clamp(law − δ·q̈).
 template <class T>
-void apply_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] void apply_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
   for (std::size_t i = 1; i < kBodies; ++i) {
     const T limit(model.torque_limit[i]), armature(model.armature[i]);
     const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
     const T size = norm(law);  // of a hinge both vectors lie along its axis
-    d.saturated[i] = size > limit;
+    const MaskOf<T> over = size > limit;
+    const MaskOf<T> constant = over | d.saturated[i];  // now or before: the parent will see the difference
+    if (any(constant)) d.changed[static_cast<std::size_t>(kParents[i])] = true;
+    d.saturated[i] = over;
     const T scale = limit / max(size, limit);
     d.tau[i] = select<T>(d.saturated[i], scale * law, d.tau_pd[i]);
     d.delta[i] = armature + select(d.saturated[i], T(0.0), d.delta_pd[i]) + d.delta_range[i];
@@ -93,7 +96,7 @@ void apply_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
 /// @return mask of the lanes that must be solved again; each call that returns one saturates at least one
 ///         more joint of it, so that a lane needs at most 21 repetitions
 template <class T>
-MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
+[[gnu::flatten]] MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
   MaskOf<T> again = T(0.0) > T(1.0);
   for (std::size_t i = 1; i < kBodies; ++i) {
     const T limit(model.torque_limit[i]);
@@ -102,6 +105,7 @@ MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
     const MaskOf<T> over = (size_2 > limit * limit) & !d.saturated[i];
     if (!any(over)) continue;
     again = again | over;
+    d.changed[static_cast<std::size_t>(kParents[i])] = true;
     d.saturated[i] = d.saturated[i] | over;
     const T scale = limit / sqrt(max(size_2, limit * limit));
     d.tau[i] = select<T>(over, scale * torque, d.tau[i]);

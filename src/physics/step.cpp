@@ -1,6 +1,7 @@
 #include "physics/step.h"
 
 #include "physics/aba.h"
+#include "physics/integration.h"
 
 namespace mimicx {
 namespace {
@@ -8,25 +9,6 @@ namespace {
 template <class T>
 void zero_self_contact(Data<T>& d) {
   for (auto& wrench : d.self_wrench) wrench = {zero3<T>(), zero3<T>()};
-}
-
-template <class T>
-void integrate(const Model<RealOf<T>>& model, const Data<T>& d, State<T>& s) {
-  const T dt(model.dt);
-  s.v_root = add_scaled(s.v_root, dt, d.a_v[0]);
-  s.p_root = add_scaled(s.p_root, dt, s.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    s.omega[i] = add_scaled(s.omega[i], dt, transpose_times(d.R_WB[i], d.qdd[i]));
-    s.q[i] = renormalised(s.q[i] * exp_map(dt * s.omega[i]));
-  }
-}
-
-/// Accelerations under the joint torques and contacts as they are linearised now.
-template <class T>
-void solve(const Model<RealOf<T>>& model, Data<T>& d) {
-  aba_initialise(model, d);
-  aba_inertia_pass(model, d);
-  aba_acceleration_pass(model, d);
 }
 
 /// Lanes whose state is not finite or has run away. Comparisons with NaN are false, hence the negations.
@@ -61,6 +43,7 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
     d.tau_range[i] = zero3<T>();
     d.delta[i] = T(model.armature[i]);
   }
+  d.changed.fill(true);
   solve(model, d);
 }
 
@@ -74,6 +57,7 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
   detect_ground(model, d);
   compute_joint_torques(model, state, target, d);
   use_pd_law(model, d);
+  d.changed.fill(true);
   solve(model, d);
   const MaskOf<T> all = T(1.0) > T(0.0);
   for (int pass = 1; pass < model.options.passes; ++pass) {

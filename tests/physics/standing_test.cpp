@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "physics/test_states.h"
+#include "physics/rest_poses.h"
 
 namespace mimicx {
 namespace {
@@ -94,6 +94,66 @@ TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
   for (const Vector3d& p : contact_positions(c, s)) lowest = std::min(lowest, p.z());
   std::printf("  measured: lowest point of the lying body %.2f mm\n", 1e3 * lowest);
   EXPECT_GT(lowest, -2.5e-3);
+}
+
+/// The bodies that carry a pose, each at least 2 % of the weight, together all of it.
+std::vector<int> carriers(RestPose pose) {
+  switch (pose) {
+    case RestPose::kBothSoles:
+    case RestPose::kToeBalls:
+      return {kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot};
+    case RestPose::kOneSole:
+      return {kLeftAnkle, kLeftFoot};
+    case RestPose::kKneeling:
+      return {kLeftKnee, kRightKnee, kLeftFoot, kRightFoot};
+    case RestPose::kAllFours:
+      return {kLeftKnee, kRightKnee, kLeftWrist, kRightWrist};
+    case RestPose::kSupine:
+      return {kSpine1, kSpine3, kLeftAnkle, kRightAnkle};
+    case RestPose::kProne:
+      return {kPelvis, kHead, kLeftFoot, kRightFoot};
+  }
+  return {};
+}
+
+TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
+  for (RestPose pose : kRestPoses)
+    for (double rate : {240.0, 480.0})
+      for (int passes : {2, 3}) {
+        SCOPED_TRACE(testing::Message() << kRestPoseNames[static_cast<int>(pose)] << ", " << rate << " Hz, "
+                                        << passes << " passes");
+        const RestReport r = rest(pose, rate, passes);
+        double sum = 0;
+        for (int body : carriers(pose)) {
+          const double share = r.share[static_cast<std::size_t>(body)];
+          EXPECT_GT(share, 0.02) << kBodyNames[static_cast<std::size_t>(body)];
+          sum += share;
+        }
+        EXPECT_NEAR(sum, 1.0, 2e-3);
+        EXPECT_LT(r.force_error, 5e-3);
+        EXPECT_LT(r.centre_error, 5e-3);  // on the toes the stiff figure still sways by 2 mm
+        std::printf("  measured: %-10s centre of pressure to centre of mass %.2f mm\n",
+                    kRestPoseNames[static_cast<int>(pose)], 1e3 * r.centre_error);
+      }
+}
+
+TEST(Rest, NoPoseSinksInCreepsOrJitters) {
+  for (RestPose pose : kRestPoses)
+    for (double rate : {240.0, 480.0})
+      for (int passes : {2, 3}) {
+        SCOPED_TRACE(testing::Message() << kRestPoseNames[static_cast<int>(pose)] << ", " << rate << " Hz, "
+                                        << passes << " passes");
+        const RestReport r = rest(pose, rate, passes);
+        EXPECT_LT(r.deepest, 1e-3);
+        EXPECT_LT(r.mean_depth, 0.0) << "the skin keeps loaded points above z = 0";
+        EXPECT_LT(r.creep, 1e-3);
+        EXPECT_LT(r.jitter, 0.03);
+      }
+}
+
+TEST(Rest, OnTheToeBallsTheHeelsCarryNothing) {
+  EXPECT_EQ(rest(RestPose::kToeBalls, 240, 2).heel_share, 0.0);
+  EXPECT_GT(rest(RestPose::kBothSoles, 240, 2).heel_share, 0.1);
 }
 
 }  // namespace

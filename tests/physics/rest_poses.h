@@ -1,0 +1,35 @@
+/// Poses that a body rests in without moving, and how the floor carries them: shared by the tests, which
+/// bound it, and by tools/bench_contact, which prints it.
+///
+/// The joints of all but the lying figures are stiffened: what is looked at is the geometry of the contact
+/// points and the law of the floor, not balance, which is the policy's work. Lying needs none.
+#pragma once
+
+#include "physics/test_states.h"
+
+namespace mimicx {
+
+enum class RestPose { kBothSoles, kOneSole, kToeBalls, kKneeling, kAllFours, kSupine, kProne };
+inline constexpr std::array kRestPoses = {RestPose::kBothSoles, RestPose::kOneSole,  RestPose::kToeBalls,
+                                          RestPose::kKneeling,  RestPose::kAllFours, RestPose::kSupine,
+                                          RestPose::kProne};
+inline constexpr const char* kRestPoseNames[] = {"both soles", "one sole", "toe balls", "kneeling",
+                                                 "all fours",  "supine",   "prone"};
+
+/// The pose at rest, its lowest point on the floor, the PD target the pose itself.
+Snapshot rest_pose(RestPose pose, const Character& character);
+
+/// One second, after the figure has had three (lying: eight) to settle.
+struct RestReport {
+  std::array<double, kBodies> share{};  ///< of the weight, carried by each body, mean
+  double heel_share = 0;                ///< of the weight, carried by the heel points, mean
+  double force_error = 0;               ///< |ground force − weight| over the weight, largest of all steps
+  double centre_error = 0;              ///< centre of pressure to the centre of mass, horizontally, m
+  double mean_depth = 0;                ///< of the points that carry anything, under z = 0, m
+  double deepest = 0;                   ///< of any point, under z = 0, m
+  double creep = 0;                     ///< fastest horizontal speed of a point that carries anything, m/s
+  double jitter = 0;  ///< largest minus smallest force of a point within the second, share of the weight
+};
+RestReport rest(RestPose pose, double rate, int passes);
+
+}  // namespace mimicx
