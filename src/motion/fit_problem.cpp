@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/estimator_error.h"
 #include "motion/reference.h"
 #include "motion/surface.h"
 
@@ -104,7 +105,8 @@ void measure_jitter(const std::vector<std::array<Quaterniond, kBodies>>& q, FitP
     for (std::size_t b = 1; b < kBodies; ++b) {
       std::array<Vector3d, 3> step;
       for (std::size_t i = 0; i < 3; ++i) step[i] = log_map(q[t + i][b].conjugate() * q[t + i + 1][b]);
-      for (double x : ((step[0] - 2.0 * step[1] + step[2]) / joint_weight(static_cast<int>(b))).eval())
+      for (double x :
+           ((step[0] - 2.0 * step[1] + step[2]) / relative_joint_error(static_cast<int>(b))).eval())
         rotations.push_back(std::abs(x));
     }
     const auto& p = problem.p_root;
@@ -138,39 +140,6 @@ Matrix3d cross_matrix(const Vector3d& v) {
 }
 
 }  // namespace
-
-double joint_weight(int body) {
-  switch (body) {
-    case kLeftHip:
-    case kRightHip:
-      return 0.9;
-    case kSpine1:
-    case kSpine2:
-    case kSpine3:
-    case kLeftCollar:
-    case kRightCollar:
-      return 0.45;
-    case kLeftAnkle:
-    case kRightAnkle:
-      return 1.3;
-    case kLeftFoot:
-    case kRightFoot:
-      return 0.6;
-    case kNeck:
-    case kHead:
-      return 0.8;
-    case kLeftShoulder:
-    case kRightShoulder:
-      return 1.2;
-    case kLeftElbow:
-    case kRightElbow:
-    case kLeftWrist:
-    case kRightWrist:
-      return 1.4;
-    default:
-      return 1.0;
-  }
-}
 
 FitProblem make_problem(const Clip& clip, const FitOptions& options) {
   FitProblem problem;

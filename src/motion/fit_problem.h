@@ -64,8 +64,6 @@ struct FitProblem {
 FitProblem make_problem(const Clip& clip, const FitOptions& options);
 /// No correction.
 FitState initial_state(const FitProblem& problem);
-/// Trust in a body's joint: how much larger its errors are than those of a knee.
-double joint_weight(int body);
 /// The character of the fitted shape.
 Character character_of(const FitProblem& problem, const FitState& state);
 std::array<Quaterniond, kBodies> rotations_of(const FitProblem& problem, const FitState& state,

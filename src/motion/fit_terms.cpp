@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion/estimator_error.h"
 #include "motion/fit_problem.h"
 
 namespace mimicx {
@@ -94,7 +95,7 @@ FrameVector per_unknown(double position, double rotation, double joint) {
   v.head<3>().setConstant(position);
   v.segment<3>(kRootRotation).setConstant(rotation);
   for (int b = 1; b < kBodies; ++b)
-    v.segment(kFirstJoint + first_dof(b), is_hinge(b) ? 1 : 3).setConstant(joint * joint_weight(b));
+    v.segment(kFirstJoint + first_dof(b), is_hinge(b) ? 1 : 3).setConstant(joint * relative_joint_error(b));
   return v;
 }
 

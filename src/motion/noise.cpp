@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "motion/estimator_error.h"
 #include "motion/noise_streams.h"
 #include "motion/surface.h"
 #include "motion/synth_track.h"
@@ -13,37 +14,6 @@ namespace mimicx {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// w_j of the joint rotations: how much worse than average a joint is estimated.
-double joint_weight(int body) {
-  switch (body) {
-    case kLeftHip:
-    case kRightHip:
-      return 0.9;
-    case kLeftKnee:
-    case kRightKnee:
-      return 1.0;
-    case kLeftAnkle:
-    case kRightAnkle:
-      return 1.3;
-    case kLeftFoot:
-    case kRightFoot:
-      return 0.6;
-    case kNeck:
-    case kHead:
-      return 0.8;
-    case kLeftShoulder:
-    case kRightShoulder:
-      return 1.2;
-    case kLeftElbow:
-    case kRightElbow:
-    case kLeftWrist:
-    case kRightWrist:
-      return 1.4;
-    default:
-      return 0.45;  // spine and collars
-  }
-}
 
 /// still·N + slow·S + jitter·J, each from the stream, in this order.
 std::vector<double> three_scales(Random& random, int frames, double still, double slow, double slow_frames,
@@ -69,8 +39,8 @@ void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, Rotati
       axis = three_scales(random, frames, p.joint_static, p.joint_slow, p.slow_tau * fps, p.joint_jitter,
                           p.jitter_frames);
     for (std::size_t t = 0; t < q.size(); ++t)
-      q[t][b] =
-          q[t][b] * exp_map(joint_weight(body) * kDegree * Vector3d(error[0][t], error[1][t], error[2][t]));
+      q[t][b] = q[t][b] * exp_map(relative_joint_error(body) * kDegree *
+                                  Vector3d(error[0][t], error[1][t], error[2][t]));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "motion/estimator_error.h"
 #include "motion/made_motions.h"
 #include "motion/noise.h"
 
@@ -183,7 +184,7 @@ VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState&
       if (i >= kRootRotation) {
         double w = 1.0;
         for (int b = 1; b < kBodies; ++b)
-          if (i >= kFirstJoint + first_dof(b)) w = joint_weight(b);
+          if (i >= kFirstJoint + first_dof(b)) w = relative_joint_error(b);
         size = degree * (i < kFirstJoint ? o.root_rotation_sigma : w * o.joint_sigma);
         rate = w * degree * o.joint_rate, bend = w * degree * o.joint_bend,
         jitter = w * problem.rotation_jitter;

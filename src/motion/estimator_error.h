@@ -1,0 +1,15 @@
+/// What is known about the errors of video estimators joint by joint.
+///
+/// The noise model (noise.h) draws its errors with these weights and the keypoint fit (fit.h) trusts the
+/// input by them: so on synthetic noise the fit is right about the weights, which flatters it a little.
+#pragma once
+
+namespace mimicx {
+
+/// w_j: how large the error of a body's rotation relative to its parent is beside that of a knee. Limbs' ends
+/// are estimated worse than the trunk, toes are mostly left alone.                        docs/method.md,
+/// Noise model
+/// @param body  index of the body; the root has weight 1
+double relative_joint_error(int body);
+
+}  // namespace mimicx
