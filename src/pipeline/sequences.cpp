@@ -256,10 +256,15 @@ void copy_clean(const RunState& run, const SequenceEntry& entry) {
 
 TrainingConfig fine_tuning_defaults() {
   TrainingConfig config;
-  config.samples = 4'000'000;
-  config.ppo.sigma_start = 0.05;
-  config.ppo.sigma_end = 0.03;
-  config.stop_reward = 0.95;
+  config.samples = 2'000'000;
+  config.characters = 128;
+  config.group_size = 32;
+  config.ppo.sigma_start = 0.04;
+  config.ppo.sigma_end = 0.02;
+  config.ppo.epochs = 6;
+  config.ppo.kl_target = 0.16;
+  config.ppo.critic_step_size = 1e-3;
+  config.stop_reward = 0.985;
   config.stall_evaluations = 12;
   return config;
 }
