@@ -15,7 +15,7 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
   if (status.type() == std::filesystem::file_type::not_found) throw fail("a readable file", "none");
   if (error) throw fail("a readable file", error.message());
   if (std::filesystem::is_directory(status)) {
-    std::filesystem::directory_iterator(path, error);
+    const std::filesystem::directory_iterator entries(path, error);
     throw fail("a file", error ? "a folder (" + error.message() + ")" : "a folder");
   }
   if (!std::filesystem::is_regular_file(status)) throw fail("a regular file", "something else");
