@@ -22,6 +22,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   endif()
 endif()
 
+if(MIMICX_FUZZ)
+  # The libraries, too: what libFuzzer does not see covered it cannot look for.
+  set(MIMICX_FUZZ_OPTIONS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_compile_options(mimicx_settings INTERFACE ${MIMICX_FUZZ_OPTIONS})
+  target_link_options(mimicx_settings INTERFACE ${MIMICX_FUZZ_OPTIONS})
+endif()
+
 # Bits depend on these: no contraction behind our back (fused operations are written out), no
 # fast-math, one fixed instruction set instead of -march=native.
 target_compile_options(mimicx_settings INTERFACE -ffp-contract=off -fno-math-errno)

@@ -60,9 +60,9 @@ int run_convert(const std::filesystem::path& in, const std::filesystem::path& ou
 /// @param json  where to write every row as well; empty: nowhere
 int run_audit(const std::vector<std::string>& inputs, bool poses_alone, const std::filesystem::path& json);
 /// @param betas   at most 10, the others are 0; not looked at where there is a motion
-/// @param motion  whose shape to take; empty: none
+/// @param motion  whose body to take; empty: none
 int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
-                    const std::filesystem::path& out);
+                    const ReadOptions& read, const std::filesystem::path& out);
 
 struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written

@@ -4,24 +4,34 @@
 #include <iostream>
 
 #include "commands.h"
-#include "motion/clip.h"
+#include "motion/motion_file.h"
+#include "pipeline/preparation.h"
 
 namespace mimicx {
+namespace {
+
+Character character_of_shape(const std::vector<double>& betas) {
+  std::array<double, kBetas> shape{};
+  if (betas.size() > shape.size())
+    throw UsageError("--betas: expected at most 10 numbers, found " + std::to_string(betas.size()));
+  std::copy(betas.begin(), betas.end(), shape.begin());
+  return make_character(shape);
+}
+
+/// The very body that `convert` writes qpos for and `adapt` simulates: read in the same way.
+Character character_of_motion(const std::filesystem::path& motion, const ReadOptions& read) {
+  const Clip clip = read_motion(motion, read);
+  tell_decisions(motion.string(), clip, std::cerr);
+  return character_of(clip);
+}
+
+}  // namespace
 
 int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
-                    const std::filesystem::path& out) {
-  std::array<double, kBetas> shape{};
-  if (!motion.empty()) {
-    const Clip clip = read_clip(motion);
-    for (const auto& warning : clip.warnings) std::cerr << motion.string() << ": " << warning << '\n';
-    shape = clip.usable_betas();
-  } else if (betas.size() <= shape.size()) {
-    std::copy(betas.begin(), betas.end(), shape.begin());
-  } else {
-    throw UsageError("--betas: expected at most 10 numbers, found " + std::to_string(betas.size()));
-  }
+                    const ReadOptions& read, const std::filesystem::path& out) {
+  const Character character = motion.empty() ? character_of_shape(betas) : character_of_motion(motion, read);
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  write_file_atomically(out, to_mjcf(make_character(shape), SimulationOptions{}));
+  write_file_atomically(out, to_mjcf(character, SimulationOptions{}));
   return kAllGood;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "commands.h"
@@ -7,6 +8,13 @@
 namespace mimicx {
 namespace {
 
+/// How many keypoints the fit and Eq. 3 can use.
+std::ptrdiff_t joints_among(const std::vector<std::string>& names) {
+  return std::count_if(names.begin(), names.end(), [](const std::string& name) {
+    return std::find(kBodyNames.begin(), kBodyNames.end(), name) != kBodyNames.end();
+  });
+}
+
 void describe_file(const Clip& clip) {
   for (const auto& decision : clip.decisions) std::printf("decided      %s\n", decision.c_str());
   std::printf("frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
@@ -15,7 +23,8 @@ void describe_file(const Clip& clip) {
   for (double b : clip.betas) std::printf(" %g", b);
   std::printf("\n");
   if (clip.keypoints)
-    std::printf("keypoints    %zu per frame, %s camera\n", clip.keypoints->names.size(),
+    std::printf("keypoints    %zu per frame, %td of them joints of the body, %s camera\n",
+                clip.keypoints->names.size(), joints_among(clip.keypoints->names),
                 clip.keypoints->extrinsics.size() > 1 ? "moving" : "static");
   else
     std::printf("keypoints    none\n");
@@ -26,7 +35,9 @@ void describe_file(const Clip& clip) {
   }
 }
 
-void describe_preparation(const Reference& reference, const PreparationReport& report) {
+/// @param told  warnings of the file, which preparation hands on
+void describe_preparation(const Reference& reference, const PreparationReport& report,
+                          const std::vector<std::string>& told) {
   std::printf("prepared     %d frames at %g fps\n", reference.size(), reference.fps);
   std::printf("  floor      moved by %.1f mm, at most %.1f mm in a frame\n", report.floor_shift_mm,
               report.max_floor_shift_mm);
@@ -36,18 +47,21 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
               report.change_max_mm);
   std::printf("  feet       levelled by %.1f degrees\n", report.foot_level_deg);
   std::printf("  flagged    %d frames\n", report.flagged_frames);
-  for (const auto& note : report.notes) std::printf("  note       %s\n", note.c_str());
+  for (const auto& note : report.notes)
+    if (std::find(told.begin(), told.end(), note) == told.end())
+      std::printf("  note       %s\n", note.c_str());
 }
 
 }  // namespace
 
 int run_info(const std::filesystem::path& file, const ReadOptions& read) {
   const Clip clip = read_motion(file, read);
+  describe_file(clip);
+  for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
+  if (clip.frames() < 2) throw DataError(file.string(), "", "at least 2 frames to prepare it", "1");
   PreparationReport report;
   const Reference reference = prepare_reference(clip, {}, &report);
-  describe_file(clip);
-  describe_preparation(reference, report);
-  for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
+  describe_preparation(reference, report, clip.warnings);
   return kAllGood;
 }
 

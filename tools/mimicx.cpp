@@ -276,8 +276,10 @@ void declare_export_mjcf(CLI::App& app, Arguments& a) {
                                  "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0")
                     ->delimiter(',')
                     ->check(CLI::Range(-5.0, 5.0));
-  command->add_option("--motion", a.file, "take the shape of this motion")->excludes(betas);
-  command->callback([&a] { a.run = [&a] { return run_export_mjcf(a.betas, a.file, a.out); }; });
+  command->add_option("--motion", a.file, "take the body of this motion: that of its qpos by `convert`")
+      ->excludes(betas);
+  add_read_options(*command, a.read);
+  command->callback([&a] { a.run = [&a] { return run_export_mjcf(a.betas, a.file, a.read, a.out); }; });
 }
 
 void declare_synth(CLI::App& app, Arguments& a) {

@@ -89,9 +89,14 @@ int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
     for (const std::filesystem::path file : files) {
       options.inputs = {file.string()};
       options.out = file.parent_path() / (file.stem().string() + ".mimicx");
-      const RunOutcome outcome = run_sequences(options, context);
-      if (outcome == RunOutcome::kInterrupted) return outcome;
-      if (outcome != RunOutcome::kAllGood) all = outcome;
+      try {
+        const RunOutcome outcome = run_sequences(options, context);
+        if (outcome == RunOutcome::kInterrupted) return outcome;
+        if (outcome != RunOutcome::kAllGood) all = outcome;
+      } catch (const DataError& error) {  // its folder cannot be made or read
+        context.messages << file.string() << ": left out: " << error.what() << '\n';
+        all = RunOutcome::kSomeFailed;
+      }
     }
     return all;
   });

@@ -326,6 +326,7 @@ Character make_character_of_joints(const RestJoints& joints) {
   }
   return assemble(offsets, nearest_betas(offsets));
 }
+
 Vector3d rest_pelvis(std::string_view body_model) {
   if (body_model == "mimicx" || body_model == "smplx") return {0.003, -0.351, 0.012};
   if (body_model == "smplh" || body_model == "smpl") return {-0.002, -0.223, 0.028};

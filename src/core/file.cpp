@@ -14,7 +14,10 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw fail("a readable file", "none");
   if (error) throw fail("a readable file", error.message());
-  if (std::filesystem::is_directory(status)) throw fail("a file", "a folder");
+  if (std::filesystem::is_directory(status)) {
+    const std::filesystem::directory_iterator entries(path, error);
+    throw fail("a file", error ? "a folder (" + error.message() + ")" : "a folder");
+  }
   if (!std::filesystem::is_regular_file(status)) throw fail("a regular file", "something else");
   const std::uintmax_t size = std::filesystem::file_size(path);
   if (size > max_bytes) throw fail("at most " + std::to_string(max_bytes) + " bytes", std::to_string(size));

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "core/file.h"
 #ifdef MIMICX_WITH_ZLIB
@@ -294,14 +296,19 @@ void write_npz(const std::filesystem::path& path, const Npz& archive) {
 void write_file_atomically(const std::filesystem::path& path, const std::string& content) {
   std::filesystem::path temporary = path;
   temporary += ".tmp";
+  std::error_code error;
+  errno = 0;
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     out.flush();
-    if (!out)
-      throw DataError(path.string(), "", "a writable file", "an error while writing " + temporary.string());
+    if (!out) error.assign(errno == 0 ? EIO : errno, std::generic_category());
   }
-  std::filesystem::rename(temporary, path);
+  if (!error) std::filesystem::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  throw DataError(path.string(), "", "a writable file", error.message());
 }
 
 }  // namespace mimicx

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace mimicx {
 namespace {
@@ -120,15 +118,6 @@ std::optional<char> up_of(const std::vector<Landmarks>& poses) {
   const double most = sum.cwiseAbs().maxCoeff(&axis) / static_cast<double>(count);
   if (most < 0.7) return std::nullopt;
   return (sum[axis] < 0.0 ? "XYZ" : "xyz")[axis];
-}
-
-Quaterniond turn_to_z(char axis) {
-  const bool negative = axis >= 'X' && axis <= 'Z';
-  const int index = axis - (negative ? 'X' : 'x');
-  if (index < 0 || index > 2)
-    throw std::invalid_argument(std::string("an axis is x, y or z, not '") + axis + "'");
-  if (axis == 'Z') return Quaterniond(0, 1, 0, 0);  // half a turn about x: upside down
-  return Quaterniond::FromTwoVectors((negative ? -1.0 : 1.0) * Vector3d::Unit(index), Vector3d::UnitZ());
 }
 
 std::optional<Unit> unit_of(double length) {

@@ -52,10 +52,6 @@ bool starts_with_t_pose(const std::vector<Landmarks>& frames);
 /// negative axes.
 std::optional<char> up_of(const std::vector<Landmarks>& poses);
 
-/// The rotation that turns such an axis to +z; y up becomes (x, −z, y).
-/// @throws std::invalid_argument for another letter
-Quaterniond turn_to_z(char axis);
-
 /// A unit of length that makes a leg of `length` file units a human one (0.45 to 1.2 m).
 struct Unit {
   const char* name;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "core/file.h"
 #include "motion/body_model.h"
@@ -79,25 +80,38 @@ void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
                            "; --scale overrides)");
 }
 
-void settle_up(const ReadOptions& o, bool believed, Clip& clip) {
+/// The axis of the file that reading, which took `custom` for up, has turned to `axis`.
+char in_file(char axis, char custom) {
+  const Vector3d up =
+      rotation_to_z_up(custom).conjugate() * (rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ());
+  int index = 0;
+  up.cwiseAbs().maxCoeff(&index);
+  return (up[index] < 0.0 ? "XYZ" : "xyz")[index];
+}
+
+/// @param custom  the axis that the format has up, which is z by now
+void settle_up(const ReadOptions& o, bool believed, char custom, Clip& clip) {
+  const auto turn_up = [&](char axis) {
+    if (axis != custom) rotate_world(rotation_to_z_up(axis) * rotation_to_z_up(custom).conjugate(), clip);
+  };
   if (o.up) {
-    rotate_world(rotation_to_z_up(*o.up), clip);
+    turn_up(*o.up);
     clip.decisions.push_back("up axis: " + axis_name(*o.up) + ", as asked for");
     return;
   }
   if (believed) return;
-  const UpAxis up = detect_up(clip);
-  const std::string along = " (the body stands along it: " + short_number(up.along) + ")";
-  if (!up.sure) {
-    clip.decisions.emplace_back("up axis: z, as the format has it (the body lies, crawls or turns over)");
-  } else if (up.axis == 'z') {
-    clip.decisions.push_back("up axis: z" + along);
-  } else {
-    rotate_world(rotation_to_z_up(up.axis), clip);
-    clip.decisions.push_back((up.axis == 'Z' ? "up axis: upside down, turned over"
-                                             : "up axis: " + axis_name(up.axis) + ", turned to z") +
-                             along + "; --up overrides");
-  }
+  const UpAxis found = detect_up(clip);
+  const char up = found.sure ? in_file(found.axis, custom) : custom;
+  const std::string along = " (the body stands along it: " + short_number(found.along) + ")";
+  turn_up(up);
+  if (!found.sure)
+    clip.decisions.push_back("up axis: " + axis_name(up) +
+                             ", as the format has it (the body lies, crawls or turns over)");
+  else if (found.axis == 'Z')
+    clip.decisions.push_back("up axis: upside down, turned over" + along + "; --up overrides");
+  else
+    clip.decisions.push_back("up axis: " + axis_name(up) + (up == 'z' ? "" : ", turned to z") + along +
+                             (up == custom ? "" : "; --up overrides"));
 }
 
 /// The frame rate next to `fps` of those in use, where one is within a tenth; else 0.
@@ -117,7 +131,7 @@ void settle_fps(const ReadOptions& o, bool believed, Clip& clip) {
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  std::string line = "frame rate: " + short_number(clip.fps) + " fps, as the file says";
+  std::string line = "frame rate: " + short_number(clip.fps) + " fps, as given";
   if (fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0) {
     line = "frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps);
     clip.fps = usual;
@@ -147,6 +161,11 @@ void require_near(const std::filesystem::path& path, const Clip& clip) {
     if (!(clip.trans[t].cwiseAbs().maxCoeff() < kFarthest))
       throw DataError(path.string(), "frame " + std::to_string(t), "a place within 100 km of the origin",
                       short_number(clip.trans[t].cwiseAbs().maxCoeff()) + " m");
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 /// A motion of a foreign skeleton on our body, axes and unit settled.
@@ -231,7 +250,7 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
   if (!skeleton) {
     choose_body(options, clip);
     settle_scale(options, believed, clip);
-    settle_up(options, believed, clip);
+    settle_up(options, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
   }
   settle_fps(options, believed, clip);
   settle_floor(options, believed, clip);
@@ -242,24 +261,27 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
 }
 
 bool is_motion_file(const std::filesystem::path& path) {
-  const std::string suffix = path.extension().string();
+  const std::string suffix = lower_case(path.extension().string());
   if (suffix == ".txt") {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;  // opening a pipe waits for a writer
     std::ifstream file(path, std::ios::binary);
     std::string start(kFirstBytes, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     return recognise(start.substr(0, static_cast<std::size_t>(file.gcount()))) == MotionFormat::kDeepMimic;
   }
-  return suffix == ".npz" || suffix == ".npy" || suffix == ".bvh";
+  return is_written(suffix);
 }
 
 bool is_written(const std::string& suffix) {
-  return suffix == ".npz" || suffix == ".npy" || suffix == ".bvh";
+  const std::string known = lower_case(suffix);
+  return known == ".npz" || known == ".npy" || known == ".bvh";
 }
 
 std::string written_suffixes() { return ".npz, .npy or .bvh"; }
 
 void write_motion(const std::filesystem::path& path, const Clip& clip) {
-  const std::string suffix = path.extension().string();
+  const std::string suffix = lower_case(path.extension().string());
   if (suffix == ".npz")
     write_clip(path, clip);
   else if (suffix == ".npy")

@@ -10,6 +10,7 @@
 #include "motion/body_fit.h"
 #include "motion/retarget_floor.h"
 #include "motion/retarget_solve.h"
+#include "motion/world.h"
 
 namespace mimicx {
 namespace {
@@ -119,7 +120,7 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
   for (Landmarks& pose : source.neutral) pose = transformed(pose, up, scale);
   const Landmarks rest = landmarks_of(rest_pose(motion), source.map);
   if (const auto rest_up = up_of({rest}); rest_up && is_stance(rest)) {
-    source.neutral = {transformed(rest, turn_to_z(*rest_up), scale)};
+    source.neutral = {transformed(rest, rotation_to_z_up(*rest_up), scale)};
     source.neutral_name = "the rest pose";
   } else if (source.neutral.empty()) {
     // A tenth of the frames: one alone may be mid-gesture.
@@ -212,6 +213,16 @@ void measure(const Clip& clip, const Source& source, double lift, RetargetReport
   report.mean_residual_mm = sum / count;
 }
 
+/// The residual of every body that has one, in one line.
+std::string residuals_line(const RetargetReport& report) {
+  std::string line;
+  for (std::size_t b = 0; b < kBodies; ++b)
+    if (!std::isnan(report.residual_mm[b]))
+      line += (line.empty() ? "residuals in mm: " : ", ") + std::string(kBodyNames[b]) +
+              sentence(" %.0f", report.residual_mm[b]);
+  return line;
+}
+
 /// A skeleton that `write_bvh` wrote: the bodies themselves, offsets those of some β.
 /// @return false where it is not
 bool take_own_skeleton(const SkeletonMotion& motion, Clip& clip) {
@@ -231,7 +242,7 @@ bool take_own_skeleton(const SkeletonMotion& motion, Clip& clip) {
   constexpr double kSame = 1e-6;  // m
   if (error > kSame || joint[0] != 0) return false;
   clip.betas = betas;
-  const Quaterniond up = turn_to_z('y');
+  const Quaterniond up = rotation_to_z_up('y');
   for (std::size_t t = 0; t < motion.rotation.size(); ++t) {
     auto& rotations = clip.rotations.emplace_back();
     for (std::size_t b = 0; b < kBodies; ++b)
@@ -252,7 +263,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetOptions& optio
   drop_t_pose(source, clip);
   report.up = find_up(motion, source, options, clip);
   report.scale = find_scale(motion, source, options, clip);
-  const Quaterniond up = turn_to_z(report.up);
+  const Quaterniond up = rotation_to_z_up(report.up);
   for (Landmarks& pose : source.frames) pose = transformed(pose, up, report.scale);
   choose_neutral(motion, source, up, report.scale, clip);
 
@@ -275,6 +286,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetOptions& optio
           : "body shape fitted: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the "
             "mean",
       report.leg_ratio, report.mean_residual_mm));
+  clip.decisions.push_back(residuals_line(report));
   std::string missing;
   for (const std::string& name : report.unmapped) missing += (missing.empty() ? "" : ", ") + name;
   if (!missing.empty()) clip.warnings.emplace_back("no joint for " + missing + ": held as at rest");

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
+
+#include "core/file.h"
 
 namespace mimicx {
 namespace {
@@ -36,19 +36,7 @@ std::size_t sequence_length(std::string_view text) {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
-  if (error || !in)
-    throw DataError(path.string(), "", "a readable file", error ? error.message() : "no permission");
-  if (size > kMaxTextBytes)
-    throw DataError(path.string(), "", "at most 1 GiB of text", std::to_string(size) + " bytes");
-  std::string text(static_cast<std::size_t>(size), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
-}
+std::string read_text(const std::filesystem::path& path) { return read_file(path, kMaxTextBytes); }
 
 std::string printable(std::string_view word) {
   constexpr int kMaxCharacters = 40;

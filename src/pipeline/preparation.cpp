@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <system_error>
 
 namespace mimicx {
 namespace {
@@ -36,6 +37,10 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptio
   PreparedMotion motion;
   motion.input = read_motion(path, read);
   motion.has_fit = fit && motion.input.keypoints.has_value();
+  const int fewest = motion.has_fit ? 3 : 2;
+  if (motion.input.frames() < fewest)
+    throw DataError(path.string(), "", "at least " + std::to_string(fewest) + " frames",
+                    std::to_string(motion.input.frames()));
   if (motion.has_fit) {
     FitReport report;
     motion.fitted = fit_keypoints(motion.input, {}, &report);
@@ -64,15 +69,21 @@ void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out
 std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
   std::vector<std::string> files;
   for (const std::string& input : inputs) {
-    if (!std::filesystem::is_directory(input)) {
+    std::error_code error;
+    const bool folder = std::filesystem::is_directory(input, error);
+    const auto entries =
+        folder ? std::filesystem::directory_iterator(input, error) : std::filesystem::directory_iterator();
+    if (!folder || error) {  // what cannot be looked into stands for itself: reading it says why
       files.push_back(input);
       continue;
     }
     const std::size_t before = files.size();
-    for (const auto& entry : std::filesystem::directory_iterator(input))
+    for (const auto& entry : entries)
       if (is_motion_file(entry.path()) && entry.path().stem().extension() != ".clean")
         files.push_back(entry.path().string());
-    if (files.size() == before) throw std::invalid_argument(input + ": a folder without any motion file");
+    if (files.size() == before && inputs.size() == 1)
+      throw std::invalid_argument(input + ": a folder without any motion file");
+    if (files.size() == before) files.push_back(input);
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   }
   return files;

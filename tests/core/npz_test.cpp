@@ -382,6 +382,23 @@ TEST(Zip, OnlyTheMembersAskedForAreUnpacked) {
   EXPECT_EQ(part.at("small").to_double(), std::vector<double>{3.0});
 }
 
+TEST(WriteFile, SaysWhatIsInTheWayAndLeavesNothingBehind) {
+  const auto why = [](const fs::path& path) -> std::string {
+    try {
+      write_file_atomically(path, "content");
+      return "written";
+    } catch (const DataError& error) {
+      return error.what();
+    }
+  };
+  const fs::path folder = scratch("taken.npz");
+  fs::create_directories(folder);
+  EXPECT_EQ(why(folder), folder.string() + ": expected a writable file, found Is a directory");
+  EXPECT_FALSE(fs::exists(folder.string() + ".tmp"));
+  const fs::path nowhere = scratch("nowhere") / "file";
+  EXPECT_EQ(why(nowhere), nowhere.string() + ": expected a writable file, found No such file or directory");
+}
+
 TEST(ReadFile, SaysWhatIsInTheWay) {
   const auto why = [](const fs::path& path, std::uintmax_t most = kMaxFileBytes) -> std::string {
     try {

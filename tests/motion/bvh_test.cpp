@@ -1,6 +1,7 @@
 #include "motion/bvh.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -213,6 +214,11 @@ TEST(Bvh, FramesPastTheClaimAreNamed) {
 TEST(Bvh, FoldersAndMissingFilesAreRefused) {
   EXPECT_THROW(read_bvh(::testing::TempDir()), DataError);
   EXPECT_THROW(read_bvh("/no/such/file.bvh"), DataError);
+  const fs::path pipe = fs::path(::testing::TempDir()) / "mimicx_bvh_test_pipe";
+  fs::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(read_bvh(pipe), DataError);  // and does not wait for a writer
+  fs::remove(pipe);
 }
 
 /// Largest distance between the joints of a clip and those of the skeleton written for it, m.

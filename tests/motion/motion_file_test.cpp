@@ -1,6 +1,7 @@
 #include "motion/motion_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
@@ -170,6 +171,17 @@ TEST(ReadMotion, OptionsThatMakeNoSenseAreRefused) {
   for (const ReadOptions& bad : {up, scale, fps}) EXPECT_THROW(reread(clip, bad), std::invalid_argument);
 }
 
+TEST(World, EveryAxisCanBeUp) {
+  const std::string axes = "xyzXYZ";
+  for (int i = 0; i < 6; ++i) {
+    const char axis = axes[static_cast<std::size_t>(i)];
+    const Vector3d up = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(i % 3);
+    EXPECT_LT((rotation_to_z_up(axis) * up - Vector3d::UnitZ()).norm(), 1e-12) << axis;
+  }
+  EXPECT_LT((rotation_to_z_up('y') * Vector3d(1, 2, 3) - Vector3d(1, -3, 2)).norm(), 1e-12);
+  EXPECT_THROW(rotation_to_z_up('q'), std::invalid_argument);
+}
+
 TEST(World, ARotationTurnsEveryJointAndEveryCamera) {
   Clip clip = test::random_clip(7, 6, 0.6);
   Keypoints k;
@@ -218,6 +230,25 @@ TEST(Motionx, TheAistScaleIsUndone) {
   EXPECT_FALSE(says(motionx_from(to_motionx(walk), "walk", "walk.npy"), "AIST")) << "not twice";
 }
 
+TEST(Motionx, UpIsAnAxisOfTheFile) {
+  const Clip walk = foreign("walk");
+  const fs::path path = scratch("walk.npy");
+  write_motion(path, walk);
+  ReadOptions asked;
+  asked.up = 'y';
+  EXPECT_LT(distance(read_motion(path, asked), walk), 1e-9) << "y is up in the format already";
+  EXPECT_TRUE(says(read_motion(path), "up axis: y, turned to z"));
+
+  Clip turned = walk;  // written with its own axes, z up, against the custom of the format
+  rotate_world(rotation_to_z_up('y'), turned);
+  write_motion(path, turned);
+  const Clip found = read_motion(path);
+  EXPECT_TRUE(says(found, "up axis: z (")) << found.decisions[2];
+  EXPECT_LT(distance(found, walk), 1e-9);
+  asked.up = 'z';
+  EXPECT_LT(distance(read_motion(path, asked), walk), 1e-9);
+}
+
 TEST(Motionx, OtherShapesAreRefused) {
   for (const Eigen::MatrixXd& bad : {Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 321)), Eigen::MatrixXd(0, 322)})
     EXPECT_THROW(motionx_from(from_matrix(bad), "m", "m.npy"), DataError);
@@ -238,6 +269,15 @@ TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
   EXPECT_LT(distance(read_motion(npy), clip), 1e-9);
 }
 
+TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
+  const Clip clip = foreign("walk");
+  for (const char* name : {"WALK.BVH", "walk.Npz", "walk.NPY"}) {
+    write_motion(scratch(name), clip);
+    EXPECT_TRUE(is_motion_file(scratch(name))) << name;
+    EXPECT_LT(distance(read_motion(scratch(name)), clip), 1e-6) << name;
+  }
+}
+
 TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
   const fs::path folder = scratch("folder.npz"), empty = scratch("empty.npz"), text = scratch("text.npy"),
                  cut = scratch("cut.npz"), locked = scratch("locked.npz");
@@ -256,6 +296,14 @@ TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
       EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     }
   }
+}
+
+TEST(ReadMotion, AFolderWithAPipeInItIsLookedThroughWithoutWaiting) {
+  const fs::path pipe = scratch("pipe.txt");
+  fs::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_FALSE(is_motion_file(pipe));
+  EXPECT_THROW(read_motion(pipe), DataError);
 }
 
 TEST(SharedMotions, AmassAndMotionxFilesOfTheSameMotionAgree) {
@@ -281,9 +329,10 @@ TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
   for (const char* folder : {"amass", "video", "motionx"})
     for (const auto& file : fs::directory_iterator(root / folder)) {
       const Clip clip = read_motion(file.path());
-      EXPECT_TRUE(says(clip, "up axis: z")) << file.path();
+      EXPECT_TRUE(says(clip, std::string("up axis: ") + (folder == std::string("motionx") ? "y" : "z")))
+          << file.path();
       EXPECT_EQ(clip.fps, 30.0) << file.path();
-      for (const char* suffix : {"back.npz", "back.npy"}) {
+      for (const char* suffix : {"back.npz", "back.npy", "back.bvh"}) {
         write_motion(scratch(suffix), clip);
         EXPECT_LT(distance(read_motion(scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
       }

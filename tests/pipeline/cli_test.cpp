@@ -116,6 +116,20 @@ TEST_F(Cli, InfoSaysWhatTheFileHolds) {
   EXPECT_TRUE(says(call, "mimicx")) << call.text;
 }
 
+TEST_F(Cli, InfoOfOneFrameSaysWhatItHoldsAndThatItIsTooShort) {
+  Clip clip = standing_clip(1);
+  clip.keypoints.emplace();
+  clip.keypoints->names = {"nose", "left_hip", "right_hip"};
+  clip.keypoints->uvc.assign(1, std::vector<Vector3d>(3, Vector3d::Ones()));
+  clip.keypoints->extrinsics = {Eigen::Matrix4d::Identity()};
+  write_clip(path("one.npz"), clip);
+  const Call call = mimicx("info " + path("one.npz"));
+  EXPECT_EQ(call.status, 1);
+  EXPECT_TRUE(says(call, "3 per frame, 2 of them joints of the body, static camera")) << call.text;
+  EXPECT_TRUE(says(call, path("one.npz") + ": expected at least 2 frames to prepare it, found 1"))
+      << call.text;
+}
+
 TEST_F(Cli, ConvertKeepsTheMotion) {
   const Clip clip = standing_clip(20);
   write_clip(path("a.npz"), clip);
@@ -219,6 +233,31 @@ TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
   EXPECT_EQ(read_file(path("new/standard.xml")), to_mjcf(make_character(), {}));
 }
 
+TEST_F(Cli, ExportMjcfTakesTheBodyThatConvertWritesQposFor) {
+  // A body of known joints, as a licensed model gives it, and one that is fitted to a skeleton.
+  Clip clip = standing_clip(20);
+  clip.body_model = "smplx";
+  clip.rest_joints.emplace();
+  const Character standard = make_character();
+  for (std::size_t b = 0; b < kBodies; ++b)
+    (*clip.rest_joints)[b] = b == 0 ? rest_pelvis("smplx")
+                                    : Vector3d((*clip.rest_joints)[static_cast<std::size_t>(kParents[b])] +
+                                               1.1 * standard.joint_offset[b]);
+  write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("a.xml")).status, 0);
+  EXPECT_EQ(read_file(path("a.xml")), to_mjcf(character_of(clip), {}));
+  EXPECT_NE(read_file(path("a.xml")), to_mjcf(standard, {}));
+
+  Clip shaped = standing_clip(20);
+  shaped.betas[0] = 1.5;
+  write_bvh(path("b.bvh"), shaped);
+  const std::string export_b = "export-mjcf --motion " + path("b.bvh") + " " + path("b.xml");
+  EXPECT_EQ(mimicx(export_b).status, 0);
+  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(character_of(read_motion(path("b.bvh"))), {}));
+  EXPECT_EQ(mimicx(export_b + " --body standard").status, 0);
+  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(standard, {}));
+}
+
 TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
   write_clip(path("a.npz"), standing_clip(20));
   const std::string command =
@@ -231,6 +270,34 @@ TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
   EXPECT_EQ(manifest["sequences"][0]["status"], "failed");
   EXPECT_EQ(manifest["sequences"][1]["input"], path("a.npz"));
   EXPECT_EQ(mimicx(command + " --seed 2").status, 2) << "a folder of another seed";
+}
+
+TEST_F(Cli, WhatCannotBeLookedAtDoesNotStopTheOthers) {
+  write_clip(path("a.npz"), standing_clip(20));
+  write_clip(path("one.npz"), standing_clip(1));
+  std::filesystem::create_symlink(path("loop.npz"), path("loop.npz"));
+  std::filesystem::create_directory(path("empty"));
+  std::filesystem::create_directory(path("locked"));
+  std::filesystem::permissions(path("locked"), std::filesystem::perms::none);
+  const Call call =
+      mimicx("imitate " + path("empty") + " " + path("loop.npz") + " " + path("locked/b.npz") + " " +
+             path("one.npz") + " " + path("a.npz") + " --samples 1 --threads 1 --out " + path("out"));
+  std::filesystem::permissions(path("locked"), std::filesystem::perms::owner_all);
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, path("empty") + ": expected a file, found a folder")) << call.text;
+  EXPECT_TRUE(says(call, path("loop.npz") + ": expected a readable file, found Too many")) << call.text;
+  EXPECT_TRUE(says(call, path("one.npz") + ": expected at least 2 frames, found 1")) << call.text;
+  EXPECT_TRUE(std::filesystem::exists(path("out/motions/a.npz"))) << call.text;
+}
+
+TEST_F(Cli, AFolderThatCannotBeMadeDoesNotStopTheOthers) {
+  write_clip(path("a.npz"), standing_clip(20));
+  write_clip(path("b.npz"), standing_clip(20));
+  std::ofstream(path("a.mimicx")) << "in the way";
+  const Call call = mimicx("imitate " + path("a.npz") + " " + path("b.npz") + " --samples 1 --threads 1");
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, path("a.npz") + ": left out: ")) << call.text;
+  EXPECT_TRUE(std::filesystem::exists(path("b.clean.npz"))) << call.text;
 }
 
 TEST_F(Cli, ClusterTakesFilesAndFoldersInAnyOrderAndLeavesOutWhatFails) {

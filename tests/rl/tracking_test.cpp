@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "motion/noise.h"
 #include "rl/tracking_environment.h"
 #include "rl/tracking_fixture.h"
 #include "rl/tracking_rollout.h"
@@ -154,6 +156,39 @@ TEST(TrackingReward, KeypointsWithoutConfidenceDoNotCount) {
   keypoints.uvc[0][kLeftWrist] = {1e6, -1e6, 0.0};
   const auto frames = match_keypoints(keypoints);
   EXPECT_NEAR(tracking_reward({}, pose, pose, &frames[0]).term[5], 1.0, 1e-12);
+}
+
+/// What a detector of COCO-17 reports of `points`: its own order, and a face that no body of ours stands for.
+Keypoints as_coco17(const Keypoints& points) {
+  Keypoints coco = points;
+  coco.names = keypoint_names(KeypointSet::kCoco17);
+  coco.uvc.assign(points.uvc.size(), {});
+  for (std::size_t t = 0; t < points.uvc.size(); ++t)
+    for (const std::string& name : coco.names) {
+      const auto at = std::find(points.names.begin(), points.names.end(), name) - points.names.begin();
+      const bool face = at == static_cast<std::ptrdiff_t>(points.names.size());
+      coco.uvc[t].push_back(face ? Vector3d(-1e4, 1e4, 1.0) : points.uvc[t][static_cast<std::size_t>(at)]);
+    }
+  return coco;
+}
+
+TEST(TrackingReward, Coco17IsComparedJointByJointWithoutTheFace) {
+  const Character character = make_character();
+  const Pose pose = pose_of(character, swaying_reference(2).frames[0]);
+  const Keypoints coco = as_coco17(camera_and_points(pose));
+  ASSERT_EQ(coco.names.size(), 17u);
+  const auto frames = match_keypoints(coco);
+  ASSERT_EQ(frames[0].detections.size(), 12u);
+  const RewardWeights w;
+  EXPECT_NEAR(tracking_reward(w, pose, pose, &frames[0]).term[5], 1.0, 1e-12);
+  for (std::size_t k = 5; k < 17; ++k) {  // one joint a tenth of the box off counts for a twelfth
+    Keypoints off = coco;
+    off.uvc[0][k].x() += 0.1 * frames[0].box_height;
+    const auto moved_frames = match_keypoints(off);
+    EXPECT_NEAR(tracking_reward(w, pose, pose, &moved_frames[0]).term[5],
+                std::exp(-w.projection * 0.01 / 12.0), 1e-9)
+        << coco.names[k];
+  }
 }
 
 TEST(TrackingPack, ActionHas55EntriesAndZeroResidualAimsAtTheReference) {
