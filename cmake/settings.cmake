@@ -54,6 +54,19 @@ add_library(mimicx_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cpp)
 target_link_libraries(mimicx_common_headers PRIVATE mimicx_settings OpenMP::OpenMP_CXX)
 target_precompile_headers(mimicx_common_headers PRIVATE ${MIMICX_COMMON_HEADERS})
 
+# MuJoCo is an optional second engine for tests and benchmarks (Debian: libmujoco-dev).
+if(MIMICX_WITH_MUJOCO AND NOT MIMICX_CORE_ONLY)
+  find_path(MUJOCO_INCLUDE mujoco/mujoco.h)
+  find_library(MUJOCO_LIBRARY mujoco)
+  if(MUJOCO_INCLUDE AND MUJOCO_LIBRARY)
+    add_library(mimicx_mujoco INTERFACE)
+    target_include_directories(mimicx_mujoco SYSTEM INTERFACE ${MUJOCO_INCLUDE})
+    target_link_libraries(mimicx_mujoco INTERFACE ${MUJOCO_LIBRARY})
+  else()
+    message(STATUS "MuJoCo not found: what compares with it is left out")
+  endif()
+endif()
+
 # mimicx_library(NAME SOURCES... DEPENDS LIBS...): one static library per folder.
 function(mimicx_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})

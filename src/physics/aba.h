@@ -4,8 +4,8 @@
 /// the book, all derived in docs/physics.md §2:
 ///  - world-parallel axes about the body's own joint centre and classical accelerations, so that X is a
 ///    translation and a ball joint's S is [1; 0];
-///  - D carries an extra diagonal δ (armature and the implicit part of PD and range torques), and, (3), for a
-///    ball joint this simplifies  Ia = IA − U D⁻¹ Uᵀ  to  [δ − δ²D⁻¹, δ D⁻¹ B; ·, C − Bᵀ D⁻¹ B];
+///  - D carries an extra diagonal δ (armature and the implicit part of PD and range torques), and for a ball
+///    joint this simplifies  Ia = IA − U D⁻¹ Uᵀ  to  [δ − δ²D⁻¹, δ D⁻¹ B; ·, C − Bᵀ D⁻¹ B];
 ///  - IA and pA start from the rigid body plus its floor contacts;
 ///  - a step solves several times, with other contacts and torque bounds each time: branches in which nothing
 ///    changed keep their IA and pA, which would come out the same bit by bit.
@@ -48,7 +48,7 @@ template <class T>
 }
 
 /// Adds the inertia Ia and bias pa of a child, given about the child's joint centre, to its parent, whose
-/// joint centre is −r away:  λX*ᵢ Ia ᵢXλ  and  λX*ᵢ pa.                         RBDA eqs. 7.23, 7.24
+/// joint centre is −r away:  λX*ᵢ Ia ᵢXλ  and  λX*ᵢ pa.           RBDA table 7.1; docs/physics.md §2, (4)
 template <class T>
 void add_to_parent(const Inertia<T>& Ia, const Wrench<T>& pa, const Vec3<T>& r, Inertia<T>& IA,
                    Wrench<T>& pA) {
@@ -81,7 +81,7 @@ Sym3<T> schur(const Sym3<T>& C, const Mat3<T>& B, const Mat3<T>& M) {
                      dot(B.c[1], M.c[1]), dot(B.c[1], M.c[2]), dot(B.c[2], M.c[2])};
 }
 
-/// Ia, pa of a body behind a ball joint.
+/// Ia, pa of a body behind a ball joint.           RBDA eqs. 7.23, 7.24; their form: docs/physics.md §2, (3)
 template <class T>
 void ball_joint_inertia(std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   const Inertia<T>& IA = d.IA[i];
@@ -104,7 +104,7 @@ void ball_joint_inertia(std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa
   pa.f = d.pA[i].f + transpose_times(Ia.B, d.c_w[i]) + Ia.C * d.c_v[i] + transpose_times(IA.B, y);
 }
 
-/// Ia, pa of a body behind a hinge: S = [axis; 0].
+/// Ia, pa of a body behind a hinge, S = [axis; 0]: the book's rank-one update.     RBDA eqs. 7.23, 7.24
 template <class T>
 void hinge_inertia(const Vec3<T>& axis, std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   const Inertia<T>& IA = d.IA[i];
@@ -138,8 +138,7 @@ template <class T>
   }
 }
 
-/// Acceleration of the free pelvis: IA a = −pA by the Schur complement of C.     RBDA eq. 9.13 (floating
-/// base)
+/// Acceleration of the free pelvis: IA a = −pA by the Schur complement of C.   RBDA eq. 9.13, floating base
 template <class T>
 void solve_root(Data<T>& d) {
   const Inertia<T>& IA = d.IA[0];

@@ -1,6 +1,6 @@
 /// Contact with the floor, implicit; contact between bodies, explicit.
 ///
-/// Floor (docs/physics.md §4, (7) to (9)). A point at depth s, with velocity v, pushes with
+/// Floor (docs/physics.md §4, (7)). A point at depth s, with velocity v, pushes with
 ///     f_n = k s − (c + k dt) v_z       while that is positive,
 ///     f_t = −c_t v_t,   c_t = μ f_n / √(|v_t|² + v_s²)                (regularised Coulomb friction),
 /// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt),
@@ -16,7 +16,7 @@
 
 namespace mimicx {
 
-/// Law of a floor contact at velocity v: fills f, W_t, W_n for the velocity the coefficients are taken at.
+/// Law of a floor contact: fills f, W_t, W_n with the coefficients taken at v_end.  docs/physics.md §4, (8)
 template <class T>
 void linearise_ground(const SimulationOptions& o, T dt, const Vec3<T>& v_end, GroundContact<T>& contact) {
   const T k(o.ground_stiffness), damping = fma(dt, k, T(o.ground_damping));
@@ -56,7 +56,7 @@ template <class T>
   }
 }
 
-/// Adds a contact to the articulated inertia and bias of its body.
+/// Adds a contact to the articulated inertia and bias of its body.                  docs/physics.md §4, (9)
 template <class T>
 void add_ground(const GroundContact<T>& c, Inertia<T>& IA, Wrench<T>& pA) {
   const Vec3<T>& a = c.arm;

@@ -4,9 +4,9 @@
 ///     τ = kp·φ − (kd + dt·kp)·ω + kd·ω*  −  δ·q̈,      δ = dt·kd + dt²·kp,      φ = log(q⁻¹ q*),
 /// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3, (5)
 /// A joint outside its range gets the same form with the range's own stiffness, pushing back along the
-/// gradient of the range ellipsoid. The bound holds for the torque of the PD controller, strictly: joints
-/// that exceed it after the last pass are made constant too and the step is solved again. The range is the
-/// bone's, not the muscle's, and has no bound.
+/// gradient of the range ellipsoid; how far it gives, docs/physics.md §3, (6). The bound holds for the torque
+/// of the PD controller, strictly: joints that exceed it after the last pass are made constant too and the
+/// step is solved again. The range is the bone's, not the muscle's, and has no bound.
 #pragma once
 
 #include "physics/data.h"

@@ -1,5 +1,4 @@
-/// Positions, velocities and velocity-product terms, root to tip.           RBDA table 5.1 pass 1, in our
-/// axes
+/// Positions, velocities and velocity-product terms, root to tip.             RBDA table 5.1 pass 1, our axes
 ///
 /// With the body's own joint centre as origin and world-parallel axes, X_λ(i) is a translation by r, and
 /// using classical accelerations of the joint centre the joint's velocity-product term is
@@ -36,8 +35,8 @@ template <class T>
 }
 
 /// Rigid-body inertia in world axes and the force the body needs for its velocity-product acceleration,
-/// minus its weight:  (ω × I_o ω − d × m g ;  m ω × (ω × d) − m g).           RBDA eq. 2.72; docs/physics.md
-/// (1)
+/// minus its weight:  (ω × I_o ω − d × m g ;  m ω × (ω × d) − m g).
+/// RBDA eq. 2.72 in the axes of docs/physics.md §2, (1)
 template <class T>
 [[gnu::flatten]] void compute_rigid_bodies(const Model<RealOf<T>>& model, Data<T>& d) {
   const T g(model.options.gravity);

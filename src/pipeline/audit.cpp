@@ -76,8 +76,8 @@ double lowest_of(const Character& c, const BodyPoses& poses) {
   return lowest;
 }
 
-/// (11): how far the centre of mass went beyond the mean of its velocities, in parts of what forces of the
-/// recorded impulse can do by their timing.
+/// docs/physics.md §9, (11): how far the centre of mass went beyond the mean of its velocities, in parts of
+/// what forces of the recorded impulse can do by their timing.
 double travel_share(const Kinematics& before, const Kinematics& after, const Vector3d& v_before,
                     const Vector3d& v_after, double rate, double acceleration) {
   const Vector3d beyond = after.center - before.center - 0.5 / rate * (v_before + v_after);
@@ -143,7 +143,8 @@ MotionState between(const ReferenceFrame& a, const ReferenceFrame& b, double rat
   return s;
 }
 
-/// (10): change of momentum = weight and mean wrenches, about the middle of the centre of mass' way.
+/// docs/physics.md §9, (10): change of momentum = weight and mean wrenches, about the middle of the centre of
+/// mass' way.
 Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kinematics& before,
                       const Kinematics& after, const BodyWrenches& external) {
   const Vector3d point = 0.5 * (before.center + after.center);

@@ -68,8 +68,9 @@ Audit audit_replayed_steps(const SubstepMotion& motion);
 /// The floor's best case, at 30 fps. A foreign body model is looked at on the standard body.
 Audit audit_poses(const Clip& clip);
 
-/// Why an audit fails, a line each: more unexplained than its evidence allows, torques over their bounds,
-/// floor forces that no floor gives, velocities that do not fit the positions. Limits: docs/physics.md §9.
+/// Why an audit fails, a line each: more unexplained than its evidence allows, exported torques that are not
+/// the required ones, torques over their bounds, floor forces that no floor gives, velocities that do not fit
+/// the positions. Limits: docs/physics.md §9.
 std::vector<std::string> failures_of(const Audit& audit);
 
 /// Means, largest values, counts, work, by name; units are in the names.

@@ -12,29 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-SimulatedFrames simulated_frames(const Clip& clip, const Npz& npz) {
-  if (clip.body_model != "mimicx")
-    throw DataError(npz.path, "body_model", "'mimicx' beside joint_torques", "'" + clip.body_model + "'");
-  SimulatedFrames motion;
-  motion.character = make_character(clip.betas);
-  motion.fps = clip.fps;
-  const auto rotations = joint_rotations(clip);
-  const std::size_t rows = rotations.size();
-  for (std::size_t t = 0; t < rows; ++t) {
-    ReferenceFrame frame;
-    frame.p_root = clip.trans[t] + rest_pelvis(clip.body_model);
-    frame.q = rotations[t];
-    motion.frames.push_back(frame);
-  }
-  read_velocities(npz, "velocities", motion.frames);
-  const VectorRows torques = read_joints(npz, "joint_torques", rows),
-                   ranges = read_joints(npz, "range_torques", rows);
-  const WrenchRows ground = read_wrenches(npz, "ground_wrenches", rows),
-                   self = read_wrenches(npz, "self_contact_wrenches", rows);
-  for (std::size_t t = 0; t < rows; ++t) motion.forces.push_back({torques[t], ranges[t], ground[t], self[t]});
-  return motion;
-}
-
 /// JSON has no NaN.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -62,6 +39,29 @@ Json to_json(const Audit& audit) {
 }
 
 }  // namespace
+
+SimulatedFrames simulated_frames(const Clip& clip, const Npz& npz) {
+  if (clip.body_model != "mimicx")
+    throw DataError(npz.path, "body_model", "'mimicx' beside joint_torques", "'" + clip.body_model + "'");
+  SimulatedFrames motion;
+  motion.character = make_character(clip.betas);
+  motion.fps = clip.fps;
+  const auto rotations = joint_rotations(clip);
+  const std::size_t rows = rotations.size();
+  for (std::size_t t = 0; t < rows; ++t) {
+    ReferenceFrame frame;
+    frame.p_root = clip.trans[t] + rest_pelvis(clip.body_model);
+    frame.q = rotations[t];
+    motion.frames.push_back(frame);
+  }
+  read_velocities(npz, "velocities", motion.frames);
+  const VectorRows torques = read_joints(npz, "joint_torques", rows),
+                   ranges = read_joints(npz, "range_torques", rows);
+  const WrenchRows ground = read_wrenches(npz, "ground_wrenches", rows),
+                   self = read_wrenches(npz, "self_contact_wrenches", rows);
+  for (std::size_t t = 0; t < rows; ++t) motion.forces.push_back({torques[t], ranges[t], ground[t], self[t]});
+  return motion;
+}
 
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone) {
   const Npz npz = read_npz(path);

@@ -14,6 +14,11 @@ namespace mimicx {
 /// @throws DataError naming file and member, also where a motion has torques but not all that belongs to them
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone);
 
+/// A motion that has its forces beside it.
+/// @param npz  the archive that the clip was read from
+/// @throws DataError naming file and member
+SimulatedFrames simulated_frames(const Clip& clip, const Npz& npz);
+
 struct AuditedFile {
   std::string path;
   std::vector<Audit> audits;

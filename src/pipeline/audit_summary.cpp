@@ -7,7 +7,8 @@
 namespace mimicx {
 namespace {
 
-/// What an audit lets pass; forces in parts of the weight, moments in metres (N·m per N of weight).
+/// What an audit lets pass; forces in parts of the weight, moments in metres (N·m per N of weight). What the
+/// joints' torques are off by counts like an unexplained moment at the root.
 struct Limits {
   double mean_force, mean_moment, max_force, max_moment;
 };
@@ -132,6 +133,8 @@ std::vector<std::string> failures_of(const Audit& audit) {
     if (!failures.empty()) failures.push_back(where_it_stands(values));
     return failures;
   }
+  check("mean gap between required and exported torques", "torque_gap_mean_Nm", limits.mean_moment, "N·m");
+  check("largest gap between required and exported torques", "torque_gap_max_Nm", limits.max_moment, "N·m");
   if (!(value_of(values, "travel_worst_share") <= kMostTravel))
     failures.push_back("velocities that do not fit the positions");
   const double bound = value_of(values, "torque_worst_share");

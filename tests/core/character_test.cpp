@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -132,18 +133,44 @@ TEST(Character, EveryBetaChangesTheShapeAndLargeOnesAreRefused) {
   }
 }
 
-/// Smallest gap of all self pairs in the rest pose.
-double smallest_gap(const Character& c) {
+/// Smallest gap of all self pairs in the rest pose; with or without that of the thighs, which every shape
+/// ends 1 mm short of the middle.
+double smallest_gap(const Character& c, bool with_thighs = true) {
   const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
   double smallest = 1e9;
   for (const auto& [i, j] : c.self_pairs) {
+    if (!with_thighs && i == kLeftHip && j == kRightHip) continue;
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     smallest = std::min(smallest, capsule_gap(c.capsule[a], rest.p_WB[a], c.capsule[b], rest.p_WB[b]));
   }
   return smallest;
 }
 
-// Every corner of β in ±3, and shapes between them.
+/// The narrowest gap but the thighs' that can be found from a start in ±3: one β at a time to its worst
+/// value.
+double narrowest_gap_near(Betas betas) {
+  double best = smallest_gap(make_character(betas), false);
+  for (bool better = true; better;) {
+    better = false;
+    for (double& beta : betas) {
+      const double kept = beta;
+      double best_value = kept;
+      for (double value = -3.0; value <= 3.0; value += 1.0) {
+        beta = value;
+        const double gap = smallest_gap(make_character(betas), false);
+        if (gap < best - 1e-12) {
+          best = gap;
+          best_value = value;
+          better = true;
+        }
+      }
+      beta = best_value;
+    }
+  }
+  return best;
+}
+
+// Every corner of β in ±3, shapes between them, and what a search for the narrowest one finds.
 TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
   for (unsigned corner = 0; corner < 1U << kBetas; ++corner) {
     Betas betas;
@@ -151,7 +178,12 @@ TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
     EXPECT_GT(smallest_gap(make_character(betas)), 0.0) << "corner " << corner;
   }
   Random random(1, {4});
-  for (int n = 0; n < 300; ++n) EXPECT_GT(smallest_gap(make_character(random_betas(random, 3.0))), 0.0);
+  for (int n = 0; n < 10000; ++n) EXPECT_GT(smallest_gap(make_character(random_betas(random, 3.0))), 0.0);
+  double narrowest = 1.0;
+  for (int n = 0; n < 10; ++n) narrowest = std::min(narrowest, narrowest_gap_near(random_betas(random, 3.0)));
+  std::printf("  measured: narrowest gap of self pairs but the thighs in the rest pose %.1f mm\n",
+              1e3 * narrowest);
+  EXPECT_GT(narrowest, 0.0);
 }
 
 TEST(Character, InertiaIsThatOfASolidCapsule) {

@@ -18,6 +18,7 @@ class MujocoCharacter {
   MujocoCharacter(const Character& character, const SimulationOptions& options, const MjcfOptions& what = {});
 
   mjModel& model() { return *model_; }
+  const mjModel& model() const { return *model_; }
   mjData& data() { return *data_; }
   /// First entry of a body's joint in qpos and in qvel.
   int qpos(int body) const { return qpos_[static_cast<std::size_t>(body)]; }

@@ -101,6 +101,69 @@ TEST(Step, MomentumChangesByGravityAndRecordedGroundForcesAlone) {
   EXPECT_GT(self_force, 100.0) << "self contact took no part";
 }
 
+/// Momentum of positions and velocities alone, by forward kinematics in plain doubles.
+Momentum momentum(const Character& c, const Snapshot& s) {
+  const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
+  std::array<Vector3d, kBodies> w, v;
+  Momentum sum;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    w[i] = poses.q_WB[i] * s.omega[i];
+    v[i] = s.v_root;
+    if (i > 0) {
+      const auto lambda = static_cast<std::size_t>(kParents[i]);
+      w[i] += w[lambda];
+      v[i] = v[lambda] + w[lambda].cross(poses.p_WB[i] - poses.p_WB[lambda]);
+    }
+    const Vector3d arm = poses.q_WB[i] * c.com_B[i], p = c.mass[i] * (v[i] + w[i].cross(arm));
+    sum.linear += p;
+    sum.angular += poses.q_WB[i] * (c.inertia_B[i] * (poses.q_WB[i].conjugate() * w[i])) +
+                   (poses.p_WB[i] + arm).cross(p);
+  }
+  return sum;
+}
+
+/// How fast momentum changes while the velocities' numbers stay: by differences of positions along them.
+Momentum drift(const Character& c, const Snapshot& s) {
+  constexpr double h = 1e-5;
+  const auto moved = [&](double t) {
+    Snapshot m = s;
+    m.p_root += t * s.v_root;
+    for (std::size_t i = 0; i < kBodies; ++i) m.q[i] = s.q[i].normalized() * exp_map(t * s.omega[i]);
+    return momentum(c, m);
+  };
+  const Momentum after = moved(h), before = moved(-h);
+  return {(after.angular - before.angular) / (2 * h), (after.linear - before.linear) / (2 * h)};
+}
+
+// From the states alone, with nothing of the solve but the contact forces it recorded: what the new
+// velocities change in the momentum, and what moving on changes in it, are the impulses of weight and floor.
+TEST(Step, StatesChangeTheirMomentumByTheImpulsesOfWeightAndFloorInEveryStep) {
+  double hardest = 0;
+  for (std::uint64_t trial = 0; trial < 6; ++trial) {
+    Random random(34, {trial});
+    const Character c = make_character(random_betas(random));
+    Simulation<double> s(c, {}, random_snapshot(random, 1.5, 4.0, 0.9));
+    const double dt = s.model.dt;
+    Snapshot before, after;
+    for (int k = 0; k < 240; ++k) {
+      read_lane(s.state, 0, before);
+      s.advance();
+      read_lane(s.state, 0, after);
+      after.p_root = before.p_root;
+      after.q = before.q;
+      const Momentum h = momentum(c, before), h_next = momentum(c, after), moving = drift(c, before);
+      const Momentum f = external(Bodies<double>{c, s.data, 0}, s.applied.ground, s.model.options.gravity);
+      const Vector3d linear = h_next.linear - h.linear + dt * (moving.linear - f.linear);
+      const Vector3d angular = h_next.angular - h.angular + dt * (moving.angular - f.angular);
+      const double scale = dt * std::max(1000.0, f.linear.norm());  // N·s and N·m·s: a body is 1 m long
+      hardest = std::max(hardest, f.linear.norm());
+      ASSERT_LT(linear.norm(), 1e-7 * scale) << "trial " << trial << " step " << k;
+      ASSERT_LT(angular.norm(), 1e-7 * scale) << "trial " << trial << " step " << k;
+    }
+  }
+  EXPECT_GT(hardest, 5000.0) << "no impact";
+}
+
 // Newton–Euler, with the recorded wrenches as external forces, must give back the recorded joint torques
 // and nothing at the pelvis: this ties every exported quantity to the motion, joint by joint.
 TEST(Step, RneaWithRecordedWrenchesGivesTheRecordedTorques) {

@@ -107,8 +107,8 @@ TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
     double cone, adhesion;
   };
   for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.01}, Bound{240, 1, 0.11, 0.012},
-                         Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 2, 0.07, 0.006},
-                         Bound{480, 3, 0.03, 0.001}})
+                         Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 1, 0.08, 0.006},
+                         Bound{480, 2, 0.07, 0.006}, Bound{480, 3, 0.03, 0.001}})
     for (Scene scene : {Scene::kFall, Scene::kDrop, Scene::kThrow}) {
       const SceneReport r = run(scene, b.rate, b.passes);
       EXPECT_LT(r.outside_cone, b.cone)

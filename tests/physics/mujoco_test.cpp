@@ -1,7 +1,7 @@
 // The dynamics against an established simulator on random states.
 #include <gtest/gtest.h>
 
-#include "oracles/mujoco_character.h"
+#include "oracles/mujoco_inverse.h"
 #include "physics/test_states.h"
 
 namespace mimicx {
@@ -136,50 +136,15 @@ TEST(Mjcf, JointCentresAreThoseOfForwardKinematics) {
   }
 }
 
-/// The joint forces for an acceleration and wrenches by mj_inverse, in MuJoCo's coordinates.
-Eigen::VectorXd mujoco_inverse(MujocoCharacter& mujoco, const MotionState& state,
-                               const BodyWrenches& wrenches) {
-  mjModel& m = mujoco.model();
-  mjData& d = mujoco.data();
-  m.opt.disableflags |= mjDSBL_CONTACT;  // what the floor does stands in the wrenches
-  mujoco.set_root(state.p_root, state.q[0], state.v_root, state.omega[0]);
-  Eigen::Map<Eigen::VectorXd> qacc(d.qacc, kBookDofs);
-  qacc.segment<3>(0) = state.a_root;
-  qacc.segment<3>(3) = state.omega_d[0];
+/// Root and joints in one vector, N and N·m.
+Eigen::VectorXd all_of(const RequiredForces& forces) {
+  Eigen::VectorXd all(6 + 3 * kJoints);
+  all.head<6>() = forces.root;
   for (int i = 1; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    mujoco.set_joint(i, state.q[n], state.omega[n]);
-    if (is_hinge(i))
-      qacc[mujoco.dof(i)] = hinge_axis(i).dot(state.omega_d[n]);
-    else
-      qacc.segment<3>(mujoco.dof(i)) = state.omega_d[n];
+    const Vector3d& torque = forces.joint[static_cast<std::size_t>(i)];
+    all.segment<3>(3 + 3 * i) = is_hinge(i) ? Vector3d(torque.dot(hinge_axis(i)) * hinge_axis(i)) : torque;
   }
-  mj_inverse(&m, &d);
-  Eigen::VectorXd forces = Eigen::Map<Eigen::VectorXd>(d.qfrc_inverse, kBookDofs);
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    const int id = mj_name2id(&m, mjOBJ_BODY, std::string(kBodyNames[i]).c_str());
-    const Vector3d moment = wrenches[i].head<3>(), force = wrenches[i].tail<3>();
-    Eigen::VectorXd generalised = Eigen::VectorXd::Zero(kBookDofs);
-    mj_applyFT(&m, &d, force.data(), moment.data(), d.xpos + 3 * id, id, generalised.data());
-    forces -= generalised;
-  }
-  return forces;
-}
-
-/// What inverse_dynamics requires, in the same coordinates.
-Eigen::VectorXd in_mujocos_order(const MujocoCharacter& mujoco, const MotionState& state,
-                                 const RequiredForces& required) {
-  Eigen::VectorXd forces(kBookDofs);
-  forces.segment<3>(0) = required.root.tail<3>();
-  forces.segment<3>(3) = state.q[0].conjugate() * required.root.head<3>();
-  for (int i = 1; i < kBodies; ++i) {
-    const Vector3d& x = required.joint[static_cast<std::size_t>(i)];
-    if (is_hinge(i))
-      forces[mujoco.dof(i)] = hinge_axis(i).dot(x);
-    else
-      forces.segment<3>(mujoco.dof(i)) = x;
-  }
-  return forces;
+  return all;
 }
 
 TEST(Mujoco, InverseDynamicsAgreesWithTheAudits) {
@@ -189,9 +154,26 @@ TEST(Mujoco, InverseDynamicsAgreesWithTheAudits) {
     const MotionState state = random_motion(t.snapshot, random);
     const BodyWrenches wrenches = random_wrenches(random);
     const RequiredForces required = inverse_dynamics(t.character, t.options.gravity, state, wrenches);
-    const Eigen::VectorXd theirs = mujoco_inverse(*t.mujoco, state, wrenches);
-    EXPECT_LT(relative_difference(in_mujocos_order(*t.mujoco, state, required), theirs), 1e-8)
-        << "trial " << n;
+    const RequiredForces theirs = mujoco_inverse_dynamics(*t.mujoco, state, wrenches);
+    EXPECT_LT(relative_difference(all_of(required), all_of(theirs)), 1e-8) << "trial " << n;
+  }
+}
+
+TEST(Mujoco, MomentumAgreesWithTheSumOverTheBodies) {
+  for (std::uint64_t n = 0; n < 20; ++n) {
+    MujocoTrial t(n);
+    Random random(56, {n});
+    const MotionState state = random_motion(t.snapshot, random);
+    // The first six rows of H q̇ are the momentum of the whole about the pelvis, in its axes.
+    const BookModel book = make_book_model(t.character, t.options.gravity);
+    const Eigen::MatrixXd H = book_mass_matrix(book, book_position(t.snapshot));
+    const Eigen::VectorXd h = H * book_velocity(t.snapshot);
+    const MujocoMomentum theirs = mujoco_momentum(*t.mujoco, state);
+    const Vector3d linear_B = h.segment<3>(3), angular_B = h.segment<3>(0);
+    const Vector3d linear = t.snapshot.q[0] * linear_B;
+    const Vector3d angular = t.snapshot.q[0] * angular_B + (t.snapshot.p_root - theirs.center).cross(linear);
+    EXPECT_LT((linear - theirs.about_center.tail<3>()).norm(), 1e-8 * linear.norm()) << "trial " << n;
+    EXPECT_LT((angular - theirs.about_center.head<3>()).norm(), 1e-8 * angular.norm()) << "trial " << n;
   }
 }
 
@@ -224,7 +206,7 @@ TEST(Mujoco, FindsEveryStepOfAViolentRollOutExplained) {
       }
       hardest = std::max(hardest, scale);
       const Eigen::VectorXd unexplained =
-          mujoco_inverse(mujoco, state, wrenches) - in_mujocos_order(mujoco, state, acted);
+          all_of(mujoco_inverse_dynamics(mujoco, state, wrenches)) - all_of(acted);
       ASSERT_LT(unexplained.cwiseAbs().maxCoeff(), 1e-8 * scale) << "trial " << n << " step " << k;
     }
     EXPECT_GT(hardest, 1000.0) << "no impact";

@@ -140,7 +140,8 @@ TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
 TEST(Rest, NoPoseSinksInCreepsOrJitters) {
   for (RestPose pose : kRestPoses)
     for (double rate : {240.0, 480.0})
-      for (int passes : {2, 3}) {
+      for (int passes : {1, 2, 3}) {
+        if (pose == RestPose::kProne && passes == 1) continue;  // trembles at 240 Hz: docs/physics.md §7
         SCOPED_TRACE(testing::Message() << kRestPoseNames[static_cast<int>(pose)] << ", " << rate << " Hz, "
                                         << passes << " passes");
         const RestReport r = rest(pose, rate, passes);

@@ -6,49 +6,15 @@
 #include <memory>
 #include <sstream>
 
-#include "core/random.h"
 #include "pipeline/audit_file.h"
 #include "pipeline/preparation.h"
 #include "pipeline/sequences.h"
 #include "pipeline/simulated_members.h"
 #include "pipeline/temporary_folder.h"
-#include "rl/tracking_fixture.h"
+#include "pipeline/thrown.h"
 
 namespace mimicx {
 namespace {
-
-/// Two seconds of a character dropped by 5 cm whose targets jump about 30 times a second, every step
-/// recorded.
-/// @param size  of the jumps, rad per axis: 0.3 makes it thrash and fall
-struct Thrown {
-  rl::TrackingConfig config;
-  Reference reference = rl::swaying_reference(60);
-  rl::TrackingRollout rollout;
-
-  explicit Thrown(double rate = 240.0, double size = 0.08) {
-    config.simulation.rate = rate;
-    reference.character = make_character({1.0, -2.0, 0.5, 0.0, 1.5});
-    for (auto& f : reference.frames) f.p_root.z() += 0.05;
-    const auto clip = rl::make_tracking_clip(reference, config);
-    int call = 0;
-    rollout = rl::roll_out(
-        clip, config,
-        [&](int, const float*, float* action) {
-          Random random(71, {static_cast<std::uint64_t>(call++)});
-          for (int k = 0; k < kDofs; ++k) action[k] = static_cast<float>(size * random.normal());
-        },
-        true);
-  }
-  SubstepMotion steps() const {
-    return {reference.character, config.simulation, rollout.substeps, rollout.last_state};
-  }
-  SimulatedFrames frames() const {
-    SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
-    for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
-    return motion;
-  }
-  Audit audit() const { return audit_frames(frames(), config.simulation); }
-};
 
 double value(const Audit& audit, const std::string& name) {
   for (const auto& [key, v] : summary_of(audit))
@@ -67,12 +33,6 @@ std::string all_failures(const Audit& audit) {
   std::string text;
   for (const std::string& failure : audit.failures) text += failure + "\n";
   return text;
-}
-
-SubstepMotion written_and_read(const SubstepMotion& motion) {
-  const TemporaryFolder folder;
-  write_substeps(folder.path / "s.npz", motion);
-  return read_substeps(read_npz(folder.path / "s.npz"));
 }
 
 bool same(const ReferenceFrame& a, const ReferenceFrame& b) {
@@ -225,6 +185,9 @@ TEST(Audit, EveryKindOfLieIsNamed) {
   Thrown lie = good;
   for (auto& forces : lie.rollout.forces) forces.joint_torque[kLeftHip] *= 20.0;
   EXPECT_TRUE(fails_with(lie.audit(), "of its bound"));
+  lie = good;  // within its bound, and without effect on the root: only the joint itself tells
+  for (auto& forces : lie.rollout.forces) forces.joint_torque[kLeftKnee].setZero();
+  EXPECT_TRUE(fails_with(lie.audit(), "mean gap between required and exported torques"));
   lie = good;
   for (auto& forces : lie.rollout.forces)
     for (Vector6d& wrench : forces.ground) wrench[3] += 2.0 * std::abs(wrench[5]);
@@ -238,6 +201,15 @@ TEST(Audit, EveryKindOfLieIsNamed) {
   lie = good;
   for (auto& pose : lie.rollout.poses) pose.frame.v_root.x() += 2.0;
   EXPECT_TRUE(fails_with(lie.audit(), "do not fit the positions"));
+}
+
+// Recorded steps know what no frame can: torques of a hard motion that are off by a few percent do not pass.
+TEST(Audit, StepsWithTorquesThatAreOffByAFewPercentAreNamed) {
+  SubstepMotion motion = Thrown().steps();
+  EXPECT_EQ(all_failures(audit_steps(motion)), "");
+  for (rl::Substep& step : motion.steps)
+    for (Vector3d& torque : step.forces.joint_torque) torque *= 1.03;
+  EXPECT_TRUE(fails_with(audit_steps(motion), "mean gap between required and exported torques"));
 }
 
 TEST(Audit, WorkIsTorqueTimesTheAngleTurned) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 #include "motion/noise.h"
@@ -233,6 +234,24 @@ TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
     EXPECT_LT((a.pose(0).p_WB[i] - r.pose(0).p_WB[i]).norm(), 1e-4) << kBodyNames[i];
 }
 
+TEST(TrackingPack, NumbersThatAreNoneInAnActionCountAsZero) {
+  TrackingConfig config;
+  const auto clip = make_tracking_clip(swaying_reference(10), config);
+  const std::array<float, kDofs> zero{};
+  std::array<float, kDofs> none;
+  none.fill(std::numeric_limits<float>::quiet_NaN());
+  none[3] = std::numeric_limits<float>::infinity();
+  TrackingPack with(clip, config), without(clip, config);
+  Data<TrackingPack::P> scratch;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    with.act(lane, none.data());
+    without.act(lane, zero.data());
+  }
+  with.advance(scratch);
+  without.advance(scratch);
+  for (std::size_t i = 0; i < kBodies; ++i) EXPECT_EQ(with.pose(0).p_WB[i], without.pose(0).p_WB[i]);
+}
+
 TEST(TrackingPack, LanesOnDifferentFramesDoNotDisturbEachOther) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(40), config);
@@ -313,6 +332,38 @@ TEST(TrackingEnvironment, EndsEpisodesAtFallsAndAtTheClipsEnd) {
   strict.step(0, nn::Matrix<float>::Constant(kLanes, kDofs, 2.0F), result);
   EXPECT_TRUE(result.terminated.all());
   EXPECT_FALSE(result.truncated.any());
+}
+
+// A character whose simulation is flagged, here as run away, ends its episode in the same frame, earns
+// nothing for it and touches nobody else's bits. No distance ends an episode in this test.
+TEST(TrackingEnvironment, ACharacterWhoseSimulationGoesWrongIsTerminatedAlone) {
+  TrackingConfig config;
+  config.terminate_distance = 100.0;
+  config.simulation.max_speed = 1.0;  // m/s, and 6 rad/s of any joint
+  const auto clip = make_tracking_clip(swaying_reference(90), config);
+  TrackingEnvironment healthy({clip}, config, kLanes, kLanes, 16), ill({clip}, config, kLanes, kLanes, 16);
+  StepResult fine(kLanes, kStateSize), wrong(kLanes, kStateSize);
+  nn::Matrix<float> fine_states(kLanes, kStateSize), wrong_states(kLanes, kStateSize);
+  const int victim = 2;
+  for (int t = 0; t < 12; ++t) {
+    nn::Matrix<float> actions = nn::Matrix<float>::Constant(kLanes, kDofs, 0.02F);
+    healthy.step(0, actions, fine);
+    actions.row(victim).setConstant(2.0F);
+    ill.step(0, actions, wrong);
+    EXPECT_FALSE(fine.terminated.any()) << t;
+    EXPECT_TRUE(wrong.terminated[victim]) << t;
+    EXPECT_FALSE(wrong.truncated[victim]) << t;
+    EXPECT_EQ(wrong.reward[victim], 0.0F) << t;
+    healthy.observe(0, fine_states);
+    ill.observe(0, wrong_states);
+    EXPECT_TRUE(wrong_states.allFinite()) << "the next episode starts from the reference";
+    for (int n = 0; n < kLanes; ++n) {
+      if (n == victim) continue;
+      EXPECT_EQ(wrong.reward[n], fine.reward[n]) << t << " " << n;
+      EXPECT_FALSE(wrong.terminated[n]) << t << " " << n;
+      EXPECT_TRUE((wrong_states.row(n).array() == fine_states.row(n).array()).all()) << t << " " << n;
+    }
+  }
 }
 
 TEST(TrackingEnvironment, StartWeightsAreAProbabilityThatFavoursWhatLeadsToFalls) {
