@@ -194,6 +194,8 @@ bool train_sequence(RunState& run, SequenceEntry& entry) {
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
+  // Before the training, so that who sees a wrong axis need not wait for its end.
+  for (const auto& decision : entry.decisions) run.context.messages << entry.name << ": " << decision << '\n';
   entry.notes = motion.notes;
   entry.input_metrics = score_input(motion.input, motion.reference);
 
@@ -293,7 +295,6 @@ RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
     write_records(run);
     write_report(folder, run.manifest);
     context.progress.finish(summary_of(entry));
-    for (const auto& decision : entry.decisions) context.messages << "  " << decision << '\n';
     for (const auto& note : entry.notes) context.messages << "  " << note << '\n';
   }
   return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
