@@ -16,7 +16,7 @@ int run_convert(const std::filesystem::path& in, const std::filesystem::path& ou
   if (fps > 0.0) clip = resampled(clip, fps);
   tell_decisions(in.string(), clip, std::cerr);
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  if (out.stem().extension() == ".qpos" && out.extension() == ".npz")
+  if (out.stem().extension() == ".qpos" && lower_suffix(out) == ".npz")
     write_qpos(out, clip);
   else
     write_motion(out, clip);

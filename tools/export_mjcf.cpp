@@ -29,6 +29,9 @@ Character character_of_motion(const std::filesystem::path& motion, const ReadOpt
 
 int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
                     const ReadOptions& read, const std::filesystem::path& out) {
+  if (motion.empty() && !read.text().empty())
+    throw UsageError("export-mjcf: " + read.text() +
+                     " says how to read a motion, and there is none: --motion FILE");
   const Character character = motion.empty() ? character_of_shape(betas) : character_of_motion(motion, read);
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
   write_file_atomically(out, to_mjcf(character, SimulationOptions{}));

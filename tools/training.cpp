@@ -93,7 +93,7 @@ int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
         const RunOutcome outcome = run_sequences(options, context);
         if (outcome == RunOutcome::kInterrupted) return outcome;
         if (outcome != RunOutcome::kAllGood) all = outcome;
-      } catch (const DataError& error) {  // its folder cannot be made or read
+      } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
         context.messages << file.string() << ": left out: " << error.what() << '\n';
         all = RunOutcome::kSomeFailed;
       }

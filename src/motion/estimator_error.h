@@ -6,9 +6,8 @@
 
 namespace mimicx {
 
-/// w_j: how large the error of a body's rotation relative to its parent is beside that of a knee. Limbs' ends
-/// are estimated worse than the trunk, toes are mostly left alone.                        docs/method.md,
-/// Noise model
+/// w_j: how large the error of a body's rotation relative to its parent is beside that of a knee. The ends
+/// of limbs are estimated worse than the trunk.                     docs/method.md, "Noise model"
 /// @param body  index of the body; the root has weight 1
 double relative_joint_error(int body);
 

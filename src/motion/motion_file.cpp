@@ -261,7 +261,7 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
 }
 
 bool is_motion_file(const std::filesystem::path& path) {
-  const std::string suffix = lower_case(path.extension().string());
+  const std::string suffix = lower_suffix(path);
   if (suffix == ".txt") {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return false;  // opening a pipe waits for a writer
@@ -273,6 +273,8 @@ bool is_motion_file(const std::filesystem::path& path) {
   return is_written(suffix);
 }
 
+std::string lower_suffix(const std::filesystem::path& path) { return lower_case(path.extension().string()); }
+
 bool is_written(const std::string& suffix) {
   const std::string known = lower_case(suffix);
   return known == ".npz" || known == ".npy" || known == ".bvh";
@@ -281,7 +283,7 @@ bool is_written(const std::string& suffix) {
 std::string written_suffixes() { return ".npz, .npy or .bvh"; }
 
 void write_motion(const std::filesystem::path& path, const Clip& clip) {
-  const std::string suffix = lower_case(path.extension().string());
+  const std::string suffix = lower_suffix(path);
   if (suffix == ".npz")
     write_clip(path, clip);
   else if (suffix == ".npy")

@@ -44,6 +44,8 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
 /// Whether a folder's entry is taken for a motion: by its suffix; a .txt by its content.
 bool is_motion_file(const std::filesystem::path& path);
 
+/// Suffix of a file in lower case, with its dot: people write .BVH and .bvh.
+std::string lower_suffix(const std::filesystem::path& path);
 /// Whether `write_motion` knows a suffix; those it knows, for messages.
 bool is_written(const std::string& suffix);
 std::string written_suffixes();

@@ -3,7 +3,7 @@
 namespace mimicx {
 
 std::string clean_suffix(const std::filesystem::path& input) {
-  const std::string suffix = input.extension().string();
+  const std::string suffix = lower_suffix(input);
   return is_written(suffix) ? suffix : ".npz";
 }
 

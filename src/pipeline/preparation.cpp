@@ -78,9 +78,9 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
       continue;
     }
     const std::size_t before = files.size();
-    for (const auto& entry : entries)
-      if (is_motion_file(entry.path()) && entry.path().stem().extension() != ".clean")
-        files.push_back(entry.path().string());
+    for (auto at = entries; !error && at != std::filesystem::directory_iterator(); at.increment(error))
+      if (is_motion_file(at->path()) && at->path().stem().extension() != ".clean")
+        files.push_back(at->path().string());
     if (files.size() == before && inputs.size() == 1)
       throw std::invalid_argument(input + ": a folder without any motion file");
     if (files.size() == before) files.push_back(input);

@@ -183,8 +183,15 @@ void finish_sequence(const RunState& run, const PreparedMotion& motion, const Ta
   }
 }
 
+/// What reading and preparation found: who sees a wrong axis need not wait for the end of the training.
+void tell_before_training(const RunState& run, const SequenceEntry& entry) {
+  for (const auto* lines : {&entry.decisions, &entry.notes})
+    for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
+}
+
+/// @param told  the first notes of the entry that were said already
 /// @return whether the sequence was interrupted
-bool train_sequence(RunState& run, SequenceEntry& entry) {
+bool train_sequence(RunState& run, SequenceEntry& entry, std::size_t& told) {
   const double started = steady_seconds();
   const TrainingConfig& config = run.options.training;
   PreparedMotion motion = prepare_motion(entry.input, run.options.read, run.options.fit);
@@ -194,9 +201,9 @@ bool train_sequence(RunState& run, SequenceEntry& entry) {
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
-  // Before the training, so that who sees a wrong axis need not wait for its end.
-  for (const auto& decision : entry.decisions) run.context.messages << entry.name << ": " << decision << '\n';
   entry.notes = motion.notes;
+  tell_before_training(run, entry);
+  told = entry.notes.size();
   entry.input_metrics = score_input(motion.input, motion.reference);
 
   const auto plain = rl::make_tracking_clip(motion.reference, config.tracking);
@@ -279,8 +286,9 @@ RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
   bool all_good = true;
   for (const auto& input : options.inputs) {
     SequenceEntry entry;
+    std::size_t told = 0;
     try {
-      if (begin_entry(run, input, entry) && train_sequence(run, entry)) {
+      if (begin_entry(run, input, entry) && train_sequence(run, entry, told)) {
         write_records(run);
         context.progress.finish(entry.name + ": interrupted; the same command continues");
         return RunOutcome::kInterrupted;
@@ -295,7 +303,8 @@ RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
     write_records(run);
     write_report(folder, run.manifest);
     context.progress.finish(summary_of(entry));
-    for (const auto& note : entry.notes) context.messages << "  " << note << '\n';
+    for (std::size_t k = told; k < entry.notes.size(); ++k)
+      context.messages << "  " << entry.notes[k] << '\n';
   }
   return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
 }

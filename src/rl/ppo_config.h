@@ -4,7 +4,7 @@
 /// "What matters for on-policy deep actor-critic methods?", ICLR 2021; [R] Rudin et al., "Learning to walk in
 /// minutes using massively parallel deep reinforcement learning", CoRL 2021; [C] Chen et al., "Learning
 /// smooth humanoid locomotion through Lipschitz-constrained policies", 2024; the rest is METHOD §12 and the
-/// measurements of docs/method.md.
+/// measurements of docs/experiments.md.
 #pragma once
 
 #include <cstdint>

@@ -132,8 +132,11 @@ double largest_difference(const Audit& audit, const std::vector<AuditRow>& rows)
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const AuditRow& ours = audit.rows[k];
     const double scale = std::max(audit.weight, ours.normal);
-    largest = std::max({largest, (ours.root - rows[k].root).norm() / scale,
-                        std::abs(ours.torque_gap - rows[k].torque_gap) / scale});
+    for (const double difference : {(ours.root - rows[k].root).norm() / scale,
+                                    std::abs(ours.torque_gap - rows[k].torque_gap) / scale}) {
+      if (std::isnan(difference)) return difference;  // no comparison would ever choose it
+      largest = std::max(largest, difference);
+    }
   }
   return largest;
 }

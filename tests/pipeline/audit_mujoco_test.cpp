@@ -1,7 +1,9 @@
 // The certificate by the second engine: MuJoCo's inverse dynamics finds the audit's numbers in a file.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "oracles/mujoco_audit.h"
 #include "pipeline/thrown.h"
@@ -30,6 +32,16 @@ TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInRecordedAndReplayedSteps) {
   std::printf("  measured: of the weight, recorded %.1e, replayed %.1e; engines apart by %.1e and %.1e\n",
               largest_force(recorded_rows) / recorded.weight, largest_force(replayed_rows) / recorded.weight,
               largest_difference(recorded, recorded_rows), largest_difference(replayed, replayed_rows));
+}
+
+TEST(AuditByMujoco, WhatIsNotANumberIsNoAgreement) {
+  Audit audit;
+  audit.weight = 700.0;
+  audit.rows.resize(3);
+  std::vector<AuditRow> rows(3);
+  EXPECT_EQ(largest_difference(audit, rows), 0.0);
+  rows[1].torque_gap = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(largest_difference(audit, rows)));
 }
 
 TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInFrames) {
