@@ -69,11 +69,9 @@ Evaluation evaluate(const Clips& clips, const rl::TrackingConfig& config,
   return mean;
 }
 
-/// Keeps the agents where they are the best so far, and counts how long none has been markedly better. What
-/// is not followed to its end yet does not stall: there the next roll-out may succeed at once.
+/// Keeps the agents where they are the best so far, and counts how long none has been markedly better.
 void consider(Best& best, const Trainer& trainer, double score) {
-  const bool followed = best.score < kLost;
-  best.age = !followed || score < kBetter * best.score ? 0 : best.age + 1;
+  best.age = stall_age(best.age, score, best.score);
   if (score < best.score) {
     best.score = score;
     best.agents = trainer.agents();
@@ -173,6 +171,11 @@ std::string detail_of(const rl::IterationStats& s) {
 }
 
 }  // namespace
+
+int stall_age(int age, double score, double best_score) {
+  const bool followed = score < kLost;
+  return !followed || score < kBetter * best_score ? 0 : age + 1;
+}
 
 rl::Agent untrained_agent(const TrainingConfig& config, int state_size) {
   rl::AgentShape shape;

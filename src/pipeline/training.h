@@ -46,8 +46,8 @@ struct TrainingConfig {
   double sigma_share = 0.75;             ///< share of the budget during which σ falls
   int evaluate_iterations = 20;          ///< between roll-outs of the mean action; the best agents are kept
   double stop_reward = 0.0;              ///< mean reward of a roll-out that is good enough; 0: none is
-  int stall_evaluations = 0;  ///< roll-outs without a better one that end the training of a motion that is
-                              ///< followed to its end; 0: none do
+  int stall_evaluations = 0;  ///< roll-outs in a row that follow the motion to its end, but none better than
+                              ///< before, that end the training; 0: none do
   rl::PpoConfig ppo = tracking_ppo();  ///< its seed and sigma_samples follow from the members above
   rl::TrackingConfig tracking;
 };
@@ -88,6 +88,11 @@ struct TrainingResult {
 TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
                      std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
                      const TrainingControl& control);
+
+/// How many roll-outs in a row have followed the motion to its end without being markedly better than before.
+/// A roll-out that falls says that learning has not settled, even where an earlier one was lucky.
+/// @param age, best_score  before the roll-out of `score` (m; over 0.5 where it was not followed)
+int stall_age(int age, double score, double best_score);
 
 /// An agent before its first sample.
 rl::Agent untrained_agent(const TrainingConfig& config, int state_size = rl::kStateSize);

@@ -201,6 +201,14 @@ TEST_F(Options, EndingsAreToldApart) {
   EXPECT_EQ(read_manifest(out("stalled") / "manifest.json").sequences.at(0).ending, Ending::kStall);
 }
 
+TEST(Stall, CountsRollOutsThatFollowAndAreNoBetter) {
+  EXPECT_EQ(stall_age(3, 0.020, 0.020), 4);
+  EXPECT_EQ(stall_age(3, 0.025, 0.020), 4);
+  EXPECT_EQ(stall_age(3, 0.015, 0.020), 0) << "markedly better";
+  EXPECT_EQ(stall_age(3, 0.700, 0.020), 0) << "it falls again: an earlier roll-out was lucky";
+  EXPECT_EQ(stall_age(3, 0.700, 0.900), 0) << "not followed yet";
+}
+
 TEST_F(Options, NothingChangesWhereTheTruthIsDeleted) {
   const std::filesystem::path data = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test";
   std::filesystem::create_directories(out("data"));
