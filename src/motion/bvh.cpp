@@ -14,7 +14,6 @@ constexpr std::size_t kMaxJoints = 4096;
 constexpr std::size_t kMaxDepth = 256;
 constexpr std::size_t kMaxChannels = 6;  ///< of one joint
 constexpr double kMaxValue = 1e7;        ///< degrees or file units: 10 km in millimetres
-constexpr double kMaxFps = 2000.0;
 
 /// One column of the MOTION part.
 struct Channel {
@@ -111,16 +110,14 @@ Hierarchy read_hierarchy(TextInput& in) {
   return out;
 }
 
-/// Frame times are printed with few digits: 0.0083333 stands for 120 frames per second.
 double read_fps(TextInput& in, SkeletonMotion& motion) {
   in.expect("Frame");
   in.expect("Time:");
   const std::string text = printable(in.peek());
   const double time = in.number("the frame time");
   if (!(time >= 1.0 / kMaxFps && time <= 10.0)) in.fail("a frame time between 0.0005 and 10 s", text);
-  const double fps = 1.0 / time, whole = std::round(fps);
-  constexpr double kPrinting = 5e-4;  // under the 1e-3 between 29.97 and 30
-  if (fps == whole || std::abs(fps - whole) > kPrinting * fps) return fps;
+  const double fps = 1.0 / time, whole = whole_rate(fps);
+  if (fps == whole) return fps;
   char sentence[96];
   std::snprintf(sentence, sizeof sentence, "frame time %s s: %.0f frames per second", text.c_str(), whole);
   motion.decisions.push_back(sentence);

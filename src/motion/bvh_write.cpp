@@ -44,8 +44,9 @@ Vector3d zyx_angles(const Matrix3d& R, const Vector3d& near) {
 
 bool has_children(int body) { return std::find(kParents.begin(), kParents.end(), body) != kParents.end(); }
 
-/// The joint, its children and its closing brace.
-void write_joint(const Character& character, int body, int depth, std::string& out) {
+/// The joint, its children and its closing brace. @param order  gets the bodies as the hierarchy names them
+void write_joint(const Character& character, int body, int depth, std::string& out, std::vector<int>& order) {
+  order.push_back(body);
   const std::string indent(static_cast<std::size_t>(depth), '\t');
   const auto b = static_cast<std::size_t>(body);
   out += indent + (body == 0 ? "ROOT " : "JOINT ") + std::string(kBodyNames[b]) + '\n' + indent + "{\n";
@@ -54,18 +55,12 @@ void write_joint(const Character& character, int body, int depth, std::string& o
   out += indent + (body == 0 ? "\tCHANNELS 6 Xposition Yposition Zposition" : "\tCHANNELS 3") +
          " Zrotation Yrotation Xrotation\n";
   for (int child = 1; child < kBodies; ++child)
-    if (kParents[static_cast<std::size_t>(child)] == body) write_joint(character, child, depth + 1, out);
+    if (kParents[static_cast<std::size_t>(child)] == body)
+      write_joint(character, child, depth + 1, out, order);
   if (!has_children(body))  // as long as the body's capsule, so that importers draw a bone
     out += indent + "\tEnd Site\n" + indent + "\t{\n" + indent + "\t\tOFFSET " +
            triple(character.capsule[b].b_B) + '\n' + indent + "\t}\n";
   out += indent + "}\n";
-}
-
-/// Bodies in the order in which the hierarchy names them: depth first.
-void append_bodies(int body, std::vector<int>& order) {
-  order.push_back(body);
-  for (int child = 1; child < kBodies; ++child)
-    if (kParents[static_cast<std::size_t>(child)] == body) append_bodies(child, order);
 }
 
 }  // namespace
@@ -75,12 +70,11 @@ std::string format_bvh(const Clip& clip) {
   const Vector3d rest = rest_pelvis(clip);
   const Quaterniond q_YZ = exp_map(Vector3d(-0.5 * std::numbers::pi, 0, 0));  // from z up to y up
   std::string out = "HIERARCHY\n";
-  write_joint(character, kPelvis, 0, out);
+  std::vector<int> order;
+  write_joint(character, kPelvis, 0, out, order);
   char line[64];
   std::snprintf(line, sizeof line, "MOTION\nFrames: %d\nFrame Time: %.9g\n", clip.frames(), 1.0 / clip.fps);
   out += line;
-  std::vector<int> order;
-  append_bodies(kPelvis, order);
   std::array<Vector3d, kBodies> angles;
   angles.fill(Vector3d::Zero());
   const auto rotations = joint_rotations(clip);

@@ -12,7 +12,6 @@ namespace {
 constexpr int kColumns = 44;
 constexpr int kMaxDepth = 64;      ///< of values that are skipped
 constexpr double kMaxValue = 1e4;  ///< m, rad
-constexpr double kMaxFps = 2000.0;
 
 /// A joint of the humanoid: where it stands in its parent's frame (m) and what a row says of it.
 struct HumanoidJoint {
@@ -136,8 +135,7 @@ void set_fps(std::vector<double> durations, SkeletonMotion& motion) {
   if (durations.back() > 1.01 * duration || durations.front() < 0.99 * duration)
     motion.warnings.push_back("frames are of different durations: all are taken for " +
                               std::to_string(duration) + " s");
-  const double fps = 1.0 / duration, whole = std::round(fps);
-  motion.fps = std::abs(fps - whole) < 5e-4 * fps ? whole : fps;
+  motion.fps = whole_rate(1.0 / duration);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/world.h"
+
 namespace mimicx {
 namespace {
 
@@ -114,10 +116,9 @@ std::optional<char> up_of(const std::vector<Landmarks>& poses) {
     ++count;
   }
   if (20 * count < poses.size() || count == 0) return std::nullopt;
-  int axis = 0;
-  const double most = sum.cwiseAbs().maxCoeff(&axis) / static_cast<double>(count);
+  const double most = sum.cwiseAbs().maxCoeff() / static_cast<double>(count);
   if (most < 0.7) return std::nullopt;
-  return (sum[axis] < 0.0 ? "XYZ" : "xyz")[axis];
+  return axis_letter(sum);
 }
 
 std::optional<Unit> unit_of(double length) {

@@ -20,8 +20,8 @@ namespace mimicx {
 namespace {
 
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
-constexpr std::string_view kHierarchy = "HIERARCHY";
-constexpr std::size_t kFirstBytes = 64;  ///< bytes that tell a format
+constexpr std::string_view kHierarchy = "hierarchy";  // in any case
+constexpr std::size_t kFirstBytes = 64;               ///< bytes that tell a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
 constexpr double kFloorWorthSaying = 0.05;  ///< m
 
@@ -82,11 +82,8 @@ void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
 
 /// The axis of the file that reading, which took `custom` for up, has turned to `axis`.
 char in_file(char axis, char custom) {
-  const Vector3d up =
-      rotation_to_z_up(custom).conjugate() * (rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ());
-  int index = 0;
-  up.cwiseAbs().maxCoeff(&index);
-  return (up[index] < 0.0 ? "XYZ" : "xyz")[index];
+  return axis_letter(rotation_to_z_up(custom).conjugate() *
+                     (rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ()));
 }
 
 /// @param custom  the axis that the format has up, which is z by now
@@ -231,9 +228,7 @@ MotionFormat recognise(const std::string& bytes) {
                     start = bytes.find_first_not_of(" \t\r\n", bom);
   if (start == std::string::npos) return MotionFormat::kUnknown;
   if (bytes[start] == '{') return MotionFormat::kDeepMimic;
-  std::string word = bytes.substr(start, kHierarchy.size());
-  for (char& c : word) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  if (word == kHierarchy) return MotionFormat::kBvh;
+  if (lower_case(bytes.substr(start, kHierarchy.size())) == kHierarchy) return MotionFormat::kBvh;
   return MotionFormat::kUnknown;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "motion/surface.h"
+#include "motion/world.h"
 
 namespace mimicx {
 namespace {
@@ -172,7 +173,7 @@ UpAxis detect_up(const Clip& clip) {
   // On its head: a file that is upside down, unless the hands carry the body.
   if (axis == 2 && mean.z() < 0.0)
     up.sure = up.sure && path_of(poses, kLeftFoot) < path_of(poses, kLeftWrist);
-  if (up.sure) up.axis = (mean[axis] > 0 ? "xyz" : "XYZ")[axis];
+  if (up.sure) up.axis = axis_letter(mean);
   return up;
 }
 

@@ -1,7 +1,6 @@
 #include "motion/retarget.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -47,23 +46,20 @@ Source read_source(const SkeletonMotion& motion, const std::filesystem::path& jo
 /// Bones that directions are taken from must be there in every frame.
 void check_bones(const SkeletonMotion& motion, const Source& source) {
   const double least = 0.01 * leg_length(source.frames);
-  for (std::size_t t = 0; t < source.frames.size(); ++t)
-    for (const auto& [from, to] : {std::array<std::size_t, 2>{kLeftHip, kRightHip},
-                                   {kLeftShoulder, kRightShoulder},
-                                   {kLeftHip, kLeftKnee},
-                                   {kRightHip, kRightKnee},
-                                   {kLeftKnee, kLeftAnkle},
-                                   {kRightKnee, kRightAnkle},
-                                   {kLeftShoulder, kLeftElbow},
-                                   {kRightShoulder, kRightElbow},
-                                   {kLeftElbow, kLeftWrist},
-                                   {kRightElbow, kRightWrist},
-                                   {kLeftHip, kLeftShoulder}})
+  for (std::size_t t = 0; t < source.frames.size(); ++t) {
+    const auto check = [&](int a, int b) {
+      const auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);
       if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
         throw DataError(
             motion.path, "frame " + std::to_string(t + 1),
             std::string(kBodyNames[from]) + " and " + std::string(kBodyNames[to]) + " at different places",
             "both at one");
+    };
+    check(kLeftHip, kRightHip);
+    check(kLeftShoulder, kRightShoulder);
+    for (const Bone& bone : kBones) check(bone.body, bone.end);
+    check(kLeftHip, kLeftShoulder);
+  }
 }
 
 void drop_t_pose(Source& source, Clip& clip) {
@@ -88,9 +84,7 @@ char find_up(const SkeletonMotion& motion, const Source& source, const RetargetO
   } else if (!found) {
     why = "the custom of the format; nobody stands up straight here";
   }
-  const std::string name = std::isupper(static_cast<unsigned char>(up)) ? "-" : "";
-  clip.decisions.emplace_back("up axis " + name +
-                              static_cast<char>(std::tolower(static_cast<unsigned char>(up))) + ": " + why);
+  clip.decisions.emplace_back("up axis " + axis_name(up) + ": " + why);
   return up;
 }
 

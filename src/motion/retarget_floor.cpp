@@ -12,10 +12,10 @@ namespace mimicx {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::size_t kEnough = 10;  ///< standing frames
 
 /// Median of "up" in the ankle's frame while the foot stands; none where it hardly does.
 std::optional<Vector3d> standing_up(const std::vector<BodyPoses>& poses, int ankle, double fps) {
-  constexpr std::size_t kEnough = 10;  // standing frames
   const auto body = static_cast<std::size_t>(ankle);
   const std::vector<bool> stands = standing_frames(poses, ankle, fps);
   std::vector<std::pair<double, std::size_t>> order;  // height of the ankle, frame
@@ -73,7 +73,6 @@ void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip) {
 }
 
 double put_on_floor(Clip& clip) {
-  constexpr std::size_t kEnough = 10;  // standing frames
   const auto points = surface_points(make_character(clip.usable_betas()));
   const std::vector<BodyPoses> poses = poses_of(clip);
   const std::vector<bool> left = standing_frames(poses, kLeftAnkle, clip.fps);

@@ -10,19 +10,6 @@ namespace {
 
 using Rotations = std::array<Quaterniond, kBodies>;
 
-/// Bones whose direction is kept: the body and the joint at its other end.
-struct Bone {
-  int body, end;
-};
-constexpr std::array<Bone, 8> kBones = {{{kLeftHip, kLeftKnee},
-                                         {kRightHip, kRightKnee},
-                                         {kLeftKnee, kLeftAnkle},
-                                         {kRightKnee, kRightAnkle},
-                                         {kLeftShoulder, kLeftElbow},
-                                         {kRightShoulder, kRightElbow},
-                                         {kLeftElbow, kLeftWrist},
-                                         {kRightElbow, kRightWrist}}};
-
 std::size_t at(int body) { return static_cast<std::size_t>(body); }
 
 /// Joint at the end of a body's bone, or -1 for bodies whose direction is free.

@@ -12,6 +12,19 @@
 
 namespace mimicx {
 
+/// Bones whose direction is kept: the body and the joint at its other end.
+struct Bone {
+  int body, end;
+};
+inline constexpr std::array<Bone, 8> kBones = {{{kLeftHip, kLeftKnee},
+                                                {kRightHip, kRightKnee},
+                                                {kLeftKnee, kLeftAnkle},
+                                                {kRightKnee, kRightAnkle},
+                                                {kLeftShoulder, kLeftElbow},
+                                                {kRightShoulder, kRightElbow},
+                                                {kLeftElbow, kLeftWrist},
+                                                {kRightElbow, kRightWrist}}};
+
 struct Calibration {
   std::array<Quaterniond, kBodies> q_JB;  ///< body in the frame of its joint
   std::array<bool, kBodies> turns{};      ///< has a joint that turns; else the body follows its parent

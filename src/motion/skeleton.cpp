@@ -1,6 +1,13 @@
 #include "motion/skeleton.h"
 
+#include <cmath>
+
 namespace mimicx {
+
+double whole_rate(double fps) {
+  const double whole = std::round(fps);
+  return std::abs(fps - whole) < 5e-4 * fps ? whole : fps;
+}
 
 SkeletonPose pose_of(const SkeletonMotion& motion, int frame) {
   const auto& translation = motion.translation[static_cast<std::size_t>(frame)];

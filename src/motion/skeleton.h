@@ -40,6 +40,11 @@ struct SkeletonMotion {
 /// second.
 inline constexpr std::size_t kMaxJointFrames = std::size_t{1} << 24;
 
+inline constexpr double kMaxFps = 2000.0;
+/// The whole number of frames per second that a rate stands for, where one is within 0.05 %, else the rate:
+/// files print frame times with few digits, 0.0083333 for 120. (29.97 and 30 are 0.1 % apart.)
+double whole_rate(double fps);
+
 /// World poses of all joints, file's unit and axes.
 struct SkeletonPose {
   std::vector<Vector3d> p;     ///< [joints]

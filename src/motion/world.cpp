@@ -66,6 +66,12 @@ Quaterniond rotation_to_z_up(char axis) {
   }
 }
 
+char axis_letter(const Vector3d& direction) {
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return (direction[axis] < 0.0 ? "XYZ" : "xyz")[axis];
+}
+
 std::string axis_name(char axis) {
   std::string name(std::isupper(static_cast<unsigned char>(axis)) ? "-" : "");
   name += static_cast<char>(std::tolower(static_cast<unsigned char>(axis)));

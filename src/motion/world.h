@@ -23,6 +23,8 @@ void shift_world(const Vector3d& shift, Clip& clip);
 /// The rotation that takes an axis to z: 'x', 'y', 'z', or 'X', 'Y', 'Z' for the negative ones.
 /// @throws std::invalid_argument for another letter
 Quaterniond rotation_to_z_up(char axis);
+/// The letter of the axis that a direction lies along most, as `rotation_to_z_up` takes it.
+char axis_letter(const Vector3d& direction);
 /// "y", "-y", …
 std::string axis_name(char axis);
 

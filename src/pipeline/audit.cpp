@@ -179,9 +179,10 @@ Audit audit_frames(const SimulatedFrames& motion, const SimulationOptions& simul
   audit.evidence = Evidence::kFrames;
   audit.rate = motion.fps;
   audit.weight = simulation.gravity * c.total_mass();
+  Kinematics before = motion.frames.empty() ? Kinematics{} : kinematics_of(c, motion.frames[0]);
   for (std::size_t t = 1; t < motion.frames.size(); ++t) {
     const ReferenceFrame &a = motion.frames[t - 1], &b = motion.frames[t];
-    const Kinematics before = kinematics_of(c, a), after = kinematics_of(c, b);
+    const Kinematics after = kinematics_of(c, b);
     const BodyWrenches external = external_of(motion.forces[t]);
     AuditRow row;
     row.index = static_cast<int>(t);
@@ -198,6 +199,7 @@ Audit audit_frames(const SimulatedFrames& motion, const SimulationOptions& simul
                               std::hypot(1.0, simulation.friction) * row.normal / mass + simulation.gravity);
     row.lowest = lowest_of(c, after.poses);
     audit.rows.push_back(row);
+    before = after;
   }
   audit.failures = failures_of(audit);
   return audit;

@@ -75,5 +75,7 @@ std::vector<std::string> failures_of(const Audit& audit);
 
 /// Means, largest values, counts, work, by name; units are in the names.
 NamedValues summary_of(const Audit& audit);
+/// One of them; NaN, which passes no limit, where the evidence has no such number.
+double value_of(const NamedValues& summary, const std::string& name);
 
 }  // namespace mimicx

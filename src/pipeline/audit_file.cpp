@@ -94,11 +94,7 @@ std::string audit_table_head() {
 
 std::string format_audit(const std::string& path, const Audit& audit) {
   const NamedValues values = summary_of(audit);
-  const auto value = [&](const std::string& name) {
-    for (const auto& [key, v] : values)
-      if (key == name) return v;
-    return std::nan("");
-  };
+  const auto value = [&](const char* name) { return value_of(values, name); };
   char text[400];
   std::snprintf(text, sizeof text, "%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f",
                 std::filesystem::path(path).stem().string().c_str(), evidence_name(audit.evidence).c_str(),

@@ -95,12 +95,6 @@ std::string percent(double share) {
   return text;
 }
 
-double value_of(const NamedValues& values, const std::string& name) {
-  for (const auto& [key, value] : values)
-    if (key == name) return value;
-  return 0.0;
-}
-
 /// Says of a motion that fails by its poses how it stands on the floor.
 std::string where_it_stands(const NamedValues& values) {
   char text[160];
@@ -148,6 +142,12 @@ std::vector<std::string> failures_of(const Audit& audit) {
       failures.push_back(std::string(what) + ": " + percent(share) + " of the normal impulse");
   }
   return failures;
+}
+
+double value_of(const NamedValues& summary, const std::string& name) {
+  for (const auto& [key, value] : summary)
+    if (key == name) return value;
+  return std::nan("");
 }
 
 NamedValues summary_of(const Audit& audit) {

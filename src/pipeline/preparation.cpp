@@ -41,22 +41,20 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptio
   if (motion.input.frames() < fewest)
     throw DataError(path.string(), "", "at least " + std::to_string(fewest) + " frames",
                     std::to_string(motion.input.frames()));
+  FitReport fitting, calming;
   if (motion.has_fit) {
-    FitReport report;
-    motion.fitted = fit_keypoints(motion.input, {}, &report);
-    motion.fit_values = values_of(report);
-    motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
+    motion.fitted = fit_keypoints(motion.input, {}, &fitting);
+    motion.fit_values = values_of(fitting);
+  } else {
+    motion.fitted = steady(motion.input, {}, &calming);
   }
-  FitReport calmed;
-  if (!motion.has_fit) {
-    motion.fitted = steady(motion.input, {}, &calmed);
-    motion.notes.insert(motion.notes.end(), calmed.notes.begin(), calmed.notes.end());
-  }
+  for (const FitReport* report : {&fitting, &calming})
+    motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   PreparationReport report;
   motion.reference = prepare_reference(motion.fitted, {}, &report);
   motion.preparation_values = values_of(report);
-  motion.preparation_values.emplace_back("steadied_mean_mm", calmed.change_mean_mm);
-  motion.preparation_values.emplace_back("steadied_max_mm", calmed.change_max_mm);
+  motion.preparation_values.emplace_back("steadied_mean_mm", calming.change_mean_mm);
+  motion.preparation_values.emplace_back("steadied_max_mm", calming.change_max_mm);
   motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
   return motion;
 }

@@ -12,20 +12,19 @@ namespace {
 
 /// In the coordinates of the oracle.
 Eigen::VectorXd book_forces(const MotionState& m, const RequiredForces& forces) {
-  Eigen::VectorXd out(kBookDofs);
-  out.segment<3>(0) = m.q[0].conjugate() * forces.root.head<3>();
-  out.segment<3>(3) = m.q[0].conjugate() * forces.root.tail<3>();
-  int dof = 6;
-  for (int i = 1; i < kBodies; ++i) {
-    const Vector3d& t = forces.joint[static_cast<std::size_t>(i)];
-    if (is_hinge(i)) {
-      out(dof++) = hinge_axis(i).dot(t);
-    } else {
-      out.segment<3>(dof) = t;
-      dof += 3;
-    }
-  }
-  return out;
+  const Quaterniond to_pelvis = m.q[0].conjugate();
+  return book_vector(to_pelvis * forces.root.head<3>(), to_pelvis * forces.root.tail<3>(), forces.joint);
+}
+
+/// The snapshot's pose, nothing moves.
+MotionState at_rest(const Snapshot& s) {
+  MotionState m;
+  m.p_root = s.p_root;
+  m.v_root = m.a_root = Vector3d::Zero();
+  m.q = s.q;
+  m.omega.fill(Vector3d::Zero());
+  m.omega_d.fill(Vector3d::Zero());
+  return m;
 }
 
 TEST(InverseDynamics, EqualsTheDenseOracleOnRandomShapesStatesAndWrenches) {
@@ -35,15 +34,9 @@ TEST(InverseDynamics, EqualsTheDenseOracleOnRandomShapesStatesAndWrenches) {
     const Snapshot s = random_snapshot(random, 2.5, 5.0, 1.0);
     const MotionState m = random_motion(s, random);
     const BodyWrenches wrenches = random_wrenches(random);
-    Eigen::VectorXd qdd(kBookDofs);
-    qdd.segment<3>(0) = m.omega_d[0];
-    qdd.segment<3>(3) = s.q[0].conjugate() * m.a_root - s.omega[0].cross(s.q[0].conjugate() * s.v_root);
-    int dof = 6;
-    for (int i = 1; i < kBodies; ++i)
-      for (int k = 0; k < (is_hinge(i) ? 1 : 3); ++k) {
-        const Vector3d& x = m.omega_d[static_cast<std::size_t>(i)];
-        qdd(dof++) = is_hinge(i) ? hinge_axis(i).dot(x) : x(k);
-      }
+    const Quaterniond to_pelvis = s.q[0].conjugate();
+    const Eigen::VectorXd qdd =
+        book_vector(m.omega_d[0], to_pelvis * m.a_root - s.omega[0].cross(to_pelvis * s.v_root), m.omega_d);
     const Eigen::VectorXd expected =
         book_inverse_dynamics(make_book_model(c, 9.81), book_position(s), book_velocity(s), qdd, wrenches);
     const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, 9.81, m, wrenches));
@@ -146,12 +139,7 @@ TEST(InverseDynamics, AForceOnAPointIsHeldByTheTransposedJacobianOfDifferences) 
   Random random(63);
   const Character c = make_character(random_betas(random));
   Snapshot s = random_snapshot(random, 2.5, 0.0, 1.0);
-  MotionState m;
-  m.p_root = s.p_root;
-  m.v_root = m.a_root = Vector3d::Zero();
-  m.q = s.q;
-  m.omega.fill(Vector3d::Zero());
-  m.omega_d.fill(Vector3d::Zero());
+  const MotionState m = at_rest(s);
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
   for (const ContactPoint& point : c.contact_points) {
     const auto b = static_cast<std::size_t>(point.body);
@@ -169,12 +157,7 @@ TEST(InverseDynamics, AForceOnAPointIsHeldByTheTransposedJacobianOfDifferences) 
 TEST(InverseDynamics, OfRestIsTheWeightAtTheCentreOfMass) {
   const Character c = make_character();
   const Snapshot s = standing(c);
-  MotionState m;
-  m.p_root = s.p_root;
-  m.v_root = m.a_root = Vector3d::Zero();
-  m.q = s.q;
-  m.omega.fill(Vector3d::Zero());
-  m.omega_d.fill(Vector3d::Zero());
+  const MotionState m = at_rest(s);
   BodyWrenches none;
   none.fill(Vector6d::Zero());
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);

@@ -160,57 +160,42 @@ BookPosition book_position(const Snapshot& s) {
   return position;
 }
 
-Eigen::VectorXd book_velocity(const Snapshot& s) {
-  Eigen::VectorXd qd(kBookDofs);
-  qd.segment<3>(0) = s.omega[0];
-  qd.segment<3>(3) = s.q[0].conjugate() * s.v_root;
+Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
+                            const std::array<Vector3d, kBodies>& joints) {
+  Eigen::VectorXd out(kBookDofs);
+  out.segment<3>(0) = angular;
+  out.segment<3>(3) = linear;
   int dof = 6;
   for (int i = 1; i < kBodies; ++i) {
-    const Vector3d& w = s.omega[static_cast<std::size_t>(i)];
+    const Vector3d& x = joints[static_cast<std::size_t>(i)];
     if (is_hinge(i)) {
-      qd(dof++) = hinge_axis(i).dot(w);
+      out(dof++) = hinge_axis(i).dot(x);
     } else {
-      qd.segment<3>(dof) = w;
-      dof += 3;
-    }
-  }
-  return qd;
-}
-
-Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
-  Eigen::VectorXd qdd(kBookDofs);
-  const Matrix3d R = s.q[0].toRotationMatrix();
-  qdd.segment<3>(0) = R.transpose() * to_eigen(d.a_w[0]);
-  // The spatial acceleration differs from the classical one by ω × v.                  RBDA §2.11
-  qdd.segment<3>(3) = R.transpose() * to_eigen(d.a_v[0]) - s.omega[0].cross(R.transpose() * s.v_root);
-  const BodyPoses poses = forward_kinematics(Character{}, s.p_root, s.q);
-  int dof = 6;
-  for (int i = 1; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    const Vector3d x = poses.q_WB[n].conjugate() * to_eigen(d.qdd[n]);
-    if (is_hinge(i)) {
-      qdd(dof++) = hinge_axis(i).dot(x);
-    } else {
-      qdd.segment<3>(dof) = x;
-      dof += 3;
-    }
-  }
-  return qdd;
-}
-
-Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(kBookDofs);
-  int dof = 6;
-  for (int i = 1; i < kBodies; ++i) {
-    const Vector3d t = to_eigen(tau[static_cast<std::size_t>(i)]);
-    if (is_hinge(i)) {
-      out(dof++) = hinge_axis(i).dot(t);
-    } else {
-      out.segment<3>(dof) = t;
+      out.segment<3>(dof) = x;
       dof += 3;
     }
   }
   return out;
+}
+
+Eigen::VectorXd book_velocity(const Snapshot& s) {
+  return book_vector(s.omega[0], s.q[0].conjugate() * s.v_root, s.omega);
+}
+
+Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
+  const Matrix3d R = s.q[0].toRotationMatrix();
+  const BodyPoses poses = forward_kinematics(Character{}, s.p_root, s.q);
+  std::array<Vector3d, kBodies> joints;
+  for (std::size_t i = 0; i < kBodies; ++i) joints[i] = poses.q_WB[i].conjugate() * to_eigen(d.qdd[i]);
+  // The spatial acceleration differs from the classical one by ω × v.                  RBDA §2.11
+  return book_vector(R.transpose() * to_eigen(d.a_w[0]),
+                     R.transpose() * to_eigen(d.a_v[0]) - s.omega[0].cross(R.transpose() * s.v_root), joints);
+}
+
+Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau) {
+  std::array<Vector3d, kBodies> joints;
+  for (std::size_t i = 0; i < kBodies; ++i) joints[i] = to_eigen(tau[i]);
+  return book_vector(Vector3d::Zero(), Vector3d::Zero(), joints);
 }
 
 }  // namespace mimicx

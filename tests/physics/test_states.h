@@ -42,6 +42,10 @@ BodyWrenches random_wrenches(Random& random);
 double lowest_point(const Character& character, const Snapshot& s);
 
 BookPosition book_position(const Snapshot& s);
+/// The oracle's coordinates of six numbers of the root and one vector per joint (entry 0 unused), child's
+/// frame.
+Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
+                            const std::array<Vector3d, kBodies>& joints);
 Eigen::VectorXd book_velocity(const Snapshot& s);
 /// Generalised acceleration that the simulator found, in the oracle's coordinates.
 Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d);
