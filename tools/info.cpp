@@ -10,9 +10,8 @@ namespace {
 
 /// How many keypoints the fit and Eq. 3 can use.
 std::ptrdiff_t joints_among(const std::vector<std::string>& names) {
-  return std::count_if(names.begin(), names.end(), [](const std::string& name) {
-    return std::find(kBodyNames.begin(), kBodyNames.end(), name) != kBodyNames.end();
-  });
+  return std::count_if(names.begin(), names.end(),
+                       [](const std::string& name) { return body_of_name(name) >= 0; });
 }
 
 void describe_file(const Clip& clip) {

@@ -104,12 +104,13 @@ Capsule capsule_of(const Character& c, const Scales& s, int body) {
     return Capsule{body, s.size * Vector3d(-half, y, z), s.size * Vector3d(half, y, z), radius * s.girth};
   };
   switch (body) {
+    // Buttocks and shoulder blades reach farther back than the loins: on them a body lies on its back.
     case kPelvis:
-      return across(0.062, -0.02, -0.005, 0.105);
+      return across(0.062, -0.02, -0.018, 0.105);
     case kSpine1:
-      return across(0.050, 0.04, 0.005, 0.105);
+      return across(0.050, 0.04, 0.022, 0.105);
     case kSpine2:
-      return across(0.055, 0.02, 0.005, 0.105);
+      return across(0.055, 0.02, 0.012, 0.105);
     case kSpine3:
       return across(0.070, 0.09, -0.015, 0.110);
     case kNeck:
@@ -173,20 +174,32 @@ Matrix3d capsule_inertia(const Capsule& c, double mass) {
   return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
 }
 
+/// Heel and toe are points. The ball is a sphere around the joint's axis, so that it stays on the floor
+/// beside level toes whatever the pitch of the foot.
 void add_foot_points(Character& c, const Scales& s, int side) {
   const double x = side;
   const int ankle = side > 0 ? kLeftAnkle : kRightAnkle, ball = side > 0 ? kLeftFoot : kRightFoot;
   const double sole = -ankle_height(c, side);
   const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(ball)];
-  const auto add = [&](int body, double px, double py, double pz) {
-    c.contact_points.push_back({body, {px, py, pz}, 0.0});
+  const auto add = [&](int body, const Vector3d& p_B, double radius) {
+    c.contact_points.push_back({body, p_B, radius});
   };
-  add(ankle, x * -0.026 * s.size, sole, -0.052 * s.foot);                          // heel, inner
-  add(ankle, x * 0.026 * s.size, sole, -0.052 * s.foot);                           // heel, outer
-  add(ankle, ball_p.x() - x * 0.040 * s.size, sole, ball_p.z() - 0.004 * s.foot);  // ball, inner
-  add(ankle, ball_p.x() + x * 0.040 * s.size, sole, ball_p.z() - 0.004 * s.foot);  // ball, outer
-  add(ball, -x * 0.030 * s.size, -kSoleBelowBall, 0.068 * s.foot);                 // toe, inner
-  add(ball, x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot);                  // toe, outer
+  const Vector3d half_ball(0.040 * s.size, 0, 0);
+  add(ankle, {x * -0.026 * s.size, sole, -0.052 * s.foot}, 0.0);           // heel, inner
+  add(ankle, {x * 0.026 * s.size, sole, -0.052 * s.foot}, 0.0);            // heel, outer
+  add(ankle, ball_p - x * half_ball, kSoleBelowBall);                      // ball, inner
+  add(ankle, ball_p + x * half_ball, kSoleBelowBall);                      // ball, outer
+  add(ball, {-x * 0.030 * s.size, -kSoleBelowBall, 0.068 * s.foot}, 0.0);  // toe, inner
+  add(ball, {x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot}, 0.0);   // toe, outer
+}
+
+/// The back of a foot, on which it rests when it points backwards: a sphere between ankle and ball, well
+/// above the sole.
+void add_instep(Character& c, const Scales& s, int side) {
+  const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(side > 0 ? kLeftFoot : kRightFoot)];
+  const double radius = 0.026 * s.size;
+  const Vector3d above_sole(ball_p.x(), 0.036 * s.size - ankle_height(c, side), 0.6 * ball_p.z());
+  c.contact_points.push_back({side > 0 ? kLeftAnkle : kRightAnkle, above_sole, radius});
 }
 
 /// Spheres at the ends (and for long segments the middle) of the capsules of every other body.
@@ -265,6 +278,8 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
   }
   add_foot_points(c, scales, 1);
   add_foot_points(c, scales, -1);
+  add_instep(c, scales, 1);
+  add_instep(c, scales, -1);
   add_body_points(c);
   c.self_pairs = make_self_pairs();
   const double strength = c.total_mass() / kStandardMass;
@@ -285,6 +300,11 @@ const std::array<std::string_view, kBodies> kBodyNames = {
     "spine2",     "left_ankle",  "right_ankle",  "spine3",     "left_foot",     "right_foot",
     "neck",       "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
     "left_elbow", "right_elbow", "left_wrist",   "right_wrist"};
+
+int body_of_name(std::string_view name) {
+  const auto found = std::find(kBodyNames.begin(), kBodyNames.end(), name);
+  return found == kBodyNames.end() ? -1 : static_cast<int>(found - kBodyNames.begin());
+}
 
 Vector3d hinge_axis(int body) {
   switch (body) {

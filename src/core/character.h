@@ -51,6 +51,8 @@ enum Body : int {
 
 /// SMPL-X names, in the order of `Body`.
 extern const std::array<std::string_view, kBodies> kBodyNames;
+/// The body of that name, -1 for any other name.
+int body_of_name(std::string_view name);
 /// Parent of each body; -1 for the pelvis. Parents come before their children.
 inline constexpr std::array<int, kBodies> kParents = {-1, 0, 0, 0, 1,  2,  3,  4,  5,  6,  7,
                                                       8,  9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
@@ -80,6 +82,13 @@ struct ContactPoint {
   double radius;  ///< m
 };
 
+/// Heel, ball and toe, inner and outer, of the left foot, then of the right: the first contact points.
+inline constexpr int kFootPoints = 12;
+
+/// Where a contact point of a foot touches a level floor under the flat foot: the point itself or the lowest
+/// of its sphere, body's frame, m.
+inline Vector3d sole_point(const ContactPoint& point) { return point.p_B - point.radius * Vector3d::UnitY(); }
+
 /// Collision shape between bodies, and the solid that gives a body its inertia.
 struct Capsule {
   int body;
@@ -106,10 +115,9 @@ struct Character {
       joint_offset;                     ///< rest position of joint i in its parent's frame; 0 for the pelvis
   std::array<double, kBodies> mass;     ///< kg
   std::array<Vector3d, kBodies> com_B;  ///< centre of mass in the body's frame, m
-  std::array<Matrix3d, kBodies> inertia_B;  ///< about the centre of mass, body's axes, kg·m²
-  std::array<Capsule, kBodies> capsule;     ///< one per body, index = body
-  std::vector<ContactPoint>
-      contact_points;  ///< feet first: heel, ball and toe of the left, then of the right
+  std::array<Matrix3d, kBodies> inertia_B;     ///< about the centre of mass, body's axes, kg·m²
+  std::array<Capsule, kBodies> capsule;        ///< one per body, index = body
+  std::vector<ContactPoint> contact_points;    ///< the kFootPoints of the soles first
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of bodies whose capsules collide
   std::array<JointParameters, kBodies> joint;  ///< index = body; entry 0 unused
 

@@ -95,15 +95,18 @@ double mass_share(int body) {
 std::vector<std::array<int, 2>> make_self_pairs() {
   std::vector<std::array<int, 2>> pairs;
   for (int arm : {kLeftElbow, kRightElbow, kLeftWrist, kRightWrist}) {
-    for (int other : {kPelvis, kSpine2, kSpine3, kHead, kLeftHip, kRightHip}) pairs.push_back({arm, other});
-    for (int knee : {kLeftKnee, kRightKnee})
-      if (arm == kLeftWrist || arm == kRightWrist) pairs.push_back({arm, knee});
+    for (int other : {kPelvis, kSpine1, kSpine2, kSpine3, kHead, kLeftHip, kRightHip})
+      pairs.push_back({arm, other});
+    for (int lower_leg : {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle})
+      if (arm == kLeftWrist || arm == kRightWrist) pairs.push_back({arm, lower_leg});
   }
   pairs.insert(pairs.end(), {{kLeftWrist, kRightWrist},
                              {kLeftWrist, kRightElbow},
                              {kLeftElbow, kRightWrist},
                              {kLeftElbow, kRightElbow},
                              {kLeftHip, kRightHip},
+                             {kLeftHip, kRightKnee},
+                             {kLeftKnee, kRightHip},
                              {kLeftKnee, kRightKnee},
                              {kLeftAnkle, kRightAnkle},
                              {kLeftAnkle, kRightKnee},

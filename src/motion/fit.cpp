@@ -45,7 +45,7 @@ Evaluated evaluate(const FitProblem& problem, const FitState& state) {
     FootPositions feet;
     for (std::size_t i = 0; i < kFootPoints; ++i) {
       const auto body = static_cast<std::size_t>(foot_body(i));
-      feet[i] = e.motion[t].poses.p_WB[body] + e.motion[t].R[body] * character.contact_points[i].p_B;
+      feet[i] = e.motion[t].poses.p_WB[body] + e.motion[t].R[body] * sole_point(character.contact_points[i]);
     }
     e.feet.push_back(feet);
   }

@@ -26,12 +26,6 @@ Matrix3d right_jacobian(const Vector3d& c) {
          (angle - std::sin(angle)) / (square * angle) * x * x;
 }
 
-/// Body whose joint a keypoint shows, -1 for eyes, ears and nose.
-int body_of(const std::string& name) {
-  const auto found = std::find(kBodyNames.begin(), kBodyNames.end(), name);
-  return found == kBodyNames.end() ? -1 : static_cast<int>(found - kBodyNames.begin());
-}
-
 /// The other side's body of a limb (below shoulder or hip), itself for every other body.
 int mirrored_limb(int body) {
   switch (body) {
@@ -58,7 +52,7 @@ int mirrored_limb(int body) {
 
 void add_points(const Keypoints& keypoints, FitProblem& problem) {
   for (std::size_t k = 0; k < keypoints.names.size(); ++k)
-    if (const int body = body_of(keypoints.names[k]); body >= 0) problem.points.push_back({body, k, 0});
+    if (const int body = body_of_name(keypoints.names[k]); body >= 0) problem.points.push_back({body, k, 0});
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
     const int other = mirrored_limb(problem.points[i].body);
     const auto found = std::find_if(problem.points.begin(), problem.points.end(),
@@ -127,7 +121,8 @@ void add_shape_derivatives(FitProblem& problem) {
     for (std::size_t b = 0; b < kBodies; ++b)
       problem.offset_by_beta[b].col(i) = character.joint_offset[b] - standard.joint_offset[b];
     for (std::size_t f = 0; f < kFootPoints; ++f)
-      problem.foot_by_beta[f].col(i) = character.contact_points[f].p_B - standard.contact_points[f].p_B;
+      problem.foot_by_beta[f].col(i) =
+          sole_point(character.contact_points[f]) - sole_point(standard.contact_points[f]);
   }
 }
 

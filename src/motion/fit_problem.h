@@ -21,7 +21,7 @@ enum GlobalUnknown : int { kTilt, kLogFocal, kFirstBeta, kFirstOffset = kFirstBe
 using FrameVector = Eigen::Matrix<double, kFrameUnknowns, 1>;
 using PointJacobian = Eigen::Matrix<double, 3, kFrameUnknowns>;
 using ShapeJacobian = Eigen::Matrix<double, 3, kBetas>;
-using FootPositions = std::array<Vector3d, kFootPoints>;  ///< of the foot's contact points, world, m
+using FootPositions = std::array<Vector3d, kFootPoints>;  ///< of the points of the soles, world, m
 using Eigen::VectorXd;
 
 struct FitState {

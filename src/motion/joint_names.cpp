@@ -224,11 +224,11 @@ void apply_user_map(const std::filesystem::path& path, const SkeletonMotion& mot
       throw DataError(path.string(), place, "body = joint name", "'" + printable(trimmed(line)) + "'");
     const std::string body = trimmed(line.substr(0, line.find('='))),
                       joint = trimmed(line.substr(line.find('=') + 1));
-    const auto found = std::find(kBodyNames.begin(), kBodyNames.end(), body);
-    if (found == kBodyNames.end())
+    const int found = body_of_name(body);
+    if (found < 0)
       throw DataError(path.string(), place, "one of the 22 body names, e.g. left_knee",
                       "'" + printable(body) + "'");
-    int& entry = map[static_cast<std::size_t>(found - kBodyNames.begin())];
+    int& entry = map[static_cast<std::size_t>(found)];
     for (std::size_t j = 0; j < motion.joints.size() && entry < 0; ++j)
       if (motion.joints[j].name == printable(joint)) entry = static_cast<int>(j);
   }

@@ -30,7 +30,7 @@ void add_cap(std::vector<SurfacePoint>& points, int body, const Vector3d& end, c
 std::vector<SurfacePoint> surface_points(const Character& character) {
   std::vector<SurfacePoint> points;
   for (std::size_t i = 0; i < kFootPoints; ++i)
-    points.push_back({character.contact_points[i].body, character.contact_points[i].p_B});
+    points.push_back({character.contact_points[i].body, sole_point(character.contact_points[i])});
   for (const Capsule& c : character.capsule) {
     if (c.body == kLeftAnkle || c.body == kRightAnkle || c.body == kLeftFoot || c.body == kRightFoot)
       continue;

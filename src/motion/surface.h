@@ -3,8 +3,8 @@
 ///
 /// There is no mesh: the points lie on the collision shapes. They are fixed to their bodies, because the
 /// moving "lowest point of a capsule" would read rolling as sliding. Heel, ball and toe of each foot come
-/// first (Character::contact_points), then rings and tips on the capsules of every other body. Between the
-/// points of a cap a rounded shape may reach lower by up to 12 % of its radius.
+/// first (`sole_point` of the first kFootPoints contact points), then rings and tips on the capsules of every
+/// other body. Between the points of a cap a rounded shape may reach lower by up to 12 % of its radius.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,6 @@ struct SurfacePoint {
   int body;
   Vector3d p_B;  ///< in the body's frame, m
 };
-
-/// Heel, ball and toe, inner and outer, of two feet: the first points of every surface.
-inline constexpr int kFootPoints = 12;
 
 std::vector<SurfacePoint> surface_points(const Character& character);
 

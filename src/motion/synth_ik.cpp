@@ -13,11 +13,11 @@ const Vector3d& offset(const Character& c, int body) {
   return c.joint_offset[static_cast<std::size_t>(body)];
 }
 
-/// Position of a foot contact point in the ankle's frame, toes straight. @param index  0..5: heel, ball, toe
-Vector3d sole_point(const Character& c, int side, int index) {
+/// Position of a point of the sole in the ankle's frame, toes straight. @param index  0..5: heel, ball, toe
+Vector3d foot_point(const Character& c, int side, int index) {
   const ContactPoint& point = c.contact_points[static_cast<std::size_t>(6 * side + index)];
   const bool on_toes = point.body == kLeftFoot || point.body == kRightFoot;
-  return on_toes ? Vector3d(offset(c, point.body) + point.p_B) : point.p_B;
+  return on_toes ? Vector3d(offset(c, point.body) + sole_point(point)) : sole_point(point);
 }
 
 /// Rotation about the line from a point of the sole to its neighbour, lateral axis to the left.
@@ -25,7 +25,7 @@ struct Roll {
   Vector3d pivot, axis;
 };
 Roll roll_over(const Character& c, int side, int first_point) {
-  const Vector3d a = sole_point(c, side, first_point), b = sole_point(c, side, first_point + 1);
+  const Vector3d a = foot_point(c, side, first_point), b = foot_point(c, side, first_point + 1);
   const Vector3d axis = (b - a).normalized();
   return {a, axis.x() < 0.0 ? Vector3d(-axis) : axis};
 }
@@ -51,7 +51,7 @@ FootPose foot_pose(const Character& c, int side, const FootTarget& target) {
   const Vector3d ankle = ball_rolled - foot * ball;
   const Quaterniond heel = exp_map(-target.toe_rise * over_heel.axis);
   const Quaterniond flat = rotation_z(target.yaw) * kModelToPlan;
-  const double ankle_height = -sole_point(c, side, 0).y();
+  const double ankle_height = -foot_point(c, side, 0).y();
   FootPose pose;
   pose.p_ankle = Vector3d(target.place.x(), target.place.y(), target.lift + ankle_height) +
                  flat * (over_heel.pivot + heel * (ankle - over_heel.pivot));

@@ -87,7 +87,6 @@ struct Touch {
 };
 
 std::vector<Touch> touching_points(const Character& c, const BodyPoses& poses, const Touching& touching) {
-  constexpr std::size_t kFootPoints = 12;
   const std::size_t count = touching.whole_body ? c.contact_points.size() : kFootPoints;
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < count; ++i) {

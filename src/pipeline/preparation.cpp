@@ -81,7 +81,7 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
         files.push_back(at->path().string());
     if (files.size() == before && inputs.size() == 1)
       throw std::invalid_argument(input + ": a folder without any motion file");
-    if (files.size() == before) files.push_back(input);
+    if (error || files.size() == before) files.push_back(input);
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   }
   return files;

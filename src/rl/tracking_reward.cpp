@@ -11,11 +11,6 @@ double squared_angle(const Quaterniond& a, const Quaterniond& b) {
   return log_map(a.conjugate() * b).squaredNorm();
 }
 
-int body_of(const std::string& name) {
-  const auto found = std::find(kBodyNames.begin(), kBodyNames.end(), name);
-  return found == kBodyNames.end() ? -1 : static_cast<int>(found - kBodyNames.begin());
-}
-
 /// Confidence-weighted mean squared pixel error in units of the box height.
 double projection_error(const KeypointFrame& keypoints, const std::array<Vector3d, kBodies>& p_WB) {
   double sum = 0.0, weights = 0.0;
@@ -40,7 +35,7 @@ std::vector<KeypointFrame> match_keypoints(const Keypoints& keypoints) {
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
     for (std::size_t k = 0; k < keypoints.names.size(); ++k) {
       const Vector3d& uvc = keypoints.uvc[t][k];
-      const int body = body_of(keypoints.names[k]);
+      const int body = body_of_name(keypoints.names[k]);
       if (!(uvc.z() > 0.0) || body < 0) continue;
       frame.detections.push_back({body, uvc.x(), uvc.y(), uvc.z()});
       top = std::min(top, uvc.y());

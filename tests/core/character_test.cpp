@@ -186,6 +186,30 @@ TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
   EXPECT_GT(narrowest, 0.0);
 }
 
+/// How near the trunk's middle line the middle of a hand comes from in front at this height, m.
+double nearest_hand(const Character& c, const BodyPoses& rest, double height) {
+  const double hand = c.capsule[kLeftWrist].radius;
+  double nearest = 0.0;
+  for (const auto& [i, j] : c.self_pairs) {
+    if (i != kLeftWrist || (j != kPelvis && j != kSpine1 && j != kSpine2 && j != kSpine3)) continue;
+    const Capsule& trunk = c.capsule[static_cast<std::size_t>(j)];
+    const double reach = trunk.radius + hand;
+    const double up = height - (rest.p_WB[static_cast<std::size_t>(j)] + trunk.a_B).y();
+    if (std::abs(up) < reach) nearest = std::max(nearest, std::sqrt(reach * reach - up * up));
+  }
+  return nearest;
+}
+
+TEST(Character, SelfPairsLeaveNoHoleInTheTrunkForAHand) {
+  Random random(1, {8});
+  for (int n = 0; n < 100; ++n) {
+    const Character c = make_character(random_betas(random, 2.0));
+    const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
+    for (double height = 0.0; height < rest.p_WB[kSpine3].y(); height += 0.005)
+      EXPECT_GT(nearest_hand(c, rest, height), 0.6 * c.capsule[kSpine1].radius) << height;
+  }
+}
+
 TEST(Character, InertiaIsThatOfASolidCapsule) {
   const Character c = make_character();
   Random random(1, {5});
@@ -222,16 +246,33 @@ TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
     const Character c = make_character(random_betas(random, 3.0));
     const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
     const double sole = rest.p_WB[kLeftAnkle].y() + c.contact_points[0].p_B.y();
-    for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t i = 0; i < kFootPoints; ++i) {
       const ContactPoint& p = c.contact_points[i];
       EXPECT_TRUE(p.body == (i < 4    ? kLeftAnkle
                              : i < 6  ? kLeftFoot
                              : i < 10 ? kRightAnkle
                                       : kRightFoot))
           << i;
-      EXPECT_EQ(p.radius, 0.0);
-      EXPECT_NEAR((rest.p_WB[static_cast<std::size_t>(p.body)] + p.p_B).y(), sole, 1e-12) << i;
+      EXPECT_NEAR((rest.p_WB[static_cast<std::size_t>(p.body)] + sole_point(p)).y(), sole, 1e-12) << i;
     }
+  }
+}
+
+TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) {
+  Random random(1, {9});
+  for (int n = 0; n < 10; ++n) {
+    const Character c = make_character(random_betas(random, 3.0));
+    std::array<Quaterniond, kBodies> q = rest_rotations();
+    q[kLeftAnkle] = exp_map(Vector3d(random.uniform(0.0, 1.0), 0, 0));
+    q[kLeftFoot] = q[kLeftAnkle].conjugate();
+    const BodyPoses poses = forward_kinematics(c, Vector3d::Zero(), q);
+    const auto lowest = [&](const ContactPoint& p) {
+      const auto i = static_cast<std::size_t>(p.body);
+      return (poses.p_WB[i] + poses.q_WB[i] * p.p_B).y() - p.radius;
+    };
+    const double toe = lowest(c.contact_points[4]);
+    EXPECT_GT(lowest(c.contact_points[0]), toe - 1e-12) << "heel";
+    for (std::size_t ball : {2, 3}) EXPECT_NEAR(lowest(c.contact_points[ball]), toe, 1e-12);
   }
 }
 

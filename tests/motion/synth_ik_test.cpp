@@ -82,7 +82,7 @@ TEST(SolveLeg, ReportsHowFarATargetIsOutOfReach) {
   EXPECT_NEAR(shortfall(1.5) - shortfall(1.4), 0.1, 1e-3);
 }
 
-/// Contact points of a foot, in the order of Character::contact_points.
+/// Points of a sole, in the order of Character::contact_points.
 std::array<Vector3d, 6> sole(const Character& c, int side, const FootTarget& target) {
   const FootPose foot = foot_pose(c, side, target);
   const Vector3d p_toes = foot.p_ankle + foot.q_ankle * c.joint_offset[at(kLeftFoot + side)];
@@ -90,8 +90,8 @@ std::array<Vector3d, 6> sole(const Character& c, int side, const FootTarget& tar
   std::array<Vector3d, 6> points;
   for (std::size_t i = 0; i < 6; ++i) {
     const ContactPoint& point = c.contact_points[6 * static_cast<std::size_t>(side) + i];
-    points[i] = point.body == kLeftFoot + side ? Vector3d(p_toes + q_toes * point.p_B)
-                                               : Vector3d(foot.p_ankle + foot.q_ankle * point.p_B);
+    points[i] = point.body == kLeftFoot + side ? Vector3d(p_toes + q_toes * sole_point(point))
+                                               : Vector3d(foot.p_ankle + foot.q_ankle * sole_point(point));
   }
   return points;
 }

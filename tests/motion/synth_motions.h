@@ -41,10 +41,10 @@ struct Motion {
   void add(const Vector3d& p_root, const std::array<Quaterniond, kBodies>& q) {
     poses.push_back(forward_kinematics(character, p_root, q));
     sole.emplace_back();
-    for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t i = 0; i < kFootPoints; ++i) {
       const ContactPoint& point = character.contact_points[i];
       const auto b = static_cast<std::size_t>(point.body);
-      sole.back()[i] = poses.back().p_WB[b] + poses.back().q_WB[b] * point.p_B;
+      sole.back()[i] = poses.back().p_WB[b] + poses.back().q_WB[b] * sole_point(point);
     }
   }
 };

@@ -282,7 +282,7 @@ double drive_all(const Character& character, double rate, double tolerance) {
 double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 
 TEST(JointRange, HoldsAgainstTheFullTorqueOfItsJoint) {
-  const double largest = drive_all(make_character(), 240.0, 0.1);
+  const double largest = drive_all(make_character(), 240.0, 0.12);
   std::printf("  measured: deepest slam into a range %.1f degrees\n", degrees(largest));
   EXPECT_LT(largest, 0.21);
 }

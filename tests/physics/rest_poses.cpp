@@ -24,35 +24,30 @@ void bend_legs(double hip, double knee, double ankle, double ball, Snapshot& s) 
   }
 }
 
-/// Of the points of the ankle's body the two behind the ankle; the others lie under the ball of the foot.
+/// Of the points of the ankle's body the two behind the ankle; the others are ball and instep.
 bool is_heel(const ContactPoint& p) {
   return (p.body == kLeftAnkle || p.body == kRightAnkle) && p.p_B.z() < 0.0;
 }
 
-/// On the balls and toes of both feet, heels up, the centre of mass between the two. The points under the
-/// ball belong to the body of the heel and rise with it: the toes must bend up by 5° more for both to touch.
+/// On the balls and toes of both feet, heels up by 34°, toes level, the centre of mass between the two.
 void stand_on_toe_balls(const Character& c, Snapshot& s) {
   const double heel_up = 0.6;
   bend_legs(0.0, 0.0, heel_up, heel_up, s);
   const Quaterniond level = about_x(kRight);
-  double toes_up = 0.0;
   for (int iteration = 0; iteration < 30; ++iteration) {
     const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
-    Vector3d offset = Vector3d::Zero(), ball = Vector3d::Zero(), toe = Vector3d::Zero();
+    Vector3d offset = Vector3d::Zero();
     for (std::size_t i = 0; i < kBodies; ++i)
       offset += c.mass[i] / c.total_mass() * (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i]);
-    for (const ContactPoint& p : c.contact_points) {
+    for (std::size_t k = 0; k < kFootPoints; ++k) {
+      const ContactPoint& p = c.contact_points[k];
       const auto i = static_cast<std::size_t>(p.body);
-      const Vector3d at = poses.p_WB[i] + poses.q_WB[i] * p.p_B;
-      if (p.body == kLeftFoot || p.body == kRightFoot) toe += 0.25 * at;
-      if ((p.body == kLeftAnkle || p.body == kRightAnkle) && !is_heel(p)) ball += 0.25 * at;
+      if (!is_heel(p)) offset -= (poses.p_WB[i] + poses.q_WB[i] * p.p_B) / 8.0;
     }
-    offset -= 0.5 * (ball + toe);
-    toes_up += (ball - toe).z() / (ball - toe).head<2>().norm();
     s.q[0] = about_x(offset.y() / offset.z()) * s.q[0];
     for (std::size_t foot : {std::size_t{kLeftFoot}, std::size_t{kRightFoot}}) {
       const auto ankle = static_cast<std::size_t>(kParents[foot]);
-      s.q[foot] = poses.q_WB[ankle].conjugate() * about_x(-toes_up) * level;
+      s.q[foot] = poses.q_WB[ankle].conjugate() * level;
     }
   }
 }
@@ -84,8 +79,8 @@ Snapshot rest_pose(RestPose pose, const Character& c) {
     case RestPose::kToeBalls:
       stand_on_toe_balls(c, s);
       break;
-    case RestPose::kKneeling:  // thighs leaning back by 20°, trunk upright, toes behind
-      bend_legs(0.35, kRight + 0.35, 0.8, 0.0, s);
+    case RestPose::kKneeling:  // thighs leaning back by 20°, trunk upright, feet stretched out behind
+      bend_legs(0.35, kRight + 0.35, 1.25, 0.0, s);
       break;
     case RestPose::kAllFours:
       go_on_all_fours(s);
@@ -96,7 +91,7 @@ Snapshot rest_pose(RestPose pose, const Character& c) {
       break;
     case RestPose::kProne:
       s.q[0] = about_x(2 * kRight);
-      bend_legs(0.0, 0.0, 0.8, 0.0, s);
+      bend_legs(0.0, 0.0, 1.25, 0.0, s);
       break;
   }
   s.p_root.z() -= lowest_point(c, s);

@@ -105,13 +105,13 @@ std::vector<int> carriers(RestPose pose) {
     case RestPose::kOneSole:
       return {kLeftAnkle, kLeftFoot};
     case RestPose::kKneeling:
-      return {kLeftKnee, kRightKnee, kLeftFoot, kRightFoot};
+      return {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle};
     case RestPose::kAllFours:
       return {kLeftKnee, kRightKnee, kLeftWrist, kRightWrist};
     case RestPose::kSupine:
-      return {kSpine1, kSpine3, kLeftAnkle, kRightAnkle};
+      return {kPelvis, kSpine3, kLeftAnkle, kRightAnkle};
     case RestPose::kProne:
-      return {kPelvis, kHead, kLeftFoot, kRightFoot};
+      return {kSpine1, kLeftHip, kRightHip, kLeftKnee, kRightKnee, kHead};
   }
   return {};
 }
@@ -126,7 +126,7 @@ TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
         double sum = 0;
         for (int body : carriers(pose)) {
           const double share = r.share[static_cast<std::size_t>(body)];
-          EXPECT_GT(share, 0.02) << kBodyNames[static_cast<std::size_t>(body)];
+          EXPECT_GT(share, 0.005) << kBodyNames[static_cast<std::size_t>(body)];
           sum += share;
         }
         EXPECT_NEAR(sum, 1.0, 2e-3);
@@ -141,7 +141,6 @@ TEST(Rest, NoPoseSinksInCreepsOrJitters) {
   for (RestPose pose : kRestPoses)
     for (double rate : {240.0, 480.0})
       for (int passes : {1, 2, 3}) {
-        if (pose == RestPose::kProne && passes == 1) continue;  // trembles at 240 Hz: docs/physics.md §7
         SCOPED_TRACE(testing::Message() << kRestPoseNames[static_cast<int>(pose)] << ", " << rate << " Hz, "
                                         << passes << " passes");
         const RestReport r = rest(pose, rate, passes);

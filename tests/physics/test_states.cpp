@@ -88,13 +88,14 @@ Vector3d centre_of_mass(const Character& c, const BodyPoses& poses) {
 Vector3d middle_of_soles(const Character& c, std::initializer_list<int> feet, const BodyPoses& poses) {
   Vector3d sum = Vector3d::Zero();
   double count = 0;
-  for (const ContactPoint& point : c.contact_points)
-    for (int foot : feet)
-      if (point.body == foot || point.body == kParents[static_cast<std::size_t>(foot)]) {
-        const auto i = static_cast<std::size_t>(point.body);
-        sum += poses.p_WB[i] + poses.q_WB[i] * point.p_B;
-        count += 1;
-      }
+  for (std::size_t k = 0; k < kFootPoints; ++k)
+    for (int foot : feet) {
+      const ContactPoint& point = c.contact_points[k];
+      if (point.body != foot && point.body != kParents[static_cast<std::size_t>(foot)]) continue;
+      const auto i = static_cast<std::size_t>(point.body);
+      sum += poses.p_WB[i] + poses.q_WB[i] * sole_point(point);
+      count += 1;
+    }
   return sum / count;
 }
 
