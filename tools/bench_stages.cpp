@@ -14,74 +14,23 @@
 
 #include "core/parallel.h"
 #include "counted.h"
-#include "physics/aba.h"
 #include "physics/contact_scenes.h"
-#include "physics/integration.h"
+#include "physics/step_in_parts.h"
 
 namespace mimicx {
 namespace {
 
 constexpr int kSteps = 480, kRepetitions = 15;
-enum Stage {
-  kKinematics,
-  kSelfContact,
-  kFloor,
-  kJointTorques,
-  kInertia,
-  kAcceleration,
-  kIntegration,
-  kStages
-};
 constexpr const char* kStageNames[] = {"kinematics",   "self contact",      "floor",      "joints",
                                        "inertia pass", "acceleration pass", "integration"};
 
-/// One step as in step.cpp; `mark(stage)` is called at the end of every stretch of a stage.
-template <class T, class Mark>
-void step_in_stages(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& s, Data<T>& d,
-                    Mark&& mark) {
-  const auto solve_marked = [&] {
-    carry_changes_to_root(d);
-    if (d.changed[kPelvis]) {
-      aba_initialise(model, d);
-      aba_inertia_pass(model, d);
-      mark(kInertia);
-      aba_acceleration_pass(model, d);
-      d.changed.fill(false);
-    }
-    mark(kAcceleration);
-  };
-  compute_kinematics(model, s, d);
-  compute_rigid_bodies(model, d);
-  mark(kKinematics);
-  d.self_wrench.fill({zero3<T>(), zero3<T>()});
-  add_self_contact(model, d);
-  mark(kSelfContact);
-  detect_ground(model, d);
-  mark(kFloor);
-  compute_joint_torques(model, s, target, d);
-  use_pd_law(model, d);
-  mark(kJointTorques);
-  d.changed.fill(true);
-  solve_marked();
-  for (int pass = 1; pass < model.options.passes; ++pass) {
-    relinearise_ground(model, MaskOf<T>(T(1.0) > T(0.0)), d);
-    mark(kFloor);
-    apply_torque_bounds(model, d);
-    mark(kJointTorques);
-    solve_marked();
-  }
-  for (auto again = saturate_exceeding(model, d); any(again); again = saturate_exceeding(model, d)) {
-    mark(kJointTorques);
-    relinearise_ground(model, again, d);
-    mark(kFloor);
-    solve_marked();
-  }
-  mark(kJointTorques);
-  find_applied_ground(model, d);
-  mark(kFloor);
-  integrate(model, d, s);
-  mark(kIntegration);
-}
+/// Calls `mark(stage)` at the end of every stretch of a stage.
+template <class Mark>
+struct Marked : StepParts {
+  Mark mark;
+  explicit Marked(Mark m) : mark(m) {}
+  void finished(Stage stage) { mark(stage); }
+};
 
 template <class T>
 std::unique_ptr<Simulation<T>> falling() {
@@ -105,11 +54,12 @@ PerStage measure_stages() {
     for (PerStage& b : best) {
       PerStage spent{};
       auto last = Clock::now();
-      step_in_stages(s->model, s->target, s->state, s->data, [&](Stage stage) {
+      Marked timed([&](Stage stage) {
         const auto now = Clock::now();
         spent[stage] += std::chrono::duration<double, std::nano>(now - last).count();
         last = Clock::now();
       });
+      step_in_parts(s->model, s->target, s->state, s->data, timed);
       for (std::size_t i = 0; i < kStages; ++i) b[i] = std::min(b[i], spent[i]);
     }
   }
@@ -125,10 +75,11 @@ PerStage count_stages() {
   PerStage mean{};
   for (int k = 0; k < kSteps; ++k) {
     long last = Counted::operations;
-    step_in_stages(s->model, s->target, s->state, s->data, [&](Stage stage) {
+    Marked counted([&](Stage stage) {
       mean[stage] += static_cast<double>(Counted::operations - last) / kSteps;
       last = Counted::operations;
     });
+    step_in_parts(s->model, s->target, s->state, s->data, counted);
   }
   return mean;
 }

@@ -18,4 +18,18 @@ template <class T>
   }
 }
 
+/// Lanes whose state is not finite or has run away. Comparisons with NaN are false, hence the negations.
+template <class T>
+MaskOf<T> gone_wrong(const Model<RealOf<T>>& model, const State<T>& s) {
+  const T limit(model.options.max_speed * model.options.max_speed);
+  const T spin(36.0 * model.options.max_speed * model.options.max_speed);
+  const MaskOf<T> slow = dot(s.v_root, s.v_root) <= limit, near = dot(s.p_root, s.p_root) <= T(1e10);
+  MaskOf<T> fine = slow & near;
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    const MaskOf<T> turns_slowly = dot(s.omega[i], s.omega[i]) <= spin;
+    fine = fine & turns_slowly;
+  }
+  return !fine;
+}
+
 }  // namespace mimicx

@@ -5,6 +5,8 @@
 /// the start. Impulses are summed over all points, lanes and steps.
 #pragma once
 
+#include <functional>
+
 #include "physics/test_states.h"
 
 namespace mimicx {
@@ -19,9 +21,17 @@ struct SceneReport {
   double outside_cone = 0;  ///< impulse of friction beyond μ f_n, share of the normal impulse
   double adhesion = 0;      ///< impulse pulling on the ground, share of the normal impulse
   double deepest = 0;       ///< m under z = 0, of any point at any time
+
+  bool operator==(const SceneReport&) const = default;
 };
 
+using ScenePack = Simulation<Pack<kLanes>>;
+/// Moves the scene on by one step; true where some lane went wrong in it.
+using SceneStep = std::function<bool(ScenePack&)>;
+
 Snapshot snapshot_of(Scene scene, const Character& character, std::uint64_t lane);
-SceneReport run_scene(Scene scene, double rate, int passes);
+SceneReport run_scene(
+    Scene scene, double rate, int passes,
+    const SceneStep& advance = [](ScenePack& s) { return any(s.advance()); });
 
 }  // namespace mimicx
