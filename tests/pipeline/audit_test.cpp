@@ -264,8 +264,9 @@ TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
     EXPECT_EQ(all_failures(clean), "") << entry.name;
     EXPECT_LT(value(clean, "root_force_mean_N"), 0.002 * clean.weight);
     EXPECT_EQ(value(clean, "torque_violations"), 0.0);
-    for (const auto& [name, recorded] : entry.audit)  // the manifest says the same of it
-      EXPECT_NEAR(recorded, value(clean, name), 1e-6 + 1e-6 * std::abs(recorded)) << name;
+    for (const auto& [name, recorded] :
+         entry.audit)  // the manifest says the same of it before it was rounded to a file
+      EXPECT_NEAR(recorded, value(clean, name), 1e-5 + 1e-5 * std::abs(recorded)) << name;
     for (const Audit& steps : audit_file(run.out / "substeps" / (entry.name + ".npz"), false))
       EXPECT_EQ(all_failures(steps), "") << entry.name;
     // Judged alike, by poses alone under the best floor there could be:
