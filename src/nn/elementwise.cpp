@@ -6,32 +6,22 @@ namespace mimicx::nn {
 
 namespace {
 
-// Loops over contiguous memory, which the compiler vectorises. In place they are written with one pointer: of
-// two that may overlap it can only check that they do, and then goes element by element.
-
-/// y[i] = f(x[i])
+/// y[i] = f(x[i]) over contiguous memory: the loop the compiler vectorises.
 template <class S, class F>
 void map_unary(const Matrix<S>& x, Matrix<S>& y, F f) {
   const S* in = x.data();
   S* out = y.data();
   const Eigen::Index n = x.size();
-  if (in == out)
-    for (Eigen::Index i = 0; i < n; ++i) out[i] = f(out[i]);
-  else
-    for (Eigen::Index i = 0; i < n; ++i) out[i] = f(in[i]);
+  for (Eigen::Index i = 0; i < n; ++i) out[i] = f(in[i]);
 }
 
-/// y[i] = f(a[i], b[i])
 template <class S, class F>
 void map_binary(const Matrix<S>& a, const Matrix<S>& b, Matrix<S>& y, F f) {
   const S* left = a.data();
   const S* right = b.data();
   S* out = y.data();
   const Eigen::Index n = a.size();
-  if (left == out)
-    for (Eigen::Index i = 0; i < n; ++i) out[i] = f(out[i], right[i]);
-  else
-    for (Eigen::Index i = 0; i < n; ++i) out[i] = f(left[i], right[i]);
+  for (Eigen::Index i = 0; i < n; ++i) out[i] = f(left[i], right[i]);
 }
 
 }  // namespace
