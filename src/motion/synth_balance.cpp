@@ -1,5 +1,6 @@
 #include "motion/synth_balance.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,8 +13,14 @@ namespace {
 // correction leaves less than 0.3 of the error.
 constexpr double kPoseGain = 1.28, kPoseTolerance = 1e-14;  // m
 constexpr int kPoseIterations = 40;
-constexpr int kBalanceIterations = 5;
+constexpr int kBalanceIterations = 6;
 constexpr double kStraightestKnee = 0.10;  // rad: a straighter leg is asked for too much
+
+constexpr double kLight = 0.3;  // share of the weight under which the floor cannot turn the body
+// What pelvis and trunk answer with to a turn, by the model's axes: inertia over the whole mass, m². Roughly:
+// the iteration corrects.
+const Vector3d kTrunkInertia(0.09, 0.03, 0.09);
+constexpr double kTiltSmooth = 1e-2, kTiltSmall = 1.2e-4;  // weights of third differences; of the tilt itself
 
 Quaterniond arm_rotation(int side, const ArmPosture& arm) {
   const double mirror = side == 0 ? 1.0 : -1.0;
@@ -70,30 +77,89 @@ Vector3d specific_spin(const Character& c, const BodyPoses& a, const BodyPoses& 
   return spin / c.total_mass();
 }
 
-/// ℓ of the header for every frame, of the motion as it stands.
-std::vector<Eigen::Vector2d> moment_of_spin(const Character& character, const std::vector<SynthPose>& motion,
-                                            double fps) {
+/// Rate of the specific angular momentum at every frame, m²/s², of the motion as it stands; 0 at both ends.
+std::vector<Vector3d> spin_rates(const Character& character, const std::vector<SynthPose>& motion,
+                                 double fps) {
   std::vector<BodyPoses> poses;
   for (const SynthPose& pose : motion) poses.push_back(forward_kinematics(character, pose.p_root, pose.q));
-  std::vector<Eigen::Vector2d> moment(motion.size(), Eigen::Vector2d::Zero());
-  for (std::size_t i = 1; i + 1 < motion.size(); ++i) {
-    const Vector3d rate = fps * (specific_spin(character, poses[i], poses[i + 1], 1.0 / fps) -
-                                 specific_spin(character, poses[i - 1], poses[i], 1.0 / fps));
-    moment[i] = {rate.y(), -rate.x()};
-  }
-  return moment;
+  std::vector<Vector3d> spins, rates(motion.size(), Vector3d::Zero());
+  for (std::size_t i = 0; i + 1 < motion.size(); ++i)
+    spins.push_back(specific_spin(character, poses[i], poses[i + 1], 1.0 / fps));
+  for (std::size_t i = 1; i + 1 < motion.size(); ++i) rates[i] = fps * (spins[i] - spins[i - 1]);
+  return rates;
 }
 
-/// Lowers the centre of mass, smoothly in time, where a knee of `motion` is straighter than it should be.
-/// In flight the height is not free: there the plan must be right from the start.
+/// What the floor carries at a frame (not the first or last), per mass, m/s².
+double weight_at(const std::vector<PlanFrame>& plan, std::size_t i, double fps) {
+  if (plan[i].flight) return 0.0;
+  const double rise = plan[i + 1].com_height - 2.0 * plan[i].com_height + plan[i - 1].com_height;
+  return std::max(0.0, kGravity + fps * fps * rise);
+}
+
+/// The smooth track whose second differences are `wanted` in the frames that are `bound`.
+Eigen::MatrixX3d track_of_accelerations(const Eigen::MatrixX3d& wanted, const std::vector<bool>& bound) {
+  const Eigen::Index n = wanted.rows();
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(n, 3);
+  const auto add_square = [&](Eigen::Index first, double weight, const auto& coefficients) {
+    for (Eigen::Index a = 0; a < coefficients.size(); ++a)
+      for (Eigen::Index b = 0; b < coefficients.size(); ++b)
+        entries.emplace_back(first + a, first + b, weight * coefficients[a] * coefficients[b]);
+  };
+  const Vector3d second(1.0, -2.0, 1.0);
+  const Eigen::Vector4d third(-1.0, 3.0, -3.0, 1.0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, kTiltSmall);
+    if (i + 3 < n) add_square(i, kTiltSmooth, third);
+    if (!bound[static_cast<std::size_t>(i)]) continue;
+    add_square(i - 1, 1.0, second);
+    right.middleRows<3>(i - 1) += second * wanted.row(i);
+  }
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(A).solve(right);
+}
+
+/// Tilts the pelvis, and the trunk with it, against what else would turn the body where the floor cannot.
+/// @param drawn    the plan before any tilt
+/// @param rates    `spin_rates` of the motion with the last tilt
+/// @param wanted   [frames] second differences of the tilt so far; corrected
+/// @param plan     gets the pelvis of `drawn` with the new tilt
+void keep_spin_in_flight(const std::vector<PlanFrame>& drawn, const std::vector<Vector3d>& rates, double fps,
+                         Eigen::MatrixX3d& wanted, std::vector<PlanFrame>& plan) {
+  if (std::none_of(plan.begin(), plan.end(), [](const PlanFrame& frame) { return frame.flight; })) return;
+  std::vector<bool> bound(plan.size(), false);
+  for (std::size_t i = 1; i + 1 < plan.size(); ++i) {
+    bound[i] = weight_at(plan, i, fps) < kLight * kGravity;
+    if (!bound[i]) continue;
+    const Vector3d rate = kModelToPlan.conjugate() * (rotation_z(-plan[i].heading) * rates[i]);
+    wanted.row(static_cast<Eigen::Index>(i)) -= rate.cwiseQuotient(kTrunkInertia).transpose() / (fps * fps);
+  }
+  const Eigen::MatrixX3d tilt = track_of_accelerations(wanted, bound);
+  for (std::size_t i = 0; i < plan.size(); ++i)
+    plan[i].pelvis = drawn[i].pelvis + tilt.row(static_cast<Eigen::Index>(i)).transpose();
+}
+
+/// Whether the height of a frame belongs to the parabola of a flight: frames in the air, and those around
+/// them.
+std::vector<bool> on_parabola(const std::vector<PlanFrame>& plan) {
+  std::vector<bool> on(plan.size());
+  for (std::size_t i = 0; i < plan.size(); ++i)
+    on[i] = plan[i].flight || (i > 0 && plan[i - 1].flight) || (i + 1 < plan.size() && plan[i + 1].flight);
+  return on;
+}
+
+/// Lowers the centre of mass, smoothly in time, where a knee of `motion` is straighter than it should be. On
+/// the parabola of a flight the height is not free: there the plan must be right from the start.
 void lower_where_stretched(const Character& character, const std::vector<SynthPose>& motion,
                            std::vector<PlanFrame>& plan) {
   constexpr int kSpread = 7;
   constexpr double kSmoothing = 2.5;  // frames; kSpread covers it, so that no need is averaged away
   const int n = static_cast<int>(plan.size());
+  const std::vector<bool> fixed = on_parabola(plan);
   std::vector<double> needed(plan.size(), 0.0), lowered(plan.size(), 0.0);
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (plan[i].flight || std::min(motion[i].knee[0], motion[i].knee[1]) >= kStraightestKnee) continue;
+    if (fixed[i] || std::min(motion[i].knee[0], motion[i].knee[1]) >= kStraightestKnee) continue;
     const Eigen::Vector2d com = motion[i].p_com.head<2>();
     needed[i] = plan[i].com_height - com_height_for_knee(character, plan[i], com, 1.05 * kStraightestKnee);
   }
@@ -102,7 +168,8 @@ void lower_where_stretched(const Character& character, const std::vector<SynthPo
       lowered[static_cast<std::size_t>(i)] =
           std::max(lowered[static_cast<std::size_t>(i)], needed[static_cast<std::size_t>(k)]);
   lowered = smoothed(lowered, kSmoothing);
-  for (std::size_t i = 0; i < plan.size(); ++i) plan[i].com_height -= lowered[i];
+  for (std::size_t i = 0; i < plan.size(); ++i)
+    if (!fixed[i]) plan[i].com_height -= lowered[i];
 }
 
 /// Path of the centre of mass over the floor: the tridiagonal system of the header, eliminated forwards.
@@ -114,14 +181,9 @@ std::vector<Eigen::Vector2d> com_path(const std::vector<PlanFrame>& plan,
   path.front() = plan.front().pressure;
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double h = plan[i].com_height;
-    const double bend = h * fps * fps;
-    double weight = 0.0;
+    const double bend = h * fps * fps, weight = weight_at(plan, i, fps);
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    if (!plan[i].flight) {
-      weight =
-          std::max(0.0, kGravity + fps * fps * (plan[i + 1].com_height - 2.0 * h + plan[i - 1].com_height));
-      right = weight * plan[i].pressure + moment[i];
-    }
+    if (!plan[i].flight) right = weight * plan[i].pressure + moment[i];
     const double pivot = 2.0 * bend + weight - bend * above[i - 1];
     above[i] = bend / pivot;
     path[i] = (right + bend * path[i - 1]) / pivot;
@@ -171,12 +233,16 @@ double com_height_for_knee(const Character& character, const PlanFrame& frame, c
 }
 
 std::vector<SynthPose> solve_plan(const Character& character, std::vector<PlanFrame> plan, double fps) {
+  const std::vector<PlanFrame> drawn = plan;
   std::vector<SynthPose> motion(plan.size());
-  std::vector<Eigen::Vector2d> moment(plan.size(), Eigen::Vector2d::Zero());
+  std::vector<Eigen::Vector2d> moment(plan.size(), Eigen::Vector2d::Zero());  // ℓ of the header
+  Eigen::MatrixX3d turn = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(plan.size()), 3);
   for (int iteration = 0; iteration < kBalanceIterations; ++iteration) {
     if (iteration > 0) {
       lower_where_stretched(character, motion, plan);
-      moment = moment_of_spin(character, motion, fps);
+      const std::vector<Vector3d> rates = spin_rates(character, motion, fps);
+      for (std::size_t i = 0; i < plan.size(); ++i) moment[i] = {rates[i].y(), -rates[i].x()};
+      keep_spin_in_flight(drawn, rates, fps, turn, plan);
     }
     const std::vector<Eigen::Vector2d> path = com_path(plan, moment, fps);
     for (std::size_t i = 0; i < plan.size(); ++i)

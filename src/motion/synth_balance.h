@@ -7,8 +7,10 @@
 /// ICRA 2003, with the terms of ḧ and L̇ kept). On the frames, with second differences for the
 /// accelerations, this is one tridiagonal system per axis, with c = p at both ends. ℓ depends on the
 /// motion: the system is solved again with the ℓ of the last motion (a fixed point). In flight the equation
-/// is c̈ = 0, and a track of height that is a parabola there gives ballistic flight.
-/// What it does not do: keep the angular momentum of a flight constant (it is small for the kinds here).
+/// is c̈ = 0, and a track of height that is a parabola there gives ballistic flight. Nothing turns a body in
+/// flight, L is constant: pelvis and trunk are tilted by the smoothest track that takes up what legs and arms
+/// do there (the same fixed point).
+/// What it does not do: ask for joint torques or contacts (pipeline/feasibility.h does); move the feet.
 #pragma once
 
 #include <vector>

@@ -199,7 +199,7 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
     swings.push_back({side, t, land, apart[front].place, apart[front].yaw, 0.06});
     swings.push_back({side, leave, leave + swing, start[front].place, start[front].yaw, 0.06});
     heel_rise.insert(heel_rise.end(),
-                     {{land + 0.05, 0.0}, {land + 0.50, heel}, {leave - 0.60, heel}, {leave - 0.05, 0.0}});
+                     {{land + 0.15, 0.0}, {land + 0.60, heel}, {leave - 0.60, heel}, {leave - 0.05, 0.0}});
     const double toes = 0.85 * forefoot_length(character), middle = feet_middle(character);
     pressure.insert(
         pressure.end(),

@@ -22,6 +22,12 @@ constexpr double kFlight = 3.0 / kSynthFps, kStance = 10.0 / kSynthFps;
 constexpr double kBoth = 3.0 / kSynthFps;      ///< both feet on the floor, in the first and the last step
 constexpr double kFirstSwing = 0.40;           ///< s
 constexpr double kSettle = 0.55, kRest = 1.1;  ///< s
+constexpr double kLandingKnee = 22.0 * kDegree;
+constexpr double kPush = 6.0;  ///< acceleration of the centre of mass in the middle of a stance, m/s²
+// Where the load acts in the foot, as a share of the way from the ankle to the toe points: at landing, when
+// the foot carries the body, at leaving.
+constexpr double kLandOn = 0.15, kCarryOn = 0.35, kLeaveOn = 0.70;
+constexpr double kCarry = 0.11;  ///< from landing to carrying, s
 
 /// From standing over steps of growing length to full steps, and back. The first contact is the foot that
 /// stands while the other takes the first step, the last one the foot that is put down beside the other.
@@ -49,6 +55,25 @@ std::vector<Contact> draw_contacts(const PlanRequest& request, double step) {
   return contacts;
 }
 
+/// The load rolls over the flat foot to its ball.
+void roll_over_soles(const Character& character, const std::vector<Contact>& contacts, double begin,
+                     FeetTracks& feet) {
+  const double forefoot = forefoot_length(character), middle = feet_middle(character);
+  const auto standing = static_cast<std::size_t>(contacts[0].side), other = 1 - standing;
+  std::array<std::vector<Knot>, 2> knots;
+  knots[standing] = {{begin, middle}, {contacts[0].leave, kLeaveOn * forefoot}};
+  knots[other] = {{begin - kSettle, middle}, {begin, kLeaveOn * forefoot}};
+  for (std::size_t i = 1; i < contacts.size(); ++i) {
+    std::vector<Knot>& track = knots[static_cast<std::size_t>(contacts[i].side)];
+    const bool stays = i + 2 >= contacts.size();
+    track.push_back({contacts[i].land, kLandOn * forefoot});
+    track.push_back({contacts[i].land + kCarry, kCarryOn * forefoot});
+    track.push_back(stays ? Knot{contacts[i].land + kSettle, middle}
+                          : Knot{contacts[i].leave, kLeaveOn * forefoot});
+  }
+  for (std::size_t side = 0; side < 2; ++side) feet.foot[side].pressure = MinJerkTrack(knots[side]);
+}
+
 FeetTracks jogging_feet(const Character& character, const std::array<FootTarget, 2>& start,
                         const std::vector<Contact>& contacts, double clearance) {
   std::vector<FootSwing> swings;
@@ -59,9 +84,10 @@ FeetTracks jogging_feet(const Character& character, const std::array<FootTarget,
     const bool walking = i == 1 || i + 1 == contacts.size();
     swings.push_back({contacts[i].side, leave, contacts[i].land,
                       Eigen::Vector2d(contacts[i].x, start[side].place.y()), start[side].yaw,
-                      walking ? 0.05 : clearance});
+                      walking ? 0.05 : clearance, !walking});
   }
   FeetTracks feet = stepping_feet(character, start, swings, kSettle);
+  roll_over_soles(character, contacts, begin, feet);
   std::vector<Knot> load = {{begin - kSettle, 0.5}, {begin, contacts[0].side == 0 ? 1.0 : 0.0}};
   for (std::size_t i = 1; i + 1 < contacts.size(); ++i) {
     // The load goes over while both feet stand or neither does.
@@ -77,19 +103,25 @@ FeetTracks jogging_feet(const Character& character, const std::array<FootTarget,
   return feet;
 }
 
-/// Height of the centre of mass: a parabola in every flight, quintics between.
+/// Height of the centre of mass: a parabola in every flight, quintics between. A stance between two flights
+/// is two quartics (the least jerk towards a middle whose height is free), so that the load is even.
 MinJerkTrack jogging_height(const Character& character, const PlanFrame& stand,
                             const std::vector<Contact>& contacts, double step) {
   // At landing and leaving the foot is half a stance's way from the centre of mass.
   PlanFrame landing = stand;
   const double away = 0.5 * step * kStance / (kStance + kFlight);
   const double low =
-      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), 16.0 * kDegree);
+      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), kLandingKnee);
   const double velocity = 0.5 * kGravity * kFlight;
   const double begin = contacts[1].land - on_frame(kFirstSwing);
   std::vector<Knot> height = {{begin - 0.3, stand.com_height}, {contacts[1].land, low}};
   for (std::size_t i = 1; i + 2 < contacts.size(); ++i) {
     if (!contacts[i].flight) continue;
+    if (i > 1) {
+      const double half = 0.5 * (contacts[i].leave - contacts[i].land);
+      const double drop = 0.5 * velocity * half + (kGravity + kPush) * half * half / 12.0;
+      height.push_back({contacts[i].land + half, low - drop, 0.0, kPush});
+    }
     height.push_back({contacts[i].leave, low, velocity, -kGravity});
     height.push_back({contacts[i + 1].land, low, -velocity, -kGravity});
   }
@@ -132,7 +164,7 @@ std::vector<PlanFrame> plan_jog(const PlanRequest& request) {
     const double t = time_of(i);
     plan[i].com_height = height.at(t);
     for (std::size_t k = 0; k + 1 < contacts.size(); ++k)
-      if (contacts[k].flight && t > contacts[k].leave - 0.01 && t < contacts[k + 1].land + 0.01)
+      if (contacts[k].flight && t > contacts[k].leave + 0.01 && t < contacts[k + 1].land - 0.01)
         plan[i].flight = true;
   }
   return plan;

@@ -31,9 +31,9 @@ JumpTiming jump_timing(Random& random) {
   jump.begin = random.uniform(0.5, 0.75);
   jump.crouch = jump.begin + random.uniform(0.65, 0.8);
   // Leaving and landing fall on frames: the discrete motion is then exactly ballistic in between.
-  jump.leave = on_frame(jump.crouch + random.uniform(0.30, 0.34));
+  jump.leave = on_frame(jump.crouch + random.uniform(0.36, 0.40));
   jump.land = jump.leave + on_frame(random.uniform(0.30, 0.37));
-  jump.settle = jump.land + 0.36;
+  jump.settle = jump.land + 0.40;
   jump.end = jump.settle + random.uniform(0.8, 1.0);
   jump.distance = random.uniform(0.0, 0.25);
   return jump;
@@ -61,7 +61,7 @@ JumpPostures jump_postures(const Character& character, const PlanFrame& stand, R
     return com_height_for_knee(character, frame, frame.pressure, knee_degrees * kDegree);
   };
   PlanFrame on_toes = p.leave;
-  for (FootTarget& foot : on_toes.foot) foot.heel_rise = 36.0 * kDegree;
+  for (FootTarget& foot : on_toes.foot) foot.heel_rise = 18.0 * kDegree;
   p.leave.com_height = height(on_toes, 38.0);
   p.crouch.com_height = height(p.crouch, random.uniform(72.0, 84.0));
   p.soft.com_height = height(p.soft, random.uniform(68.0, 80.0));
@@ -75,7 +75,7 @@ FeetTracks jumping_feet(const Character& character, const std::array<FootTarget,
   constexpr double kStretch = 0.045;   // m by which the legs stretch after leaving
   FeetTracks feet = standing_feet(character, start);
   const double forefoot = forefoot_length(character), mid = feet.foot[0].pressure.at(0.0),
-               toes = 0.95 * forefoot;
+               toes = 0.87 * forefoot;
   const double up = jump.leave + kToesClear, down = jump.land - kToesClear;
   const auto lift_at = [&](double t) {
     return Knot{t, jump.height_in_flight(t) - jump.leave_height - kStretch, jump.velocity_in_flight(t),
@@ -87,10 +87,10 @@ FeetTracks jumping_feet(const Character& character, const std::array<FootTarget,
     foot.x = MinJerkTrack({{jump.leave + 0.02, x}, {jump.land - 0.02, x + jump.distance}});
     foot.lift =
         MinJerkTrack({{jump.leave - 0.025, 0.0}, lift_at(up), lift_at(down), {jump.land + 0.025, 0.0}});
-    foot.heel_rise = MinJerkTrack({{jump.leave - 0.17, 0.0},
+    foot.heel_rise = MinJerkTrack({{jump.leave - 0.085, 0.0},
                                    {jump.leave + 0.10, 62.0 * kDegree},
                                    {jump.land - 0.08, 55.0 * kDegree},
-                                   {jump.land + 0.14, 0.0}});
+                                   {jump.land + 0.10, 0.0}});
     foot.pressure = MinJerkTrack({{jump.leave - 0.40, mid},
                                   {jump.leave - 0.06, toes},
                                   {jump.land + 0.04, toes},
@@ -128,7 +128,7 @@ std::vector<PlanFrame> plan_jump(const PlanRequest& request) {
     hold_postures(keys, t, plan[i]);
     place_feet(feet, t, plan[i]);
     plan[i].com_height = height.at(t);
-    plan[i].flight = t > jump.leave - 0.01 && t < jump.land + 0.01;
+    plan[i].flight = t > jump.leave + 0.01 && t < jump.land - 0.01;
   }
   return plan;
 }

@@ -11,9 +11,13 @@ constexpr double kMidFoot = 0.27, kHeelStrike = -0.15, kToeOff = 0.88;
 // Pitch of a foot that takes a long stride, rad; shorter ones pitch less.
 constexpr double kStrikePitch = 0.30, kSwingPitch = 0.75;
 constexpr double kLongStride = 1.4;      ///< in leg lengths
-constexpr double kHeelLead = 0.14;       ///< the heel rises this long before the foot leaves the floor, s,
+constexpr double kHeelLead = 0.11;       ///< the heel rises this long before the foot leaves the floor, s,
 constexpr double kHeelLeadShare = 0.25;  ///< and not before this last share of the time the foot stands
 constexpr double kRollDown = 0.10;       ///< from heel strike to flat foot, s
+// A running foot: a frame after leaving and a frame before landing it is so high, and so fast.
+constexpr double kFrame = 1.0 / 30.0;
+constexpr double kRunningHeight = 0.010, kRunningSpeed = 0.35;  ///< m, m/s
+constexpr double kRunningLead = 0.07;  ///< its heel rises this long before it leaves, s
 
 struct FootKnots {
   std::vector<Knot> x, y, yaw, lift, heel_rise, toe_rise, pressure;
@@ -41,20 +45,26 @@ void add_glide(double start, double end, double from, double to, std::vector<Kno
   knots.push_back({end, to});
 }
 
-/// The foot rises before it travels and lands before it is put down, so that it never scrapes.
+/// The foot rises before it travels and lands before it is put down, so that it never scrapes; a running foot
+/// is clear of the floor in every frame of a flight.
 /// @param landed  when the foot was put down, s
 void add_swing(const FootSwing& swing, const FootTarget& from, double landed, double leg, FootKnots& knots) {
   const double duration = swing.end - swing.start;
-  const double lead = std::min(kHeelLead, kHeelLeadShare * (swing.start - landed));
+  const double lead =
+      swing.running ? kRunningLead : std::min(kHeelLead, kHeelLeadShare * (swing.start - landed));
   const auto at = [&](double part) { return swing.start + part * duration; };
   add_glide(at(0.06), at(0.94), from.place.x(), swing.place.x(), knots.x);
   add_glide(at(0.06), at(0.94), from.place.y(), swing.place.y(), knots.y);
   add_glide(at(0.06), at(0.94), from.yaw, swing.yaw, knots.yaw);
-  knots.lift.insert(knots.lift.end(), {{at(0.0), 0.0}, {at(0.45), swing.clearance}, {at(1.0), 0.0}});
+  knots.lift.push_back({at(0.0), 0.0});
+  if (swing.running) knots.lift.push_back({swing.start + kFrame, kRunningHeight, kRunningSpeed});
+  knots.lift.push_back({at(0.45), swing.clearance});
+  if (swing.running) knots.lift.push_back({swing.end - kFrame, kRunningHeight, -kRunningSpeed});
+  knots.lift.push_back({at(1.0), 0.0});
   const Eigen::Vector2d forward(std::cos(swing.yaw), std::sin(swing.yaw));
   const double stride = (swing.place - from.place).dot(forward) / (kLongStride * leg);
   const double rise = kSwingPitch * std::clamp(stride, 0.25, 1.0),
-               strike = kStrikePitch * std::clamp(stride, 0.0, 1.0);
+               strike = swing.running ? 0.0 : kStrikePitch * std::clamp(stride, 0.0, 1.0);
   knots.heel_rise.insert(knots.heel_rise.end(),
                          {{swing.start - lead, 0.0}, {at(0.18), rise}, {at(0.80), 0.0}});
   knots.toe_rise.insert(knots.toe_rise.end(),

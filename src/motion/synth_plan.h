@@ -41,6 +41,7 @@ struct FootSwing {
   Eigen::Vector2d place;   ///< where it lands
   double yaw = 0.0;        ///< how it lands
   double clearance = 0.0;  ///< height of the sole at mid-swing, m
+  bool running = false;    ///< leaves and meets the floor with speed, and meets it flat
 };
 
 /// A foot's motion; `pressure` is where in the foot its share of the load acts, m ahead of the ankle.

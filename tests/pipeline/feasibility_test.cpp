@@ -93,12 +93,12 @@ TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
     options.seed = 1;
     options.betas_from_seed = true;
     const Feasibility f = feasibility(synthesize(options));
-    const bool flies = kind == "jump" || kind == "jog";  // landing and leaving fall between two frames
-    EXPECT_LT(f.mean_force, flies ? 0.02 : 0.001) << kind;
-    EXPECT_LT(f.mean_moment, flies ? 0.04 : 0.001) << kind;
-    EXPECT_LT(f.max_force, flies ? 0.2 : 0.02) << kind;
-    EXPECT_LT(f.worst_torque, flies ? 2.0 : 1.5) << kind;
-    EXPECT_LE(f.frames_over_limit, kind == "jog" ? 40 : 8) << kind;
+    EXPECT_LT(f.mean_force, 0.001) << kind;
+    EXPECT_LT(f.mean_moment, 0.002) << kind;
+    EXPECT_LT(f.max_force, 0.02) << kind;
+    EXPECT_LT(f.max_moment, 0.03) << kind;
+    EXPECT_LT(f.worst_torque, 1.1) << kind;
+    EXPECT_LE(f.frames_over_limit, 1) << kind;
   }
 }
 
