@@ -366,4 +366,9 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
   return poses;
 }
 
+Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses) {
+  const auto body = static_cast<std::size_t>(point.body);
+  return poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
+}
+
 }  // namespace mimicx

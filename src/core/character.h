@@ -150,4 +150,7 @@ struct BodyPoses {
 BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
                              const std::array<Quaterniond, kBodies>& q_joint);
 
+/// World position of the lowest point of a contact point's sphere, m.
+Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses);
+
 }  // namespace mimicx

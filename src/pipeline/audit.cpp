@@ -66,7 +66,7 @@ double height_of(const Character& c, const BodyPoses& poses, std::size_t body) {
   double lowest = HUGE_VAL;
   for (const ContactPoint& point : c.contact_points)
     if (static_cast<std::size_t>(point.body) == body)
-      lowest = std::min(lowest, (poses.p_WB[body] + poses.q_WB[body] * point.p_B).z() - point.radius);
+      lowest = std::min(lowest, lowest_position(point, poses).z());
   return lowest;
 }
 

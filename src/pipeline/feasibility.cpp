@@ -92,7 +92,7 @@ std::vector<Touch> touching_points(const Character& c, const BodyPoses& poses, c
   for (std::size_t i = 0; i < count; ++i) {
     const ContactPoint& point = c.contact_points[i];
     const auto body = static_cast<std::size_t>(point.body);
-    const Vector3d p = poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
+    const Vector3d p = lowest_position(point, poses);
     if (p.z() <= touching.height && p.z() >= -touching.depth) touches.push_back({body, p, Vector3d::Zero()});
   }
   return touches;

@@ -258,6 +258,24 @@ TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
   }
 }
 
+TEST(Character, NoPointOfASphereIsLowerThanItsLowestPosition) {
+  Random random(1, {10});
+  const Character c = make_character();
+  std::array<Quaterniond, kBodies> q;
+  for (Quaterniond& turn : q) turn = exp_map(Vector3d(random.normal(), random.normal(), random.normal()));
+  const BodyPoses poses = forward_kinematics(c, Vector3d(1.0, 2.0, 3.0), q);
+  for (const ContactPoint& point : c.contact_points) {
+    const auto body = static_cast<std::size_t>(point.body);
+    const Vector3d lowest = lowest_position(point, poses);
+    const Vector3d centre = poses.p_WB[body] + poses.q_WB[body] * point.p_B;
+    EXPECT_NEAR((lowest - centre).norm(), point.radius, 1e-12);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3d way(random.normal(), random.normal(), random.normal());
+      EXPECT_GE((centre + point.radius * way.normalized()).z(), lowest.z() - 1e-12);
+    }
+  }
+}
+
 TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) {
   Random random(1, {9});
   for (int n = 0; n < 10; ++n) {

@@ -219,10 +219,8 @@ TEST(Retarget, StandsOnTheFloor) {
     const Character character = make_character();
     for (std::size_t t = 0; t < poses.size(); t += 10) {
       double lowest = 1e9;
-      for (const ContactPoint& point : character.contact_points) {
-        const auto b = static_cast<std::size_t>(point.body);
-        lowest = std::min(lowest, (poses[t].p_WB[b] + poses[t].q_WB[b] * point.p_B).z() - point.radius);
-      }
+      for (const ContactPoint& point : character.contact_points)
+        lowest = std::min(lowest, lowest_position(point, poses[t]).z());
       EXPECT_NEAR(lowest, 0.0, 0.02) << height << ' ' << t;
     }
   }

@@ -13,10 +13,7 @@ std::vector<Vector3d> contact_positions(const Character& c, const Simulation<dou
   read_lane(s.state, 0, now);
   const BodyPoses poses = forward_kinematics(c, now.p_root, now.q);
   std::vector<Vector3d> points;
-  for (const ContactPoint& p : c.contact_points) {
-    const auto i = static_cast<std::size_t>(p.body);
-    points.push_back(poses.p_WB[i] + poses.q_WB[i] * p.p_B - Vector3d(0, 0, p.radius));
-  }
+  for (const ContactPoint& p : c.contact_points) points.push_back(lowest_position(p, poses));
   return points;
 }
 

@@ -47,10 +47,8 @@ Snapshot random_snapshot(Random& random, double angle, double speed, double heig
 double lowest_point(const Character& character, const Snapshot& s) {
   const BodyPoses poses = forward_kinematics(character, s.p_root, s.q);
   double lowest = 1e9;
-  for (const ContactPoint& point : character.contact_points) {
-    const auto i = static_cast<std::size_t>(point.body);
-    lowest = std::min(lowest, (poses.p_WB[i] + poses.q_WB[i] * point.p_B).z() - point.radius);
-  }
+  for (const ContactPoint& point : character.contact_points)
+    lowest = std::min(lowest, lowest_position(point, poses).z());
   return lowest;
 }
 
