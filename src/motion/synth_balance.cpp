@@ -96,7 +96,7 @@ double weight_at(const std::vector<PlanFrame>& plan, std::size_t i, double fps) 
   return std::max(0.0, kGravity + fps * fps * rise);
 }
 
-/// The smooth track whose second differences are `wanted` in the frames that are `bound`.
+/// The smooth track whose second differences come closest to `wanted` in the frames that are `bound`.
 Eigen::MatrixX3d track_of_accelerations(const Eigen::MatrixX3d& wanted, const std::vector<bool>& bound) {
   const Eigen::Index n = wanted.rows();
   std::vector<Eigen::Triplet<double>> entries;
@@ -123,7 +123,7 @@ Eigen::MatrixX3d track_of_accelerations(const Eigen::MatrixX3d& wanted, const st
 /// Tilts the pelvis, and the trunk with it, against what else would turn the body where the floor cannot.
 /// @param drawn    the plan before any tilt
 /// @param rates    `spin_rates` of the motion with the last tilt
-/// @param wanted   [frames] second differences of the tilt so far; corrected
+/// @param wanted   [frames] second differences asked of the tilt, rad; corrected by what is left of `rates`
 /// @param plan     gets the pelvis of `drawn` with the new tilt
 void keep_spin_in_flight(const std::vector<PlanFrame>& drawn, const std::vector<Vector3d>& rates, double fps,
                          Eigen::MatrixX3d& wanted, std::vector<PlanFrame>& plan) {
@@ -150,7 +150,8 @@ std::vector<bool> on_parabola(const std::vector<PlanFrame>& plan) {
 }
 
 /// Lowers the centre of mass, smoothly in time, where a knee of `motion` is straighter than it should be. On
-/// the parabola of a flight the height is not free: there the plan must be right from the start.
+/// the parabola of a flight the height is not free: there the plan must be right from the start, and a need
+/// within kSpread frames of it leaves a step in the height.
 void lower_where_stretched(const Character& character, const std::vector<SynthPose>& motion,
                            std::vector<PlanFrame>& plan) {
   constexpr int kSpread = 7;
@@ -236,13 +237,13 @@ std::vector<SynthPose> solve_plan(const Character& character, std::vector<PlanFr
   const std::vector<PlanFrame> drawn = plan;
   std::vector<SynthPose> motion(plan.size());
   std::vector<Eigen::Vector2d> moment(plan.size(), Eigen::Vector2d::Zero());  // ℓ of the header
-  Eigen::MatrixX3d turn = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(plan.size()), 3);
+  Eigen::MatrixX3d wanted_tilt = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(plan.size()), 3);
   for (int iteration = 0; iteration < kBalanceIterations; ++iteration) {
     if (iteration > 0) {
       lower_where_stretched(character, motion, plan);
       const std::vector<Vector3d> rates = spin_rates(character, motion, fps);
       for (std::size_t i = 0; i < plan.size(); ++i) moment[i] = {rates[i].y(), -rates[i].x()};
-      keep_spin_in_flight(drawn, rates, fps, turn, plan);
+      keep_spin_in_flight(drawn, rates, fps, wanted_tilt, plan);
     }
     const std::vector<Eigen::Vector2d> path = com_path(plan, moment, fps);
     for (std::size_t i = 0; i < plan.size(); ++i)

@@ -8,8 +8,8 @@
 /// accelerations, this is one tridiagonal system per axis, with c = p at both ends. ℓ depends on the
 /// motion: the system is solved again with the ℓ of the last motion (a fixed point). In flight the equation
 /// is c̈ = 0, and a track of height that is a parabola there gives ballistic flight. Nothing turns a body in
-/// flight, L is constant: pelvis and trunk are tilted by the smoothest track that takes up what legs and arms
-/// do there (the same fixed point).
+/// flight, L is constant: pelvis and trunk are tilted by a smooth track that takes up what legs and arms do
+/// there, and where the floor carries under 0.3 of the weight (the same fixed point).
 /// What it does not do: ask for joint torques or contacts (pipeline/feasibility.h does); move the feet.
 #pragma once
 

@@ -55,7 +55,7 @@ std::vector<Contact> draw_contacts(const PlanRequest& request, double step) {
   return contacts;
 }
 
-/// The load rolls over the flat foot to its ball.
+/// The load rolls over the foot to its ball.
 void roll_over_soles(const Character& character, const std::vector<Contact>& contacts, double begin,
                      FeetTracks& feet) {
   const double forefoot = forefoot_length(character), middle = feet_middle(character);

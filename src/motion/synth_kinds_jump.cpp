@@ -61,7 +61,7 @@ JumpPostures jump_postures(const Character& character, const PlanFrame& stand, R
     return com_height_for_knee(character, frame, frame.pressure, knee_degrees * kDegree);
   };
   PlanFrame on_toes = p.leave;
-  for (FootTarget& foot : on_toes.foot) foot.heel_rise = 18.0 * kDegree;
+  for (FootTarget& foot : on_toes.foot) foot.heel_rise = 18.0 * kDegree;  // a little less than when leaving
   p.leave.com_height = height(on_toes, 38.0);
   p.crouch.com_height = height(p.crouch, random.uniform(72.0, 84.0));
   p.soft.com_height = height(p.soft, random.uniform(68.0, 80.0));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/synth_kinds.h"
+
 namespace mimicx {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kHeelLead = 0.11;       ///< the heel rises this long before th
 constexpr double kHeelLeadShare = 0.25;  ///< and not before this last share of the time the foot stands
 constexpr double kRollDown = 0.10;       ///< from heel strike to flat foot, s
 // A running foot: a frame after leaving and a frame before landing it is so high, and so fast.
-constexpr double kFrame = 1.0 / 30.0;
+constexpr double kFrame = 1.0 / kSynthFps;
 constexpr double kRunningHeight = 0.010, kRunningSpeed = 0.35;  ///< m, m/s
 constexpr double kRunningLead = 0.07;  ///< its heel rises this long before it leaves, s
 

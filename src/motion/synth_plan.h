@@ -61,7 +61,8 @@ struct FeetTracks {
 FeetTracks standing_feet(const Character& character, const std::array<FootTarget, 2>& start);
 
 /// Feet that walk: heel first, flat, then over the toes; the load moves over while both feet stand.
-/// @param swings  in order of their starts, never both feet in the air
+/// @param swings  in order of their starts; where both feet are in the air (running), load and pressure are
+///                the caller's to set
 /// @param settle  time the load takes from the middle to a foot before the first swing and back at the end, s
 FeetTracks stepping_feet(const Character& character, const std::array<FootTarget, 2>& start,
                          const std::vector<FootSwing>& swings, double settle);

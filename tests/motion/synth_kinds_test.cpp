@@ -28,7 +28,7 @@ void expect_parabolas(const std::string& kind, double clear, int frames) {
 /// The feet of a jump lift a moment before the body leaves the floor.
 TEST(Jump, FliesOnAParabola) { expect_parabolas("jump", 0.01, 6); }
 
-TEST(Jog, FliesOnAParabolaBetweenItsSteps) { expect_parabolas("jog", 0.001, 10); }
+TEST(Jog, FliesOnAParabolaBetweenItsSteps) { expect_parabolas("jog", 0.008, 10); }
 
 /// Angular momentum about the centre of mass between the frames t and t + 1, kg·m²/s.
 Vector3d angular_momentum(const Motion& m, std::size_t t) {
@@ -55,7 +55,7 @@ TEST(Flights, NothingTurnsABodyThatTouchesNothing) {
     }
 }
 
-/// 5 mm: what the metrics still call contact.
+/// The metrics call up to 5 mm contact: 8 mm is clear of it.
 TEST(Jog, IsClearOfTheFloorInEveryFrameOfAFlight) {
   for (const Motion& m : motions("jog"))
     for (std::size_t t = 0; t < m.frames(); ++t)

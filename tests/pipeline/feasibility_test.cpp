@@ -94,11 +94,10 @@ TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
     options.betas_from_seed = true;
     const Feasibility f = feasibility(synthesize(options));
     EXPECT_LT(f.mean_force, 0.001) << kind;
-    EXPECT_LT(f.mean_moment, 0.002) << kind;
+    EXPECT_LT(f.mean_moment, 0.001) << kind;
     EXPECT_LT(f.max_force, 0.02) << kind;
     EXPECT_LT(f.max_moment, 0.03) << kind;
-    EXPECT_LT(f.worst_torque, 1.1) << kind;
-    EXPECT_LE(f.frames_over_limit, 1) << kind;
+    EXPECT_LT(f.worst_torque, 1.0) << kind;
   }
 }
 
