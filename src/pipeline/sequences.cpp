@@ -265,7 +265,7 @@ void copy_clean(const RunState& run, const SequenceEntry& entry) {
 
 TrainingConfig fine_tuning_defaults() {
   TrainingConfig config;
-  config.samples = 2'000'000;
+  config.samples = 3'000'000;
   config.characters = 128;
   config.group_size = 32;
   config.ppo.sigma_start = 0.04;
