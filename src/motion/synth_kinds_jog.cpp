@@ -108,10 +108,9 @@ FeetTracks jogging_feet(const Character& character, const std::array<FootTarget,
 MinJerkTrack jogging_height(const Character& character, const PlanFrame& stand,
                             const std::vector<Contact>& contacts, double step) {
   // At landing and leaving the foot is half a stance's way from the centre of mass.
-  PlanFrame landing = stand;
   const double away = 0.5 * step * kStance / (kStance + kFlight);
   const double low =
-      com_height_for_knee(character, landing, stand.pressure - Eigen::Vector2d(away, 0.0), kLandingKnee);
+      com_height_for_knee(character, stand, stand.pressure - Eigen::Vector2d(away, 0.0), kLandingKnee);
   const double velocity = 0.5 * kGravity * kFlight;
   const double begin = contacts[1].land - on_frame(kFirstSwing);
   std::vector<Knot> height = {{begin - 0.3, stand.com_height}, {contacts[1].land, low}};
