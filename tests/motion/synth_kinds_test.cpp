@@ -30,31 +30,6 @@ TEST(Jump, FliesOnAParabola) { expect_parabolas("jump", 0.01, 6); }
 
 TEST(Jog, FliesOnAParabolaBetweenItsSteps) { expect_parabolas("jog", 0.008, 10); }
 
-/// Angular momentum about the centre of mass between the frames t and t + 1, kg·m²/s.
-Vector3d angular_momentum(const Motion& m, std::size_t t) {
-  const Vector3d com = 0.5 * (m.com(t) + m.com(t + 1));
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t b = 0; b < kBodies; ++b) {
-    const Vector3d p = m.mass_center(t, b), next = m.mass_center(t + 1, b);
-    const Quaterniond &q = m.poses[t].q_WB[b], &q_next = m.poses[t + 1].q_WB[b];
-    sum += m.character.mass[b] * (0.5 * (p + next) - com).cross((next - p) / kDt) +
-           q.slerp(0.5, q_next) * (m.character.inertia_B[b] * log_map(q.conjugate() * q_next) / kDt);
-  }
-  return sum;
-}
-
-TEST(Flights, NothingTurnsABodyThatTouchesNothing) {
-  for (const char* kind : {"jump", "jog"})
-    for (const Motion& m : motions(kind)) {
-      const double weight = m.character.total_mass() * kG;
-      for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
-        if (m.lowest(t) < 0.001) continue;
-        const Vector3d moment = (angular_momentum(m, t) - angular_momentum(m, t - 1)) / kDt;
-        EXPECT_LT(moment.norm(), 0.03 * weight) << m.clip.name << ", frame " << t;
-      }
-    }
-}
-
 /// The metrics call up to 5 mm contact: 8 mm is clear of it.
 TEST(Jog, IsClearOfTheFloorInEveryFrameOfAFlight) {
   for (const Motion& m : motions("jog"))

@@ -137,6 +137,19 @@ TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
   });
 }
 
+TEST(Flights, NothingTurnsABodyThatTouchesNothing) {
+  for (const char* kind : {"jump", "jog"})
+    for (const Motion& m : motions(kind)) {
+      const double weight = m.character.total_mass() * kG;
+      for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
+        if (m.lowest(t) < 0.001) continue;
+        const Wrench wrench = required_wrench(m, t);
+        const Vector3d moment = wrench.moment - m.com(t).cross(wrench.force);
+        EXPECT_LT(moment.norm(), 0.03 * weight) << m.clip.name << ", frame " << t;
+      }
+    }
+}
+
 /// The tests' own inverse dynamics against the plan the motion was solved from.
 TEST(SolvePlan, PutsTheCentreOfPressureWhereThePlanHasIt) {
   const std::map<std::string, double> tolerances = {
