@@ -11,8 +11,6 @@
 namespace mimicx {
 namespace {
 
-constexpr double kMaxBeta = 5.0;
-
 Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 
 /// How one shape parameter stretches the offsets: joint position += β · gain · (offset, component-wise).
@@ -369,6 +367,13 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
 Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses) {
   const auto body = static_cast<std::size_t>(point.body);
   return poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
+}
+
+double lowest_contact(const Character& character, const BodyPoses& poses) {
+  double lowest = HUGE_VAL;
+  for (const ContactPoint& point : character.contact_points)
+    lowest = std::min(lowest, lowest_position(point, poses).z());
+  return lowest;
 }
 
 }  // namespace mimicx

@@ -124,8 +124,10 @@ struct Character {
   double total_mass() const;
 };
 
+inline constexpr double kMaxBeta = 5.0;
+
 /// The character of a shape. β = 0 is the standard body (1.72 m, 70 kg).
-/// @throws std::invalid_argument unless every |β_k| ≤ 5.
+/// @throws std::invalid_argument unless every |β_k| ≤ `kMaxBeta`.
 Character make_character(const std::array<double, kBetas>& betas = {});
 
 /// Rest positions of the joints in a body model's frame (y up), m; index = Body.
@@ -152,5 +154,7 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
 
 /// World position of the lowest point of a contact point's sphere, m.
 Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses);
+/// World height of the character's lowest contact point, m.
+double lowest_contact(const Character& character, const BodyPoses& poses);
 
 }  // namespace mimicx

@@ -1,14 +1,8 @@
 #include "core/character_tables.h"
 
-#include <numbers>
+#include "core/units.h"
 
 namespace mimicx {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-}  // namespace
-
 bool is_right(int body) { return kBodyNames[static_cast<std::size_t>(body)].starts_with("right"); }
 
 Vector3d standard_offset(int body) {

@@ -39,6 +39,12 @@ Quaterniond rotation_z(double angle) {
   return Quaterniond(std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle));
 }
 
+double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+Quaterniond rotation_between(const Vector3d& from, const Vector3d& to) {
+  return Quaterniond::FromTwoVectors(from, to);
+}
+
 Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis) {
   const double along = q.vec().dot(axis);
   const double norm = std::hypot(q.w(), along);

@@ -27,6 +27,10 @@ Vector6d rotation_6d(const Quaterniond& q);
 double heading_angle(const Quaterniond& q_WB);
 /// Rotation about the world's vertical.
 Quaterniond rotation_z(double angle);
+/// Angle of two directions of any length, in [0, π], exact near both ends.
+double angle_between(const Vector3d& a, const Vector3d& b);
+/// The shortest rotation from one direction to another, of any lengths.
+Quaterniond rotation_between(const Vector3d& from, const Vector3d& to);
 /// Swing-twist: q = swing · twist with twist about the unit axis (child side).
 Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis);
 

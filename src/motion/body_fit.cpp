@@ -7,7 +7,6 @@ namespace mimicx {
 namespace {
 
 using Betas = std::array<double, kBetas>;
-constexpr double kMaxBeta = 5.0;
 
 using Vector = Eigen::VectorXd;
 

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "core/units.h"
 #include "motion/text_input.h"
 
 namespace mimicx {
@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMaxJoints = 4096;
 constexpr std::size_t kMaxDepth = 256;
-constexpr std::size_t kMaxChannels = 6;  ///< of one joint
-constexpr double kMaxValue = 1e7;        ///< degrees or file units: 10 km in millimetres
+constexpr std::size_t kMaxChannels = 6;   ///< of one joint
+constexpr double kMaxChannelValue = 1e7;  ///< degrees or file units: 10 km in millimetres
 
 /// One column of the MOTION part.
 struct Channel {
@@ -39,7 +39,7 @@ bool is_word(std::string_view word, std::string_view keyword) {
 
 double bounded_number(TextInput& in, const std::string& what) {
   const double value = in.number(what);
-  if (std::abs(value) > kMaxValue) in.fail_with("a number within ±1e7", std::to_string(value));
+  if (std::abs(value) > kMaxChannelValue) in.fail_with("a number within ±1e7", std::to_string(value));
   return value;
 }
 
@@ -125,7 +125,6 @@ double read_fps(TextInput& in, SkeletonMotion& motion) {
 }
 
 void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, SkeletonMotion& motion) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const std::size_t count = hierarchy.channels.size();
   auto& translation = motion.translation.emplace_back();
   for (const SkeletonJoint& joint : hierarchy.joints) translation.push_back(joint.offset);
@@ -133,7 +132,7 @@ void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, Sk
   for (std::size_t c = 0; c < count; ++c) {
     const std::string_view word = c == 0 ? in.word() : in.word_on_line();
     double value = 0.0;
-    if (word.empty() || !parse_number(word, value) || std::abs(value) > kMaxValue) {
+    if (word.empty() || !parse_number(word, value) || std::abs(value) > kMaxChannelValue) {
       const std::string place = "number " + std::to_string(c + 1) + " of the " + std::to_string(count) +
                                 " of frame " + std::to_string(frame + 1);
       if (!word.empty()) in.fail(place, word);

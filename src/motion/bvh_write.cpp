@@ -4,12 +4,11 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/units.h"
 #include "motion/bvh.h"
 
 namespace mimicx {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string number(double value) {
   char text[32];

@@ -8,7 +8,6 @@ namespace {
 
 constexpr int kPoseColumns = 3 * kBodies;  ///< root and 21 joints
 constexpr double kMaxFps = 2000.0;
-constexpr double kMaxBeta = 5.0;  ///< bound of `make_character`
 
 /// A member as doubles, with what is needed to complain about it.
 struct Member {
@@ -258,6 +257,21 @@ NpyArray rest_joints_member(const RestJoints& joints) {
 
 std::array<double, kBetas> Clip::usable_betas() const {
   return body_model == "mimicx" ? betas : std::array<double, kBetas>{};
+}
+
+void require_usable(const Clip& clip, int frames) {
+  if (clip.frames() < frames)
+    throw DataError(clip.name, "", "at least " + std::to_string(frames) + " frames",
+                    std::to_string(clip.frames()));
+  if (clip.trans.size() != clip.rotations.size())
+    throw DataError(clip.name, "trans", std::to_string(clip.rotations.size()) + " frames",
+                    std::to_string(clip.trans.size()));
+  for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
+    bool finite = clip.trans[t].allFinite();
+    for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
+    if (!finite)
+      throw DataError(clip.name, "frame " + std::to_string(t), "finite numbers", "one that is not");
+  }
 }
 
 std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip) {

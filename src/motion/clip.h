@@ -60,6 +60,10 @@ Vector3d rest_pelvis(const Clip& clip);
 /// the pelvis in the world stay.
 void put_on_body_of(const Clip& other, Clip& clip);
 
+/// @throws DataError naming clip and frame unless it has at least `frames` of them, a place for each, and
+/// finite numbers alone.
+void require_usable(const Clip& clip, int frames);
+
 /// Joint rotations as quaternions, [frames][22].
 std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip);
 

@@ -10,8 +10,8 @@ namespace mimicx {
 namespace {
 
 constexpr int kColumns = 44;
-constexpr int kMaxDepth = 64;      ///< of values that are skipped
-constexpr double kMaxValue = 1e4;  ///< m, rad
+constexpr int kMaxNesting = 64;         ///< of values that are skipped
+constexpr double kMaxFrameValue = 1e4;  ///< m, rad
 
 /// A joint of the humanoid: where it stands in its parent's frame (m) and what a row says of it.
 struct HumanoidJoint {
@@ -48,7 +48,7 @@ const std::array<HumanoidJoint, 17>& humanoid() {
 
 /// Any JSON value, checked and forgotten.
 void skip_value(TextInput& in, int depth) {
-  if (depth > kMaxDepth) in.fail_with("at most 64 levels of brackets", "more");
+  if (depth > kMaxNesting) in.fail_with("at most 64 levels of brackets", "more");
   const std::string_view word = in.word();
   if (word == "\"") {
     in.quoted();
@@ -80,7 +80,7 @@ std::array<double, kColumns> read_row(TextInput& in, std::size_t frame) {
     if (c > 0) in.expect(",");
     double& value = row[static_cast<std::size_t>(c)];
     value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame + 1));
-    if (std::abs(value) > kMaxValue) in.fail_with("a number within ±10000", std::to_string(value));
+    if (std::abs(value) > kMaxFrameValue) in.fail_with("a number within ±10000", std::to_string(value));
   }
   in.expect("]");
   return row;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/units.h"
 #include "motion/surface.h"
 
 namespace mimicx {
@@ -13,7 +13,6 @@ constexpr double kStandingSpeed = 0.4;    // m/s
 constexpr double kStandingHeight = 0.06;  // m over the low percentile
 constexpr double kLowShare = 0.1;
 constexpr int kFewestFrames = 10;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSmallest = 10.0 * kDegree, kLargest = 30.0 * kDegree;
 constexpr double kLargestBend = 60.0 * kDegree;
 
@@ -42,7 +41,7 @@ Quaterniond levelling(const std::vector<BodyPoses>& poses, const std::vector<boo
   if (static_cast<int>(up[0].size()) < kFewestFrames) return Quaterniond::Identity();
   const Vector3d median(quantile(up[0], 0.5), quantile(up[1], 0.5), quantile(up[2], 0.5));
   if (median.norm() < 0.5) return Quaterniond::Identity();  // no common direction
-  const Vector3d rotation = log_map(Quaterniond::FromTwoVectors(Vector3d::UnitY(), median));
+  const Vector3d rotation = log_map(rotation_between(Vector3d::UnitY(), median));
   const double angle = rotation.norm();
   if (angle < kSmallest || angle > 1.5 * kLargest) return Quaterniond::Identity();
   return exp_map(std::min(1.0, kLargest / angle) * rotation);

@@ -2,34 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "motion/fit_problem.h"
 #include "motion/reference.h"
 
 namespace mimicx {
 namespace {
 
-constexpr double kMm = 1000.0, kPercent = 100.0, kDegree = std::numbers::pi / 180.0;
-constexpr int kFewestFrames = 4;           ///< that show a tremor
+constexpr double kPercent = 100.0;
+constexpr int kTremorFrames = 4;           ///< that show a tremor
 constexpr int kUnsettled = 3;              ///< iterations until the motion is on the floor
 constexpr double kLargestTurn = 0.35;      ///< rad: longest step of one joint in one iteration
 constexpr std::size_t kFewestPoints = 6;   ///< joints among the keypoints, else there is nothing to fit to
 constexpr double kFarOff = 3.0;            ///< kernels: a detection this far off was set aside
 constexpr double kSmallestStep = 1e-5;     ///< rad and m: below, the fit has converged
 constexpr double kBlindPriorFrames = 5.0;  ///< `prior_frames` where nothing but the input tells of the pose
-
-void require_usable(const Clip& clip) {
-  if (clip.frames() < 3) throw DataError(clip.name, "", "at least 3 frames", std::to_string(clip.frames()));
-  for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
-    bool finite = clip.trans[t].allFinite();
-    for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
-    if (!finite)
-      throw DataError(clip.name, "frame " + std::to_string(t), "finite numbers", "one that is not");
-  }
-}
 
 /// A state with everything that follows from it.
 struct Evaluated {
@@ -200,7 +190,7 @@ Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* repor
   if (!clip.keypoints) {
     r.notes.push_back("no keypoints: left as it is");
   } else {
-    require_usable(clip);
+    require_usable(clip, 3);
     FitProblem problem = make_problem(clip, options);
     if (const std::string why = reason_to_refuse(problem); !why.empty())
       r.notes.push_back(why);
@@ -214,8 +204,8 @@ Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* repor
 Clip steady(const Clip& clip, const FitOptions& options, FitReport* report) {
   FitReport r;
   if (report) *report = r;
-  if (clip.frames() < kFewestFrames) return clip;
-  require_usable(clip);
+  if (clip.frames() < kTremorFrames) return clip;
+  require_usable(clip, 3);
   Clip blind = clip;
   blind.keypoints.reset();
   FitOptions trusting = options;

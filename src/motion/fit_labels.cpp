@@ -11,9 +11,9 @@ constexpr double kFar = 0.15;        ///< heights of the box: farther detections
 constexpr double kBetter = 0.4;      ///< a swap must lower a limb's cost to this share …
 constexpr double kFarEnough = 0.03;  ///< … and its points must be so far off on average, heights of the box
 
-constexpr double kStandingSpeed = 0.3;                             ///< m/s over five frames at 30 fps
-constexpr double kStandingHeight = 0.03, kUnsettledHeight = 0.05;  ///< m
-constexpr double kLowShare = 0.1;
+constexpr double kLabelSpeed = 0.3;                             ///< m/s over five frames at 30 fps
+constexpr double kLabelHeight = 0.03, kUnsettledHeight = 0.05;  ///< m
+constexpr double kLabelLowShare = 0.1;
 constexpr double kSpeedWindow = 2.0 / 30.0;  ///< s to either side
 
 bool is_leg(int body) {
@@ -90,17 +90,17 @@ Contacts find_contacts(const std::vector<FootPositions>& feet, double fps, bool 
         lowest.push_back(z);
       }
       const auto low =
-          lowest.begin() + static_cast<std::ptrdiff_t>(kLowShare * static_cast<double>(lowest.size()));
+          lowest.begin() + static_cast<std::ptrdiff_t>(kLabelLowShare * static_cast<double>(lowest.size()));
       std::nth_element(lowest.begin(), low, lowest.end());
       floor = *low;
     }
-    const double ceiling = floor + (settled ? kStandingHeight : kUnsettledHeight);
+    const double ceiling = floor + (settled ? kLabelHeight : kUnsettledHeight);
     for (std::size_t t = 0; t < feet.size(); ++t) {
       const std::size_t before = t > window ? t - window : 0, after = std::min(t + window, last);
       for (std::size_t i = first; i < end; ++i) {
         const double speed =
             (feet[after][i] - feet[before][i]).norm() * fps / static_cast<double>(after - before);
-        contacts[t][i] = feet[t][i].z() < ceiling && speed < kStandingSpeed;
+        contacts[t][i] = feet[t][i].z() < ceiling && speed < kLabelSpeed;
       }
     }
   }

@@ -10,7 +10,6 @@
 namespace mimicx {
 namespace {
 
-constexpr double kMaxBeta = 5.0;           ///< bound of `make_character`
 constexpr double kClosest = 0.2;           ///< m in front of the camera, else nothing is seen
 constexpr double kMedianToSigma = 1.4826;  ///< of a normal distribution
 constexpr double kThirdDifference = 20.0;  ///< variance of a third difference of white noise of variance 1

@@ -1,15 +1,14 @@
 /// The terms of the keypoint fit and their normal equations.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/units.h"
 #include "motion/estimator_error.h"
 #include "motion/fit_problem.h"
 
 namespace mimicx {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFps = 30.0;          ///< frame rate at which the options' rates are meant
 constexpr double kWristFactor = 3.0;   ///< wrists move fast and blur
 constexpr double kFloorKernel = 0.03;  ///< m: a "standing" foot so far off the floor has lost half its weight

@@ -13,14 +13,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "core/units.h"
 #include "motion/reference.h"
 
 namespace mimicx {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis: such a joint stays as it is
 constexpr double kStraightWeight = 0.06;           ///< κ²: pull to SMPL's own swivel, in units of sin²α
 constexpr double kStraightFrom = 15.0 * kDegree;   ///< the pull fades out …
@@ -66,8 +65,6 @@ double blended_swivel(double exact, double bend, double hinged_bend) {
   return std::arg(std::sin(bend) * std::sin(hinged_bend) * std::polar(1.0, exact) + pull);
 }
 
-double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 /// @param R  world rotations of the SMPL motion; @param q  joint rotations to change
 void convert_limb(const Character& character, const Limb& limb, const std::array<Quaterniond, kBodies>& R,
                   std::array<Quaterniond, kBodies>& q) {
@@ -83,7 +80,7 @@ void convert_limb(const Character& character, const Limb& limb, const std::array
   const Vector3d u = R[A] * a, v = R[B] * b, line = (u + v).normalized();
   const Quaterniond bend = exp_map(solve_hinge(a, b, axis, u.dot(v)) * axis);
   const Vector3d chain = a + bend * b;  // from A's joint to C's, in A's frame
-  const Quaterniond aimed = Quaterniond::FromTwoVectors(R[A] * chain, line) * R[A];
+  const Quaterniond aimed = rotation_between(R[A] * chain, line) * R[A];
   const double exact = angle_about(line, aimed * a, u);
   const double swivel = blended_swivel(exact, angle_between(u, v), angle_between(a, bend * b));
   const Quaterniond upper = (Quaterniond(Eigen::AngleAxisd(swivel, line)) * aimed).normalized();

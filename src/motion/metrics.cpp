@@ -5,10 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/units.h"
+
 namespace mimicx {
 namespace {
 
-constexpr double kMm = 1000.0;
 constexpr double kContactHeight = 0.005;  ///< m; a point at or under it touches the floor
 constexpr double kStaticMotion = 0.010;   ///< m/frame; a foot point of the truth under it stands
 constexpr double kMaxBodyDistance = 0.5;  ///< m

@@ -12,16 +12,16 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kFps = 30.0;
+constexpr double kMotionXFps = 30.0;
 constexpr double kAistScale = 1.0 / 94.0;  ///< of the data set's README
 constexpr Index kBody = 0, kTrans = 309, kBetaColumns = 312;
 
 /// Columns that pass through, and the names they get.
-struct Part {
+struct Columns {
   const char* name;
   Index first, columns;
 };
-constexpr Part kParts[] = {
+constexpr Columns kParts[] = {
     {"pose_hand", 66, 90}, {"pose_jaw", 156, 3}, {"expression", 159, 50}, {"face_shape", 209, 100}};
 
 void require_layout(const NpyArray& array, const std::string& path) {
@@ -62,7 +62,7 @@ Clip motionx_from(const NpyArray& array, const std::string& name, const std::str
       throw DataError(path, "frame " + std::to_string(t), "finite numbers", "one that is not");
   Clip clip;
   clip.name = name;
-  clip.fps = kFps;
+  clip.fps = kMotionXFps;
   clip.body_model = "smplx";
   clip.decisions.emplace_back("format: Motion-X (30 fps, SMPL-X)");
   for (Index t = 0; t < values.rows(); ++t) {
@@ -72,7 +72,7 @@ Clip motionx_from(const NpyArray& array, const std::string& name, const std::str
     clip.trans.emplace_back(values.row(t).segment<3>(kTrans));
   }
   read_betas(values, clip);
-  for (const Part& part : kParts)
+  for (const Columns& part : kParts)
     clip.passthrough.emplace_back(part.name, from_matrix(values.middleCols(part.first, part.columns)));
   if (may_scale) undo_aist(clip);
   rotate_world(rotation_to_z_up('y'), clip);
@@ -80,7 +80,7 @@ Clip motionx_from(const NpyArray& array, const std::string& name, const std::str
 }
 
 NpyArray to_motionx(const Clip& clip) {
-  if (clip.fps != kFps) throw std::invalid_argument("Motion-X files are at 30 fps: give --rate 30");
+  if (clip.fps != kMotionXFps) throw std::invalid_argument("Motion-X files are at 30 fps: give --rate 30");
   Clip out = clip;
   if (clip.body_model != "smplx") {
     // The same pelvis on SMPL-X's mean body: a shape of another model means nothing there.
@@ -97,7 +97,7 @@ NpyArray to_motionx(const Clip& clip) {
     values.row(t).segment<3>(kTrans) = out.trans[frame];
     for (std::size_t k = 0; k < kBetas; ++k) values(t, kBetaColumns + static_cast<Index>(k)) = out.betas[k];
   }
-  for (const Part& part : kParts)
+  for (const Columns& part : kParts)
     for (const auto& [name, array] : clip.passthrough) {
       const bool smplh_hands = name == "poses_rest" && part.name == std::string("pose_hand");
       const std::vector<std::size_t> shape = {static_cast<std::size_t>(out.frames()),

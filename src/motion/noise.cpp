@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/units.h"
 #include "motion/estimator_error.h"
 #include "motion/noise_streams.h"
 #include "motion/surface.h"
@@ -12,8 +13,6 @@
 
 namespace mimicx {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// still·N + slow·S + jitter·J, each from the stream, in this order.
 std::vector<double> three_scales(Random& random, int frames, double still, double slow, double slow_frames,
@@ -26,10 +25,10 @@ std::vector<double> three_scales(Random& random, int frames, double still, doubl
   return sum;
 }
 
-using Rotations = std::vector<std::array<Quaterniond, kBodies>>;
+using MotionRotations = std::vector<std::array<Quaterniond, kBodies>>;
 
 /// Item 1 of the model: errors of the joint rotations, about the child's axes.
-void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, Rotations& q) {
+void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, MotionRotations& q) {
   const int frames = static_cast<int>(q.size());
   for (int body = 1; body < kBodies; ++body) {
     const auto b = static_cast<std::size_t>(body);
@@ -45,7 +44,7 @@ void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, Rotati
 }
 
 /// Item 2: occlusions.
-void apply_bursts(const std::vector<Burst>& bursts, Rotations& q) {
+void apply_bursts(const std::vector<Burst>& bursts, MotionRotations& q) {
   for (const Burst& burst : bursts)
     for (int k = 0; k < burst.length; ++k) {
       const double window = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (k + 0.5) / burst.length);
@@ -55,7 +54,7 @@ void apply_bursts(const std::vector<Burst>& bursts, Rotations& q) {
 }
 
 /// Item 3: orientation of the root, about the world's axes.
-void disturb_root(const NoisePreset& p, std::uint64_t seed, double fps, Rotations& q) {
+void disturb_root(const NoisePreset& p, std::uint64_t seed, double fps, MotionRotations& q) {
   const int frames = static_cast<int>(q.size());
   Random random(seed, {kRootStream}), walk(seed, {kHeadingStream});
   std::array<std::vector<double>, 3> error;
@@ -103,8 +102,8 @@ void disturb_path(const NoisePreset& p, std::uint64_t seed, double fps, const Ve
 
 /// Item 5: height. Estimators put feet on a floor, more or less, and that floor is off.
 void disturb_height(const NoisePreset& p, std::uint64_t seed, double fps,
-                    const std::vector<double>& true_support, const Character& character, const Rotations& q,
-                    std::vector<Vector3d>& p_root) {
+                    const std::vector<double>& true_support, const Character& character,
+                    const MotionRotations& q, std::vector<Vector3d>& p_root) {
   const int frames = static_cast<int>(q.size());
   const std::vector<SurfacePoint> surface = surface_points(character);
   std::vector<double> error(q.size());
@@ -221,7 +220,7 @@ Clip add_noise(const Clip& truth, const NoiseOptions& options) {
   const Vector3d rest = rest_pelvis(truth.body_model);
   const Character character = make_character(truth.betas);
   const std::vector<SurfacePoint> surface = surface_points(character);
-  Rotations q(truth.rotations.size());
+  MotionRotations q(truth.rotations.size());
   std::vector<Vector3d> p_root;
   std::vector<BodyPoses> poses;
   std::vector<double> support;

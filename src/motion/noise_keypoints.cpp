@@ -16,7 +16,7 @@ constexpr double kBorder = 0.05;                     ///< of the picture that st
 // Errors of a detector in units of the person's box; per axis.
 constexpr double kBias = 0.007, kCorrelated = 0.001, kWhite = 0.0005, kOccluded = 0.02;
 constexpr double kCorrelation = 0.6;                    ///< of the correlated part from frame to frame
-constexpr double kWristFactor = 3.0;                    ///< wrists move fast and blur
+constexpr double kWristNoise = 3.0;                     ///< wrists move fast and blur
 constexpr double kDropShare = 0.02;                     ///< keypoints a detector misses
 constexpr double kSwapRate = 0.05;                      ///< left and right of a limb mixed up, per second
 constexpr double kSwapShortest = 3, kSwapLongest = 10;  ///< frames
@@ -133,7 +133,7 @@ Eigen::Vector2d normal_pair(Random& random) {
 std::vector<Vector3d> detector_errors(const Landmark& point, std::size_t k, std::uint64_t seed,
                                       const std::vector<std::vector<char>>& hidden) {
   Random still(seed, {kKeypointBiasStream, k}), random(seed, {kKeypointStream, k});
-  const double factor = point.body == kLeftWrist || point.body == kRightWrist ? kWristFactor : 1.0;
+  const double factor = point.body == kLeftWrist || point.body == kRightWrist ? kWristNoise : 1.0;
   const Eigen::Vector2d bias = kBias * normal_pair(still);
   Eigen::Vector2d wandering = normal_pair(random);  // unit variance at every frame
   std::vector<Vector3d> errors;

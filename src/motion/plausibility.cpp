@@ -1,19 +1,18 @@
 #include "motion/plausibility.h"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "core/units.h"
 #include "motion/surface.h"
 #include "motion/world.h"
 
 namespace mimicx {
 namespace {
-
-constexpr double kGravity = 9.81;
 
 // Unit of length.
 constexpr double kFastSupport = 3.0;   ///< m/s: nothing that carries a human moves as fast for half of a clip
@@ -112,14 +111,15 @@ struct Parabola {
 };
 Parabola fit_parabola(const std::vector<double>& z, std::size_t first, std::size_t last) {
   const auto n = static_cast<Eigen::Index>(last - first + 1);
-  Eigen::MatrixXd powers(n, 3);
+  Eigen::MatrixX3d powers(n, 3);
   Eigen::VectorXd values(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto s = static_cast<double>(i) - 0.5 * static_cast<double>(n - 1);
     powers.row(i) << 1.0, s, 0.5 * s * s;
     values[i] = z[first + static_cast<std::size_t>(i)];
   }
-  const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(values);
+  const Matrix3d normal = powers.transpose() * powers;
+  const Vector3d c = normal.inverse() * (powers.transpose() * values);
   return {c[2], (powers * c - values).norm() / std::sqrt(static_cast<double>(n))};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/units.h"
 #include "motion/feet.h"
 #include "motion/repair.h"
 #include "motion/surface.h"
@@ -11,7 +12,6 @@
 namespace mimicx {
 namespace {
 
-constexpr double kMm = 1000.0;
 constexpr double kOddFloorShift = 1.0;  ///< m
 constexpr double kOddSpeed = 10.0;      ///< m/s, mean of the pelvis
 constexpr double kUpright = 0.3;        ///< vertical component of the pelvis' up axis
@@ -21,19 +21,6 @@ std::string text(const char* format, double value) {
   char buffer[200];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
-}
-
-void require_usable(const Clip& clip) {
-  if (clip.frames() < 2) throw DataError(clip.name, "", "at least 2 frames", std::to_string(clip.frames()));
-  if (clip.trans.size() != clip.rotations.size())
-    throw DataError(clip.name, "trans", std::to_string(clip.rotations.size()) + " frames",
-                    std::to_string(clip.trans.size()));
-  for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
-    bool finite = clip.trans[t].allFinite();
-    for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
-    if (!finite)
-      throw DataError(clip.name, "frame " + std::to_string(t), "finite numbers", "one that is not");
-  }
 }
 
 /// Largest and mean distance of the joints of two motions, mm.
@@ -105,10 +92,10 @@ void align_with_floor(bool bend, bool known, Reference& reference, PreparationRe
 }  // namespace
 
 Reference prepare_reference(const Clip& clip, const PreparationOptions& options, PreparationReport* report) {
-  require_usable(clip);
+  require_usable(clip, 2);
   PreparationReport r;
   const Clip input = resampled(clip, options.fps);
-  require_usable(input);
+  require_usable(input, 2);
   Clip bridged = input;
   Reference out;
   out.name = clip.name;

@@ -13,7 +13,7 @@ constexpr int kNeighbours = 3;               ///< steps on either side that coun
 constexpr double kMaxGlitch = 1.0 / 3.0;     ///< s
 constexpr double kMaxEndGlitch = 1.0 / 6.0;  ///< s, at either end of the clip
 
-constexpr double kSupportShare = 0.25;         ///< percentile of the lowest point that counts as support
+constexpr double kSupportShare = 0.25;         ///< nearest_rank of the lowest point that counts as support
 constexpr double kSupportWindow = 1.2;         ///< s
 constexpr double kSupportSmoothing = 0.3;      ///< s, standard deviation
 constexpr double kMaxDrift = 0.15;             ///< m
@@ -34,7 +34,7 @@ double implausibility(const std::vector<BodyPoses>& poses,
 }
 
 /// Value below which the given share of the values lies.
-double percentile(std::vector<double> values, double share) {
+double nearest_rank(std::vector<double> values, double share) {
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
@@ -94,7 +94,7 @@ std::vector<bool> find_glitches(const Clip& clip) {
   std::vector<std::ptrdiff_t> jumps = {
       -1};  // a jump at t separates frames t and t + 1; the clip's ends count as two
   for (std::size_t t = 0; t < step.size(); ++t) {
-    const double around = percentile(window(step, t, kNeighbours), 0.5);
+    const double around = nearest_rank(window(step, t, kNeighbours), 0.5);
     if (step[t] > 1.0 && step[t] > kOverNeighbours * around) jumps.push_back(static_cast<std::ptrdiff_t>(t));
   }
   jumps.push_back(frames - 1);
@@ -136,10 +136,10 @@ void bridge_glitches(Clip& clip, const std::vector<bool>& flagged) {
 
 FloorCorrection floor_correction(const std::vector<double>& lowest, double fps, bool known) {
   FloorCorrection out;
-  out.shift = known ? 0.0 : -percentile(lowest, kSupportShare);
+  out.shift = known ? 0.0 : -nearest_rank(lowest, kSupportShare);
   const auto radius = static_cast<std::size_t>(0.5 * kSupportWindow * fps);
   std::vector<double> drift = sliding(lowest, radius, [&](const std::vector<double>& w) {
-    return std::clamp(-percentile(w, kSupportShare) - out.shift, -kMaxDrift, kMaxDrift);
+    return std::clamp(-nearest_rank(w, kSupportShare) - out.shift, -kMaxDrift, kMaxDrift);
   });
   drift = smoothed(drift, kSupportSmoothing * fps);
   std::vector<double> need(lowest.size());

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/units.h"
 #include "motion/body_fit.h"
 #include "motion/retarget_floor.h"
 #include "motion/retarget_solve.h"
@@ -13,8 +14,6 @@
 
 namespace mimicx {
 namespace {
-
-constexpr double kMm = 1000.0;
 
 template <class... Values>
 std::string sentence(const char* format, Values... values) {

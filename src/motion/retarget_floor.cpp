@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 
+#include "core/units.h"
 #include "motion/feet.h"
 #include "motion/surface.h"
 
 namespace mimicx {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kEnough = 10;  ///< standing frames
 
 /// Median of "up" in the ankle's frame while the foot stands; none where it hardly does.
@@ -35,10 +34,6 @@ std::optional<Vector3d> standing_up(const std::vector<BodyPoses>& poses, int ank
   return median.normalized();
 }
 
-double angle_between(const Vector3d& a, const Vector3d& b) {
-  return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
-}
-
 Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -58,7 +53,7 @@ void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip) {
     if (!up) return;
     const double angle = angle_between(*up, Vector3d::UnitY());
     if (angle < kLeast || angle > most) return;
-    const Quaterniond turn = Quaterniond::FromTwoVectors(Vector3d::UnitY(), *up);
+    const Quaterniond turn = rotation_between(Vector3d::UnitY(), *up);
     for (const int body : {ankle, toes}) {
       Quaterniond& q_JB = calibration.q_JB[static_cast<std::size_t>(body)];
       q_JB = (q_JB * turn).normalized();

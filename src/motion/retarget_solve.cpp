@@ -8,7 +8,7 @@
 namespace mimicx {
 namespace {
 
-using Rotations = std::array<Quaterniond, kBodies>;
+using JointRotations = std::array<Quaterniond, kBodies>;
 
 std::size_t at(int body) { return static_cast<std::size_t>(body); }
 
@@ -26,7 +26,7 @@ Vector3d bone_direction(const Character& character, int body) {
 
 /// The shortest rotation in the world that takes q's image of `from` to `to`, applied to q.
 Quaterniond swung(const Quaterniond& q, const Vector3d& from, const Vector3d& to) {
-  return (Quaterniond::FromTwoVectors(q * from, to) * q).normalized();
+  return (rotation_between(q * from, to) * q).normalized();
 }
 
 /// The rotation that takes a to u exactly, and b into the half plane of u and v.
@@ -67,10 +67,10 @@ Quaterniond level_foot(const Character& character, const Landmarks& pose, int an
 }
 
 /// Orientation of all bodies in a neutral pose, from the positions of the joints.
-Rotations neutral_rotations(const Character& character, const Landmarks& pose, const JointMap& map,
-                            const Twists& twists) {
+JointRotations neutral_rotations(const Character& character, const Landmarks& pose, const JointMap& map,
+                                 const Twists& twists) {
   const Vector3d rest = trunk_of(character).direction, x = Vector3d::UnitX();
-  Rotations q;
+  JointRotations q;
   q[kPelvis] = aligned(x, rest, pose.direction(kRightHip, kLeftHip), pose.trunk());
   const Quaterniond chest = aligned(x, rest, pose.direction(kRightShoulder, kLeftShoulder), pose.trunk());
   for (int body = 1; body < kBodies; ++body) {
@@ -89,7 +89,7 @@ Rotations neutral_rotations(const Character& character, const Landmarks& pose, c
 }
 
 /// Lumbar bodies bend so that the middle of the shoulders lies where the skeleton has it, seen from the hips.
-void solve_trunk(const Character& character, const Vector3d& direction, Rotations& q) {
+void solve_trunk(const Character& character, const Vector3d& direction, JointRotations& q) {
   const Trunk trunk = trunk_of(character);
   const auto& offset = character.joint_offset;
   q[kSpine1] = q[kPelvis].slerp(1.0 / 3.0, q[kSpine3]);
@@ -100,7 +100,7 @@ void solve_trunk(const Character& character, const Vector3d& direction, Rotation
   const double along = fixed.dot(direction);
   const double room = bends.squaredNorm() - fixed.squaredNorm() + along * along;
   const double reach = along + std::sqrt(std::max(room, 0.0));
-  const Quaterniond Q = Quaterniond::FromTwoVectors(bends, reach * direction - fixed);
+  const Quaterniond Q = rotation_between(bends, reach * direction - fixed);
   q[kSpine1] = (Q * q[kSpine1]).normalized();
   q[kSpine2] = (Q * q[kSpine2]).normalized();
 }
@@ -114,7 +114,7 @@ Calibration calibrate(const Character& character, const std::vector<Landmarks>& 
   std::array<Eigen::Vector4d, kBodies> sum;
   sum.fill(Eigen::Vector4d::Zero());
   for (const Landmarks& pose : neutral) {
-    const Rotations q = neutral_rotations(character, pose, map, twists);
+    const JointRotations q = neutral_rotations(character, pose, map, twists);
     for (std::size_t b = 0; b < kBodies; ++b) {
       const Eigen::Vector4d q_JB = (pose.q[b].conjugate() * q[b]).coeffs();
       sum[b] += sum[b].dot(q_JB) < 0.0 ? Eigen::Vector4d(-q_JB) : q_JB;
@@ -163,8 +163,9 @@ Twists measure_twists(const Character& character, const Calibration& calibration
   return twists;
 }
 
-Rotations body_rotations(const Character& character, const Calibration& calibration, const Landmarks& pose) {
-  Rotations q;
+JointRotations body_rotations(const Character& character, const Calibration& calibration,
+                              const Landmarks& pose) {
+  JointRotations q;
   const auto calibrated = [&](std::size_t b) { return (pose.q[b] * calibration.q_JB[b]).normalized(); };
   q[kPelvis] = calibrated(kPelvis);
   q[kSpine3] = calibrated(kSpine3);

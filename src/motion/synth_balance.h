@@ -15,11 +15,10 @@
 
 #include <vector>
 
+#include "core/units.h"
 #include "motion/synth_plan.h"
 
 namespace mimicx {
-
-inline constexpr double kGravity = 9.81;  ///< m/s²
 
 /// Pose in the plan frame, in the simulator's coordinates.
 struct SynthPose {

@@ -6,17 +6,16 @@
 /// name it at the end of `synth_kinds()`: the random streams are keyed by the place in that list.
 #pragma once
 
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/random.h"
+#include "core/units.h"
 #include "motion/synth_plan.h"
 
 namespace mimicx {
 
 inline constexpr double kSynthFps = 30.0;
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// What a plan is made for.
 struct PlanRequest {

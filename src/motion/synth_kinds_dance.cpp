@@ -9,7 +9,7 @@ namespace mimicx {
 namespace {
 
 constexpr int kBeats = 4;  ///< of a figure
-constexpr double kBegin = 0.85, kRest = 0.75;
+constexpr double kBegin = 0.85, kDanceRest = 0.75;
 
 /// A dance in the making: where the dancer stands, what was decided so far.
 struct Dance {
@@ -126,7 +126,8 @@ std::vector<PlanFrame> plan_dance(const PlanRequest& request) {
   PlanFrame stand = standing_frame(request.character, standing_feet(request.character, stance));
   Dance dance{request, stance, stand, beat, kBegin, Eigen::Vector2d::Zero(), 0.0, {}, {{0.0, stand}}};
   std::vector<void (*)(Dance&)> figures = {side_steps, steps_ahead, turning_steps, dips, bow};
-  const int count = std::max(1, static_cast<int>((request.seconds() - kBegin - kRest) / (kBeats * beat)));
+  const int count =
+      std::max(1, static_cast<int>((request.seconds() - kBegin - kDanceRest) / (kBeats * beat)));
   for (int k = 0; k < count; ++k) {
     // Every figure once before any comes again.
     const std::size_t left = figures.size() - static_cast<std::size_t>(k) % figures.size();

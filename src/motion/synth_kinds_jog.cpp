@@ -19,9 +19,9 @@ struct Contact {
 double on_frame(double t) { return std::round(t * kSynthFps) / kSynthFps; }
 
 constexpr double kFlight = 3.0 / kSynthFps, kStance = 10.0 / kSynthFps;
-constexpr double kBoth = 3.0 / kSynthFps;      ///< both feet on the floor, in the first and the last step
-constexpr double kFirstSwing = 0.40;           ///< s
-constexpr double kSettle = 0.55, kRest = 1.1;  ///< s
+constexpr double kBoth = 3.0 / kSynthFps;  ///< both feet on the floor, in the first and the last step
+constexpr double kFirstSwing = 0.40;       ///< s
+constexpr double kJogSettle = 0.55, kJogRest = 1.1;  ///< s
 constexpr double kLandingKnee = 22.0 * kDegree;
 constexpr double kPush = 6.0;  ///< acceleration of the centre of mass in the middle of a stance, m/s²
 // Where the load acts in the foot, as a share of the way from the ankle to the toe points: at landing, when
@@ -35,7 +35,7 @@ std::vector<Contact> draw_contacts(const PlanRequest& request, double step) {
   Random& random = request.random;
   const double begin = on_frame(random.uniform(0.85, 0.95)), period = kStance + kFlight;
   const int first = static_cast<int>(random.below(2));
-  const double time = request.seconds() - begin - 2.0 * kFirstSwing - 2.0 * kBoth - kRest;
+  const double time = request.seconds() - begin - 2.0 * kFirstSwing - 2.0 * kBoth - kJogRest;
   const int flights = std::max(2, static_cast<int>(time / period));
   std::vector<Contact> contacts = {{first, 0.0, begin + on_frame(kFirstSwing) + kBoth, 0.0, false}};
   double land = begin + on_frame(kFirstSwing), x = 0.0;
@@ -62,13 +62,13 @@ void roll_over_soles(const Character& character, const std::vector<Contact>& con
   const auto standing = static_cast<std::size_t>(contacts[0].side), other = 1 - standing;
   std::array<std::vector<Knot>, 2> knots;
   knots[standing] = {{begin, middle}, {contacts[0].leave, kLeaveOn * forefoot}};
-  knots[other] = {{begin - kSettle, middle}, {begin, kLeaveOn * forefoot}};
+  knots[other] = {{begin - kJogSettle, middle}, {begin, kLeaveOn * forefoot}};
   for (std::size_t i = 1; i < contacts.size(); ++i) {
     std::vector<Knot>& track = knots[static_cast<std::size_t>(contacts[i].side)];
     const bool stays = i + 2 >= contacts.size();
     track.push_back({contacts[i].land, kLandOn * forefoot});
     track.push_back({contacts[i].land + kCarry, kCarryOn * forefoot});
-    track.push_back(stays ? Knot{contacts[i].land + kSettle, middle}
+    track.push_back(stays ? Knot{contacts[i].land + kJogSettle, middle}
                           : Knot{contacts[i].leave, kLeaveOn * forefoot});
   }
   for (std::size_t side = 0; side < 2; ++side) feet.foot[side].pressure = MinJerkTrack(knots[side]);
@@ -86,9 +86,9 @@ FeetTracks jogging_feet(const Character& character, const std::array<FootTarget,
                       Eigen::Vector2d(contacts[i].x, start[side].place.y()), start[side].yaw,
                       walking ? 0.05 : clearance, !walking});
   }
-  FeetTracks feet = stepping_feet(character, start, swings, kSettle);
+  FeetTracks feet = stepping_feet(character, start, swings, kJogSettle);
   roll_over_soles(character, contacts, begin, feet);
-  std::vector<Knot> load = {{begin - kSettle, 0.5}, {begin, contacts[0].side == 0 ? 1.0 : 0.0}};
+  std::vector<Knot> load = {{begin - kJogSettle, 0.5}, {begin, contacts[0].side == 0 ? 1.0 : 0.0}};
   for (std::size_t i = 1; i + 1 < contacts.size(); ++i) {
     // The load goes over while both feet stand or neither does.
     const double standing = contacts[i].side == 0 ? 1.0 : 0.0;
@@ -98,7 +98,7 @@ FeetTracks jogging_feet(const Character& character, const std::array<FootTarget,
   }
   const Contact& end = contacts.back();
   load.push_back({end.land, end.side == 0 ? 0.0 : 1.0});
-  load.push_back({end.land + kSettle, 0.5});
+  load.push_back({end.land + kJogSettle, 0.5});
   feet.load = MinJerkTrack(load);
   return feet;
 }

@@ -70,12 +70,6 @@ double height_of(const Character& c, const BodyPoses& poses, std::size_t body) {
   return lowest;
 }
 
-double lowest_of(const Character& c, const BodyPoses& poses) {
-  double lowest = HUGE_VAL;
-  for (std::size_t i = 0; i < kBodies; ++i) lowest = std::min(lowest, height_of(c, poses, i));
-  return lowest;
-}
-
 /// docs/physics.md §9, (11): how far the centre of mass went beyond the mean of its velocities, in parts of
 /// what forces of the recorded impulse can do by their timing.
 double travel_share(const Kinematics& before, const Kinematics& after, const Vector3d& v_before,
@@ -197,7 +191,7 @@ Audit audit_frames(const SimulatedFrames& motion, const SimulationOptions& simul
     const double mass = c.total_mass();
     row.travel = travel_share(before, after, h_a.tail<3>() / mass, h_b.tail<3>() / mass, motion.fps,
                               std::hypot(1.0, simulation.friction) * row.normal / mass + simulation.gravity);
-    row.lowest = lowest_of(c, after.poses);
+    row.lowest = lowest_contact(c, after.poses);
     audit.rows.push_back(row);
     before = after;
   }
@@ -250,7 +244,7 @@ Audit audit_poses(const Clip& clip) {
     row.index = ++frame;
     row.root.head<3>() = demand.residual_moment;
     row.root.tail<3>() = demand.residual_force;
-    row.lowest = lowest_of(character, poses[static_cast<std::size_t>(frame)]);
+    row.lowest = lowest_contact(character, poses[static_cast<std::size_t>(frame)]);
     audit.rows.push_back(row);
   }
   audit.failures = failures_of(audit);

@@ -3,17 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
+#include "pipeline/json.h"
 #include "pipeline/simulated_members.h"
 
 namespace mimicx {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// JSON has no NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const Audit& audit) {
   Json summary = Json::object();

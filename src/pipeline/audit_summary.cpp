@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/units.h"
 #include "pipeline/audit.h"
 
 namespace mimicx {
@@ -50,8 +51,8 @@ NamedValues floor_summary(const Audit& audit) {
     high = std::max(high, row.lowest);
   }
   return {{"untouched_percent", 100.0 * untouched / static_cast<double>(audit.rows.size())},
-          {"lowest_min_mm", 1000.0 * low},
-          {"lowest_max_mm", 1000.0 * high}};
+          {"lowest_min_mm", kMm * low},
+          {"lowest_max_mm", kMm * high}};
 }
 
 /// What the forces are like.

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "pipeline/cluster_words.h"
+#include "pipeline/json.h"
 #include "pipeline/kmeans.h"
 #include "pipeline/run_folder.h"
 
 namespace mimicx {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// By features and name, so that the order of the input decides nothing.
 /// @throws std::invalid_argument for what cannot be clustered

@@ -5,15 +5,13 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "motion/reference.h"
+#include "pipeline/json.h"
 
 namespace mimicx {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<std::string> npz_names(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw DataError(folder.string(), "", "a folder", "none");
@@ -63,8 +61,6 @@ std::string titles() {
   }
   return text;
 }
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const EvaluatedMotion& m) {
   Json json = {

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/units.h"
+
 namespace mimicx {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kFriction = 1.0;
 // Weight of the sum of squared forces beside the squared residual: it makes the forces unique and leaves less
 // than 1e-4 of the weight as residual.

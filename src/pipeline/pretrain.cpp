@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/error.h"
 #include "core/npz.h"
+#include "pipeline/json.h"
 #include "pipeline/preparation.h"
 
 namespace mimicx {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Motions {
   std::vector<Reference> references;

@@ -2,15 +2,9 @@
 
 #include "motion/reference.h"
 #include "physics/mjcf.h"
+#include "pipeline/append.h"
 
 namespace mimicx {
-namespace {
-
-void append(const Quaterniond& q, std::vector<double>& row) {
-  row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
-}
-
-}  // namespace
 
 void write_qpos(const std::filesystem::path& path, const Clip& clip) {
   const auto q = to_hinges(character_of(clip), joint_rotations(clip));
@@ -18,8 +12,7 @@ void write_qpos(const std::filesystem::path& path, const Clip& clip) {
   const std::array<int, kBodies> order = mjcf_order();
   std::vector<double> qpos;
   for (std::size_t t = 0; t < q.size(); ++t) {
-    const Vector3d p = clip.trans[t] + pelvis;
-    qpos.insert(qpos.end(), p.data(), p.data() + 3);
+    append(Vector3d(clip.trans[t] + pelvis), qpos);
     append(q[t][kPelvis], qpos);
     for (const int body : order) {
       if (body == kPelvis) continue;

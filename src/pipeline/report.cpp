@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "pipeline/json.h"
 #include "pipeline/report_page.h"
 
 namespace mimicx {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   static constexpr std::string_view digits =
@@ -27,8 +25,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-/// JSON has no NaN. Five digits are more than a curve shows.
-Json number(double value) {
+/// Five digits are more than a curve shows.
+Json rounded_number(double value) {
   if (!std::isfinite(value)) return nullptr;
   if (value == 0.0) return 0.0;
   const double scale = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
@@ -38,7 +36,7 @@ Json number(double value) {
 
 Json numbers(const std::vector<double>& values) {
   Json list = Json::array();
-  for (double v : values) list.push_back(number(v));
+  for (double v : values) list.push_back(rounded_number(v));
   return list;
 }
 

@@ -1,5 +1,7 @@
 #include "pipeline/scores.h"
 
+#include "core/units.h"
+
 namespace mimicx {
 namespace {
 
@@ -36,7 +38,7 @@ Scores score_simulated(const Reference& reference, const rl::TrackingRollout& ro
   Scores scores;
   scores.values = named_values(evaluate_motion(simulated, &same_length));
   const Success success = judge_success(simulated, asked);
-  scores.values.emplace_back("max_distance_mm", 1000.0 * success.max_distance_m);
+  scores.values.emplace_back("max_distance_mm", kMm * success.max_distance_m);
   scores.success = success.success;
   scores.reason = success.reason;
   return scores;

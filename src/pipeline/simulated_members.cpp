@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/append.h"
+
 namespace mimicx {
 namespace {
 
-constexpr std::size_t kVelocities = 6 + kDofs;
-
-void append(const Vector3d& v, std::vector<double>& values) {
-  values.insert(values.end(), v.data(), v.data() + 3);
-}
+constexpr std::size_t kRowVelocities = 6 + kDofs;
 
 void append_joints(const std::array<Vector3d, kBodies>& row, std::vector<double>& values) {
   for (int body = 1; body < kBodies; ++body) {
@@ -65,7 +63,7 @@ NpyArray velocities_member(const std::vector<ReferenceFrame>& frames, Precision 
     append(frame.omega[0], values);
     append_joints(frame.omega, values);
   }
-  return numbers_member({frames.size(), kVelocities}, values, precision);
+  return numbers_member({frames.size(), kRowVelocities}, values, precision);
 }
 
 std::vector<double> read_numbers(const Npz& npz, const std::string& key, std::size_t rows,
@@ -101,9 +99,9 @@ WrenchRows read_wrenches(const Npz& npz, const std::string& key, std::size_t row
 }
 
 void read_velocities(const Npz& npz, const std::string& key, std::vector<ReferenceFrame>& frames) {
-  const std::vector<double> values = read_numbers(npz, key, frames.size(), kVelocities);
+  const std::vector<double> values = read_numbers(npz, key, frames.size(), kRowVelocities);
   for (std::size_t t = 0; t < frames.size(); ++t) {
-    const double* row = values.data() + t * kVelocities;
+    const double* row = values.data() + t * kRowVelocities;
     frames[t].v_root = Eigen::Map<const Vector3d>(row);
     frames[t].omega[0] = Eigen::Map<const Vector3d>(row + 3);
     take_joints(row + 6, frames[t].omega);

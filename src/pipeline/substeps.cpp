@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "physics/step.h"
+#include "pipeline/append.h"
 #include "pipeline/simulated_members.h"
 #include "pipeline/simulation_settings.h"
 
@@ -13,14 +14,8 @@ constexpr std::size_t kPositions = 3 + 4 * kBodies;
 constexpr std::size_t kVelocities = 3 + 3 * kBodies;
 constexpr Precision kExact = Precision::kFloat32;  // the simulator's own
 
-void append(const Vector3d& v, std::vector<double>& values) {
-  values.insert(values.end(), v.data(), v.data() + 3);
-}
-void append(const Quaterniond& q, std::vector<double>& values) {
-  values.insert(values.end(), {q.w(), q.x(), q.y(), q.z()});
-}
 template <class Item>
-void append(const std::array<Item, kBodies>& row, std::vector<double>& values) {
+void append_all(const std::array<Item, kBodies>& row, std::vector<double>& values) {
   for (const Item& item : row) append(item, values);
 }
 
@@ -41,9 +36,9 @@ void add_states(const SubstepMotion& motion, Npz& npz) {
   std::vector<double> q, v;
   const auto add = [&](const ReferenceFrame& state) {
     append(state.p_root, q);
-    append(state.q, q);
+    append_all(state.q, q);
     append(state.v_root, v);
-    append(state.omega, v);
+    append_all(state.omega, v);
   };
   for (const rl::Substep& step : motion.steps) add(step.state);
   add(motion.last);
@@ -54,8 +49,8 @@ void add_states(const SubstepMotion& motion, Npz& npz) {
 void add_targets(const SubstepMotion& motion, Npz& npz) {
   std::vector<double> q, omega;
   for (const rl::Substep& step : motion.steps) {
-    append(step.target_q, q);
-    append(step.target_omega, omega);
+    append_all(step.target_q, q);
+    append_all(step.target_omega, omega);
   }
   npz.set("target_q", numbers_member({motion.steps.size(), kBodies, 4}, q, kExact));
   npz.set("target_omega", numbers_member({motion.steps.size(), kBodies, 3}, omega, kExact));

@@ -264,9 +264,12 @@ TEST(Character, NoPointOfASphereIsLowerThanItsLowestPosition) {
   std::array<Quaterniond, kBodies> q;
   for (Quaterniond& turn : q) turn = exp_map(Vector3d(random.normal(), random.normal(), random.normal()));
   const BodyPoses poses = forward_kinematics(c, Vector3d(1.0, 2.0, 3.0), q);
+  int as_low = 0;
   for (const ContactPoint& point : c.contact_points) {
     const auto body = static_cast<std::size_t>(point.body);
     const Vector3d lowest = lowest_position(point, poses);
+    EXPECT_GE(lowest.z(), lowest_contact(c, poses));
+    as_low += lowest.z() == lowest_contact(c, poses);
     const Vector3d centre = poses.p_WB[body] + poses.q_WB[body] * point.p_B;
     EXPECT_NEAR((lowest - centre).norm(), point.radius, 1e-12);
     for (int k = 0; k < 20; ++k) {
@@ -274,6 +277,7 @@ TEST(Character, NoPointOfASphereIsLowerThanItsLowestPosition) {
       EXPECT_GE((centre + point.radius * way.normalized()).z(), lowest.z() - 1e-12);
     }
   }
+  EXPECT_GE(as_low, 1);
 }
 
 TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) {

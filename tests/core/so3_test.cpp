@@ -75,6 +75,20 @@ TEST(So3, TwistTurnsAboutTheAxisAndTheSwingDoesNot) {
   }
 }
 
+TEST(So3, TheAngleBetweenIsThatOfTheRotationBetween) {
+  Random random(1, {6});
+  for (int n = 0; n < 100; ++n) {
+    const Vector3d a = random_vector(random), b = random_vector(random);
+    const Quaterniond turn = rotation_between(a, b);
+    EXPECT_LT((turn * a.normalized() - b.normalized()).norm(), 1e-12);
+    EXPECT_NEAR(log_map(turn).norm(), angle_between(a, b), 1e-12);
+    EXPECT_NEAR(log_map(turn).dot(a), 0.0, 1e-12);  // no twist on the way
+  }
+  for (const double angle : {0.0, 1e-9, kPi - 1e-9, kPi})
+    EXPECT_NEAR(angle_between(Vector3d::UnitX(), {3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.0}), angle,
+                1e-15);
+}
+
 TEST(So3, HeadingTurnsWithTheWorldsVertical) {
   const Quaterniond standing = exp_map(kPi / 2 * Vector3d::UnitX());  // y up to z up
   const double before = heading_angle(standing);

@@ -5,6 +5,7 @@
 #include "core/npz.h"
 #include "motion/made_motions.h"
 #include "motion/motion_file.h"
+#include "motion/scratch.h"
 
 namespace mimicx {
 namespace {
@@ -12,15 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::MatrixXd;
+using test::scratch;
 
 constexpr std::size_t kVertices = 60, kComponents = 16, kFileJoints = 55;
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_body_model_test" /
-                          ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::create_directories(folder);
-  return folder / name;
-}
 
 /// A small model in the layout of SMPLX_NEUTRAL.npz: joint j is the mean of vertex j and vertex j + 1's
 /// opposite, so that joints are known without the reader's matrices.

@@ -7,20 +7,14 @@
 #include <limits>
 
 #include "motion/made_motions.h"
+#include "motion/scratch.h"
 
 namespace mimicx {
 namespace {
 
 namespace fs = std::filesystem;
 using test::random_clip;
-
-/// A folder per test: tests run side by side.
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_clip_test" /
-                          ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::create_directories(folder);
-  return folder / name;
-}
+using test::scratch;
 
 /// poses[t][c] = 100 t + c / 1000, so that every element says where it came from.
 NpyArray counted(std::size_t rows, std::size_t columns, double offset = 0.0) {

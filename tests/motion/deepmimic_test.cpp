@@ -38,7 +38,7 @@ Vector3d place(const SkeletonMotion& motion, const std::string& name, int frame 
   throw std::logic_error(name);
 }
 
-void expect_refusal(const std::string& text, const std::string& place, const std::string& word) {
+void expect_refused_clip(const std::string& text, const std::string& place, const std::string& word) {
   try {
     parse_deepmimic(text, "clip.txt");
     FAIL() << "not refused: " << word;
@@ -96,38 +96,38 @@ TEST(DeepMimic, OtherKeysAreCheckedAndLeftAlone) {
   const std::string other =
       "\"A, \\\" [\": [], \"B\": {\"x\": [1, -2.5e3, {\"y\": null}], \"z\": true}, \"C\": {},";
   EXPECT_EQ(parse_deepmimic(json({rest_row()}, other), "a").frames(), 1);
-  expect_refusal(json({rest_row()}, "\"B\": [1,],\n"), "line 2", "']'");
-  expect_refusal(json({rest_row()}, "\"B\": maybe,\n"), "line 2", "'maybe'");
-  expect_refusal("{\"B\": \"open", "line 1", "quotation mark");
+  expect_refused_clip(json({rest_row()}, "\"B\": [1,],\n"), "line 2", "']'");
+  expect_refused_clip(json({rest_row()}, "\"B\": maybe,\n"), "line 2", "'maybe'");
+  expect_refused_clip("{\"B\": \"open", "line 1", "quotation mark");
 }
 
 TEST(DeepMimic, WhatIsWrongIsSaidWithItsLine) {
   const std::string good = json({rest_row(), rest_row()});
-  expect_refusal("", "line 1", "the end of the file");
-  expect_refusal("[1]", "line 1", "'['");
-  expect_refusal("{\"Loop\": \"none\"}", "expected a list of Frames", "none");
-  expect_refusal("{\"Frames\": []}", "line 1", "at least one frame");
-  expect_refusal(good.substr(0, good.size() / 2), "line 5", "the end of the file");
-  expect_refusal(good + "x", "line 9", "'x'");
+  expect_refused_clip("", "line 1", "the end of the file");
+  expect_refused_clip("[1]", "line 1", "'['");
+  expect_refused_clip("{\"Loop\": \"none\"}", "expected a list of Frames", "none");
+  expect_refused_clip("{\"Frames\": []}", "line 1", "at least one frame");
+  expect_refused_clip(good.substr(0, good.size() / 2), "line 5", "the end of the file");
+  expect_refused_clip(good + "x", "line 9", "'x'");
   auto row = rest_row();
   row.pop_back();
-  expect_refusal(json({rest_row(), row}), "line 6", "','");
+  expect_refused_clip(json({rest_row(), row}), "line 6", "','");
   row = rest_row();
   row.push_back(1.0);
-  expect_refusal(json({row}), "line 5", "']'");
+  expect_refused_clip(json({row}), "line 5", "']'");
   row = rest_row();
   row[kLeftHipColumn] = 0.0;
-  expect_refusal(json({row}), "line 5", "left_hip");
+  expect_refused_clip(json({row}), "line 5", "left_hip");
   row = rest_row();
   row[2] = 1e9;
-  expect_refusal(json({row}), "line 5", "10000");
-  expect_refusal(json({rest_row(0.0)}), "Frames", "durations");
+  expect_refused_clip(json({row}), "line 5", "10000");
+  expect_refused_clip(json({rest_row(0.0)}), "Frames", "durations");
   std::string nan = good;
-  expect_refusal(nan.replace(nan.find("0.9"), 3, "nan"), "line 5", "number 3 of the 44 of frame 1");
+  expect_refused_clip(nan.replace(nan.find("0.9"), 3, "nan"), "line 5", "number 3 of the 44 of frame 1");
 }
 
 TEST(DeepMimic, BracketsWithoutEndAreBounded) {
-  expect_refusal("{\"A\": " + std::string(1000000, '['), "line 1", "64 levels");
+  expect_refused_clip("{\"A\": " + std::string(1000000, '['), "line 1", "64 levels");
 }
 
 TEST(DeepMimic, EveryTruncationIsRefused) {

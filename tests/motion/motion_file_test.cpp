@@ -11,6 +11,7 @@
 #include "motion/made_motions.h"
 #include "motion/motionx.h"
 #include "motion/plausibility.h"
+#include "motion/scratch.h"
 #include "motion/synth.h"
 #include "motion/world.h"
 
@@ -18,13 +19,7 @@ namespace mimicx {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_motion_file_test" /
-                          ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::create_directories(folder);
-  return folder / name;
-}
+using test::scratch;
 
 /// A synthetic motion as a file of somebody else: body model smplx, so that nothing in it is believed.
 Clip foreign(const std::string& kind) {

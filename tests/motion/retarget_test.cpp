@@ -55,7 +55,7 @@ Disguise along_x() {
   for (std::size_t b = 0; b < kBodies; ++b)
     for (std::size_t child = b + 1; child < kBodies; ++child)
       if (kParents[child] == static_cast<int>(b))
-        disguise.rest[b] = Quaterniond::FromTwoVectors(Vector3d::UnitX(), character.joint_offset[child]);
+        disguise.rest[b] = rotation_between(Vector3d::UnitX(), character.joint_offset[child]);
   return disguise;
 }
 
@@ -217,12 +217,8 @@ TEST(Retarget, StandsOnTheFloor) {
     for (Vector3d& trans : original.trans) trans.z() += height;
     const auto poses = poses_of(retarget(disguised(original, t_pose())));
     const Character character = make_character();
-    for (std::size_t t = 0; t < poses.size(); t += 10) {
-      double lowest = 1e9;
-      for (const ContactPoint& point : character.contact_points)
-        lowest = std::min(lowest, lowest_position(point, poses[t]).z());
-      EXPECT_NEAR(lowest, 0.0, 0.02) << height << ' ' << t;
-    }
+    for (std::size_t t = 0; t < poses.size(); t += 10)
+      EXPECT_NEAR(lowest_contact(character, poses[t]), 0.0, 0.02) << height << ' ' << t;
   }
 }
 

@@ -45,11 +45,7 @@ Snapshot random_snapshot(Random& random, double angle, double speed, double heig
 }
 
 double lowest_point(const Character& character, const Snapshot& s) {
-  const BodyPoses poses = forward_kinematics(character, s.p_root, s.q);
-  double lowest = 1e9;
-  for (const ContactPoint& point : character.contact_points)
-    lowest = std::min(lowest, lowest_position(point, poses).z());
-  return lowest;
+  return lowest_contact(character, forward_kinematics(character, s.p_root, s.q));
 }
 
 Snapshot standing(const Character& character) {

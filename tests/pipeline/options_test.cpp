@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -12,6 +11,7 @@
 #include "core/npz.h"
 #include "motion/synth.h"
 #include "pipeline/pretrain.h"
+#include "pipeline/results.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
@@ -38,14 +38,6 @@ RunOutcome with_context(const Work& work, int iterations = -1) {
   Progress progress(messages, false, steady_seconds);
   int asked = 0;
   return work(RunContext{progress, messages, [&] { return ++asked == iterations; }});
-}
-
-std::map<std::string, std::string> results_of(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& file : std::filesystem::recursive_directory_iterator(folder))
-    if (file.is_regular_file() && file.path().filename() != "timing.json")
-      files[std::filesystem::relative(file.path(), folder).string()] = read_file(file.path());
-  return files;
 }
 
 /// Two kinds of motion that cluster apart, as a folder of files.

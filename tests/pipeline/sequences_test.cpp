@@ -1,4 +1,5 @@
 #include "pipeline/sequences.h"
+#include "pipeline/results.h"
 
 #include <gtest/gtest.h>
 
@@ -41,15 +42,6 @@ Outcome run(const RunOptions& options, int iterations = -1) {
   int asked = 0;
   const auto value = run_sequences(options, {progress, messages, [&] { return ++asked == iterations; }});
   return {value, messages.str()};
-}
-
-/// Bytes of every file of a run but its times, by relative path.
-std::map<std::string, std::string> results_of(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& file : std::filesystem::recursive_directory_iterator(folder))
-    if (file.is_regular_file() && file.path().filename() != "timing.json")
-      files[std::filesystem::relative(file.path(), folder).string()] = read_file(file.path());
-  return files;
 }
 
 struct Imitate : testing::Test {
