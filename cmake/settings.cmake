@@ -68,7 +68,7 @@ if(MIMICX_WITH_MUJOCO AND NOT MIMICX_CORE_ONLY)
 endif()
 
 # Most of the time goes into instantiating Eigen's templates. Where GROUP is given, so many files are compiled as
-# one and share them, which halves it again; not in the folders whose speed matters.
+# one and share them, which saves a third again; not in the folders whose speed matters.
 function(mimicx_group target size)
   if(MIMICX_GROUP_FILES AND size)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})

@@ -13,7 +13,7 @@ constexpr int kNeighbours = 3;               ///< steps on either side that coun
 constexpr double kMaxGlitch = 1.0 / 3.0;     ///< s
 constexpr double kMaxEndGlitch = 1.0 / 6.0;  ///< s, at either end of the clip
 
-constexpr double kSupportShare = 0.25;         ///< nearest_rank of the lowest point that counts as support
+constexpr double kSupportShare = 0.25;         ///< percentile of the lowest point that counts as support
 constexpr double kSupportWindow = 1.2;         ///< s
 constexpr double kSupportSmoothing = 0.3;      ///< s, standard deviation
 constexpr double kMaxDrift = 0.15;             ///< m
