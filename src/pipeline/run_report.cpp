@@ -94,11 +94,23 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   return s;
 }
 
+/// One that says why its files cannot be shown, where that is so: the others are.
+ReportSequence sequence_or_reason(const RunFolder& folder, const SequenceEntry& entry) {
+  try {
+    return sequence_of(folder, entry);
+  } catch (const std::exception& error) {
+    SequenceEntry unseen = entry;
+    unseen.output.clear();
+    unseen.notes.push_back(std::string("cannot be shown: ") + error.what());
+    return sequence_of(folder, unseen);
+  }
+}
+
 }  // namespace
 
 void write_report(const RunFolder& folder, const Manifest& manifest) {
   std::vector<ReportSequence> sequences;
-  for (const auto& entry : manifest.sequences) sequences.push_back(sequence_of(folder, entry));
+  for (const auto& entry : manifest.sequences) sequences.push_back(sequence_or_reason(folder, entry));
   write_file_atomically(folder.report(), format_report(sequences));
 }
 

@@ -20,6 +20,8 @@
 namespace mimicx {
 namespace {
 
+constexpr double kReportSeconds = 30.0;  ///< between reports while a run goes on
+
 struct RunState {
   const RunOptions& options;
   const RunContext& context;
@@ -243,20 +245,26 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
   entry.name = there ? there->name : unique_name(input, taken);
   entry.seed = run.options.training.seed;
   entry.input_checksum = file_checksum(input);
-  const bool complete = !run.options.substeps || std::filesystem::exists(run.folder.substeps(entry.name));
-  const bool stands = there && there->finished() && there->input_checksum == entry.input_checksum && complete;
+  const bool complete = there && std::filesystem::exists(run.folder.root / there->output) &&
+                        (!run.options.substeps || std::filesystem::exists(run.folder.substeps(entry.name)));
+  const bool stands = complete && there->finished() && there->input_checksum == entry.input_checksum;
   if (stands) entry = *there;
   return !stands;
 }
 
-/// Writes a success in its input's own format, where the clean set is not that already.
+/// Writes a success in its input's own format, where the clean set is not that already. A failure has no
+/// copy: that of another input of its name is removed.
 void copy_clean(const RunState& run, const SequenceEntry& entry) {
   const std::filesystem::path input(entry.input);
   const std::string suffix = clean_suffix(input);
-  if (!entry.ok || (suffix == ".npz" && !run.options.beside && !run.options.input_rate)) return;
+  if (suffix == ".npz" && !run.options.beside && !run.options.input_rate) return;
   const std::filesystem::path copy = run.options.beside
                                          ? input.parent_path() / (input.stem().string() + ".clean" + suffix)
                                          : run.folder.clean(entry.name, suffix);
+  if (!entry.ok) {
+    std::filesystem::remove(copy);
+    return;
+  }
   write_clean_copy(run.folder.root / entry.output, input, run.options.read, run.options.input_rate, copy);
   if (run.options.beside) run.context.messages << "  clean motion: " << copy.string() << '\n';
 }
@@ -284,27 +292,42 @@ RunOutcome run_sequences(const RunOptions& options, const RunContext& context) {
   folder.create();
   write_records(run);
   bool all_good = true;
-  for (const auto& input : options.inputs) {
+  double reported = steady_seconds();
+  const auto report = [&] {
+    write_report(folder, run.manifest);
+    reported = steady_seconds();
+  };
+  const auto interrupted = [&](const std::string& name) {
+    write_records(run);
+    if (!run.manifest.sequences.empty()) report();
+    context.progress.finish(name + ": interrupted; the same command continues");
+    return RunOutcome::kInterrupted;
+  };
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    const std::string& input = options.inputs[i];
+    if (i > 0 && context.should_stop()) return interrupted(input);
     SequenceEntry entry;
     std::size_t told = 0;
     try {
-      if (begin_entry(run, input, entry) && train_sequence(run, entry, told)) {
-        write_records(run);
-        context.progress.finish(entry.name + ": interrupted; the same command continues");
-        return RunOutcome::kInterrupted;
-      }
-      copy_clean(run, entry);
+      if (begin_entry(run, input, entry) && train_sequence(run, entry, told)) return interrupted(entry.name);
     } catch (const std::exception& error) {
       entry.ok = false;
       entry.reason = error.what();
+      entry.output.clear();  // so that the same command tries again
     }
-    all_good = all_good && entry.ok;
     run.manifest.put(entry);
     write_records(run);
-    write_report(folder, run.manifest);
+    if (i + 1 == options.inputs.size() || steady_seconds() - reported > kReportSeconds) report();
     context.progress.finish(summary_of(entry));
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';
+    all_good = all_good && entry.ok;
+    try {
+      copy_clean(run, entry);
+    } catch (const std::exception& error) {  // the motion itself is there; the same command copies again
+      context.messages << "  no copy in the input's format: " << error.what() << '\n';
+      all_good = false;
+    }
   }
   return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
 }
