@@ -13,8 +13,11 @@ int run_evaluate(const std::filesystem::path& truth, const std::vector<std::stri
   if (motions.size() > 1) {
     const Comparison comparison = compare_folders(truth, motions);
     std::cout << format_comparison(comparison);
+    for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
+    const bool none = comparison.evaluations.front().motions.empty();
+    if (none) std::cerr << "no motion is in all of these folders and in " << truth.string() << '\n';
     if (!json.empty()) write_file_atomically(json, comparison_json(comparison));
-    return kAllGood;
+    return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
   const Evaluation evaluation = evaluate_folders(truth, motions.front());
   std::cout << format_evaluation(evaluation);

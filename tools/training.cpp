@@ -26,6 +26,11 @@ void apply(const std::vector<std::string>& settings, TrainingConfig& config) {
       throw UsageError("--set " + setting + ": " + error.what());
     }
   }
+  try {
+    check(config);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--set: ") + error.what());
+  }
 }
 
 /// The first interrupt asks for a checkpoint, a second one ends the program at once.

@@ -102,7 +102,10 @@ Comparison compare_folders(const std::filesystem::path& truth, const std::vector
   for (const std::string& folder : folders) {
     comparison.labels.push_back(folder);
     comparison.evaluations.push_back(evaluate_folders(truth, folder));
-    for (const EvaluatedMotion& m : comparison.evaluations.back().motions) evaluated[m.name] += m.ok ? 1 : 0;
+    for (const EvaluatedMotion& m : comparison.evaluations.back().motions) {
+      evaluated[m.name] += m.ok ? 1 : 0;
+      if (!m.ok) comparison.failures.push_back(folder + "/" + m.name + ": " + m.reason);
+    }
   }
   for (Evaluation& evaluation : comparison.evaluations)
     std::erase_if(evaluation.motions, [&](const auto& m) { return evaluated.at(m.name) < folders.size(); });
@@ -120,7 +123,7 @@ std::string format_comparison(const Comparison& comparison) {
   }
   text += "\nmeans over " + std::to_string(comparison.evaluations.front().motions.size()) + " motions";
   if (comparison.left_out > 0)
-    text += "; " + std::to_string(comparison.left_out) + " that some folder lacks are left out";
+    text += "; " + std::to_string(comparison.left_out) + " that not every folder has are left out";
   return text + '\n';
 }
 

@@ -37,6 +37,7 @@ struct Comparison {
   std::vector<std::string> labels;      ///< [folder]
   std::vector<Evaluation> evaluations;  ///< [folder], all of the same motions
   int left_out = 0;                     ///< motions that some folder lacks or that could not be evaluated
+  std::vector<std::string> failures;    ///< of those that could not be evaluated: "folder/name: why"
 };
 /// @throws DataError as `evaluate_folders`
 Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders);

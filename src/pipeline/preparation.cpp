@@ -80,7 +80,7 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
       if (is_motion_file(at->path()) && at->path().stem().extension() != ".clean")
         files.push_back(at->path().string());
     if (files.size() == before && inputs.size() == 1)
-      throw std::invalid_argument(input + ": a folder without any motion file");
+      throw DataError(input, "", "motion files in this folder", "none");
     if (error || files.size() == before) files.push_back(input);
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   }

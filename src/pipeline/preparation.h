@@ -36,7 +36,7 @@ void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out
 /// The motions that files and folders name: a folder stands for its motion files, sorted by name, but not for
 /// clean copies (NAME.clean.EXT) that an earlier run left there.
 /// A folder that holds none or may not be read stands for itself, so that reading it says why.
-/// @throws std::invalid_argument where a folder without any is all there is
+/// @throws DataError where a folder without any is all there is
 std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs);
 
 }  // namespace mimicx

@@ -57,6 +57,8 @@ NamedValues settings_of(const TrainingConfig& config);
 /// Changes one of them, for experiments and ablations.
 /// @throws std::invalid_argument for an unknown name or a fraction where a whole number is expected
 void apply_setting(TrainingConfig& config, const std::string& name, double value);
+/// @throws std::invalid_argument naming a setting that no training can have
+void check(const TrainingConfig& config);
 
 struct TrainingFiles {
   std::filesystem::path checkpoint;  ///< complete state

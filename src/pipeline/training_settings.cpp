@@ -1,3 +1,5 @@
+#include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "pipeline/simulation_settings.h"
@@ -75,12 +77,64 @@ void assign(rl::ActionMode& mode, double value) {
 }
 template <class T>
 void assign(T& field, double value) {
+  if (!(std::abs(value) <= 1e9)) throw std::invalid_argument("at most 1e9 expected");
   field = static_cast<T>(value);
   if (static_cast<double>(field) != value)
     throw std::invalid_argument("a fraction where a whole number is expected");
 }
 
+/// What a setting may be, beyond not being negative.
+struct Range {
+  std::string name;
+  double least, most;
+};
+const std::vector<Range>& ranges() {
+  static const std::vector<Range> all = {{"characters", 1, 1e6},
+                                         {"group_size", 1, 1e6},
+                                         {"hidden_1", 1, 1e4},
+                                         {"hidden_2", 1, 1e4},
+                                         {"hidden_3", 1, 1e4},
+                                         {"sigma_share", 0, 1},
+                                         {"evaluate_iterations", 1, 1e9},
+                                         {"horizon", 1, 1e5},
+                                         {"gamma", 0, 1},
+                                         {"lambda", 0, 1},
+                                         {"sigma_start", 1e-4, 10},
+                                         {"sigma_end", 1e-4, 10},
+                                         {"epochs", 1, 1e4},
+                                         {"minibatch", 1, 1e9},
+                                         {"return_rate", 0, 1},
+                                         {"step_factor", 1, 1e3},
+                                         {"penalty_fraction", 0, 1},
+                                         {"gradient_slots", 1, 1024},
+                                         {"pass_rows", 1, 1e9},
+                                         {"softest_reward", 0, 1},
+                                         {"bin_frames", 1, 1e9},
+                                         {"uniform_starts", 0, 1},
+                                         {"gravity", -1e9, 1e9}};
+  return all;
+}
+
 }  // namespace
+
+void check(const TrainingConfig& config) {
+  for (const auto& [name, value] : settings_of(config)) {
+    double least = 0.0, most = 1e9;
+    for (const Range& range : ranges())
+      if (range.name == name) least = range.least, most = range.most;
+    if (!(value >= least && value <= most)) {
+      char text[120];
+      std::snprintf(text, sizeof text, "%s: expected %g to %g, found %g", name.c_str(), least, most, value);
+      throw std::invalid_argument(text);
+    }
+  }
+  if (config.group_size % kLanes != 0 || config.characters % config.group_size != 0)
+    throw std::invalid_argument("characters must be a multiple of group_size, and that of " +
+                                std::to_string(kLanes) + ", the lanes of this build");
+  if (std::fmod(config.tracking.simulation.rate, 30.0) != 0.0)
+    throw std::invalid_argument("physics_rate must be a multiple of 30");
+  make_model<double>(make_character(), config.tracking.simulation);  // checks its own
+}
 
 NamedValues settings_of(const TrainingConfig& config) {
   NamedValues values;

@@ -11,6 +11,7 @@
 #include "motion/motion_file.h"
 #include "motion/world.h"
 #include "physics/mjcf.h"
+#include "pipeline/results.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
@@ -70,6 +71,10 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "imitate " + a + out + " --limit-seconds -1",
                                        "imitate " + a + " " + a + out,
                                        "imitate " + a + out + " --frobnicate",
+                                       "imitate " + a + out + " --set gamma",
+                                       "imitate " + a + out + " --set gamma=2",
+                                       "imitate " + a + out + " --set bin_frames=0",
+                                       "imitate " + a + out + " --set characters=100",
                                        std::string("evaluate"),
                                        std::string("info"),
                                        "convert " + a,
@@ -106,6 +111,42 @@ TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
     EXPECT_EQ(call.status, 1) << arguments << '\n' << call.text;
     EXPECT_TRUE(says(call, ".npz")) << call.text;
   }
+}
+
+TEST_F(Cli, EvaluateSaysWhatItCouldNotScore) {
+  for (const char* part : {"truth", "a", "b", "c", "d"}) std::filesystem::create_directories(path(part));
+  for (const char* file : {"truth/x.npz", "a/x.npz", "b/x.npz", "a/y.npz", "d/y.npz"})
+    write_clip(path(file), standing_clip(20));
+  std::ofstream(path("c/x.npz")) << "no archive";
+  const std::string truth = "evaluate --truth " + path("truth") + " --motions ";
+  EXPECT_EQ(mimicx(truth + path("b")).status, 0);
+  const Call foreign = mimicx(truth + path("a"));
+  EXPECT_EQ(foreign.status, 1);
+  EXPECT_TRUE(says(foreign, "the truth of y")) << foreign.text;
+  EXPECT_EQ(mimicx(truth + path("b") + " " + path("b")).status, 0);
+  const Call broken = mimicx(truth + path("b") + " " + path("c"));
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_TRUE(says(broken, "c/x: ")) << broken.text;
+  const Call apart = mimicx(truth + path("b") + " " + path("d"));
+  EXPECT_EQ(apart.status, 1);
+  EXPECT_TRUE(says(apart, "no motion is in all")) << apart.text;
+}
+
+TEST_F(Cli, AnInterruptLeavesACheckpointAndTheSameCommandEndsWithTheSameBytes) {
+  write_clip(path("a.npz"), standing_clip(20));
+  const std::string settings =
+      " --samples 40960 --set characters=64 --set group_size=16 --set horizon=8"
+      " --set minibatch=256 --set hidden_1=16 --set hidden_2=16 --out ";
+  const std::string command = "imitate " + path("a.npz") + settings;
+  ASSERT_EQ(mimicx(command + path("whole")).status, 0);
+  // TERM: shells hide INT from what they start in the background. The handler is there before the manifest.
+  const Call interrupted =
+      mimicx(command + path("halves") + " 2>&1 & while [ ! -e " + path("halves/manifest.json") +
+             " ]; do sleep 0.01; done; kill -TERM $!; wait $!");
+  EXPECT_EQ(interrupted.status, 130) << interrupted.text;
+  EXPECT_TRUE(says(interrupted, "interrupted; the same command continues")) << interrupted.text;
+  ASSERT_EQ(mimicx(command + path("halves")).status, 0);
+  EXPECT_EQ(results_of(path("halves")), results_of(path("whole")));
 }
 
 TEST_F(Cli, InfoSaysWhatTheFileHolds) {

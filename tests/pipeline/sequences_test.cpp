@@ -1,5 +1,4 @@
 #include "pipeline/sequences.h"
-#include "pipeline/results.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,8 @@
 #include <sstream>
 
 #include "core/npz.h"
+#include "pipeline/pretrain.h"
+#include "pipeline/results.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
@@ -218,6 +219,50 @@ TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
   EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
 }
 
+TEST_F(Imitate, AResultThatIsGoneIsMadeAgainAndTheOthersGoOn) {
+  const RunOptions options = small_run(out("run"), {stand, other});
+  run(options);
+  const auto before = results_of(out("run"));
+  std::filesystem::remove(out("run") / "motions" / "stand.npz");
+  std::filesystem::remove(out("run") / "motions" / "other.npz");
+  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_EQ(results_of(out("run")), before);
+}
+
+TEST_F(Imitate, WhatCannotBeWrittenIsTriedAgain) {
+  const RunOptions options = small_run(out("run"), {stand, other});
+  const std::filesystem::path in_the_way = out("run") / "references" / "stand.npz";
+  std::filesystem::create_directories(in_the_way / "folder");
+  EXPECT_EQ(run(options).value, RunOutcome::kSomeFailed);
+  const Manifest failed = read_manifest(out("run") / "manifest.json");
+  ASSERT_EQ(failed.sequences.size(), 2u);
+  EXPECT_FALSE(failed.sequences[0].finished()) << failed.sequences[0].reason;
+  EXPECT_TRUE(failed.sequences[1].ok) << failed.sequences[1].reason;
+  std::filesystem::remove_all(in_the_way);
+  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
+}
+
+TEST_F(Imitate, ACopyThatCannotBeWrittenCostsNoMotion) {
+  RunOptions options = small_run(out("run"), {stand});
+  options.input_rate = true;
+  std::filesystem::create_directories(out("run"));
+  std::ofstream(out("run") / "clean") << "in the way of a folder";
+  EXPECT_EQ(run(options).value, RunOutcome::kSomeFailed);
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
+  std::filesystem::remove(out("run") / "clean");
+  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "clean" / "stand.npz"));
+}
+
+TEST_F(Imitate, StopsBetweenInputsThatNeedNoTraining) {
+  RunOptions options = small_run(out("run"), {stand, other});
+  options.training.samples = 0;
+  EXPECT_EQ(run(options, 1).value, RunOutcome::kInterrupted);
+  EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.size(), 1u);
+  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+}
+
 TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
   RunOptions options = small_run(out("run"), {stand});
   run(options);
@@ -268,6 +313,31 @@ TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
   TrainingConfig config;
   EXPECT_THROW(apply_setting(config, "no_such_setting", 1.0), std::invalid_argument);
   EXPECT_THROW(apply_setting(config, "epochs", 1.5), std::invalid_argument);
+}
+
+TEST(TrainingSettings, WhatNoTrainingCanHaveIsRefusedByName) {
+  for (const char* name :
+       {"characters", "group_size", "hidden_1", "evaluate_iterations", "horizon", "sigma_start", "epochs",
+        "minibatch", "gradient_slots", "pass_rows", "bin_frames", "physics_passes"}) {
+    TrainingConfig config;
+    apply_setting(config, name, 0.0);
+    EXPECT_THROW(check(config), std::invalid_argument) << name;
+  }
+  for (const auto& [name, value] : std::vector<std::pair<const char*, double>>{{"gamma", 1.5},
+                                                                               {"characters", 100},
+                                                                               {"physics_rate", 100},
+                                                                               {"step_size", -1},
+                                                                               {"hidden_2", 1e6}}) {
+    TrainingConfig config;
+    apply_setting(config, name, value);
+    EXPECT_THROW(check(config), std::invalid_argument) << name;
+  }
+  TrainingConfig config;
+  for (const double value : {1e12, HUGE_VAL, std::nan("")})
+    EXPECT_THROW(apply_setting(config, "epochs", value), std::invalid_argument);
+  EXPECT_NO_THROW(check(config));
+  EXPECT_NO_THROW(check(fine_tuning_defaults()));
+  for (const char* preset : {"small", "paper"}) EXPECT_NO_THROW(check(pretrain_preset(preset)));
 }
 
 TEST(Settings, NameEveryParameterOnce) {
