@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 
 #include "core/error.h"
@@ -90,6 +91,17 @@ void check_folder(const std::filesystem::path& manifest, const Json& record) {
     throw std::invalid_argument(manifest.parent_path().string() +
                                 " holds a pre-training of other settings or inputs: give another folder, or "
                                 "remove it first");
+}
+
+/// How the run that `check_folder` found ended, where its options are there to the last byte.
+std::optional<RunOutcome> finished_outcome(const RunFolder& folder) {
+  const std::filesystem::path options = folder.root / "options.npz";
+  if (!std::filesystem::exists(folder.manifest()) || !std::filesystem::exists(options)) return std::nullopt;
+  const Json there = Json::parse(read_file(folder.manifest()), nullptr, false);
+  if (there.value("checksum", "") != file_checksum(options)) return std::nullopt;
+  for (const Json& input : there.at("inputs"))
+    if (input.at("status") != "ok") return RunOutcome::kSomeFailed;
+  return RunOutcome::kAllGood;
 }
 
 nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
@@ -195,6 +207,10 @@ RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
   const RunFolder folder{options.out};
   const Json record = run_record(options, files);
   check_folder(folder.manifest(), record);
+  if (const auto outcome = finished_outcome(folder)) {
+    context.messages << folder.root.string() << ": these options are trained already\n";
+    return *outcome;
+  }
   folder.create();
   write_file_atomically(folder.manifest(), Json({{"run", record}}).dump(1) + "\n");
 

@@ -119,6 +119,17 @@ TEST_F(Options, PretrainingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruption
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
+TEST_F(Options, AFinishedPretrainingIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  const auto before = results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "clusters.json");
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "clusters.json"), written);
+  std::filesystem::remove(out("run") / "options.npz");
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(results_of(out("run")), before);
+}
+
 TEST_F(Options, PretrainingNamesWhatItCannotReadAndGoesOn) {
   std::ofstream(motions / "broken.npz") << "no archive";
   EXPECT_EQ(run(pretraining("run")), RunOutcome::kSomeFailed);
