@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/error.h"
 #include "core/random.h"
 
 namespace mimicx::rl {
@@ -219,26 +220,39 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
 }
 
 void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
-  const auto number = [&](const char* name) { return archive.at(prefix + name).to_double().at(0); };
-  sharpness_ = number("sharpness");
-  iteration_ = static_cast<std::int64_t>(number("iteration"));
-  next_clip_ = static_cast<std::size_t>(number("next_clip"));
+  const auto numbers = [&](const std::string& name, std::size_t size) {
+    std::vector<double> values = archive.at(prefix + name).to_double();
+    if (values.size() != size)
+      throw DataError(archive.path, prefix + name, std::to_string(size) + " numbers",
+                      std::to_string(values.size()));
+    return values;
+  };
+  const auto clip_index = [&](double value) {
+    if (!(value >= 0.0 && value < static_cast<double>(clips_.size())))
+      throw DataError(archive.path, prefix, "one of " + std::to_string(clips_.size()) + " clips",
+                      std::to_string(value));
+    return static_cast<std::size_t>(value);
+  };
+  sharpness_ = numbers("sharpness", 1)[0];
+  iteration_ = static_cast<std::int64_t>(numbers("iteration", 1)[0]);
+  next_clip_ = clip_index(numbers("next_clip", 1)[0]);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const std::string key = prefix + "group" + std::to_string(g) + ".";
+    const std::string key = "group" + std::to_string(g) + ".";
     Group& group = groups_[g];
-    const std::vector<double> clips = archive.at(key + "clips").to_double();
+    const std::vector<double> clips = numbers(key + "clips", group.packs.size());
     for (std::size_t p = 0; p < group.packs.size(); ++p) {
-      group.clips[p] = static_cast<std::size_t>(clips.at(p));
-      group.packs[p] = TrackingPack(clips_.at(group.clips[p]), config_);
-      const std::vector<double> values = archive.at(key + "pack" + std::to_string(p)).to_double();
+      group.clips[p] = clip_index(clips[p]);
+      group.packs[p] = TrackingPack(clips_[group.clips[p]], config_);
+      const std::vector<double> values =
+          numbers(key + "pack" + std::to_string(p), group.packs[p].save().size());
       group.packs[p].load(std::vector<float>(values.begin(), values.end()));
     }
-    const std::vector<double> episodes = archive.at(key + "episodes").to_double();
+    const std::vector<double> episodes = numbers(key + "episodes", group.episodes.size());
     group.episodes.assign(episodes.begin(), episodes.end());
     group.statistics.clear();
   }
   for (std::size_t c = 0; c < clips_.size(); ++c) {
-    fall_rates_[c] = archive.at(prefix + "fall_rates" + std::to_string(c)).to_double();
+    fall_rates_[c] = numbers("fall_rates" + std::to_string(c), fall_rates_[c].size());
     start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }
 }

@@ -5,7 +5,7 @@
 /// the end of the clip (a time limit: the learner bootstraps there).                METHOD §7
 /// A motion that is hard to follow keeps the sharp product of Eq. 2 near zero, where it teaches little. The
 /// learner's reward is therefore the product to a power, that is, all weights times one factor: it falls
-/// while the mean stays under `reward_target` and returns to 1 as the motion is mastered. (docs/method.md §5)
+/// while the mean stays under `reward_target` and returns to 1 as the motion is mastered. (docs/method.md §7)
 /// Every pack of characters follows one clip. Where there are more clips than packs, packs move on to the
 /// next clip in turn, one after the other, so that all clips have their share. Every start is drawn from a
 /// stream keyed by seed, character and episode.
@@ -57,6 +57,7 @@ class TrackingEnvironment {
   void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result);
   void end_iteration();
   void save(Npz& archive, const std::string& prefix) const;
+  /// @throws DataError where the archive is of other clips or numbers of characters
   void load(const Npz& archive, const std::string& prefix);
 
   /// Of the roll-out that `end_iteration` has just closed.

@@ -14,7 +14,7 @@
 
 namespace mimicx::rl {
 
-/// Defaults: docs/method.md §5 and docs/experiments.md.
+/// Defaults: docs/method.md §12 and docs/experiments.md.
 struct RewardWeights {
   double root_position = 100.0;  ///< 1/m²
   double root_rotation = 8.0;    ///< 1/rad²

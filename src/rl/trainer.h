@@ -85,8 +85,14 @@ class PpoTrainer {
 
   /// @throws DataError where the archive does not fit this trainer.
   void load(const Npz& archive, const std::string& prefix) {
-    for (std::size_t k = 0; k < learners_.size(); ++k)
-      learners_[k] = load_learner(archive, prefix + "learner" + std::to_string(k) + ".");
+    for (std::size_t k = 0; k < learners_.size(); ++k) {
+      const std::string key = prefix + "learner" + std::to_string(k) + ".";
+      Learner loaded = load_learner(archive, key);
+      const Agent &here = learners_[k].agent, &there = loaded.agent;
+      if (there.actor.sizes != here.actor.sizes || there.critic.sizes != here.critic.sizes)
+        throw DataError(archive.path, key, "networks of this training's sizes", "others");
+      learners_[k] = std::move(loaded);
+    }
     iteration_ = static_cast<std::int64_t>(archive.at(prefix + "iteration").to_double().at(0));
     samples_ = static_cast<std::int64_t>(archive.at(prefix + "samples").to_double().at(0));
     const std::vector<double> ages = archive.at(prefix + "ages").to_double();

@@ -314,6 +314,22 @@ TEST(TrackingEnvironment, GoesOnBitIdenticallyAfterSaveAndLoad) {
   EXPECT_EQ(drive(first, 32, 1, 32), drive(second, 32, 1, 32));
 }
 
+TEST(TrackingEnvironment, RefusesTheStateOfOtherClipsOrCharacters) {
+  TrackingConfig config;
+  const auto clip = make_tracking_clip(swaying_reference(90), config);
+  const auto longer = make_tracking_clip(swaying_reference(120), config);
+  TrackingEnvironment saved({clip}, config, 2 * kLanes, kLanes, 12);
+  Npz archive;
+  saved.save(archive, "e.");
+  TrackingEnvironment of_more_frames({longer}, config, 2 * kLanes, kLanes, 12),
+      in_one_group({clip}, config, 2 * kLanes, 2 * kLanes, 12),
+      of_more({clip}, config, 3 * kLanes, kLanes, 12);
+  for (TrackingEnvironment* other : {&of_more_frames, &in_one_group, &of_more})
+    EXPECT_THROW(other->load(archive, "e."), DataError);
+  archive.set("e.next_clip", NpyArray::scalar_int(7));
+  EXPECT_THROW(saved.load(archive, "e."), DataError);
+}
+
 TEST(TrackingEnvironment, EndsEpisodesAtFallsAndAtTheClipsEnd) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(12), config);
@@ -378,6 +394,57 @@ TEST(TrackingEnvironment, StartWeightsAreAProbabilityThatFavoursWhatLeadsToFalls
   EXPECT_GT(weights[3], weights[2]);
   EXPECT_GT(weights[2], weights[1]);
   EXPECT_GT(weights[1], weights[0]);
+}
+
+/// Frames that the characters of an environment, all of which fall at every step, reach with their next step:
+/// one after those they have been set to. By bins.
+std::vector<std::int64_t> first_frames_reached(TrackingEnvironment& environment) {
+  StepResult result(environment.group_size(), kStateSize);
+  for (int g = 0; g < environment.groups(); ++g)
+    environment.step(g, nn::Matrix<float>::Zero(environment.group_size(), kDofs), result);
+  environment.end_iteration();
+  return environment.statistics().visits[0];
+}
+
+/// Σ (found − expected)² / expected of starts drawn by bin weights, evenly within a bin, in a clip of whole
+/// bins.
+double chi_squared(const std::vector<double>& weights, int bin_frames, int frames,
+                   const std::vector<std::int64_t>& reached) {
+  std::vector<double> expected(weights.size());
+  std::int64_t all = 0;
+  for (const std::int64_t n : reached) all += n;
+  for (int frame = 0; frame < frames; ++frame)  // the last two frames are too late for a start
+    expected[static_cast<std::size_t>((std::min(frame, frames - 2) + 1) / bin_frames)] +=
+        static_cast<double>(all) * weights[static_cast<std::size_t>(frame / bin_frames)] / bin_frames;
+  double sum = 0.0;
+  for (std::size_t b = 0; b < weights.size(); ++b) {
+    const double off = static_cast<double>(reached[b]) - expected[b];
+    sum += off * off / expected[b];
+  }
+  return sum;
+}
+
+TEST(TrackingEnvironment, EpisodesStartAllOverTheClipAndMoreOftenWhereTheCharacterFell) {
+  TrackingConfig config;
+  config.terminate_distance =
+      0.0;  // nobody is exactly on the reference: every step is a fall and a new start
+  const int frames = 60;
+  const auto clip = make_tracking_clip(swaying_reference(frames), config);
+  TrackingEnvironment environment({clip}, config, 2048, 512, 17);
+  constexpr double kUnlikely = 25.0;  // of 5 degrees of freedom: 1 in 7000
+  EXPECT_LT(
+      chi_squared(start_weights(std::vector<double>(6), 0.4), 10, frames, first_frames_reached(environment)),
+      kUnlikely);
+
+  const std::vector<double> rates = {0, 0, 0, 0.5, 0, 0};
+  Npz state;
+  environment.save(state, "e.");
+  state.set("e.fall_rates0", NpyArray::from_double({6}, rates.data()));
+  environment.load(state, "e.");
+  first_frames_reached(environment);  // falls, and starts anew where the falls are said to be
+  const std::vector<std::int64_t> reached = first_frames_reached(environment);
+  EXPECT_LT(chi_squared(start_weights(rates, config.uniform_starts), 10, frames, reached), kUnlikely);
+  EXPECT_GT(chi_squared(start_weights(std::vector<double>(6), 0.4), 10, frames, reached), 10.0 * kUnlikely);
 }
 
 TEST(TrackingEnvironment, LearnsWhereItFalls) {
