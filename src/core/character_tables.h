@@ -9,6 +9,7 @@ namespace mimicx {
 
 inline constexpr double kStandardMass = 70.0;  ///< kg
 
+/// Whether a body is of the right side.
 bool is_right(int body);
 
 /// Standard body: joint positions relative to the parent, m, for the left side and the middle; the right

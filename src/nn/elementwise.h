@@ -121,6 +121,7 @@ void apply_activation(Activation activation, const Matrix<S>& x, Matrix<S>& y);
 /// result = g · φ'(x), with φ' expressed by y = φ(x).
 template <class S>
 void multiply_by_slope(Activation activation, const Matrix<S>& g, const Matrix<S>& y, Matrix<S>& result);
+/// y = e^x, resized.
 template <class S>
 void apply_exp(const Matrix<S>& x, Matrix<S>& y);
 

@@ -18,6 +18,7 @@ struct Moments {
   Eigen::RowVectorXd squares;  ///< [features] Σ (x − mean)²
 };
 
+/// Of no rows yet.
 Moments make_moments(int features);
 
 /// Two passes over the rows of a batch; no rows give a count of 0.

@@ -44,6 +44,8 @@ struct Wrench {
   Vec3<T> n, f;  ///< moment about the body's joint centre, N·m; force, N
 };
 
+/// What a step works with, none of which outlives it: kinematics, forces and articulated inertias of every
+/// body, in world axes at its joint centre.
 template <class T>
 struct Data {
   // kinematics

@@ -3,6 +3,9 @@
 /// Velocities first, positions with the new velocities, quaternions by the exponential map.
 #pragma once
 
+#include <algorithm>
+#include <numbers>
+
 #include "physics/data.h"
 
 namespace mimicx {
@@ -18,11 +21,14 @@ template <class T>
   }
 }
 
-/// Lanes whose state is not finite or has run away. Comparisons with NaN are false, hence the negations.
+/// Lanes whose state is not finite or has run away: the pelvis is faster than `max_speed` or 100 km off, or a
+/// joint turns faster than 6 rad/m times that or by half a turn within a step, where `exp_map` ends.
+/// Comparisons with NaN are false, hence the negation.
 template <class T>
 MaskOf<T> gone_wrong(const Model<RealOf<T>>& model, const State<T>& s) {
   const T limit(model.options.max_speed * model.options.max_speed);
-  const T spin(36.0 * model.options.max_speed * model.options.max_speed);
+  const double fastest = std::min(6.0 * model.options.max_speed, std::numbers::pi * model.options.rate);
+  const T spin(fastest * fastest);
   const MaskOf<T> slow = dot(s.v_root, s.v_root) <= limit, near = dot(s.p_root, s.p_root) <= T(1e10);
   MaskOf<T> fine = slow & near;
   for (std::size_t i = 0; i < kBodies; ++i) {

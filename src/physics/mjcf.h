@@ -27,6 +27,7 @@ struct MjcfOptions {
   bool shapes = true;    ///< capsules to look at; they collide with nothing
 };
 
+/// The text of the file.
 std::string to_mjcf(const Character& character, const SimulationOptions& options,
                     const MjcfOptions& what = {});
 

@@ -30,7 +30,7 @@ struct SimulationOptions {
   double self_damping = 30.0;       ///< N·s/m
   double limit_stiffness = 5000.0;  ///< of joint ranges, N·m/rad
   double limit_damping = 50.0;      ///< N·m·s/rad
-  double max_speed = 100.0;         ///< a body part faster than this (m/s) or 6 × as many rad/s has run away
+  double max_speed = 100.0;  ///< of the pelvis, m/s, and a sixth of a joint's, rad/s: faster has run away
 };
 
 template <class Real>

@@ -11,7 +11,7 @@ namespace {
 
 template <class P>
 class PackTest : public testing::Test {};
-using Widths = testing::Types<Pack<8>, Pack<16>>;
+using Widths = testing::Types<Pack<4>, Pack<8>, Pack<16>>;
 TYPED_TEST_SUITE(PackTest, Widths);
 
 template <class P>
