@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "physics/integration.h"
 #include "physics/test_states.h"
 
 namespace mimicx {
@@ -151,6 +152,19 @@ TEST(Robustness, NumbersThatAreNoneAreFlaggedInTheSameStepWhereverTheyStand) {
       const auto wrong = simulation->advance();
       EXPECT_TRUE(ScalarTraits<P>::lane(wrong, 0)) << kBodyNames[body] << " " << place;
     }
+}
+
+TEST(Robustness, AJointThatTurnsByHalfACircleWithinAStepHasRunAway) {
+  const Character c = make_character();
+  for (const double rate : {30.0, 120.0}) {  // where that is slower than six times max_speed
+    SimulationOptions o;
+    o.rate = rate;
+    Simulation<double> s(c, o, standing(c));
+    for (const double turn : {0.99, 1.01}) {  // half circles per step
+      s.state.omega[kLeftElbow] = {0.0, turn * std::acos(-1.0) * rate, 0.0};
+      EXPECT_EQ(any(gone_wrong(s.model, s.state)), turn > 1.0) << rate;
+    }
+  }
 }
 
 }  // namespace
