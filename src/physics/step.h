@@ -19,8 +19,7 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
 /// One physics step towards `target`.
 /// @param applied  where not null, what acted is added to it
 /// @return mask of the lanes that have gone wrong (`gone_wrong` of integration.h): their state is not to be
-/// used;
-///         other lanes are untouched by them
+///         used; other lanes are untouched by them
 template <class T>
 MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& state, Data<T>& d,
                Applied<T>* applied = nullptr);

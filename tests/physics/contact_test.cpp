@@ -88,9 +88,9 @@ SceneReport run(Scene scene, double rate, int passes) {
   return r;
 }
 
-/// A third pass at 120 Hz may leave the solution that the second had found (docs/physics.md §7): it is left
-/// out.
-bool is_proven(double rate, int passes) { return rate > 120.0 || passes < 3; }
+/// A third pass at 120 Hz may leave the solution that the second had found (docs/physics.md §7). In the
+/// portable build, of four lanes, one character of these scenes does: there it is left out.
+bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || passes < 3; }
 
 TEST(GroundContact, NothingBlowsUpAtAnyRateInStandFallDropAndThrow) {
   for (Scene scene : {Scene::kStand, Scene::kFall, Scene::kDrop, Scene::kThrow})
@@ -141,19 +141,22 @@ TEST(GroundContact, NobodyOfHundredsWhoFallAreDroppedOrThrownRunsAway) {
 
 // docs/physics.md §7 lists what is measured; the bounds leave room for another compiler's rounding.
 TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
+  constexpr double kOthers =
+      kLanes == 8 ? 1.0 : 1.2;  // a pack of fewer or more characters: others are the worst
   struct Bound {
     double rate;
     int passes;
     double cone, adhesion;
   };
-  for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{240, 1, 0.11, 0.012}, Bound{240, 2, 0.08, 0.006},
-                         Bound{240, 3, 0.04, 0.003}, Bound{480, 1, 0.08, 0.008}, Bound{480, 2, 0.07, 0.006},
-                         Bound{480, 3, 0.03, 0.001}})
+  for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.01}, Bound{240, 1, 0.11, 0.012},
+                         Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 1, 0.08, 0.006},
+                         Bound{480, 2, 0.07, 0.006}, Bound{480, 3, 0.03, 0.001}})
     for (Scene scene : {Scene::kFall, Scene::kDrop, Scene::kThrow}) {
+      if (!is_proven(b.rate, b.passes)) continue;
       const SceneReport r = run(scene, b.rate, b.passes);
-      EXPECT_LT(r.outside_cone, b.cone)
+      EXPECT_LT(r.outside_cone, kOthers * b.cone)
           << kSceneNames[static_cast<int>(scene)] << " " << b.rate << " " << b.passes;
-      EXPECT_LT(r.adhesion, b.adhesion)
+      EXPECT_LT(r.adhesion, kOthers * b.adhesion)
           << kSceneNames[static_cast<int>(scene)] << " " << b.rate << " " << b.passes;
     }
 }
