@@ -27,8 +27,8 @@ constexpr int kStepsPerRollout = 480;
 /// Where a roll-out starts: arms down, joint velocities of 0.3 rad/s.
 struct Start {
   Vector3d p_root{0, 0, 0.951};
-  std::array<Quaterniond, kBodies> q;
-  std::array<Vector3d, kBodies> omega;
+  PerBody<Quaterniond> q;
+  PerBody<Vector3d> omega;
 
   explicit Start(std::uint64_t number) {
     Random random(1, {number});

@@ -19,8 +19,8 @@ void update_kinematics(const Model<RealOf<T>>& model, const State<T>& state, Dat
 }
 
 template <class T>
-void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
-                      const std::array<Vec3<T>, kBodies>& tau, Data<T>& d) {
+void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, const PerBody<Vec3<T>>& tau,
+                      Data<T>& d) {
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
   d.ground_count = 0;
@@ -101,8 +101,8 @@ void clear(Applied<T>& applied) {
 }
 
 #define MIMICX_INSTANTIATE(T)                                                                              \
-  template void forward_dynamics<T>(const Model<RealOf<T>>&, const State<T>&,                              \
-                                    const std::array<Vec3<T>, kBodies>&, Data<T>&);                        \
+  template void forward_dynamics<T>(const Model<RealOf<T>>&, const State<T>&, const PerBody<Vec3<T>>&,     \
+                                    Data<T>&);                                                             \
   template MaskOf<T> step<T>(const Model<RealOf<T>>&, const Target<T>&, State<T>&, Data<T>&, Applied<T>*); \
   template void solve_accelerations<T>(const Model<RealOf<T>>&, const Target<T>&, const State<T>&,         \
                                        Data<T>&);                                                          \

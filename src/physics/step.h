@@ -13,8 +13,8 @@ namespace mimicx {
 /// @param tau  joint torques in the child's frame, N·m; entry 0 unused; of a hinge the part along its axis
 /// counts
 template <class T>
-void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
-                      const std::array<Vec3<T>, kBodies>& tau, Data<T>& d);
+void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, const PerBody<Vec3<T>>& tau,
+                      Data<T>& d);
 
 /// One physics step towards `target`.
 /// @param applied  where not null, what acted is added to it

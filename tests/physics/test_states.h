@@ -14,10 +14,10 @@ namespace mimicx {
 /// One character's state and PD target in doubles; conventions of physics/data.h.
 struct Snapshot {
   Vector3d p_root = Vector3d::Zero(), v_root = Vector3d::Zero();
-  std::array<Quaterniond, kBodies> q;
-  std::array<Vector3d, kBodies> omega;
-  std::array<Quaterniond, kBodies> target_q;
-  std::array<Vector3d, kBodies> target_omega;
+  PerBody<Quaterniond> q;
+  PerBody<Vector3d> omega;
+  PerBody<Quaterniond> target_q;
+  PerBody<Vector3d> target_omega;
 };
 
 /// Upright with bent knees and arms down, at rest, PD target = pose; soles on the floor.
@@ -44,13 +44,12 @@ double lowest_point(const Character& character, const Snapshot& s);
 BookPosition book_position(const Snapshot& s);
 /// The oracle's coordinates of six numbers of the root and one vector per joint (entry 0 unused), child's
 /// frame.
-Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
-                            const std::array<Vector3d, kBodies>& joints);
+Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear, const PerBody<Vector3d>& joints);
 Eigen::VectorXd book_velocity(const Snapshot& s);
 /// Generalised acceleration that the simulator found, in the oracle's coordinates.
 Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d);
 /// Torques of the joints (entry 0 unused, child's frame) as the oracle's generalised forces.
-Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau);
+Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau);
 
 template <class T>
 Vector3d lane_of(const Vec3<T>& v, int lane) {

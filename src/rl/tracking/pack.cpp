@@ -1,0 +1,251 @@
+#include "rl/tracking/pack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace mimicx::rl {
+namespace {
+
+using P = TrackingPack::P;
+
+void put(Vec3<P>& out, int lane, const Vector3d& v) {
+  out.x.set(lane, static_cast<float>(v.x()));
+  out.y.set(lane, static_cast<float>(v.y()));
+  out.z.set(lane, static_cast<float>(v.z()));
+}
+void put(Quat<P>& out, int lane, const Quaterniond& q) {
+  out.w.set(lane, static_cast<float>(q.w()));
+  out.x.set(lane, static_cast<float>(q.x()));
+  out.y.set(lane, static_cast<float>(q.y()));
+  out.z.set(lane, static_cast<float>(q.z()));
+}
+Vector3d get(const Vec3<P>& v, int lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
+Quaterniond get(const Quat<P>& q, int lane) { return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]}; }
+
+/// Normalised linear interpolation the shorter way; for the few degrees between two targets it is within
+/// rounding of a slerp.
+Quat<P> interpolate(const Quat<P>& a, const Quat<P>& b, P s) {
+  const P cosine = fma(a.w, b.w, fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)));
+  const P wb = select(cosine < P(0.0), -s, s), wa = P(1.0) - s;
+  const Quat<P> q = {fma(wa, a.w, wb * b.w), fma(wa, a.x, wb * b.x), fma(wa, a.y, wb * b.y),
+                     fma(wa, a.z, wb * b.z)};
+  const P r = P(1.0) / sqrt(fma(q.w, q.w, fma(q.x, q.x, fma(q.y, q.y, q.z * q.z))));
+  return {r * q.w, r * q.x, r * q.y, r * q.z};
+}
+
+template <class F>
+void for_each_value(State<P>& state, Target<P>& target, F&& f) {
+  const auto vec = [&](Vec3<P>& v) {
+    f(v.x);
+    f(v.y);
+    f(v.z);
+  };
+  const auto quat = [&](Quat<P>& q) {
+    f(q.w);
+    f(q.x);
+    f(q.y);
+    f(q.z);
+  };
+  vec(state.p_root);
+  vec(state.v_root);
+  for (auto& q : state.q) quat(q);
+  for (auto& w : state.omega) vec(w);
+  for (auto& q : target.q) quat(q);
+  for (auto& w : target.omega) vec(w);
+}
+
+}  // namespace
+
+std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
+                                                       const TrackingConfig& config) {
+  if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
+  const double substeps = config.simulation.rate / reference.fps;
+  if (std::abs(substeps - std::round(substeps)) > 1e-9)
+    throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
+  auto clip = std::make_shared<TrackingClip>();
+  clip->reference = reference;
+  clip->model = make_model<float>(reference.character, config.simulation);
+  for (std::size_t t = 0; t < reference.frames.size(); ++t)
+    clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
+  Pose rest = clip->poses.back();
+  rest.frame.v_root.setZero();
+  for (auto& omega : rest.frame.omega) omega.setZero();
+  clip->poses.push_back(rest);
+  for (const Pose& pose : clip->poses) clip->joints.push_back(joint_features(pose.frame));
+  if (reference.keypoints) clip->keypoints = match_keypoints(*reference.keypoints);
+  return clip;
+}
+
+TrackingPack::TrackingPack(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config)
+    : clip_(std::move(clip)), config_(config) {
+  for (int lane = 0; lane < kLanes; ++lane) reset(lane, 0);
+}
+
+void TrackingPack::reset(int lane, int frame) {
+  const auto n = static_cast<std::size_t>(lane);
+  const Pose& start = clip_->poses[static_cast<std::size_t>(frame)];
+  frames_[n] = frame;
+  broken_[n] = false;
+  fresh_[n] = true;
+  poses_[n] = start;
+  put(state_.p_root, lane, start.frame.p_root);
+  put(state_.v_root, lane, start.frame.v_root);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    put(state_.q[i], lane, start.frame.q[i]);
+    put(state_.omega[i], lane, start.frame.omega[i]);
+    put(to_.q[i], lane, start.frame.q[i]);
+    put(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    put(from_.q[i], lane, start.frame.q[i]);
+    put(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+  }
+}
+
+void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
+  const auto to = static_cast<std::size_t>(lane), at = static_cast<std::size_t>(from);
+  put(state_.p_root, lane, get(other.state_.p_root, from));
+  put(state_.v_root, lane, get(other.state_.v_root, from));
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    put(state_.q[i], lane, get(other.state_.q[i], from));
+    put(state_.omega[i], lane, get(other.state_.omega[i], from));
+    put(to_.q[i], lane, get(other.to_.q[i], from));
+    put(to_.omega[i], lane, get(other.to_.omega[i], from));
+    put(from_.q[i], lane, get(other.from_.q[i], from));
+    put(from_.omega[i], lane, get(other.from_.omega[i], from));
+  }
+  frames_[to] = other.frames_[at];
+  poses_[to] = other.poses_[at];
+  broken_[to] = other.broken_[at];
+  fresh_[to] = other.fresh_[at];
+  saturated_[to] = other.saturated_[at];
+}
+
+void TrackingPack::observe(int lane, int option, float* out) const {
+  const auto next = static_cast<std::size_t>(frame(lane) + 1);
+  const auto& betas = clip_->reference.character.betas;
+  if (!clip_->encoded.empty()) {
+    const EncodedReference& encoded = clip_->encoded[static_cast<std::size_t>(option)];
+    const float* code = encoded.codes.data() + next * static_cast<std::size_t>(encoded.code_size);
+    encoded_state(code, encoded.code_size, encoded.decoded[next], clip_->poses[next], betas, pose(lane), out);
+    return;
+  }
+  tracking_state(clip_->poses[next], clip_->joints[next], betas, pose(lane), out);
+}
+
+void TrackingPack::act(int lane, const float* action) {
+  const ReferenceFrame& next = clip_->poses[static_cast<std::size_t>(frame(lane) + 1)].frame;
+  const auto entry = [&](int k) {
+    const double a = static_cast<double>(action[k]);
+    return std::isfinite(a) ? std::clamp(a, -config_.max_action, config_.max_action) : 0.0;
+  };
+  int dof = 0;
+  for (int body = 1; body < kBodies; ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    Vector3d rotation;
+    if (is_hinge(body)) {
+      rotation = entry(dof) * hinge_axis(body);
+      dof += 1;
+    } else {
+      rotation = {entry(dof), entry(dof + 1), entry(dof + 2)};
+      dof += 3;
+    }
+    const Quaterniond turned = exp_map(rotation);
+    put(to_.q[i], lane, config_.action_mode == ActionMode::kResidual ? next.q[i] * turned : turned);
+    put(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
+  }
+}
+
+void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepWatcher& watch) {
+  const int substeps = static_cast<int>(std::lround(config_.simulation.rate / clip_->reference.fps));
+  Target<P> target{};
+  State<P> before;
+  for (int k = 1; k <= substeps; ++k) {
+    const P s(static_cast<float>(k) / static_cast<float>(substeps));
+    for (std::size_t i = 1; i < kBodies; ++i) {
+      target.q[i] = interpolate(from_.q[i], to_.q[i], s);
+      target.omega[i] = add_scaled(from_.omega[i], s, to_.omega[i] - from_.omega[i]);
+    }
+    if (watch) before = state_;
+    const MaskOf<P> wrong = step(clip_->model, target, state_, scratch, applied);
+    if (watch) watch(before, target, scratch, state_);
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
+  }
+  saturated_.fill(0);
+  for (std::size_t i = 1; i < kBodies; ++i)
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (scratch.saturated[i][lane] != 0) ++saturated_[static_cast<std::size_t>(lane)];
+  update_kinematics(clip_->model, state_, scratch);
+  from_ = to_;
+  fresh_.reset();
+  for (int lane = 0; lane < kLanes; ++lane) {
+    auto& frame = frames_[static_cast<std::size_t>(lane)];
+    frame = std::min(frame + 1, clip_->size() - 1);
+    read_pose(scratch, lane);
+  }
+}
+
+void TrackingPack::read_pose(const Data<P>& d, int lane) {
+  Pose& pose = poses_[static_cast<std::size_t>(lane)];
+  pose.frame.p_root = get(state_.p_root, lane);
+  pose.frame.v_root = get(state_.v_root, lane);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    pose.frame.q[i] = get(state_.q[i], lane).normalized();
+    pose.frame.omega[i] = get(state_.omega[i], lane);
+    pose.p_WB[i] = get(d.p_WB[i], lane);
+  }
+}
+
+Reward TrackingPack::reward(int lane) const {
+  if (broken_[static_cast<std::size_t>(lane)]) return {};
+  const auto t = static_cast<std::size_t>(frame(lane));
+  const KeypointFrame* keypoints = clip_->keypoints.empty() ? nullptr : &clip_->keypoints[t];
+  return tracking_reward(config_.reward, clip_->poses[t], pose(lane), keypoints);
+}
+
+double TrackingPack::worst_distance(int lane) const {
+  if (broken_[static_cast<std::size_t>(lane)]) return std::numeric_limits<double>::infinity();
+  const auto& reference = clip_->poses[static_cast<std::size_t>(frame(lane))].p_WB;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < kBodies; ++i)
+    worst = std::max(worst, (pose(lane).p_WB[i] - reference[i]).norm());
+  return worst;
+}
+
+std::vector<float> TrackingPack::save() const {
+  std::vector<float> values;
+  State<P> state = state_;
+  Target<P> target = to_;
+  for_each_value(state, target, [&](P& x) {
+    for (int lane = 0; lane < kLanes; ++lane) values.push_back(x[lane]);
+  });
+  for (std::size_t n = 0; n < kLanes; ++n) {
+    values.push_back(static_cast<float>(frames_[n]));
+    values.push_back(fresh_[n] ? 1.0f : 0.0f);
+  }
+  return values;
+}
+
+void TrackingPack::load(const std::vector<float>& values) {
+  if (values.size() != save().size()) throw std::invalid_argument("a saved pack has another size");
+  std::size_t k = 0;
+  for_each_value(state_, to_, [&](P& x) {
+    for (int lane = 0; lane < kLanes; ++lane) x.set(lane, values[k++]);
+  });
+  from_ = to_;
+  broken_.reset();
+  Data<P> d;
+  update_kinematics(clip_->model, state_, d);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto n = static_cast<std::size_t>(lane);
+    frames_[n] = static_cast<int>(values[k++]);
+    fresh_[n] = values[k++] != 0.0f;
+    if (fresh_[n])
+      poses_[n] = clip_->poses[static_cast<std::size_t>(frames_[n])];
+    else
+      read_pose(d, lane);
+  }
+}
+
+}  // namespace mimicx::rl
