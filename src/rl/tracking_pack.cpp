@@ -5,24 +5,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "physics/lanes.h"
+
 namespace mimicx::rl {
 namespace {
 
 using P = TrackingPack::P;
-
-void put(Vec3<P>& out, int lane, const Vector3d& v) {
-  out.x.set(lane, static_cast<float>(v.x()));
-  out.y.set(lane, static_cast<float>(v.y()));
-  out.z.set(lane, static_cast<float>(v.z()));
-}
-void put(Quat<P>& out, int lane, const Quaterniond& q) {
-  out.w.set(lane, static_cast<float>(q.w()));
-  out.x.set(lane, static_cast<float>(q.x()));
-  out.y.set(lane, static_cast<float>(q.y()));
-  out.z.set(lane, static_cast<float>(q.z()));
-}
-Vector3d get(const Vec3<P>& v, int lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
-Quaterniond get(const Quat<P>& q, int lane) { return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]}; }
 
 /// Normalised linear interpolation the shorter way; for the few degrees between two targets it is within
 /// rounding of a slerp.
@@ -90,30 +78,23 @@ void TrackingPack::reset(int lane, int frame) {
   broken_[n] = false;
   fresh_[n] = true;
   poses_[n] = start;
-  put(state_.p_root, lane, start.frame.p_root);
-  put(state_.v_root, lane, start.frame.v_root);
+  set_lane(state_.p_root, lane, start.frame.p_root);
+  set_lane(state_.v_root, lane, start.frame.v_root);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    put(state_.q[i], lane, start.frame.q[i]);
-    put(state_.omega[i], lane, start.frame.omega[i]);
-    put(to_.q[i], lane, start.frame.q[i]);
-    put(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
-    put(from_.q[i], lane, start.frame.q[i]);
-    put(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    set_lane(state_.q[i], lane, start.frame.q[i]);
+    set_lane(state_.omega[i], lane, start.frame.omega[i]);
+    set_lane(to_.q[i], lane, start.frame.q[i]);
+    set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    set_lane(from_.q[i], lane, start.frame.q[i]);
+    set_lane(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
   }
 }
 
 void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
   const auto to = static_cast<std::size_t>(lane), at = static_cast<std::size_t>(from);
-  put(state_.p_root, lane, get(other.state_.p_root, from));
-  put(state_.v_root, lane, get(other.state_.v_root, from));
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    put(state_.q[i], lane, get(other.state_.q[i], from));
-    put(state_.omega[i], lane, get(other.state_.omega[i], from));
-    put(to_.q[i], lane, get(other.to_.q[i], from));
-    put(to_.omega[i], lane, get(other.to_.omega[i], from));
-    put(from_.q[i], lane, get(other.from_.q[i], from));
-    put(from_.omega[i], lane, get(other.from_.omega[i], from));
-  }
+  mimicx::copy_lane(state_, lane, other.state_, from);
+  mimicx::copy_lane(to_, lane, other.to_, from);
+  mimicx::copy_lane(from_, lane, other.from_, from);
   frames_[to] = other.frames_[at];
   poses_[to] = other.poses_[at];
   broken_[to] = other.broken_[at];
@@ -151,8 +132,8 @@ void TrackingPack::act(int lane, const float* action) {
       dof += 3;
     }
     const Quaterniond turned = exp_map(rotation);
-    put(to_.q[i], lane, config_.action_mode == ActionMode::kResidual ? next.q[i] * turned : turned);
-    put(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
+    set_lane(to_.q[i], lane, config_.action_mode == ActionMode::kResidual ? next.q[i] * turned : turned);
+    set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
   }
 }
 
@@ -188,12 +169,12 @@ void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepW
 
 void TrackingPack::read_pose(const Data<P>& d, int lane) {
   Pose& pose = poses_[static_cast<std::size_t>(lane)];
-  pose.frame.p_root = get(state_.p_root, lane);
-  pose.frame.v_root = get(state_.v_root, lane);
+  pose.frame.p_root = lane_of(state_.p_root, lane);
+  pose.frame.v_root = lane_of(state_.v_root, lane);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    pose.frame.q[i] = get(state_.q[i], lane).normalized();
-    pose.frame.omega[i] = get(state_.omega[i], lane);
-    pose.p_WB[i] = get(d.p_WB[i], lane);
+    pose.frame.q[i] = lane_of(state_.q[i], lane).normalized();
+    pose.frame.omega[i] = lane_of(state_.omega[i], lane);
+    pose.p_WB[i] = lane_of(d.p_WB[i], lane);
   }
 }
 
