@@ -6,22 +6,12 @@
 #include <stdexcept>
 
 #include "physics/lanes.h"
+#include "physics/pd_target.h"
 
 namespace mimicx::rl {
 namespace {
 
 using P = TrackingPack::P;
-
-/// Normalised linear interpolation the shorter way; for the few degrees between two targets it is within
-/// rounding of a slerp.
-Quat<P> interpolate(const Quat<P>& a, const Quat<P>& b, P s) {
-  const P cosine = fma(a.w, b.w, fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)));
-  const P wb = select(cosine < P(0.0), -s, s), wa = P(1.0) - s;
-  const Quat<P> q = {fma(wa, a.w, wb * b.w), fma(wa, a.x, wb * b.x), fma(wa, a.y, wb * b.y),
-                     fma(wa, a.z, wb * b.z)};
-  const P r = P(1.0) / sqrt(fma(q.w, q.w, fma(q.x, q.x, fma(q.y, q.y, q.z * q.z))));
-  return {r * q.w, r * q.x, r * q.y, r * q.z};
-}
 
 template <class F>
 void for_each_value(State<P>& state, Target<P>& target, F&& f) {
@@ -116,43 +106,21 @@ void TrackingPack::observe(int lane, int option, float* out) const {
 
 void TrackingPack::act(int lane, const float* action) {
   const ReferenceFrame& next = clip_->poses[static_cast<std::size_t>(frame(lane) + 1)].frame;
-  const auto entry = [&](int k) {
-    const double a = static_cast<double>(action[k]);
-    return std::isfinite(a) ? std::clamp(a, -config_.max_action, config_.max_action) : 0.0;
-  };
-  int dof = 0;
+  const bool residual = config_.action_mode == ActionMode::kResidual;
   for (int body = 1; body < kBodies; ++body) {
     const auto i = static_cast<std::size_t>(body);
-    Vector3d rotation;
-    if (is_hinge(body)) {
-      rotation = entry(dof) * hinge_axis(body);
-      dof += 1;
-    } else {
-      rotation = {entry(dof), entry(dof + 1), entry(dof + 2)};
-      dof += 3;
-    }
-    const Quaterniond turned = exp_map(rotation);
-    set_lane(to_.q[i], lane, config_.action_mode == ActionMode::kResidual ? next.q[i] * turned : turned);
+    const Vector3d rotation = action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
+    set_lane(to_.q[i], lane, residual ? residual_target(next.q[i], rotation) : exp_map(rotation));
     set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
   }
 }
 
 void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepWatcher& watch) {
   const int substeps = static_cast<int>(std::lround(config_.simulation.rate / clip_->reference.fps));
-  Target<P> target{};
-  State<P> before;
-  for (int k = 1; k <= substeps; ++k) {
-    const P s(static_cast<float>(k) / static_cast<float>(substeps));
-    for (std::size_t i = 1; i < kBodies; ++i) {
-      target.q[i] = interpolate(from_.q[i], to_.q[i], s);
-      target.omega[i] = add_scaled(from_.omega[i], s, to_.omega[i] - from_.omega[i]);
-    }
-    if (watch) before = state_;
-    const MaskOf<P> wrong = step(clip_->model, target, state_, scratch, applied);
-    if (watch) watch(before, target, scratch, state_);
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
-  }
+  const MaskOf<P> wrong =
+      advance_interval(clip_->model, from_, to_, substeps, state_, scratch, applied, watch);
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
   saturated_.fill(0);
   for (std::size_t i = 1; i < kBodies; ++i)
     for (int lane = 0; lane < kLanes; ++lane)
