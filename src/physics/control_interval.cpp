@@ -18,7 +18,7 @@ Quat<T> interpolate(const Quat<T>& a, const Quat<T>& b, T s) {
 template <class T>
 MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from, const Target<T>& to,
                            int substeps, State<T>& state, Data<T>& d, Applied<T>* applied,
-                           const SubstepWatcher<T>& watch) {
+                           const SubstepWatcher<T>& watch, const Wrench<T>* help) {
   using Real = RealOf<T>;
   Target<T> target{};
   State<T> before;
@@ -30,7 +30,7 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
       target.omega[i] = add_scaled(from.omega[i], s, to.omega[i] - from.omega[i]);
     }
     if (watch) before = state;
-    wrong = wrong | step(model, target, state, d, applied);
+    wrong = wrong | step(model, target, state, d, applied, help);
     if (watch) watch(before, target, d, state);
   }
   return wrong;
@@ -38,7 +38,8 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
 
 #define MIMICX_INSTANTIATE(T)                                                                              \
   template MaskOf<T> advance_interval<T>(const Model<RealOf<T>>&, const Target<T>&, const Target<T>&, int, \
-                                         State<T>&, Data<T>&, Applied<T>*, const SubstepWatcher<T>&);
+                                         State<T>&, Data<T>&, Applied<T>*, const SubstepWatcher<T>&,       \
+                                         const Wrench<T>*);
 
 MIMICX_INSTANTIATE(double)
 MIMICX_INSTANTIATE(Pack<8>)

@@ -19,10 +19,11 @@ using SubstepWatcher = std::function<void(const State<T>& before, const Target<T
 /// @param substeps  ≥ 1
 /// @param applied  where not null, what acted is added to it
 /// @param watch  sees every physics step and changes none; empty: nobody watches
+/// @param help  where not null, the constant wrench on the pelvis that `step` knows
 /// @return mask of the lanes that went wrong in any of the steps
 template <class T>
 MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from, const Target<T>& to,
                            int substeps, State<T>& state, Data<T>& d, Applied<T>* applied = nullptr,
-                           const SubstepWatcher<T>& watch = {});
+                           const SubstepWatcher<T>& watch = {}, const Wrench<T>* help = nullptr);
 
 }  // namespace mimicx

@@ -106,6 +106,20 @@ TEST(ControlInterval, ALaneThatGoesWrongInTheMiddleIsReported) {
   EXPECT_TRUE(ScalarTraits<P>::lane(wrong, 2));
 }
 
+TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
+  const Character character = make_character();
+  Snapshot snapshot = standing(stiffened(character));
+  snapshot.p_root.z() += 0.5;
+  const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationOptions{}, snapshot);
+  Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * 9.81}};
+  const Vector3d before = to_eigen(s->state.p_root);
+  // The moment about the pelvis of a centre of mass that hangs before it turns the body, so only for a
+  // moment.
+  advance_interval<double>(s->model, s->target, s->target, 8, s->state, s->data, nullptr, {}, &help);
+  EXPECT_LT((to_eigen(s->state.p_root) - before).norm(), 5e-4);  // a free fall: 6e-3
+  EXPECT_LT(std::abs(s->state.v_root.z), 0.02);                  // a free fall: 0.33
+}
+
 TEST(PdTarget, ActionsAreClampedAndWhatIsNoNumberIsZero) {
   std::array<float, kDofs> action{};
   const int hip = first_dof(kLeftHip), knee = first_dof(kLeftKnee);
