@@ -4,11 +4,6 @@
 #include <numbers>
 
 namespace mimicx {
-namespace {
-
-Vector3d to_eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
-
-}  // namespace
 
 Vector3d random_vector(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();

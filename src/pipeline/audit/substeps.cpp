@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "physics/lanes.h"
 #include "physics/step.h"
 #include "pipeline/output/rows.h"
 #include "pipeline/output/simulated_members.h"
@@ -101,12 +102,7 @@ void read_setting(const Npz& npz, const std::string& name, T& field) {
   field = static_cast<T>(read_numbers(npz, name, 1, 1)[0]);
 }
 
-Vec3<double> to_simulator(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Quat<double> to_simulator(const Quaterniond& q) {
-  const Quaterniond unit = q.normalized();
-  return {unit.w(), unit.x(), unit.y(), unit.z()};
-}
-Vector3d to_eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+Quat<double> to_simulator(const Quaterniond& q) { return from_eigen(q.normalized()); }
 Vector6d to_eigen(const Wrench<double>& w) {
   Vector6d out;
   out.head<3>() = to_eigen(w.n);
@@ -130,7 +126,7 @@ ReferenceFrame to_eigen(const State<double>& state) {
   frame.p_root = to_eigen(state.p_root);
   frame.v_root = to_eigen(state.v_root);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    frame.q[i] = Quaterniond(state.q[i].w, state.q[i].x, state.q[i].y, state.q[i].z);
+    frame.q[i] = to_eigen(state.q[i]);
     frame.omega[i] = to_eigen(state.omega[i]);
   }
   return frame;
@@ -189,13 +185,13 @@ Replay replay_in_double(const SubstepMotion& motion) {
   Applied<double> applied;
   Replay replay;
   for (const rl::Substep& recorded : motion.steps) {
-    state.p_root = to_simulator(recorded.state.p_root);
-    state.v_root = to_simulator(recorded.state.v_root);
+    state.p_root = from_eigen(recorded.state.p_root);
+    state.v_root = from_eigen(recorded.state.v_root);
     for (std::size_t i = 0; i < kBodies; ++i) {
       state.q[i] = to_simulator(recorded.state.q[i]);
-      state.omega[i] = to_simulator(recorded.state.omega[i]);
+      state.omega[i] = from_eigen(recorded.state.omega[i]);
       target.q[i] = to_simulator(recorded.target_q[i]);
-      target.omega[i] = to_simulator(recorded.target_omega[i]);
+      target.omega[i] = from_eigen(recorded.target_omega[i]);
     }
     rl::Substep step = recorded;
     step.state = to_eigen(state);

@@ -5,35 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "physics/lanes.h"
+#include "physics/pd_target.h"
+
 namespace mimicx::rl {
 namespace {
 
 using P = TrackingPack::P;
-
-void put(Vec3<P>& out, int lane, const Vector3d& v) {
-  out.x.set(lane, static_cast<float>(v.x()));
-  out.y.set(lane, static_cast<float>(v.y()));
-  out.z.set(lane, static_cast<float>(v.z()));
-}
-void put(Quat<P>& out, int lane, const Quaterniond& q) {
-  out.w.set(lane, static_cast<float>(q.w()));
-  out.x.set(lane, static_cast<float>(q.x()));
-  out.y.set(lane, static_cast<float>(q.y()));
-  out.z.set(lane, static_cast<float>(q.z()));
-}
-Vector3d get(const Vec3<P>& v, int lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
-Quaterniond get(const Quat<P>& q, int lane) { return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]}; }
-
-/// Normalised linear interpolation the shorter way; for the few degrees between two targets it is within
-/// rounding of a slerp.
-Quat<P> interpolate(const Quat<P>& a, const Quat<P>& b, P s) {
-  const P cosine = fma(a.w, b.w, fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)));
-  const P wb = select(cosine < P(0.0), -s, s), wa = P(1.0) - s;
-  const Quat<P> q = {fma(wa, a.w, wb * b.w), fma(wa, a.x, wb * b.x), fma(wa, a.y, wb * b.y),
-                     fma(wa, a.z, wb * b.z)};
-  const P r = P(1.0) / sqrt(fma(q.w, q.w, fma(q.x, q.x, fma(q.y, q.y, q.z * q.z))));
-  return {r * q.w, r * q.x, r * q.y, r * q.z};
-}
 
 template <class F>
 void for_each_value(State<P>& state, Target<P>& target, F&& f) {
@@ -90,30 +68,23 @@ void TrackingPack::reset(int lane, int frame) {
   broken_[n] = false;
   fresh_[n] = true;
   poses_[n] = start;
-  put(state_.p_root, lane, start.frame.p_root);
-  put(state_.v_root, lane, start.frame.v_root);
+  set_lane(state_.p_root, lane, start.frame.p_root);
+  set_lane(state_.v_root, lane, start.frame.v_root);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    put(state_.q[i], lane, start.frame.q[i]);
-    put(state_.omega[i], lane, start.frame.omega[i]);
-    put(to_.q[i], lane, start.frame.q[i]);
-    put(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
-    put(from_.q[i], lane, start.frame.q[i]);
-    put(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    set_lane(state_.q[i], lane, start.frame.q[i]);
+    set_lane(state_.omega[i], lane, start.frame.omega[i]);
+    set_lane(to_.q[i], lane, start.frame.q[i]);
+    set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    set_lane(from_.q[i], lane, start.frame.q[i]);
+    set_lane(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
   }
 }
 
 void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
   const auto to = static_cast<std::size_t>(lane), at = static_cast<std::size_t>(from);
-  put(state_.p_root, lane, get(other.state_.p_root, from));
-  put(state_.v_root, lane, get(other.state_.v_root, from));
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    put(state_.q[i], lane, get(other.state_.q[i], from));
-    put(state_.omega[i], lane, get(other.state_.omega[i], from));
-    put(to_.q[i], lane, get(other.to_.q[i], from));
-    put(to_.omega[i], lane, get(other.to_.omega[i], from));
-    put(from_.q[i], lane, get(other.from_.q[i], from));
-    put(from_.omega[i], lane, get(other.from_.omega[i], from));
-  }
+  mimicx::copy_lane(state_, lane, other.state_, from);
+  mimicx::copy_lane(to_, lane, other.to_, from);
+  mimicx::copy_lane(from_, lane, other.from_, from);
   frames_[to] = other.frames_[at];
   poses_[to] = other.poses_[at];
   broken_[to] = other.broken_[at];
@@ -135,43 +106,21 @@ void TrackingPack::observe(int lane, int option, float* out) const {
 
 void TrackingPack::act(int lane, const float* action) {
   const ReferenceFrame& next = clip_->poses[static_cast<std::size_t>(frame(lane) + 1)].frame;
-  const auto entry = [&](int k) {
-    const double a = static_cast<double>(action[k]);
-    return std::isfinite(a) ? std::clamp(a, -config_.max_action, config_.max_action) : 0.0;
-  };
-  int dof = 0;
+  const bool residual = config_.action_mode == ActionMode::kResidual;
   for (int body = 1; body < kBodies; ++body) {
     const auto i = static_cast<std::size_t>(body);
-    Vector3d rotation;
-    if (is_hinge(body)) {
-      rotation = entry(dof) * hinge_axis(body);
-      dof += 1;
-    } else {
-      rotation = {entry(dof), entry(dof + 1), entry(dof + 2)};
-      dof += 3;
-    }
-    const Quaterniond turned = exp_map(rotation);
-    put(to_.q[i], lane, config_.action_mode == ActionMode::kResidual ? next.q[i] * turned : turned);
-    put(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
+    const Vector3d rotation = action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
+    set_lane(to_.q[i], lane, residual ? residual_target(next.q[i], rotation) : exp_map(rotation));
+    set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
   }
 }
 
 void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepWatcher& watch) {
   const int substeps = static_cast<int>(std::lround(config_.simulation.rate / clip_->reference.fps));
-  Target<P> target{};
-  State<P> before;
-  for (int k = 1; k <= substeps; ++k) {
-    const P s(static_cast<float>(k) / static_cast<float>(substeps));
-    for (std::size_t i = 1; i < kBodies; ++i) {
-      target.q[i] = interpolate(from_.q[i], to_.q[i], s);
-      target.omega[i] = add_scaled(from_.omega[i], s, to_.omega[i] - from_.omega[i]);
-    }
-    if (watch) before = state_;
-    const MaskOf<P> wrong = step(clip_->model, target, state_, scratch, applied);
-    if (watch) watch(before, target, scratch, state_);
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
-  }
+  const MaskOf<P> wrong =
+      advance_interval(clip_->model, from_, to_, substeps, state_, scratch, applied, watch);
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
   saturated_.fill(0);
   for (std::size_t i = 1; i < kBodies; ++i)
     for (int lane = 0; lane < kLanes; ++lane)
@@ -188,12 +137,12 @@ void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepW
 
 void TrackingPack::read_pose(const Data<P>& d, int lane) {
   Pose& pose = poses_[static_cast<std::size_t>(lane)];
-  pose.frame.p_root = get(state_.p_root, lane);
-  pose.frame.v_root = get(state_.v_root, lane);
+  pose.frame.p_root = lane_of(state_.p_root, lane);
+  pose.frame.v_root = lane_of(state_.v_root, lane);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    pose.frame.q[i] = get(state_.q[i], lane).normalized();
-    pose.frame.omega[i] = get(state_.omega[i], lane);
-    pose.p_WB[i] = get(d.p_WB[i], lane);
+    pose.frame.q[i] = lane_of(state_.q[i], lane).normalized();
+    pose.frame.omega[i] = lane_of(state_.omega[i], lane);
+    pose.p_WB[i] = lane_of(d.p_WB[i], lane);
   }
 }
 

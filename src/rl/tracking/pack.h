@@ -7,13 +7,12 @@
 
 #include <array>
 #include <bitset>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "motion/reference.h"
-#include "physics/step.h"
+#include "physics/control_interval.h"
 #include "rl/tracking/reward.h"
 #include "rl/tracking/state.h"
 
@@ -70,9 +69,7 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& referenc
 class TrackingPack {
  public:
   using P = Pack<kLanes>;
-  /// Called after every physics step with the states around it, what it aimed at and how it was solved.
-  using SubstepWatcher = std::function<void(const State<P>& before, const Target<P>& target,
-                                            const Data<P>& solved, const State<P>& after)>;
+  using SubstepWatcher = mimicx::SubstepWatcher<P>;
 
   TrackingPack(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config);
 

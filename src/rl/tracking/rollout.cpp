@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/lanes.h"
+
 namespace mimicx::rl {
 namespace {
 
 using P = TrackingPack::P;
 
-Vector3d first_lane(const Vec3<P>& v, double scale) { return scale * Vector3d(v.x[0], v.y[0], v.z[0]); }
+Vector3d first_lane(const Vec3<P>& v, double scale) { return scale * lane_of(v, 0); }
 Vector6d first_lane(const Wrench<P>& w, double scale) {
   Vector6d out;
   out.head<3>() = first_lane(w.n, scale);
   out.tail<3>() = first_lane(w.f, scale);
   return out;
 }
-
-Quaterniond first_lane(const Quat<P>& q) { return {q.w[0], q.x[0], q.y[0], q.z[0]}; }
 
 /// Mean of what acted in the steps that are summed up.
 ActingForces forces_of(const Applied<P>& applied) {
@@ -33,11 +33,11 @@ ActingForces forces_of(const Applied<P>& applied) {
 
 ReferenceFrame first_lane(const State<P>& state) {
   ReferenceFrame frame;
-  frame.p_root = first_lane(state.p_root, 1.0);
-  frame.v_root = first_lane(state.v_root, 1.0);
+  frame.p_root = lane_of(state.p_root, 0);
+  frame.v_root = lane_of(state.v_root, 0);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    frame.q[i] = first_lane(state.q[i]);
-    frame.omega[i] = first_lane(state.omega[i], 1.0);
+    frame.q[i] = lane_of(state.q[i], 0);
+    frame.omega[i] = lane_of(state.omega[i], 0);
   }
   return frame;
 }
@@ -49,8 +49,8 @@ TrackingPack::SubstepWatcher recorder(const Model<float>& model, Applied<P>& scr
     record_applied(model, solved, scratch);
     Substep step{first_lane(before), {}, {}, forces_of(scratch)};
     for (std::size_t i = 0; i < kBodies; ++i) {
-      step.target_q[i] = i == 0 ? Quaterniond::Identity() : first_lane(target.q[i]);
-      step.target_omega[i] = first_lane(target.omega[i], 1.0);
+      step.target_q[i] = i == 0 ? Quaterniond::Identity() : lane_of(target.q[i], 0);
+      step.target_omega[i] = lane_of(target.omega[i], 0);
     }
     out.substeps.push_back(step);
     out.last_state = first_lane(after);

@@ -66,7 +66,7 @@ TEST(EncodedState, ThePolicySeesTheReferenceOnlyThroughItsEncoder) {
   EXPECT_EQ(a, b);
 }
 
-TEST(Options, EitherAllHaveAnEncoderOrNone) {
+TEST(Option, EitherAllHaveAnEncoderOrNone) {
   const auto clip = make_tracking_clip(swaying_reference(10), {});
   Option with = constant_option(kEncodedRest + 8, 0.0F), without = constant_option(kStateSize, 0.0F);
   with.encoder = some_encoder(*clip);
@@ -74,7 +74,7 @@ TEST(Options, EitherAllHaveAnEncoderOrNone) {
   EXPECT_EQ(encoded_for(clip, {&without, &without}), clip);
 }
 
-TEST(Options, ComeBackFromAnArchiveToTheBit) {
+TEST(Option, ComeBackFromAnArchiveToTheBit) {
   const auto clip = make_tracking_clip(swaying_reference(10), {});
   Option option = constant_option(kEncodedRest + 8, 0.1F);
   option.encoder = some_encoder(*clip);
