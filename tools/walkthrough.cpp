@@ -44,15 +44,40 @@ std::string shape_of(const std::vector<std::size_t>& shape) {
   return text + ")";
 }
 
+/// The parts behind each other, in lines of at most 100 characters.
+void list(const std::vector<std::string>& parts) {
+  std::string line = "   ";
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::string part = " " + parts[k] + (k + 1 < parts.size() ? "," : "");
+    if (line.size() + part.size() > 100) {
+      std::printf("%s\n", line.c_str());
+      line = "   ";
+    }
+    line += part;
+  }
+  std::printf("%s\n", line.c_str());
+}
+
+void list_file(const std::filesystem::path& path) {
+  std::printf("  %-36s %ju bytes\n", path.c_str(), std::uintmax_t{std::filesystem::file_size(path)});
+}
+
 void list_members(const std::filesystem::path& path) {
-  std::printf("  %s, %ju bytes\n", path.c_str(), std::uintmax_t{std::filesystem::file_size(path)});
-  const Npz npz = read_npz(path);
-  for (const auto& [name, array] : npz.members())
-    std::printf("    %-24s %s\n", name.c_str(), shape_of(array.shape).c_str());
+  list_file(path);
+  std::vector<std::string> parts;
+  for (const auto& [name, array] : read_npz(path).members())
+    parts.push_back(name + " " + shape_of(array.shape));
+  list(parts);
 }
 
 void list_values(const NamedValues& values) {
-  for (const auto& [name, value] : values) std::printf("  %-34s %.4g\n", name.c_str(), value);
+  std::vector<std::string> parts;
+  char number[32];
+  for (const auto& [name, value] : values) {
+    std::snprintf(number, sizeof number, " %.3g", value);
+    parts.push_back(name + number);
+  }
+  list(parts);
 }
 
 void tell_reference(const Reference& reference) {
@@ -217,7 +242,7 @@ void tell_files(const RunFolder& folder, const std::string& name) {
   list_members(std::filesystem::exists(motion) ? motion : folder.root / RunFolder::motion_name(name, false));
   for (const std::filesystem::path& path : {folder.fit(name), folder.reference(name), folder.log(name),
                                             folder.falls(name), folder.checkpoint(name), folder.manifest()})
-    std::printf("  %s, %ju bytes\n", path.c_str(), std::uintmax_t{std::filesystem::file_size(path)});
+    list_file(path);
 }
 
 void walk(const std::filesystem::path& file, const std::filesystem::path& options, const RunFolder& folder) {
