@@ -65,7 +65,8 @@ void list_file(const std::filesystem::path& path) {
 void list_members(const std::filesystem::path& path) {
   list_file(path);
   std::vector<std::string> parts;
-  for (const auto& [name, array] : read_npz(path).members())
+  const Npz npz = read_npz(path);
+  for (const auto& [name, array] : npz.members())
     parts.push_back(name + " " + shape_of(array.shape));
   list(parts);
 }
