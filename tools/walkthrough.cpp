@@ -25,14 +25,14 @@
 namespace mimicx {
 namespace {
 
-constexpr int kFrame = 30;  ///< the frame that is followed: a second into the motion
+constexpr int kFrame = 30;  ///< the frame that is followed, a second into the motion; headings name it
 
 void heading(const char* room, const char* what) { std::printf("\n%s: %s\n", room, what); }
 
 /// "  name  1.234 -0.567 …": the first numbers of a row.
 template <class T>
 void row(const char* name, std::span<const T> values, std::size_t first = 4) {
-  std::printf("  %-34s", name);
+  std::printf("  %-38s", name);
   for (std::size_t k = 0; k < std::min(values.size(), first); ++k)
     std::printf(" %.3f", static_cast<double>(values[k]));
   std::printf("%s\n", values.size() > first ? " ..." : "");
@@ -66,8 +66,7 @@ void list_members(const std::filesystem::path& path) {
   list_file(path);
   std::vector<std::string> parts;
   const Npz npz = read_npz(path);
-  for (const auto& [name, array] : npz.members())
-    parts.push_back(name + " " + shape_of(array.shape));
+  for (const auto& [name, array] : npz.members()) parts.push_back(name + " " + shape_of(array.shape));
   list(parts);
 }
 
@@ -195,8 +194,8 @@ void tell_frame(const Arranged& arranged, const rl::TrackingConfig& tracking) {
   heading("rl/tracking", "the reward of frame 31, factor by factor");
   const rl::Reward reward = pack.reward(0);
   for (std::size_t k = 0; k < reward.term.size(); ++k)
-    std::printf("  %-34s %.3f\n", rl::kRewardTermNames[k].data(), reward.term[k]);
-  std::printf("  %-34s %.3f\n", "their product", reward.total);
+    std::printf("  %-38s %.3f\n", rl::kRewardTermNames[k].data(), reward.term[k]);
+  std::printf("  %-38s %.3f\n", "their product", reward.total);
 }
 
 void tell_matrix(const char* name, Eigen::Index rows, Eigen::Index columns) {
@@ -228,8 +227,8 @@ void tell_training(const Arranged& arranged, const TrainingConfig& config) {
   row<float>("A_t", of_first(group.advantages));
   heading("rl", "the update of the iteration");
   list_values({{"minibatches", static_cast<double>(stats.minibatches)},
-               {"gradient of the actor, norm", stats.actor_gradient},
-               {"gradient of the critic, norm", stats.critic_gradient},
+               {"norm of the actor's gradient", stats.actor_gradient},
+               {"of the critic's", stats.critic_gradient},
                {"share of clipped ratios", stats.clip_fraction},
                {"KL(old || new)", stats.kl},
                {"step size of the actor", stats.step_size},
