@@ -155,7 +155,7 @@ void tell_state(const rl::TrackingClip& clip, const rl::TrackingPack& pack, cons
   row("568  root offset [2], m", s.subspan(568, 2));
   const int code = clip.encoded.front().code_size;
   std::printf("  as the option with its encoder sees it [%d]:\n", clip.state_size());
-  row(("0    z [" + std::to_string(code) + "]").c_str(), std::span<const float>(seen).first(code), 6);
+  row<float>(("0    z [" + std::to_string(code) + "]").c_str(), {seen.begin(), seen.begin() + code}, 6);
 }
 
 /// One frame: reset on the reference a frame before, state, mean action, one control step, reward.
