@@ -1,6 +1,6 @@
 // One motion's way through the rooms, with its shapes and some of its numbers, for docs/architecture.md:
-//   build/release/tools/mimicx adapt data/synthetic/test/noisy/walk_1.npz --budget-samples 1200000 --out
-//   out/walk build/release/tools/walkthrough data/synthetic/test/noisy/walk_1.npz data/options out/walk
+//   mimicx adapt data/synthetic/test/noisy/walk_1.npz --budget-samples 1200000 --out out/walk
+//   walkthrough data/synthetic/test/noisy/walk_1.npz data/options out/walk
 // Reads, fits and prepares the motion, lets the options of the folder act on it, follows one frame through
 // state, action and reward, makes one iteration of joint fine-tuning, and lists the files that the run left.
 #include <cmath>
@@ -11,13 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/options/option_set.h"
-#include "pipeline/options/selector.h"
+#include "pipeline/adapt.h"
+#include "pipeline/options/arrangement.h"
 #include "pipeline/options/side_by_side.h"
+#include "pipeline/output/simulated_members.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
-#include "pipeline/record/simulated_members.h"
-#include "pipeline/sequences.h"
 #include "rl/tracking/environment.h"
 #include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
@@ -103,34 +102,20 @@ void tell_reference(const Reference& reference) {
   row<double>("joint velocities [55], rad/s", all.subspan(6));
 }
 
-/// What the options of a folder are worth on the clip, and the clip as those see it that act.
-struct Arranged {
-  std::shared_ptr<const rl::TrackingClip> clip;
-  std::vector<rl::Agent> agents;
-};
-
-Arranged arrange(const std::shared_ptr<const rl::TrackingClip>& plain, const OptionSet& set,
-                 const rl::TrackingConfig& tracking) {
-  std::vector<const rl::Option*> all;
+/// What every option of the set earns on the clip, and the clip as those see it that are chosen.
+ArrangedClip tell_arrangement(const std::shared_ptr<const rl::TrackingClip>& clip, const OptionSet& set,
+                              const rl::TrackingConfig& tracking, const ArrangementConfig& config) {
+  std::vector<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
-  const auto seen = rl::encoded_for(plain, all);
-  const rl::SideBySide beside = rl::roll_out_side_by_side(seen, tracking, all, RunOptions{}.rescue_reward);
+  const SideBySide beside =
+      roll_out_side_by_side(encoded_for(clip, all), tracking, all, config.rescue_reward);
   heading("pipeline/options", "rewards r[t][c] of the options side by side, and the arrangement");
-  std::printf("  %zu frames x %zu options; breaks: %zu\n", beside.rewards.size(), all.size(),
-              beside.breaks.size());
+  std::printf("  %zu frames x %zu options\n", beside.rewards.size(), all.size());
   row<double>("rewards at frame 30 [options]", beside.rewards.at(kFrame), all.size());
-  const std::vector<std::vector<double>> earned(beside.rewards.begin() + 1, beside.rewards.end());
-  const Arrangement best = select_options(earned, RunOptions{}.switch_penalty);
-  std::printf("  R(O*) = %.2f; option of the first frame: %d; switches:", best.value, best.options.front());
-  for (std::size_t t = 1; t < best.options.size(); ++t)
-    if (best.options[t] != best.options[t - 1]) std::printf(" %d at frame %zu", best.options[t], t);
-  std::printf("\n");
-  Arranged arranged;
-  auto clip = std::make_shared<rl::TrackingClip>(*seen);
-  for (const rl::Option* option : all) arranged.agents.push_back(option->agent);
-  clip->arrangement = best.options;
-  clip->arrangement.push_back(best.options.back());
-  arranged.clip = clip;
+  const ArrangedClip arranged = arrange(clip, tracking, set, config);
+  for (const auto& [first, option] : stretches_of(arranged.options))
+    std::printf("  option %d from frame %d on\n", option, first);
+  std::printf("  frames at which no option could follow: %zu\n", arranged.breaks.size());
   return arranged;
 }
 
@@ -159,7 +144,7 @@ void tell_state(const rl::TrackingClip& clip, const rl::TrackingPack& pack, cons
 }
 
 /// One frame: reset on the reference a frame before, state, mean action, one control step, reward.
-void tell_frame(const Arranged& arranged, const rl::TrackingConfig& tracking) {
+void tell_frame(const ArrangedClip& arranged, const rl::TrackingConfig& tracking) {
   const rl::TrackingClip& clip = *arranged.clip;
   const rl::MeanAction policy = rl::mean_action(arranged.agents);
   rl::TrackingPack pack(arranged.clip, tracking);
@@ -202,7 +187,7 @@ void tell_matrix(const char* name, Eigen::Index rows, Eigen::Index columns) {
   std::printf("    %-20s [%td x %td]\n", name, rows, columns);
 }
 
-void tell_training(const Arranged& arranged, const TrainingConfig& config) {
+void tell_training(const ArrangedClip& arranged, const TrainingConfig& config) {
   rl::TrackingEnvironment environment({arranged.clip}, config.tracking, config.characters, config.group_size,
                                       config.seed);
   rl::PpoConfig ppo = config.ppo;
@@ -258,7 +243,8 @@ void walk(const std::filesystem::path& file, const std::filesystem::path& option
   list_values(motion.preparation_values);
   const TrainingConfig config = fine_tuning_defaults();
   const auto clip = rl::make_tracking_clip(motion.reference, config.tracking);
-  const Arranged arranged = arrange(clip, *read_options(options), config.tracking);
+  const ArrangedClip arranged =
+      tell_arrangement(clip, *read_options(options), config.tracking, ArrangementConfig{});
   tell_frame(arranged, config.tracking);
   tell_training(arranged, config);
   tell_files(folder, motion.reference.name);
