@@ -6,42 +6,61 @@
 namespace mimicx::control {
 namespace {
 
-/// Columns: θ, ω, v, p_z, then α and a of the body in the solve before.
+/// Columns: θ, Dω, dv, dp_z, then Dα and Da of the body in the solve before.
 using Row = Eigen::Matrix<double, 1, 16>;
 using Rows = Eigen::Matrix<double, 3, 16>;
 constexpr int kTheta = 0, kOmega = 3, kVelocity = 6, kHeight = 9, kAlpha = 10, kAcceleration = 13;
 
-/// Velocity of a point at the end of the step, v + dt a, by the body's tangents, without the part of the
-/// accelerations' changes.
-/// @param turn  −[R p_B]×, the point's arm by θ
-Rows end_velocity(const Matrix3d& turn, const Vector3d& arm, const Vector3d& w, const Vector3d& alpha,
-                  double dt) {
+/// A touching point of a body, nominally.
+struct Point {
+  Vector3d arm, from_centre;  ///< arm from the joint centre; R p_B, which turns with the body
+  Vector3d w;                 ///< of the body
+};
+
+/// d of the point's velocity: v + ω × arm.
+Rows velocity(const Point& p) {
   Rows e = Rows::Zero();
-  e.middleCols<3>(kTheta) = (skew(w) + dt * (skew(alpha) + skew_product(w, w))) * turn;
-  e.middleCols<3>(kOmega) = -skew(arm) - dt * (skew(w.cross(arm)) + skew_product(w, arm));
+  // dω = Dω + θ × ω, d arm = θ × R p_B
+  e.middleCols<3>(kTheta) = skew_product(p.arm, p.w) - skew_product(p.w, p.from_centre);
+  e.middleCols<3>(kOmega) = -skew(p.arm);
   e.middleCols<3>(kVelocity).setIdentity();
   return e;
 }
 
-/// Force of one contact, docs/physics.md §4, (8), by its body's tangents; added to the rows of `wrench`.
+/// Adds dt times d of the point's acceleration, a + α × arm + ω × (ω × arm), to `e`, but for Dα and Da.
+/// @param a  against free fall
+void add_acceleration(const Point& p, const Vector3d& alpha, const Vector3d& a, double dt, Rows& e) {
+  const Vector3d w_x_arm = p.w.cross(p.arm);
+  const Matrix3d by_omega = -skew(w_x_arm) - skew_product(p.w, p.arm);
+  e.middleCols<3>(kOmega) += dt * by_omega;
+  e.middleCols<3>(kTheta) +=
+      dt * (-skew(a) + skew_product(p.arm, alpha) - skew_product(alpha, p.from_centre) -
+            by_omega * skew(p.w) - skew(p.w) * skew_product(p.w, p.from_centre));
+}
+
+Vector3d against_free_fall(const Model<double>& model, const Vec3<double>& a) {
+  return eigen(a) + model.options.gravity * Vector3d::UnitZ();
+}
+
+/// D of the wrench of one contact, docs/physics.md §4, (8), added to the rows of `wrench`.
 void add_contact(const Model<double>& model, const Data<double>& d, const GroundContact<double>& c,
                  const Vector3d& v_lin, const Accelerations* before, Eigen::Matrix<double, 6, 16>& wrench) {
   const SimulationOptions& o = model.options;
-  const ContactPoint& point = model.contacts[static_cast<std::size_t>(c.index)];
-  const auto i = static_cast<std::size_t>(point.body);
+  const ContactPoint& contact = model.contacts[static_cast<std::size_t>(c.index)];
+  const auto i = static_cast<std::size_t>(contact.body);
   const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;
-  const Vector3d arm = eigen(c.arm), w = eigen(d.w[i]);
-  const Matrix3d turn = -skew(Vector3d(arm + point.radius * Vector3d::UnitZ()));
+  const Vector3d arm = eigen(c.arm);
+  const Point point = {arm, arm + contact.radius * Vector3d::UnitZ(), eigen(d.w[i])};
 
-  Row depth = Row::Zero();
-  depth.segment<3>(kTheta) = -turn.row(2);
+  Row depth = Row::Zero();  // −dp_z − (θ × R p_B)_z
+  depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
   depth[kHeight] = -1.0;
-  // The velocity at which f_end and c_t were taken: that of the start, or the one the solve before predicts.
-  Rows at;
-  if (before == nullptr) {
-    at = end_velocity(turn, arm, w, Vector3d::Zero(), 0.0);
-  } else {
-    at = end_velocity(turn, arm, w, eigen(before->alpha[i]), dt);
+  const Rows at_start = velocity(point);
+  Rows end = at_start, at = at_start;
+  add_acceleration(point, eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt, end);
+  // The velocity at which f_end and c_t were taken is that of the start or the one the solve before predicts.
+  if (before != nullptr) {
+    add_acceleration(point, eigen(before->alpha[i]), against_free_fall(model, before->a[i]), dt, at);
     at.middleCols<3>(kAlpha) = -dt * skew(arm);
     at.middleCols<3>(kAcceleration) = dt * Matrix3d::Identity();
   }
@@ -51,17 +70,17 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const Row df_end = o.ground_stiffness * depth - damping * at.row(2);
   const Row dc_t = (c_t / f_end) * df_end - (c_t / slip_2) * (v_lin.x() * at.row(0) + v_lin.y() * at.row(1));
 
-  const Vector3d end = eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
-  const Rows dend = end_velocity(turn, arm, w, eigen(d.a_w[i]), dt);
+  const Vector3d v_end = eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
   Rows force;
-  force.row(0) = -c_t * dend.row(0) - end.x() * dc_t;
-  force.row(1) = -c_t * dend.row(1) - end.y() * dc_t;
-  force.row(2) = o.ground_stiffness * depth - damping * dend.row(2);
-  const Vector3d f(-c_t * end.x(), -c_t * end.y(), o.ground_stiffness * c.depth - damping * end.z());
-  Rows moment = skew(arm) * force;
-  moment.middleCols<3>(kTheta) -= skew(f) * turn;
-  wrench.topRows<3>() += moment;
+  force.row(0) = -c_t * end.row(0) - v_end.x() * dc_t;
+  force.row(1) = -c_t * end.row(1) - v_end.y() * dc_t;
+  force.row(2) = o.ground_stiffness * depth - damping * end.row(2);
+  const Vector3d f(-c_t * v_end.x(), -c_t * v_end.y(), o.ground_stiffness * c.depth - damping * v_end.z());
+  // d (arm × f) − θ × (arm × f) and df − θ × f
+  wrench.topRows<3>() += skew(arm) * force;
+  wrench.topLeftCorner<3, 3>() += skew_product(f, point.from_centre) + skew(Vector3d(arm.cross(f)));
   wrench.bottomRows<3>() += force;
+  wrench.bottomLeftCorner<3, 3>() += skew(f);
 }
 
 }  // namespace

@@ -84,7 +84,10 @@ void fill(const Model<double>& model, const Data<double>& d, std::size_t i, std:
   put(t.arm_i, arm_i);
   put(t.arm_j, arm_j);
   put(t.velocity, v);
-  put(t.force, Vector3d(push * normal));
+  const Vector3d force = push * normal;
+  put(t.force, force);
+  put(t.moment_i, Vector3d(arm_i.cross(force)));
+  put(t.moment_j, Vector3d(arm_j.cross(force)));
   t.inverse_distance = static_cast<Real>(1.0 / distance);
   t.reach = static_cast<Real>(reach);
   t.push = static_cast<Real>(push);

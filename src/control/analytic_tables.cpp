@@ -29,41 +29,10 @@ void tabulate_bodies(const Model<double>& model, const Data<double>& d, const St
     const auto lambda = static_cast<std::size_t>(kParents[i]);
     put(b.r, d.r[i]);
     put(b.w_joint, Vector3d(eigen(d.R_WB[i]) * eigen(state.omega[i])));
-    put(b.w_x_r, Vector3d(eigen(d.w[lambda]).cross(eigen(d.r[i]))));
+    const Vector3d w_lambda = eigen(d.w[lambda]), r = eigen(d.r[i]), w_x_r = w_lambda.cross(r);
+    put(b.w_x_r, w_x_r);
+    put(b.centripetal, Matrix3d(-skew(w_x_r) - skew_product(w_lambda, r)));
     if (is_hinge(static_cast<int>(i))) put(b.axis, Vector3d(eigen(d.R_WB[i]) * eigen(model.axis[i])));
-  }
-}
-
-/// Moment and force of every body by its rotation θ, at the accelerations of this solve: the rigid body and
-/// what its children hand on. The rigid body's own force turns with it, but the accelerations and velocities
-/// it depends on do not:  dn = θ × n − I_o (θ × α) − h × (θ × a') − N (θ × ω), N by `tabulate_bodies`, and so
-/// the force; a' = a − g.
-template <class Real>
-void tabulate_turning(const Model<double>& model, const Data<double>& d, SolveTable<Real>& out) {
-  std::array<Matrix3d, kBodies> turn_n, turn_f;
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    const Vector3d w = eigen(d.w[i]), alpha = eigen(d.a_w[i]), h = model.mass[i] * eigen(d.d[i]);
-    const Vector3d a = eigen(d.a_v[i]) + model.options.gravity * Vector3d::UnitZ();
-    const Matrix3d I_o = eigen(d.I_o[i]);
-    const Vector3d L = I_o * w, wh = w.cross(h);
-    const Vector3d n = I_o * alpha + h.cross(a) + w.cross(L);
-    turn_n[i] =
-        -skew(n) + I_o * skew(alpha) + skew_product(h, a) + skew(w) * I_o * skew(w) - skew_product(L, w);
-    turn_f[i] = skew(Vector3d(h.cross(alpha) - w.cross(wh))) - skew_product(h, alpha) - skew_product(wh, w) -
-                skew(w) * skew_product(h, w);
-  }
-  // A child's force acts at r, which turns with its parent: (θ × r) × f = (r fᵀ − (r·f) 1) θ.
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const Inertia<double>& IA = d.IA[i];
-    const Vector3d r = eigen(d.r[i]);
-    const Vector3d f = eigen(transpose_times(IA.B, d.a_w[i]) + IA.C * d.a_v[i] + d.pA[i].f);
-    const Vector3d n = eigen(IA.A * d.a_w[i] + IA.B * d.a_v[i] + d.pA[i].n);
-    turn_n[static_cast<std::size_t>(kParents[i])] += skew_product(f, r);
-    put(out.body[i].n, n);
-  }
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    put(out.body[i].turn_n, turn_n[i]);
-    put(out.body[i].turn_f, turn_f[i]);
   }
 }
 
@@ -73,8 +42,12 @@ void tabulate_inertias(const Model<double>& model, const Data<double>& d, SolveT
   for (std::size_t i = 0; i < kBodies; ++i) {
     SolveBodyTable<Real>& b = out.body[i];
     const Inertia<double>& IA = d.IA[i];
-    put(b.qdd, d.qdd[i]);
     put(b.alpha, d.a_w[i]);
+    Vec3<double> a = d.a_v[i];
+    a.z += model.options.gravity;
+    put(b.a, a);
+    put(b.n, IA.A * d.a_w[i] + IA.B * d.a_v[i] + d.pA[i].n);
+    put(b.f, transpose_times(IA.B, d.a_w[i]) + IA.C * d.a_v[i] + d.pA[i].f);
     put(b.A, IA.A);
     put(b.B, IA.B);
     put(b.C, IA.C);
@@ -98,11 +71,22 @@ void tabulate_inertias(const Model<double>& model, const Data<double>& d, SolveT
 }
 
 /// Marks a body and those between it and the root.
-void want(std::size_t body, std::array<bool, kBodies>& wanted) {
-  for (std::size_t i = body; !wanted[i]; i = static_cast<std::size_t>(kParents[i])) {
-    wanted[i] = true;
-    if (i == 0) return;
+void mark(int body, std::array<bool, kBodies>& marked) {
+  for (int i = body; i >= 0; i = kParents[static_cast<std::size_t>(i)])
+    marked[static_cast<std::size_t>(i)] = true;
+}
+
+/// The bodies whose place matters to a contact.
+template <class Real>
+void mark_placed(SubstepTable<Real>& out) {
+  std::array<bool, kBodies> placed{};
+  for (std::size_t k = 0; k < out.solve_count; ++k)
+    for (const FloorTable<Real>& floor : out.solves[k].floor) mark(floor.body, placed);
+  for (const SelfPairTable<Real>& pair : out.pairs) {
+    mark(pair.i, placed);
+    mark(pair.j, placed);
   }
+  for (std::size_t i = 0; i < kBodies; ++i) out.body[i].placed = placed[i];
 }
 
 /// The solves of one step, in the order of `solve_accelerations`.
@@ -123,16 +107,15 @@ struct Solves {
     solve(model, d);
     if (out.solve_count == out.solves.size()) out.solves.emplace_back();
     SolveTable<Real>& table = out.solves[out.solve_count++];
-    tabulate_turning(model, d, table);
     tabulate_inertias(model, d, table);
     tabulate_floor(model, d, linearised, first ? nullptr : &before, table.floor);
     table.wanted.fill(true);
     if (first) return;
     auto& wanted = out.solves[out.solve_count - 2].wanted;
     wanted.fill(false);
-    for (const FloorTable<Real>& floor : table.floor) want(static_cast<std::size_t>(floor.body), wanted);
+    for (const FloorTable<Real>& floor : table.floor) mark(floor.body, wanted);
     for (const SaturatedTable<Real>& joint : table.saturated)
-      if (joint.set && !is_hinge(joint.body)) want(static_cast<std::size_t>(joint.body), wanted);
+      if (joint.set && !is_hinge(joint.body)) mark(joint.body, wanted);
   }
 
   /// The table that the next solve will fill.
@@ -185,10 +168,13 @@ bool tabulate_step(const Model<double>& model, const Target<double>& target, con
   out.dt = static_cast<Real>(model.dt);
   out.self_stiffness = static_cast<Real>(model.options.self_stiffness);
   out.self_damping = static_cast<Real>(model.options.self_damping);
+  put(out.push_n, push.n);
+  put(out.push_f, push.f);
   tabulate_bodies(model, d, state, out);
   tabulate_self_contact(model, d, out.pairs);
   Solves<Real> solves{model, d, out, {}, {}};
   solves.run();
+  mark_placed(out);
   tabulate_joints(model, state, target, turns, d, out);
   integrate(model, d, state);
   tabulate_integration(model, state, out);

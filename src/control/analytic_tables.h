@@ -21,12 +21,14 @@ struct BodyTable {
   Vec3<Real> r;               ///< joint centre minus the parent's, m
   Vec3<Real> w, w_joint;      ///< angular velocity; the joint's part of it, R ω
   Vec3<Real> w_x_r;           ///< ω_λ × r
-  Mat3<Real> rate_n, rate_f;  ///< moment, force of the rigid body by its angular velocity
+  Mat3<Real> centripetal;     ///< ω_λ × (ω_λ × r) by ω_λ
+  Mat3<Real> rate_n, rate_f;  ///< moment, force of the rigid body by ω
   Vec3<Real> axis;            ///< of a hinge
-  Mat3<Real> stiffness;       ///< torque of PD and range by the joint's rotation (body frame)
+  Mat3<Real> stiffness;       ///< torque of PD and range by the joint's rotation δ (body frame)
   Real damping;               ///< torque of PD and range by −R δω
-  Mat3<Real> turn,
-      turn_by_omega;  ///< rotation after the step by the one before, and by the new velocity; body frames
+  Mat3<Real> turn;            ///< rotation after the step by the one before, body frames
+  Mat3<Real> turn_by_omega;   ///< … and by the velocity after the step, s
+  bool placed;                ///< somebody asks where the body is: a contact of it or of a body it carries
 };
 
 /// A joint that is at its torque bound in some solve of the step: torques of its PD controller's law and of
@@ -47,12 +49,13 @@ struct SelfPairTable {
   Vec3<Real> on_i, on_j;                        ///< closest points from the joint centres
   std::array<Real, 3> s, t;  ///< ds, dt by (d(u·w), d(w·r), d(u·r)) of `closest_on_segments`
   Vec3<Real> normal, arm_i, arm_j, velocity, force;
+  Vec3<Real> moment_i, moment_j;       ///< of the force about the joint centres
   Real inverse_distance, reach, push;  ///< reach: from the closest point of j to the common point
 };
 
-/// Floor contacts of one body in one solve. The force they give changes by `wrench` times
-/// (θ, ω, v, p_z of the body; α, a of the body in the solve before), apart from the accelerations of this
-/// solve, which the articulated inertia contains.
+/// Floor contacts of one body in one solve: D of the wrench they give, by θ, Dω, dv, dp_z of the body and Dα,
+/// Da of the body in the solve before, apart from this solve's accelerations, which the articulated inertia
+/// contains.
 template <class Real>
 struct FloorTable {
   static constexpr int kInputs = 16;
@@ -63,11 +66,9 @@ struct FloorTable {
 /// One body in one solve. For a ball joint D = A + δ is inverted; a hinge uses U and D_inv.xx.
 template <class Real>
 struct SolveBodyTable {
-  Mat3<Real> turn_n, turn_f;  ///< moment, force by the body's rotation θ at fixed accelerations
-  Vec3<Real> qdd;             ///< joint acceleration
-  Vec3<Real> alpha;           ///< angular acceleration of the body
-  Vec3<Real> n;               ///< moment that the joint transmits
-  Sym3<Real> A, C, D_inv;     ///< articulated inertia [A B; Bᵀ C]
+  Vec3<Real> alpha, a;     ///< acceleration of the body
+  Vec3<Real> n, f;         ///< moment and force that the joint transmits
+  Sym3<Real> A, C, D_inv;  ///< articulated inertia [A B; Bᵀ C]
   Mat3<Real> B;
   Vec3<Real> U_n, U_f;
   Real delta;
@@ -100,6 +101,7 @@ struct SubstepTable {
   std::vector<LawTable<Real>> law;
   std::vector<SelfPairTable<Real>> pairs;
   Real self_stiffness, self_damping;
+  Vec3<Real> push_n, push_f;  ///< external wrench on the root
   std::vector<SolveTable<Real>> solves;
   std::size_t solve_count;  ///< entries of `solves` in use; the others keep their memory
 };

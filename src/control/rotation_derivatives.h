@@ -16,7 +16,9 @@ namespace mimicx::control {
 /// [a]×, the matrix of b ↦ a × b.
 inline Matrix3d skew(const Vector3d& a) {
   Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  m.col(0) = Vector3d(0.0, a.z(), -a.y());
+  m.col(1) = Vector3d(-a.z(), 0.0, a.x());
+  m.col(2) = Vector3d(a.y(), -a.x(), 0.0);
   return m;
 }
 
