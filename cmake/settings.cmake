@@ -67,28 +67,18 @@ if(MIMICX_WITH_MUJOCO AND NOT MIMICX_CORE_ONLY)
   endif()
 endif()
 
-# Most of the time goes into instantiating Eigen's templates. Where GROUP is given, so many files are compiled as
-# one and share them, which saves a third again; not in the folders whose speed matters.
-function(mimicx_group target size)
-  if(MIMICX_GROUP_FILES AND size)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
-  endif()
-endfunction()
-
-# mimicx_library(NAME [GROUP N] SOURCES... DEPENDS LIBS...): one static library per folder.
+# mimicx_library(NAME SOURCES... DEPENDS LIBS...): one static library per room.
 function(mimicx_library name)
-  cmake_parse_arguments(ARG "" "GROUP" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(mimicx_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(mimicx_${name} PUBLIC mimicx_settings ${ARG_DEPENDS})
   target_precompile_headers(mimicx_${name} REUSE_FROM mimicx_common_headers)
-  mimicx_group(mimicx_${name} "${ARG_GROUP}")
 endfunction()
 
-# mimicx_test(NAME [GROUP N] SOURCES... DEPENDS LIBS...): one GoogleTest program per folder under test.
+# mimicx_test(NAME SOURCES... DEPENDS LIBS...): one GoogleTest program per room under test.
 function(mimicx_test name)
-  cmake_parse_arguments(ARG "" "GROUP" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
-  mimicx_group(test_${name} "${ARG_GROUP}")
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE

@@ -2,7 +2,7 @@
 
 #include "commands.h"
 #include "core/npz.h"
-#include "pipeline/audit_file.h"
+#include "pipeline/audit/audit_file.h"
 #include "pipeline/preparation.h"
 
 namespace mimicx {

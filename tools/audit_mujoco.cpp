@@ -10,7 +10,7 @@
 #include <string>
 
 #include "oracles/mujoco_audit.h"
-#include "pipeline/audit_file.h"
+#include "pipeline/audit/audit_file.h"
 
 namespace mimicx {
 namespace {

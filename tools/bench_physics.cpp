@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/random.h"
+#include "physics/lanes.h"
 #include "physics/step.h"
 #ifdef MIMICX_HAVE_MUJOCO
 #include "oracles/mujoco_character.h"
@@ -27,8 +28,8 @@ constexpr int kStepsPerRollout = 480;
 /// Where a roll-out starts: arms down, joint velocities of 0.3 rad/s.
 struct Start {
   Vector3d p_root{0, 0, 0.951};
-  std::array<Quaterniond, kBodies> q;
-  std::array<Vector3d, kBodies> omega;
+  PerBody<Quaterniond> q;
+  PerBody<Vector3d> omega;
 
   explicit Start(std::uint64_t number) {
     Random random(1, {number});
@@ -45,20 +46,6 @@ struct Start {
 };
 
 template <class T>
-void put(Vec3<T>& out, int lane, const Vector3d& v) {
-  ScalarTraits<T>::set(out.x, lane, v.x());
-  ScalarTraits<T>::set(out.y, lane, v.y());
-  ScalarTraits<T>::set(out.z, lane, v.z());
-}
-template <class T>
-void put(Quat<T>& out, int lane, const Quaterniond& q) {
-  ScalarTraits<T>::set(out.w, lane, q.w());
-  ScalarTraits<T>::set(out.x, lane, q.x());
-  ScalarTraits<T>::set(out.y, lane, q.y());
-  ScalarTraits<T>::set(out.z, lane, q.z());
-}
-
-template <class T>
 void simulate(benchmark::State& timer, bool self_contact, int passes) {
   SimulationOptions options;
   options.self_contact = self_contact;
@@ -69,13 +56,13 @@ void simulate(benchmark::State& timer, bool self_contact, int passes) {
   const auto data = std::make_unique<Data<T>>();
   for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) {
     const Start s(static_cast<std::uint64_t>(lane));
-    put(start->p_root, lane, s.p_root);
-    put(start->v_root, lane, Vector3d::Zero());
+    set_lane(start->p_root, lane, s.p_root);
+    set_lane(start->v_root, lane, Vector3d::Zero());
     for (std::size_t i = 0; i < kBodies; ++i) {
-      put(start->q[i], lane, s.q[i]);
-      put(start->omega[i], lane, s.omega[i]);
-      put(target->q[i], lane, s.q[i]);
-      put(target->omega[i], lane, Vector3d::Zero());
+      set_lane(start->q[i], lane, s.q[i]);
+      set_lane(start->omega[i], lane, s.omega[i]);
+      set_lane(target->q[i], lane, s.q[i]);
+      set_lane(target->omega[i], lane, Vector3d::Zero());
     }
   }
   int k = 0;

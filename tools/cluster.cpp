@@ -1,4 +1,4 @@
-#include "pipeline/clusters.h"
+#include "pipeline/options/clusters.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "pipeline/preparation.h"
-#include "pipeline/run_folder.h"
+#include "pipeline/record/run_folder.h"
 
 namespace mimicx {
 namespace {

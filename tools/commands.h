@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "motion/fit.h"
-#include "motion/synth_set.h"
-#include "pipeline/clusters.h"
+#include "motion/fit/fit.h"
+#include "motion/synth/set.h"
+#include "pipeline/options/clusters.h"
 #include "pipeline/pretrain.h"
 #include "pipeline/sequences.h"
 

@@ -1,9 +1,9 @@
 #include <iostream>
 
 #include "commands.h"
-#include "motion/motion_file.h"
+#include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
-#include "pipeline/qpos.h"
+#include "pipeline/record/qpos.h"
 
 namespace mimicx {
 

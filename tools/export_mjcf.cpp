@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "commands.h"
-#include "motion/motion_file.h"
+#include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
 
 namespace mimicx {

@@ -1,11 +1,11 @@
-#include "motion/fit.h"
+#include "motion/fit/fit.h"
 
 #include <cstdio>
 #include <iostream>
 
 #include "commands.h"
 #include "pipeline/preparation.h"
-#include "pipeline/run_folder.h"
+#include "pipeline/record/run_folder.h"
 
 namespace mimicx {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "commands.h"
-#include "motion/motion_file.h"
+#include "motion/import/motion_file.h"
 #include "motion/reference.h"
 
 namespace mimicx {

@@ -9,7 +9,7 @@
 
 #include "commands.h"
 #include "core/parallel.h"
-#include "motion/motion_file.h"
+#include "motion/import/motion_file.h"
 
 namespace mimicx {
 namespace {

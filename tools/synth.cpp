@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "commands.h"
-#include "pipeline/feasibility.h"
-#include "pipeline/progress.h"
+#include "pipeline/audit/feasibility.h"
+#include "pipeline/record/progress.h"
 
 namespace mimicx {
 namespace {

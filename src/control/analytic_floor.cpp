@@ -39,7 +39,7 @@ void add_acceleration(const Point& p, const Vector3d& alpha, const Vector3d& a, 
 }
 
 Vector3d against_free_fall(const Model<double>& model, const Vec3<double>& a) {
-  return eigen(a) + model.options.gravity * Vector3d::UnitZ();
+  return to_eigen(a) + model.options.gravity * Vector3d::UnitZ();
 }
 
 /// D of the wrench of one contact, docs/physics.md §4, (8), added to the rows of `wrench`.
@@ -47,20 +47,20 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
                  const Vector3d& v_lin, const Accelerations* before, Eigen::Matrix<double, 6, 16>& wrench) {
   const SimulationOptions& o = model.options;
   const ContactPoint& contact = model.contacts[static_cast<std::size_t>(c.index)];
-  const auto i = static_cast<std::size_t>(contact.body);
+  const int i = contact.body;
   const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;
-  const Vector3d arm = eigen(c.arm);
-  const Point point = {arm, arm + contact.radius * Vector3d::UnitZ(), eigen(d.w[i])};
+  const Vector3d arm = to_eigen(c.arm);
+  const Point point = {arm, arm + contact.radius * Vector3d::UnitZ(), to_eigen(d.w[i])};
 
   Row depth = Row::Zero();  // −dp_z − (θ × R p_B)_z
   depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
   depth[kHeight] = -1.0;
   const Rows at_start = velocity(point);
   Rows end = at_start, at = at_start;
-  add_acceleration(point, eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt, end);
+  add_acceleration(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt, end);
   // The velocity at which f_end and c_t were taken is that of the start or the one the solve before predicts.
   if (before != nullptr) {
-    add_acceleration(point, eigen(before->alpha[i]), against_free_fall(model, before->a[i]), dt, at);
+    add_acceleration(point, to_eigen(before->alpha[i]), against_free_fall(model, before->a[i]), dt, at);
     at.middleCols<3>(kAlpha) = -dt * skew(arm);
     at.middleCols<3>(kAcceleration) = dt * Matrix3d::Identity();
   }
@@ -70,7 +70,7 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const Row df_end = o.ground_stiffness * depth - damping * at.row(2);
   const Row dc_t = (c_t / f_end) * df_end - (c_t / slip_2) * (v_lin.x() * at.row(0) + v_lin.y() * at.row(1));
 
-  const Vector3d v_end = eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
+  const Vector3d v_end = to_eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
   Rows force;
   force.row(0) = -c_t * end.row(0) - v_end.x() * dc_t;
   force.row(1) = -c_t * end.row(1) - v_end.y() * dc_t;
@@ -86,14 +86,13 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
 }  // namespace
 
 void velocities_at_start(const Data<double>& d, ContactVelocities& out) {
-  for (int k = 0; k < d.ground_count; ++k)
-    out[static_cast<std::size_t>(k)] = d.ground[static_cast<std::size_t>(k)].velocity;
+  for (int k = 0; k < d.ground_count; ++k) out[k] = d.ground[static_cast<std::size_t>(k)].velocity;
 }
 
 void predicted_velocities(const Model<double>& model, const Data<double>& d, ContactVelocities& out) {
   for (int k = 0; k < d.ground_count; ++k) {
     const GroundContact<double>& c = d.ground[static_cast<std::size_t>(k)];
-    out[static_cast<std::size_t>(k)] = add_scaled(c.velocity, model.dt, point_acceleration(model, c, d));
+    out[k] = add_scaled(c.velocity, model.dt, point_acceleration(model, c, d));
   }
 }
 
@@ -118,7 +117,7 @@ void tabulate_floor(const Model<double>& model, const Data<double>& d, const Con
       wrench.setZero();
       body = on;
     }
-    add_contact(model, d, c, eigen(linearised[static_cast<std::size_t>(k)]), before, wrench);
+    add_contact(model, d, c, to_eigen(linearised[k]), before, wrench);
   }
   if (body >= 0) finish(body);
 }

@@ -10,10 +10,10 @@ namespace {
 struct Axis {
   Vector3d start, along, p;  ///< start from the joint centre, vector to the end; joint centre, m
 };
-Axis axis_of(const Model<double>& model, const Data<double>& d, std::size_t body) {
+Axis axis_of(const Model<double>& model, const Data<double>& d, int body) {
   const Capsule& c = model.capsule[body];
-  const Matrix3d R = eigen(d.R_WB[body]);
-  return {R * c.a_B, R * (c.b_B - c.a_B), eigen(d.p_WB[body])};
+  const Matrix3d R = to_eigen(d.R_WB[body]);
+  return {R * c.a_B, R * (c.b_B - c.a_B), to_eigen(d.p_WB[body])};
 }
 
 /// Parameters of the closest points, and their derivatives by (u·w, w·r, u·r): those of
@@ -48,7 +48,7 @@ Closest closest(const Vector3d& u, const Vector3d& w, const Vector3d& r) {
 }
 
 template <class Real>
-void fill(const Model<double>& model, const Data<double>& d, std::size_t i, std::size_t j,
+void fill(const Model<double>& model, const Data<double>& d, int i, int j,
           std::vector<SelfPairTable<Real>>& out) {
   const Axis on_i = axis_of(model, d, i), on_j = axis_of(model, d, j);
   const Vector3d apart = (on_i.p + on_i.start) - (on_j.p + on_j.start);
@@ -62,13 +62,13 @@ void fill(const Model<double>& model, const Data<double>& d, std::size_t i, std:
   const Vector3d point = on_j.p + point_j + reach * normal;
   const Vector3d arm_i = point - on_i.p, arm_j = point - on_j.p;
   const Vector3d v =
-      (eigen(d.v[i]) + eigen(d.w[i]).cross(arm_i)) - (eigen(d.v[j]) + eigen(d.w[j]).cross(arm_j));
+      (to_eigen(d.v[i]) + to_eigen(d.w[i]).cross(arm_i)) - (to_eigen(d.v[j]) + to_eigen(d.w[j]).cross(arm_j));
   const double push = model.options.self_stiffness * depth - model.options.self_damping * v.dot(normal);
   if (!(push > 0.0)) return;
 
   SelfPairTable<Real>& t = out.emplace_back();
-  t.i = static_cast<int>(i);
-  t.j = static_cast<int>(j);
+  t.i = i;
+  t.j = j;
   put(t.axis_i, on_i.along);
   put(t.axis_j, on_j.along);
   put(t.start_i, on_i.start);
@@ -101,9 +101,9 @@ void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
   out.clear();
   if (!model.options.self_contact) return;
   for (const auto& pair : model.self_pairs) {
-    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    const int i = pair[0], j = pair[1];
     // Bodies on which nothing pushes meet nobody.
-    const auto touched = [&](std::size_t body) {
+    const auto touched = [&](int body) {
       const Vec3<double>& f = d.self_wrench[body].f;
       return dot(f, f) > 0.0;
     };

@@ -3,7 +3,7 @@
 ///
 /// Vectors and matrices are in world-parallel axes about the body's own joint centre, as in
 /// physics/data.h, unless a comment names a body frame. Everything is computed in double
-/// (analytic_tables.cpp) and kept as Real, the scalar of the directions' lanes.
+/// (analytic_step.h) and kept as Real, the scalar of the directions' lanes.
 #pragma once
 
 #include <array>
@@ -85,40 +85,33 @@ struct SaturatedTable {
 /// One solve of the step for accelerations.
 template <class Real>
 struct SolveTable {
-  std::array<SolveBodyTable<Real>, kBodies> body;
+  PerBody<SolveBodyTable<Real>> body;
   Sym3<Real> root_C_inv, root_A_inv;  ///< of the root: C⁻¹; Schur complement's inverse
   Mat3<Real> root_M;                  ///< C⁻¹ Bᵀ
   std::vector<FloorTable<Real>> floor;
   std::vector<SaturatedTable<Real>> saturated;
-  std::array<bool, kBodies> wanted;  ///< bodies whose accelerations the next solve or the step asks for
+  PerBody<bool> wanted;  ///< bodies whose accelerations the next solve or the step asks for
 };
 
 template <class Real>
 struct SubstepTable {
   Real dt;
-  std::array<BodyTable<Real>, kBodies> body;
-  std::array<Vec3<Real>, kDofs> drive_from, drive_to;  ///< torque by residual of the old and the new target
+  PerBody<BodyTable<Real>> body;
+  Array<Vec3<Real>, kDofs> drive_from, drive_to;  ///< torque by residual of the old and the new target
   std::vector<LawTable<Real>> law;
   std::vector<SelfPairTable<Real>> pairs;
   Real self_stiffness, self_damping;
-  Vec3<Real> push_n, push_f;  ///< external wrench on the root
+  Vec3<Real> help_n, help_f;  ///< external wrench on the pelvis
   std::vector<SolveTable<Real>> solves;
-  std::size_t solve_count;  ///< entries of `solves` in use; the others keep their memory
+  int solve_count;  ///< entries of `solves` in use; the others keep their memory
+
+  const SolveTable<Real>& solve(int k) const { return solves[static_cast<std::size_t>(k)]; }
 };
 
 /// How a target of one step turns, in the child's frame, with the residual rotations of the frame's old and
 /// new target: q*·exp(ε), ε = from · dw + to · du. Entry 0 unused.
 struct TargetDerivative {
-  std::array<Matrix3d, kBodies> from, to;
+  PerBody<Matrix3d> from, to;
 };
-
-/// One physics step of the nominal motion, as `step` does it bit by bit where nothing pushes, and everything
-/// about it that its derivative needs.
-/// @param push  external wrench on the root (moment; force), world axes
-/// @return whether the motion ran away
-template <class Real>
-bool tabulate_step(const Model<double>& model, const Target<double>& target, const TargetDerivative& turns,
-                   const Wrench<double>& push, State<double>& state, Data<double>& d,
-                   SubstepTable<Real>& out);
 
 }  // namespace mimicx::control

@@ -50,7 +50,7 @@ Vec3<T> add_transpose_times(const Vec3<T>& c, const Mat3<T>& m, const Vec3<T>& v
 /// Rotations, velocities, velocity products and joint torques, root to tip.
 template <class T>
 [[gnu::flatten]] void kinematics(const SubstepTable<RealOf<T>>& table, TangentData<T>& d) {
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const BodyTable<RealOf<T>>& b = table.body[i];
     const Mat3<T> R = wide<T>(b.R);
     const Vec3<T> turn = R * d.state.turn[i], spin = R * d.state.spin[i];
@@ -59,7 +59,7 @@ template <class T>
       d.theta[0] = turn;
       d.w[0] = spin;
     } else {
-      const auto lambda = static_cast<std::size_t>(kParents[i]);
+      const int lambda = kParents[i];
       const Vec3<T> w_lambda = wide<T>(table.body[lambda].w);
       // The parent's ω as the child sees it, which turns by `turn` more than the parent does.
       const Vec3<T> dw_lambda = add_cross(d.w[lambda], w_lambda, turn);
@@ -73,10 +73,10 @@ template <class T>
     d.rate[i].n = wide<T>(b.rate_n) * d.w[i];
     d.rate[i].f = wide<T>(b.rate_f) * d.w[i];
   }
-  d.rate[0].n = add_cross(d.rate[0].n, d.theta[0], wide<T>(table.push_n)) - d.push.n;
-  d.rate[0].f = add_cross(d.rate[0].f, d.theta[0], wide<T>(table.push_f)) - d.push.f;
+  d.rate[0].n = add_cross(d.rate[0].n, d.theta[0], wide<T>(table.help_n)) - d.help.n;
+  d.rate[0].f = add_cross(d.rate[0].f, d.theta[0], wide<T>(table.help_f)) - d.help.f;
   for (const LawTable<RealOf<T>>& law : table.law) {
-    const auto i = static_cast<std::size_t>(law.body);
+    const int i = law.body;
     const Vec3<T> spin = wide<T>(table.body[i].R) * d.state.spin[i];
     d.law[i] =
         add_scaled(add_times(d.drive[i], wide<T>(law.stiffness), d.state.turn[i]), T(-law.damping), spin);
@@ -89,10 +89,10 @@ template <class T>
 [[gnu::flatten]] void place(const SubstepTable<RealOf<T>>& table, TangentData<T>& d) {
   d.p[0] = d.state.p;
   d.v[0] = d.state.v;
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const BodyTable<RealOf<T>>& b = table.body[i];
     if (!b.placed) continue;
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
+    const int lambda = kParents[i];
     const Vec3<T> r = wide<T>(b.r);
     d.p[i] = add_cross(d.p[lambda], d.theta[lambda], r);
     d.v[i] = add_cross(add_cross(d.v[lambda], d.w[lambda], r), d.theta[lambda], wide<T>(b.w_x_r));
@@ -103,7 +103,7 @@ template <class T>
 template <class T>
 [[gnu::flatten]] void add_self_contact(const SubstepTable<RealOf<T>>& table,
                                        const SelfPairTable<RealOf<T>>& pair, TangentData<T>& d) {
-  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+  const int i = pair.i, j = pair.j;
   const Vec3<T>&theta_i = d.theta[i], &theta_j = d.theta[j];
   const Vec3<T> u = wide<T>(pair.axis_i), w = wide<T>(pair.axis_j), r = wide<T>(pair.apart);
   const Vec3<T> du = cross(theta_i, u), dw = cross(theta_j, w);
@@ -137,7 +137,7 @@ template <class T>
 /// Forces of the floor contacts of a body.
 template <class T>
 [[gnu::flatten]] void add_floor(const FloorTable<RealOf<T>>& floor, TangentData<T>& d, bool first) {
-  const auto i = static_cast<std::size_t>(floor.body);
+  const int i = floor.body;
   const T inputs[FloorTable<RealOf<T>>::kInputs] = {
       d.theta[i].x, d.theta[i].y, d.theta[i].z, d.w[i].x,     d.w[i].y,     d.w[i].z, d.v[i].x, d.v[i].y,
       d.v[i].z,     d.p[i].z,     d.alpha[i].x, d.alpha[i].y, d.alpha[i].z, d.a[i].x, d.a[i].y, d.a[i].z};
@@ -156,7 +156,7 @@ template <class T>
 void bound_torques(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
                    TangentData<T>& d) {
   for (const LawTable<RealOf<T>>& law : table.law) {
-    const auto i = static_cast<std::size_t>(law.body);
+    const int i = law.body;
     d.torque[i] = d.range[i] + d.law[i];
     for (const SaturatedTable<RealOf<T>>& joint : solve.saturated) {
       if (joint.body != law.body) continue;
@@ -171,8 +171,8 @@ void bound_torques(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf
 template <class T>
 [[gnu::flatten]] void bias_pass(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
                                 TangentData<T>& d) {
-  for (std::size_t i = kBodies - 1; i > 0; --i) {
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
+  for (int i = kBodies - 1; i > 0; --i) {
+    const int lambda = kParents[i];
     const SolveBodyTable<RealOf<T>>& s = solve.body[i];
     const Vec3<T> turn = d.turn[i];
     const Vec3<T> c_w = add_cross(d.c_w[i], wide<T>(solve.body[lambda].alpha), turn);
@@ -182,7 +182,7 @@ template <class T>
     Vec3<T> n, f;
     d.c_w_now[i] = c_w;
     d.c_v_now[i] = c_v;
-    if (is_hinge(static_cast<int>(i))) {
+    if (is_hinge(i)) {
       const Vec3<T> axis = wide<T>(table.body[i].axis);
       const Vec3<T> h = add_times(add_times(own_n, wide<T>(s.A), c_w), B, c_v);
       const T y = T(s.D_inv.xx) * dot(axis, t - h);
@@ -212,14 +212,14 @@ template <class T>
   d.alpha[0] = wide<T>(solve.root_A_inv) * right;
   d.a[0] = -add_times(wide<T>(solve.root_C_inv) * d.force[0].f, M, d.alpha[0]);
   d.qdd[0] = d.alpha[0];
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     if (!solve.wanted[i]) continue;
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
+    const int lambda = kParents[i];
     const SolveBodyTable<RealOf<T>>& s = solve.body[i];
     const Vec3<T> alpha_lambda = d.alpha[lambda];
     const Vec3<T> a = add_cross(d.a[lambda], alpha_lambda, wide<T>(table.body[i].r));
     Vec3<T> alpha;
-    if (is_hinge(static_cast<int>(i))) {
+    if (is_hinge(i)) {
       const T y = T(s.D_inv.xx) * (dot(wide<T>(s.U_n), alpha_lambda) + dot(wide<T>(s.U_f), a));
       alpha = add_scaled(alpha_lambda + d.free[i], -y, wide<T>(table.body[i].axis));
     } else {
@@ -233,8 +233,8 @@ template <class T>
 }
 
 template <class T>
-void solve_once(const SubstepTable<RealOf<T>>& table, std::size_t index, TangentData<T>& d) {
-  const SolveTable<RealOf<T>>& solve = table.solves[index];
+void solve_once(const SubstepTable<RealOf<T>>& table, int index, TangentData<T>& d) {
+  const SolveTable<RealOf<T>>& solve = table.solve(index);
   bound_torques(table, solve, d);
   if (!solve.wanted[0]) return;
   d.force = d.rate;
@@ -251,7 +251,7 @@ template <class T>
   StateTangent<T>& x = d.state;
   x.v = add_scaled(x.v, dt, add_cross(d.a[0], d.theta[0], wide<T>(last.body[0].a)));
   x.p = add_scaled(x.p, dt, x.v);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const BodyTable<RealOf<T>>& b = table.body[i];
     const Vec3<T> spin = add_scaled(x.spin[i], dt, transpose_times(wide<T>(b.R), d.qdd[i]));
     x.spin[i] = spin;
@@ -266,15 +266,11 @@ void advance_tangent(const SubstepTable<RealOf<T>>& table, TangentData<T>& d) {
   kinematics(table, d);
   place(table, d);
   for (const SelfPairTable<RealOf<T>>& pair : table.pairs) add_self_contact(table, pair, d);
-  for (std::size_t k = 0; k < table.solve_count; ++k) solve_once(table, k, d);
-  integrate(table, table.solves[table.solve_count - 1], d);
+  for (int k = 0; k < table.solve_count; ++k) solve_once(table, k, d);
+  integrate(table, table.solve(table.solve_count - 1), d);
 }
 
 template void advance_tangent<double>(const SubstepTable<double>&, TangentData<double>&);
-template void advance_tangent<Pack<8>>(const SubstepTable<float>&, TangentData<Pack<8>>&);
-template void advance_tangent<Pack<16>>(const SubstepTable<float>&, TangentData<Pack<16>>&);
-#if !defined(__AVX2__)
-template void advance_tangent<Pack<4>>(const SubstepTable<float>&, TangentData<Pack<4>>&);
-#endif
+template void advance_tangent<Pack<kLanes>>(const SubstepTable<float>&, TangentData<Pack<kLanes>>&);
 
 }  // namespace mimicx::control

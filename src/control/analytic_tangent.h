@@ -14,31 +14,31 @@ namespace mimicx::control {
 /// Change of a state; of hinges the part along the axis.
 template <class T>
 struct StateTangent {
-  Vec3<T> p, v;                             ///< root, world
-  std::array<Vec3<T>, kBodies> turn, spin;  ///< δ of q·exp(δ), and of omega; body frames
+  Vec3<T> p, v;                 ///< root, world
+  PerBody<Vec3<T>> turn, spin;  ///< δ of q·exp(δ), and of omega; body frames
 };
 
 /// The changes inside a step.
 template <class T>
 struct TangentData {
   StateTangent<T> state;
-  Wrench<T> push;                      ///< external wrench on the root, world
-  std::array<Vec3<T>, kBodies> drive;  ///< joint torque that the targets add
+  Wrench<T> help;          ///< on the pelvis, world
+  PerBody<Vec3<T>> drive;  ///< joint torque that the targets add
 
-  std::array<Vec3<T>, kBodies> theta, turn;  ///< of the body; of the joint alone, R δ
-  std::array<Vec3<T>, kBodies> p, v;         ///< of the joint centre, world, where it is asked for
-  std::array<Vec3<T>, kBodies> w;
-  std::array<Vec3<T>, kBodies> c_w, c_v;    ///< velocity-product acceleration; of c_v the parent's part
-  std::array<Wrench<T>, kBodies> rate;      ///< force by velocities, self contact, push
-  std::array<Vec3<T>, kBodies> torque;      ///< of a joint
-  std::array<Vec3<T>, kBodies> law, range;  ///< its PD law and its range apart, where the law may saturate
-  std::array<Vec3<T>, kBodies> held;        ///< PD torque of a saturated joint
+  PerBody<Vec3<T>> theta, turn;  ///< of the body; of the joint alone, R δ
+  PerBody<Vec3<T>> p, v;         ///< of the joint centre, world, where it is asked for
+  PerBody<Vec3<T>> w;
+  PerBody<Vec3<T>> c_w, c_v;    ///< velocity-product acceleration; of c_v the parent's part
+  PerBody<Wrench<T>> rate;      ///< force by velocities, self contact, help
+  PerBody<Vec3<T>> torque;      ///< of a joint
+  PerBody<Vec3<T>> law, range;  ///< its PD law and its range apart, where the law may saturate
+  PerBody<Vec3<T>> held;        ///< PD torque of a saturated joint
 
-  std::array<Wrench<T>, kBodies> force;           ///< bias force of the articulated body
-  std::array<Vec3<T>, kBodies> c_w_now, c_v_now;  ///< acceleration that the parent hands on, were its own 0
-  std::array<Vec3<T>, kBodies> free;              ///< α of the body, were the parent's accelerations 0
-  std::array<Vec3<T>, kBodies> alpha, a;
-  std::array<Vec3<T>, kBodies> qdd;  ///< joint acceleration: R times the change of dω/dt
+  PerBody<Wrench<T>> force;           ///< bias force of the articulated body
+  PerBody<Vec3<T>> c_w_now, c_v_now;  ///< acceleration that the parent hands on, were its own 0
+  PerBody<Vec3<T>> free;              ///< α of the body, were the parent's accelerations 0
+  PerBody<Vec3<T>> alpha, a;
+  PerBody<Vec3<T>> qdd;  ///< joint acceleration: R times the change of dω/dt
 };
 
 /// One physics step: `d.state` at its start becomes `d.state` at its end.

@@ -274,8 +274,8 @@ void require_usable(const Clip& clip, int frames) {
   }
 }
 
-std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip) {
-  std::vector<std::array<Quaterniond, kBodies>> q(clip.rotations.size());
+std::vector<PerBody<Quaterniond>> joint_rotations(const Clip& clip) {
+  std::vector<PerBody<Quaterniond>> q(clip.rotations.size());
   for (std::size_t t = 0; t < q.size(); ++t)
     for (std::size_t j = 0; j < kBodies; ++j) q[t][j] = exp_map(clip.rotations[t][j]);
   return q;

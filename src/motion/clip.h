@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/character.h"
+#include "character/character.h"
 #include "core/npz.h"
 
 namespace mimicx {
@@ -31,10 +31,9 @@ struct Keypoints {
 struct Clip {
   std::string name;  ///< file name without folder and suffix
   double fps = 30.0;
-  std::vector<std::array<Vector3d, kBodies>>
-      rotations;                       ///< [frames][22] axis-angle: root in world, joints local
-  std::vector<Vector3d> trans;         ///< [frames] SMPL's trans: pelvis = trans + J0(body_model)
-  std::array<double, kBetas> betas{};  ///< as in the file
+  std::vector<PerBody<Vector3d>> rotations;  ///< [frames][22] axis-angle: root in world, joints local
+  std::vector<Vector3d> trans;               ///< [frames] SMPL's trans: pelvis = trans + J0(body_model)
+  std::array<double, kBetas> betas{};        ///< as in the file
   std::string body_model = "mimicx";
   std::string gender = "neutral";
   std::optional<Keypoints> keypoints;
@@ -65,7 +64,7 @@ void put_on_body_of(const Clip& other, Clip& clip);
 void require_usable(const Clip& clip, int frames);
 
 /// Joint rotations as quaternions, [frames][22].
-std::vector<std::array<Quaterniond, kBodies>> joint_rotations(const Clip& clip);
+std::vector<PerBody<Quaterniond>> joint_rotations(const Clip& clip);
 
 /// World poses of the clip as it stands, every joint spherical, on its body.
 std::vector<BodyPoses> poses_of(const Clip& clip);

@@ -1,6 +1,6 @@
 #include "motion/estimator_error.h"
 
-#include "core/character.h"
+#include "character/character.h"
 
 namespace mimicx {
 

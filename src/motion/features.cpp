@@ -70,7 +70,7 @@ MotionFeatures motion_features(const Reference& reference) {
   for (int t = 0; t < frames; ++t) {
     const Window window = window_of(t, frames, reference.fps);
     double turning = 0.0;
-    std::array<Vector3d, kBodies> velocity, acceleration;
+    PerBody<Vector3d> velocity, acceleration;
     velocity.fill(Vector3d::Zero());
     acceleration.fill(Vector3d::Zero());
     for (int i = 0; i < window.weights.cols(); ++i) {

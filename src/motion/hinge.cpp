@@ -66,8 +66,8 @@ double blended_swivel(double exact, double bend, double hinged_bend) {
 }
 
 /// @param R  world rotations of the SMPL motion; @param q  joint rotations to change
-void convert_limb(const Character& character, const Limb& limb, const std::array<Quaterniond, kBodies>& R,
-                  std::array<Quaterniond, kBodies>& q) {
+void convert_limb(const Character& character, const Limb& limb, const PerBody<Quaterniond>& R,
+                  PerBody<Quaterniond>& q) {
   const auto A = static_cast<std::size_t>(limb.upper), B = static_cast<std::size_t>(limb.hinge);
   const auto C = static_cast<std::size_t>(limb.end), P = static_cast<std::size_t>(kParents[A]);
   const Vector3d axis = hinge_axis(limb.hinge);
@@ -91,11 +91,11 @@ void convert_limb(const Character& character, const Limb& limb, const std::array
 
 }  // namespace
 
-std::vector<std::array<Quaterniond, kBodies>> to_hinges(
-    const Character& character, const std::vector<std::array<Quaterniond, kBodies>>& smpl) {
-  std::vector<std::array<Quaterniond, kBodies>> out = smpl;
-  for (std::array<Quaterniond, kBodies>& q : out) {
-    std::array<Quaterniond, kBodies> R = q;
+std::vector<PerBody<Quaterniond>> to_hinges(const Character& character,
+                                            const std::vector<PerBody<Quaterniond>>& smpl) {
+  std::vector<PerBody<Quaterniond>> out = smpl;
+  for (PerBody<Quaterniond>& q : out) {
+    PerBody<Quaterniond> R = q;
     for (std::size_t i = 1; i < kBodies; ++i) R[i] = R[static_cast<std::size_t>(kParents[i])] * q[i];
     for (const Limb& limb : kLimbs) convert_limb(character, limb, R, q);
   }

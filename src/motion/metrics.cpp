@@ -15,7 +15,7 @@ constexpr double kStaticMotion = 0.010;   ///< m/frame; a foot point of the trut
 constexpr double kMaxBodyDistance = 0.5;  ///< m
 constexpr double kMaxMpjpe = 60.0;        ///< mm
 
-using Joints = std::array<Vector3d, kBodies>;
+using Joints = PerBody<Vector3d>;
 
 /// Running mean.
 struct Mean {

@@ -17,9 +17,9 @@ namespace mimicx {
 
 /// What the metrics look at; one entry per frame.
 struct MotionSamples {
-  std::vector<std::array<Vector3d, kBodies>> joints;  ///< world positions, m
-  std::vector<std::vector<Vector3d>> surface;         ///< of `surface_points`, feet first, m
-  std::vector<double> self_depth;  ///< mean depth of the overlapping self pairs, m; 0 without any
+  std::vector<PerBody<Vector3d>> joints;       ///< world positions, m
+  std::vector<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
+  std::vector<double> self_depth;              ///< mean depth of the overlapping self pairs, m; 0 without any
   double fps = 30.0;
 
   int frames() const { return static_cast<int>(joints.size()); }

@@ -146,7 +146,7 @@ void differentiate(std::vector<ReferenceFrame>& frames, double fps) {
 }
 
 Clip to_clip(const std::string& name, double fps, const Character& character,
-             const std::vector<Vector3d>& p_root, const std::vector<std::array<Quaterniond, kBodies>>& q) {
+             const std::vector<Vector3d>& p_root, const std::vector<PerBody<Quaterniond>>& q) {
   Clip clip;
   clip.name = name;
   clip.fps = fps;

@@ -15,10 +15,9 @@ namespace mimicx {
 struct ReferenceFrame {
   Vector3d p_root = Vector3d::Zero();  ///< pelvis joint in world, m
   Vector3d v_root = Vector3d::Zero();  ///< its velocity in world, m/s
-  std::array<Quaterniond, kBodies>
+  PerBody<Quaterniond>
       q;  ///< [0] root in world; joints relative to the parent; hinges exactly about their axis
-  std::array<Vector3d, kBodies>
-      omega;  ///< [0] root; joints relative to the parent; in the body's own frame, rad/s
+  PerBody<Vector3d> omega;  ///< [0] root; joints relative to the parent; in the body's own frame, rad/s
 };
 
 struct Reference {
@@ -66,11 +65,11 @@ void differentiate(std::vector<ReferenceFrame>& frames, double fps);
 /// straight limb (under 30°) the parent's twist is blended with SMPL's own, which moves the knee or elbow
 /// by millimetres and keeps the motion continuous. Joints that are hinges already stay as they are.
 /// @param smpl  [frames][22] joint rotations (entry 0: root in world)
-std::vector<std::array<Quaterniond, kBodies>> to_hinges(
-    const Character& character, const std::vector<std::array<Quaterniond, kBodies>>& smpl);
+std::vector<PerBody<Quaterniond>> to_hinges(const Character& character,
+                                            const std::vector<PerBody<Quaterniond>>& smpl);
 
 /// Simulated or prepared motion → clip in our layout (axis-angle, trans of body model "mimicx").
 Clip to_clip(const std::string& name, double fps, const Character& character,
-             const std::vector<Vector3d>& p_root, const std::vector<std::array<Quaterniond, kBodies>>& q);
+             const std::vector<Vector3d>& p_root, const std::vector<PerBody<Quaterniond>>& q);
 
 }  // namespace mimicx

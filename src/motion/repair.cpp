@@ -21,9 +21,8 @@ constexpr double kPenetrationAllowed = 0.010;  ///< m
 constexpr int kLiftRadius = 2;                 ///< frames
 
 /// How fast the motion goes from frame a to frame b at constant speed, in units of the limits.
-double implausibility(const std::vector<BodyPoses>& poses,
-                      const std::vector<std::array<Quaterniond, kBodies>>& q, std::size_t a, std::size_t b,
-                      double fps) {
+double implausibility(const std::vector<BodyPoses>& poses, const std::vector<PerBody<Quaterniond>>& q,
+                      std::size_t a, std::size_t b, double fps) {
   const double seconds = static_cast<double>(b - a) / fps;
   double worst = 0.0;
   for (std::size_t j = 0; j < kBodies; ++j) {

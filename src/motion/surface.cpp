@@ -42,7 +42,7 @@ std::vector<SurfacePoint> surface_points(const Character& character) {
 }
 
 std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
-  std::array<Matrix3d, kBodies> R_WB;
+  PerBody<Matrix3d> R_WB;
   for (std::size_t i = 0; i < kBodies; ++i) R_WB[i] = poses.q_WB[i].toRotationMatrix();
   std::vector<Vector3d> positions;
   positions.reserve(points.size());

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "core/character.h"
+#include "character/character.h"
 
 namespace mimicx {
 

@@ -136,7 +136,7 @@ void closest_on_segments(const Vec3<T>& p, const Vec3<T>& u, const Vec3<T>& q, c
 template <class T>
 [[gnu::flatten]] void add_self_contact(const Model<RealOf<T>>& model, Data<T>& d) {
   const T k(model.options.self_stiffness), damping(model.options.self_damping), zero(0.0);
-  std::array<Vec3<T>, kBodies> arm, axis,
+  PerBody<Vec3<T>> arm, axis,
       middle;  // start of the capsule's axis, its vector; its middle in world
   for (int body : model.capsule_bodies) {
     const auto i = static_cast<std::size_t>(body);

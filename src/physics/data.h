@@ -12,18 +12,17 @@ namespace mimicx {
 /// Generalised coordinates and velocities.
 template <class T>
 struct State {
-  Vec3<T> p_root;                  ///< pelvis joint in world, m
-  Vec3<T> v_root;                  ///< its velocity in world, m/s
-  std::array<Quat<T>, kBodies> q;  ///< [0] pelvis in world; joint rotations relative to the parent
-  std::array<Vec3<T>, kBodies>
-      omega;  ///< [0] pelvis; joints relative to the parent; in the body's own frame, rad/s
+  Vec3<T> p_root;          ///< pelvis joint in world, m
+  Vec3<T> v_root;          ///< its velocity in world, m/s
+  PerBody<Quat<T>> q;      ///< [0] pelvis in world; joint rotations relative to the parent
+  PerBody<Vec3<T>> omega;  ///< [0] pelvis; joints relative to the parent; in the body's own frame, rad/s
 };
 
 /// What the PD controllers aim at during one physics step.
 template <class T>
 struct Target {
-  std::array<Quat<T>, kBodies> q;      ///< joint rotations relative to the parent; entry 0 unused
-  std::array<Vec3<T>, kBodies> omega;  ///< feed-forward of the joint velocity, child's frame, rad/s
+  PerBody<Quat<T>> q;      ///< joint rotations relative to the parent; entry 0 unused
+  PerBody<Vec3<T>> omega;  ///< feed-forward of the joint velocity, child's frame, rad/s
 };
 
 /// One point on the floor during one step. Names as in docs/physics.md §4.
@@ -49,39 +48,37 @@ struct Wrench {
 template <class T>
 struct Data {
   // kinematics
-  std::array<Quat<T>, kBodies> q_WB;
-  std::array<Mat3<T>, kBodies> R_WB;
-  std::array<Vec3<T>, kBodies> p_WB;      ///< joint centres, m
-  std::array<Vec3<T>, kBodies> r;         ///< joint centre minus the parent's, m
-  std::array<Vec3<T>, kBodies> w, v;      ///< angular velocity; linear velocity of the joint centre
-  std::array<Vec3<T>, kBodies> c_w, c_v;  ///< velocity-product acceleration c of the joint (RBDA eq. 7.32)
+  PerBody<Quat<T>> q_WB;
+  PerBody<Mat3<T>> R_WB;
+  PerBody<Vec3<T>> p_WB;      ///< joint centres, m
+  PerBody<Vec3<T>> r;         ///< joint centre minus the parent's, m
+  PerBody<Vec3<T>> w, v;      ///< angular velocity; linear velocity of the joint centre
+  PerBody<Vec3<T>> c_w, c_v;  ///< velocity-product acceleration c of the joint (RBDA eq. 7.32)
 
   // rigid bodies in world axes
-  std::array<Sym3<T>, kBodies> I_o;  ///< rotational inertia about the joint centre
-  std::array<Vec3<T>, kBodies> d;    ///< centre of mass from the joint centre, m
-  std::array<Wrench<T>, kBodies>
-      bias;  ///< velocity-product and gravity force of the rigid body, self contact included
-  std::array<Wrench<T>, kBodies> self_wrench;
+  PerBody<Sym3<T>> I_o;     ///< rotational inertia about the joint centre
+  PerBody<Vec3<T>> d;       ///< centre of mass from the joint centre, m
+  PerBody<Wrench<T>> bias;  ///< velocity-product and gravity force of the rigid body, self contact included
+  PerBody<Wrench<T>> self_wrench;
 
   // joints: τ at the start of the step and the implicit diagonal, PD and anatomical range apart
-  std::array<Vec3<T>, kBodies> tau_pd, tau_range;  ///< N·m
-  std::array<T, kBodies> delta_pd, delta_range;    ///< kg·m²
-  std::array<Vec3<T>, kBodies> tau;                ///< of the PD in use in this pass (bound applied)
-  std::array<T, kBodies> delta;                    ///< in use in this pass, armature included
-  std::array<MaskOf<T>, kBodies> saturated;        ///< PD torque is a constant at its bound
+  PerBody<Vec3<T>> tau_pd, tau_range;  ///< N·m
+  PerBody<T> delta_pd, delta_range;    ///< kg·m²
+  PerBody<Vec3<T>> tau;                ///< of the PD in use in this pass (bound applied)
+  PerBody<T> delta;                    ///< in use in this pass, armature included
+  PerBody<MaskOf<T>> saturated;        ///< PD torque is a constant at its bound
 
   // articulated bodies (RBDA table 7.1): for a ball joint U = [A; Bᵀ], for a hinge U = (U_n; U_f)
-  std::array<Inertia<T>, kBodies> IA;
-  std::array<Wrench<T>, kBodies> pA;
-  std::array<Sym3<T>, kBodies> D_inv;     ///< ball; hinges use .xx
-  std::array<Vec3<T>, kBodies> u;         ///< ball; hinges use .x
-  std::array<Vec3<T>, kBodies> a_w, a_v;  ///< body accelerations: angular; of the joint centre (classical)
-  std::array<Vec3<T>, kBodies>
-      qdd;  ///< joint accelerations R·ω̇ in world axes; entry 0: the root's angular one
+  PerBody<Inertia<T>> IA;
+  PerBody<Wrench<T>> pA;
+  PerBody<Sym3<T>> D_inv;     ///< ball; hinges use .xx
+  PerBody<Vec3<T>> u;         ///< ball; hinges use .x
+  PerBody<Vec3<T>> a_w, a_v;  ///< body accelerations: angular; of the joint centre (classical)
+  PerBody<Vec3<T>> qdd;       ///< joint accelerations R·ω̇ in world axes; entry 0: the root's angular one
 
   /// Bodies whose IA, pA the next solve forms anew, because a contact of the body, or a contact or joint
   /// torque of the branch it carries, was linearised anew in some lane. The others keep theirs.
-  std::array<bool, kBodies> changed;
+  PerBody<bool> changed;
 
   std::array<GroundContact<T>, kMaxContacts> ground;
   int ground_count = 0;  ///< points that touch in at least one lane
@@ -90,10 +87,10 @@ struct Data {
 /// What really acted during an interval, for export and audit: sums over the physics steps.
 template <class T>
 struct Applied {
-  std::array<Vec3<T>, kBodies> joint_torque;    ///< child's frame, N·m (PD and range; without armature)
-  std::array<Vec3<T>, kBodies> range_torque;    ///< the part of it that came from the anatomical range
-  std::array<Wrench<T>, kBodies> ground, self;  ///< about the body's joint centre, world axes
-  std::array<T, kMaxContacts> point_force;      ///< normal force per Model::contacts entry, N
+  PerBody<Vec3<T>> joint_torque;            ///< child's frame, N·m (PD and range; without armature)
+  PerBody<Vec3<T>> range_torque;            ///< the part of it that came from the anatomical range
+  PerBody<Wrench<T>> ground, self;          ///< about the body's joint centre, world axes
+  std::array<T, kMaxContacts> point_force;  ///< normal force per Model::contacts entry, N
   int steps = 0;
 };
 

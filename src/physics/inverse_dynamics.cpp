@@ -47,8 +47,8 @@ Vector6d to_body(const Quaterniond& q_WB, const Vector6d& f_W) {
 
 RequiredForces inverse_dynamics(const Character& c, double gravity, const MotionState& s,
                                 const BodyWrenches& external) {
-  std::array<Quaterniond, kBodies> q_WB;
-  std::array<Vector6d, kBodies> v, a, f;
+  PerBody<Quaterniond> q_WB;
+  PerBody<Vector6d> v, a, f;
   // Root to tip. The pelvis is a joint of six degrees of freedom; gravity enters as a fictitious acceleration
   // of the world, and the spatial acceleration of the pelvis differs from the derivative of v_root by ω × v.
   q_WB[0] = s.q[0];

@@ -13,24 +13,24 @@
 
 #include <array>
 
-#include "core/character.h"
+#include "character/character.h"
 
 namespace mimicx {
 
 /// Position, velocity and acceleration; conventions of physics/data.h.
 struct MotionState {
-  Vector3d p_root, v_root, a_root;        ///< pelvis joint in world; a is the derivative of v
-  std::array<Quaterniond, kBodies> q;     ///< unit; [0] pelvis → world, joints child → parent
-  std::array<Vector3d, kBodies> omega;    ///< [0] pelvis; joints relative to the parent; own frame, rad/s
-  std::array<Vector3d, kBodies> omega_d;  ///< derivatives of these numbers, rad/s²
+  Vector3d p_root, v_root, a_root;  ///< pelvis joint in world; a is the derivative of v
+  PerBody<Quaterniond> q;           ///< unit; [0] pelvis → world, joints child → parent
+  PerBody<Vector3d> omega;          ///< [0] pelvis; joints relative to the parent; own frame, rad/s
+  PerBody<Vector3d> omega_d;        ///< derivatives of these numbers, rad/s²
 };
 
 /// External wrench on every body: moment about its joint centre, N·m; force, N; world axes.
-using BodyWrenches = std::array<Vector6d, kBodies>;
+using BodyWrenches = PerBody<Vector6d>;
 
 struct RequiredForces {
-  Vector6d root;                        ///< moment about the pelvis joint, N·m; force, N; world axes
-  std::array<Vector3d, kBodies> joint;  ///< child's frame, N·m; of a hinge the part about its axis; [0] zero
+  Vector6d root;            ///< moment about the pelvis joint, N·m; force, N; world axes
+  PerBody<Vector3d> joint;  ///< child's frame, N·m; of a hinge the part about its axis; [0] zero
 };
 
 /// Armature included; gravity downwards, m/s².

@@ -54,7 +54,7 @@ void write_body(const Character& c, int body, const MjcfOptions& what, std::ostr
   out << "</body>\n";
 }
 
-void append_subtree(int body, std::array<int, kBodies>& order, std::size_t& count) {
+void append_subtree(int body, PerBody<int>& order, std::size_t& count) {
   order[count++] = body;
   for (int child = body + 1; child < kBodies; ++child)
     if (kParents[static_cast<std::size_t>(child)] == body) append_subtree(child, order, count);
@@ -77,8 +77,8 @@ void write_coordinates(std::ostream& out) {
 
 }  // namespace
 
-std::array<int, kBodies> mjcf_order() {
-  std::array<int, kBodies> order{};
+PerBody<int> mjcf_order() {
+  PerBody<int> order{};
   std::size_t count = 0;
   append_subtree(kPelvis, order, count);
   return order;

@@ -32,6 +32,6 @@ std::string to_mjcf(const Character& character, const SimulationOptions& options
                     const MjcfOptions& what = {});
 
 /// Bodies in the order of the file, depth first.
-std::array<int, kBodies> mjcf_order();
+PerBody<int> mjcf_order();
 
 }  // namespace mimicx

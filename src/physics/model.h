@@ -2,13 +2,13 @@
 ///
 /// `Model<Real>` is immutable and shared by all threads; `Data<T>` (data.h) is one worker's scratch. Names
 /// follow R. Featherstone, "Rigid Body Dynamics Algorithms" (2008, "RBDA"), table 4.3 and chapter 7;
-/// the tree itself (λ, joint types) is fixed at compile time in core/character.h.
+/// the tree itself (λ, joint types) is fixed at compile time in character/character.h.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "core/character.h"
+#include "character/character.h"
 #include "physics/spatial.h"
 
 namespace mimicx {
@@ -35,20 +35,20 @@ struct SimulationOptions {
 
 template <class Real>
 struct Model {
-  std::array<Vec3<Real>, kBodies> joint_offset;  ///< joint i in its parent's frame, m
-  std::array<Real, kBodies> mass;                ///< kg
-  std::array<Vec3<Real>, kBodies> com;           ///< body's frame, m
-  std::array<Sym3<Real>, kBodies> inertia_o;     ///< about the joint centre, body's axes, kg·m²
+  PerBody<Vec3<Real>> joint_offset;  ///< joint i in its parent's frame, m
+  PerBody<Real> mass;                ///< kg
+  PerBody<Vec3<Real>> com;           ///< body's frame, m
+  PerBody<Sym3<Real>> inertia_o;     ///< about the joint centre, body's axes, kg·m²
 
-  std::array<Real, kBodies> kp, kd, armature, torque_limit;
-  std::array<Vec3<Real>, kBodies> axis;  ///< of hinges, parent's = child's frame
-  std::array<Quat<Real>, kBodies> range_centre;
-  std::array<Vec3<Real>, kBodies> range_inverse;  ///< 1 / (2 sin(half range / 2)) per axis
+  PerBody<Real> kp, kd, armature, torque_limit;
+  PerBody<Vec3<Real>> axis;  ///< of hinges, parent's = child's frame
+  PerBody<Quat<Real>> range_centre;
+  PerBody<Vec3<Real>> range_inverse;  ///< 1 / (2 sin(half range / 2)) per axis
 
   std::vector<ContactPoint> contacts;          ///< sorted by body
   std::array<int, kBodies + 1> contact_begin;  ///< contacts of body i: [contact_begin[i], contact_begin[i+1])
   std::vector<int> contact_source;             ///< index in Character::contact_points
-  std::array<Capsule, kBodies> capsule;
+  PerBody<Capsule> capsule;
   std::vector<std::array<int, 2>> self_pairs;
   std::vector<int> capsule_bodies;  ///< bodies that occur in self_pairs
 

@@ -19,8 +19,8 @@ void update_kinematics(const Model<RealOf<T>>& model, const State<T>& state, Dat
 }
 
 template <class T>
-void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
-                      const std::array<Vec3<T>, kBodies>& tau, Data<T>& d) {
+void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, const PerBody<Vec3<T>>& tau,
+                      Data<T>& d) {
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
   d.ground_count = 0;
@@ -35,9 +35,13 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
 
 template <class T>
 void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target, const State<T>& state,
-                         Data<T>& d) {
+                         Data<T>& d, const Wrench<T>* help) {
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
+  if (help != nullptr) {
+    d.bias[kPelvis].n -= help->n;
+    d.bias[kPelvis].f -= help->f;
+  }
   zero_self_contact(d);
   if (model.options.self_contact) add_self_contact(model, d);
   detect_ground(model, d);
@@ -60,8 +64,8 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
 
 template <class T>
 MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& state, Data<T>& d,
-               Applied<T>* applied) {
-  solve_accelerations(model, target, state, d);
+               Applied<T>* applied, const Wrench<T>* help) {
+  solve_accelerations(model, target, state, d, help);
   if (applied != nullptr) record_applied(model, d, *applied);
   integrate(model, d, state);
   return gone_wrong(model, state);
@@ -100,14 +104,15 @@ void clear(Applied<T>& applied) {
   applied.steps = 0;
 }
 
-#define MIMICX_INSTANTIATE(T)                                                                              \
-  template void forward_dynamics<T>(const Model<RealOf<T>>&, const State<T>&,                              \
-                                    const std::array<Vec3<T>, kBodies>&, Data<T>&);                        \
-  template MaskOf<T> step<T>(const Model<RealOf<T>>&, const Target<T>&, State<T>&, Data<T>&, Applied<T>*); \
-  template void solve_accelerations<T>(const Model<RealOf<T>>&, const Target<T>&, const State<T>&,         \
-                                       Data<T>&);                                                          \
-  template void record_applied<T>(const Model<RealOf<T>>&, const Data<T>&, Applied<T>&);                   \
-  template void clear<T>(Applied<T>&);                                                                     \
+#define MIMICX_INSTANTIATE(T)                                                                                \
+  template void forward_dynamics<T>(const Model<RealOf<T>>&, const State<T>&, const PerBody<Vec3<T>>&,       \
+                                    Data<T>&);                                                               \
+  template MaskOf<T> step<T>(const Model<RealOf<T>>&, const Target<T>&, State<T>&, Data<T>&, Applied<T>*,    \
+                             const Wrench<T>*);                                                              \
+  template void solve_accelerations<T>(const Model<RealOf<T>>&, const Target<T>&, const State<T>&, Data<T>&, \
+                                       const Wrench<T>*);                                                    \
+  template void record_applied<T>(const Model<RealOf<T>>&, const Data<T>&, Applied<T>&);                     \
+  template void clear<T>(Applied<T>&);                                                                       \
   template void update_kinematics<T>(const Model<RealOf<T>>&, const State<T>&, Data<T>&);
 
 MIMICX_INSTANTIATE(double)

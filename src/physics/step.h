@@ -13,21 +13,24 @@ namespace mimicx {
 /// @param tau  joint torques in the child's frame, N·m; entry 0 unused; of a hinge the part along its axis
 /// counts
 template <class T>
-void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state,
-                      const std::array<Vec3<T>, kBodies>& tau, Data<T>& d);
+void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, const PerBody<Vec3<T>>& tau,
+                      Data<T>& d);
 
 /// One physics step towards `target`.
 /// @param applied  where not null, what acted is added to it
+/// @param help  where not null, an external wrench on the pelvis, about its joint centre in world axes, that
+///        no body could exert on itself: for planning with penalised help (src/control). Not in `applied`, so
+///        that an audit finds it unexplained.
 /// @return mask of the lanes that have gone wrong (`gone_wrong` of integration.h): their state is not to be
 ///         used; other lanes are untouched by them
 template <class T>
 MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& state, Data<T>& d,
-               Applied<T>* applied = nullptr);
+               Applied<T>* applied = nullptr, const Wrench<T>* help = nullptr);
 
 /// The solve inside `step` without the integration: accelerations and applied forces at `state`.
 template <class T>
 void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target, const State<T>& state,
-                         Data<T>& d);
+                         Data<T>& d, const Wrench<T>* help = nullptr);
 
 /// Adds what acted in the last solve to `applied`.
 template <class T>

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "motion/reference.h"
-#include "pipeline/json.h"
+#include "pipeline/record/json.h"
 
 namespace mimicx {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "motion/fit.h"
-#include "motion/motion_file.h"
+#include "motion/fit/fit.h"
+#include "motion/import/motion_file.h"
 #include "motion/reference.h"
-#include "pipeline/manifest.h"
+#include "pipeline/record/manifest.h"
 
 namespace mimicx {
 

@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/npz.h"
-#include "pipeline/json.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/json.h"
 
 namespace mimicx {
 namespace {

@@ -13,9 +13,9 @@
 /// What it never does: open any ground truth.
 #pragma once
 
-#include "motion/motion_file.h"
+#include "motion/import/motion_file.h"
 #include "nn/autoencoder.h"
-#include "pipeline/clusters.h"
+#include "pipeline/options/clusters.h"
 #include "pipeline/sequences.h"
 
 namespace mimicx {

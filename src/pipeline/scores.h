@@ -5,8 +5,8 @@
 
 #include "motion/metrics.h"
 #include "motion/reference.h"
-#include "pipeline/manifest.h"
-#include "rl/tracking_rollout.h"
+#include "pipeline/record/manifest.h"
+#include "rl/tracking/rollout.h"
 
 namespace mimicx {
 

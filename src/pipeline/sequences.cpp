@@ -6,16 +6,16 @@
 #include <stdexcept>
 
 #include "core/npz.h"
-#include "pipeline/audit.h"
-#include "pipeline/clean_copy.h"
-#include "pipeline/motion_output.h"
+#include "pipeline/audit/audit.h"
+#include "pipeline/audit/substeps.h"
+#include "pipeline/options/selector.h"
+#include "pipeline/options/side_by_side.h"
 #include "pipeline/preparation.h"
-#include "pipeline/run_report.h"
+#include "pipeline/record/clean_copy.h"
+#include "pipeline/record/motion_output.h"
+#include "pipeline/report/run_report.h"
 #include "pipeline/scores.h"
-#include "pipeline/selector.h"
-#include "pipeline/substeps.h"
-#include "rl/side_by_side.h"
-#include "rl/tracking_rollout.h"
+#include "rl/tracking/rollout.h"
 
 namespace mimicx {
 namespace {

@@ -18,11 +18,11 @@
 #include <string>
 #include <vector>
 
-#include "motion/motion_file.h"
-#include "pipeline/manifest.h"
-#include "pipeline/options.h"
-#include "pipeline/progress.h"
-#include "pipeline/run_folder.h"
+#include "motion/import/motion_file.h"
+#include "pipeline/options/option_set.h"
+#include "pipeline/record/manifest.h"
+#include "pipeline/record/progress.h"
+#include "pipeline/record/run_folder.h"
 #include "pipeline/training.h"
 
 namespace mimicx {

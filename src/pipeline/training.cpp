@@ -6,9 +6,9 @@
 
 #include "core/npz.h"
 #include "core/parallel.h"
-#include "pipeline/progress.h"
-#include "rl/tracking_environment.h"
-#include "rl/tracking_rollout.h"
+#include "pipeline/record/progress.h"
+#include "rl/tracking/environment.h"
+#include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
 
 namespace mimicx {

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/manifest.h"
-#include "pipeline/table.h"
+#include "pipeline/record/manifest.h"
+#include "pipeline/record/table.h"
 #include "rl/policy.h"
 #include "rl/ppo_config.h"
-#include "rl/tracking_pack.h"
+#include "rl/tracking/pack.h"
 
 namespace mimicx {
 

@@ -48,19 +48,19 @@ void move(State<T>& x, int k, T h) {
 
 /// The reference turned by its residuals.
 template <class T>
-Target<T> turned(const Target<double>& reference, const std::array<T, kDofs>& residual) {
+Target<T> turned(const Target<double>& reference, const Array<T, kDofs>& residual) {
   Target<T> target;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     put(target.q[i], reference.q[i]);
     put(target.omega[i], reference.omega[i]);
   }
-  std::array<Vec3<T>, kBodies> r;
+  PerBody<Vec3<T>> r;
   r.fill(zero3<T>());
   for (int dof = 0; dof < kDofs; ++dof) {
     const Axis joint = axis_of_dof(dof);
     r[joint.body] = r[joint.body] + times(residual[static_cast<std::size_t>(dof)], joint.axis);
   }
-  for (std::size_t i = 1; i < kBodies; ++i) target.q[i] = target.q[i] * exp_map(r[i]);
+  for (int i = 1; i < kBodies; ++i) target.q[i] = target.q[i] * exp_map(r[i]);
   return target;
 }
 
@@ -74,23 +74,22 @@ Quat<T> between(const Quat<T>& a, const Quat<T>& b, T s) {
   return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
 
-/// Puts a wrench on the root, between the two parts of a step where the forces on bodies are summed.
+/// Puts the help on the pelvis, between the two parts of a step where the forces on bodies are summed.
 template <class T>
-struct WithPush : StepParts {
+struct WithHelp : StepParts {
   Data<T>& d;
-  Wrench<T> push;
+  Wrench<T> help;
 
-  WithPush(Data<T>& data, const Wrench<T>& wrench) : d(data), push(wrench) {}
+  WithHelp(Data<T>& data, const Wrench<T>& wrench) : d(data), help(wrench) {}
   void finished(Stage stage) {
     if (stage != kKinematics) return;
-    d.bias[0].n -= push.n;
-    d.bias[0].f -= push.f;
+    d.bias[0].n -= help.n;
+    d.bias[0].f -= help.f;
   }
 };
 
-Eigen::VectorXd tangent(const Vec3<double>& p, const Vec3<double>& v,
-                        const std::array<Vec3<double>, kBodies>& turn,
-                        const std::array<Vec3<double>, kBodies>& spin) {
+Eigen::VectorXd tangent(const Vec3<double>& p, const Vec3<double>& v, const PerBody<Vec3<double>>& turn,
+                        const PerBody<Vec3<double>>& spin) {
   Eigen::VectorXd out(122);
   for (int half = 0; half < 2; ++half) {
     const Vec3<double>& root = half == 0 ? p : v;
@@ -114,16 +113,16 @@ State<T> simulate_frame(const Model<double>& model, const ControlFrame& frame, i
   State<T> state;
   put(state.p_root, frame.start.p_root);
   put(state.v_root, frame.start.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     put(state.q[i], frame.start.q[i]);
     put(state.omega[i], frame.start.omega[i]);
   }
-  std::array<T, kDofs> w, u;
-  for (std::size_t k = 0; k < kDofs; ++k) {
+  Array<T, kDofs> w, u;
+  for (int k = 0; k < kDofs; ++k) {
     w[k] = frame.from_residual[k];
     u[k] = frame.to_residual[k];
   }
-  Wrench<T> push = {spread<T>(frame.push.n), spread<T>(frame.push.f)};
+  Wrench<T> help = {spread<T>(frame.help.n), spread<T>(frame.help.f)};
   if (column < 122)
     move(state, column, h);
   else if (column < 177)
@@ -131,14 +130,14 @@ State<T> simulate_frame(const Model<double>& model, const ControlFrame& frame, i
   else if (column < 232)
     u[static_cast<std::size_t>(column - 177)] += h;
   else
-    (column < 235 ? push.n : push.f) += times(h, kUnit[(column - 232) % 3]);
+    (column < 235 ? help.n : help.f) += times(h, kUnit[(column - 232) % 3]);
   const Target<T> from = turned(frame.from, w), to = turned(frame.to, u);
   Data<T> d;
-  WithPush<T> parts(d, push);
+  WithHelp<T> parts(d, help);
   Target<T> target = to;
   for (int k = 1; k <= frame.substeps; ++k) {
     const T s(static_cast<double>(k) / frame.substeps);
-    for (std::size_t i = 1; i < kBodies; ++i) {
+    for (int i = 1; i < kBodies; ++i) {
       target.q[i] = between(from.q[i], to.q[i], s);
       target.omega[i] = from.omega[i] + s * (to.omega[i] - from.omega[i]);
     }
@@ -148,8 +147,8 @@ State<T> simulate_frame(const Model<double>& model, const ControlFrame& frame, i
 }
 
 Eigen::VectorXd state_difference(const State<double>& a, const State<double>& b) {
-  std::array<Vec3<double>, kBodies> turn, spin;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  PerBody<Vec3<double>> turn, spin;
+  for (int i = 0; i < kBodies; ++i) {
     turn[i] = log_map(conjugate(b.q[i]) * a.q[i]);
     spin[i] = a.omega[i] - b.omega[i];
   }
@@ -161,8 +160,8 @@ Eigen::MatrixXd exact_derivative(const Model<double>& model, const ControlFrame&
   const auto d = [](const Vec3<Dual>& v) { return Vec3<double>{v.x.d, v.y.d, v.z.d}; };
   for (int column = 0; column < 238; ++column) {
     const State<Dual> end = simulate_frame(model, frame, column, Dual(0.0, 1.0));
-    std::array<Vec3<double>, kBodies> turn, spin;
-    for (std::size_t i = 0; i < kBodies; ++i) {
+    PerBody<Vec3<double>> turn, spin;
+    for (int i = 0; i < kBodies; ++i) {
       const Quat<Dual>& q = end.q[i];  // of a change dq of q the turn is 2 vec(q⁻¹ dq)
       const Quat<double> x =
           Quat<double>{q.w.x, -q.x.x, -q.y.x, -q.z.x} * Quat<double>{q.w.d, q.x.d, q.y.d, q.z.d};

@@ -9,7 +9,7 @@
 
 namespace mimicx::control {
 
-/// One control frame moved by h along column `column` of its derivative (its start, residuals or push), by
+/// One control frame moved by h along column `column` of its derivative (its start, residuals or help), by
 /// the parts of the simulator's step.
 /// @tparam T  double: h is a number; Dual: Dual(0, 1) gives the derivative along the column
 template <class T>

@@ -1,8 +1,8 @@
 /// Target: BVH text, read and retargeted.
 #include "core/error.h"
 #include "fuzz/driver.h"
-#include "motion/bvh.h"
-#include "motion/retarget.h"
+#include "motion/import/bvh.h"
+#include "motion/import/retarget.h"
 
 namespace mimicx::fuzz {
 namespace {

@@ -1,8 +1,8 @@
 /// Target: DeepMimic's JSON, read and retargeted.
 #include "core/error.h"
 #include "fuzz/driver.h"
-#include "motion/deepmimic.h"
-#include "motion/retarget.h"
+#include "motion/import/deepmimic.h"
+#include "motion/import/retarget.h"
 
 namespace mimicx::fuzz {
 

@@ -1,8 +1,8 @@
 // Arrays: as a Motion-X file, and as each member of an archive, past the checksums that guard a zip.
 #include "fuzz/driver.h"
+#include "motion/import/motion_file.h"
+#include "motion/import/motionx.h"
 #include "motion/made_motions.h"
-#include "motion/motion_file.h"
-#include "motion/motionx.h"
 
 namespace mimicx::fuzz {
 

@@ -1,7 +1,7 @@
 // Archives: zip directory, members, and the motion in them.
 #include "fuzz/driver.h"
+#include "motion/import/motion_file.h"
 #include "motion/made_motions.h"
-#include "motion/motion_file.h"
 
 namespace mimicx::fuzz {
 

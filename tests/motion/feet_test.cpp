@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "motion/synth.h"
+#include "motion/synth/synth.h"
 
 namespace mimicx {
 namespace {

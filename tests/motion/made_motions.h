@@ -11,7 +11,7 @@
 namespace mimicx::test {
 
 inline constexpr double kPi = std::numbers::pi;
-using Rotations = std::array<Quaterniond, kBodies>;
+using Rotations = PerBody<Quaterniond>;
 
 inline Vector3d random_vector(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
 
@@ -23,7 +23,7 @@ inline Clip standing_clip(int frames, double height, double fps = 30.0) {
   Clip clip;
   clip.name = "standing";
   clip.fps = fps;
-  std::array<Vector3d, kBodies> rest;
+  PerBody<Vector3d> rest;
   rest.fill(Vector3d::Zero());
   rest[0] = log_map(upright());
   clip.rotations.assign(static_cast<std::size_t>(frames), rest);

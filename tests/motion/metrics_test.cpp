@@ -230,7 +230,7 @@ TEST(SegmentDistance, EqualsBruteForceOverBothSegments) {
 
 /// Rotation by Horn's quaternion method (J. Opt. Soc. Am. A 4, 1987): the largest eigenvector of a 4×4
 /// matrix.
-double horn_error(const std::array<Vector3d, kBodies>& p, const std::array<Vector3d, kBodies>& g) {
+double horn_error(const PerBody<Vector3d>& p, const PerBody<Vector3d>& g) {
   Vector3d cp = Vector3d::Zero(), cg = Vector3d::Zero();
   for (std::size_t j = 0; j < kBodies; ++j) cp += p[j] / kBodies, cg += g[j] / kBodies;
   Matrix3d S = Matrix3d::Zero();

@@ -16,7 +16,7 @@ double distance_to_axis(const Capsule& c, const Vector3d& p) {
 TEST(Surface, FeetComeFirstAndEveryOtherPointLiesOnItsCapsule) {
   const Character c = make_character({1, -1, 0.5, 0, 2, 0, 0, 1, 0, 0});
   const auto points = surface_points(c);
-  std::array<int, kBodies> count{};
+  PerBody<int> count{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto body = static_cast<std::size_t>(points[i].body);
     ++count[body];
@@ -45,7 +45,7 @@ TEST(Surface, MissesTheLowestPointOfACapsuleByLessThanAnEighthOfItsRadius) {
   Random random(3, {1});
   for (int n = 0; n < 200; ++n) {
     const Vector3d up = test::random_vector(random).normalized();
-    std::array<double, kBodies> lowest;
+    PerBody<double> lowest;
     lowest.fill(1e9);
     for (std::size_t i = kFootPoints; i < points.size(); ++i) {
       double& z = lowest[static_cast<std::size_t>(points[i].body)];

@@ -23,7 +23,7 @@ Eigen::VectorXd book_inverse_dynamics(const BookModel& model, const BookPosition
                                       const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd,
                                       const BookForces& external) {
   const BookKinematics k = book_kinematics(model, q, qd);
-  std::array<Vector6d, kBodies> a, f;
+  PerBody<Vector6d> a, f;
   for (std::size_t i = 0; i < kBodies; ++i) {
     const BookBody& body = model.body[i];
     // Gravity enters as a fictitious acceleration −a_g of the world.
@@ -44,7 +44,7 @@ Eigen::VectorXd book_inverse_dynamics(const BookModel& model, const BookPosition
 
 Eigen::MatrixXd book_mass_matrix(const BookModel& model, const BookPosition& q) {
   const BookKinematics k = book_kinematics(model, q, Eigen::VectorXd::Zero(kBookDofs));
-  std::array<Matrix6d, kBodies> I_c;
+  PerBody<Matrix6d> I_c;
   for (std::size_t i = 0; i < kBodies; ++i) I_c[i] = model.body[i].I;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(kBookDofs, kBookDofs);
   for (std::size_t i = kBodies; i-- > 0;) {
@@ -75,10 +75,10 @@ Eigen::VectorXd book_forward_dynamics_aba(const BookModel& model, const BookPosi
                                           const Eigen::VectorXd& qd, const Eigen::VectorXd& tau,
                                           const BookForces& external) {
   const BookKinematics k = book_kinematics(model, q, qd);
-  std::array<Matrix6d, kBodies> IA;
-  std::array<Vector6d, kBodies> pA, c, a;
-  std::array<Eigen::MatrixXd, kBodies> U, D;
-  std::array<Eigen::VectorXd, kBodies> u;
+  PerBody<Matrix6d> IA;
+  PerBody<Vector6d> pA, c, a;
+  PerBody<Eigen::MatrixXd> U, D;
+  PerBody<Eigen::VectorXd> u;
   for (std::size_t i = 0; i < kBodies; ++i) {
     IA[i] = model.body[i].I;
     c[i] = cross_motion(k.v[i]) * k.v_J[i];

@@ -13,7 +13,7 @@
 #include <Eigen/Dense>
 #include <array>
 
-#include "core/character.h"
+#include "character/character.h"
 
 namespace mimicx {
 
@@ -32,7 +32,7 @@ struct BookBody {
 };
 
 struct BookModel {
-  std::array<BookBody, kBodies> body;
+  PerBody<BookBody> body;
   Vector3d gravity;  ///< world, m/s²
 };
 
@@ -41,11 +41,11 @@ BookModel make_book_model(const Character& character, double gravity);
 /// Position of the system. Rotations as matrices, child → parent; [0] pelvis → world.
 struct BookPosition {
   Vector3d p_root;
-  std::array<Matrix3d, kBodies> R;
+  PerBody<Matrix3d> R;
 };
 
 /// Forces on bodies: spatial force about the body's joint centre in *world* axes, (moment; force).
-using BookForces = std::array<Vector6d, kBodies>;
+using BookForces = PerBody<Vector6d>;
 BookForces no_forces();
 
 /// a× as a matrix.
@@ -53,11 +53,11 @@ Matrix3d book_skew(const Vector3d& a);
 
 /// Everything that depends on position and velocity only.
 struct BookKinematics {
-  std::array<Matrix6d, kBodies> X;     ///< motion transform parent → body (root: world axes at the pelvis)
-  std::array<Matrix3d, kBodies> R_WB;  ///< body → world
-  std::array<Vector3d, kBodies> p_WB;  ///< joint centres in world, m
-  std::array<Vector6d, kBodies> v;     ///< spatial velocity, body coordinates
-  std::array<Vector6d, kBodies> v_J;   ///< joint velocity S q̇, body coordinates
+  PerBody<Matrix6d> X;     ///< motion transform parent → body (root: world axes at the pelvis)
+  PerBody<Matrix3d> R_WB;  ///< body → world
+  PerBody<Vector3d> p_WB;  ///< joint centres in world, m
+  PerBody<Vector6d> v;     ///< spatial velocity, body coordinates
+  PerBody<Vector6d> v_J;   ///< joint velocity S q̇, body coordinates
 };
 BookKinematics book_kinematics(const BookModel& model, const BookPosition& q, const Eigen::VectorXd& qd);
 

@@ -1,10 +1,10 @@
 /// The certificate by the second engine: the audit's numbers for a file, from MuJoCo's inverse dynamics.
 ///
-/// Rows as in pipeline/audit.h with `index`, `root` (unexplained wrench about the centre of mass) and
+/// Rows as in pipeline/audit/audit.h with `index`, `root` (unexplained wrench about the centre of mass) and
 /// `torque_gap` (required against exported torque); everything else in them is zero. docs/physics.md §9
 #pragma once
 
-#include "pipeline/audit.h"
+#include "pipeline/audit/audit.h"
 
 namespace mimicx {
 

@@ -35,7 +35,7 @@ class MujocoCharacter {
 
   std::unique_ptr<mjModel, void (*)(mjModel*)> model_{nullptr, mj_deleteModel};
   std::unique_ptr<mjData, void (*)(mjData*)> data_{nullptr, mj_deleteData};
-  std::array<int, kBodies> qpos_{}, dof_{};
+  PerBody<int> qpos_{}, dof_{};
 };
 
 }  // namespace mimicx

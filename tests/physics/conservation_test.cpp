@@ -20,7 +20,7 @@ struct Bodies {
   const Character& c;
   const Data<T>& d;
   int lane;
-  Vector3d at(const std::array<Vec3<T>, kBodies>& x, std::size_t i) const { return lane_of(x[i], lane); }
+  Vector3d at(const PerBody<Vec3<T>>& x, std::size_t i) const { return lane_of(x[i], lane); }
   Matrix3d R(std::size_t i) const { return lane_of(d.q_WB[i], lane).normalized().toRotationMatrix(); }
   Vector3d com_arm(std::size_t i) const { return R(i) * c.com_B[i]; }
   Vector3d com(std::size_t i) const { return at(d.p_WB, i) + com_arm(i); }
@@ -51,7 +51,7 @@ Momentum momentum_rate(const Bodies<T>& b) {
 }
 
 template <class T>
-Momentum external(const Bodies<T>& b, const std::array<Wrench<T>, kBodies>& ground, double gravity) {
+Momentum external(const Bodies<T>& b, const PerBody<Wrench<T>>& ground, double gravity) {
   Momentum sum;
   for (std::size_t i = 0; i < kBodies; ++i) {
     const Vector3d weight(0, 0, -gravity * b.c.mass[i]), f = lane_of(ground[i].f, b.lane);
@@ -104,7 +104,7 @@ TEST(Step, MomentumChangesByGravityAndRecordedGroundForcesAlone) {
 /// Momentum of positions and velocities alone, by forward kinematics in plain doubles.
 Momentum momentum(const Character& c, const Snapshot& s) {
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
-  std::array<Vector3d, kBodies> w, v;
+  PerBody<Vector3d> w, v;
   Momentum sum;
   for (std::size_t i = 0; i < kBodies; ++i) {
     w[i] = poses.q_WB[i] * s.omega[i];

@@ -17,7 +17,7 @@ struct Trial {
   Character character;
   SimulationOptions options;
   Snapshot snapshot;
-  std::array<Vec3<double>, kBodies> tau;
+  PerBody<Vec3<double>> tau;
   Data<double> data{};
 
   explicit Trial(std::uint64_t number) {
@@ -113,10 +113,10 @@ TEST(Kinematics, VelocitiesAndVelocityProductsMatchDifferences) {
     return other.data;
   };
   const Data<double> before = moved(-h), after = moved(h);
-  std::array<Vector3d, kBodies> a_w, a_v;  // accelerations propagated with the c terms
+  PerBody<Vector3d> a_w, a_v;  // accelerations propagated with the c terms
   a_w[0] = a_v[0] = Vector3d::Zero();
   for (std::size_t i = 0; i < kBodies; ++i) {
-    const auto at = [&](const std::array<Vec3<double>, kBodies>& x) { return lane_of(x[i], 0); };
+    const auto at = [&](const PerBody<Vec3<double>>& x) { return lane_of(x[i], 0); };
     EXPECT_LT((at(now.v) - (at(after.p_WB) - at(before.p_WB)) / (2 * h)).norm(), 1e-7);
     const Vector3d w = log_map(lane_of(after.q_WB[i], 0) * lane_of(before.q_WB[i], 0).conjugate()) / (2 * h);
     EXPECT_LT((at(now.w) - w).norm(), 1e-7);
@@ -159,7 +159,7 @@ TEST(Aba, ReproducesTheTwoBodyExampleWorkedByHand) {
   s.target_omega = s.omega;
   s.omega[kLeftHip] = {0, 0, 2};
   Simulation<double> simulation(c, options, s);
-  std::array<Vec3<double>, kBodies> tau;
+  PerBody<Vec3<double>> tau;
   tau.fill(zero3<double>());
   tau[kLeftHip] = {0, 0, 1};
   forward_dynamics(simulation.model, simulation.state, tau, simulation.data);

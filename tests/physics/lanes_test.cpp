@@ -165,8 +165,8 @@ TEST(Aba, PackAccelerationsAgreeWithDoubleOnRandomStates) {
   const Character character = make_character();
   for (std::uint64_t first = 0; first < 64; first += 8) {
     const auto pack = violent_pack<Pack<8>>(character, first);
-    std::array<Vec3<Pack<8>>, kBodies> tau;
-    std::array<Vec3<double>, kBodies> tau_1;
+    PerBody<Vec3<Pack<8>>> tau;
+    PerBody<Vec3<double>> tau_1;
     Random random(22, {first});
     for (std::size_t i = 0; i < kBodies; ++i) {
       const Vector3d t = 40.0 * random_vector(random);

@@ -66,7 +66,7 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
   for (std::uint64_t n = 0; n < 20; ++n) {
     MujocoTrial t(n);
     Random random(52, {n});
-    std::array<Vec3<double>, kBodies> tau;
+    PerBody<Vec3<double>> tau;
     tau.fill(zero3<double>());
     for (std::size_t i = 1; i < kBodies; ++i) {
       const Vector3d torque = 40.0 * random_vector(random);

@@ -21,13 +21,13 @@ Snapshot rest_pose(RestPose pose, const Character& character);
 
 /// One second, after the figure has had three (lying: eight) to settle.
 struct RestReport {
-  std::array<double, kBodies> share{};  ///< of the weight, carried by each body, mean
-  double heel_share = 0;                ///< of the weight, carried by the heel points, mean
-  double force_error = 0;               ///< |ground force − weight| over the weight, largest of all steps
-  double centre_error = 0;              ///< centre of pressure to the centre of mass, horizontally, m
-  double mean_depth = 0;                ///< of the points that carry anything, under z = 0, m
-  double deepest = 0;                   ///< of any point, under z = 0, m
-  double creep = 0;                     ///< fastest horizontal speed of a point that carries anything, m/s
+  PerBody<double> share{};  ///< of the weight, carried by each body, mean
+  double heel_share = 0;    ///< of the weight, carried by the heel points, mean
+  double force_error = 0;   ///< |ground force − weight| over the weight, largest of all steps
+  double centre_error = 0;  ///< centre of pressure to the centre of mass, horizontally, m
+  double mean_depth = 0;    ///< of the points that carry anything, under z = 0, m
+  double deepest = 0;       ///< of any point, under z = 0, m
+  double creep = 0;         ///< fastest horizontal speed of a point that carries anything, m/s
   double jitter = 0;  ///< largest minus smallest force of a point within the second, share of the weight
 };
 RestReport rest(RestPose pose, double rate, int passes);

@@ -4,11 +4,6 @@
 #include <numbers>
 
 namespace mimicx {
-namespace {
-
-Vector3d to_eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
-
-}  // namespace
 
 Vector3d random_vector(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -156,7 +151,7 @@ BookPosition book_position(const Snapshot& s) {
 }
 
 Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
-                            const std::array<Vector3d, kBodies>& joints) {
+                            const PerBody<Vector3d>& joints) {
   Eigen::VectorXd out(kBookDofs);
   out.segment<3>(0) = angular;
   out.segment<3>(3) = linear;
@@ -180,15 +175,15 @@ Eigen::VectorXd book_velocity(const Snapshot& s) {
 Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
   const Matrix3d R = s.q[0].toRotationMatrix();
   const BodyPoses poses = forward_kinematics(Character{}, s.p_root, s.q);
-  std::array<Vector3d, kBodies> joints;
+  PerBody<Vector3d> joints;
   for (std::size_t i = 0; i < kBodies; ++i) joints[i] = poses.q_WB[i].conjugate() * to_eigen(d.qdd[i]);
   // The spatial acceleration differs from the classical one by ω × v.                  RBDA §2.11
   return book_vector(R.transpose() * to_eigen(d.a_w[0]),
                      R.transpose() * to_eigen(d.a_v[0]) - s.omega[0].cross(R.transpose() * s.v_root), joints);
 }
 
-Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau) {
-  std::array<Vector3d, kBodies> joints;
+Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau) {
+  PerBody<Vector3d> joints;
   for (std::size_t i = 0; i < kBodies; ++i) joints[i] = to_eigen(tau[i]);
   return book_vector(Vector3d::Zero(), Vector3d::Zero(), joints);
 }

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "oracles/book_dynamics.h"
 #include "physics/inverse_dynamics.h"
+#include "physics/lanes.h"
 #include "physics/step.h"
 
 namespace mimicx {
@@ -14,10 +15,10 @@ namespace mimicx {
 /// One character's state and PD target in doubles; conventions of physics/data.h.
 struct Snapshot {
   Vector3d p_root = Vector3d::Zero(), v_root = Vector3d::Zero();
-  std::array<Quaterniond, kBodies> q;
-  std::array<Vector3d, kBodies> omega;
-  std::array<Quaterniond, kBodies> target_q;
-  std::array<Vector3d, kBodies> target_omega;
+  PerBody<Quaterniond> q;
+  PerBody<Vector3d> omega;
+  PerBody<Quaterniond> target_q;
+  PerBody<Vector3d> target_omega;
 };
 
 /// Upright with bent knees and arms down, at rest, PD target = pose; soles on the floor.
@@ -44,38 +45,12 @@ double lowest_point(const Character& character, const Snapshot& s);
 BookPosition book_position(const Snapshot& s);
 /// The oracle's coordinates of six numbers of the root and one vector per joint (entry 0 unused), child's
 /// frame.
-Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
-                            const std::array<Vector3d, kBodies>& joints);
+Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear, const PerBody<Vector3d>& joints);
 Eigen::VectorXd book_velocity(const Snapshot& s);
 /// Generalised acceleration that the simulator found, in the oracle's coordinates.
 Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d);
 /// Torques of the joints (entry 0 unused, child's frame) as the oracle's generalised forces.
-Eigen::VectorXd book_torque(const std::array<Vec3<double>, kBodies>& tau);
-
-template <class T>
-Vector3d lane_of(const Vec3<T>& v, int lane) {
-  using Traits = ScalarTraits<T>;
-  return {Traits::get(v.x, lane), Traits::get(v.y, lane), Traits::get(v.z, lane)};
-}
-template <class T>
-void set_lane(Vec3<T>& out, int lane, const Vector3d& v) {
-  ScalarTraits<T>::set(out.x, lane, v.x());
-  ScalarTraits<T>::set(out.y, lane, v.y());
-  ScalarTraits<T>::set(out.z, lane, v.z());
-}
-template <class T>
-void set_lane(Quat<T>& out, int lane, const Quaterniond& q) {
-  ScalarTraits<T>::set(out.w, lane, q.w());
-  ScalarTraits<T>::set(out.x, lane, q.x());
-  ScalarTraits<T>::set(out.y, lane, q.y());
-  ScalarTraits<T>::set(out.z, lane, q.z());
-}
-template <class T>
-Quaterniond lane_of(const Quat<T>& q, int lane) {
-  using Traits = ScalarTraits<T>;
-  return Quaterniond(Traits::get(q.w, lane), Traits::get(q.x, lane), Traits::get(q.y, lane),
-                     Traits::get(q.z, lane));
-}
+Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau);
 
 template <class T>
 void set_lane(const Snapshot& s, int lane, State<T>& state, Target<T>& target) {

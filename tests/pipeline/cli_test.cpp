@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/npz.h"
-#include "motion/bvh.h"
-#include "motion/motion_file.h"
-#include "motion/world.h"
+#include "motion/import/bvh.h"
+#include "motion/import/motion_file.h"
+#include "motion/import/world.h"
 #include "physics/mjcf.h"
+#include "pipeline/record/run_folder.h"
 #include "pipeline/results.h"
-#include "pipeline/run_folder.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "core/parallel.h"
-#include "motion/synth.h"
+#include "motion/synth/synth.h"
 #include "pipeline/sequences.h"
 #include "pipeline/temporary_folder.h"
 

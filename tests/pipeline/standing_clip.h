@@ -13,9 +13,9 @@ namespace mimicx {
 inline Clip standing_clip(int frames) {
   const Character character = make_character();
   std::vector<Vector3d> p_root;
-  std::vector<std::array<Quaterniond, kBodies>> q;
+  std::vector<PerBody<Quaterniond>> q;
   for (int t = 0; t < frames; ++t) {
-    std::array<Quaterniond, kBodies> pose;
+    PerBody<Quaterniond> pose;
     pose.fill(Quaterniond::Identity());
     pose[kPelvis] = exp_map(Vector3d(std::numbers::pi / 2, 0.0, 0.0));
     pose[kLeftShoulder] = exp_map(Vector3d(0.0, 0.0, -1.2));

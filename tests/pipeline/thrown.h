@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/random.h"
-#include "pipeline/audit.h"
+#include "pipeline/audit/audit.h"
 #include "pipeline/temporary_folder.h"
-#include "rl/tracking_fixture.h"
+#include "rl/tracking/tracking_fixture.h"
 
 namespace mimicx {
 

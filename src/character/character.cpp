@@ -1,0 +1,379 @@
+#include "character/character.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "character/character_tables.h"
+
+namespace mimicx {
+namespace {
+
+Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
+
+/// How one shape parameter stretches the offsets: joint position += β · gain · (offset, component-wise).
+/// Joint positions are therefore affine in β, as in SMPL; the components are our own and named.
+struct ShapeComponent {
+  const char* name;
+  Vector3d torso, hip, leg, foot, shoulder, arm, head;  ///< gains per axis
+  double girth;                                         ///< gain of every radius
+};
+
+const std::array<ShapeComponent, kBetas>& shape_components() {
+  static const Vector3d o = Vector3d::Zero(), all = Vector3d::Constant(0.03);
+  static const std::array<ShapeComponent, kBetas> components = {{
+      {"stature", all, all, all, all, all, all, all, 0.03},
+      {"girth", o, o, o, o, o, o, o, 0.06},
+      {"leg length", o, o, {0, 0.03, 0}, o, o, o, o, 0.0},
+      {"torso length", {0, 0.03, 0}, o, o, o, {0, 0.02, 0}, o, o, 0.0},
+      {"arm length", o, o, o, o, o, {0.03, 0, 0}, o, 0.0},
+      {"shoulder width", o, o, o, o, {0.05, 0, 0}, o, o, 0.0},
+      {"hip width", o, {0.04, 0, 0}, o, o, o, o, o, 0.0},
+      {"foot length", o, o, o, {0, 0, 0.04}, o, o, o, 0.0},
+      {"head and neck", o, o, o, o, o, o, {0.04, 0.04, 0.04}, 0.0},
+      {"legs for torso", {0, -0.02, 0}, o, {0, 0.02, 0}, o, o, o, o, 0.0},
+  }};
+  return components;
+}
+
+const Vector3d& gain_of(const ShapeComponent& c, int body) {
+  switch (body) {
+    case kLeftHip:
+    case kRightHip:
+      return c.hip;
+    case kLeftKnee:
+    case kRightKnee:
+    case kLeftAnkle:
+    case kRightAnkle:
+      return c.leg;
+    case kLeftFoot:
+    case kRightFoot:
+      return c.foot;
+    case kLeftCollar:
+    case kRightCollar:
+    case kLeftShoulder:
+    case kRightShoulder:
+      return c.shoulder;
+    case kLeftElbow:
+    case kRightElbow:
+    case kLeftWrist:
+    case kRightWrist:
+      return c.arm;
+    case kNeck:
+    case kHead:
+      return c.head;
+    default:
+      return c.torso;
+  }
+}
+
+/// Scales derived from β that the shapes need beside the joint offsets.
+struct Scales {
+  double size = 1, girth = 1, foot = 1, hand = 1, head = 1;
+};
+
+Scales scales_of(const std::array<double, kBetas>& betas) {
+  Scales s;
+  s.size += 0.03 * betas[0];
+  s.girth += 0.03 * betas[0] + 0.06 * betas[1];
+  s.foot += 0.03 * betas[0] + 0.04 * betas[7];
+  s.hand += 0.03 * betas[0] + 0.03 * betas[4];
+  s.head += 0.03 * betas[0] + 0.04 * betas[8];
+  return s;
+}
+
+constexpr double kSoleBelowBall = 0.022;  ///< sole under the joint at the ball of the foot, m
+
+/// Height of the ankle joint over the sole, m.
+double ankle_height(const Character& c, int side) {
+  const int ball = side > 0 ? kLeftFoot : kRightFoot;
+  return kSoleBelowBall - c.joint_offset[static_cast<std::size_t>(ball)].y();
+}
+
+Capsule capsule_of(const Character& c, const Scales& s, int body) {
+  const double x = is_right(body) ? -1.0 : 1.0;
+  const auto offset = [&](int b) { return c.joint_offset[static_cast<std::size_t>(b)]; };
+  const auto bone = [&](int child, double from, double to, double radius) {
+    return Capsule{body, from * offset(child), to * offset(child), radius * s.girth};
+  };
+  const auto across = [&](double half, double y, double z, double radius) {
+    return Capsule{body, s.size * Vector3d(-half, y, z), s.size * Vector3d(half, y, z), radius * s.girth};
+  };
+  switch (body) {
+    // Buttocks and shoulder blades reach farther back than the loins: on them a body lies on its back.
+    case kPelvis:
+      return across(0.062, -0.02, -0.018, 0.105);
+    case kSpine1:
+      return across(0.050, 0.04, 0.022, 0.105);
+    case kSpine2:
+      return across(0.055, 0.02, 0.012, 0.105);
+    case kSpine3:
+      return across(0.070, 0.09, -0.015, 0.110);
+    case kNeck:
+      return bone(kHead, 0.0, 1.0, 0.050);
+    case kHead:
+      return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
+    case kLeftHip:
+    case kRightHip: {
+      // Heavy thighs flatten against each other; rigid ones stop short of the middle instead, because a
+      // pair that overlaps at rest would never stop pushing.
+      Capsule thigh = bone(body == kLeftHip ? kLeftKnee : kRightKnee, 0.20, 0.95, 0.064);
+      thigh.radius = std::min(thigh.radius, std::abs(offset(body).x() + thigh.a_B.x()) - 0.001);
+      return thigh;
+    }
+    case kLeftKnee:
+      return bone(kLeftAnkle, 0.05, 0.92, 0.046);
+    case kRightKnee:
+      return bone(kRightAnkle, 0.05, 0.92, 0.046);
+    case kLeftAnkle:
+    case kRightAnkle: {
+      const double radius = 0.034 * s.size, y = radius - ankle_height(c, x > 0 ? 1 : -1);
+      const Vector3d ball = offset(x > 0 ? kLeftFoot : kRightFoot);
+      return {body, {0.0, y, -0.022 * s.foot}, {ball.x(), y, ball.z() - 0.014 * s.foot}, radius};
+    }
+    case kLeftFoot:
+    case kRightFoot: {
+      const double radius = 0.020 * s.size, y = radius - kSoleBelowBall;
+      return {body, {0.0, y, 0.012 * s.foot}, {0.0, y, 0.052 * s.foot}, radius};
+    }
+    case kLeftCollar:
+      return bone(kLeftShoulder, 0.15, 0.85, 0.052);
+    case kRightCollar:
+      return bone(kRightShoulder, 0.15, 0.85, 0.052);
+    case kLeftShoulder:
+      return bone(kLeftElbow, 0.10, 0.95, 0.045);
+    case kRightShoulder:
+      return bone(kRightElbow, 0.10, 0.95, 0.045);
+    case kLeftElbow:
+      return bone(kLeftWrist, 0.05, 0.95, 0.036);
+    case kRightElbow:
+      return bone(kRightWrist, 0.05, 0.95, 0.036);
+    default:  // hands
+      return {body, {0.03 * x * s.hand, -0.004, 0.0}, {0.14 * x * s.hand, -0.010, 0.004}, 0.030 * s.hand};
+  }
+}
+
+double capsule_volume(const Capsule& c) {
+  const double r = c.radius, length = (c.b_B - c.a_B).norm();
+  return std::numbers::pi * r * r * (length + 4.0 / 3.0 * r);
+}
+
+/// Inertia of a solid capsule of unit density scaled to `mass`, about its centre.
+Matrix3d capsule_inertia(const Capsule& c, double mass) {
+  const double r = c.radius, h = (c.b_B - c.a_B).norm();
+  const double cylinder = r * r * h, ball = 4.0 / 3.0 * r * r * r;
+  const double m_c = mass * cylinder / (cylinder + ball), m_b = mass - m_c;
+  const double along = 0.5 * m_c * r * r + 0.4 * m_b * r * r;
+  const double across =
+      m_c * (h * h / 12.0 + r * r / 4.0) + m_b * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);
+  const Vector3d axis = h > 1e-9 ? Vector3d((c.b_B - c.a_B) / h) : Vector3d(Vector3d::UnitX());
+  return across * Matrix3d::Identity() + (along - across) * axis * axis.transpose();
+}
+
+/// Heel and toe are points. The ball is a sphere around the joint's axis, so that it stays on the floor
+/// beside level toes whatever the pitch of the foot.
+void add_foot_points(Character& c, const Scales& s, int side) {
+  const double x = side;
+  const int ankle = side > 0 ? kLeftAnkle : kRightAnkle, ball = side > 0 ? kLeftFoot : kRightFoot;
+  const double sole = -ankle_height(c, side);
+  const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(ball)];
+  const auto add = [&](int body, const Vector3d& p_B, double radius) {
+    c.contact_points.push_back({body, p_B, radius});
+  };
+  const Vector3d half_ball(0.040 * s.size, 0, 0);
+  add(ankle, {x * -0.026 * s.size, sole, -0.052 * s.foot}, 0.0);           // heel, inner
+  add(ankle, {x * 0.026 * s.size, sole, -0.052 * s.foot}, 0.0);            // heel, outer
+  add(ankle, ball_p - x * half_ball, kSoleBelowBall);                      // ball, inner
+  add(ankle, ball_p + x * half_ball, kSoleBelowBall);                      // ball, outer
+  add(ball, {-x * 0.030 * s.size, -kSoleBelowBall, 0.068 * s.foot}, 0.0);  // toe, inner
+  add(ball, {x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot}, 0.0);   // toe, outer
+}
+
+/// The back of a foot, on which it rests when it points backwards: a sphere between ankle and ball, well
+/// above the sole.
+void add_instep(Character& c, const Scales& s, int side) {
+  const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(side > 0 ? kLeftFoot : kRightFoot)];
+  const double radius = 0.026 * s.size;
+  const Vector3d above_sole(ball_p.x(), 0.036 * s.size - ankle_height(c, side), 0.6 * ball_p.z());
+  c.contact_points.push_back({side > 0 ? kLeftAnkle : kRightAnkle, above_sole, radius});
+}
+
+/// Spheres at the ends (and for long segments the middle) of the capsules of every other body.
+void add_body_points(Character& c) {
+  const auto add = [&](int body, double along) {
+    const Capsule& k = c.capsule[static_cast<std::size_t>(body)];
+    c.contact_points.push_back({body, k.a_B + along * (k.b_B - k.a_B), k.radius});
+  };
+  for (int body : {kPelvis, kSpine3, kHead, kLeftWrist, kRightWrist}) {
+    add(body, 0.0);
+    add(body, 1.0);
+  }
+  for (int body : {kSpine1, kSpine2, kNeck}) add(body, 0.5);
+  for (int body : {kLeftHip, kRightHip}) add(body, 0.5);
+  for (int body : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow}) add(body, 0.0);
+  for (int body : {kLeftCollar, kRightCollar}) add(body, 0.8);
+  for (int body : {kLeftShoulder, kRightShoulder}) add(body, 0.3);
+}
+
+using Offsets = PerBody<Vector3d>;
+
+/// Joint offsets of a shape.
+Offsets offsets_of(const std::array<double, kBetas>& betas) {
+  Offsets offsets;
+  for (int i = 0; i < kBodies; ++i) {
+    const Vector3d standard = standard_offset(i);
+    Vector3d gain = Vector3d::Ones();
+    for (std::size_t k = 0; k < kBetas; ++k) gain += betas[k] * gain_of(shape_components()[k], i);
+    const Vector3d offset = standard.cwiseProduct(gain);
+    offsets[static_cast<std::size_t>(i)] = is_right(i) ? mirrored(offset) : offset;
+  }
+  return offsets;
+}
+
+/// The shape whose bones are nearest: least squares on the offsets, which are affine in β, with the prior
+/// that β is standard normal and that bodies differ by kBoneSigma in what β does not describe.
+std::array<double, kBetas> nearest_betas(const Offsets& offsets) {
+  constexpr double kBoneSigma = 0.02;  // m
+  const Offsets standard = offsets_of({});
+  Eigen::Matrix<double, 3 * kBodies, kBetas> by_beta;
+  Eigen::Matrix<double, 3 * kBodies, 1> wanted;
+  for (std::size_t k = 0; k < kBetas; ++k) {
+    std::array<double, kBetas> unit{};
+    unit[k] = 1.0;
+    const Offsets moved = offsets_of(unit);
+    for (std::size_t i = 0; i < kBodies; ++i)
+      by_beta.block<3, 1>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(k)) =
+          moved[i] - standard[i];
+  }
+  for (std::size_t i = 0; i < kBodies; ++i)
+    wanted.segment<3>(static_cast<Eigen::Index>(3 * i)) = offsets[i] - standard[i];
+  using Square = Eigen::Matrix<double, kBetas, kBetas>;
+  const Square normal = by_beta.transpose() * by_beta + kBoneSigma * kBoneSigma * Square::Identity();
+  const Eigen::Matrix<double, kBetas, 1> solution = normal.llt().solve(by_beta.transpose() * wanted);
+  std::array<double, kBetas> betas;
+  for (std::size_t k = 0; k < kBetas; ++k)
+    betas[k] = std::clamp(solution[static_cast<Eigen::Index>(k)], -kMaxBeta, kMaxBeta);
+  return betas;
+}
+
+/// Everything else that belongs to joints at these offsets. @param betas  for what bones do not tell
+Character assemble(const Offsets& offsets, const std::array<double, kBetas>& betas) {
+  Character c;
+  c.betas = betas;
+  c.joint_offset = offsets;
+  const Scales scales = scales_of(betas);
+  Character standard;
+  standard.joint_offset = offsets_of({});
+  for (int i = 0; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    c.capsule[n] = capsule_of(c, scales, i);
+    const double growth = capsule_volume(c.capsule[n]) / capsule_volume(capsule_of(standard, Scales{}, i));
+    c.mass[n] = kStandardMass * mass_share(i) * growth;
+    c.com_B[n] = 0.5 * (c.capsule[n].a_B + c.capsule[n].b_B);
+    c.inertia_B[n] = capsule_inertia(c.capsule[n], c.mass[n]);
+  }
+  add_foot_points(c, scales, 1);
+  add_foot_points(c, scales, -1);
+  add_instep(c, scales, 1);
+  add_instep(c, scales, -1);
+  add_body_points(c);
+  c.self_pairs = make_self_pairs();
+  const double strength = c.total_mass() / kStandardMass;
+  for (int i = 1; i < kBodies; ++i) {
+    JointParameters j = standard_joint(i);
+    j.kp *= strength;
+    j.kd *= strength;
+    j.torque_limit *= strength;
+    c.joint[static_cast<std::size_t>(i)] = j;
+  }
+  return c;
+}
+
+}  // namespace
+
+const PerBody<std::string_view> kBodyNames = {
+    "pelvis",     "left_hip",    "right_hip",    "spine1",     "left_knee",     "right_knee",
+    "spine2",     "left_ankle",  "right_ankle",  "spine3",     "left_foot",     "right_foot",
+    "neck",       "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
+    "left_elbow", "right_elbow", "left_wrist",   "right_wrist"};
+
+int body_of_name(std::string_view name) {
+  const auto found = std::find(kBodyNames.begin(), kBodyNames.end(), name);
+  return found == kBodyNames.end() ? -1 : static_cast<int>(found - kBodyNames.begin());
+}
+
+Vector3d hinge_axis(int body) {
+  switch (body) {
+    case kLeftKnee:
+    case kRightKnee:
+      return Vector3d::UnitX();
+    case kLeftElbow:
+      return -Vector3d::UnitY();
+    case kRightElbow:
+      return Vector3d::UnitY();
+    default:
+      throw std::invalid_argument("hinge_axis: body has no hinge");
+  }
+}
+
+double Character::total_mass() const {
+  double sum = 0.0;
+  for (double m : mass) sum += m;
+  return sum;
+}
+
+Character make_character(const std::array<double, kBetas>& betas) {
+  for (double b : betas)
+    if (!(std::abs(b) <= kMaxBeta))
+      throw std::invalid_argument("make_character: every |beta| must be at most 5");
+  return assemble(offsets_of(betas), betas);
+}
+
+Character make_character_of_joints(const RestJoints& joints) {
+  const Offsets standard = offsets_of({});
+  Offsets offsets;
+  offsets[0].setZero();
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    offsets[i] = joints[i] - joints[static_cast<std::size_t>(kParents[i])];
+    const double ratio = offsets[i].norm() / standard[i].norm();
+    if (!(ratio > 1.0 / 3.0 && ratio < 3.0))
+      throw std::invalid_argument("the bone to " + std::string(kBodyNames[i]) +
+                                  " is shorter than a third or longer than three times the standard one");
+  }
+  return assemble(offsets, nearest_betas(offsets));
+}
+
+Vector3d rest_pelvis(std::string_view body_model) {
+  if (body_model == "mimicx" || body_model == "smplx") return {0.003, -0.351, 0.012};
+  if (body_model == "smplh" || body_model == "smpl") return {-0.002, -0.223, 0.028};
+  throw std::invalid_argument("rest_pelvis: unknown body model '" + std::string(body_model) + "'");
+}
+
+BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
+                             const PerBody<Quaterniond>& q_joint) {
+  BodyPoses poses;
+  poses.p_WB[0] = p_root;
+  poses.q_WB[0] = q_joint[0];
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const auto parent = static_cast<std::size_t>(kParents[i]);
+    poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * character.joint_offset[i];
+    poses.q_WB[i] = poses.q_WB[parent] * q_joint[i];
+  }
+  return poses;
+}
+
+Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses) {
+  const auto body = static_cast<std::size_t>(point.body);
+  return poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
+}
+
+double lowest_contact(const Character& character, const BodyPoses& poses) {
+  double lowest = HUGE_VAL;
+  for (const ContactPoint& point : character.contact_points)
+    lowest = std::min(lowest, lowest_position(point, poses).z());
+  return lowest;
+}
+
+}  // namespace mimicx

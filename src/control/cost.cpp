@@ -1,0 +1,159 @@
+#include "control/cost.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mimicx::control {
+namespace {
+
+BodyPoses poses_of(const System& system, const State<double>& x) {
+  BodyPoses poses;
+  poses.p_WB[0] = to_eigen(x.p_root);
+  poses.q_WB[0] = to_eigen(x.q[0]).normalized();
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const auto parent = static_cast<std::size_t>(kParents[i]);
+    const Vec3<float>& offset = system.model.joint_offset[i];
+    poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * Vector3d(offset.x, offset.y, offset.z);
+    poses.q_WB[i] = (poses.q_WB[parent] * to_eigen(x.q[i])).normalized();
+  }
+  return poses;
+}
+
+/// d p_WB / d (pose coordinates): [66][61], three rows per body.
+Eigen::MatrixXd position_jacobian(const BodyPoses& poses) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3 * kBodies, kPositions);
+  for (int i = 0; i < kBodies; ++i) {
+    J.block<3, 3>(3 * i, 0).setIdentity();
+    for (int j = kParents[static_cast<std::size_t>(i)]; j >= 0; j = kParents[static_cast<std::size_t>(j)]) {
+      const auto n = static_cast<std::size_t>(j);
+      const Vector3d arm = poses.p_WB[static_cast<std::size_t>(i)] - poses.p_WB[n];
+      const Matrix3d R = poses.q_WB[n].toRotationMatrix();
+      if (is_hinge(j)) {
+        J.block<3, 1>(3 * i, kJointRotation + first_dof(j)) = (R * hinge_axis(j)).cross(arm);
+        continue;
+      }
+      const int column = j == 0 ? kRootRotation : kJointRotation + first_dof(j);
+      for (int axis = 0; axis < 3; ++axis) J.block<3, 1>(3 * i, column + axis) = R.col(axis).cross(arm);
+    }
+  }
+  return J;
+}
+
+bool is_foot(std::size_t i) {
+  return i == kLeftAnkle || i == kRightAnkle || i == kLeftFoot || i == kRightFoot;
+}
+
+void check(const CostWeights& w) {
+  const auto bad = [](double value) { return !(value >= 0.0 && std::isfinite(value)); };
+  for (double value : {w.position, w.root_rotation, w.joint_rotation, w.root_velocity, w.root_spin,
+                       w.joint_velocity, w.residual, w.change, w.help, w.help_spin})
+    if (bad(value)) throw std::invalid_argument("weights of the cost must not be negative");
+  for (std::size_t i = 0; i < kBodies; ++i)
+    if (bad(w.body_position[i]) || bad(w.body_rotation[i]))
+      throw std::invalid_argument("factors of bodies must not be negative");
+  if (!(w.residual > 0.0)) throw std::invalid_argument("the weight of residuals must be positive");
+}
+
+}  // namespace
+
+CostWeights::CostWeights() {
+  body_rotation.fill(1.0);
+  for (std::size_t i = 0; i < kBodies; ++i) body_position[i] = is_foot(i) ? 2.0 : 1.0;
+}
+
+double Cost::position_weight(int frame, int body) const {
+  const auto i = static_cast<std::size_t>(body);
+  const double sure =
+      certainty.empty() ? 1.0 : static_cast<double>(certainty[static_cast<std::size_t>(frame)][i]);
+  return sure * weights.position * weights.body_position[i];
+}
+
+double Cost::tangent_weight(int frame, int k) const {
+  if (k < kRootRotation) return 0.0;
+  if (k < kRootVelocity) {
+    const int body = k < kJointRotation ? 0 : dofs()[static_cast<std::size_t>(k - kJointRotation)].body;
+    const auto i = static_cast<std::size_t>(body);
+    const double sure =
+        certainty.empty() ? 1.0 : static_cast<double>(certainty[static_cast<std::size_t>(frame)][i]);
+    return sure * weights.body_rotation[i] * (body == 0 ? weights.root_rotation : weights.joint_rotation);
+  }
+  return k < kRootSpin        ? weights.root_velocity
+         : k < kJointVelocity ? weights.root_spin
+                              : weights.joint_velocity;
+}
+
+Cost make_cost(const System& system, const CostWeights& weights, std::vector<Certainty> certainty) {
+  check(weights);
+  if (!certainty.empty() && certainty.size() != system.reference.size())
+    throw std::invalid_argument("certainty and reference must have the same number of frames");
+  Cost cost;
+  cost.weights = weights;
+  cost.certainty = std::move(certainty);
+  for (const State<double>& x : system.reference) cost.p_WB.push_back(poses_of(system, x).p_WB);
+  return cost;
+}
+
+LaneCost state_cost(const System& system, const Cost& cost, int frame, const State<P>& x, Data<P>& scratch) {
+  update_kinematics(system.model, x, scratch);
+  LaneCost out{P(0.0), P(0.0)};
+  const auto& p_WB = cost.p_WB[static_cast<std::size_t>(frame)];
+  for (int body = 0; body < kBodies; ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    const Vec3<P> error = scratch.p_WB[i] - Vec3<P>{P(p_WB[i].x()), P(p_WB[i].y()), P(p_WB[i].z())};
+    const P square = dot(error, error);
+    out.cost += P(cost.position_weight(frame, body)) * square;
+    out.worst = max(out.worst, square);
+  }
+  const Tangent<P> d = difference(x, in_all_lanes<P>(system.at(frame)));
+  for (int k = kRootRotation; k < kTangent; ++k) {
+    const P& e = d[static_cast<std::size_t>(k)];
+    out.cost += P(cost.tangent_weight(frame, k)) * e * e;
+  }
+  return out;
+}
+
+double control_cost(const System& system, const Cost& cost, const Control& u, const Control& before) {
+  const CostWeights& w = cost.weights;
+  double sum = 0;
+  for (std::size_t k = 0; k < kDofs; ++k) {
+    const double value = static_cast<double>(u[k]), change = value - static_cast<double>(before[k]);
+    sum += w.residual * value * value + w.change * change * change;
+  }
+  if (!system.soft) return sum;
+  for (std::size_t k = 0; k < kHelp; ++k) {
+    const double value = static_cast<double>(u[kDofs + k]);
+    sum += (k < 3 ? w.help : w.help_spin) * value * value;
+  }
+  return sum;
+}
+
+StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame, const State<double>& x) {
+  const BodyPoses poses = poses_of(system, x);
+  const Eigen::MatrixXd J = position_jacobian(poses);
+  Eigen::VectorXd error(3 * kBodies), weight(3 * kBodies);
+  for (int i = 0; i < kBodies; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    error.segment<3>(3 * i) = poses.p_WB[n] - cost.p_WB[static_cast<std::size_t>(frame)][n];
+    weight.segment<3>(3 * i).setConstant(cost.position_weight(frame, i));
+  }
+  const Eigen::MatrixXd WJ = weight.asDiagonal() * J;
+  StateQuadratic out;
+  out.value = error.dot(weight.cwiseProduct(error));
+  out.gradient = Eigen::VectorXd::Zero(kTangent);
+  out.gradient.head(kPositions) = 2.0 * WJ.transpose() * error;
+  out.position_hessian = 2.0 * J.transpose() * WJ;
+  out.velocity_hessian.resize(kPositions);
+  const Tangent<double> d = difference(x, system.at(frame));
+  for (int k = kRootRotation; k < kTangent; ++k) {
+    const double w = cost.tangent_weight(frame, k), e = d[static_cast<std::size_t>(k)];
+    out.value += w * e * e;
+    out.gradient[k] += 2.0 * w * e;
+    if (k < kPositions)
+      out.position_hessian(k, k) += 2.0 * w;
+    else
+      out.velocity_hessian[k - kPositions] = 2.0 * w;
+  }
+  return out;
+}
+
+}  // namespace mimicx::control

@@ -1,0 +1,75 @@
+/// What a plan is to minimise: a sum of squares over frames, with its gradient and Gauss–Newton Hessian.
+///
+///     J = Σ_t  Σ_i w_i c_ti ‖p_ti − p*_ti‖²  +  Σ_k d_tk (x_t ⊖ x*_t)_k²  +  w_u ‖u_t‖² + w_Δ ‖u_t −
+///     u_{t−1}‖² + w_h ‖h_t‖²
+///
+/// p_i are the joint centres in the world, * is the reference, u the residuals, h the help of a soft system.
+/// Distances in the world decide where the body is; the rotations hold what they leave open; velocities and
+/// changes of the controls make it smooth.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "control/system.h"
+#include "control/tangent.h"
+
+namespace mimicx::control {
+
+/// The one table of weights.
+struct CostWeights {
+  double position = 50.0;        ///< of a body's distance, 1/m²
+  double root_rotation = 10.0;   ///< 1/rad²
+  double joint_rotation = 1.0;   ///< 1/rad²
+  double root_velocity = 0.5;    ///< s²/m²
+  double root_spin = 0.05;       ///< s²/rad²
+  double joint_velocity = 0.05;  ///< s²/rad²
+  double residual = 0.02;        ///< 1/rad²
+  double change = 2.0;           ///< of the residual from frame to frame, 1/rad²
+  double help = 3.0;             ///< of the linear help, s⁴/m²
+  double help_spin = 0.27;       ///< of the angular help, s⁴/rad²
+  /// Factor of each body on its distance and its joint's rotation; the feet's distance counts twice.
+  PerBody<double> body_position, body_rotation;
+
+  CostWeights();
+};
+
+/// How much a frame's reference is to be believed, per body: factors in [0, 1] on the weights of its distance
+/// and its joint's rotation. From detections, flags, an estimator's error model.
+using Certainty = PerBody<float>;
+
+/// The weights of one system, with the reference's joint centres.
+struct Cost {
+  CostWeights weights;
+  std::vector<PerBody<Vector3d>> p_WB;  ///< [frames] of the reference, m
+  std::vector<Certainty> certainty;     ///< [frames], or empty: everything is certain
+
+  double position_weight(int frame, int body) const;
+  /// d_tk, k ≥ 3.
+  double tangent_weight(int frame, int k) const;
+};
+
+/// @throws std::invalid_argument for weights that are negative or no numbers, a residual weight of zero, and
+///         a certainty of another length than the reference
+Cost make_cost(const System& system, const CostWeights& weights, std::vector<Certainty> certainty = {});
+
+/// Cost of a pack's states at a frame and the worst distance of a body, lane by lane.
+struct LaneCost {
+  P cost;
+  P worst;  ///< m²
+};
+/// @param scratch  its kinematics are overwritten
+LaneCost state_cost(const System& system, const Cost& cost, int frame, const State<P>& x, Data<P>& scratch);
+
+/// Cost of a control after another one.
+double control_cost(const System& system, const Cost& cost, const Control& u, const Control& before);
+
+/// Gradient and Gauss–Newton Hessian of a state's cost in the tangent space at x.
+struct StateQuadratic {
+  double value = 0;
+  Eigen::VectorXd gradient;          ///< [122]
+  Eigen::MatrixXd position_hessian;  ///< [61][61], of the positions
+  Eigen::VectorXd velocity_hessian;  ///< [61], the diagonal of the velocities; nothing couples the two
+};
+StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame, const State<double>& x);
+
+}  // namespace mimicx::control

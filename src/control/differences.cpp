@@ -1,0 +1,158 @@
+#include "control/differences.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+
+#include "core/random.h"
+
+namespace mimicx::control {
+namespace {
+
+/// A pack of characters around one point: state, targets and help of every lane.
+struct Bundle {
+  State<P> x;
+  Target<P> from, to;
+  Wrench<P> help;
+
+  Bundle(const System& system, const FramePoint& point)
+      : x(in_all_lanes<P>(point.x)),
+        from(target_of(system, point.frame, point.before)),
+        to(target_of(system, point.frame + 1, point.u)),
+        help(help_of(system, point.u)) {}
+};
+
+/// Moves one lane along column k of F.
+void perturb(const System& system, const FramePoint& point, int k, double step, int lane, Tangent<P>& delta,
+             Bundle& bundle) {
+  const auto moved = [&](const Control& u, int moved_entry) {
+    return [&u, moved_entry, step](int entry) {
+      const double value = static_cast<double>(u[static_cast<std::size_t>(entry)]);
+      return entry == moved_entry ? value + step : value;
+    };
+  };
+  if (k < kTangent) {
+    delta[static_cast<std::size_t>(k)].set(lane, static_cast<float>(step));
+  } else if (k < kMemory) {
+    const int dof = k - kTangent, body = dofs()[static_cast<std::size_t>(dof)].body;
+    set_joint_target(system, point.frame, body, moved(point.before, dof), lane, bundle.from);
+  } else if (k < kMemory + kDofs) {
+    const int dof = k - kMemory, body = dofs()[static_cast<std::size_t>(dof)].body;
+    set_joint_target(system, point.frame + 1, body, moved(point.u, dof), lane, bundle.to);
+  } else {
+    const auto entry = moved(point.u, k - kMemory);
+    set_help(
+        system, [&](int i) { return entry(kDofs + i); }, lane, bundle.help);
+  }
+}
+
+/// Half the difference of two packs, as rows of lanes; zero where it is no number.
+void half_difference(const State<P>& plus, const State<P>& minus, int lanes, int column,
+                     Eigen::Ref<Eigen::Matrix<float, kTangent, Eigen::Dynamic, Eigen::RowMajor>> out) {
+  const Tangent<P> d = difference(plus, minus);
+  for (int row = 0; row < kTangent; ++row)
+    for (int lane = 0; lane < lanes; ++lane) {
+      const float value = d[static_cast<std::size_t>(row)][lane];
+      out(row, column + lane) = std::isfinite(value) ? 0.5f * value : 0.0f;
+    }
+}
+
+constexpr int kRows = 256;  ///< of the Hadamard matrix: the power of two above the number of columns
+static_assert(kRows > kMemory + kMaxControls);
+
+/// Entry of Sylvester's Hadamard matrix; column 0 is constant and left out.
+float hadamard(int row, int column) {
+  const auto common = static_cast<unsigned>(row & (column + 1));
+  return (std::popcount(common) & 1) != 0 ? -1.0f : 1.0f;
+}
+
+}  // namespace
+
+double DifferenceSteps::of(int k) const {
+  if (k < kRootRotation) return position;
+  if (k < kRootVelocity) return rotation;
+  if (k < kRootSpin) return velocity;
+  if (k < kTangent) return spin;
+  if (k < kMemory + kDofs) return residual;
+  return k < kMemory + kDofs + 3 ? help : help_spin;
+}
+
+DifferenceSteps DifferenceSteps::scaled(double f) const {
+  return {f * position, f * rotation, f * velocity, f * spin, f * residual, f * help, f * help_spin};
+}
+
+FrameMatrix linearise_by_columns(const System& system, const FramePoint& point,
+                                 const DifferenceSteps& steps) {
+  const int columns = kMemory + system.controls();
+  FrameMatrix F(kTangent, columns);
+  const auto scratch = std::make_unique<Data<P>>();
+  const auto base = std::make_unique<Bundle>(system, point);
+  State<P> ends[2];
+  for (int first = 0; first < columns; first += kLanes) {
+    const int lanes = std::min(kLanes, columns - first);
+    for (int side = 0; side < 2; ++side) {
+      Bundle bundle = *base;
+      Tangent<P> delta;
+      delta.fill(P(0.0));
+      for (int lane = 0; lane < lanes; ++lane) {
+        const int k = first + lane;
+        perturb(system, point, k, side == 0 ? steps.of(k) : -steps.of(k), lane, delta, bundle);
+      }
+      if (first < kTangent) retract(bundle.x, delta);
+      advance(system, bundle.from, bundle.to, bundle.help, bundle.x, *scratch);
+      ends[side] = bundle.x;
+    }
+    half_difference(ends[0], ends[1], lanes, first, F);
+  }
+  for (int k = 0; k < columns; ++k) F.col(k) /= static_cast<float>(steps.of(k));
+  return F;
+}
+
+FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, const DifferenceSteps& steps) {
+  const int columns = kMemory + system.controls();
+  Random random(0x736d6f6f7468, {static_cast<std::uint64_t>(point.frame)});
+  Eigen::Matrix<float, kRows, Eigen::Dynamic> signs(kRows, columns);
+  for (int k = 0; k < columns; ++k) {
+    const float sign = (random.bits() & 1u) != 0 ? -1.0f : 1.0f;
+    for (int row = 0; row < kRows; ++row) signs(row, k) = sign * hadamard(row, k);
+  }
+  Eigen::Matrix<float, kTangent, Eigen::Dynamic, Eigen::RowMajor> ends(kTangent, kRows);
+  const auto scratch = std::make_unique<Data<P>>();
+  const auto base = std::make_unique<Bundle>(system, point);
+  State<P> sides[2];
+  for (int first = 0; first < kRows; first += kLanes) {
+    for (int side = 0; side < 2; ++side) {
+      Bundle bundle = *base;
+      Tangent<P> delta;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const auto move = [&](int k) {
+          return (side == 0 ? 1.0 : -1.0) * steps.of(k) * static_cast<double>(signs(first + lane, k));
+        };
+        const auto moved = [&](const Control& u, int column) {
+          return [&u, column, &move](int e) {
+            return static_cast<double>(u[static_cast<std::size_t>(e)]) + move(column + e);
+          };
+        };
+        for (int k = 0; k < kTangent; ++k)
+          delta[static_cast<std::size_t>(k)].set(lane, static_cast<float>(move(k)));
+        set_target(system, point.frame, moved(point.before, kTangent), lane, bundle.from);
+        set_target(system, point.frame + 1, moved(point.u, kMemory), lane, bundle.to);
+        const auto u = moved(point.u, kMemory);
+        if (system.soft)
+          set_help(
+              system, [&](int e) { return u(kDofs + e); }, lane, bundle.help);
+      }
+      retract(bundle.x, delta);
+      advance(system, bundle.from, bundle.to, bundle.help, bundle.x, *scratch);
+      sides[side] = bundle.x;
+    }
+    half_difference(sides[0], sides[1], kLanes, first, ends);
+  }
+  FrameMatrix F(kTangent, columns);
+  F.noalias() = ends * signs;
+  for (int k = 0; k < columns; ++k) F.col(k) /= static_cast<float>(kRows * steps.of(k));
+  return F;
+}
+
+}  // namespace mimicx::control

@@ -1,0 +1,54 @@
+/// Derivatives of a control frame by differences, with perturbed characters in the lanes of packs.
+///
+///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, help),   F [122 × (122 + 55 + 55 (+
+///     6))]
+///
+/// Two ways. *Columns*: central differences, one coordinate at a time. *Smoothed*: all coordinates at once,
+/// along ± the rows of a Hadamard matrix, and a least-squares fit, which for orthogonal rows is a product. It
+/// averages F over a neighbourhood in which contacts open and close, so its steps are a scale of smoothing:
+/// the derivative of a contact at a point says nothing about the step beside it. Random signs per column
+/// (a fixed stream per frame) keep the same coordinates from always moving together; what is even in the
+/// perturbation cancels between + and −.
+/// Sources: antithetic pairs as in Salimans et al., "Evolution Strategies" (2017), §2.1; why smoothing:
+/// Suh et al., "Do Differentiable Simulators Give Better Policy Gradients?" (2022); steps: docs/control.md.
+#pragma once
+
+#include "control/system.h"
+#include "control/tangent.h"
+
+namespace mimicx::control {
+
+inline constexpr int kMemory = kTangent + kDofs;  ///< z = (x, residual before): what the future depends on
+
+/// How far the coordinates of each kind are moved.
+struct DifferenceSteps {
+  double position = 1.5e-3;  ///< m
+  double rotation = 3e-3;    ///< rad
+  double velocity = 1.5e-2;  ///< m/s
+  double spin = 3e-2;        ///< rad/s
+  double residual = 1.5e-2;  ///< rad
+  double help = 0.45;        ///< m/s²
+  double help_spin = 1.5;    ///< rad/s²
+
+  /// Of column `k` of F.
+  double of(int k) const;
+  DifferenceSteps scaled(double factor) const;
+};
+
+/// Where a frame is linearised.
+struct FramePoint {
+  int frame;        ///< t
+  State<double> x;  ///< x_t
+  Control before;   ///< u_{t−1}; of frame 0: zero
+  Control u;        ///< u_t
+};
+
+/// F [122 × kMemory + system.controls()]: columns of x, of the residuals before, of the controls.
+using FrameMatrix = Eigen::Matrix<float, kTangent, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// One coordinate at a time. A column that goes wrong in the simulator is zero.
+FrameMatrix linearise_by_columns(const System& system, const FramePoint& point, const DifferenceSteps& steps);
+/// Over a neighbourhood.
+FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, const DifferenceSteps& steps);
+
+}  // namespace mimicx::control

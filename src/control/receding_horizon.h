@@ -1,0 +1,48 @@
+/// Following a reference window by window, with a way back where a window is lost.
+///
+/// A window of some frames starts at the state that the motion has reached, is improved by a few iterations
+/// of iLQR, and its first frames are committed; the next window starts there with the rest as its first
+/// guess. Near failure results are chaotic: a body that is about to fall can be caught by one choice of
+/// difference steps and horizon and not by another. So a window that loses the reference goes back some
+/// frames and tries the next of a fixed list of variants, until the list or the budget is used up; then the
+/// motion ends there. Source: receding horizon as in Tassa, Erez, Todorov (2012), §III; backtracking and
+/// variants are our own.
+#pragma once
+
+#include "control/ilqr.h"
+#include "control/plan_control.h"
+
+namespace mimicx::control {
+
+struct HorizonOptions {
+  int horizon = 20;         ///< frames of a window
+  int commit = 5;           ///< frames that are settled by it
+  int iterations = 2;       ///< of a window that goes well
+  int hard_iterations = 8;  ///< of the first one, and of one that costs more than `hard_cost`
+  double hard_cost = 0.5;   ///< per frame
+  double stop = 0.02;       ///< relative decrease of the cost under which iterations end
+  double lost = 0.35;       ///< distance of a body at which a window is lost, m
+  int back = 20;            ///< frames to go back then
+  int backtracks = 12;      ///< of the whole motion
+};
+
+/// How a motion ended.
+enum class Ending { kFollowed, kLost, kStopped };
+
+struct HorizonResult {
+  Trajectory motion;  ///< from the first state as far as it was followed
+  Ending ending = Ending::kFollowed;
+  int lost_frame = -1;  ///< the first frame at which the window that was given up was too far
+  int iterations = 0;
+  int linearised = 0;  ///< frames, all iterations together
+  int backtracks = 0;
+};
+
+/// Follows the reference from the last state of `start` to frame `end`.
+/// @param start  at least one state; its controls are the history
+/// @param guess  controls to start from, [frames − 1], or empty: residuals of zero
+HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
+                                const HorizonOptions& options, const PlanControl& control, Trajectory start,
+                                int end, const std::vector<Control>& guess = {});
+
+}  // namespace mimicx::control

@@ -1,0 +1,43 @@
+#include "control/system.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mimicx::control {
+
+System make_system(const Character& character, const SimulationOptions& options,
+                   std::vector<State<double>> reference, double fps) {
+  if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
+  const double substeps = options.rate / fps;
+  if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
+    throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
+  System system;
+  system.model = make_model<float>(character, options);
+  system.mass = character.total_mass();
+  system.fps = fps;
+  system.substeps = static_cast<int>(std::lround(substeps));
+  system.reference = std::move(reference);
+  return system;
+}
+
+Target<P> target_of(const System& system, int frame, const Control& u) {
+  Target<P> out{};
+  set_target(
+      system, frame, [&](int dof) { return u[static_cast<std::size_t>(dof)]; }, 0, out);
+  return in_all_lanes<P>(lane_of(out, 0));
+}
+
+Wrench<P> help_of(const System& system, const Control& u) {
+  Wrench<P> out;
+  const auto entry = [&](int k) { return u[static_cast<std::size_t>(kDofs + k)]; };
+  for (int lane = 0; lane < kLanes; ++lane) set_help(system, entry, lane, out);
+  return out;
+}
+
+MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to, const Wrench<P>& help,
+                  State<P>& x, Data<P>& scratch) {
+  return advance_interval<P>(system.model, from, to, system.substeps, x, scratch, nullptr, {},
+                             system.soft ? &help : nullptr);
+}
+
+}  // namespace mimicx::control

@@ -1,0 +1,91 @@
+/// The controlled system: the simulator, a reference to follow, and what a control means.
+///
+/// Time goes in control frames (1/30 s). The state x_t belongs to frame t; the control u_t acts from frame t
+/// to t + 1: 55 residual rotations on the reference's joint rotations of frame t + 1, exactly the actions of
+/// rl::TrackingPack in residual mode, so that a plan can be replayed as actions, byte for byte. During the
+/// interval the PD target moves from the old target to the new one, so the next state depends on the control
+/// before, too:
+///     x_{t+1} = f_t(x_t, u_{t−1}, u_t).
+/// Soft systems have six more controls: accelerations of help on the pelvis (step.h, `help`), by which a
+/// plan follows what no body can; they are penalised (cost.h), and a hard plan has exactly none.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "physics/control_interval.h"
+#include "physics/lanes.h"
+#include "physics/pd_target.h"
+
+namespace mimicx::control {
+
+using P = Pack<kLanes>;
+
+inline constexpr int kHelp = 6;                     ///< help: acceleration (m/s²), angular one (rad/s²)
+inline constexpr int kMaxControls = kDofs + kHelp;  ///< of a soft system; a hard one has kDofs
+
+/// Radius of gyration that turns the help's angular acceleration into a moment, m: about that of a body.
+inline constexpr double kHelpRadius = 0.3;
+
+/// u_t: rotation vectors (angles for hinges) on the reference's joints, rad, in the order of first_dof; then
+/// the help in world axes, linear and angular, zero in a hard system.
+using Control = std::array<float, kMaxControls>;
+
+struct System {
+  Model<float> model;
+  double mass = 0;                       ///< of the whole character, kg
+  double fps = 30;                       ///< frames per second
+  int substeps = 8;                      ///< physics steps per frame
+  double max_residual = 2.5;             ///< residuals beyond are clamped, rad
+  bool velocity_feed_forward = true;     ///< PD damps towards the reference's joint velocity
+  bool soft = false;                     ///< whether there is help
+  std::vector<State<double>> reference;  ///< [frames]
+
+  int frames() const { return static_cast<int>(reference.size()); }
+  int controls() const { return soft ? kMaxControls : kDofs; }
+  const State<double>& at(int frame) const { return reference[static_cast<std::size_t>(frame)]; }
+};
+
+/// @throws std::invalid_argument for fewer than 2 frames, or unless the physics rate is a multiple of fps
+System make_system(const Character& character, const SimulationOptions& options,
+                   std::vector<State<double>> reference, double fps);
+
+/// The PD target of one joint at frame t under a residual, in one lane.
+/// @param entry  maps a degree of freedom to its residual
+template <class Entry>
+void set_joint_target(const System& system, int frame, int body, const Entry& entry, int lane,
+                      Target<P>& out) {
+  const auto i = static_cast<std::size_t>(body);
+  const Quaterniond reference = to_eigen(system.at(frame).q[i]);
+  set_lane(out.q[i], lane, residual_target(reference, action_rotation(body, system.max_residual, entry)));
+}
+/// That of all joints.
+template <class Entry>
+void set_target(const System& system, int frame, const Entry& entry, int lane, Target<P>& out) {
+  for (int body = 1; body < kBodies; ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    set_joint_target(system, frame, body, entry, lane, out);
+    const Vector3d omega = to_eigen(system.at(frame).omega[i]);
+    set_lane(out.omega[i], lane, system.velocity_feed_forward ? omega : Vector3d::Zero());
+  }
+}
+/// That of all joints in all lanes.
+Target<P> target_of(const System& system, int frame, const Control& u);
+
+/// The wrench on the pelvis that six numbers of help stand for: f = m a, n = m r² α, in one lane.
+/// @param entry  maps 0 … 5 to the number
+template <class Entry>
+void set_help(const System& system, const Entry& entry, int lane, Wrench<P>& out) {
+  const double m = system.mass, moment = m * kHelpRadius * kHelpRadius;
+  const auto number = [&](int k) { return static_cast<double>(entry(k)); };
+  set_lane(out.f, lane, Vector3d(m * Vector3d(number(0), number(1), number(2))));
+  set_lane(out.n, lane, Vector3d(moment * Vector3d(number(3), number(4), number(5))));
+}
+Wrench<P> help_of(const System& system, const Control& u);
+
+/// One control frame, in every lane. @param help  not looked at in a hard system
+/// @return mask of the lanes that went wrong
+MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to, const Wrench<P>& help,
+                  State<P>& x, Data<P>& scratch);
+
+}  // namespace mimicx::control

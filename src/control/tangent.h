@@ -1,0 +1,50 @@
+/// The state manifold and its tangent space: what "a small change of a state" means in numbers.
+///
+/// A state holds rotations, so two states have no difference component by component. Instead
+/// x ⊖ y ∈ R¹²² is the change that leads from y to x and y ⊕ δ applies one, with (y ⊕ δ) ⊖ y = δ. Rotations
+/// change on the right, q ↦ q·exp(δ), that is in the body's own frame, as angular velocities are measured.
+/// Order of the 122 coordinates:
+///     0 …   2  root position, world, m
+///     3 …   5  root rotation, body's frame, rad
+///     6 …  60  joint rotations, child's frame, rad: one number about the axis of a hinge, three for a ball,
+///              in the order of first_dof (character/character.h)
+///    61 …  63  root velocity, world, m/s
+///    64 …  66  root angular velocity, body's frame, rad/s
+///    67 … 121  joint velocities, child's frame, rad/s, in the same order
+/// Source: rotations as in Forster et al., "On-Manifold Preintegration" (2017), §II.
+#pragma once
+
+#include <array>
+
+#include "physics/data.h"
+
+namespace mimicx::control {
+
+inline constexpr int kPositions = 6 + kDofs;     ///< coordinates of the pose
+inline constexpr int kTangent = 2 * kPositions;  ///< coordinates of the state
+inline constexpr int kRootRotation = 3;          ///< first coordinate of each block
+inline constexpr int kJointRotation = 6;
+inline constexpr int kRootVelocity = kPositions;
+inline constexpr int kRootSpin = kPositions + 3;
+inline constexpr int kJointVelocity = kPositions + 6;
+
+template <class T>
+using Tangent = std::array<T, kTangent>;
+
+/// One actuated degree of freedom.
+struct Dof {
+  int body;
+  Vector3d axis;  ///< of the rotation, child's frame
+};
+/// All of them in the order of first_dof.
+const std::array<Dof, kDofs>& dofs();
+
+/// a ⊖ b, lane by lane. Rotations differ by the shorter way.
+template <class T>
+Tangent<T> difference(const State<T>& a, const State<T>& b);
+
+/// s ⊕ delta, lane by lane, in place. Rotation coordinates must stay under half a turn.
+template <class T>
+void retract(State<T>& s, const Tangent<T>& delta);
+
+}  // namespace mimicx::control

@@ -1,0 +1,47 @@
+/// Containers whose subscript is an `int`, as bodies, frames and lanes are counted.
+///
+/// The standard containers take a `std::size_t`, and with -Wconversion every subscript by an `int` needs a
+/// cast that says nothing. These are the standard containers with another subscript, and nothing else: what
+/// takes a std::array or a std::vector takes them.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace mimicx {
+
+/// An integer of any type, or a plain enumerator.
+template <class I>
+concept Subscript = std::integral<I> ||(std::is_enum_v<I>&& std::convertible_to<I, int>);
+
+/// std::array of N elements with a subscript that is any Subscript.
+template <class T, int N>
+struct Array : std::array<T, static_cast<std::size_t>(N)> {
+  using Base = std::array<T, static_cast<std::size_t>(N)>;
+  constexpr T& operator[](Subscript auto i) { return Base::operator[](static_cast<std::size_t>(i)); }
+  constexpr const T& operator[](Subscript auto i) const {
+    return Base::operator[](static_cast<std::size_t>(i));
+  }
+};
+
+/// std::vector with a subscript of any integer type, for one element per frame of a motion.
+template <class T>
+struct PerFrame : std::vector<T> {
+  using std::vector<T>::vector;
+  PerFrame() = default;
+  PerFrame(std::vector<T> values) : std::vector<T>(std::move(values)) {}
+  decltype(auto) operator[](Subscript auto i) {
+    return std::vector<T>::operator[](static_cast<std::size_t>(i));
+  }
+  decltype(auto) operator[](Subscript auto i) const {
+    return std::vector<T>::operator[](static_cast<std::size_t>(i));
+  }
+  /// Number of frames.
+  int count() const { return static_cast<int>(this->size()); }
+};
+
+}  // namespace mimicx

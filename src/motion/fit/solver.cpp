@@ -1,0 +1,81 @@
+#include "motion/fit/solver.h"
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+#include <utility>
+
+namespace mimicx {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void require_definite(const Eigen::LLT<Eigen::Ref<MatrixXd>>& factor) {
+  if (factor.info() != Eigen::Success)
+    throw std::domain_error("keypoint fit: the system is not positive definite");
+}
+
+/// diagonal, next, second ← the blocks of L. In place, frame by frame.
+void factorise(BorderedBand& s) {
+  const std::size_t frames = s.diagonal.size();
+  for (std::size_t t = 0; t < frames; ++t) {
+    MatrixXd& D = s.diagonal[t];
+    if (t >= 1) D.noalias() -= s.next[t - 1] * s.next[t - 1].transpose();
+    if (t >= 2) D.noalias() -= s.second[t - 2] * s.second[t - 2].transpose();
+    require_definite(Eigen::LLT<Eigen::Ref<MatrixXd>>(D));
+    const auto transposed = std::as_const(D).transpose().triangularView<Eigen::Upper>();  // Lᵀ
+    if (t + 1 < frames) {
+      if (t >= 1) s.next[t].noalias() -= s.second[t - 1] * s.next[t - 1].transpose();
+      transposed.solveInPlace<Eigen::OnTheRight>(s.next[t]);
+    }
+    if (t + 2 < frames) transposed.solveInPlace<Eigen::OnTheRight>(s.second[t]);
+  }
+}
+
+/// Y ← L⁻¹ Y, Y in blocks of rows: a vector or the border.
+template <class Block>
+void forward(const BorderedBand& s, std::vector<Block>& Y) {
+  for (std::size_t t = 0; t < Y.size(); ++t) {
+    if (t >= 1) Y[t].noalias() -= s.next[t - 1] * Y[t - 1];
+    if (t >= 2) Y[t].noalias() -= s.second[t - 2] * Y[t - 2];
+    s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(Y[t]);
+  }
+}
+
+/// y ← L⁻ᵀ y
+void backward(const BorderedBand& s, std::vector<VectorXd>& y) {
+  for (std::size_t t = y.size(); t-- > 0;) {
+    if (t + 1 < y.size()) y[t].noalias() -= s.next[t].transpose() * y[t + 1];
+    if (t + 2 < y.size()) y[t].noalias() -= s.second[t].transpose() * y[t + 2];
+    s.diagonal[t].transpose().triangularView<Eigen::Upper>().solveInPlace(y[t]);
+  }
+}
+
+}  // namespace
+
+BorderedBand::BorderedBand(int frames, int n, int m)
+    : diagonal(static_cast<std::size_t>(frames), MatrixXd::Zero(n, n)),
+      next(diagonal),
+      second(diagonal),
+      border(static_cast<std::size_t>(frames), MatrixXd::Zero(n, m)),
+      corner(MatrixXd::Zero(m, m)),
+      rhs(static_cast<std::size_t>(frames), VectorXd::Zero(n)),
+      rhs_border(VectorXd::Zero(m)) {}
+
+BandSolution solve(BorderedBand& s) {
+  factorise(s);
+  forward(s, s.border);
+  forward(s, s.rhs);
+  for (std::size_t t = 0; t < s.rhs.size(); ++t) {
+    s.corner.noalias() -= s.border[t].transpose() * s.border[t];
+    s.rhs_border.noalias() -= s.border[t].transpose() * s.rhs[t];
+  }
+  const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(s.corner);
+  require_definite(factor);
+  BandSolution out{std::move(s.rhs), factor.solve(s.rhs_border)};
+  for (std::size_t t = 0; t < out.x.size(); ++t) out.x[t].noalias() -= s.border[t] * out.g;
+  backward(s, out.x);
+  return out;
+}
+
+}  // namespace mimicx

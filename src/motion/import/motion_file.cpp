@@ -1,0 +1,293 @@
+#include "motion/import/motion_file.h"
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/file.h"
+#include "motion/import/body_model.h"
+#include "motion/import/bvh.h"
+#include "motion/import/deepmimic.h"
+#include "motion/import/motionx.h"
+#include "motion/import/plausibility.h"
+#include "motion/import/retarget.h"
+#include "motion/import/world.h"
+
+namespace mimicx {
+namespace {
+
+constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
+constexpr std::string_view kHierarchy = "hierarchy";  // in any case
+constexpr std::size_t kFirstBytes = 64;               ///< bytes that tell a format
+constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
+constexpr double kFloorWorthSaying = 0.05;  ///< m
+
+void require_sense(const ReadOptions& o) {
+  const auto require = [](bool sense, const char* what) {
+    if (!sense) throw std::invalid_argument(what);
+  };
+  require(!o.scale || (*o.scale > 0.0 && std::isfinite(*o.scale)), "the scale must be positive");
+  require(!o.fps || (*o.fps > 0.0 && *o.fps <= 2000.0), "the frame rate must lie between 0 and 2000 Hz");
+  require(!o.floor || std::isfinite(*o.floor), "the height of the floor must be a number");
+  if (o.up) rotation_to_z_up(*o.up);
+}
+
+/// The file's own body: nothing of it, its joints by the licensed model, or what its model says.
+void choose_body(const ReadOptions& o, Clip& clip) {
+  const bool foreign = clip.body_model != "mimicx";
+  if (o.standard_body) {
+    const Vector3d pelvis = rest_pelvis(clip);
+    clip.rest_joints.reset();
+    clip.betas = {};
+    for (Vector3d& trans : clip.trans) trans += pelvis - rest_pelvis(clip);
+    std::erase(clip.warnings, foreign_betas_warning(clip.body_model));
+    clip.decisions.emplace_back("body: the standard one, as asked for");
+  } else if (clip.rest_joints) {
+    clip.decisions.emplace_back("body: the joints that the file holds");
+  } else if (foreign && !o.smplx.empty() && clip.body_model == "smplx") {
+    const RestJoints joints = read_body_model(o.smplx).joints(clip.betas);
+    try {
+      make_character_of_joints(joints);
+    } catch (const std::invalid_argument& error) {
+      throw DataError(o.smplx.string(), "", "the joints of a human for the betas of " + clip.name,
+                      error.what());
+    }
+    clip.rest_joints = joints;
+    std::erase(clip.warnings, foreign_betas_warning(clip.body_model));
+    clip.decisions.push_back("body: joints of " + o.smplx.filename().string() + " at the file's betas");
+  } else if (foreign) {
+    clip.decisions.push_back("body: the standard one, the file's model is " + clip.body_model);
+  }
+}
+
+void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.scale) {
+    scale_world(*o.scale, clip);
+    clip.decisions.push_back("scale: " + short_number(*o.scale) + " m per unit, as asked for");
+    return;
+  }
+  if (believed) return;
+  const double before = support_speed(clip), scale = detect_scale(clip);
+  if (scale == 1.0) return;
+  scale_world(scale, clip);
+  clip.decisions.push_back("scale: the translation is taken to be in " +
+                           std::string(scale == 0.01 ? "centimetres" : "millimetres") +
+                           " (in metres the stiller foot would move at " + short_number(before) +
+                           " m/s, now it does at " + short_number(support_speed(clip)) +
+                           "; --scale overrides)");
+}
+
+/// The axis of the file that reading, which took `custom` for up, has turned to `axis`.
+char in_file(char axis, char custom) {
+  return axis_letter(rotation_to_z_up(custom).conjugate() *
+                     (rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ()));
+}
+
+/// @param custom  the axis that the format has up, which is z by now
+void settle_up(const ReadOptions& o, bool believed, char custom, Clip& clip) {
+  const auto turn_up = [&](char axis) {
+    if (axis != custom) rotate_world(rotation_to_z_up(axis) * rotation_to_z_up(custom).conjugate(), clip);
+  };
+  if (o.up) {
+    turn_up(*o.up);
+    clip.decisions.push_back("up axis: " + axis_name(*o.up) + ", as asked for");
+    return;
+  }
+  if (believed) return;
+  const UpAxis found = detect_up(clip);
+  const char up = found.sure ? in_file(found.axis, custom) : custom;
+  const std::string along = " (the body stands along it: " + short_number(found.along) + ")";
+  turn_up(up);
+  if (!found.sure)
+    clip.decisions.push_back("up axis: " + axis_name(up) +
+                             ", as the format has it (the body lies, crawls or turns over)");
+  else if (found.axis == 'Z')
+    clip.decisions.push_back("up axis: upside down, turned over" + along + "; --up overrides");
+  else
+    clip.decisions.push_back("up axis: " + axis_name(up) + (up == 'z' ? "" : ", turned to z") + along +
+                             (up == custom ? "" : "; --up overrides"));
+}
+
+/// The frame rate next to `fps` of those in use, where one is within a tenth; else 0.
+double usual_rate(double fps) {
+  for (const double rate : {20.0, 24.0, 25.0, 30.0, 50.0, 60.0, 90.0, 100.0, 120.0, 200.0, 240.0, 250.0})
+    if (std::abs(fps / rate - 1.0) < 0.1) return rate;
+  return 0.0;
+}
+
+void settle_fps(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.fps) {
+    clip.decisions.push_back("frame rate: " + short_number(*o.fps) + " fps, as asked for (the file says " +
+                             short_number(clip.fps) + ")");
+    clip.fps = *o.fps;
+    return;
+  }
+  if (believed) return;
+  const std::optional<FallRate> fall = rate_from_flights(clip);
+  const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
+  std::string line = "frame rate: " + short_number(clip.fps) + " fps, as given";
+  if (fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0) {
+    line = "frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps);
+    clip.fps = usual;
+  }
+  if (fall)
+    line += " (the body falls with " + short_number(fall->acceleration) +
+            " m/s² at the file's rate; --fps overrides)";
+  clip.decisions.push_back(line);
+}
+
+void settle_floor(const ReadOptions& o, bool believed, Clip& clip) {
+  if (o.floor) {
+    shift_world({0.0, 0.0, -*o.floor}, clip);
+    clip.on_floor = true;
+    clip.decisions.push_back("floor: at " + short_number(*o.floor) + " m, as asked for");
+    return;
+  }
+  if (believed) return;
+  const double height = detect_floor(clip);
+  if (std::abs(height) > kFloorWorthSaying)
+    clip.decisions.push_back("floor: at " + short_number(height) +
+                             " m, where the lowest points are; preparation puts it at 0 (--floor overrides)");
+}
+
+void require_near(const std::filesystem::path& path, const Clip& clip) {
+  for (std::size_t t = 0; t < clip.trans.size(); ++t)
+    if (!(clip.trans[t].cwiseAbs().maxCoeff() < kFarthest))
+      throw DataError(path.string(), "frame " + std::to_string(t), "a place within 100 km of the origin",
+                      short_number(clip.trans[t].cwiseAbs().maxCoeff()) + " m");
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// A motion of a foreign skeleton on our body, axes and unit settled.
+Clip retargeted(const SkeletonMotion& motion, const std::string& format, const ReadOptions& o) {
+  RetargetOptions options;
+  options.standard_body = o.standard_body;
+  options.scale = o.scale.value_or(0.0);
+  options.up = o.up;
+  options.joint_map = o.joint_map;
+  Clip clip = retarget(motion, options);
+  clip.decisions.insert(clip.decisions.begin(), "format: " + format);
+  return clip;
+}
+
+Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& o) {
+  const std::string name = path.stem().string();
+  switch (recognise(bytes)) {
+    case MotionFormat::kNpz: {
+      Clip clip = clip_from(parse_npz(bytes, path.string()), name);
+      clip.decisions.insert(clip.decisions.begin(), "format: AMASS-like npz, body model " + clip.body_model);
+      return clip;
+    }
+    case MotionFormat::kNpy: {
+      const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+      return motionx_from(parse_npy(data, bytes.size(), path.string(), ""), name, path.string(), !o.scale);
+    }
+    case MotionFormat::kBvh:
+      return retargeted(parse_bvh(bytes, path), "BVH", o);
+    case MotionFormat::kDeepMimic:
+      return retargeted(parse_deepmimic(bytes, path), "DeepMimic", o);
+    case MotionFormat::kUnknown:
+      break;
+  }
+  throw DataError(path.string(), "", "a motion (npz, npy, BVH or DeepMimic)",
+                  bytes.empty() ? "an empty file" : "other content");
+}
+
+}  // namespace
+
+std::string ReadOptions::text() const {
+  std::string out;
+  const auto add = [&](const std::string& what) { out += (out.empty() ? "" : " ") + what; };
+  const auto number = [&](const char* name, const std::optional<double>& value) {
+    char digits[64];
+    if (!value) return;
+    std::snprintf(digits, sizeof digits, "%s=%.17g", name, *value);
+    add(digits);
+  };
+  if (up) add("up=" + axis_name(*up));
+  number("scale", scale);
+  number("fps", fps);
+  number("floor", floor);
+  if (standard_body) add("body=standard");
+  if (!smplx.empty()) add("smplx=" + smplx.string());
+  if (!joint_map.empty()) add("joint_map=" + joint_map.string());
+  return out;
+}
+
+MotionFormat recognise(const std::string& bytes) {
+  if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06")) return MotionFormat::kNpz;
+  if (bytes.starts_with("\x93NUMPY")) return MotionFormat::kNpy;
+  const std::size_t bom = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0,
+                    start = bytes.find_first_not_of(" \t\r\n", bom);
+  if (start == std::string::npos) return MotionFormat::kUnknown;
+  if (bytes[start] == '{') return MotionFormat::kDeepMimic;
+  if (lower_case(bytes.substr(start, kHierarchy.size())) == kHierarchy) return MotionFormat::kBvh;
+  return MotionFormat::kUnknown;
+}
+
+Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) {
+  return motion_from(read_file(path), path, options);
+}
+
+Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& options) {
+  require_sense(options);
+  Clip clip = read_any(bytes, path, options);
+  const MotionFormat format = recognise(bytes);
+  const bool skeleton = format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
+  const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
+  if (!skeleton) {
+    choose_body(options, clip);
+    settle_scale(options, believed, clip);
+    settle_up(options, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
+  }
+  settle_fps(options, believed, clip);
+  settle_floor(options, believed, clip);
+  if (!believed)
+    for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
+  require_near(path, clip);
+  return clip;
+}
+
+bool is_motion_file(const std::filesystem::path& path) {
+  const std::string suffix = lower_suffix(path);
+  if (suffix == ".txt") {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;  // opening a pipe waits for a writer
+    std::ifstream file(path, std::ios::binary);
+    std::string start(kFirstBytes, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    return recognise(start.substr(0, static_cast<std::size_t>(file.gcount()))) == MotionFormat::kDeepMimic;
+  }
+  return is_written(suffix);
+}
+
+std::string lower_suffix(const std::filesystem::path& path) { return lower_case(path.extension().string()); }
+
+bool is_written(const std::string& suffix) {
+  const std::string known = lower_case(suffix);
+  return known == ".npz" || known == ".npy" || known == ".bvh";
+}
+
+std::string written_suffixes() { return ".npz, .npy or .bvh"; }
+
+void write_motion(const std::filesystem::path& path, const Clip& clip) {
+  const std::string suffix = lower_suffix(path);
+  if (suffix == ".npz")
+    write_clip(path, clip);
+  else if (suffix == ".npy")
+    write_motionx(path, clip);
+  else if (suffix == ".bvh")
+    write_bvh(path, clip);
+  else
+    throw std::invalid_argument(path.string() + ": motions are written as " + written_suffixes() + ", not '" +
+                                suffix + "'");
+}
+
+}  // namespace mimicx

@@ -1,0 +1,240 @@
+#include "motion/import/plausibility.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/units.h"
+#include "motion/import/world.h"
+#include "motion/surface.h"
+
+namespace mimicx {
+namespace {
+
+// Unit of length.
+constexpr double kFastSupport = 3.0;   ///< m/s: nothing that carries a human moves as fast for half of a clip
+constexpr double kFarHeight = 20.0;    ///< m of the pelvis over or under z = 0, in the median
+constexpr double kCalmer = 1.0 / 3.0;  ///< how much calmer the support must be in the other unit
+
+// Up axis.
+constexpr double kSteadier = 0.5;  ///< how much steadier the floor must be along it than along z
+constexpr double kStands = 0.6;    ///< mean component of feet → neck along the axis
+
+// Frame rate.
+constexpr double kClear = 0.03;              ///< m over the floor: nothing carries the body
+constexpr double kFootTravel = 0.08;         ///< m of either foot in a flight
+constexpr double kLargestFactor = 4.2;       ///< between frame rates: 120 labelled 30, a little noise
+constexpr int kShortestFlight = 5;           ///< frames
+constexpr double kParabolaResidual = 0.012;  ///< m, root mean square, of a clean flight
+
+// Floor and speeds.
+constexpr double kFloorShare = 0.05;
+constexpr double kFastPelvis = 8.0;  ///< m/s in the median: a sprinter's pace
+constexpr double kFastJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
+
+/// Of the finite values: absurd input may lead to others.
+double percentile(std::vector<double> values, double share) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return 0.0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Speed of a joint from the frame before, m/s.
+double speed_of(const std::vector<BodyPoses>& poses, std::size_t t, std::size_t joint, double fps) {
+  return fps * (poses[t].p_WB[joint] - poses[t - 1].p_WB[joint]).norm();
+}
+
+/// Distance of the pelvis from zero along the axis that is up, m.
+double median_height(const Clip& clip) {
+  const char axis = static_cast<char>(std::tolower(detect_up(clip).axis));
+  std::vector<double> heights;
+  for (const Vector3d& trans : clip.trans) heights.push_back(std::abs(trans[axis - 'x']));
+  return percentile(heights, 0.5);
+}
+
+Vector3d centre_of_mass(const Character& character, const BodyPoses& pose) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < kBodies; ++i)
+    sum += character.mass[i] * (pose.p_WB[i] + pose.q_WB[i] * character.com_B[i]);
+  return sum / character.total_mass();
+}
+
+std::vector<double> lowest_heights(const Character& character, const std::vector<BodyPoses>& poses) {
+  const std::vector<SurfacePoint> points = surface_points(character);
+  std::vector<double> lowest;
+  for (const BodyPoses& pose : poses) lowest.push_back(lowest_height(points, pose));
+  return lowest;
+}
+
+/// How much the farthest point of the body in a direction moves in that direction, m: little, where the
+/// direction is down and the floor stops it.
+double support_spread(const Clip& clip, const std::vector<BodyPoses>& poses, const Vector3d& down) {
+  const std::vector<SurfacePoint> points = surface_points(character_of(clip));
+  std::vector<double> deepest;
+  for (const BodyPoses& pose : poses) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vector3d& p : surface_positions(points, pose)) most = std::max(most, p.dot(down));
+    deepest.push_back(most);
+  }
+  return percentile(deepest, 0.9) - percentile(deepest, 0.1);
+}
+
+/// Length of a joint's path, m.
+double path_of(const std::vector<BodyPoses>& poses, std::size_t joint) {
+  double length = 0.0;
+  for (std::size_t t = 1; t < poses.size(); ++t)
+    length += (poses[t].p_WB[joint] - poses[t - 1].p_WB[joint]).norm();
+  return length;
+}
+
+/// Largest extent of a joint's path in frames first … last, m.
+double travel_of(const std::vector<BodyPoses>& poses, std::size_t joint, std::size_t first,
+                 std::size_t last) {
+  Vector3d low = poses[first].p_WB[joint], high = low;
+  for (std::size_t t = first; t <= last; ++t) {
+    low = low.cwiseMin(poses[t].p_WB[joint]);
+    high = high.cwiseMax(poses[t].p_WB[joint]);
+  }
+  return (high - low).norm();
+}
+
+/// Least squares of a parabola to z[first..last] over the frame number.
+struct Parabola {
+  double acceleration = 0;  ///< m per frame²
+  double residual = 0;      ///< m, root mean square
+};
+Parabola fit_parabola(const std::vector<double>& z, std::size_t first, std::size_t last) {
+  const auto n = static_cast<Eigen::Index>(last - first + 1);
+  Eigen::MatrixX3d powers(n, 3);
+  Eigen::VectorXd values(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto s = static_cast<double>(i) - 0.5 * static_cast<double>(n - 1);
+    powers.row(i) << 1.0, s, 0.5 * s * s;
+    values[i] = z[first + static_cast<std::size_t>(i)];
+  }
+  const Matrix3d normal = powers.transpose() * powers;
+  const Vector3d c = normal.inverse() * (powers.transpose() * values);
+  return {c[2], (powers * c - values).norm() / std::sqrt(static_cast<double>(n))};
+}
+
+}  // namespace
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+double support_speed(const Clip& clip) {
+  const std::vector<BodyPoses> poses = poses_of(clip);
+  std::vector<double> stillest;
+  for (std::size_t t = 1; t < poses.size(); ++t)
+    stillest.push_back(
+        std::min(speed_of(poses, t, kLeftFoot, clip.fps), speed_of(poses, t, kRightFoot, clip.fps)));
+  return percentile(stillest, 0.5);
+}
+
+bool is_wrong_scale(const Clip& clip, double speed, double speed_scaled) {
+  return (speed > kFastSupport || median_height(clip) > kFarHeight) && speed_scaled < kCalmer * speed;
+}
+
+double detect_scale(const Clip& clip) {
+  const double speed = support_speed(clip);
+  for (const double scale : {0.01, 0.001}) {
+    Clip scaled = clip;
+    for (Vector3d& trans : scaled.trans) trans *= scale;
+    const double speed_scaled = support_speed(scaled);
+    if (!is_wrong_scale(clip, speed, speed_scaled)) return 1.0;
+    if (!is_wrong_scale(scaled, speed_scaled, 0.0)) return scale;
+  }
+  return 1.0;
+}
+
+UpAxis detect_up(const Clip& clip) {
+  const std::vector<BodyPoses> poses = poses_of(clip);
+  Vector3d mean = Vector3d::Zero();
+  for (const BodyPoses& pose : poses)
+    mean += (pose.p_WB[kNeck] - 0.5 * (pose.p_WB[kLeftAnkle] + pose.p_WB[kRightAnkle])).normalized();
+  mean /= static_cast<double>(clip.frames());
+  int axis = 0;
+  mean.cwiseAbs().maxCoeff(&axis);
+  UpAxis up;
+  up.along = std::abs(mean[axis]);
+  const Vector3d down = mean[axis] > 0 ? Vector3d(-Vector3d::Unit(axis)) : Vector3d(Vector3d::Unit(axis));
+  up.sure = up.along > kStands &&
+            (axis == 2 ||
+             support_spread(clip, poses, down) < kSteadier * support_spread(clip, poses, -Vector3d::UnitZ()));
+  // On its head: a file that is upside down, unless the hands carry the body.
+  if (axis == 2 && mean.z() < 0.0)
+    up.sure = up.sure && path_of(poses, kLeftFoot) < path_of(poses, kLeftWrist);
+  if (up.sure) up.axis = axis_letter(mean);
+  return up;
+}
+
+std::optional<FallRate> rate_from_flights(const Clip& clip) {
+  const Character character = character_of(clip);
+  const std::vector<BodyPoses> poses = poses_of(clip);
+  const std::vector<double> lowest = lowest_heights(character, poses);
+  const double floor = percentile(lowest, kFloorShare);
+  std::vector<double> height;
+  for (const BodyPoses& pose : poses) height.push_back(centre_of_mass(character, pose).z());
+  FallRate fall;
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t first = 0; first < lowest.size();) {
+    std::size_t end = first;
+    while (end < lowest.size() && lowest[end] > floor + kClear) ++end;
+    const auto length = static_cast<int>(end - first);
+    if (length >= kShortestFlight) {
+      const Parabola p = fit_parabola(height, first, end - 1);
+      // The uncertainty of the curvature falls with the fifth power of the length.
+      const double weight = std::pow(length, 5);
+      // A foot that stays where it is carries the body, whatever its height.
+      const bool free = travel_of(poses, kLeftFoot, first, end - 1) > kFootTravel &&
+                        travel_of(poses, kRightFoot, first, end - 1) > kFootTravel;
+      if (free && p.residual < kParabolaResidual && p.acceleration < 0.0) {
+        fall.frames += length;
+        sum -= weight * p.acceleration;
+        weights += weight;
+      }
+    }
+    first = std::max(end, first + 1);
+  }
+  if (weights == 0.0) return std::nullopt;
+  const double per_frame = sum / weights;
+  fall.acceleration = per_frame * clip.fps * clip.fps;
+  fall.fps = std::sqrt(kGravity / per_frame);
+  const double factor = fall.fps / clip.fps;
+  if (std::max(factor, 1.0 / factor) > kLargestFactor) return std::nullopt;
+  return fall;
+}
+
+double detect_floor(const Clip& clip) {
+  return percentile(lowest_heights(character_of(clip), poses_of(clip)), kFloorShare);
+}
+
+std::vector<std::string> implausible_speeds(const Clip& clip) {
+  const std::vector<BodyPoses> poses = poses_of(clip);
+  std::vector<double> pelvis, fastest;
+  for (std::size_t t = 1; t < poses.size(); ++t) {
+    pelvis.push_back(speed_of(poses, t, kPelvis, clip.fps));
+    double most = 0.0;
+    for (std::size_t j = 0; j < kBodies; ++j) most = std::max(most, speed_of(poses, t, j, clip.fps));
+    fastest.push_back(most);
+  }
+  std::vector<std::string> said;
+  if (const double speed = percentile(pelvis, 0.5); speed > kFastPelvis)
+    said.push_back("the pelvis moves at " + short_number(speed) +
+                   " m/s in the median: are scale and frame rate right? (--scale, --fps)");
+  if (const double speed = percentile(fastest, 0.99); speed > kFastJoint)
+    said.push_back("a joint reaches " + short_number(speed) +
+                   " m/s: are scale and frame rate right? (--scale, --fps)");
+  return said;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,35 @@
+#include "motion/import/skeleton.h"
+
+#include <cmath>
+
+namespace mimicx {
+
+double whole_rate(double fps) {
+  const double whole = std::round(fps);
+  return std::abs(fps - whole) < 5e-4 * fps ? whole : fps;
+}
+
+SkeletonPose pose_of(const SkeletonMotion& motion, int frame) {
+  const auto& translation = motion.translation[static_cast<std::size_t>(frame)];
+  const auto& rotation = motion.rotation[static_cast<std::size_t>(frame)];
+  SkeletonPose pose{translation, rotation};
+  for (std::size_t j = 0; j < motion.joints.size(); ++j) {
+    if (motion.joints[j].parent < 0) continue;
+    const auto parent = static_cast<std::size_t>(motion.joints[j].parent);
+    pose.q[j] = (pose.q[parent] * rotation[j]).normalized();
+    pose.p[j] = pose.p[parent] + pose.q[parent] * translation[j];
+  }
+  return pose;
+}
+
+SkeletonPose rest_pose(const SkeletonMotion& motion) {
+  SkeletonPose pose;
+  for (const SkeletonJoint& joint : motion.joints) {
+    pose.p.push_back(joint.parent < 0 ? joint.offset
+                                      : pose.p[static_cast<std::size_t>(joint.parent)] + joint.offset);
+    pose.q.push_back(Quaterniond::Identity());
+  }
+  return pose;
+}
+
+}  // namespace mimicx

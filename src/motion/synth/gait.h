@@ -1,0 +1,24 @@
+/// What walking kinds have in common: the body follows the feet.
+///
+/// What it does not do: decide where the feet go (FootSwing, motion/synth/plan.h).
+#pragma once
+
+#include "motion/synth/plan.h"
+
+namespace mimicx {
+
+/// How a gait looks, beyond where the feet go.
+struct GaitStyle {
+  double arm_swing, pelvis_turn, pelvis_drop, trunk_lean;  ///< rad
+};
+
+/// Pelvis, trunk, arms and height follow the feet: what swings the arms is which foot is ahead.
+/// @param plan  feet and heading set; posture and height those of standing
+/// @param stride  distance of the feet in a full step, m
+void follow_feet(const Character& character, const GaitStyle& style, double stride, const FeetTracks& feet,
+                 std::vector<PlanFrame>& plan);
+
+/// The pelvis faces where the feet point on average, without their steps. @param plan  feet set
+void face_along_feet(std::vector<PlanFrame>& plan);
+
+}  // namespace mimicx

@@ -1,0 +1,40 @@
+#include "motion/synth/kinds.h"
+
+#include "motion/synth/balance.h"
+
+namespace mimicx {
+
+const std::vector<SynthKind>& synth_kinds() {
+  static const std::vector<SynthKind> kinds = {{"stand", 4.4, 5.4, plan_stand},
+                                               {"walk", 5.0, 6.5, plan_walk},
+                                               {"squat", 5.7, 6.0, plan_squat},
+                                               {"wave", 4.4, 5.4, plan_wave},
+                                               {"jump", 4.0, 4.4, plan_jump},
+                                               {"walk_turn", 6.0, 7.5, plan_walk_turn},
+                                               {"side_step", 6.0, 7.5, plan_side_step},
+                                               {"kick", 5.5, 7.0, plan_kick},
+                                               {"lunge", 6.0, 8.0, plan_lunge},
+                                               {"punch", 5.0, 6.5, plan_punch},
+                                               {"bow", 4.6, 6.0, plan_bow},
+                                               {"turn_in_place", 5.5, 7.5, plan_turn_in_place},
+                                               {"dance", 8.0, 10.0, plan_dance},
+                                               {"jog", 5.0, 6.5, plan_jog}};
+  return kinds;
+}
+
+std::array<FootTarget, 2> random_stance(const PlanRequest& request, double narrow, double wide,
+                                        double least_out, double most_out) {
+  const double half_width = rest_half_width(request.character) * request.random.uniform(narrow, wide);
+  const double toes_out = kDegree * request.random.uniform(least_out, most_out);
+  return feet_apart(half_width, toes_out);
+}
+
+PlanFrame standing_frame(const Character& character, const FeetTracks& feet) {
+  constexpr double kStandingKnee = 9.0 * kDegree;  // never fully straight
+  PlanFrame frame = relaxed_posture(character);
+  place_feet(feet, 0.0, frame);
+  frame.com_height = com_height_for_knee(character, frame, frame.pressure, kStandingKnee);
+  return frame;
+}
+
+}  // namespace mimicx

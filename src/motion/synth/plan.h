@@ -1,0 +1,102 @@
+/// What a kind of synthetic motion decides: footsteps, balance and posture over time.
+///
+/// Plan frame: x forward at the start, y left, z up, floor z = 0, origin between the feet at the start.
+/// Postures are relative to it through model axes (x left, y up, z forward): a positive first component
+/// leans forward, a positive second turns left, a positive third leans right.
+/// What it does not do: place the pelvis. That follows from balance (motion/synth/balance.h).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "motion/synth/inverse_kinematics.h"
+#include "motion/synth/track.h"
+
+namespace mimicx {
+
+/// An arm by anatomy; all zero is straight down along the body.
+struct ArmPosture {
+  double forward = 0.0;   ///< raised to the front, rad
+  double out = 0.0;       ///< raised to the side, rad
+  double rotation = 0.0;  ///< upper arm about its own length, outward, rad
+  double elbow = 0.0;     ///< flexion, rad
+};
+
+struct PlanFrame {
+  double heading = 0.0;                ///< of the pelvis, rad
+  Vector3d pelvis = Vector3d::Zero();  ///< tilt on top of the heading, rotation vector, rad
+  Vector3d trunk = Vector3d::Zero();   ///< of the thorax relative to the pelvis, spread over the spine
+  Vector3d head = Vector3d::Zero();    ///< of the head relative to the thorax, spread over neck and head
+  std::array<ArmPosture, 2> arm;       ///< left, right
+  std::array<FootTarget, 2> foot;      ///< left, right
+  Eigen::Vector2d pressure = Eigen::Vector2d::Zero();  ///< centre of pressure, m; unused in flight
+  double com_height = 0.0;                             ///< of the whole body, m
+  bool flight = false;                                 ///< no foot touches the floor
+};
+
+/// One foot goes from where it stands to another place.
+struct FootSwing {
+  int side;                ///< 0 left, 1 right
+  double start, end;       ///< leaves and meets the floor, s
+  Eigen::Vector2d place;   ///< where it lands
+  double yaw = 0.0;        ///< how it lands
+  double clearance = 0.0;  ///< height of the sole at mid-swing, m
+  bool running = false;    ///< leaves and meets the floor with speed, and meets it flat
+};
+
+/// A foot's motion; `pressure` is where in the foot its share of the load acts, m ahead of the ankle.
+struct FootTracks {
+  MinJerkTrack x, y, yaw, lift, heel_rise, toe_rise, pressure;
+  FootTarget at(double time) const;
+};
+
+/// Both feet and the share of the load on the left one, 0..1.
+struct FeetTracks {
+  std::array<FootTracks, 2> foot;
+  MinJerkTrack load;
+  double splay = 0.0;  ///< the line of the load leaves the foot's axis outward by this much per m ahead
+};
+
+/// Feet that stand where they are, equally loaded in their middle.
+FeetTracks standing_feet(const Character& character, const std::array<FootTarget, 2>& start);
+
+/// Feet that walk: heel first, flat, then over the toes; the load moves over while both feet stand.
+/// @param swings  in order of their starts; where both feet are in the air (running), load and pressure are
+///                the caller's to set
+/// @param settle  time the load takes from the middle to a foot before the first swing and back at the end, s
+FeetTracks stepping_feet(const Character& character, const std::array<FootTarget, 2>& start,
+                         const std::vector<FootSwing>& swings, double settle);
+
+/// Feet and the centre of pressure that follows from them. Leaves the posture alone.
+void place_feet(const FeetTracks& feet, double time, PlanFrame& frame);
+
+/// Two feet on the line y, toes turned out. @param half_width  of the middle to each ankle, m
+std::array<FootTarget, 2> feet_apart(double half_width, double toes_out);
+
+/// Half distance of the ankles with the legs straight down as in the rest pose, m.
+double rest_half_width(const Character& character);
+
+/// Distance from hip to ankle along the stretched leg, m.
+double leg_length(const Character& character);
+
+/// Distance from the ankle to the toe points along the foot, m.
+double forefoot_length(const Character& character);
+
+/// Where the load acts in a foot that stands flat, m ahead of the ankle.
+double feet_middle(const Character& character);
+
+/// Posture of someone standing at ease, the arms hanging clear of trunk and thighs.
+PlanFrame relaxed_posture(const Character& character);
+
+/// A posture to be held at a time.
+struct PostureKey {
+  double time;
+  PlanFrame posture;
+};
+
+/// Minimum-jerk blends from key to key of pelvis tilt, trunk, head, arms and height of the centre of mass;
+/// feet and pressure stay as they are.
+/// @param keys  in order of time
+void hold_postures(const std::vector<PostureKey>& keys, double time, PlanFrame& frame);
+
+}  // namespace mimicx

@@ -1,0 +1,107 @@
+#include "motion/synth/set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mimicx {
+namespace {
+
+constexpr std::uint64_t kSetNoiseStream = 0x53594E04;
+
+/// The sum turns −0 into 0: the sign of a zero is a last-bit difference too.
+double on_grid(double value, double steps) { return std::round(value * steps) / steps + 0.0; }
+
+void round_to_grid(Clip& clip) {
+  constexpr double kSteps = 1 << 20, kPixelSteps = 1 << 10;
+  const auto round = [](Vector3d& v) { v = v.unaryExpr([](double x) { return on_grid(x, kSteps); }); };
+  for (auto& frame : clip.rotations)
+    for (Vector3d& rotation : frame) round(rotation);
+  for (Vector3d& trans : clip.trans) round(trans);
+  for (double& beta : clip.betas) beta = on_grid(beta, kSteps);
+  if (!clip.keypoints) return;
+  for (auto& frame : clip.keypoints->uvc)
+    for (Vector3d& point : frame)
+      point = {on_grid(point.x(), kPixelSteps), on_grid(point.y(), kPixelSteps), on_grid(point.z(), kSteps)};
+  clip.keypoints->intrinsics =
+      clip.keypoints->intrinsics.unaryExpr([](double x) { return on_grid(x, kPixelSteps); });
+  for (Eigen::Matrix4d& extrinsics : clip.keypoints->extrinsics)
+    extrinsics = extrinsics.unaryExpr([](double x) { return on_grid(x, kSteps); }).eval();
+}
+
+NoisePreset preset_of(const std::string& noise) {
+  if (noise != "none") return noise_preset(noise + "-like");
+  NoisePreset silent{};  // the time constants still have to be times
+  silent.slow_tau = silent.depth_tau = silent.drift_tau = 1.0;
+  silent.jitter_frames = silent.depth_jitter_frames = 1.0;
+  return silent;
+}
+
+/// Every clip has errors and a camera of its own, whichever set it is in.
+std::uint64_t noise_seed(const SynthOptions& clip) {
+  const std::vector<std::string> kinds = synthetic_kinds();
+  const auto index = std::find(kinds.begin(), kinds.end(), clip.kind) - kinds.begin();
+  Random random(clip.seed, {kSetNoiseStream, static_cast<std::uint64_t>(index)});
+  const std::uint64_t high = random.bits(), low = random.bits();
+  return high << 32 | low;
+}
+
+}  // namespace
+
+std::vector<SynthOptions> clips_of_set(const SynthSetOptions& options) {
+  const std::vector<std::string> known = synthetic_kinds();
+  const std::vector<std::string>& kinds = options.kinds.empty() ? known : options.kinds;
+  for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
+    if (std::find(known.begin(), known.end(), *kind) == known.end())
+      throw std::invalid_argument("unknown kind of motion '" + *kind + "'");
+    if (std::find(kinds.begin(), kind, *kind) != kind)
+      throw std::invalid_argument("kind of motion '" + *kind + "' is named twice");
+  }
+  if (options.clips < 0) throw std::invalid_argument("the number of clips must not be negative");
+  std::vector<SynthOptions> clips(options.clips == 0 ? kinds.size()
+                                                     : static_cast<std::size_t>(options.clips));
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    clips[i].kind = kinds[i % kinds.size()];
+    clips[i].seed = options.seed + i / kinds.size();
+    clips[i].betas_from_seed = true;
+  }
+  return clips;
+}
+
+SynthPair make_synth_pair(const SynthOptions& clip, const SynthSetOptions& options) {
+  NoiseOptions noise;
+  noise.preset = preset_of(options.noise);
+  noise.camera = camera_error(options.camera);
+  noise.keypoints = options.keypoints;
+  noise.seed = noise_seed(clip);
+  SynthPair pair;
+  pair.truth = synthesize(clip);
+  round_to_grid(pair.truth);
+  pair.noisy = add_noise(pair.truth, noise);
+  round_to_grid(pair.noisy);
+  return pair;
+}
+
+void write_synth_set(const std::filesystem::path& directory, const SynthSetOptions& options,
+                     const std::function<void(std::size_t index, const Clip& truth)>& written) {
+  const std::vector<SynthOptions> clips = clips_of_set(options);
+  std::filesystem::create_directories(directory / "truth");
+  std::filesystem::create_directories(directory / "noisy");
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    const SynthPair pair = make_synth_pair(clips[i], options);
+    const std::string file = pair.truth.name + ".npz";
+    write_clip(directory / "truth" / file, pair.truth);
+    write_clip(directory / "noisy" / file, pair.noisy);
+    if (written) written(i, pair.truth);
+  }
+}
+
+void write_synthetic_data(const std::filesystem::path& directory) {
+  SynthSetOptions options;
+  options.seed = kTestSeed;
+  write_synth_set(directory / "test", options);
+  options.seed = kTrainingSeed;
+  write_synth_set(directory / "train", options);
+}
+
+}  // namespace mimicx

@@ -1,0 +1,39 @@
+/// Synthetic motions of known truth: what tests, the demo and the noise model start from.
+///
+/// A kind (walk, squat, …) is a plan: where the feet stand and when, where the centre of pressure goes, how
+/// high the centre of mass is and how trunk and arms are held, all as minimum-jerk tracks. One solver turns
+/// every plan into motion: the horizontal path of the centre of mass follows from the centre of pressure
+/// (docs/method.md, "Synthetic motions"), the legs from inverse kinematics with planted feet. Knees and
+/// elbows are exact hinges, flight is ballistic. A new kind is a new plan (motion/synth/kinds.h), nothing
+/// else.
+///
+/// Conventions: 30 frames per second, world z up, floor z = 0; `body_model` "mimicx".
+/// What it does not do: no torques (pipeline/audit/feasibility.h asks for them), no files
+/// (motion/synth/set.h), no floor but the flat one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "motion/clip.h"
+
+namespace mimicx {
+
+struct SynthOptions {
+  std::string kind = "stand";          ///< one of `synthetic_kinds()`
+  std::uint64_t seed = 0;              ///< varies amplitudes, timing, heading and place
+  std::array<double, kBetas> betas{};  ///< shape of the body
+  bool betas_from_seed = false;        ///< add N(0, 0.7) per entry, within ±2, to `betas`
+  double seconds = 0.0;                ///< length; 0 lets the kind choose (4 to 10 s); otherwise 4 to 60 s
+};
+
+/// Names accepted as `SynthOptions::kind`, in a fixed order.
+std::vector<std::string> synthetic_kinds();
+
+/// The exact motion; same options, same bytes. The clip is named kind_seed.
+/// @throws std::invalid_argument for an unknown kind, a length outside 4 to 60 s, or a shape with |β_k| > 5.
+Clip synthesize(const SynthOptions& options);
+
+}  // namespace mimicx

@@ -1,0 +1,51 @@
+#include "physics/control_interval.h"
+
+namespace mimicx {
+namespace {
+
+template <class T>
+Quat<T> interpolate(const Quat<T>& a, const Quat<T>& b, T s) {
+  const T cosine = fma(a.w, b.w, fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)));
+  const T wb = select(cosine < T(0.0), -s, s), wa = T(1.0) - s;
+  const Quat<T> q = {fma(wa, a.w, wb * b.w), fma(wa, a.x, wb * b.x), fma(wa, a.y, wb * b.y),
+                     fma(wa, a.z, wb * b.z)};
+  const T r = T(1.0) / sqrt(fma(q.w, q.w, fma(q.x, q.x, fma(q.y, q.y, q.z * q.z))));
+  return {r * q.w, r * q.x, r * q.y, r * q.z};
+}
+
+}  // namespace
+
+template <class T>
+MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from, const Target<T>& to,
+                           int substeps, State<T>& state, Data<T>& d, Applied<T>* applied,
+                           const SubstepWatcher<T>& watch, const Wrench<T>* help) {
+  using Real = RealOf<T>;
+  Target<T> target{};
+  State<T> before;
+  MaskOf<T> wrong = T(0.0) > T(1.0);
+  for (int k = 1; k <= substeps; ++k) {
+    const T s(static_cast<Real>(k) / static_cast<Real>(substeps));
+    for (std::size_t i = 1; i < kBodies; ++i) {
+      target.q[i] = interpolate(from.q[i], to.q[i], s);
+      target.omega[i] = add_scaled(from.omega[i], s, to.omega[i] - from.omega[i]);
+    }
+    if (watch) before = state;
+    wrong = wrong | step(model, target, state, d, applied, help);
+    if (watch) watch(before, target, d, state);
+  }
+  return wrong;
+}
+
+#define MIMICX_INSTANTIATE(T)                                                                              \
+  template MaskOf<T> advance_interval<T>(const Model<RealOf<T>>&, const Target<T>&, const Target<T>&, int, \
+                                         State<T>&, Data<T>&, Applied<T>*, const SubstepWatcher<T>&,       \
+                                         const Wrench<T>*);
+
+MIMICX_INSTANTIATE(double)
+MIMICX_INSTANTIATE(Pack<8>)
+MIMICX_INSTANTIATE(Pack<16>)
+#if !defined(__AVX2__)
+MIMICX_INSTANTIATE(Pack<4>)
+#endif
+
+}  // namespace mimicx

@@ -1,0 +1,35 @@
+/// Files for `mimicx audit`: what each holds decides the evidence; text and JSON of the results.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/audit/audit.h"
+
+namespace mimicx {
+
+/// Physics steps: as recorded and replayed. A motion with forces: its frames. Any other: its poses alone.
+/// @param poses_alone  look at nothing but the poses, whatever a motion holds besides
+/// @throws DataError naming file and member, also where a motion has torques but not all that belongs to them
+std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone);
+
+/// A motion that has its forces beside it.
+/// @param npz  the archive that the clip was read from
+/// @throws DataError naming file and member
+SimulatedFrames simulated_frames(const Clip& clip, const Npz& npz);
+
+struct AuditedFile {
+  std::string path;
+  std::vector<Audit> audits;
+};
+
+/// "physics steps", "replayed in double", "frames", "poses alone".
+std::string evidence_name(Evidence evidence);
+/// Two lines that head the table; a line per audit, and one more per failure.
+std::string audit_table_head();
+std::string format_audit(const std::string& path, const Audit& audit);
+/// {"files": [{file, audits: [{evidence, passed, failures, weight_N, rate, summary, rows: {…}}]}]}
+std::string audit_json(const std::vector<AuditedFile>& files);
+
+}  // namespace mimicx

@@ -1,0 +1,166 @@
+#include "pipeline/options/clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "pipeline/options/kmeans.h"
+#include "pipeline/options/words.h"
+#include "pipeline/record/json.h"
+#include "pipeline/record/run_folder.h"
+
+namespace mimicx {
+namespace {
+
+/// By features and name, so that the order of the input decides nothing.
+/// @throws std::invalid_argument for what cannot be clustered
+void make_canonical(std::vector<NamedFeatures>& motions) {
+  if (motions.empty()) throw std::invalid_argument("cluster_motions: there are no motions");
+  std::sort(motions.begin(), motions.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (i > 0 && motions[i].name == motions[i - 1].name)
+      throw std::invalid_argument("cluster_motions: two motions are named " + motions[i].name);
+    const auto& f = motions[i].features;
+    if (!std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x); }))
+      throw std::invalid_argument("cluster_motions: " + motions[i].name +
+                                  " has features that are not finite");
+  }
+}
+
+/// Rows: scaled features.
+Points points_of(const std::vector<NamedFeatures>& motions) {
+  Points points(static_cast<Eigen::Index>(motions.size()), kFeatures);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const MotionFeatures scaled = scaled_features(motions[i].features);
+    points.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::Matrix<double, 1, kFeatures>>(scaled.data());
+  }
+  return points;
+}
+
+MotionCluster cluster_of(const ClusterNode& leaf, const std::vector<NamedFeatures>& motions) {
+  MotionCluster cluster;
+  for (int member : leaf.members) cluster.members.push_back(motions[static_cast<std::size_t>(member)].name);
+  for (std::size_t k = 0; k < kFeatures; ++k)
+    cluster.centre[k] = feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
+  cluster.diameter = leaf.diameter;
+  return cluster;
+}
+
+Json named(const MotionFeatures& values) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < kFeatures; ++k) json[feature_names()[k]] = values[k];
+  return json;
+}
+
+MotionFeatures unnamed(const Json& json) {
+  MotionFeatures values;
+  for (std::size_t k = 0; k < kFeatures; ++k) values[k] = json.at(feature_names()[k]);
+  return values;
+}
+
+ClusterBranch branch_of(const Json& json) {
+  ClusterBranch branch;
+  branch.parent = json.at("parent");
+  if (!json.at("cluster").is_null()) branch.cluster = json.at("cluster");
+  branch.motions = json.at("motions");
+  branch.diameter = json.at("diameter");
+  return branch;
+}
+
+MotionCluster cluster_of(const Json& json) {
+  MotionCluster cluster;
+  cluster.description = json.at("description");
+  cluster.members = json.at("members").get<std::vector<std::string>>();
+  cluster.centre = unnamed(json.at("centre"));
+  cluster.diameter = json.at("diameter");
+  return cluster;
+}
+
+}  // namespace
+
+Clusters cluster_motions(std::vector<NamedFeatures> motions, const ClusterSettings& settings) {
+  make_canonical(motions);
+  Clusters out;
+  out.settings = settings;
+  const ClusterTree complete = complete_tree(points_of(motions), settings.seed);
+  if (settings.clusters) out.settings.radius = radius_for_clusters(complete, *settings.clusters);
+  for (const ClusterNode& node : cut_tree(complete, out.settings.radius)) {
+    ClusterBranch branch{node.parent, -1, static_cast<int>(node.members.size()), node.diameter};
+    if (node.is_leaf()) {
+      branch.cluster = static_cast<int>(out.clusters.size());
+      out.clusters.push_back(cluster_of(node, motions));
+    }
+    out.tree.push_back(branch);
+  }
+  std::vector<MotionFeatures> centres;
+  for (const MotionCluster& cluster : out.clusters) centres.push_back(cluster.centre);
+  for (std::size_t c = 0; c < centres.size(); ++c)
+    out.clusters[c].description = describe_cluster(centres, static_cast<int>(c));
+  return out;
+}
+
+int nearest_cluster(const Clusters& clusters, const MotionFeatures& features) {
+  const MotionFeatures point = scaled_features(features);
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < clusters.clusters.size(); ++c) {
+    const MotionFeatures centre = scaled_features(clusters.clusters[c].centre);
+    double squared = 0.0;
+    for (std::size_t k = 0; k < kFeatures; ++k) squared += (point[k] - centre[k]) * (point[k] - centre[k]);
+    if (squared < least) nearest = static_cast<int>(c), least = squared;
+  }
+  return nearest;
+}
+
+std::string format_clusters(const Clusters& clusters) {
+  const ClusterSettings& s = clusters.settings;
+  Json json = {{"settings",
+                {{"radius", s.radius},
+                 {"clusters", s.clusters ? Json(*s.clusters) : Json(nullptr)},
+                 {"seed", s.seed}}},
+               {"units", named(feature_units())},
+               {"tree", Json::array()},
+               {"clusters", Json::array()}};
+  for (const ClusterBranch& b : clusters.tree)
+    json["tree"].push_back({{"parent", b.parent},
+                            {"cluster", b.cluster < 0 ? Json(nullptr) : Json(b.cluster)},
+                            {"motions", b.motions},
+                            {"diameter", b.diameter}});
+  for (std::size_t c = 0; c < clusters.clusters.size(); ++c) {
+    const MotionCluster& cluster = clusters.clusters[c];
+    json["clusters"].push_back({{"id", c},
+                                {"description", cluster.description},
+                                {"diameter", cluster.diameter},
+                                {"members", cluster.members},
+                                {"centre", named(cluster.centre)}});
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_clusters(const std::filesystem::path& path, const Clusters& clusters) {
+  write_file_atomically(path, format_clusters(clusters));
+}
+
+Clusters read_clusters(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  try {
+    const Json json = Json::parse(text);
+    if (unnamed(json.at("units")) != feature_units())
+      throw DataError(path.string(), "units", "the units of this program's features", "others");
+    Clusters out;
+    const Json& settings = json.at("settings");
+    out.settings.radius = settings.at("radius");
+    if (!settings.at("clusters").is_null()) out.settings.clusters = settings.at("clusters").get<int>();
+    out.settings.seed = settings.at("seed");
+    for (const auto& branch : json.at("tree")) out.tree.push_back(branch_of(branch));
+    for (const auto& cluster : json.at("clusters")) out.clusters.push_back(cluster_of(cluster));
+    if (out.clusters.empty()) throw DataError(path.string(), "clusters", "at least one", "none");
+    return out;
+  } catch (const nlohmann::json::exception& error) {
+    throw DataError(path.string(), "", "clusters of motions", error.what());
+  }
+}
+
+}  // namespace mimicx

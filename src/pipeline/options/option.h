@@ -1,0 +1,36 @@
+/// An option: one policy for one kind of motion, with the encoder through which it sees its reference.
+///                                                                          METHOD: docs/method.md §7
+/// Options are trained per cluster, stored together, chosen per frame and fine-tuned jointly. All options of
+/// a set have one state size.
+#pragma once
+
+#include <optional>
+
+#include "nn/autoencoder.h"
+#include "rl/policy.h"
+#include "rl/tracking/pack.h"
+
+namespace mimicx::rl {
+
+struct Option {
+  Agent agent;
+  std::optional<nn::AutoEncoder> encoder;  ///< none: the policy sees the reference itself
+};
+
+/// Pose features of a clip's frames in their own heading frames: what encoders are trained on and applied to.
+/// [frames + 1 × 186]
+nn::Matrix<float> encoder_inputs(const TrackingClip& clip);
+
+/// z and D(z) of every frame.
+EncodedReference encode_reference(const nn::AutoEncoder& encoder, const TrackingClip& clip);
+
+/// The clip as these options see it; the clip itself where they have no encoders.
+/// @throws std::invalid_argument when some options have an encoder and others have none
+std::shared_ptr<const TrackingClip> encoded_for(const std::shared_ptr<const TrackingClip>& clip,
+                                                const std::vector<const Option*>& options);
+
+void save(Npz& archive, const std::string& prefix, const Option& option);
+/// @throws DataError naming archive and key
+Option load_option(const Npz& archive, const std::string& prefix);
+
+}  // namespace mimicx::rl

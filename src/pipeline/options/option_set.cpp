@@ -1,0 +1,67 @@
+#include "pipeline/options/option_set.h"
+
+#include "core/error.h"
+#include "pipeline/record/run_folder.h"
+
+namespace mimicx {
+namespace {
+
+constexpr const char* kCount = "options.count";
+
+std::string prefix_of(std::size_t k) { return "option" + std::to_string(k) + "."; }
+
+/// @throws DataError where actor and state or action do not fit
+void check_shape(const Npz& archive, const std::string& prefix, const rl::Option& option) {
+  const int state = option.encoder ? rl::kEncodedRest + option.encoder->code_size() : rl::kStateSize;
+  const nn::Mlp<float>& actor = option.agent.actor;
+  if (actor.inputs() != state || actor.outputs() != kDofs)
+    throw DataError(archive.path, prefix + "agent",
+                    std::to_string(state) + " inputs and " + std::to_string(kDofs) + " outputs",
+                    std::to_string(actor.inputs()) + " and " + std::to_string(actor.outputs()));
+}
+
+}  // namespace
+
+void write_options(const std::filesystem::path& path, const OptionSet& set) {
+  Npz archive;
+  archive.set(kCount, NpyArray::scalar_int(static_cast<std::int64_t>(set.options.size())));
+  for (std::size_t k = 0; k < set.options.size(); ++k) {
+    const TrainedOption& trained = set.options[k];
+    const std::string prefix = prefix_of(k);
+    rl::save(archive, prefix, trained.option);
+    archive.set(prefix + "description", NpyArray::scalar_text(trained.description));
+    archive.set(prefix + "centre", NpyArray::from_double({trained.centre.size()}, trained.centre.data()));
+    archive.set(prefix + "motions", NpyArray::scalar_int(trained.motions));
+    archive.set(prefix + "samples", NpyArray::scalar_int(trained.samples));
+  }
+  write_npz(path, archive);
+}
+
+std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path) {
+  const std::filesystem::path file = std::filesystem::is_directory(path) ? path / "options.npz" : path;
+  const Npz archive = read_npz(file);
+  const double count = archive.at(kCount).to_double().at(0);
+  if (!(count >= 1.0 && count <= 1000.0))
+    throw DataError(archive.path, kCount, "1 to 1000 options", std::to_string(count));
+  auto set = std::make_shared<OptionSet>();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const std::string prefix = prefix_of(k);
+    const auto number = [&](const char* key) { return archive.at(prefix + key).to_double().at(0); };
+    TrainedOption trained;
+    trained.option = rl::load_option(archive, prefix);
+    check_shape(archive, prefix, trained.option);
+    trained.description = archive.at(prefix + "description").text.at(0);
+    const std::vector<double> centre = archive.at(prefix + "centre").to_double();
+    if (centre.size() != trained.centre.size())
+      throw DataError(archive.path, prefix + "centre", std::to_string(trained.centre.size()) + " numbers",
+                      std::to_string(centre.size()));
+    std::copy(centre.begin(), centre.end(), trained.centre.begin());
+    trained.motions = static_cast<int>(number("motions"));
+    trained.samples = static_cast<std::int64_t>(number("samples"));
+    set->options.push_back(std::move(trained));
+  }
+  set->checksum = file_checksum(file);
+  return set;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,36 @@
+/// A set of options in one file: the policies, their encoders, and the clusters they were trained on.
+///
+/// `mimicx pretrain` writes `options.npz`; `mimicx adapt` reads it. Weights are 32-bit floats; optimiser
+/// states are not part of it. Members: options.count, optionK.agent.*, optionK.encoder.*,
+/// optionK.description, optionK.centre (features, SI units), optionK.motions, optionK.samples.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "motion/features.h"
+#include "pipeline/options/option.h"
+
+namespace mimicx {
+
+struct TrainedOption {
+  rl::Option option;
+  std::string description;  ///< what its motions are like
+  MotionFeatures centre{};  ///< of its cluster
+  int motions = 0;          ///< it was trained on
+  std::int64_t samples = 0;
+};
+
+struct OptionSet {
+  std::vector<TrainedOption> options;
+  std::string checksum;  ///< of the file; empty where it was not read from one
+};
+
+void write_options(const std::filesystem::path& path, const OptionSet& set);
+/// @param path  the file, or a folder that holds `options.npz`
+/// @throws DataError for a file that is none, or whose options do not fit this program's states and actions
+std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path);
+
+}  // namespace mimicx

@@ -1,0 +1,26 @@
+/// A simulated motion for the tools its input came from: the input's format, body and, if wanted, frame rate.
+///
+/// The body is told as the input told it (body model and β), with the pelvis where the simulation had it. At
+/// 30 fps a copy holds all members of the simulated motion that its format has a place for. At the input's
+/// rate it has the input's frames, rotations by slerp; torques, wrenches and rewards are means over intervals
+/// of the simulation and stay out, and what the input held beside the body (hands, face, eyes) comes along
+/// untouched.
+#pragma once
+
+#include <filesystem>
+
+#include "motion/import/motion_file.h"
+
+namespace mimicx {
+
+/// Suffix of the copy: the input's own where motions are written so, else .npz.
+std::string clean_suffix(const std::filesystem::path& input);
+
+/// A motion at another rate with exactly the frames of `like`; the last frame is held where it ends sooner.
+Clip at_rate_of(const Clip& motion, const Clip& like);
+
+/// @param motion  file of the simulated motion @param input  the file it was made from, read with `read`
+void write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
+                      const ReadOptions& read, bool input_rate, const std::filesystem::path& copy);
+
+}  // namespace mimicx

@@ -1,0 +1,185 @@
+#include "pipeline/record/manifest.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "core/error.h"
+#include "pipeline/record/json.h"
+#include "pipeline/record/run_folder.h"
+
+namespace mimicx {
+namespace {
+
+constexpr std::array<std::string_view, 5> kEndings = {"none", "budget", "threshold", "stall",
+                                                      "limit-seconds"};
+
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json to_json(const NamedValues& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = number(value);
+  return json;
+}
+
+NamedValues named_values(const Json& json) {
+  NamedValues values;
+  for (const auto& [name, value] : json.items()) values.emplace_back(name, number(value));
+  return values;
+}
+
+Json to_json(const SequenceEntry& e) {
+  return {{"name", e.name},
+          {"input", e.input},
+          {"input_checksum", e.input_checksum},
+          {"output", e.output.empty() ? Json(nullptr) : Json(e.output)},
+          {"status", e.ok ? "ok" : "failed"},
+          {"reason", e.reason},
+          {"ending", kEndings[static_cast<std::size_t>(e.ending)]},
+          {"frames", e.frames},
+          {"fps", e.fps},
+          {"seed", e.seed},
+          {"samples", e.samples},
+          {"reward_before", number(e.reward_before)},
+          {"reward_after", number(e.reward_after)},
+          {"arrangement", e.arrangement},
+          {"fit", to_json(e.fit)},
+          {"input_metrics", to_json(e.input_metrics)},
+          {"metrics_before", to_json(e.metrics_before)},
+          {"ok_before", e.ok_before},
+          {"metrics", to_json(e.metrics)},
+          {"audit", to_json(e.audit)},
+          {"preparation", to_json(e.preparation)},
+          {"decisions", e.decisions},
+          {"notes", e.notes}};
+}
+
+Ending ending_of(const std::string& name) {
+  const auto found = std::find(kEndings.begin(), kEndings.end(), name);
+  return static_cast<Ending>(found - kEndings.begin());
+}
+
+SequenceEntry entry_of(const Json& json) {
+  SequenceEntry e;
+  e.name = json.at("name");
+  e.input = json.at("input");
+  e.input_checksum = json.at("input_checksum");
+  if (!json.at("output").is_null()) e.output = json.at("output");
+  e.ok = json.at("status") == "ok";
+  e.reason = json.at("reason");
+  e.ending = ending_of(json.at("ending"));
+  e.frames = json.at("frames");
+  e.fps = json.at("fps");
+  e.seed = json.at("seed");
+  e.samples = json.at("samples");
+  e.reward_before = number(json.at("reward_before"));
+  e.reward_after = number(json.at("reward_after"));
+  e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
+  e.fit = named_values(json.at("fit"));
+  e.metrics_before = named_values(json.at("metrics_before"));
+  e.ok_before = json.at("ok_before");
+  e.input_metrics = named_values(json.at("input_metrics"));
+  e.metrics = named_values(json.at("metrics"));
+  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // runs from before it have none
+  e.preparation = named_values(json.at("preparation"));
+  e.decisions = json.value("decisions", std::vector<std::string>{});
+  e.notes = json.at("notes").get<std::vector<std::string>>();
+  return e;
+}
+
+bool same(const NamedValues& a, const NamedValues& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+}  // namespace
+
+bool Manifest::same_settings(const Manifest& other) const {
+  return version == other.version && target == other.target && seed == other.seed &&
+         samples == other.samples && options == other.options && reading == other.reading &&
+         same(settings, other.settings);
+}
+
+const SequenceEntry* Manifest::find(const std::string& input) const {
+  const auto found =
+      std::find_if(sequences.begin(), sequences.end(), [&](const auto& e) { return e.input == input; });
+  return found == sequences.end() ? nullptr : &*found;
+}
+
+void Manifest::put(const SequenceEntry& entry) {
+  for (auto& e : sequences) {
+    if (e.input != entry.input) continue;
+    e = entry;
+    return;
+  }
+  sequences.push_back(entry);
+}
+
+std::string format_manifest(const Manifest& manifest) {
+  Json json = {{"run",
+                {{"version", manifest.version},
+                 {"target", manifest.target},
+                 {"seed", manifest.seed},
+                 {"samples", manifest.samples},
+                 {"options", manifest.options},
+                 {"reading", manifest.reading},
+                 {"settings", to_json(manifest.settings)}}},
+               {"sequences", Json::array()}};
+  for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Manifest read_manifest(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  try {
+    const Json json = Json::parse(text);
+    const Json& run = json.at("run");
+    Manifest manifest;
+    manifest.version = run.at("version");
+    manifest.target = run.at("target");
+    manifest.seed = run.at("seed");
+    manifest.samples = run.at("samples");
+    manifest.options = run.at("options");
+    manifest.reading = run.value("reading", "");
+    manifest.settings = named_values(run.at("settings"));
+    for (const auto& e : json.at("sequences")) manifest.sequences.push_back(entry_of(e));
+    return manifest;
+  } catch (const nlohmann::json::exception& error) {
+    throw DataError(path.string(), "", "the manifest of a run", error.what());
+  }
+}
+
+std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences) {
+  Json list = Json::array();
+  for (const auto& t : timings) {
+    Json json = {{"name", t.name},
+                 {"seconds", t.seconds},
+                 {"training_seconds", t.training_seconds},
+                 {"threads", t.threads}};
+    for (const auto& e : sequences)
+      if (e.name == t.name && t.training_seconds > 0.0)
+        json["samples_per_second"] = static_cast<double>(e.samples) / t.training_seconds;
+    list.push_back(json);
+  }
+  return Json({{"sequences", list}}).dump(1) + "\n";
+}
+
+std::vector<Timing> read_timing(const std::filesystem::path& path) {
+  std::vector<Timing> timings;
+  if (!std::filesystem::exists(path)) return timings;
+  const Json json = Json::parse(read_file(path), nullptr, false);
+  if (json.is_discarded() || !json.contains("sequences")) return timings;
+  for (const auto& t : json["sequences"]) {
+    Timing timing;
+    timing.name = t.value("name", "");
+    timing.seconds = t.value("seconds", 0.0);
+    timing.training_seconds = t.value("training_seconds", 0.0);
+    timing.threads = t.value("threads", 0);
+    timings.push_back(timing);
+  }
+  return timings;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,90 @@
+#include "pipeline/record/motion_output.h"
+
+#include <string>
+#include <utility>
+
+#include "pipeline/record/simulated_members.h"
+
+namespace mimicx {
+namespace {
+
+constexpr Precision kPrecision = Precision::kFloat64;  // as every member of a motion
+
+using Members = std::vector<std::pair<std::string, NpyArray>>;
+
+NpyArray positions_member(const std::vector<PerBody<Vector3d>>& frames) {
+  std::vector<double> values;
+  for (const auto& frame : frames)
+    for (const auto& p : frame) values.insert(values.end(), p.data(), p.data() + 3);
+  return NpyArray::from_double({frames.size(), kBodies, 3}, values.data());
+}
+
+NpyArray rewards_member(const std::vector<rl::Reward>& rewards) {
+  std::vector<double> values;
+  for (const auto& r : rewards) values.push_back(r.total);
+  return NpyArray::from_double({values.size()}, values.data());
+}
+
+/// Whether a member of the input still means the same beside `frames` frames.
+bool fits(const NpyArray& array, int input_frames, std::size_t frames) {
+  const bool per_frame = !array.shape.empty() && array.shape[0] == static_cast<std::size_t>(input_frames);
+  return !per_frame || array.shape[0] == frames;
+}
+
+}  // namespace
+
+void write_simulated(const std::filesystem::path& path, const Clip& input, const Reference& reference,
+                     const rl::TrackingRollout& rollout, std::vector<std::string>& notes) {
+  std::vector<Vector3d> p_root;
+  std::vector<PerBody<Quaterniond>> q;
+  std::vector<ReferenceFrame> states;
+  VectorRows joints, torques, ranges;
+  WrenchRows ground, self;
+  for (const auto& pose : rollout.poses) {
+    p_root.push_back(pose.frame.p_root);
+    q.push_back(pose.frame.q);
+    joints.push_back(pose.p_WB);
+    states.push_back(pose.frame);
+  }
+  for (const auto& forces : rollout.forces) {
+    torques.push_back(forces.joint_torque);
+    ranges.push_back(forces.range_torque);
+    ground.push_back(forces.ground);
+    self.push_back(forces.self_contact);
+  }
+  Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) put_on_body_of(input, clip);
+  clip.gender = input.gender;
+  if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
+  for (const auto& member : input.passthrough) {
+    if (fits(member.second, input.frames(), rollout.poses.size()) && (input.fps == reference.fps))
+      clip.passthrough.push_back(member);
+    else
+      notes.push_back("'" + member.first + "' of the input is not passed on: the frames no longer match");
+  }
+  const Members extra = {{"joints", positions_member(joints)},
+                         {"velocities", velocities_member(states, kPrecision)},
+                         {"joint_torques", joints_member(torques, kPrecision)},
+                         {"range_torques", joints_member(ranges, kPrecision)},
+                         {"ground_wrenches", wrenches_member(ground, kPrecision)},
+                         {"self_contact_wrenches", wrenches_member(self, kPrecision)},
+                         {"reward", rewards_member(rollout.rewards)}};
+  write_clip(path, clip, extra);
+}
+
+void write_reference(const std::filesystem::path& path, const Clip& input, const Reference& reference) {
+  std::vector<Vector3d> p_root;
+  std::vector<PerBody<Quaterniond>> q;
+  std::vector<PerBody<Vector3d>> joints;
+  for (std::size_t t = 0; t < reference.frames.size(); ++t) {
+    p_root.push_back(reference.frames[t].p_root);
+    q.push_back(reference.frames[t].q);
+    joints.push_back(reference.poses[t].p_WB);
+  }
+  Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) put_on_body_of(input, clip);
+  clip.keypoints = reference.keypoints;
+  write_clip(path, clip, {{"joints", positions_member(joints)}});
+}
+
+}  // namespace mimicx

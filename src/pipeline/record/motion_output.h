@@ -1,0 +1,22 @@
+/// Simulated and prepared motions as files in our own layout (docs/formats.md).
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "motion/clip.h"
+#include "motion/reference.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx {
+
+/// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards;
+/// members of the input that the program does not use pass through where their frames still match.
+/// @param notes  a line is added for what could not pass through
+void write_simulated(const std::filesystem::path& path, const Clip& input, const Reference& reference,
+                     const rl::TrackingRollout& rollout, std::vector<std::string>& notes);
+
+/// The prepared reference of an input.
+void write_reference(const std::filesystem::path& path, const Clip& input, const Reference& reference);
+
+}  // namespace mimicx

@@ -1,0 +1,53 @@
+/// `report.html`: what a run did, to look at. One file that needs no network: a player of the reference
+/// and the simulated motion drawn from the characters' capsules, the metrics, and the training curves.
+///
+/// The page itself (HTML, CSS, JavaScript) stands in src/pipeline/report/ and is embedded at build time.
+/// Motions are embedded as the capsules' ends in whole millimetres (int16, base64): 352 bytes a frame, and a
+/// page that needs no rotations. It does not compute anything: numbers arrive as they are to be shown.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "character/character.h"
+#include "pipeline/record/table.h"
+
+namespace mimicx {
+
+/// A row of the metrics table: one value per column.
+struct ReportMetric {
+  std::string name;            ///< with its unit
+  std::vector<double> values;  ///< NaN: shown as a dash
+};
+
+/// A curve over the clip's own time.
+struct ReportSeries {
+  std::string title;
+  double step = 0.0;  ///< seconds between values; the first is at 0
+  std::vector<double> values;
+};
+
+struct ReportSequence {
+  std::string name;
+  std::string status;  ///< "ok" or "failed"
+  std::string reason;  ///< why it failed
+  double fps = 30.0;
+  Character character;
+  std::vector<BodyPoses> reference;  ///< may be empty
+  std::vector<BodyPoses> simulated;  ///< may be empty
+  std::vector<std::string> metric_columns;
+  std::vector<ReportMetric> metrics;
+  std::vector<std::string> notes;  ///< one line each
+  std::vector<ReportSeries> series;
+  /// A column per quantity, a row per iteration, with a column "samples". Columns named "title:part" share
+  /// one chart.
+  Table log;
+};
+
+std::string format_report(const std::vector<ReportSequence>& sequences);
+
+/// Ends of every capsule in mm, [frame][body][2][3] little-endian int16, in base64. Exposed for its test.
+std::string encode_capsules(const Character& character, const std::vector<BodyPoses>& poses);
+
+}  // namespace mimicx

@@ -1,0 +1,117 @@
+#include "pipeline/report/run_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "core/npz.h"
+#include "motion/clip.h"
+#include "motion/metrics.h"
+#include "pipeline/record/table.h"
+#include "pipeline/report/report.h"
+
+namespace mimicx {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string with_unit(const std::string& metric) {
+  for (const auto& d : metric_definitions())
+    if (metric == d.name) return metric + ", " + d.unit;
+  return metric;
+}
+
+std::string note_of(const std::string& step, const std::pair<std::string, double>& value) {
+  char text[32];
+  std::snprintf(text, sizeof text, " %.2f", value.second);
+  return step + ": " + value.first + text;
+}
+
+/// "options: 1 from frame 0, 3 from frame 42"
+std::string arrangement_note(const std::vector<std::array<int, 2>>& arrangement) {
+  std::string text = "options:";
+  for (const auto& [frame, option] : arrangement)
+    text +=
+        (text.back() == ':' ? " " : ", ") + std::to_string(option) + " from frame " + std::to_string(frame);
+  return text;
+}
+
+/// A row per metric that some column has, in the order of the last column, then what others have besides.
+std::vector<ReportMetric> rows_of(const std::vector<NamedValues>& columns) {
+  std::vector<ReportMetric> rows;
+  for (std::size_t c = columns.size(); c-- > 0;)
+    for (const auto& [name, value] : columns[c]) {
+      const std::string title = with_unit(name);
+      auto row = std::find_if(rows.begin(), rows.end(), [&title](const auto& r) { return r.name == title; });
+      if (row == rows.end())
+        row = rows.insert(rows.end(), {title, std::vector<double>(columns.size(), kNone)});
+      row->values[c] = value;
+    }
+  return rows;
+}
+
+std::vector<std::string> notes_of(const SequenceEntry& entry) {
+  std::vector<std::string> notes = entry.notes;
+  if (!entry.arrangement.empty()) notes.push_back(arrangement_note(entry.arrangement));
+  for (const auto& value : entry.fit) notes.push_back(note_of("keypoint fit", value));
+  for (const auto& value : entry.audit)
+    if (value.first.starts_with("root_")) notes.push_back(note_of("audit", value));
+  for (const auto& value : entry.preparation) notes.push_back(note_of("preparation", value));
+  return notes;
+}
+
+std::vector<double> column_of(const Table& table, const std::string& name) {
+  std::vector<double> values;
+  const std::size_t at = table.column(name);
+  for (const auto& row : table.rows) values.push_back(row[at]);
+  return values;
+}
+
+ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) {
+  ReportSequence s;
+  s.name = entry.name;
+  s.status = entry.ok ? "ok" : "failed";
+  s.reason = entry.reason;
+  s.notes = notes_of(entry);
+  s.character = make_character();
+  if (entry.output.empty()) return s;
+  const Clip simulated = read_clip(folder.root / entry.output);
+  s.fps = entry.fps;
+  s.character = character_of(simulated);
+  s.simulated = poses_of(simulated);
+  s.reference = poses_of(read_clip(folder.reference(entry.name)));
+  s.metric_columns = {"input", "before training", "simulated"};
+  s.metrics = rows_of({entry.input_metrics, entry.metrics_before, entry.metrics});
+  const Npz motion = read_npz(folder.root / entry.output);
+  s.series.push_back({"reward over the clip", 1.0 / entry.fps, motion.at("reward").to_double()});
+  const Table falls = read_csv(folder.falls(entry.name));
+  const std::vector<double> frames = column_of(falls, "frame");
+  const double bin = frames.size() > 1 ? frames[1] - frames[0] : 1.0;
+  s.series.push_back(
+      {"share of falls over the clip, in training", bin / entry.fps, column_of(falls, "fall_rate")});
+  s.log = read_csv(folder.log(entry.name));
+  return s;
+}
+
+/// One that says why its files cannot be shown, where that is so: the others are.
+ReportSequence sequence_or_reason(const RunFolder& folder, const SequenceEntry& entry) {
+  try {
+    return sequence_of(folder, entry);
+  } catch (const std::exception& error) {
+    SequenceEntry unseen = entry;
+    unseen.output.clear();
+    unseen.notes.push_back(std::string("cannot be shown: ") + error.what());
+    return sequence_of(folder, unseen);
+  }
+}
+
+}  // namespace
+
+void write_report(const RunFolder& folder, const Manifest& manifest) {
+  std::vector<ReportSequence> sequences;
+  for (const auto& entry : manifest.sequences) sequences.push_back(sequence_or_reason(folder, entry));
+  write_file_atomically(folder.report(), format_report(sequences));
+}
+
+}  // namespace mimicx

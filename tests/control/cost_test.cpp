@@ -1,0 +1,123 @@
+// The cost: its derivatives, its table, and that lanes and doubles mean the same.
+#include "control/cost.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "control/fixtures.h"
+
+namespace mimicx::control {
+namespace {
+
+struct Scene {
+  System system = system_of(synthetic_reference("walk", 501, 12));
+  Cost cost = make_cost(system, {}, certainty());
+  State<double> x = system.at(5);
+
+  Scene() {
+    Random random(44);
+    retract(x, random_tangent<double>(random, 0.05));
+  }
+  static std::vector<Certainty> certainty() {
+    std::vector<Certainty> all(12);
+    for (std::size_t t = 0; t < all.size(); ++t)
+      for (std::size_t i = 0; i < kBodies; ++i) all[t][i] = static_cast<float>((t + i) % 3) * 0.5f;
+    return all;
+  }
+  State<double> moved(int k, double step) const {
+    Tangent<double> delta{};
+    delta[static_cast<std::size_t>(k)] = step;
+    State<double> out = x;
+    retract(out, delta);
+    return out;
+  }
+};
+
+TEST(Cost, GradientIsThatOfDifferences) {
+  const Scene s;
+  const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
+  for (int k = 0; k < kTangent; ++k) {
+    const double h = 1e-5, plus = state_quadratic(s.system, s.cost, 5, s.moved(k, h)).value,
+                 minus = state_quadratic(s.system, s.cost, 5, s.moved(k, -h)).value;
+    EXPECT_NEAR(exact.gradient[k], (plus - minus) / (2 * h), 1e-6 * (1.0 + std::abs(exact.gradient[k]))) << k;
+  }
+}
+
+// Where the error is zero, Gauss–Newton's Hessian is the Hessian.
+TEST(Cost, HessianAtTheReferenceIsThatOfDifferences) {
+  Scene s;
+  s.x = s.system.at(5);
+  const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
+  const double h = 1e-4;
+  for (int k = 0; k < kTangent; ++k) {
+    const Eigen::VectorXd column = (state_quadratic(s.system, s.cost, 5, s.moved(k, h)).gradient -
+                                    state_quadratic(s.system, s.cost, 5, s.moved(k, -h)).gradient) /
+                                   (2 * h);
+    for (int i = 0; i < kTangent; ++i) {
+      const bool pose = i < kPositions && k < kPositions;
+      const double expected = pose     ? exact.position_hessian(i, k)
+                              : i == k ? exact.velocity_hessian[k - kPositions]
+                                       : 0.0;
+      // The gradient at x + h is measured in x + h's own frame: a term of the gradient's size, which is 0.
+      EXPECT_NEAR(column[i], expected, 1e-3 * (1.0 + std::abs(expected))) << i << ", " << k;
+    }
+  }
+}
+
+TEST(Cost, LanesMeanTheSameAsDoubles) {
+  const Scene s;
+  const auto scratch = std::make_unique<Data<P>>();
+  const LaneCost lanes = state_cost(s.system, s.cost, 5, in_all_lanes<P>(s.x), *scratch);
+  const double exact = state_quadratic(s.system, s.cost, 5, s.x).value;
+  EXPECT_NEAR(static_cast<double>(lanes.cost[kLanes - 1]), exact, 1e-4 * exact);
+  double worst = 0;
+  const State<double> reference = s.system.at(5);
+  Data<double> a, b;
+  const Model<double> model = make_model<double>(synthetic_reference("walk", 501, 2).character);
+  update_kinematics(model, s.x, a);
+  update_kinematics(model, reference, b);
+  for (std::size_t i = 0; i < kBodies; ++i)
+    worst = std::max(worst, (to_eigen(a.p_WB[i]) - to_eigen(b.p_WB[i])).squaredNorm());
+  EXPECT_NEAR(static_cast<double>(lanes.worst[0]), worst, 1e-4 * worst);
+}
+
+TEST(Cost, UncertainBodiesWeighLessAndTheirNeighboursDoNot) {
+  const Scene s;
+  const int certain = 1, doubtful = 0;  // frame 5: (5 + 1) % 3 = 0, (5 + 0) % 3 = 2
+  EXPECT_EQ(s.cost.position_weight(5, certain), 0.0);
+  EXPECT_EQ(s.cost.position_weight(5, doubtful), s.cost.weights.position);
+  EXPECT_EQ(s.cost.tangent_weight(5, kJointRotation + first_dof(1)), 0.0);
+  EXPECT_EQ(s.cost.tangent_weight(5, kRootRotation), s.cost.weights.root_rotation);
+}
+
+TEST(Cost, ChangesOfControlsCostAndHelpOnlyInASoftSystem) {
+  Scene s;
+  Control u{}, before{};
+  u[3] = 0.5f;
+  before[3] = 0.2f;
+  u[kDofs + 1] = 2.0f;
+  const CostWeights& w = s.cost.weights;
+  const double hard = w.residual * 0.25 + w.change * 0.09;
+  EXPECT_NEAR(control_cost(s.system, s.cost, u, before), hard, 1e-6);
+  s.system.soft = true;
+  EXPECT_NEAR(control_cost(s.system, s.cost, u, before), hard + 4.0 * w.help, 1e-6);
+}
+
+TEST(Cost, RefusesWeightsThatHaveNoMinimum) {
+  const System system = system_of(synthetic_reference("stand", 501, 4));
+  CostWeights weights;
+  weights.residual = 0.0;
+  EXPECT_THROW(make_cost(system, weights), std::invalid_argument);
+  weights = {};
+  weights.position = -1.0;
+  EXPECT_THROW(make_cost(system, weights), std::invalid_argument);
+  weights = {};
+  weights.body_rotation[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(make_cost(system, weights), std::invalid_argument);
+  EXPECT_THROW(make_cost(system, {}, std::vector<Certainty>(3)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mimicx::control

@@ -1,0 +1,132 @@
+// Derivatives of a control frame against central differences in double.
+#include "control/differences.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "control/fixtures.h"
+
+namespace mimicx::control {
+namespace {
+
+/// One control frame in double, by its own way from controls to targets.
+State<double> frame_in_double(const System& system, const Model<double>& model, const FramePoint& point,
+                              int column, double step) {
+  Tangent<double> delta{};
+  if (column < kTangent) delta[static_cast<std::size_t>(column)] = step;
+  const auto target = [&](int frame, const Control& u, int first) {
+    Target<double> out{};
+    PerBody<Vector3d> turn;
+    turn.fill(Vector3d::Zero());
+    for (int k = 0; k < kDofs; ++k) {
+      const Dof& dof = dofs()[static_cast<std::size_t>(k)];
+      const double value =
+          static_cast<double>(u[static_cast<std::size_t>(k)]) + (first + k == column ? step : 0.0);
+      turn[static_cast<std::size_t>(dof.body)] += value * dof.axis;
+    }
+    for (std::size_t i = 1; i < kBodies; ++i) {
+      out.q[i] = from_eigen(Quaterniond(to_eigen(system.at(frame).q[i]) * exp_map(turn[i])));
+      out.omega[i] = system.at(frame).omega[i];
+    }
+    return out;
+  };
+  Eigen::Matrix<double, 6, 1> help;
+  for (int k = 0; k < kHelp; ++k)
+    help[k] = static_cast<double>(point.u[static_cast<std::size_t>(kDofs + k)]) +
+              (column == kMemory + kDofs + k ? step : 0.0);
+  const double inertia = system.mass * kHelpRadius * kHelpRadius;
+  const Wrench<double> wrench{from_eigen(Vector3d(inertia * help.tail<3>())),
+                              from_eigen(Vector3d(system.mass * help.head<3>()))};
+  State<double> x = point.x;
+  retract(x, delta);
+  const auto data = std::make_unique<Data<double>>();
+  advance_interval<double>(model, target(point.frame, point.before, kTangent),
+                           target(point.frame + 1, point.u, kMemory), system.substeps, x, *data, nullptr, {},
+                           system.soft ? &wrench : nullptr);
+  return x;
+}
+
+Eigen::MatrixXd in_double(const System& system, const Character& character, const FramePoint& point) {
+  const Model<double> model = make_model<double>(character, system.model.options);
+  Eigen::MatrixXd F(kTangent, kMemory + system.controls());
+  const double h = 1e-6;
+  for (int k = 0; k < F.cols(); ++k) {
+    const Tangent<double> d =
+        difference(frame_in_double(system, model, point, k, h), frame_in_double(system, model, point, k, -h));
+    for (int row = 0; row < kTangent; ++row) F(row, k) = d[static_cast<std::size_t>(row)] / (2 * h);
+  }
+  return F;
+}
+
+/// Median over columns first … last − 1 of ‖column − exact‖ / ‖exact‖.
+double median_error(const FrameMatrix& F, const Eigen::MatrixXd& exact, int first, int last) {
+  std::vector<double> errors;
+  for (int k = first; k < last; ++k)
+    errors.push_back((F.col(k).cast<double>() - exact.col(k)).norm() / exact.col(k).norm());
+  std::nth_element(errors.begin(), errors.begin() + static_cast<long>(errors.size() / 2), errors.end());
+  return errors[errors.size() / 2];
+}
+
+struct Scene {
+  Reference reference = synthetic_reference("squat", 501, 40);
+  System system = system_of(reference);
+  FramePoint point{20, system.at(20), {}, {}};
+
+  explicit Scene(double height) {
+    Random random(45);
+    system.soft = true;
+    point.x.p_root.z += height;
+    for (std::size_t k = 0; k < kDofs; ++k) {
+      point.before[k] = static_cast<float>(0.02 * random.normal());
+      point.u[k] = static_cast<float>(0.02 * random.normal());
+    }
+    point.u[kDofs + 1] = 0.5f;
+    point.u[kDofs + 5] = -0.7f;
+  }
+};
+
+constexpr int kMoreColumns = kMemory + kMaxControls;
+
+TEST(Differences, InTheAirColumnsAgreeWithDouble) {
+  const Scene s(0.5);
+  const FrameMatrix F = linearise_by_columns(s.system, s.point, {});
+  const Eigen::MatrixXd exact = in_double(s.system, s.reference.character, s.point);
+  ASSERT_EQ(F.cols(), kMoreColumns);
+  EXPECT_LT(median_error(F, exact, 0, kTangent), 2e-3);
+  EXPECT_LT(median_error(F, exact, kTangent, kMemory), 1e-3);
+  EXPECT_LT(median_error(F, exact, kMemory, kMoreColumns), 1e-3);
+}
+
+// On the floor the steps are as large as the distances over which contacts open and close; the columns of the
+// velocities of light limbs are small and suffer most.
+TEST(Differences, StandingColumnsAgreeWithDouble) {
+  const Scene s(0.0);
+  const FrameMatrix F = linearise_by_columns(s.system, s.point, {});
+  const Eigen::MatrixXd exact = in_double(s.system, s.reference.character, s.point);
+  EXPECT_LT(median_error(F, exact, 0, kPositions), 1e-2);
+  EXPECT_LT(median_error(F, exact, kPositions, kTangent), 0.1);
+  EXPECT_LT(median_error(F, exact, kTangent, kMoreColumns), 1e-2);
+}
+
+TEST(Differences, TheSmoothedOnesAreTheSameWhereNothingSwitches) {
+  const Scene s(0.5);
+  const FrameMatrix columns = linearise_by_columns(s.system, s.point, {});
+  const FrameMatrix smoothed = linearise_smoothed(s.system, s.point, {});
+  const Eigen::MatrixXd exact = columns.cast<double>();
+  EXPECT_LT(median_error(smoothed, exact, 0, kTangent), 0.02);
+  EXPECT_LT(median_error(smoothed, exact, kMemory, kMemory + kDofs), 0.02);
+}
+
+TEST(Differences, AHardSystemHasNoColumnsOfHelp) {
+  Scene s(0.0);
+  const FrameMatrix soft = linearise_by_columns(s.system, s.point, {});
+  s.system.soft = false;
+  s.point.u[kDofs + 1] = s.point.u[kDofs + 5] = 0.0f;
+  EXPECT_EQ(linearise_by_columns(s.system, s.point, {}).cols(), kMemory + kDofs);
+  EXPECT_EQ(soft.cols(), kMoreColumns);
+}
+
+}  // namespace
+}  // namespace mimicx::control

@@ -1,0 +1,53 @@
+/// References to plan for: synthetic motions, prepared as the pipeline prepares them, and made-up states.
+#pragma once
+
+#include <string>
+
+#include "control/system.h"
+#include "control/tangent.h"
+#include "core/random.h"
+#include "motion/reference.h"
+#include "motion/synth/synth.h"
+
+namespace mimicx::control {
+
+inline State<double> to_state(const ReferenceFrame& frame) {
+  State<double> x;
+  x.p_root = from_eigen(frame.p_root);
+  x.v_root = from_eigen(frame.v_root);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    x.q[i] = from_eigen(frame.q[i]);
+    x.omega[i] = from_eigen(frame.omega[i]);
+  }
+  return x;
+}
+
+/// A synthetic motion, cut to its first frames (0: all of it).
+inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed, std::size_t frames = 0) {
+  SynthOptions options;
+  options.kind = kind;
+  options.seed = seed;
+  Reference reference = prepare_reference(synthesize(options), {}, nullptr);
+  if (frames > 0 && frames < reference.frames.size()) {
+    reference.frames.resize(frames);
+    reference.poses.resize(frames);
+    reference.flagged.resize(frames);
+  }
+  return reference;
+}
+
+inline System system_of(const Reference& reference, const SimulationOptions& options = {}) {
+  std::vector<State<double>> states;
+  for (const ReferenceFrame& frame : reference.frames) states.push_back(to_state(frame));
+  return make_system(reference.character, options, std::move(states), reference.fps);
+}
+
+/// A change of a state, every coordinate about `size`.
+template <class T>
+Tangent<T> random_tangent(Random& random, double size) {
+  Tangent<T> delta;
+  for (T& x : delta) x = T(size * random.normal());
+  return delta;
+}
+
+}  // namespace mimicx::control

@@ -1,0 +1,88 @@
+// One window: its cost never rises, and threads change no byte.
+#include "control/ilqr.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+
+#include "control/fixtures.h"
+
+namespace mimicx::control {
+namespace {
+
+struct Problem {
+  System system = system_of(synthetic_reference("walk", 501, 30));
+  Cost cost = make_cost(system, {});
+  Trajectory plan;
+
+  Problem() {
+    plan.x.assign(13, lane_of(in_all_lanes<P>(system.at(0)), 0));
+    plan.u.resize(12);
+    roll();
+  }
+  /// Rolls out from the first state.
+  void roll() {
+    const auto scratch = std::make_unique<Data<P>>();
+    const Fan fan = roll_out(system, cost, plan, {}, step_lengths(), in_all_lanes<P>(plan.x[0]), *scratch);
+    take_lane(fan, 0, plan);
+  }
+};
+
+TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
+  Problem p;
+  std::vector<FrameModel> models;
+  Sweep sweep;
+  double regularisation = 0.0, last = p.plan.cost;
+  const double first = last;
+  bool fresh = true;
+  for (int i = 0; i < 5; ++i) {
+    const Iteration done = improve(p.system, p.cost, {}, 2, fresh, models, sweep, regularisation, p.plan);
+    EXPECT_LE(p.plan.cost, last);
+    fresh = done.decrease >= 0.0;
+    EXPECT_EQ(fresh, p.plan.cost < last);
+    last = p.plan.cost;
+    const Trajectory kept = p.plan;
+    p.roll();
+    EXPECT_EQ(p.plan.cost, kept.cost);
+    EXPECT_EQ(std::memcmp(p.plan.x.data(), kept.x.data(), kept.x.size() * sizeof kept.x[0]), 0);
+  }
+  EXPECT_LT(last, 0.2 * first);
+  EXPECT_LT(p.plan.worst, 0.02);
+}
+
+TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
+  Problem one, two;
+  for (auto [p, threads] : {std::pair{&one, 1}, std::pair{&two, 2}}) {
+    std::vector<FrameModel> models;
+    Sweep sweep;
+    double regularisation = 0.0;
+    for (int i = 0; i < 2; ++i)
+      improve(p->system, p->cost, {}, threads, true, models, sweep, regularisation, p->plan);
+  }
+  EXPECT_EQ(one.plan.cost, two.plan.cost);
+  EXPECT_EQ(one.plan.u, two.plan.u);
+  EXPECT_EQ(std::memcmp(one.plan.x.data(), two.plan.x.data(), one.plan.x.size() * sizeof one.plan.x[0]), 0);
+}
+
+// The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
+TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
+  Problem p;
+  std::vector<FrameModel> models;
+  Sweep sweep;
+  double regularisation = 0.0;
+  for (int i = 0; i < 3; ++i) improve(p.system, p.cost, {}, 2, true, models, sweep, regularisation, p.plan);
+  const double before = p.plan.cost;
+  // A small step along the law: the cost falls by α (2 − α) of the promised decrease.
+  for (Control& u : p.plan.u) u[static_cast<std::size_t>(first_dof(kLeftShoulder))] += 0.01f;
+  p.roll();
+  const double raised = p.plan.cost;
+  ASSERT_GT(raised, before);
+  build_models(p.system, p.cost, p.plan, {}, 2, models);
+  sweep_back(p.system, p.cost, p.plan, models, {}, 0.0, sweep);
+  improve(p.system, p.cost, {}, 2, true, models, sweep, regularisation, p.plan);
+  EXPECT_NEAR(raised - p.plan.cost, sweep.decrease, 0.2 * sweep.decrease);
+}
+
+}  // namespace
+}  // namespace mimicx::control

@@ -1,0 +1,97 @@
+// Whole plans: followed, replayed, independent of threads, and honest about what no body can do.
+#include "control/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "control/fixtures.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx::control {
+namespace {
+
+/// Mean distance of all joints in the world, frames 1 …, m.
+double mean_distance(const Reference& reference, const rl::TrackingRollout& rollout) {
+  double sum = 0.0;
+  for (std::size_t t = 1; t < rollout.poses.size(); ++t)
+    for (std::size_t i = 0; i < kBodies; ++i)
+      sum += (rollout.poses[t].p_WB[i] - reference.poses[t].p_WB[i]).norm();
+  return sum / static_cast<double>(kBodies * (rollout.poses.size() - 1));
+}
+
+rl::TrackingRollout replay(const Reference& reference, const Plan& plan) {
+  const rl::TrackingConfig config;
+  std::size_t t = 0;
+  return rl::roll_out(rl::make_tracking_clip(reference, config), config,
+                      [&](int, const float*, float* action) {
+                        std::copy(plan.residuals[t].begin(), plan.residuals[t].end(), action);
+                        ++t;
+                      });
+}
+
+class Followed : public testing::TestWithParam<const char*> {};
+
+TEST_P(Followed, WithinTwoMillimetresAndReplayedByTheSimulatorToTheByte) {
+  const Reference reference = synthetic_reference(GetParam(), 501, 75);
+  const Plan plan = make_plan(system_of(reference), {}, {.threads = 2});
+  EXPECT_EQ(plan.ending, Ending::kFollowed);
+  EXPECT_FALSE(plan.loss);
+  ASSERT_EQ(plan.states.size(), 75u);
+  const rl::TrackingRollout rollout = replay(reference, plan);
+  ASSERT_EQ(rollout.poses.size(), 75u);
+  EXPECT_LT(mean_distance(reference, rollout), 0.002);
+  for (std::size_t t = 1; t < 75; ++t) {
+    EXPECT_EQ(to_eigen(plan.states[t].p_root), rollout.poses[t].frame.p_root) << t;
+    for (std::size_t i = 0; i < kBodies; ++i) {
+      EXPECT_EQ(to_eigen(plan.states[t].q[i]).normalized().coeffs(), rollout.poses[t].frame.q[i].coeffs());
+      EXPECT_EQ(to_eigen(plan.states[t].omega[i]), rollout.poses[t].frame.omega[i]);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Plan, Followed, testing::Values("squat", "walk"));
+
+TEST(Plan, OneAndTwoThreadsGiveTheSameBytes) {
+  const System system = system_of(synthetic_reference("jump", 501, 30));
+  const Plan one = make_plan(system, {}, {.threads = 1}), two = make_plan(system, {}, {.threads = 2});
+  EXPECT_EQ(one.residuals, two.residuals);
+  EXPECT_EQ(one.cost, two.cost);
+  ASSERT_EQ(one.states.size(), two.states.size());
+  EXPECT_EQ(std::memcmp(one.states.data(), two.states.data(), one.states.size() * sizeof one.states[0]), 0);
+}
+
+// A reference that rises from the floor like a balloon.
+TEST(Plan, AReferenceThatNoBodyCanFollowIsReportedAndNotFought) {
+  Reference reference = synthetic_reference("stand", 501, 60);
+  System system = system_of(reference);
+  for (std::size_t t = 20; t < 60; ++t) {
+    system.reference[t].p_root.z += 0.05 * static_cast<double>(t - 20);
+    system.reference[t].v_root.z += 1.5;
+  }
+  const Plan plan = make_plan(system, {}, {.threads = 2});
+  EXPECT_EQ(plan.ending, Ending::kLost);
+  ASSERT_TRUE(plan.loss);
+  EXPECT_GE(plan.loss->frame, 20);
+  EXPECT_LT(plan.loss->frame, 60);
+  EXPECT_LT(plan.states.size(), 60u);
+  EXPECT_EQ(plan.residuals.size() + 1, plan.states.size());
+}
+
+TEST(Plan, StopsWhereItIsToldTo) {
+  const System system = system_of(synthetic_reference("stand", 501, 60));
+  int windows = 0, settled = 0;
+  const Plan plan = make_plan(system, {},
+                              {.threads = 2,
+                               .should_stop = [&] { return ++windows > 2; },
+                               .progress =
+                                   [&](int done, int frames) {
+                                     EXPECT_EQ(frames, 60);
+                                     EXPECT_GT(done, settled);
+                                     settled = done;
+                                   }});
+  EXPECT_EQ(plan.ending, Ending::kStopped);
+  EXPECT_EQ(static_cast<int>(plan.states.size()), settled + 1);
+}
+
+}  // namespace
+}  // namespace mimicx::control

@@ -1,0 +1,73 @@
+// The controlled system: bad arguments, and controls that are the actions of the tracking task.
+#include "control/system.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+
+#include "control/fixtures.h"
+#include "control/tangent.h"
+#include "rl/tracking/pack.h"
+
+namespace mimicx::control {
+namespace {
+
+TEST(System, RefusesTooFewFramesAndRatesThatDoNotFit) {
+  const Character character = make_character();
+  const State<double> x = to_state(synthetic_reference("stand", 501, 2).frames[0]);
+  EXPECT_THROW(make_system(character, {}, {x}, 30.0), std::invalid_argument);
+  EXPECT_THROW(make_system(character, {}, {x, x}, 37.0), std::invalid_argument);
+  EXPECT_EQ(make_system(character, {}, {x, x}, 60.0).substeps, 4);
+}
+
+// Some frames under random controls, once here and once as actions.
+TEST(System, ControlsHaveTheBytesOfTheTrackingTasksActions) {
+  const Reference walk = synthetic_reference("walk", 501, 20);
+  const System system = system_of(walk);
+  rl::TrackingConfig config;
+  rl::TrackingPack pack(rl::make_tracking_clip(walk, config), config);
+  const auto scratch = std::make_unique<Data<P>>();
+  Random random(43);
+  State<P> x = in_all_lanes<P>(system.at(0));
+  Target<P> from = target_of(system, 0, Control{});
+  for (int t = 0; t < 19; ++t) {
+    Control u{};
+    for (std::size_t k = 0; k < kDofs; ++k) u[k] = static_cast<float>(0.1 * random.normal());
+    const Target<P> to = target_of(system, t + 1, u);
+    advance(system, from, to, {}, x, *scratch);
+    from = to;
+    for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, u.data());
+    pack.advance(*scratch);
+    const State<double> here = lane_of(x, 0);
+    const ReferenceFrame& there = pack.pose(0).frame;
+    ASSERT_EQ(to_eigen(here.p_root), there.p_root) << "frame " << t + 1;
+    ASSERT_EQ(to_eigen(here.v_root), there.v_root);
+    for (std::size_t i = 0; i < kBodies; ++i) {
+      ASSERT_EQ(to_eigen(here.q[i]).normalized().coeffs(), there.q[i].coeffs()) << kBodyNames[i];
+      ASSERT_EQ(to_eigen(here.omega[i]), there.omega[i]) << kBodyNames[i];
+    }
+  }
+}
+
+TEST(System, HelpAcceleratesThePelvisAndIsIgnoredInAHardSystem) {
+  System system = system_of(synthetic_reference("stand", 501, 5));
+  const auto scratch = std::make_unique<Data<P>>();
+  const auto after = [&](float push) {
+    Control u{};
+    u[kDofs] = push;
+    State<P> x = in_all_lanes<P>(system.at(0));
+    const Target<P> to = target_of(system, 1, u);
+    advance(system, to, to, help_of(system, u), x, *scratch);
+    return lane_of(x, 0);
+  };
+  EXPECT_EQ(after(0.0f).v_root.x, after(5.0f).v_root.x);
+  system.soft = true;
+  // Both feet stand, so the pelvis gains less than a free body would (5 m/s² · 1/30 s).
+  const double gained = after(5.0f).v_root.x - after(0.0f).v_root.x;
+  EXPECT_GT(gained, 0.05);
+  EXPECT_LT(gained, 0.4);
+}
+
+}  // namespace
+}  // namespace mimicx::control

@@ -1,0 +1,284 @@
+#include "motion/fit/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "motion/made_motions.h"
+#include "motion/metrics.h"
+#include "motion/synth/noise.h"
+#include "motion/synth/synth.h"
+
+namespace mimicx {
+namespace {
+
+using namespace test;
+
+/// Three seconds of a synthetic motion.
+Clip truth_of(const std::string& kind) {
+  SynthOptions options;
+  options.kind = kind;
+  options.seed = 5;
+  Clip clip = synthesize(options);
+  clip.rotations.resize(90);
+  clip.trans.resize(90);
+  return clip;
+}
+
+/// Detections that are where they should be.
+Keypoints exact_keypoints(const Clip& truth) {
+  const std::vector<BodyPoses> poses = poses_of(truth);
+  const Camera camera = place_camera(poses, 1);
+  Keypoints k;
+  k.names = keypoint_names(KeypointSet::kJoints22);
+  k.intrinsics = camera.intrinsics;
+  k.extrinsics = {camera.extrinsics};
+  for (const BodyPoses& pose : poses) {
+    k.uvc.emplace_back();
+    for (const Vector3d& p : pose.p_WB) {
+      const Vector3d seen = project(camera, p);
+      k.uvc.back().push_back({seen.x(), seen.y(), 1.0});
+    }
+  }
+  return k;
+}
+
+/// The truth with a smooth error of a few degrees in every joint and of 0.2 m in place, and exact detections.
+Clip disturbed(const Clip& truth, std::uint64_t seed) {
+  Random random(seed, {3});
+  Clip clip = truth;
+  clip.keypoints = exact_keypoints(truth);
+  for (std::size_t j = 0; j < kBodies; ++j) {
+    const Vector3d still = 0.05 * random_vector(random), slow = 0.02 * random_vector(random);
+    for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
+      const Vector3d error = still + slow * std::sin(0.05 * static_cast<double>(t));
+      clip.rotations[t][j] = log_map(exp_map(clip.rotations[t][j]) * exp_map(error));
+    }
+  }
+  for (Vector3d& p : clip.trans) p += Vector3d(0.15, -0.1, 0.08);
+  return clip;
+}
+
+FitOptions exact_camera() {
+  FitOptions options;
+  options.focal_sigma = options.tilt_sigma = options.beta_sigma = options.keypoint_bias_sigma = 0.0;
+  return options;
+}
+
+Metrics against(const Clip& truth, const Clip& motion) {
+  const auto samples = [](const Clip& c) {
+    return sample_motion(make_character(c.usable_betas()), poses_of(c), c.fps);
+  };
+  const MotionSamples t = samples(truth);
+  return evaluate_motion(samples(motion), &t);
+}
+
+Clip noisy_of(const Clip& truth, const char* preset, KeypointSet set, std::uint64_t seed) {
+  NoiseOptions options;
+  options.preset = noise_preset(preset);
+  options.keypoints = set;
+  options.seed = seed;
+  return add_noise(truth, options);
+}
+
+bool same(const Clip& a, const Clip& b) {
+  return a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas &&
+         a.body_model == b.body_model && a.keypoints.has_value() == b.keypoints.has_value() &&
+         (!a.keypoints ||
+          (a.keypoints->uvc == b.keypoints->uvc && a.keypoints->intrinsics == b.keypoints->intrinsics &&
+           a.keypoints->extrinsics == b.keypoints->extrinsics));
+}
+
+TEST(Fit, ExactDetectionsBringTheTruthBack) {
+  for (const char* kind : {"walk", "squat"}) {
+    const Clip truth = truth_of(kind), input = disturbed(truth, 1);
+    FitReport report;
+    const Metrics before = against(truth, input);
+    const Metrics after = against(truth, fit_keypoints(input, exact_camera(), &report));
+    EXPECT_GT(before.mpjpe.value, 20.0);
+    EXPECT_GT(before.mrpe.value, 150.0);
+    EXPECT_LT(after.mpjpe.value, 8.0) << kind;
+    EXPECT_LT(after.mrpe.value, 15.0) << kind;
+    EXPECT_LT(after.fs_gt.value, 1.0) << kind;  // mm per frame
+    EXPECT_GT(report.residual_before, 3.0);
+    EXPECT_LT(report.residual_after, 0.1);
+    EXPECT_EQ(report.swapped_frames, 0);
+    EXPECT_EQ(report.dropped_points, 0);
+    EXPECT_NEAR(report.focal_scale, 1.0, 1e-9);  // the camera was to be believed
+    EXPECT_NEAR(report.tilt_deg, 0.0, 1e-6);
+  }
+}
+
+TEST(Fit, KneesAndElbowsAreHingesAfterwards) {
+  const Clip fitted = fit_keypoints(disturbed(truth_of("walk"), 2), {}, nullptr);
+  for (const auto& frame : fitted.rotations)
+    for (int b : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow})
+      EXPECT_LT(frame[static_cast<std::size_t>(b)].cross(hinge_axis(b)).norm(), 1e-9);
+}
+
+TEST(Fit, ABurstOfExchangedSidesIsHealed) {
+  const Clip truth = truth_of("walk"), input = disturbed(truth, 3);
+  const Clip expected = fit_keypoints(input, exact_camera(), nullptr);
+  Clip swapped = input;
+  for (std::size_t t = 30; t < 38; ++t) {
+    for (const Body left :
+         {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
+      std::swap(swapped.keypoints->uvc[t][static_cast<std::size_t>(left)],
+                swapped.keypoints->uvc[t][static_cast<std::size_t>(left) + 1]);
+  }
+  FitReport report;
+  const Clip fitted = fit_keypoints(swapped, exact_camera(), &report);
+  EXPECT_EQ(report.swapped_frames, 8);
+  EXPECT_TRUE(fitted.keypoints->uvc == input.keypoints->uvc);
+  EXPECT_LT(against(expected, fitted).gmpjpe.value, 0.5);
+}
+
+TEST(Fit, DetectionsWithoutConfidenceAreNeverRead) {
+  const Clip truth = truth_of("walk");
+  Clip zeros = disturbed(truth, 4), garbage = zeros;
+  Random random(1, {});
+  int dropped = 0;
+  for (std::size_t t = 0; t < zeros.keypoints->uvc.size(); ++t)
+    for (std::size_t k = 0; k < kBodies; ++k)
+      if (random.uniform() < 0.2) {
+        zeros.keypoints->uvc[t][k].setZero();
+        garbage.keypoints->uvc[t][k] = Vector3d(1e4 * random.normal(), -5e3, 0.0);
+        ++dropped;
+      }
+  FitReport report;
+  const Clip a = fit_keypoints(zeros, exact_camera(), &report);
+  const Clip b = fit_keypoints(garbage, exact_camera(), nullptr);
+  EXPECT_EQ(report.dropped_points, dropped);
+  EXPECT_TRUE(a.rotations == b.rotations && a.trans == b.trans);
+  EXPECT_LT(against(truth, a).mpjpe.value, 9.0);
+}
+
+TEST(Fit, FarOffDetectionsAreSetAside) {
+  const Clip truth = truth_of("squat");
+  Clip input = disturbed(truth, 4);
+  Random random(2, {});
+  for (auto& frame : input.keypoints->uvc)
+    for (Vector3d& point : frame)
+      if (random.uniform() < 0.05)
+        point.head<2>() += 300.0 * Eigen::Vector2d(random.normal(), random.normal());
+  const Metrics after = against(truth, fit_keypoints(input, exact_camera(), nullptr));
+  EXPECT_LT(after.mpjpe.value, 10.0);
+  EXPECT_LT(after.mrpe.value, 25.0);
+}
+
+TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {
+  const Clip truth = truth_of("walk");
+  Clip input = disturbed(truth, 5);
+  input.keypoints->intrinsics.topLeftCorner<2, 2>() *= 1.10;
+  FitOptions options;
+  options.beta_sigma = 0.0;
+  FitReport report;
+  fit_keypoints(input, options, &report);
+  EXPECT_LT(std::abs(std::log(report.focal_scale)), 3.0 * options.focal_sigma);
+  EXPECT_LT(std::abs(report.tilt_deg), 3.0 * options.tilt_sigma);
+}
+
+TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
+  const Clip truth = truth_of("walk");
+  Clip input = disturbed(truth, 6);
+  const double told = 0.6 * kPi / 180.0;
+  Eigen::Matrix4d& E = input.keypoints->extrinsics[0];
+  E.topRows<3>() = (Eigen::AngleAxisd(told, Vector3d::UnitX()).toRotationMatrix() * E.topRows<3>()).eval();
+  FitOptions options;
+  options.focal_sigma = options.beta_sigma = 0.0;
+  FitReport report;
+  const Clip fitted = fit_keypoints(input, options, &report);
+  EXPECT_NEAR(report.tilt_deg, -0.6, 0.15);
+  const Eigen::Matrix4d exact = exact_keypoints(truth).extrinsics[0];
+  EXPECT_LT((fitted.keypoints->extrinsics[0] - exact).norm(), (E - exact).norm() / 3.0);
+}
+
+TEST(Fit, NoisyEstimatesComeCloserToTheTruth) {
+  for (const char* preset : {"gvhmr-like", "vibe-like"})
+    for (const KeypointSet set : {KeypointSet::kJoints22, KeypointSet::kCoco17}) {
+      const Clip truth = truth_of("walk"), noisy = noisy_of(truth, preset, set, 3);
+      FitReport report;
+      const Clip fitted = fit_keypoints(noisy, {}, &report);
+      const Metrics before = against(truth, noisy), after = against(truth, fitted);
+      EXPECT_LT(after.mpjpe.value, 0.6 * before.mpjpe.value) << preset;
+      EXPECT_LT(after.pa_mpjpe.value, 0.6 * before.pa_mpjpe.value) << preset;
+      EXPECT_LT(after.vel.value, before.vel.value) << preset;
+      EXPECT_LT(after.accel.value, before.accel.value) << preset;
+      EXPECT_LT(after.fs_gt.value, before.fs_gt.value) << preset;
+      EXPECT_LT(after.gp.value, 1.0) << preset;
+      EXPECT_LT(report.residual_after, report.residual_before) << preset;
+    }
+}
+
+TEST(Fit, TheFrameRateDoesNotChangeTheResultMuch) {
+  const Clip truth = truth_of("squat");
+  const Clip slow = noisy_of(truth, "gvhmr-like", KeypointSet::kJoints22, 2);
+  const Clip at_30 = fit_keypoints(slow, {}, nullptr);
+  const Clip at_60 = resampled(fit_keypoints(resampled(slow, 60.0), {}, nullptr), 30.0);
+  EXPECT_LT(against(at_30, at_60).mpjpe.value, 4.0);
+}
+
+TEST(Fit, RepeatsBitForBit) {
+  const Clip noisy = noisy_of(truth_of("walk"), "vibe-like", KeypointSet::kJoints22, 1);
+  EXPECT_TRUE(same(fit_keypoints(noisy, {}, nullptr), fit_keypoints(noisy, {}, nullptr)));
+}
+
+TEST(Fit, AClipWithNothingToFitToComesBackUnchangedAndSaysWhy) {
+  const auto expect_unchanged = [](const Clip& clip, const std::string& why) {
+    FitReport report;
+    EXPECT_TRUE(same(fit_keypoints(clip, {}, &report), clip));
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_NE(report.notes[0].find(why), std::string::npos) << report.notes[0];
+    EXPECT_EQ(report.iterations, 0);
+  };
+  expect_unchanged(truth_of("stand"), "no keypoints");
+  Clip strangers = disturbed(truth_of("stand"), 1);
+  for (std::string& name : strangers.keypoints->names) name = "marker_" + name;
+  expect_unchanged(strangers, "too few keypoints");
+  Clip unseen = disturbed(truth_of("stand"), 1);
+  unseen.keypoints->extrinsics[0](2, 3) -= 100.0;  // everybody is behind the camera
+  expect_unchanged(unseen, "does not see");
+}
+
+TEST(Steady, CalmsATremblingMotionAndComesNoFartherFromTheTruth) {
+  for (const char* kind : {"walk", "punch"}) {
+    const Clip truth = truth_of(kind), noisy = noisy_of(truth, "vibe-like", KeypointSet::kJoints22, 3);
+    FitReport report;
+    const Clip calm = steady(noisy, {}, &report);
+    const Metrics before = against(truth, noisy), after = against(truth, calm);
+    EXPECT_LT(after.accel.value, 0.5 * before.accel.value) << kind;
+    EXPECT_LT(after.fs_gt.value, 0.5 * before.fs_gt.value) << kind;
+    EXPECT_LT(after.mpjpe.value, before.mpjpe.value) << kind;
+    EXPECT_GT(report.change_mean_mm, 0.0);
+    for (std::size_t i = 0; i < kBetas; ++i)
+      EXPECT_NEAR(calm.betas[i], noisy.betas[i], 1e-4) << "nothing tells of the shape";
+  }
+}
+
+TEST(Steady, NeverLooksAtTheKeypoints) {
+  const Clip noisy = noisy_of(truth_of("walk"), "vibe-like", KeypointSet::kJoints22, 3);
+  Clip blind = noisy;
+  blind.keypoints.reset();
+  const Clip calm = steady(noisy, {}, nullptr);
+  EXPECT_EQ(calm.rotations, steady(blind, {}, nullptr).rotations);
+  EXPECT_EQ(calm.keypoints->uvc, noisy.keypoints->uvc);
+}
+
+TEST(Steady, LeavesAMotionAloneThatDoesNotTremble) {
+  for (const char* kind : {"walk", "jog", "kick", "punch"}) {
+    const Clip truth = truth_of(kind);
+    EXPECT_TRUE(same(steady(truth, {}, nullptr), truth)) << kind;
+    const Clip smooth = noisy_of(truth, "gvhmr-like", KeypointSet::kJoints22, 3);
+    EXPECT_TRUE(same(steady(smooth, {}, nullptr), smooth)) << kind;
+  }
+}
+
+TEST(Fit, NumbersThatAreNoneAreRefused) {
+  Clip clip = disturbed(truth_of("stand"), 1);
+  clip.trans[7].x() = std::nan("");
+  EXPECT_THROW(fit_keypoints(clip, {}, nullptr), DataError);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,79 @@
+#include "motion/fit/solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+
+#include "core/random.h"
+
+namespace mimicx {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
+  MatrixXd m(rows, columns);
+  for (double& x : m.reshaped()) x = random.normal();
+  return m;
+}
+
+/// A random symmetric positive definite system: R Rᵀ + 1 with R block lower triangular of bandwidth 2, and a
+/// border whose Schur complement is safely positive.
+struct Made {
+  BorderedBand band;
+  MatrixXd dense;
+  VectorXd rhs;
+};
+
+Made random_system(int frames, int n, int m, std::uint64_t seed) {
+  Random random(seed, {});
+  const int size = frames * n;
+  MatrixXd R = MatrixXd::Zero(size, size);
+  for (int t = 0; t < frames; ++t)
+    for (int s = std::max(0, t - 2); s <= t; ++s) R.block(t * n, s * n, n, n) = random_matrix(random, n, n);
+  Made made{BorderedBand(frames, n, m), MatrixXd::Zero(size + m, size + m),
+            random_matrix(random, size + m, 1)};
+  MatrixXd& D = made.dense;
+  D.topLeftCorner(size, size) = R * R.transpose() + MatrixXd::Identity(size, size);
+  const MatrixXd B = random_matrix(random, size, m), extra = random_matrix(random, m, m);
+  D.topRightCorner(size, m) = B;
+  D.bottomLeftCorner(m, size) = B.transpose();
+  D.bottomRightCorner(m, m) = B.transpose() * D.topLeftCorner(size, size).llt().solve(B) +
+                              extra * extra.transpose() + MatrixXd::Identity(m, m);
+  for (int t = 0; t < frames; ++t) {
+    const auto i = static_cast<std::size_t>(t);
+    made.band.diagonal[i] = D.block(t * n, t * n, n, n);
+    if (t + 1 < frames) made.band.next[i] = D.block((t + 1) * n, t * n, n, n);
+    if (t + 2 < frames) made.band.second[i] = D.block((t + 2) * n, t * n, n, n);
+    made.band.border[i] = B.middleRows(t * n, n);
+    made.band.rhs[i] = made.rhs.segment(t * n, n);
+  }
+  made.band.corner = D.bottomRightCorner(m, m);
+  made.band.rhs_border = made.rhs.tail(m);
+  return made;
+}
+
+TEST(BorderedBand, SolutionIsThatOfTheDenseSystem) {
+  for (int frames : {1, 2, 3, 4, 9}) {
+    Made made = random_system(frames, 5, 3, static_cast<std::uint64_t>(frames));
+    const VectorXd expected = made.dense.ldlt().solve(made.rhs);
+    const BandSolution found = solve(made.band);
+    for (int t = 0; t < frames; ++t)
+      EXPECT_LT((found.x[static_cast<std::size_t>(t)] - expected.segment(5 * t, 5)).norm(), 1e-8) << frames;
+    EXPECT_LT((found.g - expected.tail(3)).norm(), 1e-8) << frames;
+  }
+}
+
+TEST(BorderedBand, AnIndefiniteSystemIsRefused) {
+  Made band = random_system(3, 2, 1, 1);
+  band.band.diagonal[1](0, 0) = -1.0;
+  EXPECT_THROW(solve(band.band), std::domain_error);
+  Made corner = random_system(3, 2, 1, 1);
+  corner.band.corner(0, 0) = -1.0;
+  EXPECT_THROW(solve(corner.band), std::domain_error);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,157 @@
+#include "motion/import/body_model.h"
+
+#include <gtest/gtest.h>
+
+#include "core/npz.h"
+#include "motion/import/motion_file.h"
+#include "motion/made_motions.h"
+#include "motion/scratch.h"
+
+namespace mimicx {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using test::scratch;
+
+constexpr std::size_t kVertices = 60, kComponents = 16, kFileJoints = 55;
+
+/// A small model in the layout of SMPLX_NEUTRAL.npz: joint j is the mean of vertex j and vertex j + 1's
+/// opposite, so that joints are known without the reader's matrices.
+struct SmallModel {
+  MatrixXd vertices = MatrixXd::Zero(kVertices, 3);
+  std::vector<MatrixXd> directions;  ///< [component] (V, 3)
+  MatrixXd regressor = MatrixXd::Zero(kFileJoints, kVertices);
+
+  SmallModel() {
+    Random random(11, {2});
+    const Character body = make_character();
+    vertices.row(0) = Vector3d(0.01, -0.36, 0.02).transpose();
+    for (Index j = 1; j < kBodies; ++j)
+      vertices.row(j) = vertices.row(kParents[static_cast<std::size_t>(j)]) +
+                        1.1 * body.joint_offset[static_cast<std::size_t>(j)].transpose();
+    for (std::size_t k = 0; k < kComponents; ++k) {
+      directions.emplace_back(kVertices, 3);
+      for (Index i = 0; i < directions.back().size(); ++i)
+        directions.back().data()[i] = 0.01 * random.normal();
+    }
+    for (Index j = 0; j < static_cast<Index>(kFileJoints); ++j) regressor(j, j) = 1.0;
+  }
+  Npz file() const {
+    std::vector<double> shapedirs;
+    for (Index v = 0; v < static_cast<Index>(kVertices); ++v)
+      for (Index axis = 0; axis < 3; ++axis)
+        for (const MatrixXd& d : directions) shapedirs.push_back(d(v, axis));
+    std::vector<std::int64_t> tree(2 * kFileJoints);
+    for (std::size_t j = 0; j < kFileJoints; ++j) {
+      tree[j] = j < kBodies ? kParents[j] : 20;
+      tree[kFileJoints + j] = static_cast<std::int64_t>(j);
+    }
+    tree[0] = 4294967295;  // what the real file has there: -1 as an unsigned number
+    Npz npz;
+    npz.set("v_template", from_matrix(vertices));
+    npz.set("shapedirs", NpyArray::from_double({kVertices, 3, kComponents}, shapedirs.data()));
+    npz.set("J_regressor", from_matrix(regressor));
+    npz.set("kintree_table", NpyArray::from_int64({2, kFileJoints}, tree.data()));
+    npz.set("weights", from_matrix(MatrixXd::Zero(kVertices, kFileJoints)));
+    return npz;
+  }
+  Vector3d joint(std::size_t j, const std::array<double, kBetas>& betas) const {
+    Vector3d p = vertices.row(static_cast<Index>(j)).transpose();
+    for (std::size_t k = 0; k < kBetas; ++k)
+      p += betas[k] * directions[k].row(static_cast<Index>(j)).transpose();
+    return p;
+  }
+};
+
+constexpr std::array<double, kBetas> kSomeBetas = {1.5, -0.5, 0.3, 0, 2, -1, 0.1, 0.2, -0.3, 0.7};
+
+TEST(BodyModel, JointsAreTheRegressorTimesTheShapedVertices) {
+  const SmallModel small;
+  write_npz(scratch("model.npz"), small.file());
+  const RestJoints joints = read_body_model(scratch("model.npz")).joints(kSomeBetas);
+  for (std::size_t j = 0; j < kBodies; ++j)
+    EXPECT_LT((joints[j] - small.joint(j, kSomeBetas)).norm(), 1e-12) << j;
+}
+
+TEST(BodyModel, FilesOfAnotherLayoutAreRefusedByMember) {
+  const SmallModel small;
+  const auto refused = [&](const std::string& key, const NpyArray& array) {
+    Npz npz = small.file();
+    npz.set(key, array);
+    write_npz(scratch("bad.npz"), npz);
+    EXPECT_THROW(read_body_model(scratch("bad.npz")), DataError) << key;
+  };
+  refused("v_template", from_matrix(MatrixXd::Zero(kVertices, 2)));
+  refused("shapedirs", from_matrix(MatrixXd::Zero(kVertices, 3)));
+  refused("J_regressor", from_matrix(MatrixXd::Zero(kFileJoints, kVertices + 1)));
+  refused("kintree_table", from_matrix(MatrixXd::Zero(2, kFileJoints)));
+  EXPECT_THROW(read_body_model(scratch("none.npz")), DataError);
+}
+
+TEST(BodyModel, AMotionIsPlayedOnTheJointsOfItsOwnBody) {
+  const SmallModel small;
+  write_npz(scratch("model.npz"), small.file());
+  Clip clip = test::random_clip(3, 4, 0.4);
+  clip.body_model = "smplx";
+  clip.betas = kSomeBetas;
+  write_clip(scratch("clip.npz"), clip);
+  ReadOptions options;
+  options.smplx = scratch("model.npz");
+  const Clip read = read_motion(scratch("clip.npz"), options);
+  EXPECT_TRUE(read.warnings.empty()) << "the shape is known now";
+  // Forward kinematics by hand, frame 1.
+  const auto poses = poses_of(read);
+  PerBody<Quaterniond> q;
+  PerBody<Vector3d> p;
+  for (std::size_t j = 0; j < kBodies; ++j) {
+    const Quaterniond local = exp_map(clip.rotations[1][j]);
+    if (j == 0) {
+      q[0] = local;
+      p[0] = clip.trans[1] + small.joint(0, kSomeBetas);
+    } else {
+      const auto parent = static_cast<std::size_t>(kParents[j]);
+      q[j] = q[parent] * local;
+      p[j] = p[parent] + q[parent] * (small.joint(j, kSomeBetas) - small.joint(parent, kSomeBetas));
+    }
+    EXPECT_LT((poses[1].p_WB[j] - p[j]).norm(), 1e-12) << j;
+  }
+  const Reference reference = prepare_reference(read, {}, nullptr);
+  EXPECT_LT((reference.character.joint_offset[kLeftKnee] -
+             (small.joint(kLeftKnee, kSomeBetas) - small.joint(kLeftHip, kSomeBetas)))
+                .norm(),
+            1e-12);
+  // Written and read again without the model, it keeps its body.
+  write_clip(scratch("again.npz"), read);
+  const auto again = poses_of(read_motion(scratch("again.npz")));
+  for (std::size_t j = 0; j < kBodies; ++j) EXPECT_EQ(again[1].p_WB[j], poses[1].p_WB[j]);
+}
+
+TEST(BodyModel, TheStandardBodyKeepsThePelvisWhereItIs) {
+  Clip clip = test::random_clip(3, 4, 0.4);
+  clip.betas[0] = 2.0;
+  write_clip(scratch("clip.npz"), clip);
+  ReadOptions options;
+  options.standard_body = true;
+  const Clip read = read_motion(scratch("clip.npz"), options);
+  EXPECT_EQ(read.betas, (std::array<double, kBetas>{}));
+  EXPECT_EQ(poses_of(read)[2].p_WB[0], poses_of(clip)[2].p_WB[0]);
+}
+
+TEST(BodyModel, BetasOfAnotherModelStayAside) {
+  const SmallModel small;
+  write_npz(scratch("model.npz"), small.file());
+  Clip clip = test::random_clip(3, 4, 0.4);
+  clip.body_model = "smplh";
+  clip.betas = kSomeBetas;
+  write_clip(scratch("clip.npz"), clip);
+  ReadOptions options;
+  options.smplx = scratch("model.npz");
+  const Clip read = read_motion(scratch("clip.npz"), options);
+  EXPECT_FALSE(read.rest_joints);
+  EXPECT_EQ(read.warnings.size(), 1u);
+}
+
+}  // namespace
+}  // namespace mimicx

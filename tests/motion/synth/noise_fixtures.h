@@ -1,0 +1,80 @@
+/// Clips for the tests of the noise model, and how their errors spread.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "motion/synth/noise.h"
+#include "motion/synth/synth.h"
+
+namespace mimicx::test {
+
+inline constexpr double kDegree = M_PI / 180.0;
+
+inline PerBody<Quaterniond> rotations_of(const Clip& clip, std::size_t t) {
+  PerBody<Quaterniond> q;
+  for (std::size_t b = 0; b < kBodies; ++b) q[b] = exp_map(clip.rotations[t][b]);
+  return q;
+}
+
+inline std::vector<BodyPoses> poses_of_clip(const Clip& clip) {
+  const Character character = make_character(clip.betas);
+  std::vector<BodyPoses> poses;
+  for (std::size_t t = 0; t < clip.rotations.size(); ++t)
+    poses.push_back(
+        forward_kinematics(character, clip.trans[t] + rest_pelvis(clip.body_model), rotations_of(clip, t)));
+  return poses;
+}
+
+inline const Clip& truth_of(const std::string& kind) {
+  static std::map<std::string, Clip> cache;
+  SynthOptions options;
+  options.kind = kind;
+  options.seed = 5;
+  const auto [entry, is_new] = cache.try_emplace(kind);
+  if (is_new) entry->second = synthesize(options);
+  return entry->second;
+}
+
+/// A second and a half of standing: enough for statistics over many seeds.
+inline const Clip& still_truth() {
+  static const Clip still = [] {
+    Clip clip = truth_of("stand");
+    clip.rotations.resize(45);
+    clip.trans.resize(45);
+    return clip;
+  }();
+  return still;
+}
+
+/// No error of any kind; the tests switch on one term at a time.
+inline NoiseOptions silent(std::uint64_t seed = 0) {
+  NoiseOptions options;
+  options.preset = NoisePreset{};
+  options.preset.slow_tau = options.preset.depth_tau = options.preset.drift_tau = 0.3;
+  options.preset.jitter_frames = options.preset.depth_jitter_frames = 0.5;
+  options.camera = camera_error("calibrated");
+  options.seed = seed;
+  return options;
+}
+
+/// Root mean square of samples that should have mean 0.
+struct Spread {
+  double squares = 0.0, sum = 0.0;
+  int count = 0;
+  void add(double x) { squares += x * x, sum += x, ++count; }
+  double rms() const { return std::sqrt(squares / count); }
+  double mean() const { return sum / count; }
+};
+
+inline Vector3d camera_position(const Keypoints& k) {
+  const Eigen::Matrix4d& E = k.extrinsics.front();
+  return -E.block<3, 3>(0, 0).transpose() * E.block<3, 1>(0, 3);
+}
+inline Vector3d viewing_direction(const Keypoints& k) {
+  return k.extrinsics.front().block<1, 3>(2, 0).transpose();
+}
+
+}  // namespace mimicx::test

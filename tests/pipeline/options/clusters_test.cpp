@@ -1,0 +1,173 @@
+// Clusters of motions: the file, the words, and which motion goes where.
+#include "pipeline/options/clusters.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "core/random.h"
+#include "pipeline/options/words.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+/// Upright, every joint at `speed` (m/s) in the plane.
+MotionFeatures travelling(double speed) {
+  MotionFeatures f{};
+  f[kRootHeight] = 0.93;
+  for (std::size_t j = 0; j < kBodies; ++j) f[kPlanarVelocity + j] = speed * speed;
+  return f;
+}
+
+MotionFeatures noisy(MotionFeatures f, Random& random) {
+  for (std::size_t k = 0; k < kFeatures; ++k) f[k] += 0.1 * random.uniform() * feature_units()[k];
+  return f;
+}
+
+/// Ten each that stand and walk, three that lie.
+std::vector<NamedFeatures> some_motions() {
+  Random random(1, {0});
+  std::vector<NamedFeatures> motions;
+  for (int i = 0; i < 10; ++i) {
+    motions.push_back({"stand" + std::to_string(i), noisy(travelling(0.0), random)});
+    motions.push_back({"walk" + std::to_string(i), noisy(travelling(1.3), random)});
+  }
+  for (int i = 0; i < 3; ++i) {
+    MotionFeatures lying = noisy(travelling(0.0), random);
+    lying[kRootHeight] = 0.2;
+    motions.push_back({"lie" + std::to_string(i), lying});
+  }
+  return motions;
+}
+
+double scaled_distance(const MotionFeatures& a, const MotionFeatures& b) {
+  double squared = 0.0;
+  for (std::size_t k = 0; k < kFeatures; ++k) squared += std::pow((a[k] - b[k]) / feature_units()[k], 2);
+  return std::sqrt(squared);
+}
+
+ClusterSettings three() {
+  ClusterSettings settings;
+  settings.clusters = 3;
+  return settings;
+}
+
+TEST(Clusters, KindsOfMotionAreToldApart) {
+  const Clusters clusters = cluster_motions(some_motions(), three());
+  ASSERT_EQ(clusters.clusters.size(), 3u);
+  for (const auto& c : clusters.clusters) {
+    const std::string kind = c.members[0].substr(0, 3);
+    EXPECT_EQ(c.members.size(), kind == "lie" ? 3u : 10u);
+    for (const auto& m : c.members) EXPECT_EQ(m.substr(0, 3), kind);
+  }
+}
+
+TEST(Clusters, NoTwoMembersAreFartherApartThanTheRadius) {
+  const auto motions = some_motions();
+  const auto features = [&](const std::string& name) {
+    return std::find_if(motions.begin(), motions.end(), [&](const auto& m) { return m.name == name; })
+        ->features;
+  };
+  for (double radius : {0.2, 0.5, 2.0}) {
+    ClusterSettings settings;
+    settings.radius = radius;
+    std::size_t members = 0;
+    for (const auto& c : cluster_motions(motions, settings).clusters) {
+      members += c.members.size();
+      for (const auto& a : c.members)
+        for (const auto& b : c.members) EXPECT_LE(scaled_distance(features(a), features(b)), radius + 1e-12);
+    }
+    EXPECT_EQ(members, motions.size());
+  }
+}
+
+TEST(Clusters, OrderOfTheInputIsIrrelevantToTheFile) {
+  auto motions = some_motions();
+  const std::string expected = format_clusters(cluster_motions(motions, three()));
+  std::reverse(motions.begin(), motions.end());
+  EXPECT_EQ(format_clusters(cluster_motions(motions, three())), expected);
+  std::rotate(motions.begin(), motions.begin() + 5, motions.end());
+  EXPECT_EQ(format_clusters(cluster_motions(motions, three())), expected);
+}
+
+TEST(Clusters, ANewMotionGoesToTheNearestCentre) {
+  const auto motions = some_motions();
+  const Clusters clusters = cluster_motions(motions, three());
+  for (const auto& m : motions) {
+    const auto& members =
+        clusters.clusters[static_cast<std::size_t>(nearest_cluster(clusters, m.features))].members;
+    EXPECT_NE(std::find(members.begin(), members.end(), m.name), members.end()) << m.name;
+  }
+}
+
+TEST(Clusters, FileReadsBackAsTheSameBytes) {
+  TemporaryFolder folder;
+  const Clusters clusters = cluster_motions(some_motions(), three());
+  write_clusters(folder.path / "c.json", clusters);
+  const Clusters back = read_clusters(folder.path / "c.json");
+  EXPECT_EQ(format_clusters(back), format_clusters(clusters));
+  EXPECT_EQ(back.clusters[1].centre, clusters.clusters[1].centre);
+  EXPECT_EQ(back.settings.clusters, 3);
+}
+
+TEST(Clusters, FilesOfOtherUnitsOrNoneAreRefused) {
+  TemporaryFolder folder;
+  const auto path = folder.path / "c.json";
+  const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
+  std::string text = format_clusters(cluster_motions(some_motions(), three()));
+  const auto unit = text.find("\"root_height\": ");
+  write(text.substr(0, unit) + "\"root_height\": 7" + text.substr(text.find(',', unit)));
+  EXPECT_THROW(read_clusters(path), DataError);
+  for (const char* bad : {"", "{}", "nonsense", "[1, 2]"}) {
+    write(bad);
+    EXPECT_THROW(read_clusters(path), DataError) << bad;
+  }
+  EXPECT_THROW(read_clusters(folder.path / "none.json"), DataError);
+}
+
+TEST(Clusters, ImpossibleWishesAreInvalid) {
+  const auto motions = some_motions();
+  ClusterSettings settings;
+  settings.clusters = 24;
+  EXPECT_THROW(cluster_motions(motions, settings), std::invalid_argument);
+  EXPECT_THROW(cluster_motions({}, {}), std::invalid_argument);
+  EXPECT_THROW(cluster_motions({motions[0], motions[0]}, {}), std::invalid_argument);
+  auto broken = motions;
+  broken[3].features[5] = std::nan("");
+  EXPECT_THROW(cluster_motions(broken, {}), std::invalid_argument);
+}
+
+TEST(ClusterWords, SayWhatAMotionIsLike) {
+  EXPECT_EQ(describe_motion(travelling(0.0)),
+            "calm, upright (hips at 0.93 m), stays in place, feet stay down, arms quiet");
+  MotionFeatures f = travelling(1.1);
+  f[kRootHeight] = 0.6;
+  f[kRootTurning] = 4.0;  // 2 rad/s
+  f[kPlanarVelocity + kLeftWrist] = f[kPlanarVelocity + kRightWrist] = 5.0;
+  f[kVerticalVelocity + kLeftFoot] = 0.5;
+  for (std::size_t j = 0; j < kBodies; ++j) f[kAcceleration + j] = 64.0;
+  EXPECT_EQ(describe_motion(f),
+            "vigorous, low (hips at 0.60 m), moves about at 1.1 m/s, turns (115 degrees/s), feet swing high, "
+            "arms busy");
+}
+
+TEST(ClusterWords, NameOnlyTheClusterThatStandsOut) {
+  const std::vector<MotionFeatures> centres = {travelling(0.0), travelling(1.2), travelling(2.5)};
+  EXPECT_EQ(describe_cluster(centres, 1).find("fastest"), std::string::npos);
+  EXPECT_NE(describe_cluster(centres, 2).find("of all the fastest"), std::string::npos);
+}
+
+TEST(ClusterWords, TreeShowsEveryClusterAndMember) {
+  const auto motions = some_motions();
+  const std::string tree = format_cluster_tree(cluster_motions(motions, three()));
+  EXPECT_EQ(tree.substr(0, 10), "23 motions");
+  for (const char* words : {"\n  cluster ", "cluster 0: ", "cluster 1: ", "cluster 2: "})
+    EXPECT_NE(tree.find(words), std::string::npos) << tree;
+  for (const auto& m : motions) EXPECT_NE(tree.find("- " + m.name + "\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,73 @@
+#include "pipeline/record/clean_copy.h"
+
+#include <gtest/gtest.h>
+
+#include "motion/import/world.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+double distance(const Clip& a, const Clip& b) {
+  const auto p = poses_of(a), q = poses_of(b);
+  EXPECT_EQ(p.size(), q.size());
+  double most = 0.0;
+  for (std::size_t t = 0; t < std::min(p.size(), q.size()); ++t)
+    for (std::size_t j = 0; j < kBodies; ++j) most = std::max(most, (p[t].p_WB[j] - q[t].p_WB[j]).norm());
+  return most;
+}
+
+struct CleanCopy : testing::Test {
+  std::filesystem::path path(const std::string& name) const { return folder.path / name; }
+  TemporaryFolder folder;
+};
+
+TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
+  const Clip simulated = standing_clip(40);
+  write_clip(path("simulated.npz"), simulated, {{"reward", NpyArray::scalar(1.0)}});
+  for (const char* model : {"smpl", "smplh", "smplx"}) {
+    Clip input = simulated;
+    input.body_model = model;
+    input.betas[1] = 0.7;
+    input.gender = "female";
+    write_clip(path("input.npz"), input);
+    write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
+    const Clip copy = read_clip(path("copy.npz"));
+    EXPECT_EQ(copy.body_model, model);
+    EXPECT_EQ(copy.betas, input.betas);
+    EXPECT_EQ(copy.gender, "female");
+    EXPECT_LT(distance(copy, simulated), 1e-12);
+    EXPECT_TRUE(read_npz(path("copy.npz")).has("reward"));
+  }
+}
+
+TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndItsHands) {
+  Clip input = standing_clip(101);
+  input.fps = 50.0;
+  input.passthrough.emplace_back("pose_hand", from_matrix(Eigen::MatrixXd::Random(101, 90)));
+  const Clip simulated = resampled(input, 30.0);
+  const Clip copy = at_rate_of(simulated, input);
+  ASSERT_EQ(copy.frames(), 101);
+  EXPECT_EQ(copy.fps, 50.0);
+  EXPECT_EQ(copy.passthrough[0].second.bytes, input.passthrough[0].second.bytes);
+  // Every fifth frame of the input is a third frame of the simulation.
+  for (std::size_t k = 0; 5 * k < 101; ++k)
+    for (std::size_t j = 0; j < kBodies; ++j)
+      EXPECT_LT((copy.rotations[5 * k][j] - simulated.rotations[3 * k][j]).norm(), 1e-9);
+}
+
+TEST_F(CleanCopy, ComesInTheFormatOfItsInput) {
+  const Clip simulated = standing_clip(40);
+  write_clip(path("simulated.npz"), simulated);
+  Clip input = simulated;
+  input.body_model = "smplx";
+  write_motion(path("input.npy"), input);
+  write_clean_copy(path("simulated.npz"), path("input.npy"), {}, false, path("new/copy.npy"));
+  EXPECT_LT(distance(read_motion(path("new/copy.npy")), simulated), 1e-9);
+  EXPECT_EQ(clean_suffix("a/walk.npy"), ".npy");
+  EXPECT_EQ(clean_suffix("a/walk.txt"), ".npz");
+}
+
+}  // namespace
+}  // namespace mimicx

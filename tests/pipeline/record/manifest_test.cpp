@@ -1,0 +1,136 @@
+#include "pipeline/record/manifest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/error.h"
+#include "pipeline/record/run_folder.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+Manifest example() {
+  Manifest m;
+  m.version = "0.1.0";
+  m.target = "x86-64-v3";
+  m.seed = 18446744073709551615u;
+  m.samples = 4000000;
+  m.settings = {{"gamma", 0.97}, {"sigma", 0.07}};
+  SequenceEntry e;
+  e.name = "walk";
+  e.input = "clips/walk \"slow\".npz";
+  e.input_checksum = "00ff";
+  e.output = "motions/walk.npz";
+  e.ok = true;
+  e.ending = Ending::kBudget;
+  e.frames = 150;
+  e.fps = 30.0;
+  e.seed = m.seed;
+  e.samples = 4000000;
+  e.reward_before = 0.1 + 0.2;
+  e.reward_after = 0.9;
+  e.metrics = {{"MPJPE", 17.3}, {"Float_gt", std::nan("")}};
+  e.audit = {{"root_force_max_N", 12.25}};
+  e.preparation = {{"floor_shift_mm", -12.5}};
+  e.notes = {"a note"};
+  m.put(e);
+  return m;
+}
+
+TEST(Manifest, ReadsBackAsTheSameBytes) {
+  const TemporaryFolder folder;
+  const std::string text = format_manifest(example());
+  std::ofstream(folder.path / "manifest.json") << text;
+  const Manifest back = read_manifest(folder.path / "manifest.json");
+  EXPECT_EQ(format_manifest(back), text);
+  EXPECT_EQ(back.seed, 18446744073709551615u);
+  EXPECT_EQ(back.sequences.at(0).reward_before, 0.1 + 0.2);
+  EXPECT_TRUE(std::isnan(back.sequences.at(0).metrics.at(1).second));
+}
+
+TEST(Manifest, KeepsOneEntryPerInput) {
+  Manifest m = example();
+  SequenceEntry again = m.sequences[0];
+  again.ok = false;
+  again.reason = "fell";
+  m.put(again);
+  ASSERT_EQ(m.sequences.size(), 1u);
+  EXPECT_EQ(m.find(again.input)->reason, "fell");
+  EXPECT_EQ(m.find("other.npz"), nullptr);
+}
+
+TEST(Manifest, AResultStandsUnlessItIsMissingOrHitTheSafetyStop) {
+  SequenceEntry e = example().sequences[0];
+  EXPECT_TRUE(e.finished());
+  e.ok = false;  // it fell: spending the same samples again gives the same fall
+  EXPECT_TRUE(e.finished());
+  e.ending = Ending::kLimitSeconds;
+  EXPECT_FALSE(e.finished());
+  e.ending = Ending::kNone;
+  e.output.clear();
+  EXPECT_FALSE(e.finished());
+}
+
+TEST(Manifest, EverySettingThatResultsDependOnIsCompared) {
+  const Manifest m = example();
+  EXPECT_TRUE(m.same_settings(example()));
+  const auto differs = [&](auto change) {
+    Manifest other = example();
+    change(other);
+    return !m.same_settings(other);
+  };
+  EXPECT_TRUE(differs([](Manifest& o) { o.seed = 2; }));
+  EXPECT_TRUE(differs([](Manifest& o) { o.samples = 2; }));
+  EXPECT_TRUE(differs([](Manifest& o) { o.version = "0.2.0"; }));
+  EXPECT_TRUE(differs([](Manifest& o) { o.target = "x86-64-v4"; }));
+  EXPECT_TRUE(differs([](Manifest& o) { o.settings[0].second = 0.98; }));
+  EXPECT_TRUE(differs([](Manifest& o) { o.settings.pop_back(); }));
+}
+
+TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
+  const TemporaryFolder folder;
+  for (const char* bad : {"", "{", "[]", "{\"run\": {}, \"sequences\": []}"}) {
+    std::ofstream(folder.path / "manifest.json") << bad;
+    try {
+      read_manifest(folder.path / "manifest.json");
+      ADD_FAILURE() << "accepted: " << bad;
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("manifest.json"), std::string::npos);
+    }
+  }
+}
+
+TEST(Timing, ReadsBackAndForgivesAFileThatIsNone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / "timing.json";
+  EXPECT_TRUE(read_timing(path).empty());
+  std::ofstream(path) << format_timing({{"walk", 12.5, 10.0, 2}}, example().sequences);
+  ASSERT_EQ(read_timing(path).size(), 1u);
+  EXPECT_EQ(read_timing(path)[0].training_seconds, 10.0);
+  EXPECT_NE(read_file(path).find("\"samples_per_second\": 400000.0"), std::string::npos);
+  std::ofstream(path) << "{";
+  EXPECT_TRUE(read_timing(path).empty());
+}
+
+TEST(RunFolder, InputsOfOneFileNameGetNamesOfTheirOwn) {
+  EXPECT_EQ(unique_name("a/walk.npz", {}), "walk");
+  EXPECT_EQ(unique_name("b/walk.npz", {"walk"}), "walk-2");
+  EXPECT_EQ(unique_name("c/walk.npz", {"walk", "walk-2"}), "walk-3");
+}
+
+TEST(RunFolder, TheChecksumIsFnv1aAndSeesOneChangedBit) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / "f";
+  std::ofstream(path) << "foobar";
+  EXPECT_EQ(file_checksum(path), "85944171f73967e8");  // published test vector of FNV-1a, 64 bits
+  std::ofstream(path) << "foobas";
+  EXPECT_NE(file_checksum(path), "85944171f73967e8");
+  EXPECT_THROW(file_checksum(folder.path / "none"), DataError);
+  EXPECT_THROW(file_checksum(folder.path), DataError);
+}
+
+}  // namespace
+}  // namespace mimicx
