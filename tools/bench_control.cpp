@@ -128,9 +128,13 @@ void register_all(Problem& hard, Problem& soft) {
   };
   const auto derivatives = [&](const std::string& name, Problem& p, Linearisation how) {
     add(name, [&p, how](benchmark::State& s) {
-      per_frame(s, [&](int t) { benchmark::DoNotOptimize(linearise(p.system, p.plan.point(t), how)); });
+      const auto scratch = std::make_unique<LinearisationScratch>();
+      per_frame(
+          s, [&](int t) { benchmark::DoNotOptimize(linearise(p.system, p.plan.point(t), how, *scratch)); });
     });
   };
+  derivatives("analytic", hard, {Derivatives::kAnalytic, {}});
+  derivatives("analytic, soft", soft, {Derivatives::kAnalytic, {}});
   derivatives("columns", hard, {Derivatives::kColumns, {}});
   derivatives("columns, soft", soft, {Derivatives::kColumns, {}});
   derivatives("smoothed", hard, {Derivatives::kSmoothed, {}});
@@ -160,13 +164,14 @@ void register_all(Problem& hard, Problem& soft) {
 void print_summary(const BestReporter& r) {
   std::printf("\nms per control frame, best of the repetitions (%s, packs of %d), share of an iteration\n",
               MIMICX_TARGET, kLanes);
-  const double whole = r.ms("columns") + r.ms("cost") + r.ms("sweep") + r.ms("line search");
-  for (const char* name : {"columns", "cost", "sweep", "line search"})
+  const double whole = r.ms("analytic") + r.ms("cost") + r.ms("sweep") + r.ms("line search");
+  for (const char* name : {"analytic", "cost", "sweep", "line search"})
     std::printf("  %-16s %8.3f %6.1f %%\n", name, r.ms(name), 100.0 * r.ms(name) / whole);
-  for (const char* name : {"columns, soft", "smoothed"}) std::printf("  %-16s %8.3f\n", name, r.ms(name));
+  for (const char* name : {"analytic, soft", "columns", "columns, soft", "smoothed"})
+    std::printf("  %-16s %8.3f\n", name, r.ms(name));
   if (r.ms("mujoco") > 0.0)
-    std::printf("  %-16s %8.3f, mjd_transitionFD: %.0f x columns\n", "mujoco", r.ms("mujoco"),
-                r.ms("mujoco") / r.ms("columns"));
+    std::printf("  %-16s %8.3f, mjd_transitionFD: %.0f x analytic, %.0f x columns\n", "mujoco",
+                r.ms("mujoco"), r.ms("mujoco") / r.ms("analytic"), r.ms("mujoco") / r.ms("columns"));
 }
 
 }  // namespace
