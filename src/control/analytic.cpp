@@ -1,6 +1,7 @@
 #include "control/analytic.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -121,15 +122,22 @@ void clear(TangentData<T>& d) {
 template <class T>
 void write(const StateTangent<T>& x, int first, int lanes, FrameDerivative<T>& out) {
   const auto row = [&](int r, const T& value) {
-    for (int lane = 0; lane < lanes; ++lane) out.F(r, first + lane) = ScalarTraits<T>::get(value, lane);
+    std::memcpy(&out.F(r, first), &value, static_cast<std::size_t>(lanes) * sizeof(RealOf<T>));
   };
   const auto half = [&](int r, const Vec3<T>& root, const PerBody<Vec3<T>>& joints) {
     const T six[] = {root.x, root.y, root.z, joints[0].x, joints[0].y, joints[0].z};
     for (int k = 0; k < 6; ++k) row(r + k, six[k]);
-    for (int dof = 0; dof < kDofs; ++dof) {
-      const Dof& joint = dofs()[static_cast<std::size_t>(dof)];
-      const Vec3<T> axis = {T(joint.axis.x()), T(joint.axis.y()), T(joint.axis.z())};
-      row(r + 6 + dof, dot(axis, joints[joint.body]));
+    for (int i = 1; i < kBodies; ++i) {
+      const Vec3<T>& v = joints[i];
+      const int at = r + 6 + first_dof(i);
+      if (is_hinge(i)) {
+        const Vector3d axis = hinge_axis(i);
+        row(at, dot(Vec3<T>{T(axis.x()), T(axis.y()), T(axis.z())}, v));
+      } else {
+        row(at, v.x);
+        row(at + 1, v.y);
+        row(at + 2, v.z);
+      }
     }
   };
   half(0, x.p, x.turn);

@@ -11,31 +11,38 @@ using Row = Eigen::Matrix<double, 1, 16>;
 using Rows = Eigen::Matrix<double, 3, 16>;
 constexpr int kTheta = 0, kOmega = 3, kVelocity = 6, kHeight = 9, kAlpha = 10, kAcceleration = 13;
 
-/// A touching point of a body, nominally.
+/// A touching point of a body, nominally: its velocity v + ω × arm and the centripetal part of its
+/// acceleration, ω × (ω × arm), by θ and Dω. (dω = Dω + θ × ω; the arm changes by θ × R p_B.)
 struct Point {
-  Vector3d arm, from_centre;  ///< arm from the joint centre; R p_B, which turns with the body
-  Vector3d w;                 ///< of the body
+  Vector3d arm, from_centre;  ///< arm from the joint centre; R p_B
+  Matrix3d velocity_by_theta, velocity_by_omega, centripetal_by_theta, centripetal_by_omega;
 };
-
-/// d of the point's velocity: v + ω × arm.
-Rows velocity(const Point& p) {
-  Rows e = Rows::Zero();
-  // dω = Dω + θ × ω, d arm = θ × R p_B
-  e.middleCols<3>(kTheta) = skew_product(p.arm, p.w) - skew_product(p.w, p.from_centre);
-  e.middleCols<3>(kOmega) = -skew(p.arm);
-  e.middleCols<3>(kVelocity).setIdentity();
-  return e;
+Point point_of(const Vector3d& arm, double radius, const Vector3d& w) {
+  Point p;
+  p.arm = arm;
+  p.from_centre = arm + radius * Vector3d::UnitZ();
+  p.velocity_by_theta = skew_product(arm, w) - skew_product(w, p.from_centre);
+  p.velocity_by_omega = -skew(arm);
+  p.centripetal_by_omega = -skew(w.cross(arm)) - skew_product(w, arm);
+  p.centripetal_by_theta = -p.centripetal_by_omega * skew(w) - skew(w) * skew_product(w, p.from_centre);
+  return p;
 }
 
-/// Adds dt times d of the point's acceleration, a + α × arm + ω × (ω × arm), to `e`, but for Dα and Da.
-/// @param a  against free fall
-void add_acceleration(const Point& p, const Vector3d& alpha, const Vector3d& a, double dt, Rows& e) {
-  const Vector3d w_x_arm = p.w.cross(p.arm);
-  const Matrix3d by_omega = -skew(w_x_arm) - skew_product(p.w, p.arm);
-  e.middleCols<3>(kOmega) += dt * by_omega;
-  e.middleCols<3>(kTheta) +=
-      dt * (-skew(a) + skew_product(p.arm, alpha) - skew_product(alpha, p.from_centre) -
-            by_omega * skew(p.w) - skew(p.w) * skew_product(p.w, p.from_centre));
+/// d of the point's velocity at the start of the step.
+Rows velocity(const Point& p) {
+  Rows rows = Rows::Zero();
+  rows.middleCols<3>(kTheta) = p.velocity_by_theta;
+  rows.middleCols<3>(kOmega) = p.velocity_by_omega;
+  rows.middleCols<3>(kVelocity).setIdentity();
+  return rows;
+}
+/// … and at its end, v + dt a, but for Dα and Da. @param a  against free fall
+Rows end_velocity(const Point& p, const Vector3d& alpha, const Vector3d& a, double dt) {
+  Rows rows = velocity(p);
+  rows.middleCols<3>(kTheta) += dt * (p.centripetal_by_theta - skew(a) + skew_product(p.arm, alpha) -
+                                      skew_product(alpha, p.from_centre));
+  rows.middleCols<3>(kOmega) += dt * p.centripetal_by_omega;
+  return rows;
 }
 
 Vector3d against_free_fall(const Model<double>& model, const Vec3<double>& a) {
@@ -50,17 +57,18 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const int i = contact.body;
   const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;
   const Vector3d arm = to_eigen(c.arm);
-  const Point point = {arm, arm + contact.radius * Vector3d::UnitZ(), to_eigen(d.w[i])};
+  const Point point = point_of(arm, contact.radius, to_eigen(d.w[i]));
 
   Row depth = Row::Zero();  // −dp_z − (θ × R p_B)_z
   depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
   depth[kHeight] = -1.0;
-  const Rows at_start = velocity(point);
-  Rows end = at_start, at = at_start;
-  add_acceleration(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt, end);
+  const Rows end = end_velocity(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt);
   // The velocity at which f_end and c_t were taken is that of the start or the one the solve before predicts.
-  if (before != nullptr) {
-    add_acceleration(point, to_eigen(before->alpha[i]), against_free_fall(model, before->a[i]), dt, at);
+  Rows at;
+  if (before == nullptr) {
+    at = velocity(point);
+  } else {
+    at = end_velocity(point, to_eigen(before->alpha[i]), against_free_fall(model, before->a[i]), dt);
     at.middleCols<3>(kAlpha) = -dt * skew(arm);
     at.middleCols<3>(kAcceleration) = dt * Matrix3d::Identity();
   }

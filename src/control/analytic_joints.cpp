@@ -92,8 +92,9 @@ template <class Real>
 void tabulate_integration(const Model<double>& model, const State<double>& state, SubstepTable<Real>& out) {
   for (int i = 0; i < kBodies; ++i) {
     const Vector3d turn = model.dt * to_eigen(state.omega[i]);
-    put(out.body[i].turn, exp_map(turn).toRotationMatrix().transpose().eval());
-    put(out.body[i].turn_by_omega, Matrix3d(model.dt * right_jacobian(turn)));
+    const ExpAndJacobian exp = exp_and_jacobian(turn);
+    put(out.body[i].turn, Matrix3d(exp.rotation.transpose()));
+    put(out.body[i].turn_by_omega, Matrix3d(model.dt * exp.jacobian));
   }
 }
 
