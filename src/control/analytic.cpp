@@ -1,7 +1,6 @@
 #include "control/analytic.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -70,78 +69,64 @@ void roll_out(const Model<double>& model, const ControlFrame& frame, Data<double
   }
 }
 
-/// What column c of the derivative changes at the start of the frame, in one lane. Residuals change nothing
-/// there: they act in every step (`drive`).
 template <class T>
-void seed(int c, int lane, TangentData<T>& d) {
-  const auto along = [&](PerBody<Vec3<T>>& joints, int dof) {
-    const Dof& joint = dofs()[static_cast<std::size_t>(dof)];
-    set_lane(joints[joint.body], lane, joint.axis);
-  };
-  StateTangent<T>& x = d.state;
-  if (c < kRootRotation) {
-    set_lane(x.p, lane, Vector3d::Unit(c));
-  } else if (c < kJointRotation) {
-    set_lane(x.turn[0], lane, Vector3d::Unit(c - kRootRotation));
-  } else if (c < kRootVelocity) {
-    along(x.turn, c - kJointRotation);
-  } else if (c < kRootSpin) {
-    set_lane(x.v, lane, Vector3d::Unit(c - kRootVelocity));
-  } else if (c < kJointVelocity) {
-    set_lane(x.spin[0], lane, Vector3d::Unit(c - kRootSpin));
-  } else if (c < kTangent) {
-    along(x.spin, c - kJointVelocity);
-  } else if (c >= kFrameColumns) {
-    const int k = c - kFrameColumns;
-    set_lane(k < 3 ? d.help.n : d.help.f, lane, Vector3d::Unit(k % 3));
-  }
-}
-
-/// The joint torque that the residual of column c gives in one step, in one lane.
-template <class T>
-void drive(const SubstepTable<RealOf<T>>& table, int c, int lane, TangentData<T>& d) {
-  if (c < kTangent || c >= kFrameColumns) return;
-  const int dof = (c - kTangent) % kDofs;
-  const Vec3<RealOf<T>>& torque = (c < kTangent + kDofs ? table.drive_from : table.drive_to)[dof];
-  Vec3<T>& out = d.drive[dofs()[static_cast<std::size_t>(dof)].body];
-  ScalarTraits<T>::set(out.x, lane, torque.x);
-  ScalarTraits<T>::set(out.y, lane, torque.y);
-  ScalarTraits<T>::set(out.z, lane, torque.z);
-}
-
-template <class T>
-void clear(TangentData<T>& d) {
+void clear(AdjointData<T>& d) {
   const Vec3<T> zero = zero3<T>();
   d.state.p = d.state.v = d.help.n = d.help.f = zero;
   d.state.turn.fill(zero);
   d.state.spin.fill(zero);
-  d.drive.fill(zero);
+  d.from.fill(T(0.0));
+  d.to.fill(T(0.0));
 }
 
-/// Writes the lanes of a state's change into the columns from `first` on.
+/// The coordinate of the end that row `row` of the derivative is about, in one lane.
 template <class T>
-void write(const StateTangent<T>& x, int first, int lanes, FrameDerivative<T>& out) {
-  const auto row = [&](int r, const T& value) {
-    std::memcpy(&out.F(r, first), &value, static_cast<std::size_t>(lanes) * sizeof(RealOf<T>));
+void seed(int row, int lane, StateAdjoint<T>& x) {
+  const auto half = [&](int k, Vec3<T>& root, PerBody<Vec3<T>>& joints) {
+    if (k < 3) return set_lane(root, lane, Vector3d::Unit(k));
+    if (k < 6) return set_lane(joints[0], lane, Vector3d::Unit(k - 3));
+    const Dof& joint = dofs()[static_cast<std::size_t>(k - 6)];
+    set_lane(joints[joint.body], lane, joint.axis);
   };
-  const auto half = [&](int r, const Vec3<T>& root, const PerBody<Vec3<T>>& joints) {
-    const T six[] = {root.x, root.y, root.z, joints[0].x, joints[0].y, joints[0].z};
-    for (int k = 0; k < 6; ++k) row(r + k, six[k]);
+  if (row < kPositions)
+    half(row, x.p, x.turn);
+  else
+    half(row - kPositions, x.v, x.spin);
+}
+
+/// Writes the lanes into the rows from `first` on.
+template <class T>
+void write(const AdjointData<T>& d, int first, int lanes, FrameDerivative<T>& out) {
+  const auto put_column = [&](int column, const T& value) {
+    for (int lane = 0; lane < lanes; ++lane) out.F(first + lane, column) = ScalarTraits<T>::get(value, lane);
+  };
+  const auto three = [&](int column, const Vec3<T>& v) {
+    put_column(column, v.x);
+    put_column(column + 1, v.y);
+    put_column(column + 2, v.z);
+  };
+  const auto half = [&](int column, const Vec3<T>& root, const PerBody<Vec3<T>>& joints) {
+    three(column, root);
+    three(column + 3, joints[0]);
     for (int i = 1; i < kBodies; ++i) {
-      const Vec3<T>& v = joints[i];
-      const int at = r + 6 + first_dof(i);
+      const int at = column + 6 + first_dof(i);
       if (is_hinge(i)) {
         const Vector3d axis = hinge_axis(i);
-        row(at, dot(Vec3<T>{T(axis.x()), T(axis.y()), T(axis.z())}, v));
+        put_column(at, dot(Vec3<T>{T(axis.x()), T(axis.y()), T(axis.z())}, joints[i]));
       } else {
-        row(at, v.x);
-        row(at + 1, v.y);
-        row(at + 2, v.z);
+        three(at, joints[i]);
       }
     }
   };
-  half(0, x.p, x.turn);
-  half(kPositions, x.v, x.spin);
+  half(0, d.state.p, d.state.turn);
+  half(kPositions, d.state.v, d.state.spin);
+  for (int dof = 0; dof < kDofs; ++dof) {
+    put_column(kTangent + dof, d.from[dof]);
+    put_column(kTangent + kDofs + dof, d.to[dof]);
+  }
+  if (out.F.cols() == kFrameColumns) return;
+  three(kFrameColumns, d.help.n);
+  three(kFrameColumns + 3, d.help.f);
 }
 
 }  // namespace
@@ -153,16 +138,14 @@ void differentiate_frame(const Model<double>& model, const ControlFrame& frame, 
   roll_out(model, frame, scratch.data, scratch.substeps, out.end, out.wrong);
   const int columns = with_help ? kFrameColumnsWithHelp : kFrameColumns;
   out.F.resize(kTangent, columns);
-  TangentData<T>& d = scratch.tangent;
-  for (int first = 0; first < columns; first += ScalarTraits<T>::kSize) {
-    const int lanes = std::min(ScalarTraits<T>::kSize, columns - first);
+  AdjointData<T>& d = scratch.adjoint;
+  for (int first = 0; first < kTangent; first += ScalarTraits<T>::kSize) {
+    const int lanes = std::min(ScalarTraits<T>::kSize, kTangent - first);
     clear(d);
-    for (int lane = 0; lane < lanes; ++lane) seed(first + lane, lane, d);
-    for (const SubstepTable<RealOf<T>>& table : scratch.substeps) {
-      for (int lane = 0; lane < lanes; ++lane) drive(table, first + lane, lane, d);
-      advance_tangent(table, d);
-    }
-    write(d.state, first, lanes, out);
+    for (int lane = 0; lane < lanes; ++lane) seed(first + lane, lane, d.state);
+    for (auto table = scratch.substeps.rbegin(); table != scratch.substeps.rend(); ++table)
+      retrace_step(*table, d);
+    write(d, first, lanes, out);
   }
 }
 

@@ -13,8 +13,8 @@
 /// neighbourhood there is the smoothed one (differences.h).
 #pragma once
 
+#include "control/analytic_adjoint.h"
 #include "control/analytic_tables.h"
-#include "control/analytic_tangent.h"
 #include "control/tangent.h"
 
 namespace mimicx::control {
@@ -49,10 +49,10 @@ template <class T>
 struct FrameScratch {
   Data<double> data;
   std::vector<SubstepTable<RealOf<T>>> substeps;
-  TangentData<T> tangent;
+  AdjointData<T> adjoint;
 };
 
-/// Differentiates one control frame. A column does not depend on the lane it is computed in, nor on its
+/// Differentiates one control frame. A row does not depend on the lane it is computed in, nor on its
 /// neighbours.
 /// @param with_help  also by the help
 /// @throws std::invalid_argument for fewer than one physics step

@@ -63,9 +63,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
     if (!bounded[i]) continue;
     LawTable<Real>& table = out.law.emplace_back();
     table.body = i;
-    put(table.stiffness, law);
     put(table.range_stiffness, range);
-    table.damping = static_cast<Real>(damping);
     table.range_damping = static_cast<Real>(range_gain);
     table.delta = static_cast<Real>(d.delta_pd[i]);
   }

@@ -166,8 +166,6 @@ bool tabulate_step(const Model<double>& model, const Target<double>& target, con
   use_pd_law(model, d);
 
   out.dt = static_cast<Real>(model.dt);
-  out.self_stiffness = static_cast<Real>(model.options.self_stiffness);
-  out.self_damping = static_cast<Real>(model.options.self_damping);
   put(out.help_n, help.n);
   put(out.help_f, help.f);
   tabulate_bodies(model, d, state, out);

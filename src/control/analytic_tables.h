@@ -31,26 +31,21 @@ struct BodyTable {
   bool placed;                ///< somebody asks where the body is: a contact of it or of a body it carries
 };
 
-/// A joint that is at its torque bound in some solve of the step: torques of its PD controller's law and of
-/// its range apart.
+/// A joint that is at its torque bound in some solve of the step: the range's part of its torque, which has
+/// no bound, and δ of its PD controller.
 template <class Real>
 struct LawTable {
   int body;
-  Mat3<Real> stiffness, range_stiffness;
-  Real damping, range_damping, delta;
+  Mat3<Real> range_stiffness;
+  Real range_damping, delta;
 };
 
-/// Two capsules that push each other apart. Names as in `add_self_contact`.
+/// Two capsules that push each other apart: D of the wrenches that their bodies i and j feel, taken from the
+/// bias, by θ, Dω, dv, dp of i and of j.
 template <class Real>
 struct SelfPairTable {
   int i, j;
-  Vec3<Real> axis_i, axis_j, start_i, start_j;  ///< starts from the joint centres
-  Vec3<Real> apart;                             ///< start of i minus start of j
-  Vec3<Real> on_i, on_j;                        ///< closest points from the joint centres
-  std::array<Real, 3> s, t;  ///< ds, dt by (d(u·w), d(w·r), d(u·r)) of `closest_on_segments`
-  Vec3<Real> normal, arm_i, arm_j, velocity, force;
-  Vec3<Real> moment_i, moment_j;       ///< of the force about the joint centres
-  Real inverse_distance, reach, push;  ///< reach: from the closest point of j to the common point
+  Real bias[12][24];  ///< (moment; force) of i, then of j
 };
 
 /// Floor contacts of one body in one solve: D of the wrench they give, by θ, Dω, dv, dp_z of the body and Dα,
@@ -100,7 +95,6 @@ struct SubstepTable {
   Array<Vec3<Real>, kDofs> drive_from, drive_to;  ///< torque by residual of the old and the new target
   std::vector<LawTable<Real>> law;
   std::vector<SelfPairTable<Real>> pairs;
-  Real self_stiffness, self_damping;
   Vec3<Real> help_n, help_f;  ///< external wrench on the pelvis
   std::vector<SolveTable<Real>> solves;
   int solve_count;  ///< entries of `solves` in use; the others keep their memory

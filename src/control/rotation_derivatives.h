@@ -29,8 +29,8 @@ inline Matrix3d skew_product(const Vector3d& a, const Vector3d& b) {
   return m;
 }
 
-/// a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³ of a rotation vector with θ² = `square`: by their series where the
-/// quotients lose digits or a physics step makes them often; the terms left out are under 1e-17 there.
+/// a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³ of a rotation vector with θ² = `square`: by their series where
+/// the quotients lose digits or a physics step makes them often; the terms left out are under 1e-17 there.
 struct ExpCoefficients {
   double a, b;
 };

@@ -1,0 +1,50 @@
+/// Rows of the derivative through one physics step, backwards: the articulated-body recursion of
+/// physics/aba.h, differentiated and transposed. docs/control_derivatives.md §4
+///
+/// A row of F asks one coordinate of the end how much it owes to everything before. T = double carries one
+/// row, T = Pack one per lane. Names are those of physics/data.h; every one means the derivative of the row's
+/// coordinate by the change of that quantity, where changes are those that an observer sees who turns with
+/// the body:
+///     D x = dx − θ × x,      θ the body's own change of rotation, R → exp(θ) R.
+/// What is fixed to the body has D = 0, above all its inertia.
+#pragma once
+
+#include "control/analytic_tables.h"
+
+namespace mimicx::control {
+
+/// By the state; of hinges the part along the axis.
+template <class T>
+struct StateAdjoint {
+  Vec3<T> p, v;                 ///< root, world
+  PerBody<Vec3<T>> turn, spin;  ///< δ of q·exp(δ), and omega; body frames
+};
+
+template <class T>
+struct AdjointData {
+  StateAdjoint<T> state;
+  Array<T, kDofs> from, to;  ///< residuals of the old and the new target
+  Wrench<T> help;            ///< on the pelvis
+
+  PerBody<Vec3<T>> theta, turn;       ///< rotation of the body; of the joint alone, R δ
+  PerBody<Vec3<T>> p, v;              ///< of the joint centre, world
+  PerBody<Vec3<T>> w;                 ///< angular velocity of the body
+  PerBody<Vec3<T>> c_w, c_v;          ///< velocity-product acceleration
+  PerBody<Wrench<T>> bias;            ///< bias force of the rigid body
+  PerBody<Vec3<T>> torque;            ///< of the joint
+  PerBody<Vec3<T>> law, range, held;  ///< its PD law, its range, the constant in place of the law
+  PerBody<Vec3<T>> qdd;               ///< joint acceleration, R dω/dt
+  PerBody<Wrench<T>> pull;            ///< acceleration of the body, (α; a)
+
+  // How the character, every force but inertia, implicit PD and floor contacts absent, answers forces `pull`
+  // and torques `qdd`: accelerations and what its joints transmit.
+  PerBody<Wrench<T>> force;
+  PerBody<Vec3<T>> free, alpha, a;
+};
+
+/// One physics step backwards: `d.state` by the state after it becomes that before it; what the residuals and
+/// the help did during it is added to theirs.
+template <class T>
+void retrace_step(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d);
+
+}  // namespace mimicx::control
