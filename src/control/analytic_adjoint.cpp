@@ -48,18 +48,19 @@ template <class T>
   const T dt(table.dt);
   StateAdjoint<T>& x = d.state;
   const SolveTable<RealOf<T>>& last = table.solve(table.solve_count - 1);
-  x.v = add_scaled(x.v, dt, x.p);
-  const Vec3<T> zero = zero3<T>(), by_a = dt * x.v;
+  const Vec3<T> zero = zero3<T>();
   for (int i = 0; i < kBodies; ++i) {
     const BodyTable<RealOf<T>>& b = table.body[i];
     const Vec3<T> spin = add_transpose_times(x.spin[i], wide<T>(b.turn_by_omega), x.turn[i]);
     d.qdd[i] = dt * (wide<T>(b.R) * spin);
     x.spin[i] = spin;
     x.turn[i] = transpose_times(wide<T>(b.turn), x.turn[i]);
-    d.theta[i] = d.w[i] = d.p[i] = d.v[i] = zero;
-    d.pull[i].n = d.pull[i].f = zero;
+    d.w[i] = d.force[i].n = d.force[i].f = zero;
+    if (b.placed) d.theta[i] = d.p[i] = d.v[i] = zero;
   }
-  d.pull[0].f = by_a;  // the world's change of a is Da + θ × a
+  x.v = add_scaled(x.v, dt, x.p);
+  const Vec3<T> by_a = dt * x.v;  // the world's change of a is Da + θ × a
+  d.force[0].f = -by_a;
   d.theta[0] = cross(wide<T>(last.body[0].a), by_a);
 }
 
@@ -68,11 +69,6 @@ template <class T>
 template <class T>
 [[gnu::flatten]] void bias_pass(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
                                 AdjointData<T>& d) {
-  for (int i = 0; i < kBodies; ++i) {
-    d.force[i].n = -d.pull[i].n;
-    d.force[i].f = -d.pull[i].f;
-  }
-  d.force[0].n -= d.qdd[0];
   for (int i = kBodies - 1; i > 0; --i) {
     if (!solve.wanted[i]) {
       d.free[i] = zero3<T>();
@@ -97,9 +93,10 @@ template <class T>
     d.force[lambda].f += f;
     d.force[lambda].n = add_cross(d.force[lambda].n + n, wide<T>(table.body[i].r), f);
   }
+  d.force[0].n -= d.qdd[0];
 }
 
-/// What one body's answer says of the step's own quantities; added where another solve has said something.
+/// Adds what a solve says to what later ones have said; the last one, kAdd = false, is the first to speak.
 template <bool kAdd, class T>
 void collect(const Vec3<T>& value, Vec3<T>& sum) {
   if constexpr (kAdd)
@@ -108,22 +105,19 @@ void collect(const Vec3<T>& value, Vec3<T>& sum) {
     sum = value;
 }
 
-/// Root to tip: the answer, and with it the derivatives by bias forces, velocity products, joint torques and
-/// turns of the joints.
+/// Root to tip: accelerations and transmitted forces, and what they say of joint torques and turns.
 template <bool kAdd, class T>
 [[gnu::flatten]] void answer_pass(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
-                                  AdjointData<T>& d) {
+                                  PerBody<Vec3<T>>& alphas, PerBody<Vec3<T>>& as, AdjointData<T>& d) {
   const Mat3<T> M = wide<T>(solve.root_M);
   const Vec3<T> right = add_transpose_times(-d.force[0].n, M, d.force[0].f);
-  d.alpha[0] = wide<T>(solve.root_A_inv) * right;
-  d.a[0] = -add_times(wide<T>(solve.root_C_inv) * d.force[0].f, M, d.alpha[0]);
-  collect<kAdd>(-d.alpha[0], d.bias[0].n);
-  collect<kAdd>(-d.a[0], d.bias[0].f);
+  alphas[0] = wide<T>(solve.root_A_inv) * right;
+  as[0] = -add_times(wide<T>(solve.root_C_inv) * d.force[0].f, M, alphas[0]);
   for (int i = 1; i < kBodies; ++i) {
     const int lambda = kParents[i];
     const SolveBodyTable<RealOf<T>>& s = solve.body[i];
-    const Vec3<T> alpha_lambda = d.alpha[lambda];
-    const Vec3<T> a = add_cross(d.a[lambda], alpha_lambda, wide<T>(table.body[i].r));
+    const Vec3<T> alpha_lambda = alphas[lambda];
+    const Vec3<T> a = add_cross(as[lambda], alpha_lambda, wide<T>(table.body[i].r));
     const Mat3<T> B = wide<T>(s.B);
     Vec3<T> alpha, n, qdd;
     if (is_hinge(i)) {
@@ -139,12 +133,10 @@ template <bool kAdd, class T>
       n = add_scaled(d.qdd[i], -delta, qdd);
     }
     const Vec3<T> f = add_times(add_transpose_times(d.force[i].f, B, alpha), wide<T>(s.C), a);
-    d.alpha[i] = alpha;
-    d.a[i] = a;
-    collect<kAdd>(-alpha, d.bias[i].n);
-    collect<kAdd>(-a, d.bias[i].f);
-    collect<kAdd>(-n, d.c_w[i]);
-    collect<kAdd>(-f, d.c_v[i]);
+    alphas[i] = alpha;
+    as[i] = a;
+    collect<kAdd>(n, d.sum_n[i]);
+    collect<kAdd>(f, d.sum_f[i]);
     collect<kAdd>(qdd, d.torque[i]);
     // Accelerations and transmitted forces of the nominal motion turn with the joint.
     Vec3<T> turn = cross(wide<T>(solve.body[lambda].alpha), n);
@@ -153,22 +145,27 @@ template <bool kAdd, class T>
     turn = add_cross(turn, a, wide<T>(s.f));
     collect<kAdd>(turn, d.turn[i]);
   }
+  if constexpr (kAdd)
+    for (int i = 0; i < kBodies; ++i) {
+      d.sum_alpha[i] += alphas[i];
+      d.sum_a[i] += as[i];
+    }
 }
 
-/// The law and range of joints that are at their bound in some solve: what the answer says of their torque
-/// belongs to the range and to either the law or the constant in its place, which follows the law and the
-/// acceleration of the solve before the one that set it.
+/// The torque of joints that are at their bound in some solve belongs to the range and to either the law or
+/// the constant in its place. That one follows the law and the acceleration of the solve before the one that
+/// set it, which is asked in its turn.
+/// @param alphas  answer of the solve; null: it has not been asked
 template <class T>
-void retrace_bounds(const SubstepTable<RealOf<T>>& table, int index, AdjointData<T>& d) {
-  const SolveTable<RealOf<T>>& solve = table.solve(index);
+void retrace_bounds(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
+                    const PerBody<Vec3<T>>* alphas, AdjointData<T>& d) {
   for (const LawTable<RealOf<T>>& law : table.law) {
     const int i = law.body;
-    const Vec3<T> torque = solve.wanted[0] ? d.alpha[i] - d.alpha[kParents[i]] : zero3<T>();
+    const Vec3<T> torque = alphas == nullptr ? zero3<T>() : (*alphas)[i] - (*alphas)[kParents[i]];
     d.range[i] += torque;
     const SaturatedTable<RealOf<T>>* bound = nullptr;
     for (const SaturatedTable<RealOf<T>>& joint : solve.saturated)
       if (joint.body == i) bound = &joint;
-    d.qdd[i] = zero3<T>();
     if (bound == nullptr) {
       d.law[i] += torque;
       continue;
@@ -182,12 +179,13 @@ void retrace_bounds(const SubstepTable<RealOf<T>>& table, int index, AdjointData
   }
 }
 
-/// Floor contacts of one body: its place and velocity, and its acceleration in the solve before.
+/// Floor contacts of one body: its place and velocity, and its acceleration in the solve before, which is
+/// asked in its turn.
 template <class T>
-[[gnu::flatten]] void retrace_floor(const FloorTable<RealOf<T>>& floor, AdjointData<T>& d) {
+[[gnu::flatten]] void retrace_floor(const FloorTable<RealOf<T>>& floor, const Vec3<T>& alpha,
+                                    const Vec3<T>& a, AdjointData<T>& d) {
   constexpr int kInputs = FloorTable<RealOf<T>>::kInputs;
   const int i = floor.body;
-  const Vec3<T> alpha = d.alpha[i], a = d.a[i];
   const T answer[6] = {alpha.x, alpha.y, alpha.z, a.x, a.y, a.z};
   T by[kInputs];
   for (int k = 0; k < kInputs; ++k) {
@@ -198,31 +196,34 @@ template <class T>
   d.w[i] += Vec3<T>{by[3], by[4], by[5]};
   d.v[i] += Vec3<T>{by[6], by[7], by[8]};
   d.p[i].z += by[9];
-  d.pull[i] = {{by[10], by[11], by[12]}, {by[13], by[14], by[15]}};
+  d.force[i].n = {-by[10], -by[11], -by[12]};
+  d.force[i].f = {-by[13], -by[14], -by[15]};
 }
 
+/// The solves, last to first.
 template <class T>
 void retrace_solves(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+  const Vec3<T> zero = zero3<T>();
   for (const LawTable<RealOf<T>>& law : table.law)
-    d.law[law.body] = d.range[law.body] = d.held[law.body] = zero3<T>();
-  for (int k = table.solve_count - 1; k >= 0; --k) {
+    d.law[law.body] = d.range[law.body] = d.held[law.body] = zero;
+  const int last = table.solve_count - 1;
+  for (int k = last; k >= 0; --k) {
     const SolveTable<RealOf<T>>& solve = table.solve(k);
-    if (solve.wanted[0]) {
+    PerBody<Vec3<T>>&alphas = k == last ? d.sum_alpha : d.alpha, &as = k == last ? d.sum_a : d.a;
+    const bool asked = solve.wanted[0];
+    if (asked) {
       bias_pass(table, solve, d);
-      if (k == table.solve_count - 1)
-        answer_pass<false>(table, solve, d);
+      if (k == last)
+        answer_pass<false>(table, solve, alphas, as, d);
       else
-        answer_pass<true>(table, solve, d);
+        answer_pass<true>(table, solve, alphas, as, d);
     }
-    if (k > 0) {  // the solve before is asked only by contacts and by joints whose bound it set
-      for (int i = 0; i < kBodies; ++i) {
-        d.qdd[i] = zero3<T>();
-        d.pull[i] = {zero3<T>(), zero3<T>()};
-      }
-    }
-    retrace_bounds(table, k, d);
-    if (solve.wanted[0])
-      for (const FloorTable<RealOf<T>>& floor : solve.floor) retrace_floor(floor, d);
+    if (k > 0)
+      for (int i = 0; i < kBodies; ++i) d.qdd[i] = d.force[i].n = d.force[i].f = zero;
+    retrace_bounds(table, solve, asked ? &alphas : nullptr, d);
+    if (!asked) continue;
+    for (const FloorTable<RealOf<T>>& floor : solve.floor)
+      retrace_floor(floor, alphas[floor.body], as[floor.body], d);
   }
 }
 
@@ -235,11 +236,11 @@ template <class T>
     T by[12];
     for (T& x : by) x = T(0.0);
     for (int other = 0; other < 2; ++other) {
-      const Wrench<T>& bias = d.bias[body[other]];
-      const T answer[6] = {bias.n.x, bias.n.y, bias.n.z, bias.f.x, bias.f.y, bias.f.z};
+      const Vec3<T>&n = d.sum_alpha[body[other]], &f = d.sum_a[body[other]];
+      const T answer[6] = {n.x, n.y, n.z, f.x, f.y, f.z};
       for (int row = 0; row < 6; ++row)
         for (int k = 0; k < 12; ++k)
-          by[k] = fma(T(pair.bias[6 * other + row][12 * side + k]), answer[row], by[k]);
+          by[k] = fma(T(pair.wrench[6 * other + row][12 * side + k]), answer[row], by[k]);
     }
     d.theta[to] += Vec3<T>{by[0], by[1], by[2]};
     d.w[to] += Vec3<T>{by[3], by[4], by[5]};
@@ -251,42 +252,49 @@ template <class T>
 /// Positions, velocities, velocity products and joint torques, tip to root.
 template <class T>
 [[gnu::flatten]] void retrace_kinematics(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
-  for (int i = kBodies - 1; i > 0; --i) {
-    const int lambda = kParents[i];
+  for (int i = kBodies - 1; i >= 0; --i) {
     const BodyTable<RealOf<T>>& b = table.body[i];
-    const Vec3<T> w_lambda = wide<T>(table.body[lambda].w), c_w = d.c_w[i], torque = d.torque[i];
-    const Vec3<T> theta = d.theta[i];
-    const Vec3<T> w = add_transpose_times(add_transpose_times(d.w[i], wide<T>(b.rate_n), d.bias[i].n),
-                                          wide<T>(b.rate_f), d.bias[i].f);
-    const Vec3<T> spin = add_scaled(add_cross(w, c_w, w_lambda), T(-b.damping), torque);
-    const Vec3<T> u = add_cross(w, wide<T>(b.w_joint), c_w);  // the parent's ω as the child sees it
-    const Vec3<T> turn = add_cross(d.turn[i] + theta, u, w_lambda);
-    d.theta[lambda] += theta;
-    d.w[lambda] = add_transpose_times(d.w[lambda] + u, wide<T>(b.centripetal), d.c_v[i]);
+    const Mat3<T> R = wide<T>(b.R);
+    const Vec3<T> w = add_transpose_times(add_transpose_times(d.w[i], wide<T>(b.rate_n), d.sum_alpha[i]),
+                                          wide<T>(b.rate_f), d.sum_a[i]);
+    if (i == 0) {
+      d.state.spin[0] = add_transpose_times(d.state.spin[0], R, w);
+      break;
+    }
+    const int lambda = kParents[i];
+    const Vec3<T> w_lambda = wide<T>(table.body[lambda].w), n = d.sum_n[i], torque = d.torque[i];
+    const Vec3<T> spin = add_scaled(add_cross(w, w_lambda, n), T(-b.damping), torque);
+    const Vec3<T> u = add_cross(w, n, wide<T>(b.w_joint));  // the parent's ω as the child sees it
+    Vec3<T> turn = add_cross(d.turn[i], u, w_lambda);
+    Vec3<T> by_w_lambda = add_transpose_times(d.w[lambda] + u, wide<T>(b.centripetal), d.sum_f[i]);
     if (b.placed) {
-      const Vec3<T> r = wide<T>(b.r), p = d.p[i], v = d.v[i];
+      const Vec3<T> r = wide<T>(b.r), theta = d.theta[i], p = d.p[i], v = d.v[i];
+      turn += theta;
+      by_w_lambda = add_cross(by_w_lambda, r, v);
       d.p[lambda] += p;
       d.v[lambda] += v;
-      d.w[lambda] = add_cross(d.w[lambda], r, v);
-      d.theta[lambda] = add_cross(add_cross(d.theta[lambda], r, p), wide<T>(b.w_x_r), v);
+      d.theta[lambda] = add_cross(add_cross(d.theta[lambda] + theta, r, p), wide<T>(b.w_x_r), v);
     }
-    const Mat3<T> R = wide<T>(b.R);
+    d.w[lambda] = by_w_lambda;
     d.state.spin[i] = add_transpose_times(d.state.spin[i], R, spin);
     d.state.turn[i] =
         add_transpose_times(add_transpose_times(d.state.turn[i], R, turn), wide<T>(b.stiffness), torque);
   }
+}
+
+/// The root's place, and the help on it, which does not turn with it.
+template <class T>
+void retrace_root(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   const BodyTable<RealOf<T>>& root = table.body[0];
-  const Wrench<T>& bias = d.bias[0];
-  const Vec3<T> w = add_transpose_times(add_transpose_times(d.w[0], wide<T>(root.rate_n), bias.n),
-                                        wide<T>(root.rate_f), bias.f);
-  const Vec3<T> theta =
-      add_cross(add_cross(d.theta[0], wide<T>(table.help_n), bias.n), wide<T>(table.help_f), bias.f);
-  d.state.spin[0] = add_transpose_times(d.state.spin[0], wide<T>(root.R), w);
+  const Vec3<T> n = d.sum_alpha[0], f = d.sum_a[0];
+  const Vec3<T> theta = add_cross(add_cross(d.theta[0], n, wide<T>(table.help_n)), f, wide<T>(table.help_f));
   d.state.turn[0] = add_transpose_times(d.state.turn[0], wide<T>(root.R), theta);
-  d.state.p += d.p[0];
-  d.state.v += d.v[0];
-  d.help.n -= bias.n;
-  d.help.f -= bias.f;
+  if (root.placed) {
+    d.state.p += d.p[0];
+    d.state.v += d.v[0];
+  }
+  d.help.n += n;
+  d.help.f += f;
 }
 
 /// What joint torques say of the residuals of the targets.
@@ -305,14 +313,12 @@ void retrace_targets(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   }
 }
 
-/// Joints that are at their bound in some solve: their law and range go their own ways to the state; what is
-/// left in `torque` is the law's part, which the targets give.
+/// Joints that are at their bound in some solve: only the law's part of the torque follows the targets.
 template <class T>
 void retrace_laws(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (const LawTable<RealOf<T>>& law : table.law) {
     const int i = law.body;
-    // As if all were the law and the range of the body's own table; then the difference.
-    d.torque[i] = d.law[i];
+    d.torque[i] = d.law[i];  // for which the table of the body has law and range together
     const Vec3<T> range = d.range[i] - d.law[i];
     const Vec3<T> spin = T(-law.range_damping) * range;
     d.state.spin[i] = add_transpose_times(d.state.spin[i], wide<T>(table.body[i].R), spin);
@@ -329,6 +335,7 @@ void retrace_step(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (const SelfPairTable<RealOf<T>>& pair : table.pairs) retrace_self_contact(pair, d);
   retrace_laws(table, d);
   retrace_kinematics(table, d);
+  retrace_root(table, d);
   retrace_targets(table, d);
 }
 

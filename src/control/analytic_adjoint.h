@@ -26,20 +26,19 @@ struct AdjointData {
   Array<T, kDofs> from, to;  ///< residuals of the old and the new target
   Wrench<T> help;            ///< on the pelvis
 
-  PerBody<Vec3<T>> theta, turn;       ///< rotation of the body; of the joint alone, R δ
-  PerBody<Vec3<T>> p, v;              ///< of the joint centre, world
+  PerBody<Vec3<T>> theta, p, v;       ///< of the body, world, where `placed`
   PerBody<Vec3<T>> w;                 ///< angular velocity of the body
-  PerBody<Vec3<T>> c_w, c_v;          ///< velocity-product acceleration
-  PerBody<Wrench<T>> bias;            ///< bias force of the rigid body
+  PerBody<Vec3<T>> turn;              ///< of the joint, R δ
   PerBody<Vec3<T>> torque;            ///< of the joint
   PerBody<Vec3<T>> law, range, held;  ///< its PD law, its range, the constant in place of the law
-  PerBody<Vec3<T>> qdd;               ///< joint acceleration, R dω/dt
-  PerBody<Wrench<T>> pull;            ///< acceleration of the body, (α; a)
 
-  // How the character, every force but inertia, implicit PD and floor contacts absent, answers forces `pull`
-  // and torques `qdd`: accelerations and what its joints transmit.
+  // A solve is asked by joint accelerations `qdd` and by forces on bodies; it answers with accelerations and
+  // with forces that the joints transmit. The sums are over the solves of the step.
+  PerBody<Vec3<T>> qdd;
   PerBody<Wrench<T>> force;
-  PerBody<Vec3<T>> free, alpha, a;
+  PerBody<Vec3<T>> free;      ///< α of the body, were its parent at rest
+  PerBody<Vec3<T>> alpha, a;  ///< of a solve but the last
+  PerBody<Vec3<T>> sum_alpha, sum_a, sum_n, sum_f;
 };
 
 /// One physics step backwards: `d.state` by the state after it becomes that before it; what the residuals and

@@ -71,7 +71,7 @@ struct Mover {
 /// The penalty force of two capsules: `add_self_contact` of physics/contact.h line by line.
 /// @return false where they do not push
 bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i, int j,
-                        Eigen::Matrix<double, 12, 24>& bias) {
+                        Eigen::Matrix<double, 12, 24>& wrench) {
   const double k = model.options.self_stiffness, damping = model.options.self_damping;
   const Axis a = axis_of(model, d, i), b = axis_of(model, d, j);
   const Vector3d apart = (a.p + a.start) - (b.p + b.start), w_i = to_eigen(d.w[i]), w_j = to_eigen(d.w[j]);
@@ -107,11 +107,10 @@ bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i
       (mi.v + cross(mi.w, arm_i) + cross(w_i, darm_i)) - (mj.v + cross(mj.w, arm_j) + cross(w_j, darm_j));
   const Row dpush = -k * ddistance - damping * (n.transpose() * dv + v.transpose() * dn);
   const Rows df = n * dpush + push * dn;
-  // D of the wrenches; what acts on a body is taken from its bias.
-  bias.middleRows<3>(0) = -(cross(darm_i, f) + cross(arm_i, df) - cross(mi.theta, Vector3d(arm_i.cross(f))));
-  bias.middleRows<3>(3) = -(df - cross(mi.theta, f));
-  bias.middleRows<3>(6) = cross(darm_j, f) + cross(arm_j, df) - cross(mj.theta, Vector3d(arm_j.cross(f)));
-  bias.middleRows<3>(9) = df - cross(mj.theta, f);
+  wrench.middleRows<3>(0) = cross(darm_i, f) + cross(arm_i, df) - cross(mi.theta, Vector3d(arm_i.cross(f)));
+  wrench.middleRows<3>(3) = df - cross(mi.theta, f);
+  wrench.middleRows<3>(6) = cross(mj.theta, Vector3d(arm_j.cross(f))) - cross(darm_j, f) - cross(arm_j, df);
+  wrench.middleRows<3>(9) = cross(mj.theta, f) - df;
   return true;
 }
 
@@ -129,13 +128,13 @@ void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
       const Vec3<double>& f = d.self_wrench[body].f;
       return dot(f, f) > 0.0;
     };
-    Eigen::Matrix<double, 12, 24> bias;
-    if (!touched(i) || !touched(j) || !differentiate_pair(model, d, i, j, bias)) continue;
+    Eigen::Matrix<double, 12, 24> wrench;
+    if (!touched(i) || !touched(j) || !differentiate_pair(model, d, i, j, wrench)) continue;
     SelfPairTable<Real>& table = out.emplace_back();
     table.i = i;
     table.j = j;
     for (int row = 0; row < 12; ++row)
-      for (int k = 0; k < 24; ++k) table.bias[row][k] = static_cast<Real>(bias(row, k));
+      for (int k = 0; k < 24; ++k) table.wrench[row][k] = static_cast<Real>(wrench(row, k));
   }
 }
 

@@ -23,15 +23,15 @@ void tabulate_bodies(const Model<double>& model, const Data<double>& d, const St
     const Matrix3d I_o = to_eigen(d.I_o[i]);
     put(b.R, d.R_WB[i]);
     put(b.w, d.w[i]);
-    put(b.rate_n, Matrix3d(skew(w) * I_o - skew(I_o * w)));
-    put(b.rate_f, Matrix3d(-skew(w.cross(h)) - skew_product(w, h)));
+    put(b.rate_n, Matrix3d(skew(I_o * w) - skew(w) * I_o));
+    put(b.rate_f, Matrix3d(skew(w.cross(h)) + skew_product(w, h)));
     if (i == 0) continue;
     const int lambda = kParents[i];
     put(b.r, d.r[i]);
     put(b.w_joint, Vector3d(to_eigen(d.R_WB[i]) * to_eigen(state.omega[i])));
     const Vector3d w_lambda = to_eigen(d.w[lambda]), r = to_eigen(d.r[i]), w_x_r = w_lambda.cross(r);
     put(b.w_x_r, w_x_r);
-    put(b.centripetal, Matrix3d(-skew(w_x_r) - skew_product(w_lambda, r)));
+    put(b.centripetal, Matrix3d(skew(w_x_r) + skew_product(w_lambda, r)));
     if (is_hinge(i)) put(b.axis, Vector3d(to_eigen(d.R_WB[i]) * to_eigen(model.axis[i])));
   }
 }

@@ -21,8 +21,8 @@ struct BodyTable {
   Vec3<Real> r;               ///< joint centre minus the parent's, m
   Vec3<Real> w, w_joint;      ///< angular velocity; the joint's part of it, R ω
   Vec3<Real> w_x_r;           ///< ω_λ × r
-  Mat3<Real> centripetal;     ///< ω_λ × (ω_λ × r) by ω_λ
-  Mat3<Real> rate_n, rate_f;  ///< moment, force of the rigid body by ω
+  Mat3<Real> centripetal;     ///< −ω_λ × (ω_λ × r) by ω_λ
+  Mat3<Real> rate_n, rate_f;  ///< −(moment, force) of the rigid body by ω
   Vec3<Real> axis;            ///< of a hinge
   Mat3<Real> stiffness;       ///< torque of PD and range by the joint's rotation δ (body frame)
   Real damping;               ///< torque of PD and range by −R δω
@@ -40,12 +40,12 @@ struct LawTable {
   Real range_damping, delta;
 };
 
-/// Two capsules that push each other apart: D of the wrenches that their bodies i and j feel, taken from the
-/// bias, by θ, Dω, dv, dp of i and of j.
+/// Two capsules that push each other apart: D of the wrenches that their bodies i and j feel, by θ, Dω, dv,
+/// dp of i and of j.
 template <class Real>
 struct SelfPairTable {
   int i, j;
-  Real bias[12][24];  ///< (moment; force) of i, then of j
+  Real wrench[12][24];  ///< (moment; force) of i, then of j
 };
 
 /// Floor contacts of one body in one solve: D of the wrench they give, by θ, Dω, dv, dp_z of the body and Dα,
