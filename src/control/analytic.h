@@ -4,9 +4,10 @@
 /// What is differentiated is `step` as it is (semi-implicit Euler; implicit PD, ranges and floor contacts
 /// with every linearisation; torque bounds; self contact), once per physics step of the control interval.
 /// Inside a step the recursion of the articulated-body algorithm is differentiated, after J. Carpentier and
-/// N. Mansard, "Analytical Derivatives of Rigid Body Dynamics Algorithms" (RSS 2018): all directions share
-/// the articulated inertias of the nominal step, so that one costs a sweep over the bodies per solve. The
-/// directions are the lanes of T: one with double, kLanes with Pack.
+/// N. Mansard, "Analytical Derivatives of Rigid Body Dynamics Algorithms" (RSS 2018), and transposed: rows of
+/// the derivative run backwards through the frame, for it has fewer rows than columns. All of them share the
+/// articulated inertias of the nominal step, so that a row costs two sweeps over the bodies per solve. The
+/// rows are the lanes of T: one with double, kLanes with Pack.
 ///
 /// Who pushes, what is saturated, out of range or in self contact is that of the nominal motion. Where one of
 /// these is about to change the function has a kink, and this is the derivative of one side; of a

@@ -42,7 +42,8 @@ Vec3<T> add_transpose_times(const Vec3<T>& c, const Mat3<T>& m, const Vec3<T>& v
   return {add(c.x, m.c[0]), add(c.y, m.c[1]), add(c.z, m.c[2])};
 }
 
-/// The end of the step: q' = q exp(dt ω'), ω' = ω + dt dω/dt, and the root.            docs/physics.md §6
+/// The end of the step: q' = q exp(dt ω'), ω' = ω + dt dω/dt, and the root. docs/control_derivatives.md §3,
+/// (8)
 template <class T>
 [[gnu::flatten]] void retrace_integration(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   const T dt(table.dt);
@@ -105,7 +106,9 @@ void collect(const Vec3<T>& value, Vec3<T>& sum) {
     sum = value;
 }
 
-/// Root to tip: accelerations and transmitted forces, and what they say of joint torques and turns.
+/// Root to tip: accelerations and transmitted forces, and what they say of joint torques and of the turns of
+/// joints.                                                        docs/control_derivatives.md §4, (9) and
+/// (10)
 template <bool kAdd, class T>
 [[gnu::flatten]] void answer_pass(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
                                   PerBody<Vec3<T>>& alphas, PerBody<Vec3<T>>& as, AdjointData<T>& d) {
@@ -138,7 +141,6 @@ template <bool kAdd, class T>
     collect<kAdd>(n, d.sum_n[i]);
     collect<kAdd>(f, d.sum_f[i]);
     collect<kAdd>(qdd, d.torque[i]);
-    // Accelerations and transmitted forces of the nominal motion turn with the joint.
     Vec3<T> turn = cross(wide<T>(solve.body[lambda].alpha), n);
     turn = add_cross(turn, wide<T>(s.a), f);
     turn = add_cross(turn, alpha_lambda, wide<T>(s.n));
@@ -249,7 +251,8 @@ template <class T>
   }
 }
 
-/// Positions, velocities, velocity products and joint torques, tip to root.
+/// Positions, velocities, velocity products and joint torques, tip to root: docs/control_derivatives.md §3,
+/// (4), transposed.
 template <class T>
 [[gnu::flatten]] void retrace_kinematics(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (int i = kBodies - 1; i >= 0; --i) {

@@ -1,12 +1,10 @@
 /// Rows of the derivative through one physics step, backwards: the articulated-body recursion of
-/// physics/aba.h, differentiated and transposed. docs/control_derivatives.md §4
+/// physics/aba.h, differentiated and transposed.                            docs/control_derivatives.md §4
 ///
 /// A row of F asks one coordinate of the end how much it owes to everything before. T = double carries one
 /// row, T = Pack one per lane. Names are those of physics/data.h; every one means the derivative of the row's
-/// coordinate by the change of that quantity, where changes are those that an observer sees who turns with
-/// the body:
-///     D x = dx − θ × x,      θ the body's own change of rotation, R → exp(θ) R.
-/// What is fixed to the body has D = 0, above all its inertia.
+/// coordinate by D of that quantity, the change that an observer sees who turns with the body
+/// (docs/control_derivatives.md §2, (2)); p and v are those of the world.
 #pragma once
 
 #include "control/analytic_tables.h"
@@ -20,6 +18,7 @@ struct StateAdjoint {
   PerBody<Vec3<T>> turn, spin;  ///< δ of q·exp(δ), and omega; body frames
 };
 
+/// By everything in a step.
 template <class T>
 struct AdjointData {
   StateAdjoint<T> state;

@@ -76,6 +76,7 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const double f_end = o.ground_stiffness * c.depth - damping * v_lin.z();
   const double c_t = o.friction * f_end / std::sqrt(slip_2);
   const Row df_end = o.ground_stiffness * depth - damping * at.row(2);
+  // docs/control_derivatives.md §3, (7)
   const Row dc_t = (c_t / f_end) * df_end - (c_t / slip_2) * (v_lin.x() * at.row(0) + v_lin.y() * at.row(1));
 
   const Vector3d v_end = to_eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));

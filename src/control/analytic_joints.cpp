@@ -41,6 +41,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
   for (int i = 1; i < kBodies; ++i) {
     const Matrix3d R = to_eigen(d.R_WB[i]);
     const Vector3d phi = log_map(to_eigen(conjugate(state.q[i]) * target.q[i]));
+    // docs/control_derivatives.md §3, (6)
     const Matrix3d to_phi = model.kp[i] * R * inverse_right_jacobian(phi);  // torque by a turn of the target
     const Matrix3d law = -model.kp[i] * R * inverse_right_jacobian(phi).transpose();
     const double damping = model.kd[i] + dt * model.kp[i];

@@ -1,12 +1,13 @@
-/// What the derivative of one physics step needs to know of the step itself: numbers of the nominal
-/// motion, the same for every direction of differentiation.             docs/control_derivatives.md §2, §3
+/// What the derivative of one physics step needs to know of the step itself: numbers of the nominal motion,
+/// the same for every row.                                                      docs/control_derivatives.md
+/// §3
 ///
-/// Vectors and matrices are in world-parallel axes about the body's own joint centre, as in
-/// physics/data.h, unless a comment names a body frame. Everything is computed in double
-/// (analytic_step.h) and kept as Real, the scalar of the directions' lanes.
+/// Vectors and matrices are in world-parallel axes about the body's own joint centre, as in physics/data.h,
+/// unless a comment names a body frame. D is the change that an observer sees who turns with the body
+/// (docs/control_derivatives.md §2, (2)). Accelerations a count against free fall, a − g. Everything is
+/// computed in double (analytic_step.h) and kept as Real, the scalar of the rows' lanes.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/so3.h"
@@ -55,7 +56,7 @@ template <class Real>
 struct FloorTable {
   static constexpr int kInputs = 16;
   int body;
-  Real wrench[6][kInputs];  ///< (moment; force), taken from the bias of the body
+  Real wrench[6][kInputs];  ///< (moment; force)
 };
 
 /// One body in one solve. For a ball joint D = A + δ is inverted; a hinge uses U and D_inv.xx.
@@ -88,6 +89,7 @@ struct SolveTable {
   PerBody<bool> wanted;  ///< bodies whose accelerations the next solve or the step asks for
 };
 
+/// One physics step.
 template <class Real>
 struct SubstepTable {
   Real dt;
