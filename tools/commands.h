@@ -13,9 +13,10 @@
 
 #include "motion/fit/fit.h"
 #include "motion/synth/set.h"
+#include "pipeline/adapt.h"
+#include "pipeline/imitate.h"
 #include "pipeline/options/clusters.h"
 #include "pipeline/pretrain.h"
-#include "pipeline/sequences.h"
 
 namespace mimicx {
 
@@ -30,17 +31,17 @@ struct UsageError : std::runtime_error {
 };
 
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
-int run_imitate(RunOptions options, const std::vector<std::string>& settings);
-/// Without a folder in `options.out`, every input gets one beside it (NAME.mimicx) and its clean motion
+int run_imitate(ImitateConfig config, const std::vector<std::string>& settings);
+/// Without a folder in `config.run.out`, every input gets one beside it (NAME.mimicx) and its clean motion
 /// beside it (NAME.clean.EXT). @param trained  options to start from: a file, or a folder with options.npz;
 /// empty: those in data/options
-int run_adapt(RunOptions options, std::filesystem::path trained, const std::vector<std::string>& settings);
+int run_adapt(AdaptConfig config, std::filesystem::path trained, const std::vector<std::string>& settings);
 /// @param samples  of all options together; none: what the preset says
-int run_pretrain(PretrainOptions options, const std::string& preset, std::optional<std::int64_t> samples,
+int run_pretrain(PretrainConfig config, const std::string& preset, std::optional<std::int64_t> samples,
                  const std::vector<std::string>& settings);
 /// All stages: pretrain on a folder, then adapt all of it. @param samples  of the pre-training
-int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainOptions options,
-            RunOptions adapt, std::optional<std::int64_t> samples);
+int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainConfig pretraining,
+            AdaptConfig adapting, std::optional<std::int64_t> samples);
 /// @param motions  one folder: every motion and their mean; several: a row of means per folder
 /// @param json  where to write every value as well; empty: nowhere
 int run_evaluate(const std::filesystem::path& truth, const std::vector<std::string>& motions,

@@ -16,8 +16,9 @@ namespace {
 
 /// What the command line holds; the members of the subcommand that was not called stay as they are.
 struct Arguments {
-  RunOptions imitate, adapt;
-  PretrainOptions pretrain;
+  ImitateConfig imitate;
+  AdaptConfig adapt;
+  PretrainConfig pretrain;
   std::string preset = "small";
   std::optional<std::int64_t> pretrain_samples;
   std::string options;
@@ -81,7 +82,8 @@ void add_read_options(CLI::App& command, ReadOptions& read) {
 }
 
 /// What imitate and adapt have in common. @param samples  name of the option for the budget
-void add_run_options(CLI::App& command, Arguments& a, RunOptions& run, const std::string& samples) {
+void add_run_options(CLI::App& command, Arguments& a, RunConfig& run, TrainingConfig& training,
+                     const std::string& samples) {
   command.add_option("FILE", run.inputs, "motions and folders of them")->required();
   command.add_option(
       "--out", run.out,
@@ -93,12 +95,12 @@ void add_run_options(CLI::App& command, Arguments& a, RunOptions& run, const std
           "--rate", [&run](const std::string& rate) { run.input_rate = rate == "input"; },
           "frame rate of the clean copies in the inputs' own formats: 30 (default) or input")
       ->check(CLI::IsMember({"30", "input"}));
-  command.add_option(samples, run.training.samples, "training budget per motion, in character steps")
+  command.add_option(samples, training.samples, "training budget per motion, in character steps")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_flag("--substeps", run.substeps,
                    "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
-  command.add_option("--seed", run.training.seed, "root of every random number")->capture_default_str();
+  command.add_option("--seed", training.seed, "root of every random number")->capture_default_str();
   add_threads(command, run.threads);
   command
       .add_option("--limit-seconds", run.limit_seconds,
@@ -110,23 +112,26 @@ void add_run_options(CLI::App& command, Arguments& a, RunOptions& run, const std
 
 void declare_imitate(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("imitate", "Train a simulated character to follow each motion");
-  add_run_options(*command, a, a.imitate, "--samples");
-  command->add_flag("--fit", a.imitate.fit, "move motions onto their keypoints first, where they have any");
+  add_run_options(*command, a, a.imitate.run, a.imitate.training, "--samples");
+  command->add_flag("--fit", a.imitate.run.fit,
+                    "move motions onto their keypoints first, where they have any");
   command->callback([&a] { a.run = [&a] { return run_imitate(a.imitate, a.settings); }; });
 }
 
 void declare_adapt(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand(
       "adapt", "Clean motions: keypoint fit, then trained options chosen and fine-tuned for each");
-  add_run_options(*command, a, a.adapt, "--budget-samples");
+  add_run_options(*command, a, a.adapt.run, a.adapt.training, "--budget-samples");
   command->add_flag(
-      "--fit,!--no-fit", a.adapt.fit,
+      "--fit,!--no-fit", a.adapt.run.fit,
       "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
       "look at keypoints at all");
   command->add_option(
       "--options", a.options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");
-  command->add_option("--switch-penalty", a.adapt.switch_penalty, "w_p of Eq. 4, in rewards; not positive")
+  command
+      ->add_option("--switch-penalty", a.adapt.arrangement.switch_penalty,
+                   "w_p of Eq. 4, in rewards; not positive")
       ->check(CLI::Range(-1e9, 0.0))
       ->capture_default_str();
   command->callback([&a] { a.run = [&a] { return run_adapt(a.adapt, a.options, a.settings); }; });
@@ -187,8 +192,8 @@ void declare_run(CLI::App& app, Arguments& a) {
   command->callback([&a] {
     a.run = [&a] {
       a.adapt.training.seed = a.pretrain.training.seed;
-      a.adapt.threads = a.pretrain.threads;
-      a.adapt.read = a.pretrain.read;
+      a.adapt.run.threads = a.pretrain.threads;
+      a.adapt.run.read = a.pretrain.read;
       return run_all(a.in, a.out, a.pretrain, a.adapt, a.pretrain_samples);
     };
   });
@@ -324,7 +329,7 @@ int run(int argc, char** argv) {
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
   Arguments arguments;
   arguments.adapt.training = fine_tuning_defaults();
-  arguments.adapt.fit = true;
+  arguments.adapt.run.fit = true;
   declare_run(app, arguments);
   declare_pretrain(app, arguments);
   declare_adapt(app, arguments);

@@ -67,6 +67,32 @@ int with_context(const Work& work) {
   }
 }
 
+/// Runs all inputs in the folder that was named; without one, every input in a folder beside it.
+/// @param run  one run with the inputs and the folder that `config` then holds
+template <class Config, class Run>
+RunOutcome run_inputs(Config& config, const RunContext& context, const Run& run) {
+  const std::vector<std::string> files = expand_inputs(config.run.inputs);
+  if (!config.run.out.empty()) {
+    config.run.inputs = files;
+    return run();
+  }
+  RunOutcome all = RunOutcome::kAllGood;
+  config.run.beside = true;
+  for (const std::filesystem::path file : files) {
+    config.run.inputs = {file.string()};
+    config.run.out = file.parent_path() / (file.stem().string() + ".mimicx");
+    try {
+      const RunOutcome outcome = run();
+      if (outcome == RunOutcome::kInterrupted) return outcome;
+      if (outcome != RunOutcome::kAllGood) all = outcome;
+    } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
+      context.messages << file.string() << ": left out: " << error.what() << '\n';
+      all = RunOutcome::kSomeFailed;
+    }
+  }
+  return all;
+}
+
 /// data/options of the source tree that holds this program, or of the folder it was started in.
 std::filesystem::path shipped_options() {
   const std::filesystem::path relative = std::filesystem::path("data") / "options";
@@ -81,57 +107,41 @@ std::filesystem::path shipped_options() {
 
 }  // namespace
 
-int run_imitate(RunOptions options, const std::vector<std::string>& settings) {
-  apply(settings, options.training);
+int run_imitate(ImitateConfig config, const std::vector<std::string>& settings) {
+  apply(settings, config.training);
   return with_context([&](const RunContext& context) {
-    const std::vector<std::string> files = expand_inputs(options.inputs);
-    if (!options.out.empty()) {
-      options.inputs = files;
-      return run_sequences(options, context);
-    }
-    RunOutcome all = RunOutcome::kAllGood;
-    options.beside = true;
-    for (const std::filesystem::path file : files) {
-      options.inputs = {file.string()};
-      options.out = file.parent_path() / (file.stem().string() + ".mimicx");
-      try {
-        const RunOutcome outcome = run_sequences(options, context);
-        if (outcome == RunOutcome::kInterrupted) return outcome;
-        if (outcome != RunOutcome::kAllGood) all = outcome;
-      } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
-        context.messages << file.string() << ": left out: " << error.what() << '\n';
-        all = RunOutcome::kSomeFailed;
-      }
-    }
-    return all;
+    return run_inputs(config, context, [&] { return imitate(config, context); });
   });
 }
 
-int run_adapt(RunOptions options, std::filesystem::path trained, const std::vector<std::string>& settings) {
-  options.keypoints = options.fit;  // a reference that is not on its keypoints contradicts Eq. 3
+int run_adapt(AdaptConfig config, std::filesystem::path trained, const std::vector<std::string>& settings) {
+  config.run.keypoints = config.run.fit;  // a reference that is not on its keypoints contradicts Eq. 3
   if (trained.empty()) trained = shipped_options();
-  options.options = read_options(trained);
-  return run_imitate(std::move(options), settings);
+  config.options = read_options(trained);
+  apply(settings, config.training);
+  return with_context([&](const RunContext& context) {
+    return run_inputs(config, context, [&] { return adapt(config, context); });
+  });
 }
 
-int run_pretrain(PretrainOptions options, const std::string& preset, std::optional<std::int64_t> samples,
+int run_pretrain(PretrainConfig config, const std::string& preset, std::optional<std::int64_t> samples,
                  const std::vector<std::string>& settings) {
-  const std::uint64_t seed = options.training.seed;
-  options.training = pretrain_preset(preset);
-  options.training.seed = options.clusters.seed = seed;
-  if (samples) options.training.samples = *samples;
-  apply(settings, options.training);
-  return with_context([&](const RunContext& context) { return pretrain(options, context); });
+  const std::uint64_t seed = config.training.seed;
+  config.training = pretrain_preset(preset);
+  config.training.seed = config.clusters.seed = seed;
+  if (samples) config.training.samples = *samples;
+  apply(settings, config.training);
+  return with_context([&](const RunContext& context) { return pretrain(config, context); });
 }
 
-int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainOptions options,
-            RunOptions adapt, std::optional<std::int64_t> samples) {
-  options.inputs = adapt.inputs = {in.string()};
-  options.out = out / "options";
-  adapt.out = out / "clean";
-  const int status = run_pretrain(options, "small", samples, {});
+int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainConfig pretraining,
+            AdaptConfig adapting, std::optional<std::int64_t> samples) {
+  pretraining.inputs = adapting.run.inputs = {in.string()};
+  pretraining.out = out / "options";
+  adapting.run.out = out / "clean";
+  const int status = run_pretrain(pretraining, "small", samples, {});
   if (status == kInterrupted) return status;
-  return std::max(status, run_adapt(std::move(adapt), options.out, {}));
+  return std::max(status, run_adapt(std::move(adapting), pretraining.out, {}));
 }
 
 }  // namespace mimicx

@@ -10,6 +10,7 @@
 #include "core/npz.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/json.h"
+#include "pipeline/record/run_folder.h"
 
 namespace mimicx {
 namespace {
@@ -21,14 +22,14 @@ struct Motions {
   bool all_good = true;
 };
 
-Motions read_motions(const std::vector<std::string>& files, const PretrainOptions& options,
+Motions read_motions(const std::vector<std::string>& files, const PretrainConfig& config,
                      const RunContext& context) {
   Motions motions;
   context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
     try {
-      PreparedMotion motion = prepare_motion(files[i], options.read, options.fit);
+      PreparedMotion motion = prepare_motion(files[i], config.read, config.fit);
       tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
       std::vector<std::string> taken;
@@ -49,22 +50,22 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainOption
   return motions;
 }
 
-Json settings_json(const PretrainOptions& options) {
+Json settings_json(const PretrainConfig& config) {
   Json settings = Json::object();
-  for (const auto& [name, value] : settings_of(options.training)) settings[name] = value;
-  settings["fit"] = options.fit;
-  settings["encoder"] = options.use_encoder;
-  settings["encoder_code"] = options.encoder.code;
-  settings["encoder_hidden"] = options.encoder.hidden;
-  settings["encoder_corruption"] = options.encoder.corruption;
-  settings["encoder_steps"] = options.encoder.steps;
-  settings["cluster_radius"] = options.clusters.radius;
-  settings["clusters"] = options.clusters.clusters.value_or(0);
+  for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
+  settings["fit"] = config.fit;
+  settings["encoder"] = config.use_encoder;
+  settings["encoder_code"] = config.encoder.code;
+  settings["encoder_hidden"] = config.encoder.hidden;
+  settings["encoder_corruption"] = config.encoder.corruption;
+  settings["encoder_steps"] = config.encoder.steps;
+  settings["cluster_radius"] = config.clusters.radius;
+  settings["clusters"] = config.clusters.clusters.value_or(0);
   return settings;
 }
 
 /// What the results depend on; a folder holds one run of one such record.
-Json run_record(const PretrainOptions& options, const std::vector<std::string>& files) {
+Json run_record(const PretrainConfig& config, const std::vector<std::string>& files) {
   Json inputs = Json::array();
   for (const std::string& file : files) {
     std::string checksum;
@@ -76,10 +77,10 @@ Json run_record(const PretrainOptions& options, const std::vector<std::string>& 
   }
   return {{"version", MIMICX_VERSION},
           {"target", MIMICX_TARGET},
-          {"seed", options.training.seed},
-          {"samples", options.training.samples},
-          {"settings", settings_json(options)},
-          {"reading", options.read.text()},
+          {"seed", config.training.seed},
+          {"samples", config.training.samples},
+          {"settings", settings_json(config)},
+          {"reading", config.read.text()},
           {"inputs", inputs}};
 }
 
@@ -126,44 +127,38 @@ struct OptionRun {
 };
 
 /// Encoder and policy of one cluster.
-OptionRun train_option(const PretrainOptions& options, const RunContext& context, const Clusters& clusters,
+OptionRun train_option(const PretrainConfig& config, const RunContext& context, const Clusters& clusters,
                        int index, std::int64_t samples, const Motions& motions) {
   const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(index)];
   const std::string name = "option" + std::to_string(index);
-  TrainingConfig config = options.training;
-  config.seed += static_cast<std::uint64_t>(index);
-  config.samples = samples;
+  TrainingConfig training = config.training;
+  training.seed += static_cast<std::uint64_t>(index);
+  training.samples = samples;
   std::vector<std::shared_ptr<const rl::TrackingClip>> clips;
   for (const std::string& member : cluster.members)
     for (std::size_t i = 0; i < motions.features.size(); ++i)
       if (motions.features[i].name == member)
-        clips.push_back(rl::make_tracking_clip(motions.references[i], config.tracking));
+        clips.push_back(rl::make_tracking_clip(motions.references[i], training.tracking));
 
   OptionRun run;
   rl::Option option;
   nn::AutoEncoderStats losses;
-  if (options.use_encoder) {
-    context.progress.start(name + ", encoder", 0.0, options.encoder.steps, "steps");
-    option.encoder = make_encoder(clips, options.encoder, config.seed, losses,
+  if (config.use_encoder) {
+    context.progress.start(name + ", encoder", 0.0, config.encoder.steps, "steps");
+    option.encoder = make_encoder(clips, config.encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
   }
   for (auto& clip : clips) clip = rl::encoded_for(clip, {&option});
-  const rl::Agent start = untrained_agent(config, clips.front()->state_size());
+  const rl::Agent start = untrained_agent(training, clips.front()->state_size());
 
-  const RunFolder folder{options.out};
+  const RunFolder folder{config.out};
   const TrainingFiles files = {folder.checkpoint(name), folder.log(name), folder.falls(name), name};
   TrainingControl control;
-  control.threads = options.threads;
+  control.threads = config.threads;
   control.should_stop = context.should_stop;
-  control.progress = [&, started = false](std::int64_t samples, const std::string& detail) mutable {
-    const auto done = static_cast<double>(samples);
-    if (!started)
-      context.progress.start(name + " (" + std::to_string(clips.size()) + " motions)", done,
-                             static_cast<double>(config.samples));
-    started = true;
-    context.progress.update(done, detail);
-  };
-  const TrainingResult result = train(clips, {start}, config, files, control);
+  const std::string label = name + " (" + std::to_string(clips.size()) + " motions)";
+  control.progress = progress_of_training(context.progress, label, training.samples);
+  const TrainingResult result = train(clips, {start}, training, files, control);
   option.agent = result.agents.front();
   run.interrupted = result.interrupted;
   run.trained = {option, cluster.description, cluster.centre, static_cast<int>(clips.size()), result.samples};
@@ -171,7 +166,7 @@ OptionRun train_option(const PretrainOptions& options, const RunContext& context
                 {"description", cluster.description},
                 {"members", cluster.members},
                 {"samples", result.samples},
-                {"seed", config.seed},
+                {"seed", training.seed},
                 {"encoder_loss_first", losses.first_loss},
                 {"encoder_loss_last", losses.last_loss}};
   return run;
@@ -202,10 +197,10 @@ std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<
   return shares;
 }
 
-RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
-  const std::vector<std::string> files = expand_inputs(options.inputs);
-  const RunFolder folder{options.out};
-  const Json record = run_record(options, files);
+RunOutcome pretrain(const PretrainConfig& config, const RunContext& context) {
+  const std::vector<std::string> files = expand_inputs(config.inputs);
+  const RunFolder folder{config.out};
+  const Json record = run_record(config, files);
   check_folder(folder.manifest(), record);
   if (const auto outcome = finished_outcome(folder)) {
     context.messages << folder.root.string() << ": these options are trained already\n";
@@ -214,21 +209,21 @@ RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
   folder.create();
   write_file_atomically(folder.manifest(), Json({{"run", record}}).dump(1) + "\n");
 
-  const Motions motions = read_motions(files, options, context);
+  const Motions motions = read_motions(files, config, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
-  const Clusters clusters = cluster_motions(motions.features, options.clusters);
-  write_clusters(options.out / "clusters.json", clusters);
+  const Clusters clusters = cluster_motions(motions.features, config.clusters);
+  write_clusters(config.out / "clusters.json", clusters);
   context.messages << format_cluster_tree(clusters);
 
   std::vector<int> sizes;
   for (const MotionCluster& cluster : clusters.clusters)
     sizes.push_back(static_cast<int>(cluster.members.size()));
-  const std::vector<std::int64_t> samples = share_samples(options.training.samples, sizes);
+  const std::vector<std::int64_t> samples = share_samples(config.training.samples, sizes);
   OptionSet set;
   Json trained = Json::array();
   for (int index = 0; index < static_cast<int>(clusters.clusters.size()); ++index) {
     OptionRun run =
-        train_option(options, context, clusters, index, samples[static_cast<std::size_t>(index)], motions);
+        train_option(config, context, clusters, index, samples[static_cast<std::size_t>(index)], motions);
     if (run.interrupted) {
       context.progress.finish("interrupted; the same command continues");
       return RunOutcome::kInterrupted;
@@ -237,11 +232,11 @@ RunOutcome pretrain(const PretrainOptions& options, const RunContext& context) {
     set.options.push_back(std::move(run.trained));
     trained.push_back(run.record);
   }
-  write_options(options.out / "options.npz", set);
+  write_options(config.out / "options.npz", set);
   write_file_atomically(folder.manifest(), Json({{"run", record},
                                                  {"inputs", motions.record},
                                                  {"options", trained},
-                                                 {"checksum", file_checksum(options.out / "options.npz")}})
+                                                 {"checksum", file_checksum(config.out / "options.npz")}})
                                                    .dump(1) +
                                                "\n");
   return motions.all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;

@@ -16,11 +16,13 @@
 #include "motion/import/motion_file.h"
 #include "nn/autoencoder.h"
 #include "pipeline/options/clusters.h"
-#include "pipeline/sequences.h"
+#include "pipeline/options/option_set.h"
+#include "pipeline/record/run_context.h"
+#include "pipeline/training.h"
 
 namespace mimicx {
 
-struct PretrainOptions {
+struct PretrainConfig {
   std::vector<std::string> inputs;  ///< files and folders
   std::filesystem::path out;
   TrainingConfig training;  ///< its samples are of all options together
@@ -41,6 +43,6 @@ TrainingConfig pretrain_preset(const std::string& name);
 /// policy learns on one motion helps it on the next. @param motions  of every option, ≥ 1
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions);
 
-RunOutcome pretrain(const PretrainOptions& options, const RunContext& context);
+RunOutcome pretrain(const PretrainConfig& config, const RunContext& context);
 
 }  // namespace mimicx

@@ -6,7 +6,6 @@
 
 #include "core/npz.h"
 #include "core/parallel.h"
-#include "pipeline/record/progress.h"
 #include "rl/tracking/environment.h"
 #include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
@@ -171,6 +170,16 @@ std::string detail_of(const rl::IterationStats& s) {
 }
 
 }  // namespace
+
+std::function<void(std::int64_t, const std::string&)> progress_of_training(Progress& progress,
+                                                                           const std::string& label,
+                                                                           std::int64_t samples) {
+  return [&progress, label, samples, started = false](std::int64_t done, const std::string& detail) mutable {
+    if (!started) progress.start(label, static_cast<double>(done), static_cast<double>(samples));
+    started = true;
+    progress.update(static_cast<double>(done), detail);
+  };
+}
 
 int stall_age(int age, double score, double best_score) {
   const bool followed = score < kLost;

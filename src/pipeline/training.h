@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pipeline/record/manifest.h"
+#include "pipeline/record/progress.h"
 #include "pipeline/record/table.h"
 #include "rl/policy.h"
 #include "rl/ppo_config.h"
@@ -90,6 +91,11 @@ struct TrainingResult {
 TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
                      std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
                      const TrainingControl& control);
+
+/// What tells `progress` how far a training of so many samples is, a job of that label.
+std::function<void(std::int64_t, const std::string&)> progress_of_training(Progress& progress,
+                                                                           const std::string& label,
+                                                                           std::int64_t samples);
 
 /// How many roll-outs in a row have followed the motion to its end without being markedly better than before.
 /// A roll-out that falls says that learning has not settled, even where an earlier one was lucky.

@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 #include "motion/synth/synth.h"
-#include "pipeline/sequences.h"
+#include "pipeline/imitate.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx {
@@ -13,13 +13,13 @@ namespace {
 
 SequenceEntry imitate_one(const std::filesystem::path& input) {
   const TemporaryFolder folder;
-  RunOptions options;
-  options.inputs = {input.string()};
-  options.out = folder.path / "run";
-  options.threads = available_threads();
+  ImitateConfig config;
+  config.run.inputs = {input.string()};
+  config.run.out = folder.path / "run";
+  config.run.threads = available_threads();
   Progress progress(std::cout, false, steady_seconds);
-  run_sequences(options, {progress, std::cout, [] { return false; }});
-  return read_manifest(options.out / "manifest.json").sequences.at(0);
+  imitate(config, {progress, std::cout, [] { return false; }});
+  return read_manifest(config.run.out / "manifest.json").sequences.at(0);
 }
 
 double metric(const SequenceEntry& entry, const std::string& name) {

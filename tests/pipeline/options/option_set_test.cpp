@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/npz.h"
 #include "motion/synth/synth.h"
+#include "pipeline/adapt.h"
 #include "pipeline/pretrain.h"
 #include "pipeline/results.h"
 #include "pipeline/standing_clip.h"
@@ -50,8 +51,8 @@ struct Options : testing::Test {
     walk.kind = "walk";
     write_clip(motions / "walk.npz", synthesize(walk));
   }
-  PretrainOptions pretraining(const std::string& out) const {
-    PretrainOptions options;
+  PretrainConfig pretraining(const std::string& out) const {
+    PretrainConfig options;
     options.inputs = {motions.string()};
     options.out = folder.path / out;
     options.training = small_training();
@@ -61,22 +62,21 @@ struct Options : testing::Test {
     options.encoder.code = 8;
     return options;
   }
-  static RunOutcome run(const PretrainOptions& options, int iterations = -1) {
+  static RunOutcome run(const PretrainConfig& options, int iterations = -1) {
     return with_context([&](const RunContext& context) { return pretrain(options, context); }, iterations);
   }
-  RunOptions adapting(const std::string& out, const std::string& options) const {
-    RunOptions run;
-    run.inputs = {(motions / "sway.npz").string()};
-    run.out = folder.path / out;
-    run.training = small_training();
-    run.fit = true;
-    run.switch_penalty = -0.01;
-    run.options = read_options(folder.path / options);
-    return run;
+  AdaptConfig adapting(const std::string& out, const std::string& options) const {
+    AdaptConfig config;
+    config.run.inputs = {(motions / "sway.npz").string()};
+    config.run.out = folder.path / out;
+    config.run.fit = true;
+    config.training = small_training();
+    config.arrangement.switch_penalty = -0.01;
+    config.options = read_options(folder.path / options);
+    return config;
   }
-  static RunOutcome run(const RunOptions& options, int iterations = -1) {
-    return with_context([&](const RunContext& context) { return run_sequences(options, context); },
-                        iterations);
+  static RunOutcome run(const AdaptConfig& options, int iterations = -1) {
+    return with_context([&](const RunContext& context) { return adapt(options, context); }, iterations);
   }
   std::filesystem::path out(const std::string& name) const { return folder.path / name; }
 
@@ -109,7 +109,7 @@ TEST_F(Options, PretrainingLeavesEveryFileTheDocumentationNames) {
 }
 
 TEST_F(Options, PretrainingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  PretrainOptions options = pretraining("one");
+  PretrainConfig options = pretraining("one");
   run(options);
   options.out = out("two");
   options.threads = 2;
@@ -138,7 +138,7 @@ TEST_F(Options, PretrainingNamesWhatItCannotReadAndGoesOn) {
 }
 
 TEST_F(Options, PretrainingRefusesAFolderOfAnotherRun) {
-  PretrainOptions options = pretraining("run");
+  PretrainConfig options = pretraining("run");
   run(options);
   options.encoder.code = 4;
   EXPECT_THROW(run(options), std::invalid_argument);
@@ -171,7 +171,7 @@ TEST_F(Options, AdaptingRecordsArrangementEndingAndWhatTheOptionsDidBefore) {
 
 TEST_F(Options, AdaptingWithoutABudgetIsTheOptionsThemselves) {
   run(pretraining("options"));
-  RunOptions options = adapting("run", "options");
+  AdaptConfig options = adapting("run", "options");
   options.training.samples = 0;
   run(options);
   const SequenceEntry entry = read_manifest(out("run") / "manifest.json").sequences.at(0);
@@ -182,10 +182,10 @@ TEST_F(Options, AdaptingWithoutABudgetIsTheOptionsThemselves) {
 
 TEST_F(Options, AdaptingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   run(pretraining("options"));
-  RunOptions options = adapting("one", "options");
+  AdaptConfig options = adapting("one", "options");
   run(options);
-  options.out = out("two");
-  options.threads = 2;
+  options.run.out = out("two");
+  options.run.threads = 2;
   EXPECT_EQ(run(options, 3), RunOutcome::kInterrupted);
   run(options);
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
@@ -193,7 +193,7 @@ TEST_F(Options, AdaptingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) 
 
 TEST_F(Options, EndingsAreToldApart) {
   run(pretraining("options"));
-  RunOptions options = adapting("good", "options");
+  AdaptConfig options = adapting("good", "options");
   options.training.stop_reward = 1e-9;  // whatever it does is good enough
   run(options);
   EXPECT_EQ(read_manifest(out("good") / "manifest.json").sequences.at(0).ending, Ending::kThreshold);
@@ -218,11 +218,11 @@ TEST_F(Options, NothingChangesWhereTheTruthIsDeleted) {
   std::filesystem::copy(data / "truth", out("data") / "truth");
   std::filesystem::copy(data / "noisy", out("data") / "noisy");
   run(pretraining("options"));
-  RunOptions options = adapting("with", "options");
-  options.inputs = {(out("data") / "noisy" / "stand_1.npz").string()};
+  AdaptConfig options = adapting("with", "options");
+  options.run.inputs = {(out("data") / "noisy" / "stand_1.npz").string()};
   run(options);
   std::filesystem::remove_all(out("data") / "truth");
-  options.out = out("without");
+  options.run.out = out("without");
   run(options);
   const auto with = results_of(out("with"));
   EXPECT_TRUE(with.contains("fits/stand_1.npz")) << "a clip with keypoints is fitted";
@@ -237,18 +237,18 @@ TEST_F(Options, NothingDependsOnKeypointsThatAreNotWanted) {
   std::filesystem::create_directories(out("blind"));
   write_clip(out("blind") / "stand_1.npz", clip);
   run(pretraining("options"));
-  RunOptions options = adapting("seen", "options");
-  options.fit = false;
-  options.inputs = {noisy.string()};
+  AdaptConfig options = adapting("seen", "options");
+  options.run.fit = false;
+  options.run.inputs = {noisy.string()};
   const std::string log = "training/stand_1.csv";
   run(options);
   const std::string with_eq3 = results_of(out("seen")).at(log);
-  options.keypoints = false;
-  options.out = out("unwanted");
+  options.run.keypoints = false;
+  options.run.out = out("unwanted");
   run(options);
   const std::string unwanted = results_of(out("unwanted")).at(log);
-  options.inputs = {(out("blind") / "stand_1.npz").string()};
-  options.out = out("none");
+  options.run.inputs = {(out("blind") / "stand_1.npz").string()};
+  options.run.out = out("none");
   run(options);
   EXPECT_EQ(unwanted, results_of(out("none")).at(log));
   EXPECT_NE(unwanted, with_eq3);

@@ -4,7 +4,9 @@
 #include <sstream>
 
 #include "motion/synth/set.h"
-#include "pipeline/pretrain.h"
+#include "pipeline/adapt.h"
+#include "pipeline/imitate.h"
+#include "pipeline/options/clusters.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx {
@@ -14,19 +16,31 @@ const std::filesystem::path kOptions = std::filesystem::path(MIMICX_SOURCE_DIR) 
 const std::filesystem::path kTestSplit =
     std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic" / "test" / "noisy";
 
-SequenceEntry adapt(const std::string& name, const std::shared_ptr<const OptionSet>& options) {
+/// What a run over one motion of the test split records.
+/// @param work  runs `config` in a context
+template <class Config, class Work>
+SequenceEntry entry_of(Config& config, const std::string& name, const Work& work) {
   const TemporaryFolder folder;
-  RunOptions run;
-  run.inputs = {(kTestSplit / (name + ".npz")).string()};
-  run.out = folder.path / "run";
-  run.training = fine_tuning_defaults();
-  run.training.samples = 0;  // the start alone
-  run.fit = true;
-  run.options = options;
+  config.run.inputs = {(kTestSplit / (name + ".npz")).string()};
+  config.run.out = folder.path / "run";
+  config.run.fit = true;
+  config.training.samples = 0;  // the start alone
   std::ostringstream messages;
   Progress progress(messages, false, steady_seconds);
-  run_sequences(run, {progress, messages, [] { return false; }});
-  return read_manifest(run.out / "manifest.json").sequences.at(0);
+  work(RunContext{progress, messages, [] { return false; }});
+  return read_manifest(config.run.out / "manifest.json").sequences.at(0);
+}
+
+SequenceEntry adapted(const std::string& name, const std::shared_ptr<const OptionSet>& options) {
+  AdaptConfig config;
+  config.training = fine_tuning_defaults();
+  config.options = options;
+  return entry_of(config, name, [&](const RunContext& context) { adapt(config, context); });
+}
+
+SequenceEntry untrained(const std::string& name) {
+  ImitateConfig config;
+  return entry_of(config, name, [&](const RunContext& context) { imitate(config, context); });
 }
 
 TEST(ShippedOptions, AreTheFileThatTheirPageRecordsAndSmall) {
@@ -45,7 +59,7 @@ TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
 TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
   const auto options = read_options(kOptions);
   for (const char* name : {"squat_1", "wave_1", "turn_in_place_1"}) {
-    const SequenceEntry with = adapt(name, options), without = adapt(name, nullptr);
+    const SequenceEntry with = adapted(name, options), without = untrained(name);
     EXPECT_TRUE(with.ok) << name << ": " << with.reason;
     EXPECT_FALSE(without.ok) << name << ": a zero residual falls";
     EXPECT_GT(with.reward_after, 2.0 * without.reward_after) << name;

@@ -1,4 +1,4 @@
-#include "pipeline/sequences.h"
+#include "pipeline/imitate.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/npz.h"
+#include "pipeline/adapt.h"
 #include "pipeline/pretrain.h"
 #include "pipeline/results.h"
 #include "pipeline/standing_clip.h"
@@ -17,18 +18,18 @@ namespace mimicx {
 namespace {
 
 /// Small enough for a test, large enough for several iterations, groups and checkpoints.
-RunOptions small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
-  RunOptions options;
-  options.inputs = inputs;
-  options.out = out;
-  options.training.samples = 6 * 64 * 8;
-  options.training.characters = 64;
-  options.training.group_size = 16;
-  options.training.hidden = {16};
-  options.training.ppo.horizon = 8;
-  options.training.ppo.minibatch = 256;
-  options.training.ppo.pass_rows = 64;
-  return options;
+ImitateConfig small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
+  ImitateConfig config;
+  config.run.inputs = inputs;
+  config.run.out = out;
+  config.training.samples = 6 * 64 * 8;
+  config.training.characters = 64;
+  config.training.group_size = 16;
+  config.training.hidden = {16};
+  config.training.ppo.horizon = 8;
+  config.training.ppo.minibatch = 256;
+  config.training.ppo.pass_rows = 64;
+  return config;
 }
 
 struct Outcome {
@@ -37,11 +38,11 @@ struct Outcome {
 };
 
 /// @param iterations  asks to stop after that many; negative: never
-Outcome run(const RunOptions& options, int iterations = -1) {
+Outcome run(const ImitateConfig& config, int iterations = -1) {
   std::ostringstream messages;
   Progress progress(messages, false, steady_seconds);
   int asked = 0;
-  const auto value = run_sequences(options, {progress, messages, [&] { return ++asked == iterations; }});
+  const auto value = imitate(config, {progress, messages, [&] { return ++asked == iterations; }});
   return {value, messages.str()};
 }
 
@@ -99,63 +100,63 @@ TEST_F(Imitate, SupportsTheBodyWithTheFloor) {
 }
 
 TEST_F(Imitate, IsTheSameBytesTwiceAndForOneAndTwoThreads) {
-  RunOptions options = small_run(out("one"), {stand, other});
-  run(options);
-  options.out = out("again");
-  run(options);
-  options.out = out("two");
-  options.threads = 2;
-  run(options);
+  ImitateConfig config = small_run(out("one"), {stand, other});
+  run(config);
+  config.run.out = out("again");
+  run(config);
+  config.run.out = out("two");
+  config.run.threads = 2;
+  run(config);
   EXPECT_EQ(results_of(out("one")), results_of(out("again")));
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
 TEST_F(Imitate, IsTheSameBytesAfterInterruptions) {
-  RunOptions options = small_run(out("whole"), {stand, other});
-  run(options);
-  options.out = out("interrupted");
-  EXPECT_EQ(run(options, 2).value, RunOutcome::kInterrupted);
-  EXPECT_EQ(run(options, 7).value, RunOutcome::kInterrupted);  // in the second clip
-  run(options);
+  ImitateConfig config = small_run(out("whole"), {stand, other});
+  run(config);
+  config.run.out = out("interrupted");
+  EXPECT_EQ(run(config, 2).value, RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 7).value, RunOutcome::kInterrupted);  // in the second clip
+  run(config);
   EXPECT_EQ(results_of(out("whole")), results_of(out("interrupted")));
 }
 
 TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
-  RunOptions options = small_run(out("whole"), {stand});
-  run(options);
-  options.out = out("killed");
-  EXPECT_EQ(run(options, 2).value, RunOutcome::kInterrupted);
+  ImitateConfig config = small_run(out("whole"), {stand});
+  run(config);
+  config.run.out = out("killed");
+  EXPECT_EQ(run(config, 2).value, RunOutcome::kInterrupted);
   // The log is written before the checkpoint: a kill between the two leaves rows too many.
   Table log = read_csv(out("killed") / "training" / "stand.csv");
   ASSERT_EQ(log.rows.size(), 2u);
   log.rows.push_back(log.rows.back());
   std::ofstream(out("killed") / "training" / "stand.csv") << format_csv(log);
-  run(options);
+  run(config);
   EXPECT_EQ(results_of(out("whole")), results_of(out("killed")));
 }
 
 TEST_F(Imitate, KeepsWhatIsFinished) {
-  const RunOptions options = small_run(out("run"), {stand});
-  run(options);
+  const ImitateConfig config = small_run(out("run"), {stand});
+  run(config);
   const auto before = results_of(out("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz");
-  run(options);
+  run(config);
   EXPECT_EQ(results_of(out("run")), before);
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz"), written);
 }
 
 TEST_F(Imitate, AFinishedMotionGetsItsStepsWithoutTrainingAgain) {
-  RunOptions options = small_run(out("run"), {stand});
-  run(options);
+  ImitateConfig config = small_run(out("run"), {stand});
+  run(config);
   auto before = results_of(out("run"));
-  options.substeps = true;
-  run(options);
+  config.run.substeps = true;
+  run(config);
   auto after = results_of(out("run"));
   const std::string steps = after.at("substeps/stand.npz");
   after.erase("substeps/stand.npz");
   EXPECT_EQ(after, before);
-  options.out = out("at once");
-  run(options);
+  config.run.out = out("at once");
+  run(config);
   EXPECT_EQ(results_of(out("at once")).at("substeps/stand.npz"), steps);
 }
 
@@ -173,10 +174,10 @@ TEST_F(Imitate, TheManifestSaysWhatTheForcesLeaveUnexplained) {
 }
 
 TEST_F(Imitate, StartsOverWhenTheInputChanged) {
-  const RunOptions options = small_run(out("run"), {stand});
-  run(options);
+  const ImitateConfig config = small_run(out("run"), {stand});
+  run(config);
   write_clip(stand, standing_clip(25));
-  run(options);
+  run(config);
   EXPECT_EQ(read_npz(out("run") / "motions" / "stand.npz").at("poses").shape.at(0), 25u);
 }
 
@@ -212,90 +213,90 @@ TEST_F(Imitate, AMotionThatCannotBeFollowedStandsApartFromTheCleanOnes) {
 
 TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
   const std::string late = (folder.path / "late.npz").string();
-  const RunOptions options = small_run(out("run"), {late});
-  EXPECT_EQ(run(options).value, RunOutcome::kSomeFailed);
+  const ImitateConfig config = small_run(out("run"), {late});
+  EXPECT_EQ(run(config).value, RunOutcome::kSomeFailed);
   write_clip(late, standing_clip(20));
-  run(options);
+  run(config);
   EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
 }
 
 TEST_F(Imitate, AResultThatIsGoneIsMadeAgainAndTheOthersGoOn) {
-  const RunOptions options = small_run(out("run"), {stand, other});
-  run(options);
+  const ImitateConfig config = small_run(out("run"), {stand, other});
+  run(config);
   const auto before = results_of(out("run"));
   std::filesystem::remove(out("run") / "motions" / "stand.npz");
   std::filesystem::remove(out("run") / "motions" / "other.npz");
-  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
   EXPECT_EQ(results_of(out("run")), before);
 }
 
 TEST_F(Imitate, WhatCannotBeWrittenIsTriedAgain) {
-  const RunOptions options = small_run(out("run"), {stand, other});
+  const ImitateConfig config = small_run(out("run"), {stand, other});
   const std::filesystem::path in_the_way = out("run") / "references" / "stand.npz";
   std::filesystem::create_directories(in_the_way / "folder");
-  EXPECT_EQ(run(options).value, RunOutcome::kSomeFailed);
+  EXPECT_EQ(run(config).value, RunOutcome::kSomeFailed);
   const Manifest failed = read_manifest(out("run") / "manifest.json");
   ASSERT_EQ(failed.sequences.size(), 2u);
   EXPECT_FALSE(failed.sequences[0].finished()) << failed.sequences[0].reason;
   EXPECT_TRUE(failed.sequences[1].ok) << failed.sequences[1].reason;
   std::filesystem::remove_all(in_the_way);
-  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
 }
 
 TEST_F(Imitate, ACopyThatCannotBeWrittenCostsNoMotion) {
-  RunOptions options = small_run(out("run"), {stand});
-  options.input_rate = true;
+  ImitateConfig config = small_run(out("run"), {stand});
+  config.run.input_rate = true;
   std::filesystem::create_directories(out("run"));
   std::ofstream(out("run") / "clean") << "in the way of a folder";
-  EXPECT_EQ(run(options).value, RunOutcome::kSomeFailed);
+  EXPECT_EQ(run(config).value, RunOutcome::kSomeFailed);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
   std::filesystem::remove(out("run") / "clean");
-  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "clean" / "stand.npz"));
 }
 
 TEST_F(Imitate, StopsBetweenInputsThatNeedNoTraining) {
-  RunOptions options = small_run(out("run"), {stand, other});
-  options.training.samples = 0;
-  EXPECT_EQ(run(options, 1).value, RunOutcome::kInterrupted);
+  ImitateConfig config = small_run(out("run"), {stand, other});
+  config.training.samples = 0;
+  EXPECT_EQ(run(config, 1).value, RunOutcome::kInterrupted);
   EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.size(), 1u);
-  EXPECT_EQ(run(options).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
 }
 
 TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
-  RunOptions options = small_run(out("run"), {stand});
-  run(options);
+  ImitateConfig config = small_run(out("run"), {stand});
+  run(config);
   const auto before = results_of(out("run"));
-  options.training.seed = 2;
-  EXPECT_THROW(run(options), std::invalid_argument);
-  options = small_run(out("run"), {stand});
-  options.training.ppo.gamma = 0.5;
-  EXPECT_THROW(run(options), std::invalid_argument);
+  config.training.seed = 2;
+  EXPECT_THROW(run(config), std::invalid_argument);
+  config = small_run(out("run"), {stand});
+  config.training.ppo.gamma = 0.5;
+  EXPECT_THROW(run(config), std::invalid_argument);
   EXPECT_EQ(results_of(out("run")), before);
 }
 
 TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
-  RunOptions options = small_run(out("run"), {stand});
-  options.limit_seconds = 1e-9;
-  run(options);
+  ImitateConfig config = small_run(out("run"), {stand});
+  config.run.limit_seconds = 1e-9;
+  run(config);
   const SequenceEntry stopped = read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(stopped.ending, Ending::kLimitSeconds);
   EXPECT_EQ(stopped.samples, 64 * 8);
   EXPECT_EQ(stopped.output, "motions/stand.npz");
-  options.limit_seconds = 0.0;
-  run(options);
+  config.run.limit_seconds = 0.0;
+  run(config);
   const SequenceEntry done = read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(done.ending, Ending::kBudget);
   EXPECT_EQ(done.samples, 6 * 64 * 8);
 }
 
 TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
-  RunOptions options = small_run(out("one"), {stand});
-  run(options);
-  options.out = out("two");
-  options.training.seed = 2;
-  run(options);
+  ImitateConfig config = small_run(out("one"), {stand});
+  run(config);
+  config.run.out = out("two");
+  config.training.seed = 2;
+  run(config);
   EXPECT_NE(results_of(out("one")).at("training/stand.csv"), results_of(out("two")).at("training/stand.csv"));
 }
 

@@ -1,0 +1,29 @@
+#include "pipeline/imitate.h"
+
+#include "pipeline/train_sequence.h"
+
+namespace mimicx {
+namespace {
+
+Method method_of(const ImitateConfig& config) {
+  Method method;
+  method.seed = config.training.seed;
+  method.samples = config.training.samples;
+  method.settings = settings_of(config.training);
+  const NamedValues of_run = run_settings(config.run);
+  method.settings.insert(method.settings.end(), of_run.begin(), of_run.end());
+  method.simulation = config.training.tracking.simulation;
+  method.simulate = [&training = config.training](const Reference& reference, const SequenceJob& job) {
+    const auto clip = rl::make_tracking_clip(reference, training.tracking);
+    return train_sequence(clip, {untrained_agent(training)}, training, job);
+  };
+  return method;
+}
+
+}  // namespace
+
+RunOutcome imitate(const ImitateConfig& config, const RunContext& context) {
+  return run_sequences(config.run, method_of(config), context);
+}
+
+}  // namespace mimicx

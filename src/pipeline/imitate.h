@@ -1,0 +1,17 @@
+/// `mimicx imitate`: one policy per motion, trained from scratch.
+#pragma once
+
+#include "pipeline/sequence_run.h"
+#include "pipeline/training.h"
+
+namespace mimicx {
+
+struct ImitateConfig {
+  RunConfig run;
+  TrainingConfig training;
+};
+
+/// @throws std::invalid_argument as `run_sequences`
+RunOutcome imitate(const ImitateConfig& config, const RunContext& context);
+
+}  // namespace mimicx

@@ -1,0 +1,60 @@
+#include "pipeline/options/arrangement.h"
+
+#include <algorithm>
+
+#include "pipeline/options/selector.h"
+#include "pipeline/options/side_by_side.h"
+
+namespace mimicx {
+namespace {
+
+/// The numbers that occur, ascending, each once.
+std::vector<int> distinct(std::vector<int> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+}  // namespace
+
+ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
+                     const OptionSet& set, const ArrangementConfig& config) {
+  std::vector<const rl::Option*> all;
+  for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
+  const rl::SideBySide side_by_side =
+      rl::roll_out_side_by_side(rl::encoded_for(clip, all), tracking, all, config.rescue_reward);
+  ArrangedClip arranged;
+  arranged.breaks = side_by_side.breaks;
+
+  // The option of frame t acts towards frame t + 1, where its reward is found. Nothing is left to do in the
+  // last frame: it keeps the option of the frame before.
+  const auto& rewards = side_by_side.rewards;
+  arranged.options = select_options({rewards.begin() + 1, rewards.end()}, config.switch_penalty).options;
+  arranged.options.push_back(arranged.options.back());
+
+  arranged.kept = distinct(arranged.options);
+  std::vector<const rl::Option*> kept;
+  for (const int option : arranged.kept) {
+    kept.push_back(all[static_cast<std::size_t>(option)]);
+    arranged.agents.push_back(kept.back()->agent);
+  }
+  auto seen = std::make_shared<rl::TrackingClip>(*rl::encoded_for(clip, kept));
+  for (const int option : arranged.options) {
+    const auto place = std::lower_bound(arranged.kept.begin(), arranged.kept.end(), option);
+    seen->arrangement.push_back(static_cast<int>(place - arranged.kept.begin()));
+  }
+  arranged.clip = seen;
+  return arranged;
+}
+
+std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options) {
+  std::vector<std::array<int, 2>> stretches;
+  int frame = 0;
+  for (const int option : options) {
+    if (stretches.empty() || stretches.back()[1] != option) stretches.push_back({frame, option});
+    ++frame;
+  }
+  return stretches;
+}
+
+}  // namespace mimicx

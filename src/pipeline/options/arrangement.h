@@ -1,0 +1,38 @@
+/// Which options of a set act in which frames of a motion, and the clip made ready for them.
+///                                                                          METHOD: docs/method.md §8, §9
+/// The options run side by side over the clip (side_by_side.h); from their rewards the selector takes the
+/// arrangement of largest value (selector.h). The options that occur in it are kept, in the order of the set,
+/// and numbered anew from 0: joint fine-tuning trains the policies that act and no others.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "pipeline/options/option_set.h"
+
+namespace mimicx {
+
+struct ArrangementConfig {
+  double switch_penalty = -1.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
+  double rescue_reward =
+      0.1;  ///< σ of the side-by-side roll-out: under it a character is handed a better state
+};
+
+struct ArrangedClip {
+  std::vector<int> options;                      ///< [frames] the option that acts, its number in the set
+  std::vector<int> breaks;                       ///< frames at which no option of the set could follow
+  std::vector<int> kept;                         ///< numbers in the set of the options that occur, ascending
+  std::vector<rl::Agent> agents;                 ///< of the kept options
+  std::shared_ptr<const rl::TrackingClip> clip;  ///< as the kept options see it, with their arrangement
+};
+
+/// @param clip  as `make_tracking_clip` gives it: not encoded, without an arrangement
+/// @throws std::invalid_argument for a positive switch penalty
+ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
+                     const OptionSet& set, const ArrangementConfig& config);
+
+/// {first frame, option} of every stretch of frames in which one option acts.
+std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options);
+
+}  // namespace mimicx

@@ -1,0 +1,269 @@
+#include "pipeline/sequence_run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "core/npz.h"
+#include "pipeline/audit/audit.h"
+#include "pipeline/audit/substeps.h"
+#include "pipeline/preparation.h"
+#include "pipeline/record/clean_copy.h"
+#include "pipeline/record/motion_output.h"
+#include "pipeline/report/run_report.h"
+#include "pipeline/scores.h"
+
+namespace mimicx {
+namespace {
+
+constexpr double kReportSeconds = 30.0;  ///< between reports while a run goes on
+
+struct RunState {
+  const RunConfig& config;
+  const Method& method;
+  const RunContext& context;
+  RunFolder folder;
+  Manifest manifest;
+  std::vector<Timing> timings;
+};
+
+Manifest manifest_of(const RunConfig& config, const Method& method) {
+  Manifest manifest;
+  manifest.version = MIMICX_VERSION;
+  manifest.target = MIMICX_TARGET;
+  manifest.seed = method.seed;
+  manifest.samples = method.samples;
+  manifest.settings = method.settings;
+  manifest.options = method.options;
+  manifest.reading = config.read.text();
+  return manifest;
+}
+
+/// The folder's own manifest where it is one of this run's settings; a new one where there is none.
+Manifest open_manifest(const RunConfig& config, const Method& method, const RunFolder& folder) {
+  for (const std::string& input : config.inputs)
+    if (std::count(config.inputs.begin(), config.inputs.end(), input) > 1)
+      throw std::invalid_argument(input + " is given twice");
+  Manifest manifest = manifest_of(config, method);
+  if (!std::filesystem::exists(folder.manifest())) return manifest;
+  Manifest there = read_manifest(folder.manifest());
+  if (!there.same_settings(manifest))
+    throw std::invalid_argument(folder.root.string() + " holds a run of other settings (seed " +
+                                std::to_string(there.seed) + ", " + std::to_string(there.samples) +
+                                " samples, " + there.version + " for " + there.target +
+                                "): give another folder, or remove it first");
+  return there;
+}
+
+void write_records(const RunState& run) {
+  write_file_atomically(run.folder.manifest(), format_manifest(run.manifest));
+  write_file_atomically(run.folder.timing(), format_timing(run.timings, run.manifest.sequences));
+}
+
+Timing& timing_of(RunState& run, const std::string& name) {
+  for (auto& t : run.timings)
+    if (t.name == name) return t;
+  run.timings.push_back({name, 0.0, 0.0, 0});
+  return run.timings.back();
+}
+
+/// The entry to start from. @return false where the result that is there already stands
+bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& entry) {
+  const SequenceEntry* there = run.manifest.find(input);
+  std::vector<std::string> taken;
+  for (const auto& e : run.manifest.sequences) taken.push_back(e.name);
+  entry.input = input;
+  entry.name = there ? there->name : unique_name(input, taken);
+  entry.seed = run.method.seed;
+  entry.input_checksum = file_checksum(input);
+  const bool complete = there && std::filesystem::exists(run.folder.root / there->output) &&
+                        (!run.config.substeps || std::filesystem::exists(run.folder.substeps(entry.name)));
+  const bool stands = complete && there->finished() && there->input_checksum == entry.input_checksum;
+  if (stands) entry = *there;
+  return !stands;
+}
+
+/// Reads, fits and prepares the input, and tells at once what was decided: a wrong axis shows before the
+/// training, not after it.
+PreparedMotion prepare_sequence(const RunState& run, SequenceEntry& entry) {
+  PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
+  if (!run.config.keypoints) motion.reference.keypoints.reset();
+  entry.frames = motion.reference.size();
+  entry.fps = motion.reference.fps;
+  entry.fit = motion.fit_values;
+  entry.preparation = motion.preparation_values;
+  entry.decisions = motion.input.decisions;
+  entry.notes = motion.notes;
+  for (const auto* lines : {&entry.decisions, &entry.notes})
+    for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
+  return motion;
+}
+
+/// Whether the recorded forces explain the motion, into the entry.
+void audit_sequence(const Reference& reference, const SimulationOptions& simulation,
+                    const rl::TrackingRollout& rollout, SequenceEntry& entry) {
+  SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
+  for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
+  const Audit audit = audit_frames(motion, simulation);
+  entry.audit = summary_of(audit);
+  for (const std::string& failure : audit.failures) entry.notes.push_back("audit: " + failure);
+}
+
+/// Scores and audit of what the method made, into the entry.
+void judge_sequence(const Method& method, const Reference& reference, const SimulatedSequence& made,
+                    SequenceEntry& entry) {
+  entry.samples = made.samples;
+  entry.ending = made.ending;
+  entry.arrangement = made.arrangement;
+  entry.notes.insert(entry.notes.end(), made.notes.begin(), made.notes.end());
+  if (made.before) {
+    const Scores before = score_simulated(reference, *made.before);
+    entry.reward_before = made.before->mean_reward;
+    entry.metrics_before = before.values;
+    entry.ok_before = before.success;
+  }
+  const Scores after = score_simulated(reference, made.after);
+  entry.reward_after = made.after.mean_reward;
+  entry.metrics = after.values;
+  entry.ok = after.success;
+  entry.reason = after.reason;
+  audit_sequence(reference, method.simulation, made.after, entry);
+}
+
+std::filesystem::path with_parents(const std::filesystem::path& file) {
+  std::filesystem::create_directories(file.parent_path());
+  return file;
+}
+
+/// Fit, reference, simulated motion and, where wanted, its physics steps.
+void write_sequence(const RunState& run, const PreparedMotion& motion, const SimulatedSequence& made,
+                    SequenceEntry& entry) {
+  const RunFolder& folder = run.folder;
+  if (motion.has_fit) write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
+  write_reference(folder.reference(entry.name), motion.input, motion.reference);
+  const std::string output = RunFolder::motion_name(entry.name, entry.ok);
+  std::filesystem::remove(folder.root / RunFolder::motion_name(entry.name, !entry.ok));
+  write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after,
+                  entry.notes);
+  std::filesystem::remove(folder.substeps(entry.name));
+  if (run.config.substeps)
+    write_substeps(
+        with_parents(folder.substeps(entry.name)),
+        {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
+  entry.output = output;
+}
+
+/// Prepare → simulate → judge and write. @param told  notes of the entry that were said already
+/// @return whether the sequence was interrupted
+bool do_sequence(RunState& run, SequenceEntry& entry, std::size_t& told) {
+  const double started = steady_seconds();
+  const PreparedMotion motion = prepare_sequence(run, entry);
+  told = entry.notes.size();
+  entry.input_metrics = score_input(motion.input, motion.reference);
+  const SimulatedSequence made = run.method.simulate(
+      motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps,
+                         run.config.threads, run.config.limit_seconds, run.context});
+  Timing& timing = timing_of(run, entry.name);
+  timing.training_seconds += made.seconds;
+  timing.threads = run.config.threads;
+  if (!made.interrupted) {
+    judge_sequence(run.method, motion.reference, made, entry);
+    write_sequence(run, motion, made, entry);
+  }
+  timing.seconds += steady_seconds() - started;
+  return made.interrupted;
+}
+
+std::string summary_of(const SequenceEntry& entry) {
+  char text[64];
+  std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
+  if (!entry.reason.empty()) line += ", " + entry.reason;
+  std::snprintf(text, sizeof text, ", reward %.3f -> %.3f", entry.reward_before, entry.reward_after);
+  if (!entry.output.empty()) line += text;
+  for (const auto& [name, value] : entry.metrics) {
+    if (name != "gMPJPE" && name != "MPJPE") continue;
+    std::snprintf(text, sizeof text, ", %s %.1f mm", name.c_str(), value);
+    line += text;
+  }
+  return line;
+}
+
+/// Writes a success in its input's own format, where the clean set is not that already. A failure has no
+/// copy: that of another input of its name is removed.
+void copy_clean(const RunState& run, const SequenceEntry& entry) {
+  const std::filesystem::path input(entry.input);
+  const std::string suffix = clean_suffix(input);
+  if (suffix == ".npz" && !run.config.beside && !run.config.input_rate) return;
+  const std::filesystem::path copy = run.config.beside
+                                         ? input.parent_path() / (input.stem().string() + ".clean" + suffix)
+                                         : run.folder.clean(entry.name, suffix);
+  if (!entry.ok) {
+    std::filesystem::remove(copy);
+    return;
+  }
+  write_clean_copy(run.folder.root / entry.output, input, run.config.read, run.config.input_rate, copy);
+  if (run.config.beside) run.context.messages << "  clean motion: " << copy.string() << '\n';
+}
+
+/// As `copy_clean`; the motion itself is there, so a copy that cannot be written is told and tried again by
+/// the same command. @return whether the copy is as it should be
+bool copied_clean(const RunState& run, const SequenceEntry& entry) {
+  try {
+    copy_clean(run, entry);
+    return true;
+  } catch (const std::exception& error) {
+    run.context.messages << "  no copy in the input's format: " << error.what() << '\n';
+    return false;
+  }
+}
+
+}  // namespace
+
+NamedValues run_settings(const RunConfig& config) {
+  return {{"fit", config.fit ? 1.0 : 0.0}, {"keypoints", config.keypoints ? 1.0 : 0.0}};
+}
+
+RunOutcome run_sequences(const RunConfig& config, const Method& method, const RunContext& context) {
+  const RunFolder folder{config.out};
+  RunState run{
+      config, method, context, folder, open_manifest(config, method, folder), read_timing(folder.timing())};
+  folder.create();
+  write_records(run);
+  bool all_good = true;
+  double reported = steady_seconds();
+  const auto report = [&] {
+    write_report(folder, run.manifest);
+    reported = steady_seconds();
+  };
+  const auto interrupted = [&](const std::string& name) {
+    write_records(run);
+    if (!run.manifest.sequences.empty()) report();
+    context.progress.finish(name + ": interrupted; the same command continues");
+    return RunOutcome::kInterrupted;
+  };
+  for (std::size_t i = 0; i < config.inputs.size(); ++i) {
+    const std::string& input = config.inputs[i];
+    if (i > 0 && context.should_stop()) return interrupted(input);
+    SequenceEntry entry;
+    std::size_t told = 0;
+    try {
+      if (begin_entry(run, input, entry) && do_sequence(run, entry, told)) return interrupted(entry.name);
+    } catch (const std::exception& error) {
+      entry.ok = false;
+      entry.reason = error.what();
+      entry.output.clear();  // so that the same command tries again
+    }
+    run.manifest.put(entry);
+    write_records(run);
+    if (i + 1 == config.inputs.size() || steady_seconds() - reported > kReportSeconds) report();
+    context.progress.finish(summary_of(entry));
+    for (std::size_t k = told; k < entry.notes.size(); ++k)
+      context.messages << "  " << entry.notes[k] << '\n';
+    const bool copied = copied_clean(run, entry);
+    all_good = all_good && entry.ok && copied;
+  }
+  return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,83 @@
+/// One run over motions: noisy motions in, simulated motions, scores and a report out.
+///
+/// For each input: read → keypoint fit → prepare → *a method simulates the motion* → score, audit, write,
+/// record. The method is the exchangeable middle: `imitate` trains a policy from scratch (imitate.h), `adapt`
+/// arranges trained options and fine-tunes them (adapt.h). Everything around it is here, once for all.
+///
+/// One input after the other; an input that fails is recorded with its reason and the others go on. The
+/// manifest is written after every input, so the same command continues a run that was interrupted: finished
+/// inputs are kept, a begun one is handed to the method again, and the files end up the same bytes as if
+/// nothing had happened. Every success is also written in its input's own format (clean_copy.h).
+///
+/// What it never does: open any ground truth.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motion/import/motion_file.h"
+#include "pipeline/record/manifest.h"
+#include "pipeline/record/run_context.h"
+#include "pipeline/record/run_folder.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx {
+
+/// What a run is told whatever its method.
+struct RunConfig {
+  std::vector<std::string> inputs;  ///< as given; recorded as such
+  std::filesystem::path out;
+  ReadOptions read;
+  bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
+  bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
+  bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
+  bool fit = false;         ///< move inputs onto their keypoints first, where they have any
+  bool keypoints = true;    ///< false: Eq. 3 does not see them either
+  int threads = 1;
+  double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
+};
+
+/// One motion of a run, for the method that simulates it.
+struct SequenceJob {
+  std::string name;            ///< key of the sequence's files in the folder
+  std::string input_checksum;  ///< a checkpoint of another input is not taken up
+  RunFolder folder;
+  bool substeps = false;  ///< record every physics step of the result
+  int threads = 1;
+  double limit_seconds = 0.0;  ///< safety stop; 0: none
+  const RunContext& context;
+};
+
+/// What a method made of one motion.
+struct SimulatedSequence {
+  bool interrupted = false;  ///< the job's context said so: a checkpoint is there, and nothing below
+  double seconds = 0.0;      ///< of training, for timing.json
+  Ending ending = Ending::kNone;
+  std::int64_t samples = 0;
+  std::optional<rl::TrackingRollout> before;         ///< what the method started from, where that moves
+  rl::TrackingRollout after;                         ///< the result
+  std::vector<std::array<int, 2>> arrangement = {};  ///< {first frame, option}; empty without options
+  std::vector<std::string> notes = {};               ///< for the manifest
+};
+
+/// A way of making the humanoid follow a motion, with everything that its results depend on.
+struct Method {
+  std::uint64_t seed = 0;
+  std::int64_t samples = 0;      ///< budget per motion
+  NamedValues settings;          ///< as the manifest lists them, `run_settings` among them
+  std::string options;           ///< checksum of the trained options; empty without
+  SimulationOptions simulation;  ///< under which it simulates, for the audit
+  std::function<SimulatedSequence(const Reference&, const SequenceJob&)> simulate;
+};
+
+/// The settings of a run on which its results depend, whatever the method.
+NamedValues run_settings(const RunConfig& config);
+
+/// @throws std::invalid_argument when an input is given twice, or the folder holds a run of other settings
+RunOutcome run_sequences(const RunConfig& config, const Method& method, const RunContext& context);
+
+}  // namespace mimicx

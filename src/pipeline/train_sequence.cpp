@@ -1,0 +1,29 @@
+#include "pipeline/train_sequence.h"
+
+#include "rl/tracking/rollout.h"
+
+namespace mimicx {
+
+SimulatedSequence train_sequence(const std::shared_ptr<const rl::TrackingClip>& clip,
+                                 const std::vector<rl::Agent>& agents, const TrainingConfig& config,
+                                 const SequenceJob& job) {
+  const TrainingFiles files = {job.folder.checkpoint(job.name), job.folder.log(job.name),
+                               job.folder.falls(job.name), job.input_checksum};
+  TrainingControl control;
+  control.threads = job.threads;
+  control.limit_seconds = job.limit_seconds;
+  control.should_stop = job.context.should_stop;
+  control.progress = progress_of_training(job.context.progress, job.name, config.samples);
+  const TrainingResult training = train({clip}, agents, config, files, control);
+  SimulatedSequence made;
+  made.interrupted = training.interrupted;
+  made.seconds = training.seconds;
+  if (made.interrupted) return made;
+  made.ending = training.ending;
+  made.samples = training.samples;
+  made.before = rl::roll_out(clip, config.tracking, rl::mean_action(agents));
+  made.after = rl::roll_out(clip, config.tracking, rl::mean_action(training.agents), job.substeps);
+  return made;
+}
+
+}  // namespace mimicx
