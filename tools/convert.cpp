@@ -2,8 +2,8 @@
 
 #include "commands.h"
 #include "motion/import/motion_file.h"
+#include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
-#include "pipeline/record/qpos.h"
 
 namespace mimicx {
 

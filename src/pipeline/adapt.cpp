@@ -25,8 +25,7 @@ Method method_of(const AdaptConfig& config) {
   method.seed = config.training.seed;
   method.samples = config.training.samples;
   method.settings = settings_of(config.training);
-  const NamedValues of_run = run_settings(config.run);
-  method.settings.insert(method.settings.end(), of_run.begin(), of_run.end());
+  append(method.settings, run_settings(config.run));
   method.settings.emplace_back("switch_penalty", config.arrangement.switch_penalty);
   method.settings.emplace_back("rescue_reward", config.arrangement.rescue_reward);
   method.options = config.options->checksum;

@@ -10,8 +10,7 @@ Method method_of(const ImitateConfig& config) {
   method.seed = config.training.seed;
   method.samples = config.training.samples;
   method.settings = settings_of(config.training);
-  const NamedValues of_run = run_settings(config.run);
-  method.settings.insert(method.settings.end(), of_run.begin(), of_run.end());
+  append(method.settings, run_settings(config.run));
   method.simulation = config.training.tracking.simulation;
   method.simulate = [&training = config.training](const Reference& reference, const SequenceJob& job) {
     const auto clip = rl::make_tracking_clip(reference, training.tracking);

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/named_values.h"
 #include "motion/fit/fit.h"
 #include "motion/import/motion_file.h"
 #include "motion/reference.h"
-#include "pipeline/record/manifest.h"
 
 namespace mimicx {
 

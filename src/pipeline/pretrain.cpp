@@ -113,7 +113,7 @@ nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::Trackin
   nn::Matrix<float> samples(rows, rl::kPoseFeatures);
   Eigen::Index next = 0;
   for (const auto& clip : clips) {
-    const nn::Matrix<float> inputs = rl::encoder_inputs(*clip);
+    const nn::Matrix<float> inputs = encoder_inputs(*clip);
     samples.middleRows(next, inputs.rows()) = inputs;
     next += inputs.rows();
   }
@@ -141,14 +141,14 @@ OptionRun train_option(const PretrainConfig& config, const RunContext& context, 
         clips.push_back(rl::make_tracking_clip(motions.references[i], training.tracking));
 
   OptionRun run;
-  rl::Option option;
+  Option option;
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
     context.progress.start(name + ", encoder", 0.0, config.encoder.steps, "steps");
     option.encoder = make_encoder(clips, config.encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
   }
-  for (auto& clip : clips) clip = rl::encoded_for(clip, {&option});
+  for (auto& clip : clips) clip = encoded_for(clip, {&option});
   const rl::Agent start = untrained_agent(training, clips.front()->state_size());
 
   const RunFolder folder{config.out};

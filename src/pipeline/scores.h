@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "core/named_values.h"
 #include "motion/metrics.h"
 #include "motion/reference.h"
-#include "pipeline/record/manifest.h"
 #include "rl/tracking/rollout.h"
 
 namespace mimicx {

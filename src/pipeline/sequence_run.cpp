@@ -7,10 +7,12 @@
 
 #include "core/npz.h"
 #include "pipeline/audit/audit.h"
+#include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/substeps.h"
+#include "pipeline/output/clean_copy.h"
+#include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
-#include "pipeline/record/clean_copy.h"
-#include "pipeline/record/motion_output.h"
+#include "pipeline/record/timing.h"
 #include "pipeline/report/run_report.h"
 #include "pipeline/scores.h"
 

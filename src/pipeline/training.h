@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/record/manifest.h"
+#include "core/named_values.h"
+#include "pipeline/record/ending.h"
 #include "pipeline/record/progress.h"
 #include "pipeline/record/table.h"
 #include "rl/policy.h"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "pipeline/record/simulation_settings.h"
+#include "pipeline/output/simulation_settings.h"
 #include "pipeline/training.h"
 
 namespace mimicx {

@@ -5,45 +5,29 @@
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 
 #include "core/npz.h"
 #include "pipeline/adapt.h"
 #include "pipeline/pretrain.h"
 #include "pipeline/results.h"
+#include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx {
 namespace {
 
-/// Small enough for a test, large enough for several iterations, groups and checkpoints.
 ImitateConfig small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
   ImitateConfig config;
   config.run.inputs = inputs;
   config.run.out = out;
-  config.training.samples = 6 * 64 * 8;
-  config.training.characters = 64;
-  config.training.group_size = 16;
-  config.training.hidden = {16};
-  config.training.ppo.horizon = 8;
-  config.training.ppo.minibatch = 256;
-  config.training.ppo.pass_rows = 64;
+  config.training = small_training();
   return config;
 }
 
-struct Outcome {
-  RunOutcome value;
-  std::string messages;
-};
-
 /// @param iterations  asks to stop after that many; negative: never
 Outcome run(const ImitateConfig& config, int iterations = -1) {
-  std::ostringstream messages;
-  Progress progress(messages, false, steady_seconds);
-  int asked = 0;
-  const auto value = imitate(config, {progress, messages, [&] { return ++asked == iterations; }});
-  return {value, messages.str()};
+  return run_in_context([&](const RunContext& context) { return imitate(config, context); }, iterations);
 }
 
 struct Imitate : testing::Test {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/inverse_dynamics.h"
+#include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/feasibility.h"
 
 namespace mimicx {

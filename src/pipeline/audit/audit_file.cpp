@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "pipeline/audit/audit_summary.h"
+#include "pipeline/output/simulated_members.h"
 #include "pipeline/record/json.h"
-#include "pipeline/record/simulated_members.h"
 
 namespace mimicx {
 namespace {

@@ -1,9 +1,10 @@
+#include "pipeline/audit/audit_summary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "core/units.h"
-#include "pipeline/audit/audit.h"
 
 namespace mimicx {
 namespace {
@@ -145,12 +146,6 @@ std::vector<std::string> failures_of(const Audit& audit) {
   return failures;
 }
 
-double value_of(const NamedValues& summary, const std::string& name) {
-  for (const auto& [key, value] : summary)
-    if (key == name) return value;
-  return std::nan("");
-}
-
 NamedValues summary_of(const Audit& audit) {
   Extreme force, moment;
   for (const AuditRow& row : audit.rows) {
@@ -162,8 +157,7 @@ NamedValues summary_of(const Audit& audit) {
                         {"root_force_worst", force.where},      {"root_moment_mean_Nm", moment.sum / n},
                         {"root_moment_max_Nm", moment.largest}, {"root_moment_worst", moment.where}};
   const bool poses_alone = audit.evidence == Evidence::kPosesAlone;
-  const NamedValues more = poses_alone ? floor_summary(audit) : force_summary(audit);
-  values.insert(values.end(), more.begin(), more.end());
+  append(values, poses_alone ? floor_summary(audit) : force_summary(audit));
   return values;
 }
 

@@ -4,9 +4,9 @@
 
 #include "physics/lanes.h"
 #include "physics/step.h"
-#include "pipeline/record/rows.h"
-#include "pipeline/record/simulated_members.h"
-#include "pipeline/record/simulation_settings.h"
+#include "pipeline/output/rows.h"
+#include "pipeline/output/simulated_members.h"
+#include "pipeline/output/simulation_settings.h"
 
 namespace mimicx {
 namespace {

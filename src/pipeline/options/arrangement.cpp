@@ -19,10 +19,10 @@ std::vector<int> distinct(std::vector<int> numbers) {
 
 ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
                      const OptionSet& set, const ArrangementConfig& config) {
-  std::vector<const rl::Option*> all;
+  std::vector<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
-  const rl::SideBySide side_by_side =
-      rl::roll_out_side_by_side(rl::encoded_for(clip, all), tracking, all, config.rescue_reward);
+  const SideBySide side_by_side =
+      roll_out_side_by_side(encoded_for(clip, all), tracking, all, config.rescue_reward);
   ArrangedClip arranged;
   arranged.breaks = side_by_side.breaks;
 
@@ -33,12 +33,12 @@ ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const 
   arranged.options.push_back(arranged.options.back());
 
   arranged.kept = distinct(arranged.options);
-  std::vector<const rl::Option*> kept;
+  std::vector<const Option*> kept;
   for (const int option : arranged.kept) {
     kept.push_back(all[static_cast<std::size_t>(option)]);
     arranged.agents.push_back(kept.back()->agent);
   }
-  auto seen = std::make_shared<rl::TrackingClip>(*rl::encoded_for(clip, kept));
+  auto seen = std::make_shared<rl::TrackingClip>(*encoded_for(clip, kept));
   for (const int option : arranged.options) {
     const auto place = std::lower_bound(arranged.kept.begin(), arranged.kept.end(), option);
     seen->arrangement.push_back(static_cast<int>(place - arranged.kept.begin()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
@@ -112,6 +113,25 @@ int nearest_cluster(const Clusters& clusters, const MotionFeatures& features) {
     if (squared < least) nearest = static_cast<int>(c), least = squared;
   }
   return nearest;
+}
+
+std::string format_cluster_tree(const Clusters& clusters) {
+  std::string out;
+  std::vector<int> depth;
+  for (const ClusterBranch& branch : clusters.tree) {
+    depth.push_back(branch.parent < 0 ? 0 : depth[static_cast<std::size_t>(branch.parent)] + 1);
+    const std::string indent(2 * static_cast<std::size_t>(depth.back()), ' ');
+    const bool leaf = branch.cluster >= 0;
+    char diameter[40];
+    std::snprintf(diameter, sizeof diameter, ", diameter %.2f\n", branch.diameter);
+    out += indent + (leaf ? "cluster " + std::to_string(branch.cluster) + ": " : "") +
+           std::to_string(branch.motions) + (branch.motions == 1 ? " motion" : " motions") + diameter;
+    if (!leaf) continue;
+    const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(branch.cluster)];
+    out += indent + "  " + cluster.description + '\n';
+    for (const auto& member : cluster.members) out += indent + "  - " + member + '\n';
+  }
+  return out;
 }
 
 std::string format_clusters(const Clusters& clusters) {

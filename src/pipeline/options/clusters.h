@@ -60,10 +60,6 @@ Clusters cluster_motions(std::vector<NamedFeatures> motions, const ClusterSettin
 /// Number of the cluster whose centre is nearest; of equally near ones the first.
 int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
 
-/// What a motion of these features is like: how it travels, turns, how high it is, what arms and legs do, how
-/// vigorous it is. Absolute thresholds, from the features alone.
-std::string describe_motion(const MotionFeatures& features);
-
 /// The tree with its members, indented, for people.
 std::string format_cluster_tree(const Clusters& clusters);
 

@@ -10,27 +10,27 @@
 #include "rl/policy.h"
 #include "rl/tracking/pack.h"
 
-namespace mimicx::rl {
+namespace mimicx {
 
 struct Option {
-  Agent agent;
+  rl::Agent agent;
   std::optional<nn::AutoEncoder> encoder;  ///< none: the policy sees the reference itself
 };
 
 /// Pose features of a clip's frames in their own heading frames: what encoders are trained on and applied to.
 /// [frames + 1 × 186]
-nn::Matrix<float> encoder_inputs(const TrackingClip& clip);
+nn::Matrix<float> encoder_inputs(const rl::TrackingClip& clip);
 
 /// z and D(z) of every frame.
-EncodedReference encode_reference(const nn::AutoEncoder& encoder, const TrackingClip& clip);
+rl::EncodedReference encode_reference(const nn::AutoEncoder& encoder, const rl::TrackingClip& clip);
 
 /// The clip as these options see it; the clip itself where they have no encoders.
 /// @throws std::invalid_argument when some options have an encoder and others have none
-std::shared_ptr<const TrackingClip> encoded_for(const std::shared_ptr<const TrackingClip>& clip,
-                                                const std::vector<const Option*>& options);
+std::shared_ptr<const rl::TrackingClip> encoded_for(const std::shared_ptr<const rl::TrackingClip>& clip,
+                                                    const std::vector<const Option*>& options);
 
 void save(Npz& archive, const std::string& prefix, const Option& option);
 /// @throws DataError naming archive and key
 Option load_option(const Npz& archive, const std::string& prefix);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx

@@ -11,7 +11,7 @@ constexpr const char* kCount = "options.count";
 std::string prefix_of(std::size_t k) { return "option" + std::to_string(k) + "."; }
 
 /// @throws DataError where actor and state or action do not fit
-void check_shape(const Npz& archive, const std::string& prefix, const rl::Option& option) {
+void check_shape(const Npz& archive, const std::string& prefix, const Option& option) {
   const int state = option.encoder ? rl::kEncodedRest + option.encoder->code_size() : rl::kStateSize;
   const nn::Mlp<float>& actor = option.agent.actor;
   if (actor.inputs() != state || actor.outputs() != kDofs)
@@ -28,7 +28,7 @@ void write_options(const std::filesystem::path& path, const OptionSet& set) {
   for (std::size_t k = 0; k < set.options.size(); ++k) {
     const TrainedOption& trained = set.options[k];
     const std::string prefix = prefix_of(k);
-    rl::save(archive, prefix, trained.option);
+    save(archive, prefix, trained.option);
     archive.set(prefix + "description", NpyArray::scalar_text(trained.description));
     archive.set(prefix + "centre", NpyArray::from_double({trained.centre.size()}, trained.centre.data()));
     archive.set(prefix + "motions", NpyArray::scalar_int(trained.motions));
@@ -48,7 +48,7 @@ std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path)
     const std::string prefix = prefix_of(k);
     const auto number = [&](const char* key) { return archive.at(prefix + key).to_double().at(0); };
     TrainedOption trained;
-    trained.option = rl::load_option(archive, prefix);
+    trained.option = load_option(archive, prefix);
     check_shape(archive, prefix, trained.option);
     trained.description = archive.at(prefix + "description").text.at(0);
     const std::vector<double> centre = archive.at(prefix + "centre").to_double();

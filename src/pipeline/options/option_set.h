@@ -16,7 +16,7 @@
 namespace mimicx {
 
 struct TrainedOption {
-  rl::Option option;
+  Option option;
   std::string description;  ///< what its motions are like
   MotionFeatures centre{};  ///< of its cluster
   int motions = 0;          ///< it was trained on

@@ -4,13 +4,13 @@
 
 #include "rl/tracking/rollout.h"
 
-namespace mimicx::rl {
+namespace mimicx {
 namespace {
 
 /// Characters 0 … C − 1, kLanes to a pack.
 struct Characters {
-  std::vector<TrackingPack> packs;
-  TrackingPack& pack(std::size_t c) { return packs[c / kLanes]; }
+  std::vector<rl::TrackingPack> packs;
+  rl::TrackingPack& pack(std::size_t c) { return packs[c / kLanes]; }
   static int lane(std::size_t c) { return static_cast<int>(c % kLanes); }
 };
 
@@ -27,30 +27,31 @@ bool rescue(Characters& characters, const std::vector<double>& rewards, double t
 
 }  // namespace
 
-SideBySide roll_out_side_by_side(const std::shared_ptr<const TrackingClip>& clip,
-                                 const TrackingConfig& config, const std::vector<const Option*>& options,
+SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& clip,
+                                 const rl::TrackingConfig& config, const std::vector<const Option*>& options,
                                  double threshold) {
   const std::size_t count = options.size();
-  std::vector<Agent> agents;
+  std::vector<rl::Agent> agents;
   for (const Option* option : options) agents.push_back(option->agent);
-  const MeanAction policy = mean_action(agents);
-  Characters characters{std::vector<TrackingPack>((count + kLanes - 1) / kLanes, TrackingPack(clip, config))};
-  Data<TrackingPack::P> scratch;
+  const rl::MeanAction policy = rl::mean_action(agents);
+  Characters characters{
+      std::vector<rl::TrackingPack>((count + kLanes - 1) / kLanes, rl::TrackingPack(clip, config))};
+  Data<rl::TrackingPack::P> scratch;
   std::vector<float> state(static_cast<std::size_t>(clip->state_size()));
   std::array<float, kDofs> action{};
   SideBySide result;
   result.rewards.emplace_back(count, 1.0);
   for (int t = 1; t < clip->size(); ++t) {
     for (std::size_t c = 0; c < count; ++c) {
-      TrackingPack& pack = characters.pack(c);
+      rl::TrackingPack& pack = characters.pack(c);
       pack.observe(Characters::lane(c), static_cast<int>(c), state.data());
       policy(static_cast<int>(c), state.data(), action.data());
       pack.act(Characters::lane(c), action.data());
     }
-    for (TrackingPack& pack : characters.packs) pack.advance(scratch);
+    for (rl::TrackingPack& pack : characters.packs) pack.advance(scratch);
     std::vector<double> rewards(count);
     for (std::size_t c = 0; c < count; ++c) {
-      const TrackingPack& pack = characters.pack(c);
+      const rl::TrackingPack& pack = characters.pack(c);
       const bool fell = !(pack.worst_distance(Characters::lane(c)) <= config.terminate_distance);
       rewards[c] = fell ? 0.0 : pack.reward(Characters::lane(c)).total;
     }
@@ -62,4 +63,4 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const TrackingClip>& clip
   return result;
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx

@@ -8,7 +8,7 @@
 
 #include "pipeline/options/option.h"
 
-namespace mimicx::rl {
+namespace mimicx {
 
 struct SideBySide {
   /// [frame][option] of the pose reached at the frame, before any reset; frame 0 is the start, with reward 1.
@@ -18,8 +18,8 @@ struct SideBySide {
 
 /// @param clip       encoded for these options
 /// @param threshold  σ
-SideBySide roll_out_side_by_side(const std::shared_ptr<const TrackingClip>& clip,
-                                 const TrackingConfig& config, const std::vector<const Option*>& options,
+SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& clip,
+                                 const rl::TrackingConfig& config, const std::vector<const Option*>& options,
                                  double threshold);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx

@@ -96,22 +96,4 @@ std::string describe_cluster(const std::vector<MotionFeatures>& centres, int clu
   return describe_motion(centres[index]) + standing_out;
 }
 
-std::string format_cluster_tree(const Clusters& clusters) {
-  std::string out;
-  std::vector<int> depth;
-  for (const ClusterBranch& branch : clusters.tree) {
-    depth.push_back(branch.parent < 0 ? 0 : depth[static_cast<std::size_t>(branch.parent)] + 1);
-    const std::string indent(2 * static_cast<std::size_t>(depth.back()), ' ');
-    const bool leaf = branch.cluster >= 0;
-    out += indent + (leaf ? "cluster " + std::to_string(branch.cluster) + ": " : "") +
-           std::to_string(branch.motions) + (branch.motions == 1 ? " motion" : " motions") +
-           text(", diameter %.2f\n", branch.diameter);
-    if (!leaf) continue;
-    const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(branch.cluster)];
-    out += indent + "  " + cluster.description + '\n';
-    for (const auto& member : cluster.members) out += indent + "  - " + member + '\n';
-  }
-  return out;
-}
-
 }  // namespace mimicx

@@ -151,35 +151,4 @@ Manifest read_manifest(const std::filesystem::path& path) {
   }
 }
 
-std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences) {
-  Json list = Json::array();
-  for (const auto& t : timings) {
-    Json json = {{"name", t.name},
-                 {"seconds", t.seconds},
-                 {"training_seconds", t.training_seconds},
-                 {"threads", t.threads}};
-    for (const auto& e : sequences)
-      if (e.name == t.name && t.training_seconds > 0.0)
-        json["samples_per_second"] = static_cast<double>(e.samples) / t.training_seconds;
-    list.push_back(json);
-  }
-  return Json({{"sequences", list}}).dump(1) + "\n";
-}
-
-std::vector<Timing> read_timing(const std::filesystem::path& path) {
-  std::vector<Timing> timings;
-  if (!std::filesystem::exists(path)) return timings;
-  const Json json = Json::parse(read_file(path), nullptr, false);
-  if (json.is_discarded() || !json.contains("sequences")) return timings;
-  for (const auto& t : json["sequences"]) {
-    Timing timing;
-    timing.name = t.value("name", "");
-    timing.seconds = t.value("seconds", 0.0);
-    timing.training_seconds = t.value("training_seconds", 0.0);
-    timing.threads = t.value("threads", 0);
-    timings.push_back(timing);
-  }
-  return timings;
-}
-
 }  // namespace mimicx

@@ -2,7 +2,7 @@
 ///
 /// One object: {"run": settings, "sequences": [...]}. Numbers are written so that they read back as the same
 /// bits; a value that does not exist (NaN) is null. Nothing in it depends on the machine's speed, the number
-/// of threads or where the folder stands: times are in timing.json.
+/// of threads or where the folder stands: times are in timing.json (timing.h).
 #pragma once
 
 #include <array>
@@ -10,21 +10,12 @@
 #include <filesystem>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "core/named_values.h"
+#include "pipeline/record/ending.h"
+
 namespace mimicx {
-
-using NamedValues = std::vector<std::pair<std::string, double>>;
-
-/// How a training ended.
-enum class Ending {
-  kNone,          ///< there was none: the input could not be used
-  kBudget,        ///< all samples were spent
-  kThreshold,     ///< a roll-out was good enough
-  kStall,         ///< roll-outs no longer became better
-  kLimitSeconds,  ///< the safety stop: the results depend on the machine's speed
-};
 
 struct SequenceEntry {
   std::string name;            ///< key of the sequence's files in the folder
@@ -78,16 +69,5 @@ struct Manifest {
 std::string format_manifest(const Manifest& manifest);
 /// @throws DataError when the file is not a manifest.
 Manifest read_manifest(const std::filesystem::path& path);
-
-/// Wall-clock record of one sequence, summed over interruptions.
-struct Timing {
-  std::string name;
-  double seconds = 0.0;           ///< all of it
-  double training_seconds = 0.0;  ///< of which training
-  int threads = 0;
-};
-std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
-/// Empty when there is no such file or it is unreadable: times are a convenience.
-std::vector<Timing> read_timing(const std::filesystem::path& path);
 
 }  // namespace mimicx

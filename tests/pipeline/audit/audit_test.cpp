@@ -6,10 +6,11 @@
 #include <memory>
 #include <sstream>
 
+#include "pipeline/adapt.h"
 #include "pipeline/audit/audit_file.h"
+#include "pipeline/audit/audit_summary.h"
+#include "pipeline/output/simulated_members.h"
 #include "pipeline/preparation.h"
-#include "pipeline/record/simulated_members.h"
-#include "pipeline/sequences.h"
 #include "pipeline/temporary_folder.h"
 #include "pipeline/thrown.h"
 
@@ -247,16 +248,17 @@ struct CleanedAndRaw : testing::Test {
 // The contrast of docs/physics.md §9, on motions that the shipped options follow without any training.
 TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
   const TemporaryFolder folder;
-  RunOptions run;
+  AdaptConfig config;
+  RunConfig& run = config.run;
   for (const char* name : {"squat_1", "wave_1"}) run.inputs.push_back(split("noisy", name).string());
   run.out = folder.path / "run";
-  run.training = fine_tuning_defaults();
-  run.training.samples = 0;
   run.fit = run.substeps = true;
-  run.options = read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options");
+  config.training = fine_tuning_defaults();
+  config.training.samples = 0;
+  config.options = read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options");
   std::ostringstream messages;
   Progress progress(messages, false, steady_seconds);
-  run_sequences(run, {progress, messages, [] { return false; }});
+  adapt(config, {progress, messages, [] { return false; }});
   for (const SequenceEntry& entry : read_manifest(run.out / "manifest.json").sequences) {
     ASSERT_TRUE(entry.ok) << entry.name;
     const Audit clean = audit_file(run.out / entry.output, false).at(0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipeline/options/constant_option.h"
 #include "pipeline/options/side_by_side.h"
 #include "rl/tracking/environment.h"
 #include "rl/tracking/rollout.h"
@@ -12,28 +13,6 @@
 
 namespace mimicx::rl {
 namespace {
-
-/// An encoder that a few steps on one clip have made: not a good one, but no identity either.
-nn::AutoEncoder some_encoder(const TrackingClip& clip, std::uint64_t seed = 1) {
-  nn::AutoEncoderConfig config;
-  config.hidden = 16;
-  config.code = 8;
-  config.steps = 40;
-  config.minibatch = 32;
-  return nn::train_autoencoder(encoder_inputs(clip), config, seed);
-}
-
-/// An option whose mean action is `action` in every degree of freedom, whatever it sees.
-Option constant_option(int state_size, float action) {
-  AgentShape shape;
-  shape.observation_dim = state_size;
-  shape.action_dim = kDofs;
-  shape.hidden = {4};
-  Option option{make_agent(shape, 1), std::nullopt};
-  option.agent.actor.weights.back().setZero();
-  option.agent.actor.biases.back().setConstant(action);
-  return option;
-}
 
 TEST(EncodedState, TurningFeaturesIsSeeingThemFromAnotherHeading) {
   const Character character = make_character();

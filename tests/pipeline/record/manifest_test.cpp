@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "pipeline/record/run_folder.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx {
@@ -101,35 +100,6 @@ TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
       EXPECT_NE(std::string(error.what()).find("manifest.json"), std::string::npos);
     }
   }
-}
-
-TEST(Timing, ReadsBackAndForgivesAFileThatIsNone) {
-  const TemporaryFolder folder;
-  const auto path = folder.path / "timing.json";
-  EXPECT_TRUE(read_timing(path).empty());
-  std::ofstream(path) << format_timing({{"walk", 12.5, 10.0, 2}}, example().sequences);
-  ASSERT_EQ(read_timing(path).size(), 1u);
-  EXPECT_EQ(read_timing(path)[0].training_seconds, 10.0);
-  EXPECT_NE(read_file(path).find("\"samples_per_second\": 400000.0"), std::string::npos);
-  std::ofstream(path) << "{";
-  EXPECT_TRUE(read_timing(path).empty());
-}
-
-TEST(RunFolder, InputsOfOneFileNameGetNamesOfTheirOwn) {
-  EXPECT_EQ(unique_name("a/walk.npz", {}), "walk");
-  EXPECT_EQ(unique_name("b/walk.npz", {"walk"}), "walk-2");
-  EXPECT_EQ(unique_name("c/walk.npz", {"walk", "walk-2"}), "walk-3");
-}
-
-TEST(RunFolder, TheChecksumIsFnv1aAndSeesOneChangedBit) {
-  const TemporaryFolder folder;
-  const auto path = folder.path / "f";
-  std::ofstream(path) << "foobar";
-  EXPECT_EQ(file_checksum(path), "85944171f73967e8");  // published test vector of FNV-1a, 64 bits
-  std::ofstream(path) << "foobas";
-  EXPECT_NE(file_checksum(path), "85944171f73967e8");
-  EXPECT_THROW(file_checksum(folder.path / "none"), DataError);
-  EXPECT_THROW(file_checksum(folder.path), DataError);
 }
 
 }  // namespace

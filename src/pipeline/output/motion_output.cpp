@@ -1,9 +1,9 @@
-#include "pipeline/record/motion_output.h"
+#include "pipeline/output/motion_output.h"
 
 #include <string>
 #include <utility>
 
-#include "pipeline/record/simulated_members.h"
+#include "pipeline/output/simulated_members.h"
 
 namespace mimicx {
 namespace {

@@ -1,8 +1,8 @@
-#include "pipeline/record/qpos.h"
+#include "pipeline/output/qpos.h"
 
 #include "motion/reference.h"
 #include "physics/mjcf.h"
-#include "pipeline/record/rows.h"
+#include "pipeline/output/rows.h"
 
 namespace mimicx {
 

@@ -1,9 +1,9 @@
-#include "pipeline/record/simulated_members.h"
+#include "pipeline/output/simulated_members.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/record/rows.h"
+#include "pipeline/output/rows.h"
 
 namespace mimicx {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/record/qpos.h"
+#include "pipeline/output/qpos.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/record/clean_copy.h"
+#include "pipeline/output/clean_copy.h"
 
 namespace mimicx {
 

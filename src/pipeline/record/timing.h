@@ -1,0 +1,24 @@
+/// `timing.json`: how long every motion took. Wall-clock times differ from run to run: they stand apart from
+/// everything that is promised to be the same bytes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/record/manifest.h"
+
+namespace mimicx {
+
+/// Wall-clock record of one sequence, summed over interruptions.
+struct Timing {
+  std::string name;
+  double seconds = 0.0;           ///< all of it
+  double training_seconds = 0.0;  ///< of training
+  int threads = 0;
+};
+std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
+/// Empty when there is no such file or it is unreadable: times are a convenience.
+std::vector<Timing> read_timing(const std::filesystem::path& path);
+
+}  // namespace mimicx

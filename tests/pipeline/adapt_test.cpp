@@ -1,0 +1,104 @@
+#include "pipeline/adapt.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/pretrained_options.h"
+#include "pipeline/results.h"
+
+namespace mimicx {
+namespace {
+
+using Adapt = PretrainedOptions;
+
+TEST_F(Adapt, RecordsArrangementEndingAndWhatTheOptionsDidBefore) {
+  run(pretraining("options"));
+  run(adapting("run", "options"));
+  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  EXPECT_EQ(manifest.options, read_options(out("options"))->checksum);
+  const SequenceEntry& entry = manifest.sequences.at(0);
+  ASSERT_FALSE(entry.arrangement.empty());
+  EXPECT_EQ(entry.arrangement.front()[0], 0);
+  EXPECT_EQ(entry.ending, Ending::kBudget);
+  EXPECT_FALSE(entry.metrics_before.empty());
+  EXPECT_TRUE(entry.fit.empty()) << "no keypoints, no fit";
+}
+
+TEST_F(Adapt, WithoutABudgetIsTheOptionsThemselves) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  config.training.samples = 0;
+  run(config);
+  const SequenceEntry entry = read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.samples, 0);
+  EXPECT_EQ(entry.reward_before, entry.reward_after);
+  EXPECT_EQ(entry.output, "motions/sway.npz");
+}
+
+TEST_F(Adapt, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("one", "options");
+  run(config);
+  config.run.out = out("two");
+  config.run.threads = 2;
+  EXPECT_EQ(run(config, 3), RunOutcome::kInterrupted);
+  run(config);
+  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+}
+
+TEST_F(Adapt, EndingsAreToldApart) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("good", "options");
+  config.training.stop_reward = 1e-9;  // whatever it does is good enough
+  run(config);
+  EXPECT_EQ(read_manifest(out("good") / "manifest.json").sequences.at(0).ending, Ending::kThreshold);
+  config = adapting("stalled", "options");
+  config.training.stall_evaluations = 1;
+  config.training.ppo.step_size = config.training.ppo.step_max = config.training.ppo.step_min = 1e-30;
+  run(config);
+  EXPECT_EQ(read_manifest(out("stalled") / "manifest.json").sequences.at(0).ending, Ending::kStall);
+}
+
+TEST_F(Adapt, NothingChangesWhereTheTruthIsDeleted) {
+  const std::filesystem::path data = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test";
+  std::filesystem::create_directories(out("data"));
+  std::filesystem::copy(data / "truth", out("data") / "truth");
+  std::filesystem::copy(data / "noisy", out("data") / "noisy");
+  run(pretraining("options"));
+  AdaptConfig config = adapting("with", "options");
+  config.run.inputs = {(out("data") / "noisy" / "stand_1.npz").string()};
+  run(config);
+  std::filesystem::remove_all(out("data") / "truth");
+  config.run.out = out("without");
+  run(config);
+  const auto with = results_of(out("with"));
+  EXPECT_TRUE(with.contains("fits/stand_1.npz")) << "a clip with keypoints is fitted";
+  EXPECT_EQ(with, results_of(out("without")));
+}
+
+TEST_F(Adapt, NothingDependsOnKeypointsThatAreNotWanted) {
+  const std::filesystem::path noisy =
+      std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
+  Clip clip = read_clip(noisy);
+  clip.keypoints.reset();
+  std::filesystem::create_directories(out("blind"));
+  write_clip(out("blind") / "stand_1.npz", clip);
+  run(pretraining("options"));
+  AdaptConfig config = adapting("seen", "options");
+  config.run.fit = false;
+  config.run.inputs = {noisy.string()};
+  const std::string log = "training/stand_1.csv";
+  run(config);
+  const std::string with_eq3 = results_of(out("seen")).at(log);
+  config.run.keypoints = false;
+  config.run.out = out("unwanted");
+  run(config);
+  const std::string unwanted = results_of(out("unwanted")).at(log);
+  config.run.inputs = {(out("blind") / "stand_1.npz").string()};
+  config.run.out = out("none");
+  run(config);
+  EXPECT_EQ(unwanted, results_of(out("none")).at(log));
+  EXPECT_NE(unwanted, with_eq3);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,30 @@
+/// Options made up for tests: what they do is known without any training.
+#pragma once
+
+#include "pipeline/options/option.h"
+
+namespace mimicx {
+
+/// An encoder that a few steps on one clip have made: not a good one, but no identity either.
+inline nn::AutoEncoder some_encoder(const rl::TrackingClip& clip, std::uint64_t seed = 1) {
+  nn::AutoEncoderConfig config;
+  config.hidden = 16;
+  config.code = 8;
+  config.steps = 40;
+  config.minibatch = 32;
+  return nn::train_autoencoder(encoder_inputs(clip), config, seed);
+}
+
+/// An option whose mean action is `action` in every degree of freedom, whatever it sees.
+inline Option constant_option(int state_size, float action) {
+  rl::AgentShape shape;
+  shape.observation_dim = state_size;
+  shape.action_dim = kDofs;
+  shape.hidden = {4};
+  Option option{rl::make_agent(shape, 1), std::nullopt};
+  option.agent.actor.weights.back().setZero();
+  option.agent.actor.biases.back().setConstant(action);
+  return option;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,76 @@
+#include "pipeline/pretrain.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "pipeline/pretrained_options.h"
+#include "pipeline/results.h"
+
+namespace mimicx {
+namespace {
+
+using Pretrain = PretrainedOptions;
+
+TEST(ShareSamples, GoBySquareRootsAndSpendTheBudget) {
+  const auto shares = share_samples(700, {1, 4, 16});
+  EXPECT_EQ(shares, (std::vector<std::int64_t>{100, 200, 400}));
+}
+
+TEST_F(Pretrain, LeavesEveryFileTheDocumentationNames) {
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  const auto files = results_of(out("run"));
+  for (const char* name : {"options.npz", "clusters.json", "manifest.json", "training/option0.csv",
+                           "training/option1.csv", "checkpoints/option0.npz", "checkpoints/option1.npz"})
+    EXPECT_TRUE(files.contains(name)) << name;
+  const auto set = read_options(out("run"));
+  ASSERT_EQ(set->options.size(), 2u);
+  int motions_in_all = 0;
+  for (const TrainedOption& option : set->options) {
+    motions_in_all += option.motions;
+    ASSERT_TRUE(option.option.encoder.has_value());
+    EXPECT_EQ(option.option.encoder->code_size(), 8);
+    EXPECT_FALSE(option.description.empty());
+  }
+  EXPECT_EQ(motions_in_all, 3);
+  EXPECT_NE(set->options[0].description, set->options[1].description);
+}
+
+TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
+  PretrainConfig config = pretraining("one");
+  run(config);
+  config.out = out("two");
+  config.threads = 2;
+  EXPECT_EQ(run(config, 2), RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 2), RunOutcome::kInterrupted);  // in the second option
+  EXPECT_EQ(run(config), RunOutcome::kAllGood);
+  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+}
+
+TEST_F(Pretrain, AFinishedOneIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  const auto before = results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "clusters.json");
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "clusters.json"), written);
+  std::filesystem::remove(out("run") / "options.npz");
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(results_of(out("run")), before);
+}
+
+TEST_F(Pretrain, NamesWhatItCannotReadAndGoesOn) {
+  std::ofstream(motions / "broken.npz") << "no archive";
+  EXPECT_EQ(run(pretraining("run")), RunOutcome::kSomeFailed);
+  EXPECT_EQ(read_options(out("run"))->options.size(), 2u);
+  EXPECT_NE(results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
+}
+
+TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {
+  PretrainConfig config = pretraining("run");
+  run(config);
+  config.encoder.code = 4;
+  EXPECT_THROW(run(config), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mimicx

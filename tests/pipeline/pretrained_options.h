@@ -1,0 +1,64 @@
+/// A folder of motions, options pre-trained on them in seconds, and runs that start from those options.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "motion/synth/synth.h"
+#include "pipeline/adapt.h"
+#include "pipeline/pretrain.h"
+#include "pipeline/small_run.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+
+/// Two kinds of motion that cluster apart, as a folder of files.
+struct PretrainedOptions : testing::Test {
+  void SetUp() override {
+    std::filesystem::create_directories(motions);
+    write_clip(motions / "stand.npz", standing_clip(20));
+    write_clip(motions / "sway.npz", standing_clip(25));
+    SynthOptions walk;
+    walk.kind = "walk";
+    write_clip(motions / "walk.npz", synthesize(walk));
+  }
+  PretrainConfig pretraining(const std::string& out) const {
+    PretrainConfig config;
+    config.inputs = {motions.string()};
+    config.out = folder.path / out;
+    config.training = small_training();
+    config.training.evaluate_iterations = 2;
+    config.clusters.clusters = 2;
+    config.encoder.steps = 30;
+    config.encoder.hidden = 16;
+    config.encoder.code = 8;
+    return config;
+  }
+  static RunOutcome run(const PretrainConfig& config, int iterations = -1) {
+    return run_in_context([&](const RunContext& context) { return pretrain(config, context); }, iterations)
+        .value;
+  }
+  AdaptConfig adapting(const std::string& out, const std::string& options) const {
+    AdaptConfig config;
+    config.run.inputs = {(motions / "sway.npz").string()};
+    config.run.out = folder.path / out;
+    config.run.fit = true;
+    config.training = small_training();
+    config.training.evaluate_iterations = 2;
+    config.arrangement.switch_penalty = -0.01;
+    config.options = read_options(folder.path / options);
+    return config;
+  }
+  static RunOutcome run(const AdaptConfig& config, int iterations = -1) {
+    return run_in_context([&](const RunContext& context) { return adapt(config, context); }, iterations)
+        .value;
+  }
+  std::filesystem::path out(const std::string& name) const { return folder.path / name; }
+
+  TemporaryFolder folder;
+  std::filesystem::path motions = folder.path / "motions";
+};
+
+}  // namespace mimicx

@@ -1,0 +1,41 @@
+/// Trainings small enough for a test, and the context that they run in.
+#pragma once
+
+#include <sstream>
+#include <string>
+
+#include "pipeline/record/run_context.h"
+#include "pipeline/training.h"
+
+namespace mimicx {
+
+/// Several iterations, groups and checkpoints.
+inline TrainingConfig small_training() {
+  TrainingConfig training;
+  training.samples = 6 * 64 * 8;
+  training.characters = 64;
+  training.group_size = 16;
+  training.hidden = {16};
+  training.ppo.horizon = 8;
+  training.ppo.minibatch = 256;
+  training.ppo.pass_rows = 64;
+  return training;
+}
+
+struct Outcome {
+  RunOutcome value;
+  std::string messages;
+};
+
+/// Calls work(context).
+/// @param iterations  the context asks to stop after that many; negative: never
+template <class Work>
+Outcome run_in_context(const Work& work, int iterations = -1) {
+  std::ostringstream messages;
+  Progress progress(messages, false, steady_seconds);
+  int asked = 0;
+  const RunOutcome value = work(RunContext{progress, messages, [&] { return ++asked == iterations; }});
+  return {value, messages.str()};
+}
+
+}  // namespace mimicx
