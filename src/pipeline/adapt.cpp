@@ -76,7 +76,7 @@ Method method_of(const AdaptConfig& config) {
   add_fine_tuning(config, method);
   if (config.method == AdaptMethod::kAuto) {
     method.name = "auto";
-    append(method.settings, settings_of(config.plan));
+    append(method.settings, plan_settings(config.plan));
     method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
       return plan_or_fine_tune(config, reference, job);
     };

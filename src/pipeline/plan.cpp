@@ -7,8 +7,8 @@ namespace mimicx {
 RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context) {
   Method method;
   method.name = "plan";
-  method.settings = settings_of(config.planning);
-  for (const auto& value : run_settings(config.run)) method.settings.push_back(value);
+  method.settings = planning_settings(config.planning);
+  append(method.settings, run_settings(config.run));
   method.simulation = config.planning.simulation;
   method.simulate = [&planning = config.planning](const Reference& reference, const SequenceJob& job) {
     return plan_sequence(reference, planning, job);

@@ -1,6 +1,7 @@
 #include "pipeline/plan_sequence.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/units.h"
 #include "pipeline/output/plan_file.h"
@@ -23,15 +24,17 @@ std::vector<State<double>> states_of(const Reference& reference) {
   return states;
 }
 
-/// The plan that an earlier run finished for this very input, if it did.
-bool take_up(const SequenceJob& job, StoredPlan& stored) {
+/// The plan that an earlier run finished for this very input; none where the file is not that.
+std::optional<StoredPlan> finished_plan(const SequenceJob& job) {
   const std::filesystem::path file = job.folder.plan(job.name);
-  if (!std::filesystem::exists(file)) return false;
-  StoredPlan there = read_plan(file);
-  if (there.plan.ending == control::Ending::kStopped || there.input_checksum != job.input_checksum)
-    return false;
-  stored = std::move(there);
-  return true;
+  if (!std::filesystem::exists(file)) return {};
+  try {
+    StoredPlan stored = read_plan(file);
+    if (stored.plan.ending != control::Ending::kStopped && stored.input_checksum == job.input_checksum)
+      return stored;
+  } catch (const DataError&) {  // a damaged one is made anew
+  }
+  return {};
 }
 
 /// Plans. @return whether the context asked to stop
@@ -100,8 +103,9 @@ SimulatedSequence plan_sequence(const Reference& reference, const PlanningConfig
   SimulatedSequence made;
   made.method = "plan";
   const double started = steady_seconds();
-  StoredPlan stored;
-  if (!take_up(job, stored)) {
+  std::optional<StoredPlan> finished = finished_plan(job);
+  StoredPlan stored = finished ? std::move(*finished) : StoredPlan{};
+  if (!finished) {
     made.interrupted = make(reference, config, job, stored);
     made.planning_seconds = steady_seconds() - started;
     if (made.interrupted) return made;
