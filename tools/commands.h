@@ -16,6 +16,7 @@
 #include "pipeline/adapt.h"
 #include "pipeline/imitate.h"
 #include "pipeline/options/clusters.h"
+#include "pipeline/plan.h"
 #include "pipeline/pretrain.h"
 
 namespace mimicx {
@@ -31,6 +32,7 @@ struct UsageError : std::runtime_error {
 };
 
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
+int run_plan(PlanMotionsConfig config, const std::vector<std::string>& settings);
 int run_imitate(ImitateConfig config, const std::vector<std::string>& settings);
 /// Without a folder in `config.run.out`, every input gets one beside it (NAME.mimicx) and its clean motion
 /// beside it (NAME.clean.EXT). @param trained  options to start from: a file, or a folder with options.npz;

@@ -18,6 +18,7 @@ namespace {
 struct Arguments {
   ImitateConfig imitate;
   AdaptConfig adapt;
+  PlanMotionsConfig plan;
   PretrainConfig pretrain;
   std::string preset = "small";
   std::optional<std::int64_t> pretrain_samples;
@@ -81,9 +82,8 @@ void add_read_options(CLI::App& command, ReadOptions& read) {
       ->check(CLI::ExistingFile);
 }
 
-/// What imitate and adapt have in common. @param samples  name of the option for the budget
-void add_run_options(CLI::App& command, Arguments& a, RunConfig& run, TrainingConfig& training,
-                     const std::string& samples) {
+/// What plan, imitate and adapt have in common.
+void add_run_options(CLI::App& command, Arguments& a, RunConfig& run) {
   command.add_option("FILE", run.inputs, "motions and folders of them")->required();
   command.add_option(
       "--out", run.out,
@@ -95,24 +95,44 @@ void add_run_options(CLI::App& command, Arguments& a, RunConfig& run, TrainingCo
           "--rate", [&run](const std::string& rate) { run.input_rate = rate == "input"; },
           "frame rate of the clean copies in the inputs' own formats: 30 (default) or input")
       ->check(CLI::IsMember({"30", "input"}));
-  command.add_option(samples, training.samples, "training budget per motion, in character steps")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
   command.add_flag("--substeps", run.substeps,
                    "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
-  command.add_option("--seed", training.seed, "root of every random number")->capture_default_str();
   add_threads(command, run.threads);
   command
-      .add_option("--limit-seconds", run.limit_seconds,
-                  "safety stop per motion: ends its training early, makes the result depend on the machine, "
-                  "and is recorded as such")
+      .add_option(
+          "--limit-seconds", run.limit_seconds,
+          "safety stop per motion: ends its plan or training early, makes the result depend on the machine, "
+          "and is recorded as such")
       ->check(CLI::PositiveNumber);
   add_settings(command, a);
 }
 
+/// What imitate and adapt have in common. @param samples  name of the option for the budget
+void add_training_options(CLI::App& command, TrainingConfig& training, const std::string& samples) {
+  command.add_option(samples, training.samples, "training budget per motion, in character steps")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--seed", training.seed, "root of every random number")->capture_default_str();
+}
+
+void add_fit_flag(CLI::App& command, RunConfig& run) {
+  command.add_flag("--fit,!--no-fit", run.fit,
+                   "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
+                   "look at keypoints at all");
+}
+
+void declare_plan(CLI::App& app, Arguments& a) {
+  auto* command = app.add_subcommand(
+      "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out");
+  add_run_options(*command, a, a.plan.run);
+  add_fit_flag(*command, a.plan.run);
+  command->callback([&a] { a.run = [&a] { return run_plan(a.plan, a.settings); }; });
+}
+
 void declare_imitate(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand("imitate", "Train a simulated character to follow each motion");
-  add_run_options(*command, a, a.imitate.run, a.imitate.training, "--samples");
+  add_run_options(*command, a, a.imitate.run);
+  add_training_options(*command, a.imitate.training, "--samples");
   command->add_flag("--fit", a.imitate.run.fit,
                     "move motions onto their keypoints first, where they have any");
   command->callback([&a] { a.run = [&a] { return run_imitate(a.imitate, a.settings); }; });
@@ -120,12 +140,20 @@ void declare_imitate(CLI::App& app, Arguments& a) {
 
 void declare_adapt(CLI::App& app, Arguments& a) {
   auto* command = app.add_subcommand(
-      "adapt", "Clean motions: keypoint fit, then trained options chosen and fine-tuned for each");
-  add_run_options(*command, a, a.adapt.run, a.adapt.training, "--budget-samples");
-  command->add_flag(
-      "--fit,!--no-fit", a.adapt.run.fit,
-      "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
-      "look at keypoints at all");
+      "adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each");
+  static const std::map<std::string, AdaptMethod> kMethods = {
+      {"auto", AdaptMethod::kAuto}, {"plan", AdaptMethod::kPlan}, {"paper", AdaptMethod::kPaper}};
+  command
+      ->add_option(
+          "--method", a.adapt.method,
+          "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
+          "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the paper's "
+          "method, whose training then takes minutes; the better of the two is kept")
+      ->transform(CLI::Transformer(kMethods))
+      ->option_text("TEXT:{auto,plan,paper}");
+  add_run_options(*command, a, a.adapt.run);
+  add_training_options(*command, a.adapt.training, "--budget-samples");
+  add_fit_flag(*command, a.adapt.run);
   command->add_option(
       "--options", a.options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");
@@ -329,8 +357,9 @@ int run(int argc, char** argv) {
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
   Arguments arguments;
   arguments.adapt.training = fine_tuning_defaults();
-  arguments.adapt.run.fit = true;
+  arguments.adapt.run.fit = arguments.plan.run.fit = true;
   declare_run(app, arguments);
+  declare_plan(app, arguments);
   declare_pretrain(app, arguments);
   declare_adapt(app, arguments);
   declare_imitate(app, arguments);

@@ -1,4 +1,4 @@
-// imitate, adapt, pretrain and run: the commands that train.
+// plan, imitate, adapt, pretrain and run: the commands that simulate motions.
 #include <algorithm>
 #include <charconv>
 #include <csignal>
@@ -12,7 +12,8 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void apply(const std::vector<std::string>& settings, TrainingConfig& config) {
+template <class Config>
+void apply(const std::vector<std::string>& settings, Config& config) {
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
     double value = 0.0;
@@ -102,7 +103,8 @@ std::filesystem::path shipped_options() {
        at = at.parent_path())
     if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
   if (std::filesystem::exists(relative / "options.npz")) return relative;
-  throw UsageError("found no data/options beside the program: name trained options with --options");
+  throw UsageError(
+      "found no data/options beside the program: name trained options with --options, or take --method plan");
 }
 
 }  // namespace
@@ -114,11 +116,19 @@ int run_imitate(ImitateConfig config, const std::vector<std::string>& settings) 
   });
 }
 
+int run_plan(PlanMotionsConfig config, const std::vector<std::string>& settings) {
+  config.run.keypoints = config.run.fit;
+  apply(settings, config.planning);
+  return with_context([&](const RunContext& context) {
+    return run_inputs(config, context, [&] { return plan_motions(config, context); });
+  });
+}
+
 int run_adapt(AdaptConfig config, std::filesystem::path trained, const std::vector<std::string>& settings) {
   config.run.keypoints = config.run.fit;  // a reference that is not on its keypoints contradicts Eq. 3
-  if (trained.empty()) trained = shipped_options();
-  config.options = read_options(trained);
-  apply(settings, config.training);
+  if (config.method != AdaptMethod::kPlan)
+    config.options = read_options(trained.empty() ? shipped_options() : trained);
+  apply(settings, config);
   return with_context([&](const RunContext& context) {
     return run_inputs(config, context, [&] { return adapt(config, context); });
   });
@@ -139,6 +149,7 @@ int run_all(const std::filesystem::path& in, const std::filesystem::path& out, P
   pretraining.inputs = adapting.run.inputs = {in.string()};
   pretraining.out = out / "options";
   adapting.run.out = out / "clean";
+  adapting.method = AdaptMethod::kPaper;
   const int status = run_pretrain(pretraining, "small", samples, {});
   if (status == kInterrupted) return status;
   return std::max(status, run_adapt(std::move(adapting), pretraining.out, {}));

@@ -43,8 +43,8 @@ struct Cli : testing::Test {
 
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
-  for (const char* command : {"run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate", "info",
-                              "convert", "audit", "export-mjcf", "synth"}) {
+  for (const char* command : {"plan", "run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate",
+                              "info", "convert", "audit", "export-mjcf", "synth"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;
@@ -75,6 +75,13 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "imitate " + a + out + " --set gamma=2",
                                        "imitate " + a + out + " --set bin_frames=0",
                                        "imitate " + a + out + " --set characters=100",
+                                       std::string("plan"),
+                                       "plan " + a + out + " --samples 1",
+                                       "plan " + a + out + " --set plan_horizon=0",
+                                       "plan " + a + out + " --set gamma=0.9",
+                                       "adapt " + a + out + " --method dance",
+                                       "adapt " + a + out + " --method plan --set gamma=0.9",
+                                       "adapt " + a + out + " --method paper --set plan_horizon=5",
                                        std::string("evaluate"),
                                        std::string("info"),
                                        "convert " + a,
@@ -147,6 +154,34 @@ TEST_F(Cli, AnInterruptLeavesACheckpointAndTheSameCommandEndsWithTheSameBytes) {
   EXPECT_TRUE(says(interrupted, "interrupted; the same command continues")) << interrupted.text;
   ASSERT_EQ(mimicx(command + path("halves")).status, 0);
   EXPECT_EQ(results_of(path("halves")), results_of(path("whole")));
+}
+
+TEST_F(Cli, APlanIsInterruptedBetweenWindowsAndTheSameCommandEndsWithTheSameBytes) {
+  write_clip(path("a.npz"), standing_clip(90));
+  const std::string command = "plan " + path("a.npz") + " --out ";
+  ASSERT_EQ(mimicx(command + path("whole")).status, 0);
+  const Call interrupted =
+      mimicx(command + path("halves") + " 2>&1 & while [ ! -e " + path("halves/manifest.json") +
+             " ]; do sleep 0.01; done; kill -TERM $!; wait $!");
+  EXPECT_EQ(interrupted.status, 130) << interrupted.text;
+  EXPECT_TRUE(says(interrupted, "interrupted; the same command continues")) << interrupted.text;
+  EXPECT_FALSE(std::filesystem::exists(path("halves/motions/a.npz")));
+  ASSERT_EQ(mimicx(command + path("halves")).status, 0);
+  EXPECT_EQ(results_of(path("halves")), results_of(path("whole")));
+}
+
+TEST_F(Cli, AdaptPlansAndTrainsNothingWhereThePlanSucceeds) {
+  write_clip(path("a.npz"), standing_clip(20));
+  const Call call = mimicx("adapt " + path("a.npz"));
+  EXPECT_EQ(call.status, 0) << call.text;
+  const auto manifest = nlohmann::json::parse(read_file(path("a.mimicx/manifest.json")));
+  EXPECT_EQ(manifest["run"]["method"], "auto");
+  EXPECT_EQ(manifest["sequences"][0]["method"], "plan");
+  EXPECT_EQ(manifest["sequences"][0]["samples"], 0);
+  EXPECT_TRUE(std::filesystem::exists(path("a.mimicx/plans/a.npz")));
+  EXPECT_TRUE(std::filesystem::exists(path("a.clean.npz")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.mimicx/training")));
+  EXPECT_EQ(mimicx("adapt --method paper " + path("a.npz")).status, 1) << "a folder of another method";
 }
 
 TEST_F(Cli, InfoSaysWhatTheFileHolds) {

@@ -42,6 +42,7 @@ struct PretrainedOptions : testing::Test {
   }
   AdaptConfig adapting(const std::string& out, const std::string& options) const {
     AdaptConfig config;
+    config.method = AdaptMethod::kPaper;
     config.run.inputs = {(motions / "sway.npz").string()};
     config.run.out = folder.path / out;
     config.run.fit = true;
