@@ -376,4 +376,11 @@ double lowest_contact(const Character& character, const BodyPoses& poses) {
   return lowest;
 }
 
+Vector3d center_of_mass(const Character& character, const BodyPoses& poses) {
+  Vector3d sum = Vector3d::Zero();
+  for (int i = 0; i < kBodies; ++i)
+    sum += character.mass[i] * (poses.p_WB[i] + poses.q_WB[i] * character.com_B[i]);
+  return sum / character.total_mass();
+}
+
 }  // namespace mimicx

@@ -160,5 +160,7 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
 Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses);
 /// World height of the character's lowest contact point, m.
 double lowest_contact(const Character& character, const BodyPoses& poses);
+/// World position of the whole body's centre of mass, m.
+Vector3d center_of_mass(const Character& character, const BodyPoses& poses);
 
 }  // namespace mimicx
