@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "motion/clip_file.h"
 #include "oracles/mujoco_audit.h"
 #include "pipeline/audit/audit_file.h"
 

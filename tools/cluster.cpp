@@ -1,3 +1,4 @@
+#include "motion/prepare.h"
 #include "pipeline/options/clusters.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& 
 }  // namespace
 
 int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-                const ClusterSettings& settings, const ReadOptions& read) {
+                const ClusterSettings& settings, const ReadConfig& read) {
   std::vector<NamedFeatures> motions;
   std::vector<std::string> names;
   bool all_good = true;

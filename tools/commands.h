@@ -50,13 +50,13 @@ int run_evaluate(const std::filesystem::path& truth, const std::vector<std::stri
                  const std::filesystem::path& json);
 /// @param inputs  files, and folders of motion files
 int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-                const ClusterSettings& settings, const ReadOptions& read);
+                const ClusterSettings& settings, const ReadConfig& read);
 /// @param inputs  files, and folders of motion files; the fitted motions get their names
-int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-            const FitOptions& options, const ReadOptions& read);
-int run_info(const std::filesystem::path& file, const ReadOptions& read);
+int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out, const FitConfig& config,
+            const ReadConfig& read);
+int run_info(const std::filesystem::path& file, const ReadConfig& read);
 /// @param fps  of the output; 0: the input's
-int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadOptions& read,
+int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadConfig& read,
                 double fps);
 /// @param inputs  motions, physics steps, and folders of them
 /// @param poses_alone  look at the poses only, whatever a motion holds besides
@@ -65,13 +65,13 @@ int run_audit(const std::vector<std::string>& inputs, bool poses_alone, const st
 /// @param betas   at most 10, the others are 0; not looked at where there is a motion
 /// @param motion  whose body to take; empty: none
 int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
-                    const ReadOptions& read, const std::filesystem::path& out);
+                    const ReadConfig& read, const std::filesystem::path& out);
 
 struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
-  SynthSetOptions set;
+  SynthSetConfig set;
   bool report = false;  ///< print what each motion of the set demands of a body
 };
 int run_synth(const SynthArguments& arguments);

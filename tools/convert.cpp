@@ -2,12 +2,13 @@
 
 #include "commands.h"
 #include "motion/import/motion_file.h"
+#include "motion/resample.h"
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
 
 namespace mimicx {
 
-int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadOptions& read,
+int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadConfig& read,
                 double fps) {
   if (!is_written(out.extension().string()))
     throw UsageError(out.string() + ": motions are written as " + written_suffixes() + ", not '" +

@@ -19,7 +19,7 @@ Character character_of_shape(const std::vector<double>& betas) {
 }
 
 /// The very body that `convert` writes qpos for and `adapt` simulates: read in the same way.
-Character character_of_motion(const std::filesystem::path& motion, const ReadOptions& read) {
+Character character_of_motion(const std::filesystem::path& motion, const ReadConfig& read) {
   const Clip clip = read_motion(motion, read);
   tell_decisions(motion.string(), clip, std::cerr);
   return character_of(clip);
@@ -28,7 +28,7 @@ Character character_of_motion(const std::filesystem::path& motion, const ReadOpt
 }  // namespace
 
 int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
-                    const ReadOptions& read, const std::filesystem::path& out) {
+                    const ReadConfig& read, const std::filesystem::path& out) {
   if (motion.empty() && !read.text().empty())
     throw UsageError("export-mjcf: " + read.text() +
                      " says how to read a motion, and there is none: --motion FILE");

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "motion/clip_file.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
 
@@ -18,8 +19,8 @@ void print(const std::string& name, const FitReport& r) {
 
 }  // namespace
 
-int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-            const FitOptions& options, const ReadOptions& read) {
+int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out, const FitConfig& config,
+            const ReadConfig& read) {
   std::filesystem::create_directories(out);
   std::printf("%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n",
               "motion", "before", "after", "focal", "tilt", "shape", "swaps", "drops", "change", "largest",
@@ -32,7 +33,7 @@ int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path&
       FitReport report;
       const Clip clip = read_motion(file, read);
       tell_decisions(file, clip, std::cerr);
-      write_clip(out / (names.back() + ".npz"), fit_keypoints(clip, options, &report));
+      write_clip(out / (names.back() + ".npz"), fit_keypoints(clip, config, &report));
       print(names.back(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {

@@ -3,7 +3,7 @@
 
 #include "commands.h"
 #include "motion/import/motion_file.h"
-#include "motion/reference.h"
+#include "motion/prepare.h"
 
 namespace mimicx {
 namespace {
@@ -53,7 +53,7 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
 
 }  // namespace
 
-int run_info(const std::filesystem::path& file, const ReadOptions& read) {
+int run_info(const std::filesystem::path& file, const ReadConfig& read) {
   const Clip clip = read_motion(file, read);
   describe_file(clip);
   for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());

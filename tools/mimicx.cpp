@@ -32,8 +32,8 @@ struct Arguments {
   std::vector<double> betas;
   bool poses_alone = false;
   ClusterSettings cluster;
-  FitOptions fit;
-  ReadOptions read;
+  FitConfig fit;
+  ReadConfig read;
   std::string rate = "input";
   std::function<int()> run;
 };
@@ -54,7 +54,7 @@ void add_threads(CLI::App& command, int& threads) {
 }
 
 /// What the user knows better than the files.
-void add_read_options(CLI::App& command, ReadOptions& read) {
+void add_read_options(CLI::App& command, ReadConfig& read) {
   static const std::map<std::string, char> kAxes = {{"x", 'x'},  {"y", 'y'},  {"z", 'z'},
                                                     {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}};
   command
@@ -318,7 +318,7 @@ void declare_export_mjcf(CLI::App& app, Arguments& a) {
 void declare_synth(CLI::App& app, Arguments& a) {
   auto* command =
       app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
-  SynthSetOptions& set = a.synth.set;
+  SynthSetConfig& set = a.synth.set;
   auto* out = command->add_option("--out", a.synth.out, "folder to write to");
   command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
       ->check(CLI::PositiveNumber);

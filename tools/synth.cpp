@@ -11,7 +11,7 @@ namespace {
 constexpr double kProgressPeriod = 2.0;  // s
 
 /// @throws UsageError for a set that cannot be
-std::vector<SynthOptions> checked_clips(const SynthSetOptions& set) {
+std::vector<SynthConfig> checked_clips(const SynthSetConfig& set) {
   try {
     return clips_of_set(set);
   } catch (const std::invalid_argument& error) {
@@ -30,12 +30,12 @@ void write_set(const SynthArguments& arguments, std::size_t total) {
 }
 
 /// Residuals in parts of the weight W, torques in parts of their limits.
-void print_report(const std::vector<SynthOptions>& clips) {
+void print_report(const std::vector<SynthConfig>& clips) {
   std::printf("%-20s %7s %18s %20s %26s %12s\n", "motion", "seconds", "root force, % W", "root moment, mm W",
               "worst torque, % of limit", "frames over");
   std::printf("%-20s %7s %9s %8s %11s %8s\n", "", "", "mean", "max", "mean", "max");
-  for (const SynthOptions& options : clips) {
-    const Clip clip = synthesize(options);
+  for (const SynthConfig& config : clips) {
+    const Clip clip = synthesize(config);
     const Feasibility f = feasibility(clip);
     const std::string worst(kBodyNames[static_cast<std::size_t>(f.worst_joint)]);
     std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-12s %6d\n", clip.name.c_str(),
@@ -50,7 +50,7 @@ void print_report(const std::vector<SynthOptions>& clips) {
 int run_synth(const SynthArguments& arguments) {
   if (arguments.out.empty() && arguments.data_set.empty() && !arguments.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
-  const std::vector<SynthOptions> clips = checked_clips(arguments.set);
+  const std::vector<SynthConfig> clips = checked_clips(arguments.set);
   if (!arguments.out.empty()) write_set(arguments, clips.size());
   if (!arguments.data_set.empty()) {
     write_synthetic_data(arguments.data_set);

@@ -29,7 +29,7 @@ namespace mimicx {
 inline constexpr int kFeatures = 2 + 3 * kBodies;
 
 /// In the order above, SI units.
-using MotionFeatures = std::array<double, kFeatures>;
+using MotionFeatures = Array<double, kFeatures>;
 
 /// Index of the first entry of each kind; joint entries follow the order of `Body`.
 inline constexpr int kRootHeight = 0;
@@ -39,7 +39,7 @@ inline constexpr int kVerticalVelocity = kPlanarVelocity + kBodies;
 inline constexpr int kAcceleration = kVerticalVelocity + kBodies;
 
 /// "root_height", …, "acceleration.right_wrist".
-const std::array<std::string, kFeatures>& feature_names();
+const Array<std::string, kFeatures>& feature_names();
 
 /// @param reference  poses, and the root's angular velocities, must be set, as `prepare_reference` does
 /// @throws DataError for fewer than 3 frames

@@ -1,21 +1,10 @@
-/// Knees and elbows as hinges.                                                        METHOD §2
-///
-/// A limb is: upper body A (hip or shoulder), hinge body B (knee or elbow), end body C (ankle or wrist); in
-/// the world u is the vector from A's joint to B's and v the one from B's to C's. The hinge angle follows
-/// from the angle α between u and v alone. It fixes the distance |u + v|, so that turning A points its chain
-/// exactly at C's joint; what is left is the swivel ψ about the line from A's joint to C's, and one value ψ*
-/// of it puts B's joint where it was: then u, v and all joints are exact.
-///
-/// Near a straight limb ψ* loses its meaning (B's joint is nearly on that line) and would turn A by large
-/// angles for millimetres; ψ is then drawn, smoothly, to the swivel of A's own SMPL rotation. C's joint stays
-/// where it was; B's moves by a few millimetres. The bones of the rest pose are not in one plane with
-/// the hinge's normal: the limb cannot be straighter than about 8° (leg) or 5° (arm), the rest is residual.
+#include "motion/hinge.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "core/units.h"
-#include "motion/reference.h"
 
 namespace mimicx {
 namespace {
@@ -68,9 +57,8 @@ double blended_swivel(double exact, double bend, double hinged_bend) {
 /// @param R  world rotations of the SMPL motion; @param q  joint rotations to change
 void convert_limb(const Character& character, const Limb& limb, const PerBody<Quaterniond>& R,
                   PerBody<Quaterniond>& q) {
-  const auto A = static_cast<std::size_t>(limb.upper), B = static_cast<std::size_t>(limb.hinge);
-  const auto C = static_cast<std::size_t>(limb.end), P = static_cast<std::size_t>(kParents[A]);
-  const Vector3d axis = hinge_axis(limb.hinge);
+  const int A = limb.upper, B = limb.hinge, C = limb.end, P = kParents[A];
+  const Vector3d axis = hinge_axis(B);
   const Quaterniond twist = twist_about(q[B], axis);
   if (q[B].angularDistance(twist) < kAlreadyHinge) {
     q[B] = exp_map(hinge_angle(twist, axis) * axis);
@@ -91,12 +79,12 @@ void convert_limb(const Character& character, const Limb& limb, const PerBody<Qu
 
 }  // namespace
 
-std::vector<PerBody<Quaterniond>> to_hinges(const Character& character,
-                                            const std::vector<PerBody<Quaterniond>>& smpl) {
-  std::vector<PerBody<Quaterniond>> out = smpl;
+PerFrame<PerBody<Quaterniond>> to_hinges(const Character& character,
+                                         const PerFrame<PerBody<Quaterniond>>& smpl) {
+  PerFrame<PerBody<Quaterniond>> out = smpl;
   for (PerBody<Quaterniond>& q : out) {
     PerBody<Quaterniond> R = q;
-    for (std::size_t i = 1; i < kBodies; ++i) R[i] = R[static_cast<std::size_t>(kParents[i])] * q[i];
+    for (int i = 1; i < kBodies; ++i) R[i] = R[kParents[i]] * q[i];
     for (const Limb& limb : kLimbs) convert_limb(character, limb, R, q);
   }
   return out;

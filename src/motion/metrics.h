@@ -17,15 +17,15 @@ namespace mimicx {
 
 /// What the metrics look at; one entry per frame.
 struct MotionSamples {
-  std::vector<PerBody<Vector3d>> joints;       ///< world positions, m
-  std::vector<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
-  std::vector<double> self_depth;              ///< mean depth of the overlapping self pairs, m; 0 without any
+  PerFrame<PerBody<Vector3d>> joints;       ///< world positions, m
+  PerFrame<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
+  std::vector<double> self_depth;           ///< mean depth of the overlapping self pairs, m; 0 without any
   double fps = 30.0;
 
-  int frames() const { return static_cast<int>(joints.size()); }
+  int frames() const { return joints.count(); }
 };
 
-MotionSamples sample_motion(const Character& character, const std::vector<BodyPoses>& poses, double fps);
+MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
 
 struct MetricValue {
   double value = std::numeric_limits<double>::quiet_NaN();

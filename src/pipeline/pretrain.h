@@ -30,7 +30,7 @@ struct PretrainConfig {
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
   bool fit = true;
-  ReadOptions read;
+  ReadConfig read;
   int threads = 1;
 };
 

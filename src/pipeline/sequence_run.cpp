@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/audit/audit.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/substeps.h"

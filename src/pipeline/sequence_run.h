@@ -32,7 +32,7 @@ namespace mimicx {
 struct RunConfig {
   std::vector<std::string> inputs;  ///< as given; recorded as such
   std::filesystem::path out;
-  ReadOptions read;
+  ReadConfig read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too

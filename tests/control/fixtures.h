@@ -6,7 +6,7 @@
 #include "control/system.h"
 #include "control/tangent.h"
 #include "core/random.h"
-#include "motion/reference.h"
+#include "motion/prepare.h"
 #include "motion/synth/synth.h"
 
 namespace mimicx::control {
@@ -24,7 +24,7 @@ inline State<double> to_state(const ReferenceFrame& frame) {
 
 /// A synthetic motion, cut to its first frames (0: all of it).
 inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed, std::size_t frames = 0) {
-  SynthOptions options;
+  SynthConfig options;
   options.kind = kind;
   options.seed = seed;
   Reference reference = prepare_reference(synthesize(options), {}, nullptr);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/clip_file.h"
 #include "pipeline/plan.h"
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "motion/import/bvh.h"
+#include "motion/import/bvh_write.h"
 #include "motion/import/motion_file.h"
 #include "motion/import/world.h"
 #include "physics/mjcf.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/adapt.h"
 #include "pipeline/pretrain.h"
 #include "pipeline/results.h"

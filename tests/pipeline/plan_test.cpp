@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/output/plan_file.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"

@@ -49,9 +49,7 @@ Betas minimise(const Residual& residual, double weight) {
 
 BodyLengths lengths_of(const Character& character) {
   const auto& offset = character.joint_offset;
-  const auto mean = [&](std::size_t left, std::size_t right) {
-    return 0.5 * (offset[left].norm() + offset[right].norm());
-  };
+  const auto mean = [&](int left, int right) { return 0.5 * (offset[left].norm() + offset[right].norm()); };
   const Vector3d hips = 0.5 * (offset[kLeftHip] + offset[kRightHip]);
   const Vector3d chest = offset[kSpine1] + offset[kSpine2] + offset[kSpine3];
   const Vector3d left = offset[kLeftCollar] + offset[kLeftShoulder],
@@ -75,8 +73,8 @@ Betas fit_betas(const BodyLengths& lengths) {
       [&](const Betas& betas) {
         const BodyLengths made = lengths_of(make_character(betas));
         Vector r = Vector::Zero(kLengths);
-        for (std::size_t i = 0; i < kLengths; ++i)
-          if (lengths[i] > 0.0) r[static_cast<Eigen::Index>(i)] = (made[i] - lengths[i]) / kSigma;
+        for (int i = 0; i < kLengths; ++i)
+          if (lengths[i] > 0.0) r[i] = (made[i] - lengths[i]) / kSigma;
         return r;
       },
       kPull);
@@ -86,8 +84,7 @@ Betas fit_betas(const PerBody<Vector3d>& offsets, double& error) {
   const auto residual = [&](const Betas& betas) {
     const Character character = make_character(betas);
     Vector r(3 * kJoints);
-    for (std::size_t j = 1; j < kBodies; ++j)
-      r.segment<3>(3 * static_cast<Eigen::Index>(j - 1)) = character.joint_offset[j] - offsets[j];
+    for (int j = 1; j < kBodies; ++j) r.segment<3>(3 * (j - 1)) = character.joint_offset[j] - offsets[j];
     return r;
   };
   const Betas betas = minimise(residual, 1e-12);  // the girth, which moves no joint, is 0

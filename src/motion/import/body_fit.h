@@ -22,7 +22,7 @@ enum Length : int {
   kTrunk,
   kLengths
 };
-using BodyLengths = std::array<double, kLengths>;
+using BodyLengths = Array<double, kLengths>;
 
 /// Those of a character. The trunk reaches from the middle of the hips to the middle of the shoulders.
 BodyLengths lengths_of(const Character& character);

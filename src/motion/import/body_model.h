@@ -16,8 +16,8 @@ namespace mimicx {
 
 /// Rest joints of the first 22 bodies, affine in β.
 struct BodyModel {
-  RestJoints mean;                         ///< β = 0, m
-  std::array<RestJoints, kBetas> by_beta;  ///< what each β adds
+  RestJoints mean;                    ///< β = 0, m
+  Array<RestJoints, kBetas> by_beta;  ///< what each β adds
 
   RestJoints joints(const std::array<double, kBetas>& betas) const;
 };

@@ -39,13 +39,13 @@ using Twists = PerBody<double>;
 /// each bone
 ///                 swung there from the T-pose by the shortest way, soles level
 /// @param turns    bodies that have a joint that turns
-Calibration calibrate(const Character& character, const std::vector<Landmarks>& neutral,
+Calibration calibrate(const Character& character, const PerFrame<Landmarks>& neutral,
                       const PerBody<bool>& turns, const JointMap& map, const Twists& twists = {});
 
 /// The twists, within ±90°, with which hinges of knees and elbows explain best how the lower bones move;
 /// towards 0 where they hardly bend. To a tenth of a degree.
 Twists measure_twists(const Character& character, const Calibration& calibration,
-                      const std::vector<Landmarks>& frames);
+                      const PerFrame<Landmarks>& frames);
 
 /// World rotations of the bodies for a pose: q_WJ · q_JB, then limbs and trunk swung onto their exact
 /// directions.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/resample.h"
 #include "physics/inverse_dynamics.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/feasibility.h"

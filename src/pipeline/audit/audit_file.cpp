@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "motion/clip_file.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/record/json.h"
