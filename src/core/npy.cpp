@@ -1,4 +1,5 @@
-/// The npy half of npz.h: one array, its header and its elements.
+#include "core/npy.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
