@@ -46,7 +46,7 @@ void print_shares() {
   for (RestPose pose : kRestPoses) {
     const RestReport r = rest(pose, kRates[0], 2);
     std::printf("%-10s", kRestPoseNames[static_cast<int>(pose)]);
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       if (r.share[i] > 0.001) std::printf("  %s %.1f", kBodyNames[i].data(), 100 * r.share[i]);
     if (r.heel_share > 0.001) std::printf("  (heels %.1f)", 100 * r.heel_share);
     std::printf("\n");

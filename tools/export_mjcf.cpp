@@ -34,7 +34,7 @@ int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::pat
                      " says how to read a motion, and there is none: --motion FILE");
   const Character character = motion.empty() ? character_of_shape(betas) : character_of_motion(motion, read);
   if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  write_file_atomically(out, to_mjcf(character, SimulationOptions{}));
+  write_file_atomically(out, to_mjcf(character, SimulationConfig{}));
   return kAllGood;
 }
 

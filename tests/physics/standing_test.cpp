@@ -22,10 +22,10 @@ struct SoleMotion {
   double lowest = 1, highest = -1, creep = 0;
 };
 
-SoleMotion stand(const Character& c, const Snapshot& pose, double rate, std::size_t sole_points) {
-  SimulationOptions options;
-  options.rate = rate;
-  Simulation<double> s(c, options, pose);
+SoleMotion stand(const Character& c, const Snapshot& pose, double rate, int sole_points) {
+  SimulationConfig config;
+  config.rate = rate;
+  Simulation<double> s(c, config, pose);
   const int settle = static_cast<int>(2 * rate);
   for (int k = 0; k < settle; ++k) s.advance();
   SoleMotion motion;
@@ -33,7 +33,7 @@ SoleMotion stand(const Character& c, const Snapshot& pose, double rate, std::siz
   for (int k = 0; k < settle; ++k) {
     s.advance();
     const std::vector<Vector3d> now = contact_positions(c, s);
-    for (std::size_t i = 0; i < sole_points; ++i) {  // contact points begin with the left foot's six
+    for (int i = 0; i < sole_points; ++i) {  // contact points begin with the left foot's six
       motion.lowest = std::min(motion.lowest, now[i].z());
       motion.highest = std::max(motion.highest, now[i].z());
       motion.creep = std::max(motion.creep, (now[i] - last[i]).head<2>().norm() * rate);
@@ -76,16 +76,16 @@ TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
   Snapshot pose = standing(c);
   pose.q[0] = exp_map(Vector3d(0, 0, 0));  // face up: z of the body is forward
   pose.p_root.z() += 0.02 - lowest_point(c, pose);
-  SimulationOptions options;
-  Simulation<double> s(c, options, pose);
+  SimulationConfig config;
+  Simulation<double> s(c, config, pose);
   for (int k = 0; k < 960; ++k) s.advance();
   double force = 0, points = 0;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     force += s.applied.ground[i].f.z;
     EXPECT_LT(lane_of(s.data.v[i], 0).norm(), 0.01) << kBodyNames[i];
   }
   for (double f : s.applied.point_force) points += f;
-  EXPECT_NEAR(force, c.total_mass() * options.gravity, 2.0);
+  EXPECT_NEAR(force, c.total_mass() * config.gravity, 2.0);
   EXPECT_NEAR(points, force, 1e-9 * force);
   double lowest = 1;
   for (const Vector3d& p : contact_positions(c, s)) lowest = std::min(lowest, p.z());
@@ -122,8 +122,8 @@ TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
         const RestReport r = rest(pose, rate, passes);
         double sum = 0;
         for (int body : carriers(pose)) {
-          const double share = r.share[static_cast<std::size_t>(body)];
-          EXPECT_GT(share, body == kHead ? 0.005 : 0.02) << kBodyNames[static_cast<std::size_t>(body)];
+          const double share = r.share[body];
+          EXPECT_GT(share, body == kHead ? 0.005 : 0.02) << kBodyNames[body];
           sum += share;
         }
         EXPECT_NEAR(sum, 1.0, 2e-3);

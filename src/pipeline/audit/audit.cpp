@@ -151,7 +151,7 @@ Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kin
 }
 
 /// One physics step: velocities change by dt·a with a taken at the state before.
-AuditRow step_row(const Character& c, const SimulationOptions& o, const rl::Substep& step,
+AuditRow step_row(const Character& c, const SimulationConfig& o, const rl::Substep& step,
                   ReferenceFrame next) {
   rl::Substep s = step;
   for (auto& q : s.state.q) q.normalize();
@@ -168,7 +168,7 @@ AuditRow step_row(const Character& c, const SimulationOptions& o, const rl::Subs
 
 }  // namespace
 
-Audit audit_frames(const SimulatedFrames& motion, const SimulationOptions& simulation) {
+Audit audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation) {
   const Character& c = motion.character;
   Audit audit;
   audit.evidence = Evidence::kFrames;
@@ -238,7 +238,7 @@ Audit audit_poses(const Clip& clip) {
   Audit audit;
   const Character character = make_character(ours.betas);
   const std::vector<BodyPoses> poses = poses_of(ours);
-  audit.weight = SimulationOptions{}.gravity * character.total_mass();
+  audit.weight = SimulationConfig{}.gravity * character.total_mass();
   int frame = 0;
   for (const FrameDemand& demand : motion_demands(ours, {kFloorReach, kFloorReach, true})) {
     AuditRow row;
