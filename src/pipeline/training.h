@@ -27,15 +27,29 @@ namespace mimicx {
 /// PPO for tracking: many small iterations with a generous KL, and a discount that looks 0.4 s ahead: what a
 /// pose error costs shows at once. Measured in docs/experiments.md.
 inline rl::PpoConfig tracking_ppo() {
-  rl::PpoConfig ppo;
-  ppo.gamma = 0.92;
-  ppo.lambda = 0.9;
-  ppo.horizon = 16;
-  ppo.minibatch = 1024;
-  ppo.pass_rows = 256;
-  ppo.kl_target = 0.06;
-  ppo.step_size = 1e-4;
-  return ppo;
+  return {.horizon = 16,
+          .gamma = 0.92,
+          .lambda = 0.9,
+          .sigma_start = 0.07,
+          .sigma_end = 0.04,
+          .epochs = 2,
+          .minibatch = 1024,
+          .clip = 0.2,
+          .gradient_norm = 1.0,
+          .critic_step_size = 5e-4,
+          .return_rate = 0.1,
+          .step_size = 1e-4,
+          .step_factor = 1.5,
+          .step_min = 1e-6,
+          .step_max = 2e-3,
+          .kl_target = 0.06,
+          .kl_stop = 4.0,
+          .penalty_weight = 0.0,
+          .penalty_fraction = 0.125,
+          .bound_weight = 0.0,
+          .mean_bound = 3.0,
+          .gradient_slots = 4,
+          .pass_rows = 256};
 }
 
 /// Everything that the result of a training depends on. Defaults: docs/experiments.md.
@@ -50,7 +64,7 @@ struct TrainingConfig {
   double stop_reward = 0.0;              ///< mean reward of a roll-out that is good enough; 0: none is
   int stall_evaluations = 0;  ///< roll-outs in a row that follow the motion to its end, but none better than
                               ///< before, that end the training; 0: none do
-  rl::PpoConfig ppo = tracking_ppo();  ///< its seed and sigma_samples follow from the members above
+  rl::PpoConfig ppo = tracking_ppo();
   rl::TrackingConfig tracking;
 };
 

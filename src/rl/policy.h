@@ -65,6 +65,7 @@ void unscale_values(const ReturnScale& scale, nn::Matrix<float>& values);
 void follow_returns(ReturnScale& scale, double mean, double square, double rate);
 
 void save(Npz& archive, const std::string& prefix, const Agent& agent);
+/// @throws DataError naming archive and key
 Agent load_agent(const Npz& archive, const std::string& prefix);
 
 }  // namespace mimicx::rl

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "core/containers.h"
 #include "core/random.h"
 #include "nn/normaliser.h"
 #include "rl/environment.h"
@@ -23,7 +24,7 @@
 namespace mimicx::rl {
 
 /// The agents of a roll-out, referred to.
-using Agents = std::vector<const Agent*>;
+using Agents = List<const Agent*>;
 
 struct GroupRollout {
   nn::Matrix<float> observations;    ///< [T·G × observation_dim], normalised
@@ -39,19 +40,19 @@ struct GroupRollout {
 
   std::vector<int> actors;  ///< [T·G] who acted
 
-  std::vector<nn::Moments> moments;  ///< [agent] of the raw observations it saw in this roll-out
-  std::vector<std::int64_t> ages;    ///< [G] steps since the last reset; lives on from roll-out to roll-out
-  std::int64_t ended_episodes = 0;   ///< in this roll-out
-  std::int64_t ended_steps = 0;      ///< lengths of those episodes together
+  List<nn::Moments> moments;        ///< [agent] of the raw observations it saw in this roll-out
+  List<std::int64_t> ages;          ///< [G] steps since the last reset; lives on from roll-out to roll-out
+  std::int64_t ended_episodes = 0;  ///< in this roll-out
+  std::int64_t ended_steps = 0;     ///< lengths of those episodes together
 };
 
 struct RolloutBuffer {
   int horizon = 0;
   int group_size = 0;
-  std::vector<GroupRollout> groups;
+  List<GroupRollout> groups;
 
   int group_rows() const { return horizon * group_size; }
-  int rows() const { return group_rows() * static_cast<int>(groups.size()); }
+  int rows() const { return group_rows() * groups.count(); }
 };
 
 RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int observation_dim,
@@ -60,12 +61,12 @@ RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int o
 /// Buffers of one group's collection.
 struct CollectScratch {
   nn::Matrix<float> raw;                     ///< [G × observation_dim] as observed
-  std::vector<int> actors;                   ///< [G] who acts
+  List<int> actors;                          ///< [G] who acts
   nn::Matrix<float> means, actions, values;  ///< [G × …]
   StepResult result;
 
   // Of one agent's rows.
-  std::vector<int> rows, final_actors;
+  List<int> rows, final_actors;
   nn::Matrix<float> part_raw, part_normalised, part_means, part_values;
   nn::Workspace<float> actor, critic;
 
@@ -93,8 +94,7 @@ void collect_group(E& environment, int group, const Agents& agents, double sigma
                    Random random, CollectScratch& scratch, GroupRollout& rollout) {
   const auto observe = [&] {
     environment.observe(group, scratch.raw);
-    for (std::size_t i = 0; i < scratch.actors.size(); ++i)
-      scratch.actors[i] = acting_agent(environment, group, static_cast<int>(i));
+    for (int i = 0; i < scratch.actors.count(); ++i) scratch.actors[i] = environment.actor(group, i);
   };
   begin_rollout(rollout);
   const int horizon = static_cast<int>(rollout.rewards.rows());

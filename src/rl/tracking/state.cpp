@@ -35,15 +35,14 @@ std::array<float, kJointFeatures> joint_features(const ReferenceFrame& frame) {
   float* rotation = features.data();
   float* velocity = features.data() + 106;
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
     if (is_hinge(body)) {
       const Vector3d axis = hinge_axis(body);
-      *rotation++ = static_cast<float>(log_map(frame.q[i]).dot(axis));
-      *velocity++ = static_cast<float>(frame.omega[i].dot(axis));
+      *rotation++ = static_cast<float>(log_map(frame.q[body]).dot(axis));
+      *velocity++ = static_cast<float>(frame.omega[body].dot(axis));
     } else {
-      const Vector6d r = rotation_6d(frame.q[i]);
+      const Vector6d r = rotation_6d(frame.q[body]);
       for (int k = 0; k < 6; ++k) *rotation++ = static_cast<float>(r[k]);
-      for (int k = 0; k < 3; ++k) *velocity++ = static_cast<float>(frame.omega[i][k]);
+      for (int k = 0; k < 3; ++k) *velocity++ = static_cast<float>(frame.omega[body][k]);
     }
   }
   return features;
@@ -59,8 +58,7 @@ void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& jo
   out = put(f.v_root, heading, out);
   out = put(f.q[0] * f.omega[0], heading, out);
   for (float x : joints) *out++ = x;
-  for (int body : kEndEffectors)
-    out = put(pose.p_WB[static_cast<std::size_t>(body)] - f.p_root, heading, out);
+  for (int body : kEndEffectors) out = put(pose.p_WB[body] - f.p_root, heading, out);
 }
 
 void own_pose_features(const Pose& pose, float* out) {
