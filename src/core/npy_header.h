@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/npy.h"
+#include "core/npy_array.h"
 
 namespace mimicx {
 
