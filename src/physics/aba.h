@@ -33,7 +33,7 @@ template <class T>
   for (int i = 0; i < kBodies; ++i) {
     if (!d.changed[i]) continue;
     const T m(model.mass[i]);
-    const Vec3<T> h = m * d.d[i];
+    const Vec3<T> h = m * d.com[i];
     d.IA[i].A = d.I_o[i];
     d.IA[i].B = {{{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}};  // h×
     d.IA[i].C = {m, zero, zero, m, zero, m};

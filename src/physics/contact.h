@@ -145,8 +145,10 @@ template <class T>
     middle[i] = add_scaled(d.p_WB[i] + arm[i], T(0.5), axis[i]);
   }
   for (const auto& [i, j] : model.self_pairs) {
-    const Capsule &ci = model.capsule[i], &cj = model.capsule[j];
-    const double reach = 0.5 * ((ci.b_B - ci.a_B).norm() + (cj.b_B - cj.a_B).norm()) + ci.radius + cj.radius;
+    const Capsule &capsule_i = model.capsule[i], &capsule_j = model.capsule[j];
+    const double reach =
+        0.5 * ((capsule_i.b_B - capsule_i.a_B).norm() + (capsule_j.b_B - capsule_j.a_B).norm()) +
+        capsule_i.radius + capsule_j.radius;
     const Vec3<T> apart = middle[i] - middle[j];
     if (!any(dot(apart, apart) < T(reach * reach))) continue;
     T s, t;
@@ -155,11 +157,11 @@ template <class T>
     const Vec3<T> on_i = add_scaled(start_i, s, axis[i]), on_j = add_scaled(start_j, t, axis[j]);
     const Vec3<T> gap = on_i - on_j;
     const T distance = max(norm(gap), T(1e-6));
-    const T depth = T(ci.radius + cj.radius) - distance;
+    const T depth = T(capsule_i.radius + capsule_j.radius) - distance;
     if (!any(depth > zero)) continue;
     const Vec3<T> normal = (T(1.0) / distance) * gap;
     // The point in the middle of the overlap, on both bodies.
-    const Vec3<T> point = add_scaled(on_j, T(cj.radius) - T(0.5) * depth, normal);
+    const Vec3<T> point = add_scaled(on_j, T(capsule_j.radius) - T(0.5) * depth, normal);
     const Vec3<T> arm_i = point - d.p_WB[i], arm_j = point - d.p_WB[j];
     const Vec3<T> v = (d.v[i] + cross(d.w[i], arm_i)) - (d.v[j] + cross(d.w[j], arm_j));
     const T push = max(fma(k, depth, -(damping * dot(v, normal))), zero);

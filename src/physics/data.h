@@ -57,7 +57,7 @@ struct Data {
 
   // rigid bodies in world axes
   PerBody<Sym3<T>> I_o;     ///< rotational inertia about the joint centre
-  PerBody<Vec3<T>> d;       ///< centre of mass from the joint centre, m
+  PerBody<Vec3<T>> com;     ///< centre of mass from the joint centre, m
   PerBody<Wrench<T>> bias;  ///< velocity-product and gravity force of the rigid body, self contact included
   PerBody<Wrench<T>> self_wrench;
 

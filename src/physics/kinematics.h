@@ -44,8 +44,8 @@ template <class T>
     const T m(model.mass[i]);
     const Sym3<RealOf<T>>& I = model.inertia_o[i];
     d.I_o[i] = congruence(d.R_WB[i], Sym3<T>{T(I.xx), T(I.xy), T(I.xz), T(I.yy), T(I.yz), T(I.zz)});
-    d.d[i] = d.R_WB[i] * spread<T>(model.com[i]);
-    const Vec3<T> h = m * d.d[i];
+    d.com[i] = d.R_WB[i] * spread<T>(model.com[i]);
+    const Vec3<T> h = m * d.com[i];
     const T weight = m * g;
     Vec3<T> f = cross(d.w[i], cross(d.w[i], h));
     f.z += weight;

@@ -47,8 +47,8 @@ struct CharacterPlace {
   int group, character;
 };
 
-template <class E>
-concept Environment = requires(E environment, const E& constant, int group, int character,
+template <class World>
+concept Environment = requires(World environment, const World& constant, int group, int character,
                                Eigen::Ref<nn::Matrix<float>> observations,
                                const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result,
                                Npz& archive, const Npz& constant_archive, const std::string& prefix) {

@@ -291,7 +291,7 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
     if (!stopped) stats.kl = epoch_kl / static_cast<double>(minibatches);
   }
   average(stats);
-  // A single step cannot see its own KL, unless the minibatch after it was the one that stopped.
+  // A step does not see the KL that it leads to; the minibatch after it does.
   if (stopped || stats.minibatches > 1)
     learner.step_size = adapted_step_size(config, learner.step_size, stats.kl);
 }

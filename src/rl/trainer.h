@@ -22,13 +22,13 @@ struct Course {
   std::int64_t falling_samples;  ///< while these are drawn σ falls
 };
 
-template <Environment E>
+template <Environment World>
 class PpoTrainer {
  public:
   /// @param agents       as many as act in the environment, all of one shape
   /// @param environment  referred to, must outlive the trainer
   /// @throws std::invalid_argument for another number of agents
-  PpoTrainer(const PpoConfig& config, const Course& course, std::vector<Agent> agents, E& environment)
+  PpoTrainer(const PpoConfig& config, const Course& course, std::vector<Agent> agents, World& environment)
       : config_(config),
         course_(course),
         environment_(environment),
@@ -61,7 +61,7 @@ class PpoTrainer {
     std::vector<IterationStats> parts(learners_.size(), stats);
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       Learner& learner = learners_[k];
-      // Nothing is learned before the observations have a scale: what the networks saw would not match.
+      // The first roll-out only measures the observations: learning needs the scale that acting had.
       if (learner.agent.observations.moments.count > 0)
         update(learner, config_, buffer_, rows_[k], stats.sigma, {course_.seed, k}, threads, update_,
                parts[k]);
@@ -174,7 +174,7 @@ class PpoTrainer {
 
   PpoConfig config_;
   Course course_;
-  E& environment_;
+  World& environment_;
   std::vector<Learner> learners_;
   std::int64_t iteration_ = 0, samples_ = 0;
   RolloutBuffer buffer_;

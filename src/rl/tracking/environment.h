@@ -1,11 +1,14 @@
 /// The tracking task as the learner's environment: packs of characters in groups, episodes, starts.
 ///
-/// Episodes start anywhere on the clip (reference-state initialisation), more often where characters fall;
-/// they end early when a body is farther than `terminate_distance` from its reference (a true end), and at
+/// Episodes start anywhere on the clip (reference-state initialisation), more often where characters fall.
+/// They end early when a body is farther than `terminate_distance` from its reference (a true end), and at
 /// the end of the clip (a time limit: the learner bootstraps there).                METHOD §7
-/// A motion that is hard to follow keeps the sharp product of Eq. 2 near zero, where it teaches little. The
-/// learner's reward is therefore the product to a power, that is, all weights times one factor: it falls
-/// while the mean stays under `reward_target` and returns to 1 as the motion is mastered. (docs/method.md §7)
+///
+/// The product of Eq. 2 stays near zero while a motion is hard to follow, and teaches little there. The
+/// learner's reward is therefore the product to a power, that is, all weights times one factor. The power
+/// falls while the mean reward stays under `reward_target` and returns to 1 as the motion is mastered.
+/// METHOD §7
+///
 /// Every pack of characters follows one clip. Where there are more clips than packs, packs move on to the
 /// next clip in turn, one after the other, so that all clips have their share. Every start is drawn from a
 /// stream keyed by seed, character and episode.

@@ -31,8 +31,8 @@ double projection_error(const KeypointFrame& keypoints, const PerBody<Vector3d>&
   for (const auto& d : keypoints.detections) {
     const Vector3d image = keypoints.projection * p_WB[d.body].homogeneous();
     if (image.z() < 1e-3) continue;  // behind the camera: no pixel to compare with
-    const double du = image.x() / image.z() - d.u, dv = image.y() / image.z() - d.v;
-    sum += d.weight * (du * du + dv * dv);
+    const double off_u = image.x() / image.z() - d.u, off_v = image.y() / image.z() - d.v;
+    sum += d.weight * (off_u * off_u + off_v * off_v);
     weights += d.weight;
   }
   return weights > 0.0 ? sum / (weights * keypoints.box_height * keypoints.box_height) : 0.0;

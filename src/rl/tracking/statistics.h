@@ -22,7 +22,8 @@ struct TrackingStatistics {
 };
 
 /// Probability of starting in each bin: a uniform share, and the rest in the bins that lead to falls. A fall
-/// in bin b is learned from starts in b and in the two bins before it.
+/// in bin b counts for starts in b and in the two bins before it.
+/// @param fall_rates  [bin] share of the visits that end in a fall
 List<double> start_weights(const List<double>& fall_rates, double uniform_share);
 
 }  // namespace mimicx::rl
