@@ -23,7 +23,7 @@ void print_scenes() {
         const SceneReport r = run_scene(scene, rate, passes);
         std::printf("%-10s %5.0f %6d  %10.2f %% %8.3f %% %11.1f %11.2f %%\n",
                     kSceneNames[static_cast<int>(scene)], rate, passes, 100 * r.outside_cone,
-                    100 * r.adhesion, 1e3 * r.deepest, 100 * (r.energy_ratio - 1));
+                    100 * r.adhesion, kMm * r.deepest, 100 * (r.energy_ratio - 1));
       }
 }
 
@@ -36,8 +36,8 @@ void print_rest() {
       for (int passes : {1, 2, 3}) {
         const RestReport r = rest(pose, rate, passes);
         std::printf("%-10s %5.0f %6d  %9.2f %10.2f %11.3f %11.1e %11.1e\n",
-                    kRestPoseNames[static_cast<int>(pose)], rate, passes, 1e3 * r.mean_depth, 1e3 * r.deepest,
-                    1e3 * r.creep, r.jitter, r.force_error);
+                    kRestPoseNames[static_cast<int>(pose)], rate, passes, kMm * r.mean_depth, kMm * r.deepest,
+                    kMm * r.creep, r.jitter, r.force_error);
       }
 }
 

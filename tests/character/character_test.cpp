@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "core/units.h"
 
 namespace mimicx {
 namespace {
@@ -178,7 +179,7 @@ TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
   double narrowest = 1.0;
   for (int n = 0; n < 10; ++n) narrowest = std::min(narrowest, narrowest_gap_near(random_betas(random, 3.0)));
   std::printf("  measured: narrowest gap of self pairs but the thighs in the rest pose %.1f mm\n",
-              1e3 * narrowest);
+              kMm * narrowest);
   EXPECT_GT(narrowest, 0.0);
 }
 

@@ -84,7 +84,7 @@ SceneReport run(Scene scene, double rate, int passes) {
   const SceneReport r = run_scene(scene, rate, passes);
   std::printf("  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, ",
               kSceneNames[static_cast<int>(scene)], rate, passes, 100 * r.outside_cone, 100 * r.adhesion);
-  std::printf("energy ratio %.3f, deepest %.0f mm\n", r.energy_ratio, 1e3 * r.deepest);
+  std::printf("energy ratio %.3f, deepest %.0f mm\n", r.energy_ratio, kMm * r.deepest);
   return r;
 }
 
@@ -194,8 +194,8 @@ TEST(SelfContact, HoldsAnArmOutOfTheTrunk) {
     return deepest;
   };
   const double without = depth_of(false), with = depth_of(true);
-  std::printf("  measured: deepest overlap %.0f mm, %.0f mm without self contact\n", 1e3 * with,
-              1e3 * without);
+  std::printf("  measured: deepest overlap %.0f mm, %.0f mm without self contact\n", kMm * with,
+              kMm * without);
   EXPECT_GT(without, 0.06);
   EXPECT_LT(with, 0.03);
 }

@@ -72,7 +72,7 @@ TEST(BookOracle, KineticEnergyIsThatOfTheBodiesMovedByDifferences) {
   Random random(8);
   const Character character = make_character(random_betas(random));
   const Snapshot s = random_snapshot(random, 2.5, 3.0, 1.0);
-  BookModel book = make_book_model(character, 9.81);
+  BookModel book = make_book_model(character, kGravity);
   for (BookBody& body : book.body) body.armature = 0.0;
   const Eigen::VectorXd qd = book_velocity(s);
   const double energy = 0.5 * qd.dot(book_mass_matrix(book, book_position(s)) * qd);

@@ -37,9 +37,9 @@ TEST(InverseDynamics, EqualsTheDenseOracleOnRandomShapesStatesAndWrenches) {
     const Quaterniond to_pelvis = s.q[0].conjugate();
     const Eigen::VectorXd qdd =
         book_vector(m.omega_d[0], to_pelvis * m.a_root - s.omega[0].cross(to_pelvis * s.v_root), m.omega_d);
-    const Eigen::VectorXd expected =
-        book_inverse_dynamics(make_book_model(c, 9.81), book_position(s), book_velocity(s), qdd, wrenches);
-    const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, 9.81, m, wrenches));
+    const Eigen::VectorXd expected = book_inverse_dynamics(make_book_model(c, kGravity), book_position(s),
+                                                           book_velocity(s), qdd, wrenches);
+    const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, kGravity, m, wrenches));
     EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -102,7 +102,7 @@ Vector3d moved_point(const Character& c, const Snapshot& s, const ContactPoint& 
     while (body + 1 < kBodies && first_dof(body + 1) <= dof - 6) ++body;
     const Vector3d axis =
         is_hinge(body) ? hinge_axis(body) : Vector3d(Vector3d::Unit(dof - 6 - first_dof(body)));
-    m.q[i] = s.q[i] * exp_map(h * axis);
+    m.q[body] = s.q[body] * exp_map(h * axis);
   }
   const BodyPoses poses = forward_kinematics(c, m.p_root, m.q);
   const int b = point.body;
@@ -161,9 +161,10 @@ TEST(InverseDynamics, OfRestIsTheWeightAtTheCentreOfMass) {
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
   Vector3d moment = Vector3d::Zero();
   for (int i = 0; i < kBodies; ++i)
-    moment += (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i] - s.p_root).cross(Vector3d(0, 0, 9.81 * c.mass[i]));
-  const RequiredForces forces = inverse_dynamics(c, 9.81, m, none);
-  EXPECT_LT((forces.root.tail<3>() - Vector3d(0, 0, 9.81 * c.total_mass())).norm(), 1e-10);
+    moment +=
+        (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i] - s.p_root).cross(Vector3d(0, 0, kGravity * c.mass[i]));
+  const RequiredForces forces = inverse_dynamics(c, kGravity, m, none);
+  EXPECT_LT((forces.root.tail<3>() - Vector3d(0, 0, kGravity * c.total_mass())).norm(), 1e-10);
   EXPECT_LT((forces.root.head<3>() - moment).norm(), 1e-10);
 }
 

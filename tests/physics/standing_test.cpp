@@ -40,8 +40,8 @@ SoleMotion stand(const Character& c, const Snapshot& pose, double rate, int sole
     }
     last = now;
   }
-  std::printf("  measured: %zu points at %.0f Hz: soles %.2f .. %.2f mm, fastest creep %.3f mm/s\n",
-              sole_points, rate, 1e3 * motion.lowest, 1e3 * motion.highest, 1e3 * motion.creep);
+  std::printf("  measured: %d points at %.0f Hz: soles %.2f .. %.2f mm, fastest creep %.3f mm/s\n",
+              sole_points, rate, kMm * motion.lowest, kMm * motion.highest, kMm * motion.creep);
   return motion;
 }
 
@@ -89,7 +89,7 @@ TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
   EXPECT_NEAR(points, force, 1e-9 * force);
   double lowest = 1;
   for (const Vector3d& p : contact_positions(c, s)) lowest = std::min(lowest, p.z());
-  std::printf("  measured: lowest point of the lying body %.2f mm\n", 1e3 * lowest);
+  std::printf("  measured: lowest point of the lying body %.2f mm\n", kMm * lowest);
   EXPECT_GT(lowest, -2.5e-3);
 }
 
@@ -130,7 +130,7 @@ TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
         EXPECT_LT(r.force_error, 5e-3);
         EXPECT_LT(r.centre_error, 5e-3);  // on the toes the stiff figure still sways by 2 mm
         std::printf("  measured: %-10s centre of pressure to centre of mass %.2f mm\n",
-                    kRestPoseNames[static_cast<int>(pose)], 1e3 * r.centre_error);
+                    kRestPoseNames[static_cast<int>(pose)], kMm * r.centre_error);
       }
 }
 
