@@ -24,10 +24,7 @@ Method method_of(const AdaptConfig& config) {
   Method method;
   method.seed = config.training.seed;
   method.samples = config.training.samples;
-  method.settings = settings_of(config.training);
-  append(method.settings, run_settings(config.run));
-  method.settings.emplace_back("switch_penalty", config.arrangement.switch_penalty);
-  method.settings.emplace_back("rescue_reward", config.arrangement.rescue_reward);
+  method.settings = settings_of(config);
   method.options = config.options->checksum;
   method.simulation = config.training.tracking.simulation;
   method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
@@ -38,23 +35,17 @@ Method method_of(const AdaptConfig& config) {
 
 }  // namespace
 
-TrainingConfig fine_tuning_defaults() {
-  TrainingConfig config;
-  config.samples = 3'000'000;
-  config.characters = 128;
-  config.group_size = 32;
-  config.ppo.sigma_start = 0.04;
-  config.ppo.sigma_end = 0.02;
-  config.ppo.epochs = 6;
-  config.ppo.kl_target = 0.16;
-  config.ppo.critic_step_size = 1e-3;
-  config.stop_reward = 0.985;
-  config.stall_evaluations = 12;
-  return config;
+NamedValues settings_of(const AdaptConfig& config) {
+  NamedValues settings = settings_of(config.training);
+  append(settings, settings_of(config.run));
+  append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
+                    {"rescue_reward", config.arrangement.rescue_reward}});
+  return settings;
 }
 
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context) {
   if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
+  check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);
 }
 

@@ -17,11 +17,10 @@ struct AdaptConfig {
   std::shared_ptr<const OptionSet> options;  ///< to start from
 };
 
-/// What fine-tuning changes in the defaults: it starts from options, so it explores less, spends less, and
-/// ends where the motion is good enough or nothing improves any more.    docs/method.md §9
-TrainingConfig fine_tuning_defaults();
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const AdaptConfig& config);
 
-/// @throws std::invalid_argument as `run_sequences`, and without options
+/// @throws std::invalid_argument as `run_sequences`, without options, and for an arrangement that cannot be
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context);
 
 }  // namespace mimicx
