@@ -1,6 +1,7 @@
 #include "pipeline/adapt.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <system_error>
 
@@ -25,16 +26,17 @@ std::filesystem::path shipped_options() {
        at = at.parent_path())
     if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
   if (std::filesystem::exists(relative / "options.npz")) return relative;
-  throw UsageError("found no data/options beside the program: name trained options with --options");
+  throw UsageError(
+      "found no data/options beside the program: name trained options with --options, or take --method plan");
 }
 
 }  // namespace
 
 int adapt_motions(AdaptConfig config, std::filesystem::path options,
                   const std::vector<std::string>& settings) {
-  if (options.empty()) options = shipped_options();
-  config.options = read_options(options);
-  apply_settings(settings, config.training);
+  if (config.method != AdaptMethod::kPlan)
+    config.options = read_options(options.empty() ? shipped_options() : options);
+  apply_settings(settings, config);
   return with_context([&](const RunContext& context) {
     return run_inputs(config.run, context, [&] { return adapt(config, context); });
   });
@@ -43,12 +45,20 @@ int adapt_motions(AdaptConfig config, std::filesystem::path options,
 void declare_adapt(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand(
-      "adapt", "Clean motions: keypoint fit, then trained options chosen and fine-tuned for each");
-  add_run_arguments(*command, a->config.run, a->config.training, a->settings, "--budget-samples");
-  command->add_flag(
-      "--fit,!--no-fit", a->config.run.fit,
-      "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
-      "look at keypoints at all");
+      "adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each");
+  static const std::map<std::string, AdaptMethod> kMethods = {
+      {"auto", AdaptMethod::kAuto}, {"plan", AdaptMethod::kPlan}, {"paper", AdaptMethod::kPaper}};
+  command
+      ->add_option(
+          "--method", a->config.method,
+          "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
+          "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the paper's "
+          "method, whose training then takes minutes; the better of the two is kept")
+      ->transform(CLI::Transformer(kMethods))
+      ->option_text("TEXT:{auto,plan,paper}");
+  add_run_arguments(*command, a->config.run, a->settings);
+  add_training_arguments(*command, a->config.training, "--budget-samples");
+  add_fit_arguments(*command, a->config.run);
   command->add_option(
       "--options", a->options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");

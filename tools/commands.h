@@ -27,6 +27,7 @@ struct UsageError : std::runtime_error {
 using Action = std::function<int()>;
 
 void declare_run(CLI::App& app, Action& action);
+void declare_plan(CLI::App& app, Action& action);
 void declare_pretrain(CLI::App& app, Action& action);
 void declare_adapt(CLI::App& app, Action& action);
 void declare_imitate(CLI::App& app, Action& action);

@@ -26,7 +26,8 @@ int imitate_motions(Arguments a) {
 void declare_imitate(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("imitate", "Train a simulated character to follow each motion");
-  add_run_arguments(*command, a->config.run, a->config.training, a->settings, "--samples");
+  add_run_arguments(*command, a->config.run, a->settings);
+  add_training_arguments(*command, a->config.training, "--samples");
   command->add_flag("--fit", a->config.run.fit,
                     "move motions onto their keypoints first, where they have any");
   command->callback([a, &action] { action = [a] { return imitate_motions(*a); }; });

@@ -46,7 +46,9 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->take_all();
 }
 
-void apply_settings(const std::vector<std::string>& settings, TrainingConfig& config) {
+void for_each_setting(const std::vector<std::string>& settings,
+                      const std::function<void(const std::string& name, double value)>& apply,
+                      const std::function<void()>& check) {
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
     double value = 0.0;
@@ -55,20 +57,19 @@ void apply_settings(const std::vector<std::string>& settings, TrainingConfig& co
         std::from_chars(setting.data() + equals + 1, end, value).ptr != end)
       throw UsageError("--set: expected NAME=NUMBER, found '" + setting + "'");
     try {
-      apply_setting(config, setting.substr(0, equals), value);
+      apply(setting.substr(0, equals), value);
     } catch (const std::invalid_argument& error) {
       throw UsageError("--set " + setting + ": " + error.what());
     }
   }
   try {
-    check(config);
+    check();
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--set: ") + error.what());
   }
 }
 
-void add_run_arguments(CLI::App& command, RunConfig& run, TrainingConfig& training,
-                       std::vector<std::string>& settings, const std::string& samples) {
+void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings) {
   command.add_option("FILE", run.inputs, "motions and folders of them")->required();
   command.add_option(
       "--out", run.out,
@@ -80,19 +81,29 @@ void add_run_arguments(CLI::App& command, RunConfig& run, TrainingConfig& traini
           "--rate", [&run](const std::string& rate) { run.input_rate = rate == "input"; },
           "frame rate of the clean copies in the inputs' own formats: 30 (default) or input")
       ->check(CLI::IsMember({"30", "input"}));
+  command.add_flag("--substeps", run.substeps,
+                   "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
+  add_threads(command, run.threads);
+  command
+      .add_option(
+          "--limit-seconds", run.limit_seconds,
+          "safety stop per motion: ends its plan or training early, makes the result depend on the machine, "
+          "and is recorded as such")
+      ->check(CLI::PositiveNumber);
+  add_settings(command, settings);
+}
+
+void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples) {
   command.add_option(samples, training.samples, "training budget per motion, in character steps")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command.add_flag("--substeps", run.substeps,
-                   "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
   add_seed(command, training.seed);
-  add_threads(command, run.threads);
-  command
-      .add_option("--limit-seconds", run.limit_seconds,
-                  "safety stop per motion: ends its training early, makes the result depend on the machine, "
-                  "and is recorded as such")
-      ->check(CLI::PositiveNumber);
-  add_settings(command, settings);
+}
+
+void add_fit_arguments(CLI::App& command, RunConfig& run) {
+  command.add_flag("--fit,!--no-fit", run.fit,
+                   "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
+                   "look at keypoints at all");
 }
 
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement) {

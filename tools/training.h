@@ -1,5 +1,5 @@
-/// What the subcommands that train have in common: their arguments, interrupts, and what `run` does with two
-/// of them.
+/// What the subcommands that simulate motions have in common: their arguments, interrupts, and what `run`
+/// does with two of them.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,26 @@ namespace mimicx {
 
 /// --set NAME=NUMBER, repeatable.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
+/// Calls apply(name, value) for every NAME=NUMBER, then check().
+/// @throws UsageError for what is no NAME=NUMBER, and where apply or check throw std::invalid_argument
+void for_each_setting(const std::vector<std::string>& settings,
+                      const std::function<void(const std::string& name, double value)>& apply,
+                      const std::function<void()>& check);
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
-/// @throws UsageError for a setting that is none, or that no training can have
-void apply_settings(const std::vector<std::string>& settings, TrainingConfig& config);
+/// @throws UsageError for a setting that the configuration does not have, or cannot have
+template <class Config>
+void apply_settings(const std::vector<std::string>& settings, Config& config) {
+  for_each_setting(
+      settings, [&](const std::string& name, double value) { apply_setting(config, name, value); },
+      [&] { check(config); });
+}
 
-/// The arguments of a run over motions. @param samples  name of the argument for the budget
-void add_run_arguments(CLI::App& command, RunConfig& run, TrainingConfig& training,
-                       std::vector<std::string>& settings, const std::string& samples);
-
+/// The arguments of every run over motions.
+void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings);
+/// Those of a run that trains. @param samples  name of the argument for the budget
+void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples);
+/// --fit, the default, and --no-fit.
+void add_fit_arguments(CLI::App& command, RunConfig& run);
 /// --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement);
 

@@ -45,10 +45,15 @@ void build_models(const System& system, const Cost& cost, const Trajectory& traj
                   const Linearisation& how, int threads, std::vector<FrameModel>& models) {
   const int n = trajectory.size();
   models.resize(static_cast<std::size_t>(n + 1));
-  parallel_for(n + 1, threads, [&](int t) {
-    const auto k = static_cast<std::size_t>(t);
-    models[k].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[k]);
-    if (t < n) models[k].F = linearise(system, trajectory.point(t), how);
+  // As many chunks whatever the threads; each keeps its scratch and takes every kChunks-th frame.
+  constexpr int kChunks = 8;
+  parallel_for(kChunks, threads, [&](int chunk) {
+    const auto scratch = std::make_unique<LinearisationScratch>();
+    for (int t = chunk; t <= n; t += kChunks) {
+      const auto k = static_cast<std::size_t>(t);
+      models[k].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[k]);
+      if (t < n) models[k].F = linearise(system, trajectory.point(t), how, *scratch);
+    }
   });
 }
 

@@ -1,15 +1,58 @@
 #include "control/linearisation.h"
 
-namespace mimicx::control {
+#include <utility>
 
-FrameMatrix linearise(const System& system, const FramePoint& point, const Linearisation& how) {
+namespace mimicx::control {
+namespace {
+
+Target<double> reference_target(const System& system, int frame) {
+  Target<double> target{};
+  target.q = system.at(frame).q;
+  target.omega = system.at(frame).omega;
+  if (!system.velocity_feed_forward) target.omega.fill(zero3<double>());
+  return target;
+}
+
+FrameMatrix linearise_analytically(const System& system, const FramePoint& point,
+                                   LinearisationScratch& scratch) {
+  ControlFrame frame;
+  frame.start = point.x;
+  frame.from = reference_target(system, point.frame);
+  frame.to = reference_target(system, point.frame + 1);
+  for (std::size_t k = 0; k < kDofs; ++k) {
+    frame.from_residual[k] = static_cast<double>(point.before[k]);
+    frame.to_residual[k] = static_cast<double>(point.u[k]);
+  }
+  const double inertia = system.mass * kHelpRadius * kHelpRadius;
+  const auto help = [&](std::size_t k) { return static_cast<double>(point.u[kDofs + k]); };
+  if (system.soft)
+    frame.help = {{inertia * help(3), inertia * help(4), inertia * help(5)},
+                  {system.mass * help(0), system.mass * help(1), system.mass * help(2)}};
+  frame.substeps = system.substeps;
+  differentiate_frame(system.exact_model, frame, system.soft, scratch.frame, scratch.derivative);
+  FrameMatrix F = std::move(scratch.derivative.F);
+  if (system.soft) {  // there the moment comes first, and both are forces instead of accelerations
+    const Eigen::Matrix<float, kTangent, kHelp> help = F.rightCols<kHelp>();
+    F.middleCols<3>(kFrameColumns) = static_cast<float>(system.mass) * help.rightCols<3>();
+    F.rightCols<3>() = static_cast<float>(inertia) * help.leftCols<3>();
+  }
+  if (scratch.derivative.wrong || !F.allFinite()) F.setZero();
+  return F;
+}
+
+}  // namespace
+
+FrameMatrix linearise(const System& system, const FramePoint& point, const Linearisation& how,
+                      LinearisationScratch& scratch) {
   switch (how.derivatives) {
+    case Derivatives::kColumns:
+      return linearise_by_columns(system, point, how.steps);
     case Derivatives::kSmoothed:
       return linearise_smoothed(system, point, how.steps);
-    case Derivatives::kColumns:
+    case Derivatives::kAnalytic:
       break;
   }
-  return linearise_by_columns(system, point, how.steps);
+  return linearise_analytically(system, point, scratch);
 }
 
 }  // namespace mimicx::control

@@ -13,6 +13,7 @@ System make_system(const Character& character, const SimulationOptions& options,
     throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
   System system;
   system.model = make_model<float>(character, options);
+  system.exact_model = make_model<double>(character, options);
   system.mass = character.total_mass();
   system.fps = fps;
   system.substeps = static_cast<int>(std::lround(substeps));

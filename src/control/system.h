@@ -33,6 +33,7 @@ using Control = std::array<float, kMaxControls>;
 
 struct System {
   Model<float> model;
+  Model<double> exact_model;             ///< the same for the analytic derivatives
   double mass = 0;                       ///< of the whole character, kg
   double fps = 30;                       ///< frames per second
   int substeps = 8;                      ///< physics steps per frame

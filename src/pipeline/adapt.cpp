@@ -1,23 +1,62 @@
 #include "pipeline/adapt.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "pipeline/choice.h"
+#include "pipeline/plan.h"
+#include "pipeline/plan_sequence.h"
 #include "pipeline/train_sequence.h"
 
 namespace mimicx {
 namespace {
 
-SimulatedSequence adapt_sequence(const AdaptConfig& config, const Reference& reference,
-                                 const SequenceJob& job) {
+PlanningConfig planning_of(const AdaptConfig& config) {
+  return {config.plan, config.training.tracking.simulation};
+}
+
+SimulatedSequence fine_tune(const AdaptConfig& config, const Reference& reference, const SequenceJob& job) {
   const rl::TrackingConfig& tracking = config.training.tracking;
   const auto clip = rl::make_tracking_clip(reference, tracking);
   const ArrangedClip arranged = arrange(clip, tracking, *config.options, config.arrangement);
   SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, config.training, job);
+  made.method = "paper";
   made.arrangement = stretches_of(arranged.options);
   if (!arranged.breaks.empty())
     made.notes.push_back("no option could follow at " + std::to_string(arranged.breaks.size()) +
                          " frames, first at frame " + std::to_string(arranged.breaks.front()));
   return made;
+}
+
+/// The job with what the plan has left of its seconds.
+SequenceJob after_seconds(const SequenceJob& job, double seconds) {
+  SequenceJob rest = job;
+  if (job.limit_seconds > 0.0) rest.limit_seconds = std::max(job.limit_seconds - seconds, 1e-9);
+  return rest;
+}
+
+SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const Reference& reference,
+                                    const SequenceJob& job) {
+  SimulatedSequence plan = plan_sequence(reference, planning_of(config), job);
+  if (plan.interrupted) return plan;
+  const Candidate planned = candidate_of(reference, plan.after);
+  if (planned.success) return plan;
+  SimulatedSequence trained = fine_tune(config, reference, after_seconds(job, plan.planning_seconds));
+  trained.planning_seconds = plan.planning_seconds;
+  if (trained.interrupted) return trained;
+  const Candidate learned = candidate_of(reference, trained.after);
+  const bool keep_plan = better(planned, learned);
+  SimulatedSequence& kept = keep_plan ? plan : trained;
+  kept.planning_seconds = plan.planning_seconds;
+  kept.training_seconds = trained.training_seconds;
+  kept.samples = trained.samples;
+  kept.plan = plan.plan;
+  for (const Ending ending : {plan.ending, trained.ending})
+    if (ending == Ending::kLimitSeconds) kept.ending = ending;
+  if (!keep_plan && !plan.reason.empty()) kept.notes.push_back(plan.reason);
+  kept.notes.push_back("plan: " + in_words(planned) + "; policies: " + in_words(learned) +
+                       "; written: " + (keep_plan ? "the plan" : "the policies"));
+  return kept;
 }
 
 Method method_of(const AdaptConfig& config) {
@@ -27,8 +66,10 @@ Method method_of(const AdaptConfig& config) {
   method.settings = settings_of(config);
   method.options = config.options->checksum;
   method.simulation = config.training.tracking.simulation;
-  method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
-    return adapt_sequence(config, reference, job);
+  const bool plan_first = config.method == AdaptMethod::kAuto;
+  method.name = plan_first ? "auto" : "paper";
+  method.simulate = [&config, plan_first](const Reference& reference, const SequenceJob& job) {
+    return plan_first ? plan_or_fine_tune(config, reference, job) : fine_tune(config, reference, job);
   };
   return method;
 }
@@ -36,14 +77,31 @@ Method method_of(const AdaptConfig& config) {
 }  // namespace
 
 NamedValues settings_of(const AdaptConfig& config) {
+  if (config.method == AdaptMethod::kPlan)
+    return settings_of(PlanMotionsConfig{config.run, planning_of(config)});
   NamedValues settings = settings_of(config.training);
   append(settings, settings_of(config.run));
   append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
                     {"rescue_reward", config.arrangement.rescue_reward}});
+  if (config.method == AdaptMethod::kAuto) append(settings, plan_settings(config.plan));
   return settings;
 }
 
+void apply_setting(AdaptConfig& config, const std::string& name, double value) {
+  if (config.method != AdaptMethod::kPaper && change_setting(config.plan, name, value)) return;
+  if (config.method != AdaptMethod::kPlan) return apply_setting(config.training, name, value);
+  PlanningConfig planning = planning_of(config);
+  apply_setting(planning, name, value);
+  config.training.tracking.simulation = planning.simulation;
+}
+
+void check(const AdaptConfig& config) {
+  if (config.method != AdaptMethod::kPaper) check(planning_of(config));
+  if (config.method != AdaptMethod::kPlan) check(config.training);
+}
+
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context) {
+  if (config.method == AdaptMethod::kPlan) return plan_motions({config.run, planning_of(config)}, context);
   if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
   check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);

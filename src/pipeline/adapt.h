@@ -1,26 +1,43 @@
-/// `mimicx adapt`: trained options are arranged over each motion, and those that act are fine-tuned jointly.
+/// `mimicx adapt`: cleans each motion, by a plan, by policies, or by policies where the plan fails.
+///
+/// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion.
+/// *Paper*: trained options are arranged over the motion, and those that act are fine-tuned jointly; minutes.
 ///                                                                     METHOD: docs/method.md §8, §9
+/// *Auto*: the plan, and where its roll-out is no success the paper's method with its whole budget; the
+/// better of the two roll-outs is written (choice.h), and the manifest says which.
 #pragma once
 
 #include <memory>
 
 #include "pipeline/options/arrangement.h"
+#include "pipeline/planning.h"
 #include "pipeline/sequence_run.h"
 #include "pipeline/training.h"
 
 namespace mimicx {
 
+enum class AdaptMethod { kAuto, kPlan, kPaper };
+
 struct AdaptConfig {
+  AdaptMethod method = AdaptMethod::kAuto;
   RunConfig run;
-  TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
+  control::PlanConfig plan;  ///< simulated as `training` says
+  TrainingConfig training;   ///< of the fine-tuning; the networks are the options' own
   ArrangementConfig arrangement;
-  std::shared_ptr<const OptionSet> options;  ///< to start from
+  std::shared_ptr<const OptionSet> options;  ///< to start from; not looked at by the plan alone
 };
 
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const AdaptConfig& config);
 
-/// @throws std::invalid_argument as `run_sequences`, without options, and for an arrangement that cannot be
+/// Changes a setting of the plan, or one of the training, by its name.
+/// @throws std::invalid_argument as those of planning.h and training_config.h
+void apply_setting(AdaptConfig& config, const std::string& name, double value);
+/// @throws std::invalid_argument naming a setting that the method cannot have
+void check(const AdaptConfig& config);
+
+/// @throws std::invalid_argument as `run_sequences`, and without options or with an arrangement that cannot
+/// be where the method may need them
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context);
 
 }  // namespace mimicx

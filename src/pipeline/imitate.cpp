@@ -7,13 +7,16 @@ namespace {
 
 Method method_of(const ImitateConfig& config) {
   Method method;
+  method.name = "imitate";
   method.seed = config.training.seed;
   method.samples = config.training.samples;
   method.settings = settings_of(config);
   method.simulation = config.training.tracking.simulation;
   method.simulate = [&training = config.training](const Reference& reference, const SequenceJob& job) {
     const auto clip = rl::make_tracking_clip(reference, training.tracking);
-    return train_sequence(clip, {untrained_agent(training)}, training, job);
+    SimulatedSequence made = train_sequence(clip, {untrained_agent(training)}, training, job);
+    made.method = "imitate";
+    return made;
   };
   return method;
 }

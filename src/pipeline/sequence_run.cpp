@@ -1,6 +1,7 @@
 #include "pipeline/sequence_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -36,6 +37,7 @@ Manifest manifest_of(const RunConfig& config, const Method& method) {
   manifest.target = MIMICX_TARGET;
   manifest.seed = method.seed;
   manifest.samples = method.samples;
+  manifest.method = method.name;
   manifest.settings = method.settings;
   manifest.options = method.options;
   manifest.reading = config.read.text();
@@ -66,7 +68,7 @@ void write_records(const RunState& run) {
 Timing& timing_of(RunState& run, const std::string& name) {
   for (auto& t : run.timings)
     if (t.name == name) return t;
-  run.timings.push_back({name, 0.0, 0.0, 0});
+  run.timings.push_back({name});
   return run.timings.back();
 }
 
@@ -114,6 +116,8 @@ void audit_sequence(const Reference& reference, const SimulationOptions& simulat
 /// Scores and audit of what the method made, into the entry.
 void judge_sequence(const Method& method, const Reference& reference, const SimulatedSequence& made,
                     SequenceEntry& entry) {
+  entry.method = made.method;
+  entry.plan = made.plan;
   entry.samples = made.samples;
   entry.ending = made.ending;
   entry.arrangement = made.arrangement;
@@ -129,6 +133,7 @@ void judge_sequence(const Method& method, const Reference& reference, const Simu
   entry.metrics = after.values;
   entry.ok = after.success;
   entry.reason = after.reason;
+  if (!entry.ok && !made.reason.empty()) entry.reason = made.reason + "; " + after.reason;
   audit_sequence(reference, method.simulation, made.after, entry);
 }
 
@@ -166,7 +171,8 @@ bool do_sequence(RunState& run, SequenceEntry& entry, std::size_t& told) {
       motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps,
                          run.config.threads, run.config.limit_seconds, run.context});
   Timing& timing = timing_of(run, entry.name);
-  timing.training_seconds += made.seconds;
+  timing.planning_seconds += made.planning_seconds;
+  timing.training_seconds += made.training_seconds;
   timing.threads = run.config.threads;
   if (!made.interrupted) {
     judge_sequence(run.method, motion.reference, made, entry);
@@ -180,7 +186,10 @@ std::string summary_of(const SequenceEntry& entry) {
   char text[64];
   std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
   if (!entry.reason.empty()) line += ", " + entry.reason;
-  std::snprintf(text, sizeof text, ", reward %.3f -> %.3f", entry.reward_before, entry.reward_after);
+  if (std::isfinite(entry.reward_before))
+    std::snprintf(text, sizeof text, ", reward %.3f -> %.3f", entry.reward_before, entry.reward_after);
+  else
+    std::snprintf(text, sizeof text, ", reward %.3f", entry.reward_after);
   if (!entry.output.empty()) line += text;
   for (const auto& [name, value] : entry.metrics) {
     if (name != "gMPJPE" && name != "MPJPE") continue;

@@ -1,8 +1,9 @@
 /// One run over motions: noisy motions in, simulated motions, scores and a report out.
 ///
 /// For each input: read → keypoint fit → prepare → *a method simulates the motion* → score, audit, write,
-/// record. The method is the exchangeable middle: `imitate` trains a policy from scratch (imitate.h), `adapt`
-/// arranges trained options and fine-tunes them (adapt.h). Everything around it is here, once for all.
+/// record. The method is the exchangeable middle: `imitate` trains a policy from scratch (imitate.h), `plan`
+/// plans (plan.h), `adapt` plans, or arranges trained options and fine-tunes them (adapt.h). Everything
+/// around it is here, once for all.
 ///
 /// One input after the other; an input that fails is recorded with its reason and the others go on. The
 /// manifest is written after every input, so the same command continues a run that was interrupted: finished
@@ -54,17 +55,21 @@ struct SequenceJob {
 /// What a method made of one motion.
 struct SimulatedSequence {
   bool interrupted = false;  ///< the job's context said so: a checkpoint is there, and nothing below
-  double seconds = 0.0;      ///< of training, for timing.json
+  std::string method;        ///< what made the result: imitate, plan or paper
+  double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
   Ending ending = Ending::kNone;
   std::int64_t samples = 0;
   std::optional<rl::TrackingRollout> before;         ///< what the method started from, where that moves
   rl::TrackingRollout after;                         ///< the result
   std::vector<std::array<int, 2>> arrangement = {};  ///< {first frame, option}; empty without options
+  NamedValues plan = {};                             ///< what planning it took
+  std::string reason = {};                           ///< why it is no success, where the method knows
   std::vector<std::string> notes = {};               ///< for the manifest
 };
 
 /// A way of making the humanoid follow a motion, with everything that its results depend on.
 struct Method {
+  std::string name;  ///< imitate, plan, paper or auto
   std::uint64_t seed = 0;
   std::int64_t samples = 0;      ///< budget per motion
   NamedValues settings;          ///< as the manifest lists them, those of the RunConfig among them

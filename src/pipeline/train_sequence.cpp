@@ -17,7 +17,7 @@ SimulatedSequence train_sequence(const std::shared_ptr<const rl::TrackingClip>& 
   const TrainingResult training = train({clip}, agents, config, files, control);
   SimulatedSequence made;
   made.interrupted = training.interrupted;
-  made.seconds = training.seconds;
+  made.training_seconds = training.seconds;
   if (made.interrupted) return made;
   made.ending = training.ending;
   made.samples = training.samples;

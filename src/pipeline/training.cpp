@@ -87,6 +87,8 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
 /// Writes the log first: a checkpoint never stands beside a log that lacks its rows.
 void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, const TrainingConfig& config,
           const TrainingFiles& files, const Best& best, Ending ending, const Table& log) {
+  for (const auto* file : {&files.log, &files.falls, &files.checkpoint})
+    std::filesystem::create_directories(file->parent_path());
   write_file_atomically(files.log, format_csv(log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipeline/plan.h"
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"
 
@@ -109,6 +110,81 @@ TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
   AdaptConfig config = adapting("run", "options");
   config.options = nullptr;
   EXPECT_THROW(run(config), std::invalid_argument);
+}
+
+TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
+  AdaptConfig config;
+  config.method = AdaptMethod::kPlan;
+  config.run.inputs = {(motions / "sway.npz").string()};
+  config.run.out = out("run");
+  EXPECT_EQ(run(config), RunOutcome::kAllGood);
+  PlanMotionsConfig planning{config.run, {config.plan, config.training.tracking.simulation}};
+  planning.run.out = out("plan");
+  run_in_context([&](const RunContext& context) { return plan_motions(planning, context); });
+  EXPECT_EQ(results_of(out("run")), results_of(out("plan")));
+}
+
+TEST_F(Adapt, ByItselfTakesThePlanWhereItSucceedsAndTrainsNothing) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  config.method = AdaptMethod::kAuto;
+  EXPECT_EQ(run(config), RunOutcome::kAllGood);
+  const SequenceEntry entry = read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.method, "plan");
+  EXPECT_EQ(entry.ending, Ending::kFollowed);
+  EXPECT_EQ(entry.samples, 0);
+  EXPECT_TRUE(entry.arrangement.empty());
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
+}
+
+/// Plans that are given up at once.
+AdaptConfig hopeless(AdaptConfig config) {
+  config.method = AdaptMethod::kAuto;
+  config.plan.horizon.lost = 1e-9;
+  config.plan.horizon.backtracks = 0;
+  return config;
+}
+
+TEST_F(Adapt, WhereThePlanFailsTrainsAndWritesTheBetterOfTheTwo) {
+  run(pretraining("options"));
+  AdaptConfig config = hopeless(adapting("auto", "options"));
+  config.run.inputs = {(motions / "walk.npz").string()};
+  run(config);
+  config.run.out = out("paper");
+  config.method = AdaptMethod::kPaper;
+  run(config);
+  config.run.out = out("plan");
+  config.method = AdaptMethod::kPlan;
+  run(config);
+  const auto entry_of = [&](const std::string& name) {
+    return read_manifest(out(name) / "manifest.json").sequences.at(0);
+  };
+  const SequenceEntry chosen = entry_of("auto"), trained = entry_of("paper"), planned = entry_of("plan");
+  ASSERT_FALSE(planned.ok);
+  EXPECT_EQ(chosen.samples, config.training.samples);
+  const bool plan_is_nearer =
+      !trained.ok && value_of(planned.metrics, "MPJPE") < value_of(trained.metrics, "MPJPE");
+  EXPECT_EQ(chosen.method, plan_is_nearer ? "plan" : "paper");
+  const SequenceEntry& expected = plan_is_nearer ? planned : trained;
+  EXPECT_EQ(chosen.ok, expected.ok);
+  EXPECT_EQ(chosen.metrics, expected.metrics);
+  EXPECT_EQ(chosen.ending, expected.ending);
+  EXPECT_EQ(read_file(out("auto") / chosen.output),
+            read_file(out(plan_is_nearer ? "plan" : "paper") / expected.output));
+  EXPECT_NE(chosen.notes.back().find("; written: the "), std::string::npos) << chosen.notes.back();
+}
+
+TEST_F(Adapt, ATrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
+  run(pretraining("options"));
+  AdaptConfig config = hopeless(adapting("whole", "options"));
+  config.run.inputs = {(motions / "walk.npz").string()};
+  run(config);
+  config.run.out = out("halves");
+  config.run.threads = 2;
+  EXPECT_EQ(run(config, 4), RunOutcome::kInterrupted);
+  EXPECT_TRUE(std::filesystem::exists(out("halves") / "checkpoints" / "walk.npz")) << "not in the training";
+  run(config);
+  EXPECT_EQ(results_of(out("whole")), results_of(out("halves")));
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ struct PretrainedOptions : testing::Test {
   }
   AdaptConfig adapting(const std::string& out, const std::string& options) const {
     AdaptConfig config = adapt_configuration();
+    config.method = AdaptMethod::kPaper;
     config.run.inputs = {(motions / "sway.npz").string()};
     config.run.out = folder.path / out;
     config.training = small_training();

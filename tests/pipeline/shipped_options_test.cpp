@@ -32,6 +32,7 @@ SequenceEntry entry_of(Config& config, const std::string& name, const Work& work
 
 SequenceEntry adapted(const std::string& name, const std::shared_ptr<const OptionSet>& options) {
   AdaptConfig config = adapt_configuration();
+  config.method = AdaptMethod::kPaper;
   config.options = options;
   return entry_of(config, name, [&](const RunContext& context) { adapt(config, context); });
 }

@@ -9,6 +9,8 @@ enum class Ending {
   kThreshold,     ///< a roll-out was good enough
   kStall,         ///< roll-outs no longer became better
   kLimitSeconds,  ///< the safety stop: the results depend on the machine's speed
+  kFollowed,      ///< a plan that reaches the motion's end
+  kLost,          ///< a plan that does not
 };
 
 }  // namespace mimicx

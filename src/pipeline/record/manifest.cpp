@@ -12,7 +12,8 @@
 namespace mimicx {
 namespace {
 
-constexpr Array<std::string_view, 5> kEndings = {"none", "budget", "threshold", "stall", "limit-seconds"};
+constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
+                                                 "limit-seconds", "followed", "lost"};
 
 double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -37,6 +38,7 @@ Json to_json(const SequenceEntry& e) {
           {"output", e.output.empty() ? Json(nullptr) : Json(e.output)},
           {"status", e.ok ? "ok" : "failed"},
           {"reason", e.reason},
+          {"method", e.method},
           {"ending", kEndings[static_cast<int>(e.ending)]},
           {"frames", e.frames},
           {"fps", e.fps},
@@ -45,6 +47,7 @@ Json to_json(const SequenceEntry& e) {
           {"reward_before", number(e.reward_before)},
           {"reward_after", number(e.reward_after)},
           {"arrangement", e.arrangement},
+          {"plan", to_json(e.plan)},
           {"fit", to_json(e.fit)},
           {"input_metrics", to_json(e.input_metrics)},
           {"metrics_before", to_json(e.metrics_before)},
@@ -69,6 +72,7 @@ SequenceEntry entry_of(const Json& json) {
   if (!json.at("output").is_null()) e.output = json.at("output");
   e.ok = json.at("status") == "ok";
   e.reason = json.at("reason");
+  e.method = json.value("method", "");
   e.ending = ending_of(json.at("ending"));
   e.frames = json.at("frames");
   e.fps = json.at("fps");
@@ -77,6 +81,7 @@ SequenceEntry entry_of(const Json& json) {
   e.reward_before = number(json.at("reward_before"));
   e.reward_after = number(json.at("reward_after"));
   e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
+  if (json.contains("plan")) e.plan = named_values(json.at("plan"));
   e.fit = named_values(json.at("fit"));
   e.metrics_before = named_values(json.at("metrics_before"));
   e.ok_before = json.at("ok_before");
@@ -97,8 +102,8 @@ bool same(const NamedValues& a, const NamedValues& b) {
 
 bool Manifest::same_settings(const Manifest& other) const {
   return version == other.version && target == other.target && seed == other.seed &&
-         samples == other.samples && options == other.options && reading == other.reading &&
-         same(settings, other.settings);
+         samples == other.samples && method == other.method && options == other.options &&
+         reading == other.reading && same(settings, other.settings);
 }
 
 const SequenceEntry* Manifest::find(const std::string& input) const {
@@ -122,6 +127,7 @@ std::string format_manifest(const Manifest& manifest) {
                  {"target", manifest.target},
                  {"seed", manifest.seed},
                  {"samples", manifest.samples},
+                 {"method", manifest.method},
                  {"options", manifest.options},
                  {"reading", manifest.reading},
                  {"settings", to_json(manifest.settings)}}},
@@ -140,6 +146,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
     manifest.target = run.at("target");
     manifest.seed = run.at("seed");
     manifest.samples = run.at("samples");
+    manifest.method = run.value("method", "");
     manifest.options = run.at("options");
     manifest.reading = run.value("reading", "");
     manifest.settings = named_values(run.at("settings"));

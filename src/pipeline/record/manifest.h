@@ -24,6 +24,7 @@ struct SequenceEntry {
   std::string output;          ///< relative to the folder; empty when there is none
   bool ok = false;
   std::string reason;  ///< why it failed
+  std::string method;  ///< what made the motion: imitate, plan or paper
   Ending ending = Ending::kNone;
   int frames = 0;
   double fps = 0.0;
@@ -34,6 +35,7 @@ struct SequenceEntry {
   double reward_after = std::numeric_limits<double>::quiet_NaN();
   /// Which option acts from which frame on: {first frame, option}; empty for a training from scratch.
   std::vector<std::array<int, 2>> arrangement;
+  NamedValues plan;            ///< what planning it took; empty where nothing was planned
   NamedValues fit;             ///< what the keypoint fit did; empty without one
   NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
   NamedValues metrics;         ///< of the simulated motion, against the prepared reference
@@ -53,6 +55,7 @@ struct Manifest {
   std::string target;   ///< instruction set it was built for
   std::uint64_t seed = 0;
   std::int64_t samples = 0;  ///< budget per sequence
+  std::string method;        ///< what simulates the motions: imitate, plan, paper or auto
   NamedValues settings;      ///< every other parameter that the results depend on
   std::string options;       ///< checksum of the options started from; empty: from scratch
   std::string reading;       ///< what the user said of the files (ReadOptions::text)

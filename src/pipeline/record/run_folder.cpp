@@ -10,7 +10,7 @@
 namespace mimicx {
 
 void RunFolder::create() const {
-  for (const char* part : {"motions", "references", "training", "checkpoints"}) {
+  for (const char* part : {"motions", "references"}) {
     std::error_code error;
     std::filesystem::create_directories(root / part, error);
     if (error) throw DataError((root / part).string(), "", "a folder that can be made", error.message());

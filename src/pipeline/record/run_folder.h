@@ -9,6 +9,7 @@
 ///     DIR/substeps/NAME.npz      every physics step of the result, where asked for
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
+///     DIR/plans/NAME.npz         the plan that the motion was simulated from, where there was one
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
@@ -40,6 +41,7 @@ struct RunFolder {
   std::filesystem::path substeps(const std::string& name) const {
     return root / "substeps" / (name + ".npz");
   }
+  std::filesystem::path plan(const std::string& name) const { return root / "plans" / (name + ".npz"); }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");
@@ -53,7 +55,8 @@ struct RunFolder {
     return (success ? "motions/" : "rejected/") + name + ".npz";
   }
 
-  /// @throws std::runtime_error when the folders cannot be made.
+  /// Makes the folders that every run fills; the others are made by those who fill them.
+  /// @throws DataError when they cannot be made
   void create() const;
 };
 

@@ -10,6 +10,7 @@ std::string format_timing(const std::vector<Timing>& timings, const std::vector<
   for (const auto& t : timings) {
     Json json = {{"name", t.name},
                  {"seconds", t.seconds},
+                 {"planning_seconds", t.planning_seconds},
                  {"training_seconds", t.training_seconds},
                  {"threads", t.threads}};
     for (const auto& e : sequences)
@@ -29,6 +30,7 @@ std::vector<Timing> read_timing(const std::filesystem::path& path) {
     Timing timing;
     timing.name = t.value("name", "");
     timing.seconds = t.value("seconds", 0.0);
+    timing.planning_seconds = t.value("planning_seconds", 0.0);
     timing.training_seconds = t.value("training_seconds", 0.0);
     timing.threads = t.value("threads", 0);
     timings.push_back(timing);

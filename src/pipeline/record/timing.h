@@ -14,6 +14,7 @@ namespace mimicx {
 struct Timing {
   std::string name;
   double seconds = 0.0;           ///< of all work on it
+  double planning_seconds = 0.0;  ///< of planning
   double training_seconds = 0.0;  ///< of training
   int threads = 0;
 };

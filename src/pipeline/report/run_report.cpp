@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/npz.h"
+#include "core/units.h"
 #include "motion/clip.h"
 #include "motion/metrics.h"
 #include "pipeline/record/table.h"
@@ -54,6 +55,7 @@ std::vector<ReportMetric> rows_of(const std::vector<NamedValues>& columns) {
 std::vector<std::string> notes_of(const SequenceEntry& entry) {
   std::vector<std::string> notes = entry.notes;
   if (!entry.arrangement.empty()) notes.push_back(arrangement_note(entry.arrangement));
+  for (const auto& value : entry.plan) notes.push_back(note_of("plan", value));
   for (const auto& value : entry.fit) notes.push_back(note_of("keypoint fit", value));
   for (const auto& value : entry.audit)
     if (value.first.starts_with("root_")) notes.push_back(note_of("audit", value));
@@ -66,6 +68,27 @@ std::vector<double> column_of(const Table& table, const std::string& name) {
   const std::size_t at = table.column(name);
   for (const auto& row : table.rows) values.push_back(row[at]);
   return values;
+}
+
+/// Of the joints of every frame, mm.
+std::vector<double> distances(const std::vector<BodyPoses>& a, const std::vector<BodyPoses>& b) {
+  std::vector<double> means(std::min(a.size(), b.size()));
+  for (std::size_t t = 0; t < means.size(); ++t)
+    for (std::size_t i = 0; i < kBodies; ++i)
+      means[t] += kMm * (a[t].p_WB[i] - b[t].p_WB[i]).norm() / kBodies;
+  return means;
+}
+
+/// Whether policies were trained for the motion, be it that a plan was written in the end.
+bool was_trained(const SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
+
+void add_training(const RunFolder& folder, const SequenceEntry& entry, ReportSequence& s) {
+  const Table falls = read_csv(folder.falls(entry.name));
+  const std::vector<double> frames = column_of(falls, "frame");
+  const double bin = frames.size() > 1 ? frames[1] - frames[0] : 1.0;
+  s.series.push_back(
+      {"share of falls over the clip, in training", bin / entry.fps, column_of(falls, "fall_rate")});
+  s.log = read_csv(folder.log(entry.name));
 }
 
 ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) {
@@ -81,16 +104,18 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   s.character = character_of(simulated);
   s.simulated = poses_of(simulated);
   s.reference = poses_of(read_clip(folder.reference(entry.name)));
-  s.metric_columns = {"input", "before training", "simulated"};
-  s.metrics = rows_of({entry.input_metrics, entry.metrics_before, entry.metrics});
+  if (entry.metrics_before.empty()) {
+    s.metric_columns = {"input", "simulated"};
+    s.metrics = rows_of({entry.input_metrics, entry.metrics});
+  } else {
+    s.metric_columns = {"input", "before training", "simulated"};
+    s.metrics = rows_of({entry.input_metrics, entry.metrics_before, entry.metrics});
+  }
   const Npz motion = read_npz(folder.root / entry.output);
   s.series.push_back({"reward over the clip", 1.0 / entry.fps, motion.at("reward").to_double()});
-  const Table falls = read_csv(folder.falls(entry.name));
-  const std::vector<double> frames = column_of(falls, "frame");
-  const double bin = frames.size() > 1 ? frames[1] - frames[0] : 1.0;
   s.series.push_back(
-      {"share of falls over the clip, in training", bin / entry.fps, column_of(falls, "fall_rate")});
-  s.log = read_csv(folder.log(entry.name));
+      {"mean distance from the reference, mm", 1.0 / entry.fps, distances(s.simulated, s.reference)});
+  if (was_trained(entry)) add_training(folder, entry, s);
   return s;
 }
 

@@ -249,6 +249,7 @@ struct CleanedAndRaw : testing::Test {
 TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
   const TemporaryFolder folder;
   AdaptConfig config = adapt_configuration();
+  config.method = AdaptMethod::kPaper;
   RunConfig& run = config.run;
   for (const char* name : {"squat_1", "wave_1"}) run.inputs.push_back(split("noisy", name).string());
   run.out = folder.path / "run";

@@ -1,0 +1,113 @@
+/// What the derivative of one physics step needs to know of the step itself: numbers of the nominal motion,
+/// the same for every row.                                                      docs/control_derivatives.md
+/// §3
+///
+/// Vectors and matrices are in world-parallel axes about the body's own joint centre, as in physics/data.h,
+/// unless a comment names a body frame. D is the change that an observer sees who turns with the body
+/// (docs/control_derivatives.md §2, (2)). Accelerations a count against free fall, a − g. Everything is
+/// computed in double (analytic_step.h) and kept as Real, the scalar of the rows' lanes.
+#pragma once
+
+#include <vector>
+
+#include "core/so3.h"
+#include "physics/data.h"
+
+namespace mimicx::control {
+
+/// One body and its joint; what all solves of the step share.
+template <class Real>
+struct BodyTable {
+  Mat3<Real> R;               ///< body to world
+  Vec3<Real> r;               ///< joint centre minus the parent's, m
+  Vec3<Real> w, w_joint;      ///< angular velocity; the joint's part of it, R ω
+  Vec3<Real> w_x_r;           ///< ω_λ × r
+  Mat3<Real> centripetal;     ///< −ω_λ × (ω_λ × r) by ω_λ
+  Mat3<Real> rate_n, rate_f;  ///< −(moment, force) of the rigid body by ω
+  Vec3<Real> axis;            ///< of a hinge
+  Mat3<Real> stiffness;       ///< torque of PD and range by the joint's rotation δ (body frame)
+  Real damping;               ///< torque of PD and range by −R δω
+  Mat3<Real> turn;            ///< rotation after the step by the one before, body frames
+  Mat3<Real> turn_by_omega;   ///< … and by the velocity after the step, s
+  bool placed;                ///< somebody asks where the body is: a contact of it or of a body it carries
+};
+
+/// A joint that is at its torque bound in some solve of the step: the range's part of its torque, which has
+/// no bound, and δ of its PD controller.
+template <class Real>
+struct LawTable {
+  int body;
+  Mat3<Real> range_stiffness;
+  Real range_damping, delta;
+};
+
+/// Two capsules that push each other apart: D of the wrenches that their bodies i and j feel, by θ, Dω, dv,
+/// dp of i and of j.
+template <class Real>
+struct SelfPairTable {
+  int i, j;
+  Real wrench[12][24];  ///< (moment; force) of i, then of j
+};
+
+/// Floor contacts of one body in one solve: D of the wrench they give, by θ, Dω, dv, dp_z of the body and Dα,
+/// Da of the body in the solve before, apart from this solve's accelerations, which the articulated inertia
+/// contains.
+template <class Real>
+struct FloorTable {
+  static constexpr int kInputs = 16;
+  int body;
+  Real wrench[6][kInputs];  ///< (moment; force)
+};
+
+/// One body in one solve. For a ball joint D = A + δ is inverted; a hinge uses U and D_inv.xx.
+template <class Real>
+struct SolveBodyTable {
+  Vec3<Real> alpha, a;     ///< acceleration of the body
+  Vec3<Real> n, f;         ///< moment and force that the joint transmits
+  Sym3<Real> A, C, D_inv;  ///< articulated inertia [A B; Bᵀ C]
+  Mat3<Real> B;
+  Vec3<Real> U_n, U_f;
+  Real delta;
+};
+
+/// A joint at its torque bound in one solve.
+template <class Real>
+struct SaturatedTable {
+  int body;
+  bool set;               ///< its torque follows the law at the solve before; otherwise it is kept
+  Sym3<Real> projection;  ///< torque by law: limit/‖law‖ (1 − l lᵀ)
+};
+
+/// One solve of the step for accelerations.
+template <class Real>
+struct SolveTable {
+  PerBody<SolveBodyTable<Real>> body;
+  Sym3<Real> root_C_inv, root_A_inv;  ///< of the root: C⁻¹; Schur complement's inverse
+  Mat3<Real> root_M;                  ///< C⁻¹ Bᵀ
+  std::vector<FloorTable<Real>> floor;
+  std::vector<SaturatedTable<Real>> saturated;
+  PerBody<bool> wanted;  ///< bodies whose accelerations the next solve or the step asks for
+};
+
+/// One physics step.
+template <class Real>
+struct SubstepTable {
+  Real dt;
+  PerBody<BodyTable<Real>> body;
+  Array<Vec3<Real>, kDofs> drive_from, drive_to;  ///< torque by residual of the old and the new target
+  std::vector<LawTable<Real>> law;
+  std::vector<SelfPairTable<Real>> pairs;
+  Vec3<Real> help_n, help_f;  ///< external wrench on the pelvis
+  std::vector<SolveTable<Real>> solves;
+  int solve_count;  ///< entries of `solves` in use; the others keep their memory
+
+  const SolveTable<Real>& solve(int k) const { return solves[static_cast<std::size_t>(k)]; }
+};
+
+/// How a target of one step turns, in the child's frame, with the residual rotations of the frame's old and
+/// new target: q*·exp(ε), ε = from · dw + to · du. Entry 0 unused.
+struct TargetDerivative {
+  PerBody<Matrix3d> from, to;
+};
+
+}  // namespace mimicx::control

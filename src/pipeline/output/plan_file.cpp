@@ -1,0 +1,144 @@
+#include "pipeline/output/plan_file.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/npz.h"
+#include "pipeline/output/simulated_members.h"
+#include "pipeline/output/simulation_settings.h"
+
+namespace mimicx {
+namespace {
+
+constexpr std::size_t kPositionNumbers = 3 + 4 * kBodies;
+constexpr std::size_t kVelocityNumbers = 3 + 3 * kBodies;
+constexpr std::array<std::string_view, 3> kEndings = {"followed", "lost", "stopped"};
+
+/// Calls visit(number) for every one of a state's positions, and for every one of its velocities.
+template <class StateType, class Visit>
+void for_each_position(StateType& x, const Visit& visit) {
+  for (auto* p : {&x.p_root.x, &x.p_root.y, &x.p_root.z}) visit(*p);
+  for (auto& q : x.q)
+    for (auto* p : {&q.w, &q.x, &q.y, &q.z}) visit(*p);
+}
+template <class StateType, class Visit>
+void for_each_velocity(StateType& x, const Visit& visit) {
+  for (auto* p : {&x.v_root.x, &x.v_root.y, &x.v_root.z}) visit(*p);
+  for (auto& w : x.omega)
+    for (auto* p : {&w.x, &w.y, &w.z}) visit(*p);
+}
+
+void add_states(const std::string& prefix, const std::vector<State<double>>& states, Precision precision,
+                Npz& npz) {
+  std::vector<double> q, v;
+  for (const State<double>& x : states) {
+    for_each_position(x, [&](double number) { q.push_back(number); });
+    for_each_velocity(x, [&](double number) { v.push_back(number); });
+  }
+  npz.set(prefix + "q", numbers_member({states.size(), kPositionNumbers}, q, precision));
+  npz.set(prefix + "v", numbers_member({states.size(), kVelocityNumbers}, v, precision));
+}
+
+std::vector<State<double>> read_states(const Npz& npz, const std::string& prefix) {
+  const NpyArray& member = npz.at(prefix + "q");
+  const std::size_t count = member.shape.empty() ? 0 : member.shape[0];
+  const std::vector<double> q = read_numbers(npz, prefix + "q", count, kPositionNumbers);
+  const std::vector<double> v = read_numbers(npz, prefix + "v", count, kVelocityNumbers);
+  std::vector<State<double>> states(count);
+  const double *q_at = q.data(), *v_at = v.data();
+  for (State<double>& x : states) {
+    for_each_position(x, [&](double& number) { number = *q_at++; });
+    for_each_velocity(x, [&](double& number) { number = *v_at++; });
+  }
+  return states;
+}
+
+void add_residuals(const control::Plan& plan, Npz& npz) {
+  std::vector<double> values;
+  for (const auto& row : plan.residuals) values.insert(values.end(), row.begin(), row.end());
+  npz.set("residuals", numbers_member({plan.residuals.size(), kDofs}, values, Precision::kFloat32));
+}
+
+void read_residuals(const Npz& npz, control::Plan& plan) {
+  const std::size_t count = std::max<std::size_t>(plan.states.size(), 1) - 1;
+  const std::vector<double> values = read_numbers(npz, "residuals", count, kDofs);
+  plan.residuals.resize(count);
+  const double* at = values.data();
+  for (auto& row : plan.residuals)
+    for (float& number : row) number = static_cast<float>(*at++);
+}
+
+double read_number(const Npz& npz, const std::string& name) { return read_numbers(npz, name, 1, 1)[0]; }
+
+/// Calls add(name, field) for the plan's numbers.
+template <class PlanType, class Add>
+void for_each_number(PlanType& plan, const Add& add) {
+  add("cost", plan.cost);
+  add("worst_distance", plan.worst_distance);
+  add("iterations", plan.iterations);
+  add("linearised_frames", plan.linearised);
+  add("backtracks", plan.backtracks);
+}
+template <class LossType, class Add>
+void for_each_loss_number(LossType& loss, const Add& add) {
+  add("lost_frame", loss.frame);
+  add("lost_body", loss.body);
+  add("lost_distance", loss.distance);
+}
+
+std::string read_text(const Npz& npz, const std::string& name) {
+  const NpyArray& member = npz.at(name);
+  if (member.type != NpyArray::Type::kText || member.text.size() != 1)
+    throw DataError(npz.path, name, "a text", "something else");
+  return member.text[0];
+}
+
+control::Ending ending_of(const Npz& npz) {
+  const std::string text = read_text(npz, "ending");
+  const auto found = std::find(kEndings.begin(), kEndings.end(), text);
+  if (found == kEndings.end())
+    throw DataError(npz.path, "ending", "followed, lost or stopped", "'" + text + "'");
+  return static_cast<control::Ending>(found - kEndings.begin());
+}
+
+}  // namespace
+
+void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
+  const control::Plan& plan = stored.plan;
+  Npz npz;
+  const auto add = [&](const std::string& name, const auto& field) {
+    const double value = static_cast<double>(field);
+    npz.set(name, NpyArray::from_double({1}, &value));
+  };
+  add_residuals(plan, npz);
+  add_states("", plan.states, Precision::kFloat32, npz);
+  add_states("reference_", stored.reference, Precision::kFloat64, npz);
+  npz.set("ending", NpyArray::scalar_text(std::string(kEndings[static_cast<std::size_t>(plan.ending)])));
+  for_each_number(plan, add);
+  if (plan.loss) for_each_loss_number(*plan.loss, add);
+  npz.set("input_checksum", NpyArray::scalar_text(stored.input_checksum));
+  add("fps", stored.fps);
+  for_each_simulation_setting(stored.simulation, add);
+  write_npz(path, npz);
+}
+
+StoredPlan read_plan(const std::filesystem::path& path) {
+  const Npz npz = read_npz(path);
+  StoredPlan stored;
+  control::Plan& plan = stored.plan;
+  const auto read = [&](const std::string& name, auto& field) {
+    field = static_cast<std::decay_t<decltype(field)>>(read_number(npz, name));
+  };
+  plan.states = read_states(npz, "");
+  read_residuals(npz, plan);
+  stored.reference = read_states(npz, "reference_");
+  plan.ending = ending_of(npz);
+  for_each_number(plan, read);
+  if (npz.has("lost_frame")) for_each_loss_number(plan.loss.emplace(), read);
+  stored.input_checksum = read_text(npz, "input_checksum");
+  read("fps", stored.fps);
+  for_each_simulation_setting(stored.simulation, read);
+  return stored;
+}
+
+}  // namespace mimicx

@@ -1,0 +1,28 @@
+/// plans/NAME.npz: a plan, with everything that repeats it but the body.              docs/formats.md
+///
+/// States and residuals are the simulator's own numbers (float32), the reference is what the residuals are
+/// applied to (float64): a system made of the file and of the body of references/NAME.npz rolls the residuals
+/// out to the same states, byte for byte.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "control/plan.h"
+
+namespace mimicx {
+
+struct StoredPlan {
+  std::string input_checksum;  ///< of the input it was made for
+  double fps = 30.0;
+  SimulationOptions simulation;
+  std::vector<State<double>> reference;  ///< [frames]
+  control::Plan plan;
+};
+
+void write_plan(const std::filesystem::path& path, const StoredPlan& stored);
+/// @throws DataError naming file and member that is not there, or not of its shape
+StoredPlan read_plan(const std::filesystem::path& path);
+
+}  // namespace mimicx

@@ -1,0 +1,24 @@
+#include "pipeline/plan.h"
+
+#include "pipeline/plan_sequence.h"
+
+namespace mimicx {
+
+NamedValues settings_of(const PlanMotionsConfig& config) {
+  NamedValues settings = planning_settings(config.planning);
+  append(settings, settings_of(config.run));
+  return settings;
+}
+
+RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context) {
+  Method method;
+  method.name = "plan";
+  method.settings = settings_of(config);
+  method.simulation = config.planning.simulation;
+  method.simulate = [&planning = config.planning](const Reference& reference, const SequenceJob& job) {
+    return plan_sequence(reference, planning, job);
+  };
+  return run_sequences(config.run, method, context);
+}
+
+}  // namespace mimicx

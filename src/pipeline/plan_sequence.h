@@ -1,0 +1,18 @@
+/// The middle of a run by planning: optimal control finds residuals on the simulator's own derivatives
+/// (control/plan.h), and these are rolled out over the whole of the motion, byte for byte what was planned.
+///
+/// The plan is left in plans/NAME.npz (plan_file.h). One that was finished for the same input is taken up
+/// again; one that was interrupted starts anew. Where a plan is lost the residuals behind its end are zero:
+/// the body goes on, and falls.
+#pragma once
+
+#include "pipeline/planning.h"
+#include "pipeline/sequence_run.h"
+
+namespace mimicx {
+
+/// The result is interrupted where the job's context stopped the plan.
+SimulatedSequence plan_sequence(const Reference& reference, const PlanningConfig& config,
+                                const SequenceJob& job);
+
+}  // namespace mimicx

@@ -1,0 +1,102 @@
+#include "pipeline/planning.h"
+
+#include <stdexcept>
+
+#include "pipeline/output/simulation_settings.h"
+#include "pipeline/setting.h"
+#include "rl/tracking/pack.h"
+
+namespace mimicx {
+namespace {
+
+using control::Derivatives;
+
+/// Calls add(name, field, least, most) for every number of the plan.
+template <class Config, class Add>
+void for_each_setting(Config& config, const Add& add) {
+  auto& w = config.weights;
+  add("plan_position", w.position, 0, 1e9);
+  add("plan_root_rotation", w.root_rotation, 0, 1e9);
+  add("plan_joint_rotation", w.joint_rotation, 0, 1e9);
+  add("plan_root_velocity", w.root_velocity, 0, 1e9);
+  add("plan_root_spin", w.root_spin, 0, 1e9);
+  add("plan_joint_velocity", w.joint_velocity, 0, 1e9);
+  add("plan_residual", w.residual, 1e-9, 1e9);
+  add("plan_change", w.change, 0, 1e9);
+  add("plan_help", w.help, 0, 1e9);
+  add("plan_help_spin", w.help_spin, 0, 1e9);
+
+  add("plan_derivatives", config.linearisation.derivatives, 0, 2);
+  auto& s = config.linearisation.steps;
+  add("plan_step_position", s.position, 1e-9, 1);
+  add("plan_step_rotation", s.rotation, 1e-9, 1);
+  add("plan_step_velocity", s.velocity, 1e-9, 10);
+  add("plan_step_spin", s.spin, 1e-9, 10);
+  add("plan_step_residual", s.residual, 1e-9, 1);
+  add("plan_step_help", s.help, 1e-9, 100);
+  add("plan_step_help_spin", s.help_spin, 1e-9, 100);
+
+  auto& h = config.horizon;
+  add("plan_horizon", h.horizon, 1, 1000);
+  add("plan_commit", h.commit, 1, 1000);
+  add("plan_iterations", h.iterations, 1, 1000);
+  add("plan_hard_iterations", h.hard_iterations, 1, 1000);
+  add("plan_hard_cost", h.hard_cost, 0, 1e9);
+  add("plan_stop", h.stop, 0, 1);
+  add("plan_lost", h.lost, 1e-3, 10);
+  add("plan_back", h.back, 1, 1000);
+  add("plan_backtracks", h.backtracks, 0, 1000);
+}
+
+}  // namespace
+
+NamedValues plan_settings(const control::PlanConfig& plan) {
+  NamedValues values;
+  for_each_setting(plan, [&](const char* name, const auto& field, double, double) {
+    values.emplace_back(name, number_of(field));
+  });
+  return values;
+}
+
+NamedValues planning_settings(const PlanningConfig& config) {
+  NamedValues values = plan_settings(config.plan);
+  for_each_simulation_setting(config.simulation, [&](const char* name, const auto& field) {
+    values.emplace_back(name, number_of(field));
+  });
+  return values;
+}
+
+bool change_setting(control::PlanConfig& plan, const std::string& name, double value) {
+  bool found = false;
+  for_each_setting(plan, [&](const char* known, auto& field, double, double) {
+    if (known != name) return;
+    assign(field, value);
+    found = true;
+  });
+  return found;
+}
+
+void apply_setting(PlanningConfig& config, const std::string& name, double value) {
+  bool found = change_setting(config.plan, name, value);
+  for_each_simulation_setting(config.simulation, [&](const char* known, auto& field) {
+    if (known != name) return;
+    assign(field, value);
+    found = true;
+  });
+  if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
+}
+
+void check(const control::PlanConfig& plan) {
+  for_each_setting(plan, [](const char* name, const auto& field, double least, double most) {
+    require_range(name, number_of(field), least, most);
+  });
+}
+
+void check(const PlanningConfig& config) {
+  check(config.plan);
+  // What only the task and the simulator can judge, they judge themselves.
+  rl::require_whole_steps(config.simulation.rate, Reference{}.fps);
+  make_model<double>(make_character(), config.simulation);
+}
+
+}  // namespace mimicx

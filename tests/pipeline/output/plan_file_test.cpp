@@ -1,0 +1,112 @@
+// A plan on disk: complete, exact, repeatable, and refused where it is damaged.
+#include "pipeline/output/plan_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <numbers>
+
+#include "core/npz.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+bool same_bits(const std::vector<State<double>>& a, const std::vector<State<double>>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+/// Upright, arms down, the head turned by an angle that no float is.
+State<double> standing() {
+  State<double> x{};
+  x.p_root = from_eigen(Vector3d(0.1, -0.2, 0.95));
+  x.q.fill(from_eigen(Quaterniond::Identity()));
+  x.q[kPelvis] = from_eigen(exp_map(Vector3d(std::numbers::pi / 2, 0.0, 0.0)));
+  x.q[kHead] = from_eigen(exp_map(Vector3d(0.0, 1.0 / 3.0, 0.0)));
+  return x;
+}
+
+StoredPlan planned(int frames) {
+  StoredPlan stored;
+  stored.input_checksum = "0123456789abcdef";
+  stored.simulation.friction = 0.7;
+  stored.reference.assign(static_cast<std::size_t>(frames), standing());
+  const control::System system =
+      control::make_system(make_character(), stored.simulation, stored.reference, stored.fps);
+  stored.plan = control::make_plan(system, {});
+  return stored;
+}
+
+struct PlanFile : testing::Test {
+  StoredPlan written(const StoredPlan& stored) {
+    write_plan(file, stored);
+    return read_plan(file);
+  }
+  TemporaryFolder folder;
+  std::filesystem::path file = folder.path / "plan.npz";
+};
+
+TEST_F(PlanFile, ComesBackToTheBit) {
+  StoredPlan plan = planned(8);
+  plan.plan.ending = control::Ending::kLost;
+  plan.plan.loss = control::Loss{5, kLeftFoot, 0.41};
+  const StoredPlan back = written(plan);
+  EXPECT_EQ(back.input_checksum, plan.input_checksum);
+  EXPECT_EQ(back.fps, plan.fps);
+  EXPECT_EQ(back.simulation.friction, 0.7);
+  EXPECT_TRUE(same_bits(back.reference, plan.reference));
+  EXPECT_TRUE(same_bits(back.plan.states, plan.plan.states));
+  EXPECT_EQ(back.plan.residuals, plan.plan.residuals);
+  EXPECT_EQ(back.plan.ending, plan.plan.ending);
+  EXPECT_EQ(back.plan.cost, plan.plan.cost);
+  EXPECT_EQ(back.plan.worst_distance, plan.plan.worst_distance);
+  EXPECT_EQ(back.plan.iterations, plan.plan.iterations);
+  EXPECT_EQ(back.plan.linearised, plan.plan.linearised);
+  EXPECT_EQ(back.plan.backtracks, plan.plan.backtracks);
+  ASSERT_TRUE(back.plan.loss);
+  EXPECT_EQ(back.plan.loss->frame, 5);
+  EXPECT_EQ(back.plan.loss->body, kLeftFoot);
+  EXPECT_EQ(back.plan.loss->distance, 0.41);
+}
+
+TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
+  const StoredPlan stored = written(planned(8));
+  EXPECT_FALSE(stored.plan.loss);
+  const control::System system =
+      control::make_system(make_character(), stored.simulation, stored.reference, stored.fps);
+  const auto scratch = std::make_unique<Data<control::P>>();
+  State<control::P> x = in_all_lanes<control::P>(stored.plan.states.at(0));
+  Target<control::P> from = control::target_of(system, 0, {});
+  std::vector<State<double>> states = {stored.plan.states[0]};
+  for (std::size_t t = 0; t < stored.plan.residuals.size(); ++t) {
+    control::Control u{};
+    std::copy(stored.plan.residuals[t].begin(), stored.plan.residuals[t].end(), u.begin());
+    const Target<control::P> to = control::target_of(system, static_cast<int>(t) + 1, u);
+    control::advance(system, from, to, control::help_of(system, {}), x, *scratch);
+    states.push_back(lane_of(x, 0));
+    from = to;
+  }
+  EXPECT_TRUE(same_bits(states, stored.plan.states));
+}
+
+TEST_F(PlanFile, OneThatIsDamagedNamesTheMember) {
+  const StoredPlan plan = planned(4);
+  const double one = 1.0;
+  for (const char* member : {"residuals", "q", "v", "reference_q", "reference_v", "ending", "cost", "fps",
+                             "physics_rate", "input_checksum"}) {
+    write_plan(file, plan);
+    Npz npz = read_npz(file);
+    npz.set(member, NpyArray::from_double({3, 1}, std::vector<double>(3, one).data()));
+    write_npz(file, npz);
+    try {
+      read_plan(file);
+      ADD_FAILURE() << member;
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find(member), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,197 @@
+// `mimicx plan`, end to end on motions of a second or two.
+#include "pipeline/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/npz.h"
+#include "pipeline/output/plan_file.h"
+#include "pipeline/results.h"
+#include "pipeline/small_run.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+namespace {
+
+struct PlanMotions : testing::Test {
+  void SetUp() override {
+    write_clip(stand, standing_clip(20));
+    write_clip(other, standing_clip(30));
+    Clip leaning = standing_clip(45);  // by 45° to the side, as nobody can stand
+    for (auto& frame : leaning.rotations)
+      frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
+    write_clip(lean, leaning);
+  }
+  PlanMotionsConfig planning(const std::string& name, const std::vector<std::string>& inputs) const {
+    PlanMotionsConfig config;
+    config.run.inputs = inputs;
+    config.run.out = out(name);
+    config.planning.plan.horizon.backtracks = 1;  // what is lost shall be so soon
+    return config;
+  }
+  static Outcome run(const PlanMotionsConfig& config, int asked = -1) {
+    return run_in_context([&](const RunContext& context) { return plan_motions(config, context); }, asked);
+  }
+  SequenceEntry entry(const std::string& name, std::size_t k = 0) const {
+    return read_manifest(out(name) / "manifest.json").sequences.at(k);
+  }
+  std::filesystem::path out(const std::string& name) const { return folder.path / name; }
+
+  TemporaryFolder folder;
+  std::string stand = out("stand.npz").string(), other = out("other.npz").string(),
+              lean = out("lean.npz").string();
+};
+
+TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
+  EXPECT_EQ(run(planning("run", {stand})).value, RunOutcome::kAllGood);
+  const auto files = results_of(out("run"));
+  for (const char* name :
+       {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz", "plans/stand.npz"})
+    EXPECT_TRUE(files.contains(name)) << name;
+  EXPECT_EQ(files.size(), 5u);
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
+  const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
+  EXPECT_EQ(motion.at("joint_torques").shape, (std::vector<std::size_t>{20, 55}));
+  EXPECT_EQ(motion.at("ground_wrenches").shape, (std::vector<std::size_t>{20, 22, 6}));
+}
+
+TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
+  run(planning("run", {stand}));
+  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  EXPECT_EQ(manifest.method, "plan");
+  EXPECT_EQ(manifest.samples, 0);
+  EXPECT_EQ(value_of(manifest.settings, "plan_horizon"), control::HorizonOptions{}.horizon);
+  EXPECT_EQ(value_of(manifest.settings, "physics_rate"), SimulationOptions{}.rate);
+  const SequenceEntry& entry = manifest.sequences.at(0);
+  EXPECT_TRUE(entry.ok) << entry.reason;
+  EXPECT_EQ(entry.method, "plan");
+  EXPECT_EQ(entry.ending, Ending::kFollowed);
+  EXPECT_EQ(value_of(entry.plan, "frames"), 20);
+  EXPECT_GT(value_of(entry.plan, "iterations"), 0);
+  EXPECT_LT(value_of(entry.metrics, "gMPJPE"), 5.0);
+  EXPECT_LT(value_of(entry.audit, "root_force_mean_N"), 0.05 * 9.81 * make_character().total_mass());
+  for (const std::string& note : entry.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
+}
+
+TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {
+  run(planning("run", {stand}));
+  const StoredPlan stored = read_plan(out("run") / "plans" / "stand.npz");
+  const auto velocities = read_npz(out("run") / "motions" / "stand.npz").at("velocities").to_double();
+  ASSERT_EQ(stored.plan.states.size(), 20u);
+  for (std::size_t t = 1; t < 20; ++t) {
+    const State<double>& x = stored.plan.states[t];
+    const double* row = velocities.data() + t * (6 + kDofs);
+    EXPECT_EQ(to_eigen(x.v_root), Vector3d(row[0], row[1], row[2])) << t;
+    EXPECT_EQ(to_eigen(x.omega[kPelvis]), Vector3d(row[3], row[4], row[5])) << t;
+    EXPECT_EQ(to_eigen(x.omega[1]), Vector3d(row[6], row[7], row[8])) << t;
+  }
+}
+
+TEST_F(PlanMotions, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
+  PlanMotionsConfig config = planning("one", {stand, other});
+  run(config);
+  config.run.out = out("two");
+  config.run.threads = 2;
+  EXPECT_EQ(run(config, 2).value, RunOutcome::kInterrupted);  // in the first plan
+  EXPECT_FALSE(std::filesystem::exists(out("two") / "plans"));
+  const Outcome second = run(config, 4);  // in the other one
+  EXPECT_EQ(second.value, RunOutcome::kInterrupted);
+  EXPECT_NE(second.messages.find("interrupted; the same command continues"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(out("two") / "motions" / "stand.npz"));
+  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
+  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+}
+
+TEST_F(PlanMotions, AFinishedMotionGetsItsStepsFromItsPlan) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  auto before = results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "plans" / "stand.npz");
+  config.run.substeps = true;
+  run(config);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "plans" / "stand.npz"), written) << "planned again";
+  auto after = results_of(out("run"));
+  EXPECT_EQ(after.erase("substeps/stand.npz"), 1u);
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(PlanMotions, APlanOfAnotherInputIsNotTakenUp) {
+  run(planning("run", {stand}));
+  write_clip(stand, standing_clip(25));
+  run(planning("run", {stand}));
+  EXPECT_EQ(read_plan(out("run") / "plans" / "stand.npz").plan.states.size(), 25u);
+  EXPECT_EQ(entry("run").frames, 25);
+}
+
+TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
+  EXPECT_EQ(run(planning("run", {lean, stand})).value, RunOutcome::kSomeFailed);
+  const SequenceEntry lost = entry("run", 0), done = entry("run", 1);
+  EXPECT_FALSE(lost.ok);
+  EXPECT_EQ(lost.ending, Ending::kLost);
+  EXPECT_EQ(lost.output, "rejected/lean.npz");
+  EXPECT_LT(value_of(lost.plan, "frames"), 45);
+  for (const char* words : {"the plan is lost at frame ", " is 0.", " m from its reference",
+                            " N from outside", "% of the weight", "limit 0.5 m"})
+    EXPECT_NE(lost.reason.find(words), std::string::npos) << words << ": " << lost.reason;
+  EXPECT_EQ(read_npz(out("run") / "rejected" / "lean.npz").at("poses").shape.at(0), 45u);
+  EXPECT_TRUE(done.ok) << done.reason;
+}
+
+TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
+  PlanMotionsConfig config = planning("run", {other});
+  config.run.limit_seconds = 1e-9;
+  run(config);
+  EXPECT_EQ(entry("run").ending, Ending::kLimitSeconds);
+  EXPECT_NE(entry("run").reason.find("the plan was stopped at frame 0"), std::string::npos)
+      << entry("run").reason;
+  config.run.limit_seconds = 0.0;
+  run(config);
+  EXPECT_EQ(entry("run").ending, Ending::kFollowed);
+  EXPECT_TRUE(entry("run").ok) << entry("run").reason;
+}
+
+TEST_F(PlanMotions, RefusesAFolderOfOtherSettings) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  config.planning.plan.weights.position += 1.0;
+  EXPECT_THROW(run(config), std::invalid_argument);
+}
+
+TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
+  const NamedValues defaults = planning_settings({});
+  for (const auto& [name, value] : defaults) {
+    const double other = name == "self_contact" ? 1.0 - value : value + 1.0;
+    PlanningConfig config;
+    apply_setting(config, name, other);
+    const NamedValues changed = planning_settings(config);
+    for (std::size_t k = 0; k < defaults.size(); ++k)
+      EXPECT_EQ(changed[k].second, defaults[k].first == name ? other : defaults[k].second) << name;
+  }
+  PlanningConfig config;
+  EXPECT_THROW(apply_setting(config, "no_such_setting", 1.0), std::invalid_argument);
+  EXPECT_THROW(apply_setting(config, "plan_horizon", 1.5), std::invalid_argument);
+}
+
+TEST(PlanningSettings, WhatNoPlanCanHaveIsRefusedByName) {
+  EXPECT_NO_THROW(check(PlanningConfig{}));
+  for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"plan_horizon", 0},
+                                                                               {"plan_commit", 0},
+                                                                               {"plan_residual", 0},
+                                                                               {"plan_position", -1},
+                                                                               {"plan_derivatives", 3},
+                                                                               {"physics_rate", 100}}) {
+    PlanningConfig config;
+    apply_setting(config, name, value);
+    try {
+      check(config);
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,189 @@
+// What planning costs per control frame (1/30 s) on one core: derivatives of every kind, the cost's quadratic
+// model, the Riccati sweep, the line search; beside MuJoCo's finite-difference derivatives of the same
+// character where that library is installed. The character stands and sways on both feet; best of the
+// repetitions, by processor time. Ends with the share of an iteration and the ratio to MuJoCo.
+//   bench_control [any option of Google Benchmark]
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "control/ilqr.h"
+#ifdef MIMICX_HAVE_MUJOCO
+#include "oracles/mujoco_character.h"
+#endif
+
+namespace mimicx {
+namespace {
+
+using namespace control;
+
+constexpr int kFrames = 20;
+
+/// Upright with slightly bent knees, arms moving.
+State<double> swaying(int frame) {
+  State<double> x;
+  const double knee = 0.3, phase = 0.1 * frame;
+  x.q.fill({1.0, 0.0, 0.0, 0.0});
+  x.omega.fill(zero3<double>());
+  x.v_root = zero3<double>();
+  x.p_root = {0.0, 0.0, 0.951 - 0.784 * (1.0 - std::cos(0.5 * knee))};
+  const auto turn = [&](int body, const Vector3d& r) {
+    x.q[static_cast<std::size_t>(body)] = from_eigen(Quaterniond(mimicx::exp_map(r)));
+  };
+  turn(kPelvis, {std::numbers::pi / 2, 0, 0});
+  for (int side = 0; side < 2; ++side) {
+    turn(kLeftHip + side, {-0.5 * knee, 0, 0});
+    turn(kLeftKnee + side, {knee, 0, 0});
+    turn(kLeftAnkle + side, {-0.5 * knee, 0, 0});
+  }
+  turn(kLeftShoulder, {0, 0, -1.2 + 0.3 * std::sin(phase)});
+  turn(kRightShoulder, {0, 0, 1.2 - 0.3 * std::sin(phase)});
+  return x;
+}
+
+struct Problem {
+  System system;
+  Cost cost;
+  Trajectory plan;
+  std::vector<FrameModel> models;
+  Sweep sweep;
+
+  explicit Problem(bool soft) : system(make(soft)), cost(make_cost(system, {})) {
+    plan.x.assign(kFrames + 1, mimicx::lane_of(in_all_lanes<control::P>(system.at(0)), 0));
+    plan.u.resize(kFrames);
+    const auto scratch = std::make_unique<Data<control::P>>();
+    const Fan fan =
+        roll_out(system, cost, plan, {}, step_lengths(), in_all_lanes<control::P>(plan.x[0]), *scratch);
+    take_lane(fan, 0, plan);
+    double regularisation = 0.0;
+    for (int i = 0; i < 3; ++i) improve(system, cost, {}, 1, true, models, sweep, regularisation, plan);
+    build_models(system, cost, plan, {}, 1, models);
+  }
+  static System make(bool soft) {
+    std::vector<State<double>> reference;
+    for (int t = 0; t <= kFrames; ++t) reference.push_back(swaying(t));
+    System system = make_system(make_character(), {}, std::move(reference), 30.0);
+    system.soft = soft;
+    return system;
+  }
+};
+
+template <class F>
+void per_frame(benchmark::State& timer, const F& frame) {
+  int t = 0;
+  for (auto _ : timer) frame(t++ % kFrames);
+  timer.SetItemsProcessed(timer.iterations());
+}
+
+#ifdef MIMICX_HAVE_MUJOCO
+/// A control frame is eight physics steps: eight matrices A of one step each, whose product is not counted.
+void mujoco_derivatives(benchmark::State& timer) {
+  MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
+  const State<double> x = swaying(0);
+  mujoco.set_root(to_eigen(x.p_root), to_eigen(x.q[0]), Vector3d::Zero(), Vector3d::Zero());
+  for (int i = 1; i < kBodies; ++i) {
+    const Quaterniond q = to_eigen(x.q[static_cast<std::size_t>(i)]);
+    mujoco.set_target(i, q);
+    mujoco.set_joint(i, q, Vector3d::Zero());
+  }
+  for (int i = 0; i < 100; ++i) mj_step(&mujoco.model(), &mujoco.data());  // onto the floor
+  const int columns = 2 * mujoco.model().nv + mujoco.model().na;
+  std::vector<mjtNum> A(static_cast<std::size_t>(columns * columns));
+  for (auto _ : timer)
+    for (int step = 0; step < 8; ++step)
+      mjd_transitionFD(&mujoco.model(), &mujoco.data(), 1e-6, 1, A.data(), nullptr, nullptr, nullptr);
+  timer.SetItemsProcessed(timer.iterations());
+}
+#endif
+
+/// Prints as usual and keeps the best rate of every benchmark.
+class BestReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs)
+      if (run.run_type == Run::RT_Iteration && !run.error_occurred) {
+        double& best = best_[run.run_name.function_name];
+        best = std::max(best, run.counters.at("items_per_second").value);
+      }
+  }
+  /// Milliseconds per frame by name.
+  double ms(const std::string& name) const {
+    const auto found = best_.find(name);
+    return found == best_.end() ? 0.0 : 1e3 / found->second;
+  }
+
+ private:
+  std::map<std::string, double> best_;
+};
+
+void register_all(Problem& hard, Problem& soft) {
+  const auto add = [](const std::string& name, auto function) {
+    benchmark::RegisterBenchmark(name.c_str(), function)->MinTime(0.2)->Repetitions(5);
+  };
+  const auto derivatives = [&](const std::string& name, Problem& p, Linearisation how) {
+    add(name, [&p, how](benchmark::State& s) {
+      const auto scratch = std::make_unique<LinearisationScratch>();
+      per_frame(
+          s, [&](int t) { benchmark::DoNotOptimize(linearise(p.system, p.plan.point(t), how, *scratch)); });
+    });
+  };
+  derivatives("analytic", hard, {Derivatives::kAnalytic, {}});
+  derivatives("analytic, soft", soft, {Derivatives::kAnalytic, {}});
+  derivatives("columns", hard, {Derivatives::kColumns, {}});
+  derivatives("columns, soft", soft, {Derivatives::kColumns, {}});
+  derivatives("smoothed", hard, {Derivatives::kSmoothed, {}});
+  add("cost", [&](benchmark::State& s) {
+    per_frame(s, [&](int t) {
+      const State<double>& x = hard.plan.x[static_cast<std::size_t>(t)];
+      benchmark::DoNotOptimize(state_quadratic(hard.system, hard.cost, t, x));
+    });
+  });
+  add("sweep", [&](benchmark::State& s) {
+    for (auto _ : s) sweep_back(hard.system, hard.cost, hard.plan, hard.models, {}, 0.0, hard.sweep);
+    s.SetItemsProcessed(s.iterations() * kFrames);
+  });
+  add("line search", [&](benchmark::State& s) {
+    const auto scratch = std::make_unique<Data<control::P>>();
+    const auto x0 = in_all_lanes<control::P>(hard.plan.x[0]);
+    for (auto _ : s)
+      benchmark::DoNotOptimize(
+          roll_out(hard.system, hard.cost, hard.plan, hard.sweep.laws, step_lengths(), x0, *scratch));
+    s.SetItemsProcessed(s.iterations() * kFrames);
+  });
+#ifdef MIMICX_HAVE_MUJOCO
+  add("mujoco", mujoco_derivatives);
+#endif
+}
+
+void print_summary(const BestReporter& r) {
+  std::printf("\nms per control frame, best of the repetitions (%s, packs of %d), share of an iteration\n",
+              MIMICX_TARGET, kLanes);
+  const double whole = r.ms("analytic") + r.ms("cost") + r.ms("sweep") + r.ms("line search");
+  for (const char* name : {"analytic", "cost", "sweep", "line search"})
+    std::printf("  %-16s %8.3f %6.1f %%\n", name, r.ms(name), 100.0 * r.ms(name) / whole);
+  for (const char* name : {"analytic, soft", "columns", "columns, soft", "smoothed"})
+    std::printf("  %-16s %8.3f\n", name, r.ms(name));
+  if (r.ms("mujoco") > 0.0)
+    std::printf("  %-16s %8.3f, mjd_transitionFD: %.0f x analytic, %.0f x columns\n", "mujoco",
+                r.ms("mujoco"), r.ms("mujoco") / r.ms("analytic"), r.ms("mujoco") / r.ms("columns"));
+}
+
+}  // namespace
+}  // namespace mimicx
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  mimicx::Problem hard(false), soft(true);
+  mimicx::register_all(hard, soft);
+  mimicx::BestReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  mimicx::print_summary(reporter);
+  return 0;
+}
