@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/adapt.h"
+#include "pipeline/configurations.h"
 #include "pipeline/options/arrangement.h"
 #include "pipeline/options/side_by_side.h"
 #include "pipeline/output/simulated_members.h"
@@ -241,10 +241,11 @@ void walk(const std::filesystem::path& file, const std::filesystem::path& option
   list_values(motion.fit_values);
   tell_reference(motion.reference);
   list_values(motion.preparation_values);
-  const TrainingConfig config = fine_tuning_defaults();
+  const AdaptConfig adapt = adapt_configuration();
+  const TrainingConfig& config = adapt.training;
   const auto clip = rl::make_tracking_clip(motion.reference, config.tracking);
   const ArrangedClip arranged =
-      tell_arrangement(clip, *read_options(options), config.tracking, ArrangementConfig{});
+      tell_arrangement(clip, *read_options(options), config.tracking, adapt.arrangement);
   tell_frame(arranged, config.tracking);
   tell_training(arranged, config);
   tell_files(folder, motion.reference.name);

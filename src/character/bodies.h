@@ -68,7 +68,7 @@ constexpr int first_dof(int body) {
 }
 static_assert(first_dof(kBodies - 1) + 3 == kDofs);
 
-/// End effectors e^p of the state: wrists and balls of the feet.                    METHOD §3
+/// End effectors e^p of the state: wrists and balls of the feet.                    docs/method.md §3
 inline constexpr std::array<int, 4> kEndEffectors = {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot};
 
 /// Whether a body is of the right side.

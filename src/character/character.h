@@ -1,5 +1,5 @@
 /// The humanoid: 22 bodies on the SMPL-X body skeleton, its shape from β, masses, collision shapes and
-/// the parameters of its PD controllers.                                            METHOD: docs/method.md §2
+/// the parameters of its PD controllers.                                            docs/method.md §2
 ///
 /// Frames. In the rest pose (T-pose) every body frame B_i is parallel to the model frame: x to the
 /// character's left, y up, z forward. Its origin is the joint that connects body i to its parent. The world
@@ -73,8 +73,8 @@ using RestJoints = PerBody<Vector3d>;
 /// @throws std::invalid_argument for a bone shorter than a third or longer than three times the standard one
 Character make_character_of_joints(const RestJoints& joints);
 
-/// Rest position of the pelvis J0 (m) in the y-up frame of a body model: pelvis = trans + J0.  METHOD §2
-/// Known: "mimicx", "smplx", "smplh", "smpl".
+/// Rest position of the pelvis J0 (m) in the y-up frame of a body model: pelvis = trans + J0.  docs/method.md
+/// §2 Known: "mimicx", "smplx", "smplh", "smpl".
 Vector3d rest_pelvis(std::string_view body_model);
 
 /// World poses of all bodies. @param q_joint  [22] rotations relative to the parent; entry 0 is the root's

@@ -1,4 +1,4 @@
-/// Denoising auto-encoder: x corrupted → z → x.                             METHOD: docs/method.md §7
+/// Denoising auto-encoder: x corrupted → z → x.                             docs/method.md §7
 ///
 /// Source: Vincent et al., "Extracting and composing robust features with denoising autoencoders", ICML 2008.
 /// Inputs are normalised feature by feature, corrupted by Gaussian noise, encoded and decoded; the loss is

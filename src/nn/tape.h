@@ -2,7 +2,8 @@
 ///
 /// Every operation (ops.h) appends a node: its value, its inputs and its adjoint rule (vector-Jacobian
 /// product). A rule is itself written in operations, so `gradient` (gradient.h) only appends more nodes, and
-/// the result of a gradient can enter a loss that is differentiated once more (gradient penalty, METHOD §7).
+/// the result of a gradient can enter a loss that is differentiated once more (gradient penalty,
+/// docs/method.md §7).
 ///
 /// Memory. Node i of one pass uses the buffer that node i of the pass before `reset()` used: a tape that
 /// sees the same operations with the same shapes allocates no values after its first pass. Use one tape per

@@ -59,51 +59,32 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const Reference& 
   return kept;
 }
 
-void add_fine_tuning(const AdaptConfig& config, Method& method) {
-  if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
-  method.seed = config.training.seed;
-  method.samples = config.training.samples;
-  append(method.settings, settings_of(config.training));
-  append(method.settings, run_settings(config.run));
-  method.settings.emplace_back("switch_penalty", config.arrangement.switch_penalty);
-  method.settings.emplace_back("rescue_reward", config.arrangement.rescue_reward);
-  method.options = config.options->checksum;
-  method.simulation = config.training.tracking.simulation;
-}
-
 Method method_of(const AdaptConfig& config) {
   Method method;
-  add_fine_tuning(config, method);
-  if (config.method == AdaptMethod::kAuto) {
-    method.name = "auto";
-    append(method.settings, plan_settings(config.plan));
-    method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
-      return plan_or_fine_tune(config, reference, job);
-    };
-  } else {
-    method.name = "paper";
-    method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
-      return fine_tune(config, reference, job);
-    };
-  }
+  method.seed = config.training.seed;
+  method.samples = config.training.samples;
+  method.settings = settings_of(config);
+  method.options = config.options->checksum;
+  method.simulation = config.training.tracking.simulation;
+  const bool plan_first = config.method == AdaptMethod::kAuto;
+  method.name = plan_first ? "auto" : "paper";
+  method.simulate = [&config, plan_first](const Reference& reference, const SequenceJob& job) {
+    return plan_first ? plan_or_fine_tune(config, reference, job) : fine_tune(config, reference, job);
+  };
   return method;
 }
 
 }  // namespace
 
-TrainingConfig fine_tuning_defaults() {
-  TrainingConfig config;
-  config.samples = 3'000'000;
-  config.characters = 128;
-  config.group_size = 32;
-  config.ppo.sigma_start = 0.04;
-  config.ppo.sigma_end = 0.02;
-  config.ppo.epochs = 6;
-  config.ppo.kl_target = 0.16;
-  config.ppo.critic_step_size = 1e-3;
-  config.stop_reward = 0.985;
-  config.stall_evaluations = 12;
-  return config;
+NamedValues settings_of(const AdaptConfig& config) {
+  if (config.method == AdaptMethod::kPlan)
+    return settings_of(PlanMotionsConfig{config.run, planning_of(config)});
+  NamedValues settings = settings_of(config.training);
+  append(settings, settings_of(config.run));
+  append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
+                    {"rescue_reward", config.arrangement.rescue_reward}});
+  if (config.method == AdaptMethod::kAuto) append(settings, plan_settings(config.plan));
+  return settings;
 }
 
 void apply_setting(AdaptConfig& config, const std::string& name, double value) {
@@ -121,6 +102,8 @@ void check(const AdaptConfig& config) {
 
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context) {
   if (config.method == AdaptMethod::kPlan) return plan_motions({config.run, planning_of(config)}, context);
+  if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
+  check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);
 }
 

@@ -11,6 +11,9 @@ struct PlanMotionsConfig {
   PlanningConfig planning;
 };
 
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const PlanMotionsConfig& config);
+
 /// @throws std::invalid_argument as `run_sequences`
 RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context);
 

@@ -4,14 +4,14 @@
 #include <string>
 
 #include "control/plan.h"
-#include "pipeline/record/manifest.h"
+#include "core/named_values.h"
 
 namespace mimicx {
 
 /// Everything that the plan of a motion depends on.
 struct PlanningConfig {
   control::PlanConfig plan;
-  SimulationOptions simulation;
+  SimulationConfig simulation;
 };
 
 /// The numbers of the plan by name, all of them beginning with "plan_". The factors of single bodies are not

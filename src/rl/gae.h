@@ -9,7 +9,7 @@
 ///     A_t = δ_t + γλ·A_{t+1},      the sum stops at either kind of end.
 ///
 /// Arrays are [H][G], row-major. V(s_{t+1}) may come from another critic than V(s_t): at a switch of
-/// options the return is bootstrapped with the critic of the one that acts next (METHOD §9).
+/// options the return is bootstrapped with the critic of the one that acts next (docs/method.md §9).
 #pragma once
 
 #include <Eigen/Core>

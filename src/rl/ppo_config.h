@@ -3,8 +3,8 @@
 /// Sources: [S] Schulman et al., "Proximal policy optimization algorithms", 2017; [A] Andrychowicz et al.,
 /// "What matters for on-policy deep actor-critic methods?", ICLR 2021; [R] Rudin et al., "Learning to walk in
 /// minutes using massively parallel deep reinforcement learning", CoRL 2021; [C] Chen et al., "Learning
-/// smooth humanoid locomotion through Lipschitz-constrained policies", 2024; the rest is METHOD §12 and the
-/// measurements of docs/experiments.md.
+/// smooth humanoid locomotion through Lipschitz-constrained policies", 2024; the rest is docs/method.md §12
+/// and the measurements of docs/experiments.md.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +42,8 @@ struct PpoConfig {
   double kl_target;
   double kl_stop;
 
-  // Gradient penalty: weight · σ² · mean ‖∇_s log π(a|s)‖² on normalised observations [C]; the σ² is METHOD
-  // §7. A weight of 0 switches it off.
+  // Gradient penalty: weight · σ² · mean ‖∇_s log π(a|s)‖² on normalised observations [C]; for the σ² see
+  // docs/method.md §7. A weight of 0 switches it off.
   double penalty_weight;
   double penalty_fraction;  ///< share of every minibatch on which it is evaluated
 

@@ -1,10 +1,10 @@
 /// The training loop: collect → advantages → update, for one or several agents in one environment.
 ///
-/// Several agents learn jointly (METHOD §9): the environment says who acts where, every agent's critic values
-/// its own rows, and every agent learns from its own rows. Random numbers are keyed by what they are for: the
-/// noise of the actions by (seed, purpose, iteration, group). `save` takes the complete state between two
-/// iterations. A trainer of the same configuration, seed and environment that loads it and goes on gives the
-/// same bytes as one that never stopped.
+/// Several agents learn jointly (docs/method.md §9): the environment says who acts where, every agent's
+/// critic values its own rows, and every agent learns from its own rows. Random numbers are keyed by what
+/// they are for: the noise of the actions by (seed, purpose, iteration, group). `save` takes the complete
+/// state between two iterations. A trainer of the same configuration, seed and environment that loads it and
+/// goes on gives the same bytes as one that never stopped.
 #pragma once
 
 #include <stdexcept>

@@ -36,10 +36,10 @@ inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed
   return reference;
 }
 
-inline System system_of(const Reference& reference, const SimulationOptions& options = {}) {
+inline System system_of(const Reference& reference, const SimulationConfig& config = {}) {
   std::vector<State<double>> states;
   for (const ReferenceFrame& frame : reference.frames) states.push_back(to_state(frame));
-  return make_system(reference.character, options, std::move(states), reference.fps);
+  return make_system(reference.character, config, std::move(states), reference.fps);
 }
 
 /// A change of a state, every coordinate about `size`.

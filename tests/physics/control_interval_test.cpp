@@ -108,7 +108,7 @@ TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
   const Character character = make_character();
   Snapshot snapshot = standing(stiffened(character));
   snapshot.p_root.z() += 0.5;
-  const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationOptions{}, snapshot);
+  const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationConfig{}, snapshot);
   Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * 9.81}};
   const Vector3d before = to_eigen(s->state.p_root);
   // The moment about the pelvis of a centre of mass that hangs before it turns the body, so only for a

@@ -6,7 +6,7 @@
 
 namespace mimicx::rl {
 
-/// What an action a_t ∈ R⁵⁵ means: a target pose as rotation vectors (angles for hinges).   METHOD §4
+/// What an action a_t ∈ R⁵⁵ means: a target pose as rotation vectors (angles for hinges).   docs/method.md §4
 enum class ActionMode {
   kAbsolute,  ///< the paper's: the target itself
   kResidual,  ///< a rotation applied on top of the reference pose of frame t+1

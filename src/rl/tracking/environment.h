@@ -2,12 +2,12 @@
 ///
 /// Episodes start anywhere on the clip (reference-state initialisation), more often where characters fall.
 /// They end early when a body is farther than `terminate_distance` from its reference (a true end), and at
-/// the end of the clip (a time limit: the learner bootstraps there).                METHOD §7
+/// the end of the clip (a time limit: the learner bootstraps there).                docs/method.md §7
 ///
 /// The product of Eq. 2 stays near zero while a motion is hard to follow, and teaches little there. The
 /// learner's reward is therefore the product to a power, that is, all weights times one factor. The power
 /// falls while the mean reward stays under `reward_target` and returns to 1 as the motion is mastered.
-/// METHOD §7
+/// docs/method.md §7
 ///
 /// Every pack of characters follows one clip. Where there are more clips than packs, packs move on to the
 /// next clip in turn, one after the other, so that all clips have their share. Every start is drawn from a
@@ -24,6 +24,9 @@
 #include "rl/tracking/statistics.h"
 
 namespace mimicx::rl {
+
+/// @throws std::invalid_argument unless the characters fill whole groups, and a group whole packs of lanes
+void require_whole_groups(int characters, int group_size);
 
 class TrackingEnvironment {
  public:

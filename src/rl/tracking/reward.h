@@ -1,4 +1,4 @@
-/// The reward of the tracking task: Eq. 2 times Eq. 3.                      METHOD: docs/method.md §5
+/// The reward of the tracking task: Eq. 2 times Eq. 3.                      docs/method.md §5
 ///
 /// Every factor is exp(−w · error) in (0, 1]. Errors are means over joints, so that the weights do not
 /// depend on their number; rotations differ by the geodesic angle; the third velocity term of Eq. 2 is read

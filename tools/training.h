@@ -1,0 +1,60 @@
+/// What the subcommands that simulate motions have in common: their arguments, interrupts, and what `run`
+/// does with two of them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/configurations.h"
+
+namespace CLI {
+class App;
+}
+
+namespace mimicx {
+
+/// --set NAME=NUMBER, repeatable.
+void add_settings(CLI::App& command, std::vector<std::string>& settings);
+/// Calls apply(name, value) for every NAME=NUMBER, then check().
+/// @throws UsageError for what is no NAME=NUMBER, and where apply or check throw std::invalid_argument
+void for_each_setting(const std::vector<std::string>& settings,
+                      const std::function<void(const std::string& name, double value)>& apply,
+                      const std::function<void()>& check);
+/// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
+/// @throws UsageError for a setting that the configuration does not have, or cannot have
+template <class Config>
+void apply_settings(const std::vector<std::string>& settings, Config& config) {
+  for_each_setting(
+      settings, [&](const std::string& name, double value) { apply_setting(config, name, value); },
+      [&] { check(config); });
+}
+
+/// The arguments of every run over motions.
+void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings);
+/// Those of a run that trains. @param samples  name of the argument for the budget
+void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples);
+/// --fit, the default, and --no-fit.
+void add_fit_arguments(CLI::App& command, RunConfig& run);
+/// --switch-penalty and --rescue-reward.
+void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement);
+
+/// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a
+/// second one ends the program. @return the exit status
+/// @throws UsageError for what the command line got wrong
+int with_context(const std::function<RunOutcome(const RunContext&)>& work);
+
+/// Runs all inputs in the folder that was named; without one, every input in a folder beside it
+/// (NAME.mimicx), its clean motion beside it (NAME.clean.EXT).
+/// @param run   its inputs and folder are changed from run to run
+/// @param once  does the run that `run` then describes
+RunOutcome run_inputs(RunConfig& run, const RunContext& context, const std::function<RunOutcome()>& once);
+
+/// @param options  trained options to start from: a file, or a folder with options.npz; empty: the shipped
+/// ones
+int adapt_motions(AdaptConfig config, std::filesystem::path options,
+                  const std::vector<std::string>& settings);
+int pretrain_options(PretrainConfig config, const std::vector<std::string>& settings);
+
+}  // namespace mimicx
