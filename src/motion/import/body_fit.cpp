@@ -67,7 +67,8 @@ BodyLengths lengths_of(const Character& character) {
 }
 
 Betas fit_betas(const BodyLengths& lengths) {
-  // 8 mm of length weigh as much as β_k = 5: odd skeletons do not make odd bodies for the last millimetres.
+  // A length that is off by 8 mm costs as much as β_k = 5: an odd skeleton gets an ordinary body that misses
+  // its lengths by some millimetres.
   constexpr double kSigma = 0.005, kPull = 0.1;
   return minimise(
       [&](const Betas& betas) {
