@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/keypoint_names.h"
+
 namespace mimicx {
 namespace {
 
@@ -181,12 +183,32 @@ void check_joint_names(const Npz& npz) {
 const std::vector<std::string> kKeypointMembers = {"keypoints_2d", "keypoint_names", "camera_intrinsics",
                                                    "camera_extrinsics"};
 
-Keypoints read_keypoints(const Npz& npz, std::size_t frames) {
+/// The file's names. Where there are none, the number of keypoints decides: 22 are the body's joints, 17
+/// COCO's points. Names that are there but cannot be read (pickled ones) are an error.
+std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& points, Clip& clip) {
+  const auto& unread = npz.unsupported();
+  const bool unreadable = std::any_of(unread.begin(), unread.end(),
+                                      [](const auto& member) { return member.first == "keypoint_names"; });
+  if (npz.has("keypoint_names") || unreadable) return npz.at("keypoint_names").text;
+  if (points.array.shape.size() != 3) points.fail("shape (frames, keypoints, 3)", points.shape());
+  const std::size_t count = points.array.shape[1];
+  if (count != 22 && count != 17)
+    throw DataError(npz.path, "keypoint_names",
+                    "the keypoints' names (22 may go without: the body's joints; 17: COCO's)",
+                    "none for " + std::to_string(count) + " keypoints");
+  clip.decisions.push_back(count == 22
+                               ? "keypoints: 22 without names, taken for the 22 joints in their order"
+                               : "keypoints: 17 without names, taken for those of COCO in their order");
+  return keypoint_names(count == 22 ? KeypointSet::kJoints22 : KeypointSet::kCoco17);
+}
+
+Keypoints read_keypoints(const Npz& npz, Clip& clip) {
+  const std::size_t frames = clip.rotations.size();
+  const Member points(npz, "keypoints_2d");
   Keypoints out;
-  out.names = npz.at("keypoint_names").text;
+  out.names = read_keypoint_names(npz, points, clip);
   const std::size_t count = out.names.size();
-  const Member points(npz, "keypoints_2d"), intrinsics(npz, "camera_intrinsics"),
-      extrinsics(npz, "camera_extrinsics");
+  const Member intrinsics(npz, "camera_intrinsics"), extrinsics(npz, "camera_extrinsics");
   points.expect_shape({frames, count, 3});
   intrinsics.expect_shape({3, 3});
   intrinsics.expect_finite();
@@ -281,7 +303,7 @@ Clip clip_from(const Npz& npz, const std::string& name) {
                                    "mocap_framerate", "mocap_frame_rate",
                                    "body_model",      "surface_model_type"};
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
-    clip.keypoints = read_keypoints(npz, frames);
+    clip.keypoints = read_keypoints(npz, clip);
     used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
   } else if (npz.has("keypoints_2d")) {
     clip.warnings.push_back("keypoints_2d without camera_intrinsics and camera_extrinsics are not used");
@@ -295,7 +317,7 @@ Clip clip_from(const Npz& npz, const std::string& name) {
 
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra) {
   Npz npz;
-  const auto frames = static_cast<std::size_t>(clip.frames());
+  const std::size_t frames = clip.rotations.size();
   std::vector<double> root, body, trans;
   for (const auto& frame : clip.rotations) {
     root.insert(root.end(), frame[0].data(), frame[0].data() + 3);

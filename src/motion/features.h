@@ -1,5 +1,5 @@
 /// What kind of motion a clip is, in 68 numbers: how high the root is, how it turns, how the joints move.
-///                                                                              Eq. 1; METHOD §6
+///                                                                              Eq. 1; docs/method.md §6
 ///
 /// Source: Eq. 1 of the paper, after Onuma et al. 2008 and Won et al. 2020. Every entry but the first is the
 /// mean over the frames of a squared speed or acceleration, in SI units:

@@ -10,7 +10,7 @@ namespace mimicx {
 namespace {
 
 constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis: such a joint stays as it is
-constexpr double kStraightWeight = 0.06;           ///< κ²: pull to SMPL's own swivel, in units of sin²α
+constexpr double kStraightWeight = 0.06;           ///< pull to SMPL's own swivel, in units of sin²α
 constexpr double kStraightFrom = 15.0 * kDegree;   ///< the pull fades out …
 constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and is gone: above, the conversion is exact
 
@@ -33,12 +33,13 @@ double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& t
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
-/// Flexing angle at which the bones a (upper) and b (lower, in the hinge's child) enclose a·b' = `dot`:
-/// a·Rot(axis, θ)b = axial + A cos θ + B sin θ, solved for θ at or past the straightest angle.
+/// The flexing angle at which the scalar product of the bones is `dot`.  docs/method.md, "Hinges", (1)
+/// @param a, b  upper bone in its own frame; lower bone in the frame of the hinge's child, m
 double solve_hinge(const Vector3d& a, const Vector3d& b, const Vector3d& axis, double dot) {
   const double axial = axis.dot(a) * axis.dot(b);
-  const double A = a.dot(b) - axial, B = a.dot(axis.cross(b));
-  return std::atan2(B, A) + std::acos(std::clamp((dot - axial) / std::hypot(A, B), -1.0, 1.0));
+  const double along = a.dot(b) - axial, across = a.dot(axis.cross(b));
+  const double cosine = std::clamp((dot - axial) / std::hypot(along, across), -1.0, 1.0);
+  return std::atan2(across, along) + std::acos(cosine);
 }
 
 double smooth_step(double x) {
@@ -46,15 +47,17 @@ double smooth_step(double x) {
   return x * x * (3.0 - 2.0 * x);
 }
 
-/// ψ between ψ* (the limb is bent) and 0 (it is straight): the minimiser of
-/// s·|e^{iψ} - e^{iψ*}|² + κ²·|e^{iψ} - 1|² with s the product of the true and the hinged limb's sines.
+/// The swivel between the exact one (the limb is bent) and 0 (it is straight).  docs/method.md, "Hinges", (3)
+/// @param bend, hinged_bend  angle between the bones in the SMPL motion and at the hinge's angle, rad
 double blended_swivel(double exact, double bend, double hinged_bend) {
   const double pull =
       kStraightWeight * (1.0 - smooth_step((bend - kStraightFrom) / (kStraightUntil - kStraightFrom)));
   return std::arg(std::sin(bend) * std::sin(hinged_bend) * std::polar(1.0, exact) + pull);
 }
 
-/// @param R  world rotations of the SMPL motion; @param q  joint rotations to change
+/// One limb of one frame.  docs/method.md, "Hinges", (2)
+/// @param R  world rotations of the SMPL motion
+/// @param q  joint rotations to change
 void convert_limb(const Character& character, const Limb& limb, const PerBody<Quaterniond>& R,
                   PerBody<Quaterniond>& q) {
   const int A = limb.upper, B = limb.hinge, C = limb.end, P = kParents[A];

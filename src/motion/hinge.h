@@ -1,5 +1,5 @@
 /// Knees and elbows as hinges: SMPL's rotations, changed so that the skeleton's hinge joints can follow them.
-///                                                    METHOD §2; docs/method.md, "Hinges", has the formulas
+///                                                                            docs/method.md, "Hinges"
 ///
 /// What it does not do: no joint limits, no change of bones. A limb cannot be straighter than its bones at
 /// rest allow, which is about 8° for a leg and 5° for an arm.

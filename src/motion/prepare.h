@@ -1,4 +1,5 @@
-/// Preparation: from a clip to the reference that a simulated character is asked to follow. METHOD §2, §9
+/// Preparation: from a clip to the reference that a simulated character is asked to follow.
+///                                                                                docs/method.md §2, §9
 ///
 /// What it does not do: no fit to keypoints (fit/fit.h), no smoothing, no model of stairs or slopes.
 #pragma once
@@ -14,7 +15,7 @@ namespace mimicx {
 struct PreparationReport {
   double floor_shift_mm = 0;      ///< static height added to put the motion on the floor
   double max_floor_shift_mm = 0;  ///< largest per-frame height change, static part included
-  double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< METHOD §2
+  double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< docs/method.md §2
   /// Distance of joint positions from the input's, both on the body of the clip.
   double change_mean_mm = 0, change_max_mm = 0;
   double foot_level_deg = 0;  ///< largest constant rotation that levelled a sole or toes (motion/feet.h)

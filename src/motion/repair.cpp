@@ -15,7 +15,8 @@ constexpr int kNeighbours = 3;               ///< steps on either side that coun
 constexpr double kMaxGlitch = 1.0 / 3.0;     ///< s
 constexpr double kMaxEndGlitch = 1.0 / 6.0;  ///< s, at either end of the clip
 
-constexpr double kSupportShare = 0.25;         ///< percentile of the lowest point that counts as support
+constexpr double kSupportShare =
+    0.25;  ///< share of the heights of the lowest point that lies below the support
 constexpr double kSupportWindow = 1.2;         ///< s
 constexpr double kSupportSmoothing = 0.3;      ///< s, standard deviation
 constexpr double kMaxDrift = 0.15;             ///< m

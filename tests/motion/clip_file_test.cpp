@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "motion/full_clip.h"
+#include "motion/keypoint_names.h"
 #include "motion/scratch.h"
 
 namespace mimicx {
@@ -244,6 +245,53 @@ TEST(ClipFile, KeypointsWithoutCameraAreLeftAloneWithAWarning) {
   EXPECT_EQ(clip.warnings.size(), 1u);
   EXPECT_TRUE(std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
                           [](const auto& m) { return m.first == "keypoints_2d"; }));
+}
+
+/// A file with `count` keypoints that have no names; keypoint k is at (k, 0).
+Npz with_unnamed_keypoints(std::size_t count) {
+  Npz npz = amass();
+  std::vector<double> uvc;
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    uvc.insert(uvc.end(), {static_cast<double>(i % count), 0.0, 1.0});
+  npz.set("keypoints_2d", NpyArray::from_double({3, count, 3}, uvc.data()));
+  npz.set("camera_intrinsics", counted(3, 3));
+  npz.set("camera_extrinsics", counted(4, 4));
+  return npz;
+}
+
+TEST(ClipFile, UnnamedKeypointsOfAKnownNumberGetTheNamesOfTheirSetAndItIsSaid) {
+  for (const auto& [count, set] :
+       {std::pair<std::size_t, KeypointSet>{22, KeypointSet::kJoints22}, {17, KeypointSet::kCoco17}}) {
+    const Clip clip = read(with_unnamed_keypoints(count));
+    ASSERT_TRUE(clip.keypoints) << count;
+    EXPECT_EQ(clip.keypoints->names, keypoint_names(set));
+    EXPECT_EQ(clip.keypoints->uvc[2][13].x(), 13.0);
+    ASSERT_EQ(clip.decisions.size(), 1u) << count;
+    EXPECT_NE(clip.decisions[0].find("keypoints"), std::string::npos) << clip.decisions[0];
+    EXPECT_NE(clip.decisions[0].find(count == 22 ? "the 22 joints" : "COCO"), std::string::npos)
+        << clip.decisions[0];
+  }
+}
+
+TEST(ClipFile, KeypointNamesThatCannotBeReadAreNotGuessed) {
+  Npz npz = with_unnamed_keypoints(22);
+  npz.path = "pickled.npz";
+  npz.set_unsupported("keypoint_names", UnsupportedArray("pickled.npz", "keypoint_names", "text", "objects"));
+  EXPECT_THROW(clip_from(npz, "pickled"), UnsupportedArray);
+}
+
+TEST(ClipFile, UnnamedKeypointsOfAnotherNumberAreRefusedInOneLine) {
+  for (const std::size_t count : {1u, 16u, 25u, 133u}) {
+    const std::string message = refusal(with_unnamed_keypoints(count));
+    EXPECT_NE(message.find("keypoint_names"), std::string::npos) << message;
+    EXPECT_NE(message.find(std::to_string(count) + " keypoints"), std::string::npos) << message;
+    EXPECT_NE(message.find("22"), std::string::npos) << message;
+    EXPECT_NE(message.find("17"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  Npz flat = with_unnamed_keypoints(22);
+  flat.set("keypoints_2d", counted(3, 66));
+  expect_refusal(flat, "keypoints_2d");
 }
 
 TEST(ClipFile, UndetectedKeypointsGetConfidenceZero) {

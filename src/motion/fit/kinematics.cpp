@@ -11,7 +11,7 @@ Matrix3d cross_matrix(const Vector3d& v) {
   return x;
 }
 
-/// The right Jacobian of SO(3): exp(c + δ) ≈ exp(c)·exp(Jr(c)·δ).
+/// The right Jacobian of SO(3): exp(c + δ) ≈ exp(c)·exp(Jr(c)·δ).  docs/method.md, "Keypoint fit", (5)
 Matrix3d right_jacobian(const Vector3d& c) {
   const double angle = c.norm();
   const Matrix3d x = cross_matrix(c);

@@ -72,7 +72,7 @@ double box_of(const FitProblem& problem, int t, const BodyPoses& poses) {
   return (high - low).maxCoeff();
 }
 
-/// Standard deviation of the white part of a series: third differences leave little of a human motion.
+/// Standard deviation of the white part of a series.  docs/method.md, "Keypoint fit", (8)
 double jitter_of(const std::vector<double>& third_differences) {
   if (third_differences.empty()) return 0.0;
   return kMedianToSigma * median(third_differences) / std::sqrt(kThirdDifference);

@@ -71,7 +71,7 @@ FitProblem make_problem(const Clip& clip, const FitConfig& config);
 FitState initial_state(const FitProblem& problem);
 /// The character of the fitted shape.
 Character character_of(const FitProblem& problem, const FitState& state);
-/// Joint rotations of a frame, corrected.
+/// Joint rotations of a frame, corrected.  docs/method.md, "Keypoint fit", (4)
 PerBody<Quaterniond> rotations_of(const FitProblem& problem, const FitState& state, int t);
 
 }  // namespace mimicx

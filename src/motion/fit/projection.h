@@ -1,4 +1,4 @@
-/// Where the camera of the keypoint fit sees a joint, with derivatives.
+/// Where the camera of the keypoint fit sees a joint, with derivatives.  docs/method.md, "Keypoint fit", (6)
 #pragma once
 
 #include "motion/fit/problem.h"

@@ -1,4 +1,5 @@
-/// The linear system of the keypoint fit: a symmetric positive definite block band with a border.
+/// The linear system of the keypoint fit, docs/method.md, "Keypoint fit", (9): a symmetric positive definite
+/// block band with a border.
 ///
 ///   ⎡ A   B ⎤ ⎡ x ⎤   ⎡ a ⎤     A: frames × frames blocks of n × n, block bandwidth 2 (neighbours and
 ///   ⎣ Bᵀ  C ⎦ ⎣ g ⎦ = ⎣ b ⎦        the frames after them); C: m × m of unknowns that every frame shares

@@ -1,4 +1,4 @@
-/// The terms of the keypoint fit's cost and their normal equations.  docs/method.md, "Keypoint fit"
+/// The terms of the keypoint fit's cost and their normal equations.  docs/method.md, "Keypoint fit", (7)
 #pragma once
 
 #include "motion/fit/contacts.h"

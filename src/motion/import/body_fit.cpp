@@ -6,7 +6,7 @@
 namespace mimicx {
 namespace {
 
-using Betas = std::array<double, kBetas>;
+using Betas = Array<double, kBetas>;
 
 using Vector = Eigen::VectorXd;
 
@@ -22,7 +22,7 @@ Betas minimise(const Residual& residual, double weight) {
     Eigen::MatrixXd J(r.size(), kBetas);
     for (int k = 0; k < kBetas; ++k) {
       Betas moved = betas;
-      double& beta = moved[static_cast<std::size_t>(k)];
+      double& beta = moved[k];
       const double h = beta > 0.0 ? -kDifference : kDifference;  // stays within the bounds
       beta += h;
       J.col(k) = (residual(moved) - r) / h;
@@ -39,8 +39,7 @@ Betas minimise(const Residual& residual, double weight) {
         g[k] = 0.0;
       }
     const Vector next = b - A.ldlt().solve(g);
-    for (int k = 0; k < kBetas; ++k)
-      betas[static_cast<std::size_t>(k)] = std::clamp(next[k], -kMaxBeta, kMaxBeta);
+    for (int k = 0; k < kBetas; ++k) betas[k] = std::clamp(next[k], -kMaxBeta, kMaxBeta);
   }
   return betas;
 }
@@ -66,8 +65,9 @@ BodyLengths lengths_of(const Character& character) {
   return lengths;
 }
 
-Betas fit_betas(const BodyLengths& lengths) {
-  // 8 mm of length weigh as much as β_k = 5: odd skeletons do not make odd bodies for the last millimetres.
+std::array<double, kBetas> fit_betas(const BodyLengths& lengths) {
+  // A length that is off by 8 mm costs as much as β_k = 5: an odd skeleton gets an ordinary body that misses
+  // its lengths by some millimetres.
   constexpr double kSigma = 0.005, kPull = 0.1;
   return minimise(
       [&](const Betas& betas) {
@@ -80,7 +80,7 @@ Betas fit_betas(const BodyLengths& lengths) {
       kPull);
 }
 
-Betas fit_betas(const PerBody<Vector3d>& offsets, double& error) {
+std::array<double, kBetas> fit_betas(const PerBody<Vector3d>& offsets, double& error) {
   const auto residual = [&](const Betas& betas) {
     const Character character = make_character(betas);
     Vector r(3 * kJoints);

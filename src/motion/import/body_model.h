@@ -1,4 +1,4 @@
-/// Joints of a licensed body model, from the file its owner has: SMPLX_NEUTRAL.npz.         METHOD §2
+/// Joints of a licensed body model, from the file its owner has: SMPLX_NEUTRAL.npz.         docs/method.md §2
 ///
 ///     J(β) = J_regressor · (v_template + shapedirs[:, :, :10] · β)
 ///

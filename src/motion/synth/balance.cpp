@@ -9,16 +9,16 @@
 namespace mimicx {
 namespace {
 
-// Moving the pelvis by 1 moves the centre of mass by 0.6 (legs planted) to 1 (in flight): with this gain each
-// correction leaves less than 0.3 of the error.
+// A pelvis that moves by 1 moves the centre of mass by 0.6 (legs planted) to 1 (in flight). With this gain
+// each correction leaves less than 0.3 of the error.
 constexpr double kPoseGain = 1.28, kPoseTolerance = 1e-14;  // m
 constexpr int kPoseIterations = 40;
 constexpr int kBalanceIterations = 6;
 constexpr double kStraightestKnee = 0.10;  // rad: a straighter leg is asked for too much
 
 constexpr double kLight = 0.3;  // share of the weight under which the floor cannot turn the body
-// What pelvis and trunk answer with to a turn, by the model's axes: inertia over the whole mass, m². Roughly:
-// the iteration corrects.
+// Inertia of pelvis and trunk over the whole mass, about the model's axes, m². A rough figure is enough,
+// because the iteration corrects it.
 const Vector3d kTrunkInertia(0.09, 0.03, 0.09);
 constexpr double kTiltSmooth = 1e-2, kTiltSmall = 1.2e-4;  // weights of third differences; of the tilt itself
 
@@ -117,7 +117,8 @@ Eigen::MatrixX3d track_of_accelerations(const Eigen::MatrixX3d& wanted, const Pe
   return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(A).solve(right);
 }
 
-/// Tilts the pelvis, and the trunk with it, against what else would turn the body where the floor cannot.
+/// Tilts the pelvis, and the trunk with it, so that the body's angular momentum stays what it is in frames in
+/// which the floor can hardly change it.
 /// @param drawn    the plan before any tilt
 /// @param rates    `spin_rates` of the motion with the last tilt
 /// @param wanted   [frames] second differences asked of the tilt, rad; corrected by what is left of `rates`

@@ -1,5 +1,5 @@
-/// What the files of the noise model share and nobody else needs: the purposes of its random streams,
-/// intervals that begin at random, and occlusions.
+/// What the files of the noise model share: the purposes of its random streams, intervals that begin at
+/// random, and occlusions.
 #pragma once
 
 #include <cstdint>
