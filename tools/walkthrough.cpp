@@ -17,6 +17,7 @@
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
+#include "pipeline/training.h"
 #include "rl/tracking/environment.h"
 #include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
@@ -190,9 +191,7 @@ void tell_matrix(const char* name, Eigen::Index rows, Eigen::Index columns) {
 void tell_training(const ArrangedClip& arranged, const TrainingConfig& config) {
   rl::TrackingEnvironment environment({arranged.clip}, config.tracking, config.characters, config.group_size,
                                       config.seed);
-  rl::PpoConfig ppo = config.ppo;
-  ppo.seed = config.seed;
-  rl::PpoTrainer trainer(ppo, arranged.agents, environment);
+  rl::PpoTrainer trainer(config.ppo, course_of(config), arranged.agents, environment);
   const rl::IterationStats stats = trainer.iterate(1);
   const rl::RolloutBuffer& buffer = trainer.buffer();
   const rl::GroupRollout& group = buffer.groups.front();

@@ -25,7 +25,7 @@ struct Row {
 // come from: docs/method.md §12 and docs/experiments.md. PPO for tracking takes many small iterations with a
 // generous KL, and a discount that looks 0.4 s ahead: what a pose error costs shows at once.
 // clang-format off
-constexpr Array<Row, 38> kTable = {{
+constexpr Array<Row, 38> kTable = {{{
   //                      imitate    adapt      small      paper
   {"samples",            {4e6,       3e6,       80e6,      80e6}},    // per motion; of all options together
   {"seed",               {1,         1,         1,         1}},
@@ -68,7 +68,7 @@ constexpr Array<Row, 38> kTable = {{
   {"switch_penalty",     {kNone,     -1,        kNone,     kNone}},
   {"rescue_reward",      {kNone,     0.1,       kNone,     kNone}},
   {"cluster_radius",     {kNone,     kNone,     3,         3}},
-}};
+}}};
 // clang-format on
 
 double value(Column column, const std::string& name) {

@@ -120,10 +120,6 @@ Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& l
   return static_cast<Ending>(static_cast<int>(whole_number_at(archive, kEndingKey)));
 }
 
-rl::Course course_of(const TrainingConfig& config) {
-  return {config.seed, static_cast<std::int64_t>(config.sigma_share * static_cast<double>(config.samples))};
-}
-
 std::string detail_of(const rl::IterationStats& s) {
   char text[64];
   std::snprintf(text, sizeof text, "reward %.3f, episodes of %.0f steps", s.mean_reward,
@@ -146,6 +142,10 @@ std::function<void(std::int64_t, const std::string&)> progress_of_training(Progr
 int stall_age(int age, double score, double best_score) {
   const bool followed = score < kLost;
   return !followed || score < kBetter * best_score ? 0 : age + 1;
+}
+
+rl::Course course_of(const TrainingConfig& config) {
+  return {config.seed, static_cast<std::int64_t>(config.sigma_share * static_cast<double>(config.samples))};
 }
 
 rl::Agent untrained_agent(const TrainingConfig& config, int state_size) {

@@ -19,6 +19,8 @@
 #include "pipeline/record/table.h"
 #include "pipeline/training_config.h"
 #include "rl/policy.h"
+#include "rl/tracking/clip.h"
+#include "rl/trainer.h"
 
 namespace mimicx {
 
@@ -63,6 +65,9 @@ std::function<void(std::int64_t, const std::string&)> progress_of_training(Progr
 /// @param age, best_score  the number and the best score before the roll-out
 /// @param score  of the roll-out, m; over 0.5 where it did not follow the motion
 int stall_age(int age, double score, double best_score);
+
+/// The seed, and the share of the budget during which σ falls, as the learner takes them.
+rl::Course course_of(const TrainingConfig& config);
 
 /// An agent before its first sample.
 rl::Agent untrained_agent(const TrainingConfig& config, int state_size = rl::kStateSize);

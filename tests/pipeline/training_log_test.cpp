@@ -1,5 +1,7 @@
 #include "pipeline/training_log.h"
 
+#include "core/named_values.h"
+
 #include <gtest/gtest.h>
 
 namespace mimicx {

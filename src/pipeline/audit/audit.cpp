@@ -82,7 +82,7 @@ double travel_share(const Kinematics& before, const Kinematics& after, const Vec
 /// What the floor's forces look like between two poses.
 void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& ground,
                   const BodyPoses& before, const BodyPoses& after, AuditRow& row) {
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const Vector3d f = ground[i].tail<3>();
     if (f.isZero()) continue;
     row.normal += std::max(f.z(), 0.0);
