@@ -134,7 +134,12 @@ void judge_sequence(const Method& method, const Reference& reference, const Simu
   entry.metrics = after.values;
   entry.ok = after.success;
   entry.reason = after.reason;
-  if (!entry.ok && !made.reason.empty()) entry.reason = made.reason + "; " + after.reason;
+  if (!made.reason.empty()) {
+    if (entry.ok)
+      entry.notes.push_back(made.reason);
+    else
+      entry.reason = made.reason + "; " + after.reason;
+  }
   audit_sequence(reference, method.simulation, made.after, entry);
 }
 

@@ -64,7 +64,7 @@ struct SimulatedSequence {
   rl::TrackingRollout after;                         ///< the result
   std::vector<std::array<int, 2>> arrangement = {};  ///< {first frame, option}; empty without options
   NamedValues plan = {};                             ///< what planning it took
-  std::string reason = {};                           ///< why it is no success, where the method knows
+  std::string reason = {};                           ///< where the method knows why it is no success, or may be none
   std::vector<std::string> notes = {};               ///< for the manifest
 };
 

@@ -19,6 +19,7 @@ struct PlanMotions : testing::Test {
   void SetUp() override {
     write_clip(stand, standing_clip(20));
     write_clip(other, standing_clip(30));
+    write_clip(third, standing_clip(35));
     Clip leaning = standing_clip(45);  // by 45° to the side, as nobody can stand
     for (auto& frame : leaning.rotations)
       frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
@@ -41,7 +42,7 @@ struct PlanMotions : testing::Test {
 
   TemporaryFolder folder;
   std::string stand = out("stand.npz").string(), other = out("other.npz").string(),
-              lean = out("lean.npz").string();
+              third = out("third.npz").string(), lean = out("lean.npz").string();
 };
 
 TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
@@ -90,17 +91,16 @@ TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {
 }
 
 TEST_F(PlanMotions, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
-  PlanMotionsConfig config = planning("one", {stand, other});
+  PlanMotionsConfig config = planning("one", {other, third});
   run(config);
   config.run.out = out("two");
   config.run.threads = 2;
-  EXPECT_EQ(run(config, 2).value, RunOutcome::kInterrupted);  // in the first plan
-  EXPECT_FALSE(std::filesystem::exists(out("two") / "plans"));
-  const Outcome second = run(config, 4);  // in the other one
-  EXPECT_EQ(second.value, RunOutcome::kInterrupted);
-  EXPECT_NE(second.messages.find("interrupted; the same command continues"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(out("two") / "motions" / "stand.npz"));
-  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
+  int in_first = 0, in_second = 0;
+  for (int asked = 2; run(config, asked).value == RunOutcome::kInterrupted; asked += 2)
+    ++(std::filesystem::exists(out("two") / "motions" / "other.npz") ? in_second : in_first);
+  EXPECT_GT(in_first, 0);
+  EXPECT_GT(in_second, 0);
+  EXPECT_TRUE(entry("two", 0).ok && entry("two", 1).ok);
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
@@ -144,8 +144,7 @@ TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
   config.run.limit_seconds = 1e-9;
   run(config);
   EXPECT_EQ(entry("run").ending, Ending::kLimitSeconds);
-  EXPECT_NE(entry("run").reason.find("the plan was stopped at frame 0"), std::string::npos)
-      << entry("run").reason;
+  EXPECT_EQ(value_of(entry("run").plan, "frames"), 1);
   config.run.limit_seconds = 0.0;
   run(config);
   EXPECT_EQ(entry("run").ending, Ending::kFollowed);
