@@ -76,6 +76,14 @@ TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
   for (const std::string& note : entry.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
 }
 
+TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
+  run(planning("run", {stand}));
+  const std::string page = read_file(out("run") / "report.html");
+  EXPECT_NE(page.find("\"title\":\"mean distance from the reference, mm\""), std::string::npos);
+  EXPECT_EQ(page.find("in training"), std::string::npos);
+  EXPECT_EQ(page.find("cannot be shown"), std::string::npos);
+}
+
 TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {
   run(planning("run", {stand}));
   const StoredPlan stored = read_plan(out("run") / "plans" / "stand.npz");
