@@ -1,4 +1,6 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
+#include <memory>
 
 #include "commands.h"
 #include "core/npz.h"
@@ -6,14 +8,21 @@
 #include "pipeline/preparation.h"
 
 namespace mimicx {
+namespace {
 
-int run_audit(const std::vector<std::string>& inputs, bool poses_alone, const std::filesystem::path& json) {
+struct Arguments {
+  std::vector<std::string> inputs;
+  bool poses_alone = false;
+  std::string json;
+};
+
+int audit(const Arguments& a) {
   std::vector<AuditedFile> files;
   bool all_good = true;
   std::cout << audit_table_head();
-  for (const std::string& path : expand_inputs(inputs)) {
+  for (const std::string& path : expand_inputs(a.inputs)) {
     try {
-      files.push_back({path, audit_file(path, poses_alone)});
+      files.push_back({path, audit_file(path, a.poses_alone)});
       for (const Audit& audit : files.back().audits) {
         std::cout << format_audit(path, audit);
         all_good = all_good && audit.failures.empty();
@@ -23,8 +32,20 @@ int run_audit(const std::vector<std::string>& inputs, bool poses_alone, const st
       all_good = false;
     }
   }
-  if (!json.empty()) write_file_atomically(json, audit_json(files));
+  if (!a.json.empty()) write_file_atomically(a.json, audit_json(files));
   return all_good ? kAllGood : kSomeFailed;
+}
+
+}  // namespace
+
+void declare_audit(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("audit", "Do the forces in a file explain the motion in it?");
+  command->add_option("FILE", a->inputs, "motions and physics steps (.npz), and folders of them")->required();
+  command->add_flag("--poses", a->poses_alone,
+                    "look at the poses alone, under the best ground reaction that is physically possible");
+  command->add_option("--json", a->json, "also write every row and every value here");
+  command->callback([a, &action] { action = [a] { return audit(*a); }; });
 }
 
 }  // namespace mimicx

@@ -1,15 +1,26 @@
 #include "pipeline/options/clusters.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
+#include "arguments.h"
 #include "commands.h"
+#include "pipeline/configurations.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx {
 namespace {
+
+struct Arguments {
+  std::vector<std::string> inputs;
+  std::string out;
+  ClusterConfig config{pretrain_configuration("small").clusters.radius, std::nullopt, 0};
+  ReadOptions read;
+};
 
 /// The files named, and the motions of the folders named, each once and in order of their paths.
 std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& inputs) {
@@ -21,17 +32,14 @@ std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& 
   return files;
 }
 
-}  // namespace
-
-int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-                const ClusterSettings& settings, const ReadOptions& read) {
+int cluster(const Arguments& a) {
   std::vector<NamedFeatures> motions;
   std::vector<std::string> names;
   bool all_good = true;
-  for (const auto& file : motion_files(inputs)) {
+  for (const auto& file : motion_files(a.inputs)) {
     names.push_back(unique_name(file, names));
     try {
-      const Clip clip = read_motion(file, read);
+      const Clip clip = read_motion(file, a.read);
       tell_decisions(file.string(), clip, std::cerr);
       motions.push_back({names.back(), motion_features(prepare_reference(clip, {}, nullptr))});
     } catch (const std::exception& error) {
@@ -42,14 +50,27 @@ int run_cluster(const std::vector<std::string>& inputs, const std::filesystem::p
   if (motions.empty()) throw std::runtime_error("cluster: found no motion to cluster");
   Clusters clusters;
   try {
-    clusters = cluster_motions(std::move(motions), settings);
+    clusters = cluster_motions(std::move(motions), a.config);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  write_clusters(out, clusters);
+  write_clusters(a.out, clusters);
   std::printf("%zu clusters, no two motions of one farther apart than %.2f\n\n%s", clusters.clusters.size(),
               clusters.settings.radius, format_cluster_tree(clusters).c_str());
   return all_good ? kAllGood : kSomeFailed;
+}
+
+}  // namespace
+
+void declare_cluster(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("cluster", "Sort motions into clusters of similar ones");
+  command->add_option("FILE", a->inputs, "motions and folders of them")->required();
+  command->add_option("--out", a->out, "where to write the clusters: .json")->required();
+  add_read_arguments(*command, a->read);
+  add_cluster_arguments(*command, a->config);
+  add_seed(*command, a->config.seed);
+  command->callback([a, &action] { action = [a] { return cluster(*a); }; });
 }
 
 }  // namespace mimicx

@@ -1,26 +1,50 @@
+#include <CLI/CLI.hpp>
 #include <iostream>
+#include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
 
 namespace mimicx {
+namespace {
 
-int run_convert(const std::filesystem::path& in, const std::filesystem::path& out, const ReadOptions& read,
-                double fps) {
-  if (!is_written(out.extension().string()))
-    throw UsageError(out.string() + ": motions are written as " + written_suffixes() + ", not '" +
-                     out.extension().string() + "'");
-  Clip clip = read_motion(in, read);
-  if (fps > 0.0) clip = resampled(clip, fps);
-  tell_decisions(in.string(), clip, std::cerr);
-  if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  if (out.stem().extension() == ".qpos" && lower_suffix(out) == ".npz")
-    write_qpos(out, clip);
+struct Arguments {
+  std::filesystem::path in, out;
+  ReadOptions read;
+  std::string rate = "input";
+};
+
+int convert(const Arguments& a) {
+  if (!is_written(a.out.extension().string()))
+    throw UsageError(a.out.string() + ": motions are written as " + written_suffixes() + ", not '" +
+                     a.out.extension().string() + "'");
+  Clip clip = read_motion(a.in, a.read);
+  if (a.rate == "30") clip = resampled(clip, 30.0);
+  tell_decisions(a.in.string(), clip, std::cerr);
+  if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
+  if (a.out.stem().extension() == ".qpos" && lower_suffix(a.out) == ".npz")
+    write_qpos(a.out, clip);
   else
-    write_motion(out, clip);
+    write_motion(a.out, clip);
   return kAllGood;
+}
+
+}  // namespace
+
+void declare_convert(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("convert", "Write a motion in another format, chosen by the suffix");
+  command->add_option("IN", a->in, "motion")->required();
+  command->add_option("OUT", a->out, "where to write it: " + written_suffixes() + "; .qpos.npz: for MuJoCo")
+      ->required();
+  add_read_arguments(*command, a->read);
+  command->add_option("--rate", a->rate, "frame rate of OUT: input or 30")
+      ->check(CLI::IsMember({"input", "30"}))
+      ->capture_default_str();
+  command->callback([a, &action] { action = [a] { return convert(*a); }; });
 }
 
 }  // namespace mimicx

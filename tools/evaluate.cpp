@@ -1,31 +1,54 @@
 #include "pipeline/evaluate.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <memory>
 
 #include "commands.h"
 #include "core/npz.h"
 
 namespace mimicx {
+namespace {
 
-int run_evaluate(const std::filesystem::path& truth, const std::vector<std::string>& motions,
-                 const std::filesystem::path& json) {
-  if (motions.size() > 1) {
-    const Comparison comparison = compare_folders(truth, motions);
+struct Arguments {
+  std::filesystem::path truth, json;
+  std::vector<std::string> motions;
+};
+
+int evaluate(const Arguments& a) {
+  if (a.motions.size() > 1) {
+    const Comparison comparison = compare_folders(a.truth, a.motions);
     std::cout << format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
     const bool none = comparison.evaluations.front().motions.empty();
-    if (none) std::cerr << "no motion is in all of these folders and in " << truth.string() << '\n';
-    if (!json.empty()) write_file_atomically(json, comparison_json(comparison));
+    if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
+    if (!a.json.empty()) write_file_atomically(a.json, comparison_json(comparison));
     return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
-  const Evaluation evaluation = evaluate_folders(truth, motions.front());
+  const Evaluation evaluation = evaluate_folders(a.truth, a.motions.front());
   std::cout << format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
-  if (!json.empty()) write_file_atomically(json, evaluation_json(evaluation));
+  if (!a.json.empty()) write_file_atomically(a.json, evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
   return std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; }) ? kAllGood
                                                                                        : kSomeFailed;
+}
+
+}  // namespace
+
+void declare_evaluate(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("evaluate", "Score motions against their truth, pairing files by name");
+  command->add_option("--truth", a->truth, "folder of true motions")->required();
+  command
+      ->add_option(
+          "--motions", a->motions,
+          "folder of motions to score; several folders are compared by their means over the motions that all "
+          "of them hold")
+      ->required();
+  command->add_option("--json", a->json, "also write every value, its count and its definition here");
+  command->callback([a, &action] { action = [a] { return evaluate(*a); }; });
 }
 
 }  // namespace mimicx

@@ -1,14 +1,23 @@
 #include "physics/mjcf.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
 
 namespace mimicx {
 namespace {
+
+struct Arguments {
+  std::vector<double> betas;          ///< at most 10, the others are 0
+  std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
+  ReadOptions read;
+};
 
 Character character_of_shape(const std::vector<double>& betas) {
   std::array<double, kBetas> shape{};
@@ -25,17 +34,32 @@ Character character_of_motion(const std::filesystem::path& motion, const ReadOpt
   return character_of(clip);
 }
 
+int export_mjcf(const Arguments& a) {
+  if (a.motion.empty() && !a.read.text().empty())
+    throw UsageError("export-mjcf: " + a.read.text() +
+                     " says how to read a motion, and there is none: --motion FILE");
+  const Character character =
+      a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
+  if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
+  write_file_atomically(a.out, to_mjcf(character, SimulationOptions{}));
+  return kAllGood;
+}
+
 }  // namespace
 
-int run_export_mjcf(const std::vector<double>& betas, const std::filesystem::path& motion,
-                    const ReadOptions& read, const std::filesystem::path& out) {
-  if (motion.empty() && !read.text().empty())
-    throw UsageError("export-mjcf: " + read.text() +
-                     " says how to read a motion, and there is none: --motion FILE");
-  const Character character = motion.empty() ? character_of_shape(betas) : character_of_motion(motion, read);
-  if (out.has_parent_path()) std::filesystem::create_directories(out.parent_path());
-  write_file_atomically(out, to_mjcf(character, SimulationOptions{}));
-  return kAllGood;
+void declare_export_mjcf(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("export-mjcf", "Write the character of a shape as a MuJoCo model");
+  command->add_option("OUT", a->out, "where to write it: .xml")->required();
+  auto* betas = command
+                    ->add_option("--betas", a->betas,
+                                 "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0")
+                    ->delimiter(',')
+                    ->check(CLI::Range(-5.0, 5.0));
+  command->add_option("--motion", a->motion, "take the body of this motion: that of its qpos by `convert`")
+      ->excludes(betas);
+  add_read_arguments(*command, a->read);
+  command->callback([a, &action] { action = [a] { return export_mjcf(*a); }; });
 }
 
 }  // namespace mimicx

@@ -1,8 +1,11 @@
 #include "motion/fit/fit.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
@@ -10,29 +13,33 @@
 namespace mimicx {
 namespace {
 
+struct Arguments {
+  std::vector<std::string> inputs;
+  std::filesystem::path out;
+  FitOptions config;
+  ReadOptions read;
+};
+
 void print(const std::string& name, const FitReport& r) {
   std::printf("%-24s %7.2f %7.2f %8.4f %7.2f %7.2f %6d %6d %8.0f %8.0f\n", name.c_str(), r.residual_before,
               r.residual_after, r.focal_scale, r.tilt_deg, r.shape_change, r.swapped_frames, r.dropped_points,
               r.change_mean_mm, r.change_max_mm);
 }
 
-}  // namespace
-
-int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path& out,
-            const FitOptions& options, const ReadOptions& read) {
-  std::filesystem::create_directories(out);
+int fit(const Arguments& a) {
+  std::filesystem::create_directories(a.out);
   std::printf("%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n",
               "motion", "before", "after", "focal", "tilt", "shape", "swaps", "drops", "change", "largest",
               "", "% box", "% box", "scale", "deg", "beta", "frames", "points", "mm", "mm");
   std::vector<std::string> names;
   bool all_good = true;
-  for (const std::string& file : expand_inputs(inputs)) {
+  for (const std::string& file : expand_inputs(a.inputs)) {
     names.push_back(unique_name(file, names));
     try {
       FitReport report;
-      const Clip clip = read_motion(file, read);
+      const Clip clip = read_motion(file, a.read);
       tell_decisions(file, clip, std::cerr);
-      write_clip(out / (names.back() + ".npz"), fit_keypoints(clip, options, &report));
+      write_clip(a.out / (names.back() + ".npz"), fit_keypoints(clip, a.config, &report));
       print(names.back(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
@@ -41,6 +48,25 @@ int run_fit(const std::vector<std::string>& inputs, const std::filesystem::path&
     }
   }
   return all_good ? kAllGood : kSomeFailed;
+}
+
+}  // namespace
+
+void declare_fit(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("fit", "Move motions onto their 2D keypoints, where they have any");
+  command->add_option("FILE", a->inputs, "motions and folders of them")->required();
+  command->add_option("--out", a->out, "folder for the fitted motions")->required();
+  add_read_arguments(*command, a->read);
+  const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
+    command->add_option(name, sigma, "standard error of " + what + "; 0: it is exact")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+  };
+  add_sigma("--focal-sigma", a->config.focal_sigma, "the focal length in the file, relative");
+  add_sigma("--tilt-sigma", a->config.tilt_sigma, "the camera's tilt in the file, degrees");
+  add_sigma("--beta-sigma", a->config.beta_sigma, "each entry of the shape in the file");
+  command->callback([a, &action] { action = [a] { return fit(*a); }; });
 }
 
 }  // namespace mimicx

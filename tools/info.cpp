@@ -1,12 +1,20 @@
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
 #include "motion/reference.h"
 
 namespace mimicx {
 namespace {
+
+struct Arguments {
+  std::filesystem::path file;
+  ReadOptions read;
+};
 
 /// How many keypoints the fit and Eq. 3 can use.
 std::ptrdiff_t joints_among(const std::vector<std::string>& names) {
@@ -51,17 +59,26 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
       std::printf("  note       %s\n", note.c_str());
 }
 
-}  // namespace
-
-int run_info(const std::filesystem::path& file, const ReadOptions& read) {
-  const Clip clip = read_motion(file, read);
+int info(const Arguments& a) {
+  const Clip clip = read_motion(a.file, a.read);
   describe_file(clip);
   for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
-  if (clip.frames() < 2) throw DataError(file.string(), "", "at least 2 frames to prepare it", "1");
+  if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");
   PreparationReport report;
   const Reference reference = prepare_reference(clip, {}, &report);
   describe_preparation(reference, report, clip.warnings);
   return kAllGood;
+}
+
+}  // namespace
+
+void declare_info(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command =
+      app.add_subcommand("info", "What a motion file holds, what reading decides, what preparation does");
+  command->add_option("FILE", a->file, "motion")->required();
+  add_read_arguments(*command, a->read);
+  command->callback([a, &action] { action = [a] { return info(*a); }; });
 }
 
 }  // namespace mimicx

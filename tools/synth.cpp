@@ -1,7 +1,11 @@
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <map>
+#include <memory>
 
 #include "commands.h"
+#include "motion/synth/set.h"
 #include "pipeline/audit/feasibility.h"
 #include "pipeline/record/progress.h"
 
@@ -9,6 +13,14 @@ namespace mimicx {
 namespace {
 
 constexpr double kProgressPeriod = 2.0;  // s
+
+struct Arguments {
+  std::filesystem::path out;  ///< folder of a set; empty: none is written
+  std::filesystem::path
+      data_set;  ///< folder that gets the project's own test and training split; empty: none
+  SynthSetOptions set;
+  bool report = false;  ///< print what each motion of the set demands of a body
+};
 
 /// @throws UsageError for a set that cannot be
 std::vector<SynthOptions> checked_clips(const SynthSetOptions& set) {
@@ -19,14 +31,14 @@ std::vector<SynthOptions> checked_clips(const SynthSetOptions& set) {
   }
 }
 
-void write_set(const SynthArguments& arguments, std::size_t total) {
+void write_set(const Arguments& a, std::size_t total) {
   double next = steady_seconds() + kProgressPeriod;
-  write_synth_set(arguments.out, arguments.set, [&](std::size_t index, const Clip&) {
+  write_synth_set(a.out, a.set, [&](std::size_t index, const Clip&) {
     if (steady_seconds() < next) return;
     std::cerr << index + 1 << " of " << total << " motions\n";
     next += kProgressPeriod;
   });
-  std::cout << arguments.out.string() << ": " << total << " motions, each as truth and as a noisy estimate\n";
+  std::cout << a.out.string() << ": " << total << " motions, each as truth and as a noisy estimate\n";
 }
 
 /// Residuals in parts of the weight W, torques in parts of their limits.
@@ -37,7 +49,7 @@ void print_report(const std::vector<SynthOptions>& clips) {
   for (const SynthOptions& options : clips) {
     const Clip clip = synthesize(options);
     const Feasibility f = feasibility(clip);
-    const std::string worst(kBodyNames[static_cast<std::size_t>(f.worst_joint)]);
+    const std::string worst(kBodyNames[f.worst_joint]);
     std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-12s %6d\n", clip.name.c_str(),
                 (clip.frames() - 1) / clip.fps, 100.0 * f.mean_force, 100.0 * f.max_force,
                 1e3 * f.mean_moment, 1e3 * f.max_moment, 100.0 * f.worst_torque, worst.c_str(),
@@ -45,20 +57,54 @@ void print_report(const std::vector<SynthOptions>& clips) {
   }
 }
 
-}  // namespace
-
-int run_synth(const SynthArguments& arguments) {
-  if (arguments.out.empty() && arguments.data_set.empty() && !arguments.report)
+int synth(const Arguments& a) {
+  if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
-  const std::vector<SynthOptions> clips = checked_clips(arguments.set);
-  if (!arguments.out.empty()) write_set(arguments, clips.size());
-  if (!arguments.data_set.empty()) {
-    write_synthetic_data(arguments.data_set);
-    std::cout << arguments.data_set.string() << ": test and train, " << synthetic_kinds().size()
+  const std::vector<SynthOptions> clips = checked_clips(a.set);
+  if (!a.out.empty()) write_set(a, clips.size());
+  if (!a.data_set.empty()) {
+    write_synthetic_data(a.data_set);
+    std::cout << a.data_set.string() << ": test and train, " << synthetic_kinds().size()
               << " motions each, as truth and as a noisy estimate\n";
   }
-  if (arguments.report) print_report(clips);
+  if (a.report) print_report(clips);
   return kAllGood;
+}
+
+}  // namespace
+
+void declare_synth(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command =
+      app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
+  SynthSetOptions& set = a->set;
+  auto* out = command->add_option("--out", a->out, "folder to write to");
+  command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--kinds", set.kinds, "kinds to make, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(synthetic_kinds()));
+  command->add_option("--noise", set.noise, "what estimates it for noisy/: gvhmr, vibe, or none (exact)")
+      ->check(CLI::IsMember({"gvhmr", "vibe", "none"}))
+      ->capture_default_str();
+  command->add_option("--camera", set.camera, "how well its camera is known: calibrated, perturbed or wild")
+      ->check(CLI::IsMember({"calibrated", "perturbed", "wild"}))
+      ->capture_default_str();
+  static const std::map<std::string, KeypointSet> kSets = {{"joints22", KeypointSet::kJoints22},
+                                                           {"coco17", KeypointSet::kCoco17}};
+  command->add_option("--keypoints", set.keypoints, "which points are detected: joints22 (default) or coco17")
+      ->transform(CLI::CheckedTransformer(kSets));
+  command
+      ->add_option("--seed", set.seed, "seed of the first motion of every kind; 101 and up: training split")
+      ->capture_default_str();
+  command
+      ->add_option("--data-set", a->data_set,
+                   "write the project's own small set, test/ and train/, to this folder instead")
+      ->excludes(out);
+  command->add_flag(
+      "--report", a->report,
+      "print the forces and torques that each motion of the set demands; --out may be left out");
+  command->callback([a, &action] { action = [a] { return synth(*a); }; });
 }
 
 }  // namespace mimicx

@@ -1,9 +1,11 @@
-// plan, imitate, adapt, pretrain and run: the commands that simulate motions.
-#include <algorithm>
+#include "training.h"
+
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <csignal>
 #include <iostream>
 
+#include "arguments.h"
 #include "commands.h"
 #include "pipeline/preparation.h"
 
@@ -11,28 +13,6 @@ namespace mimicx {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-
-template <class Config>
-void apply(const std::vector<std::string>& settings, Config& config) {
-  for (const std::string& setting : settings) {
-    const auto equals = setting.find('=');
-    double value = 0.0;
-    const char* end = setting.data() + setting.size();
-    if (equals == std::string::npos || equals + 1 == setting.size() ||
-        std::from_chars(setting.data() + equals + 1, end, value).ptr != end)
-      throw UsageError("--set: expected NAME=NUMBER, found '" + setting + "'");
-    try {
-      apply_setting(config, setting.substr(0, equals), value);
-    } catch (const std::invalid_argument& error) {
-      throw UsageError("--set " + setting + ": " + error.what());
-    }
-  }
-  try {
-    check(config);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--set: ") + error.what());
-  }
-}
 
 /// The first interrupt asks for a checkpoint, a second one ends the program at once.
 void catch_interrupts() {
@@ -56,9 +36,90 @@ int status_of(RunOutcome outcome) {
   return kSomeFailed;
 }
 
-/// Calls work(context) with progress on standard error; what the command line got wrong is wrong usage.
-template <class Work>
-int with_context(const Work& work) {
+}  // namespace
+
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+  command
+      .add_option("--set", settings,
+                  "NAME=NUMBER: change a setting by the name that `mimicx config` lists, for experiments; "
+                  "repeatable")
+      ->take_all();
+}
+
+void apply_settings(const std::vector<std::string>& settings,
+                    const std::function<void(const std::string& name, double value)>& apply,
+                    const std::function<void()>& check) {
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    double value = 0.0;
+    const char* end = setting.data() + setting.size();
+    if (equals == std::string::npos || equals + 1 == setting.size() ||
+        std::from_chars(setting.data() + equals + 1, end, value).ptr != end)
+      throw UsageError("--set: expected NAME=NUMBER, found '" + setting + "'");
+    try {
+      apply(setting.substr(0, equals), value);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError("--set " + setting + ": " + error.what());
+    }
+  }
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--set: ") + error.what());
+  }
+}
+
+void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings) {
+  command.add_option("FILE", run.inputs, "motions and folders of them")->required();
+  command.add_option(
+      "--out", run.out,
+      "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
+      "every input, and its clean motion beside it as NAME.clean.EXT");
+  add_read_arguments(command, run.read);
+  command
+      .add_option_function<std::string>(
+          "--rate", [&run](const std::string& rate) { run.input_rate = rate == "input"; },
+          "frame rate of the clean copies in the inputs' own formats: 30 (default) or input")
+      ->check(CLI::IsMember({"30", "input"}));
+  command.add_flag("--substeps", run.substeps,
+                   "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
+  add_threads(command, run.threads);
+  command
+      .add_option(
+          "--limit-seconds", run.limit_seconds,
+          "safety stop per motion: ends its plan or training early, makes the result depend on the machine, "
+          "and is recorded as such")
+      ->check(CLI::PositiveNumber);
+  add_settings(command, settings);
+}
+
+void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples) {
+  command.add_option(samples, training.samples, "training budget per motion, in character steps")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  add_seed(command, training.seed);
+}
+
+void add_fit_flag(CLI::App& command, bool& fit) {
+  command.add_flag("--fit,!--no-fit", fit,
+                   "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
+                   "look at keypoints at all");
+}
+
+void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement) {
+  command
+      .add_option("--switch-penalty", arrangement.switch_penalty, "w_p of Eq. 4, in rewards; not positive")
+      ->check(CLI::Range(-1e9, 0.0))
+      ->capture_default_str();
+  command
+      .add_option("--rescue-reward", arrangement.rescue_reward,
+                  "where the options run side by side, one whose reward falls under this goes on from the "
+                  "state of the best")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
+int with_context(const std::function<RunOutcome(const RunContext&)>& work) {
   catch_interrupts();
   Progress progress(std::cerr, stderr_is_terminal(), steady_seconds);
   try {
@@ -68,22 +129,19 @@ int with_context(const Work& work) {
   }
 }
 
-/// Runs all inputs in the folder that was named; without one, every input in a folder beside it.
-/// @param run  one run with the inputs and the folder that `config` then holds
-template <class Config, class Run>
-RunOutcome run_inputs(Config& config, const RunContext& context, const Run& run) {
-  const std::vector<std::string> files = expand_inputs(config.run.inputs);
-  if (!config.run.out.empty()) {
-    config.run.inputs = files;
-    return run();
+RunOutcome run_inputs(RunConfig& run, const RunContext& context, const std::function<RunOutcome()>& once) {
+  const std::vector<std::string> files = expand_inputs(run.inputs);
+  if (!run.out.empty()) {
+    run.inputs = files;
+    return once();
   }
   RunOutcome all = RunOutcome::kAllGood;
-  config.run.beside = true;
+  run.beside = true;
   for (const std::filesystem::path file : files) {
-    config.run.inputs = {file.string()};
-    config.run.out = file.parent_path() / (file.stem().string() + ".mimicx");
+    run.inputs = {file.string()};
+    run.out = file.parent_path() / (file.stem().string() + ".mimicx");
     try {
-      const RunOutcome outcome = run();
+      const RunOutcome outcome = once();
       if (outcome == RunOutcome::kInterrupted) return outcome;
       if (outcome != RunOutcome::kAllGood) all = outcome;
     } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
@@ -92,67 +150,6 @@ RunOutcome run_inputs(Config& config, const RunContext& context, const Run& run)
     }
   }
   return all;
-}
-
-/// data/options of the source tree that holds this program, or of the folder it was started in.
-std::filesystem::path shipped_options() {
-  const std::filesystem::path relative = std::filesystem::path("data") / "options";
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (std::filesystem::path at = program.parent_path(); !error && at != at.root_path();
-       at = at.parent_path())
-    if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
-  if (std::filesystem::exists(relative / "options.npz")) return relative;
-  throw UsageError(
-      "found no data/options beside the program: name trained options with --options, or take --method plan");
-}
-
-}  // namespace
-
-int run_imitate(ImitateConfig config, const std::vector<std::string>& settings) {
-  apply(settings, config.training);
-  return with_context([&](const RunContext& context) {
-    return run_inputs(config, context, [&] { return imitate(config, context); });
-  });
-}
-
-int run_plan(PlanMotionsConfig config, const std::vector<std::string>& settings) {
-  config.run.keypoints = config.run.fit;
-  apply(settings, config.planning);
-  return with_context([&](const RunContext& context) {
-    return run_inputs(config, context, [&] { return plan_motions(config, context); });
-  });
-}
-
-int run_adapt(AdaptConfig config, std::filesystem::path trained, const std::vector<std::string>& settings) {
-  config.run.keypoints = config.run.fit;  // a reference that is not on its keypoints contradicts Eq. 3
-  if (config.method != AdaptMethod::kPlan)
-    config.options = read_options(trained.empty() ? shipped_options() : trained);
-  apply(settings, config);
-  return with_context([&](const RunContext& context) {
-    return run_inputs(config, context, [&] { return adapt(config, context); });
-  });
-}
-
-int run_pretrain(PretrainConfig config, const std::string& preset, std::optional<std::int64_t> samples,
-                 const std::vector<std::string>& settings) {
-  const std::uint64_t seed = config.training.seed;
-  config.training = pretrain_preset(preset);
-  config.training.seed = config.clusters.seed = seed;
-  if (samples) config.training.samples = *samples;
-  apply(settings, config.training);
-  return with_context([&](const RunContext& context) { return pretrain(config, context); });
-}
-
-int run_all(const std::filesystem::path& in, const std::filesystem::path& out, PretrainConfig pretraining,
-            AdaptConfig adapting, std::optional<std::int64_t> samples) {
-  pretraining.inputs = adapting.run.inputs = {in.string()};
-  pretraining.out = out / "options";
-  adapting.run.out = out / "clean";
-  adapting.method = AdaptMethod::kPaper;
-  const int status = run_pretrain(pretraining, "small", samples, {});
-  if (status == kInterrupted) return status;
-  return std::max(status, run_adapt(std::move(adapting), pretraining.out, {}));
 }
 
 }  // namespace mimicx

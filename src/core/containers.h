@@ -28,20 +28,24 @@ struct Array : std::array<T, static_cast<std::size_t>(N)> {
   }
 };
 
-/// std::vector with a subscript of any integer type, for one element per frame of a motion.
+/// std::vector with a subscript that is any Subscript.
 template <class T>
-struct PerFrame : std::vector<T> {
+struct List : std::vector<T> {
   using std::vector<T>::vector;
-  PerFrame() = default;
-  PerFrame(std::vector<T> values) : std::vector<T>(std::move(values)) {}
+  List() = default;
+  List(std::vector<T> values) : std::vector<T>(std::move(values)) {}
   decltype(auto) operator[](Subscript auto i) {
     return std::vector<T>::operator[](static_cast<std::size_t>(i));
   }
   decltype(auto) operator[](Subscript auto i) const {
     return std::vector<T>::operator[](static_cast<std::size_t>(i));
   }
-  /// Number of frames.
+  /// `size` as an int.
   int count() const { return static_cast<int>(this->size()); }
 };
+
+/// One element per frame of a motion.
+template <class T>
+using PerFrame = List<T>;
 
 }  // namespace mimicx

@@ -15,6 +15,8 @@ PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
 
+PlanMotionsConfig plan_alone(const AdaptConfig& config) { return {config.run, planning_of(config)}; }
+
 SimulatedSequence fine_tune(const AdaptConfig& config, const Reference& reference, const SequenceJob& job) {
   const rl::TrackingConfig& tracking = config.training.tracking;
   const auto clip = rl::make_tracking_clip(reference, tracking);
@@ -59,51 +61,32 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const Reference& 
   return kept;
 }
 
-void add_fine_tuning(const AdaptConfig& config, Method& method) {
+Method method_of(const AdaptConfig& config) {
   if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
+  Method method;
   method.seed = config.training.seed;
   method.samples = config.training.samples;
-  append(method.settings, settings_of(config.training));
-  append(method.settings, run_settings(config.run));
-  method.settings.emplace_back("switch_penalty", config.arrangement.switch_penalty);
-  method.settings.emplace_back("rescue_reward", config.arrangement.rescue_reward);
+  method.settings = settings_of(config);
   method.options = config.options->checksum;
   method.simulation = config.training.tracking.simulation;
-}
-
-Method method_of(const AdaptConfig& config) {
-  Method method;
-  add_fine_tuning(config, method);
-  if (config.method == AdaptMethod::kAuto) {
-    method.name = "auto";
-    append(method.settings, plan_settings(config.plan));
-    method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
-      return plan_or_fine_tune(config, reference, job);
-    };
-  } else {
-    method.name = "paper";
-    method.simulate = [&config](const Reference& reference, const SequenceJob& job) {
-      return fine_tune(config, reference, job);
-    };
-  }
+  method.name = config.method == AdaptMethod::kAuto ? "auto" : "paper";
+  const auto simulate = config.method == AdaptMethod::kAuto ? plan_or_fine_tune : fine_tune;
+  method.simulate = [simulate, &config](const Reference& reference, const SequenceJob& job) {
+    return simulate(config, reference, job);
+  };
   return method;
 }
 
 }  // namespace
 
-TrainingConfig fine_tuning_defaults() {
-  TrainingConfig config;
-  config.samples = 3'000'000;
-  config.characters = 128;
-  config.group_size = 32;
-  config.ppo.sigma_start = 0.04;
-  config.ppo.sigma_end = 0.02;
-  config.ppo.epochs = 6;
-  config.ppo.kl_target = 0.16;
-  config.ppo.critic_step_size = 1e-3;
-  config.stop_reward = 0.985;
-  config.stall_evaluations = 12;
-  return config;
+NamedValues settings_of(const AdaptConfig& config) {
+  if (config.method == AdaptMethod::kPlan) return settings_of(plan_alone(config));
+  NamedValues settings = settings_of(config.training);
+  append(settings, settings_of(config.run));
+  append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
+                    {"rescue_reward", config.arrangement.rescue_reward}});
+  if (config.method == AdaptMethod::kAuto) append(settings, settings_of(config.plan));
+  return settings;
 }
 
 void apply_setting(AdaptConfig& config, const std::string& name, double value) {
@@ -116,11 +99,14 @@ void apply_setting(AdaptConfig& config, const std::string& name, double value) {
 
 void check(const AdaptConfig& config) {
   if (config.method != AdaptMethod::kPaper) check(planning_of(config));
-  if (config.method != AdaptMethod::kPlan) check(config.training);
+  if (config.method == AdaptMethod::kPlan) return;
+  check(config.training);
+  check(config.arrangement);
 }
 
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context) {
-  if (config.method == AdaptMethod::kPlan) return plan_motions({config.run, planning_of(config)}, context);
+  check(config);
+  if (config.method == AdaptMethod::kPlan) return plan_motions(plan_alone(config), context);
   return run_sequences(config.run, method_of(config), context);
 }
 

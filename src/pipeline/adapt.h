@@ -27,9 +27,8 @@ struct AdaptConfig {
   std::shared_ptr<const OptionSet> options;  ///< to start from; not looked at by the plan alone
 };
 
-/// What fine-tuning changes in the defaults: it starts from options, so it explores less, spends less, and
-/// ends where the motion is good enough or nothing improves any more.    docs/method.md §9
-TrainingConfig fine_tuning_defaults();
+/// The settings of its method, as the manifest lists them.
+NamedValues settings_of(const AdaptConfig& config);
 
 /// Changes a setting of the plan, or one of the training, by its name.
 /// @throws std::invalid_argument as those of planning.h and training.h

@@ -2,7 +2,7 @@
 ///
 /// Pairs are files of the same name in two folders. Both sides go through forward kinematics with their own
 /// shape and free joints: nothing is prepared, moved or resampled, so that every row of a table has been
-/// treated alike. A mean is the mean over the files of their values, files without a value left out.
+/// treated alike. The mean of a metric is taken over the files that have a value of it.
 #pragma once
 
 #include <filesystem>
@@ -23,10 +23,10 @@ struct EvaluatedMotion {
 
 struct Evaluation {
   std::vector<EvaluatedMotion> motions;  ///< by name
-  std::vector<std::string> unmatched;    ///< truths that have no motion
+  std::vector<std::string> unmatched;    ///< truths without a motion of their name
 };
 
-/// @throws DataError when a folder is none or `motions` holds no .npz
+/// @throws DataError for a path that is no folder, and where `motions` holds no .npz
 Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions);
 
 /// Mean over the evaluated motions; NaN where none has a value.

@@ -10,8 +10,7 @@ Method method_of(const ImitateConfig& config) {
   method.name = "imitate";
   method.seed = config.training.seed;
   method.samples = config.training.samples;
-  method.settings = settings_of(config.training);
-  append(method.settings, run_settings(config.run));
+  method.settings = settings_of(config);
   method.simulation = config.training.tracking.simulation;
   method.simulate = [&training = config.training](const Reference& reference, const SequenceJob& job) {
     const auto clip = rl::make_tracking_clip(reference, training.tracking);
@@ -23,6 +22,12 @@ Method method_of(const ImitateConfig& config) {
 }
 
 }  // namespace
+
+NamedValues settings_of(const ImitateConfig& config) {
+  NamedValues settings = settings_of(config.training);
+  append(settings, settings_of(config.run));
+  return settings;
+}
 
 RunOutcome imitate(const ImitateConfig& config, const RunContext& context) {
   return run_sequences(config.run, method_of(config), context);

@@ -11,6 +11,9 @@ struct ImitateConfig {
   TrainingConfig training;
 };
 
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const ImitateConfig& config);
+
 /// @throws std::invalid_argument as `run_sequences`
 RunOutcome imitate(const ImitateConfig& config, const RunContext& context);
 

@@ -4,11 +4,17 @@
 
 namespace mimicx {
 
+NamedValues settings_of(const PlanMotionsConfig& config) {
+  NamedValues settings = settings_of(config.planning);
+  append(settings, settings_of(config.run));
+  return settings;
+}
+
 RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context) {
+  check(config.planning);
   Method method;
   method.name = "plan";
-  method.settings = planning_settings(config.planning);
-  append(method.settings, run_settings(config.run));
+  method.settings = settings_of(config);
   method.simulation = config.planning.simulation;
   method.simulate = [&planning = config.planning](const Reference& reference, const SequenceJob& job) {
     return plan_sequence(reference, planning, job);

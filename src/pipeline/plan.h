@@ -11,7 +11,10 @@ struct PlanMotionsConfig {
   PlanningConfig planning;
 };
 
-/// @throws std::invalid_argument as `run_sequences`
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const PlanMotionsConfig& config);
+
+/// @throws std::invalid_argument as `run_sequences`, and for settings that no plan can have
 RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context);
 
 }  // namespace mimicx

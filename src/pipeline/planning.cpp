@@ -62,7 +62,7 @@ void assign(T& field, double value) {
 
 }  // namespace
 
-NamedValues plan_settings(const control::PlanConfig& plan) {
+NamedValues settings_of(const control::PlanConfig& plan) {
   NamedValues values;
   for_each_setting(plan, [&](const char* name, const auto& field, double, double) {
     values.emplace_back(name, value_of(field));
@@ -70,8 +70,8 @@ NamedValues plan_settings(const control::PlanConfig& plan) {
   return values;
 }
 
-NamedValues planning_settings(const PlanningConfig& config) {
-  NamedValues values = plan_settings(config.plan);
+NamedValues settings_of(const PlanningConfig& config) {
+  NamedValues values = settings_of(config.plan);
   for_each_simulation_setting(config.simulation, [&](const char* name, const auto& field) {
     values.emplace_back(name, value_of(field));
   });

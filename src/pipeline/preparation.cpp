@@ -52,6 +52,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptio
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   PreparationReport report;
   motion.reference = prepare_reference(motion.fitted, {}, &report);
+  if (!motion.has_fit) motion.reference.keypoints.reset();
   motion.preparation_values = values_of(report);
   motion.preparation_values.emplace_back("steadied_mean_mm", calming.change_mean_mm);
   motion.preparation_values.emplace_back("steadied_max_mm", calming.change_max_mm);

@@ -1,6 +1,10 @@
 /// From a file's motion to a reference: keypoint fit (or, without it, a trembling motion is steadied), then
 /// preparation. The first arrow of every stage.
 ///
+/// Eq. 3 draws the simulated body to the keypoints, Eq. 2 to the reference. Where the reference was not
+/// fitted onto the keypoints the two ask for two poses at once: such a reference has no keypoints.
+/// docs/method.md §5
+///
 /// What it never does: open any ground truth.
 #pragma once
 
@@ -18,9 +22,9 @@ namespace mimicx {
 
 struct PreparedMotion {
   Clip input;   ///< as it was read, with what reading decided
-  Clip fitted;  ///< on its keypoints; steadied where there are none, or no fit is wanted
+  Clip fitted;  ///< moved onto its keypoints; without a fit: steadied
   bool has_fit = false;
-  Reference reference;
+  Reference reference;             ///< with keypoints, for Eq. 3, only where it was fitted onto them
   NamedValues fit_values;          ///< of the fit's report; empty without a fit
   NamedValues preparation_values;  ///< of the preparation's report
   std::vector<std::string> notes;  ///< warnings of all steps
@@ -35,8 +39,8 @@ void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out
 
 /// The motions that files and folders name: a folder stands for its motion files, sorted by name, but not for
 /// clean copies (NAME.clean.EXT) that an earlier run left there.
-/// A folder that holds none or may not be read stands for itself, so that reading it says why.
-/// @throws DataError where a folder without any is all there is
+/// A folder without motion files, or one that may not be read, stays in the list: reading it then says why.
+/// @throws DataError where the only input is a folder without motion files
 std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs);
 
 }  // namespace mimicx

@@ -84,22 +84,18 @@ Json run_record(const PretrainConfig& config, const std::vector<std::string>& fi
           {"inputs", inputs}};
 }
 
+/// How the run in the folder ended, where it is this one and its options are there to the last byte.
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs
-void check_folder(const std::filesystem::path& manifest, const Json& record) {
-  if (!std::filesystem::exists(manifest)) return;
-  const Json there = Json::parse(read_file(manifest), nullptr, false);
-  if (there.is_discarded() || there.value("run", Json()) != record)
-    throw std::invalid_argument(manifest.parent_path().string() +
+std::optional<RunOutcome> finished_outcome(const RunFolder& folder, const Json& record) {
+  if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
+  const Json there = Json::parse(read_file(folder.manifest()), nullptr, false);
+  if (!there.is_object() || there.value("run", Json()) != record)
+    throw std::invalid_argument(folder.root.string() +
                                 " holds a pre-training of other settings or inputs: give another folder, or "
                                 "remove it first");
-}
-
-/// How the run that `check_folder` found ended, where its options are there to the last byte.
-std::optional<RunOutcome> finished_outcome(const RunFolder& folder) {
   const std::filesystem::path options = folder.root / "options.npz";
-  if (!std::filesystem::exists(folder.manifest()) || !std::filesystem::exists(options)) return std::nullopt;
-  const Json there = Json::parse(read_file(folder.manifest()), nullptr, false);
-  if (there.value("checksum", "") != file_checksum(options)) return std::nullopt;
+  if (!std::filesystem::exists(options) || there.value("checksum", "") != file_checksum(options))
+    return std::nullopt;
   for (const Json& input : there.at("inputs"))
     if (input.at("status") != "ok") return RunOutcome::kSomeFailed;
   return RunOutcome::kAllGood;
@@ -129,7 +125,7 @@ struct OptionRun {
 /// Encoder and policy of one cluster.
 OptionRun train_option(const PretrainConfig& config, const RunContext& context, const Clusters& clusters,
                        int index, std::int64_t samples, const Motions& motions) {
-  const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(index)];
+  const MotionCluster& cluster = clusters.clusters[index];
   const std::string name = "option" + std::to_string(index);
   TrainingConfig training = config.training;
   training.seed += static_cast<std::uint64_t>(index);
@@ -174,18 +170,11 @@ OptionRun train_option(const PretrainConfig& config, const RunContext& context, 
 
 }  // namespace
 
-TrainingConfig pretrain_preset(const std::string& name) {
-  TrainingConfig config;
-  config.samples = 80'000'000;
-  config.characters = 512;
-  config.ppo.minibatch = 2048;
-  config.evaluate_iterations = 100;
-  config.ppo.sigma_end = 0.05;
-  if (name == "paper")
-    config.hidden = {1024, 1024, 512};
-  else if (name != "small")
-    throw std::invalid_argument("unknown preset '" + name + "': small or paper");
-  return config;
+NamedValues settings_of(const PretrainConfig& config) {
+  NamedValues values;
+  for (const auto& [name, value] : settings_json(config).items())
+    values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
+  return values;
 }
 
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions) {
@@ -201,8 +190,7 @@ RunOutcome pretrain(const PretrainConfig& config, const RunContext& context) {
   const std::vector<std::string> files = expand_inputs(config.inputs);
   const RunFolder folder{config.out};
   const Json record = run_record(config, files);
-  check_folder(folder.manifest(), record);
-  if (const auto outcome = finished_outcome(folder)) {
+  if (const auto outcome = finished_outcome(folder, record)) {
     context.messages << folder.root.string() << ": these options are trained already\n";
     return *outcome;
   }
@@ -218,12 +206,11 @@ RunOutcome pretrain(const PretrainConfig& config, const RunContext& context) {
   std::vector<int> sizes;
   for (const MotionCluster& cluster : clusters.clusters)
     sizes.push_back(static_cast<int>(cluster.members.size()));
-  const std::vector<std::int64_t> samples = share_samples(config.training.samples, sizes);
+  const List<std::int64_t> samples = share_samples(config.training.samples, sizes);
   OptionSet set;
   Json trained = Json::array();
-  for (int index = 0; index < static_cast<int>(clusters.clusters.size()); ++index) {
-    OptionRun run =
-        train_option(config, context, clusters, index, samples[static_cast<std::size_t>(index)], motions);
+  for (int index = 0; index < clusters.clusters.count(); ++index) {
+    OptionRun run = train_option(config, context, clusters, index, samples[index], motions);
     if (run.interrupted) {
       context.progress.finish("interrupted; the same command continues");
       return RunOutcome::kInterrupted;

@@ -9,7 +9,8 @@
 ///     DIR/checkpoints/optionK.npz  the complete state of the training
 ///     DIR/manifest.json            inputs, settings, samples and losses
 ///
-/// The same command continues an interrupted run; the bytes are those of never having stopped.
+/// The same command continues an interrupted run; its files end up the same bytes as those of a run that was
+/// never interrupted.
 /// What it never does: open any ground truth.
 #pragma once
 
@@ -26,18 +27,16 @@ struct PretrainConfig {
   std::vector<std::string> inputs;  ///< files and folders
   std::filesystem::path out;
   TrainingConfig training;  ///< its samples are of all options together
-  ClusterSettings clusters;
+  ClusterConfig clusters;
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
-  bool fit = true;
+  bool fit = false;         ///< move motions onto their keypoints first, where they have any
   ReadOptions read;
   int threads = 1;
 };
 
-/// The named sizes of networks and batches.                                 docs/method.md §7
-/// "small": 128-128, what two cores fine-tune fast; "paper": [1024, 1024, 512].
-/// @throws std::invalid_argument for another name
-TrainingConfig pretrain_preset(const std::string& name);
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const PretrainConfig& config);
 
 /// Samples of every option: in proportion to the square root of the number of its motions, since what a
 /// policy learns on one motion helps it on the next. @param motions  of every option, ≥ 1

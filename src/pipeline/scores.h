@@ -16,7 +16,7 @@ NamedValues named_values(const Metrics& metrics);
 struct Scores {
   NamedValues values;
   bool success = false;
-  std::string reason;  ///< why it is none
+  std::string reason;  ///< why it is no success
 };
 
 /// A simulated motion against the reference it was asked to follow. Success as docs/metrics.md defines it.

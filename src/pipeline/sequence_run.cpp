@@ -72,7 +72,7 @@ Timing& timing_of(RunState& run, const std::string& name) {
   return run.timings.back();
 }
 
-/// The entry to start from. @return false where the result that is there already stands
+/// Fills what is known of an input before any work. @return false where its earlier result still stands
 bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& entry) {
   const SequenceEntry* there = run.manifest.find(input);
   std::vector<std::string> taken;
@@ -91,8 +91,7 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
 /// Reads, fits and prepares the input, and tells at once what was decided: a wrong axis shows before the
 /// training, not after it.
 PreparedMotion prepare_sequence(const RunState& run, SequenceEntry& entry) {
-  PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
-  if (!run.config.keypoints) motion.reference.keypoints.reset();
+  const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
@@ -205,8 +204,8 @@ std::string summary_of(const SequenceEntry& entry) {
   return line;
 }
 
-/// Writes a success in its input's own format, where the clean set is not that already. A failure has no
-/// copy: that of another input of its name is removed.
+/// Writes a success in its input's own format, where the clean set does not have that format already. Where
+/// the sequence failed, a copy of that name from an earlier run is removed.
 void copy_clean(const RunState& run, const SequenceEntry& entry) {
   const std::filesystem::path input(entry.input);
   const std::string suffix = clean_suffix(input);
@@ -222,8 +221,8 @@ void copy_clean(const RunState& run, const SequenceEntry& entry) {
   if (run.config.beside) run.context.messages << "  clean motion: " << copy.string() << '\n';
 }
 
-/// As `copy_clean`; the motion itself is there, so a copy that cannot be written is told and tried again by
-/// the same command. @return whether the copy is as it should be
+/// Does `copy_clean` and tells what went wrong. The motion itself is written already; the same command tries
+/// the copy again. @return whether nothing went wrong
 bool copied_clean(const RunState& run, const SequenceEntry& entry) {
   try {
     copy_clean(run, entry);
@@ -236,8 +235,9 @@ bool copied_clean(const RunState& run, const SequenceEntry& entry) {
 
 }  // namespace
 
-NamedValues run_settings(const RunConfig& config) {
-  return {{"fit", config.fit ? 1.0 : 0.0}, {"keypoints", config.keypoints ? 1.0 : 0.0}};
+NamedValues settings_of(const RunConfig& config) {
+  const double fit = config.fit ? 1.0 : 0.0;
+  return {{"fit", fit}, {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
 }
 
 RunOutcome run_sequences(const RunConfig& config, const Method& method, const RunContext& context) {

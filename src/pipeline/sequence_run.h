@@ -36,8 +36,7 @@ struct RunConfig {
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
-  bool fit = false;         ///< move inputs onto their keypoints first, where they have any
-  bool keypoints = true;    ///< false: Eq. 3 does not see them either
+  bool fit = false;  ///< move inputs onto their keypoints first, where they have any; Eq. 3 sees no others
   int threads = 1;
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
 };
@@ -64,8 +63,8 @@ struct SimulatedSequence {
   rl::TrackingRollout after;                         ///< the result
   std::vector<std::array<int, 2>> arrangement = {};  ///< {first frame, option}; empty without options
   NamedValues plan = {};                             ///< what planning it took
-  std::string reason = {};                           ///< where the method knows why it is no success, or may be none
-  std::vector<std::string> notes = {};               ///< for the manifest
+  std::string reason = {};              ///< where the method knows why it is no success, or may be none
+  std::vector<std::string> notes = {};  ///< for the manifest
 };
 
 /// A way of making the humanoid follow a motion, with everything that its results depend on.
@@ -73,14 +72,14 @@ struct Method {
   std::string name;  ///< imitate, plan, paper or auto
   std::uint64_t seed = 0;
   std::int64_t samples = 0;      ///< budget per motion
-  NamedValues settings;          ///< as the manifest lists them, `run_settings` among them
+  NamedValues settings;          ///< as the manifest lists them, those of the RunConfig among them
   std::string options;           ///< checksum of the trained options; empty without
   SimulationOptions simulation;  ///< under which it simulates, for the audit
   std::function<SimulatedSequence(const Reference&, const SequenceJob&)> simulate;
 };
 
 /// The settings of a run on which its results depend, whatever the method.
-NamedValues run_settings(const RunConfig& config);
+NamedValues settings_of(const RunConfig& config);
 
 /// @throws std::invalid_argument when an input is given twice, or the folder holds a run of other settings
 RunOutcome run_sequences(const RunConfig& config, const Method& method, const RunContext& context);

@@ -6,6 +6,7 @@
 
 #include "core/npz.h"
 #include "core/parallel.h"
+#include "pipeline/training_log.h"
 #include "rl/tracking/environment.h"
 #include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
@@ -24,10 +25,10 @@ constexpr const char* kEndingKey = "ending";
 constexpr double kBetter = 0.99;  ///< a score under this share of the best one starts the stall anew
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-using Clips = std::vector<std::shared_ptr<const rl::TrackingClip>>;
+using Clips = List<std::shared_ptr<const rl::TrackingClip>>;
 
-/// The agents whose mean actions followed the clips best so far. Exploration noise hides how good a mean
-/// action is, and late updates may unlearn a hard moment: the roll-out decides, not the last iteration.
+/// The agents whose mean actions followed the clips best so far. The roll-out decides, not the last
+/// iteration: exploration noise hides how good a mean action is, and late updates may unlearn a hard moment.
 struct Best {
   std::vector<rl::Agent> agents;
   double score = std::numeric_limits<double>::infinity();
@@ -53,11 +54,10 @@ double score_of(const rl::TrackingRollout& rollout) {
 
 Evaluation evaluate(const Clips& clips, const rl::TrackingConfig& config,
                     const std::vector<rl::Agent>& agents, int threads) {
-  std::vector<Evaluation> each(clips.size());
-  parallel_for(static_cast<int>(clips.size()), threads, [&](int k) {
-    const auto index = static_cast<std::size_t>(k);
-    const rl::TrackingRollout rollout = rl::roll_out(clips[index], config, rl::mean_action(agents));
-    each[index] = {score_of(rollout), rollout.mean_reward, rollout.mean_position_error};
+  List<Evaluation> each(clips.size());
+  parallel_for(clips.count(), threads, [&](int k) {
+    const rl::TrackingRollout rollout = rl::roll_out(clips[k], config, rl::mean_action(agents));
+    each[k] = {score_of(rollout), rollout.mean_reward, rollout.mean_position_error};
   });
   Evaluation mean;
   for (const Evaluation& e : each) {
@@ -77,44 +77,6 @@ void consider(Best& best, const Trainer& trainer, double score) {
   }
 }
 
-Table empty_log() {
-  Table log;
-  log.columns = {"iteration", "samples", "reward", "episode_length"};
-  for (const auto name : rl::kRewardTermNames) log.columns.push_back("reward_term:" + std::string(name));
-  const auto rest = {"kl",
-                     "step_size",
-                     "sigma",
-                     "policy_loss",
-                     "value_loss",
-                     "explained_variance",
-                     "clip_fraction",
-                     "gradient_norm:actor",
-                     "gradient_norm:critic",
-                     "penalty",
-                     "saturation:actions",
-                     "saturation:torques",
-                     "sharpness",
-                     "rollout_reward",
-                     "rollout_position_error_mm"};
-  log.columns.insert(log.columns.end(), rest.begin(), rest.end());
-  return log;
-}
-
-/// @param rollout  of the mean actions after this iteration, or null
-std::vector<double> log_row(const rl::IterationStats& s, const rl::TrackingStatistics& tracking,
-                            double sharpness, const Evaluation* rollout) {
-  const auto steps = static_cast<double>(std::max<std::int64_t>(tracking.steps, 1));
-  std::vector<double> row = {static_cast<double>(s.iteration), static_cast<double>(s.samples), s.mean_reward,
-                             s.mean_episode_length};
-  for (double term : tracking.reward_terms) row.push_back(term / steps);
-  row.insert(row.end(), {s.kl, s.step_size, s.sigma, s.policy_loss, s.value_loss, s.explained_variance,
-                         s.clip_fraction, s.actor_gradient, s.critic_gradient, s.penalty, s.saturation,
-                         tracking.saturated_joints / (steps * kJoints), sharpness,
-                         rollout != nullptr ? rollout->reward : kNan,
-                         rollout != nullptr ? 1e3 * rollout->position_error : kNan});
-  return row;
-}
-
 void write_falls(const std::filesystem::path& path, const std::vector<double>& rates, int bin_frames) {
   Table table{{"frame", "fall_rate"}, {}};
   for (std::size_t b = 0; b < rates.size(); ++b)
@@ -122,7 +84,7 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
   write_file_atomically(path, format_csv(table));
 }
 
-/// The log first: a checkpoint never stands beside a log that lacks its rows.
+/// Writes the log first: a checkpoint never stands beside a log that lacks its rows.
 void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, const TrainingConfig& config,
           const TrainingFiles& files, const Best& best, Ending ending, const Table& log) {
   for (const auto* file : {&files.log, &files.falls, &files.checkpoint})
@@ -140,7 +102,8 @@ void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, co
   write_npz(files.checkpoint, archive);
 }
 
-/// Takes up the checkpoint, if there is one of this input, and drops the log's rows after it.
+/// Continues from the checkpoint, if there is one of this input, and drops the rows of the log that are
+/// newer.
 /// @return how that training had ended; kNone where it goes on
 Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log) {
   if (!std::filesystem::exists(files.checkpoint)) return Ending::kNone;
@@ -203,30 +166,31 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
                                       config.seed);
   Best best{agents};
   Trainer trainer(seeded(config), std::move(agents), environment);
-  Table log = empty_log();
+  Table log = empty_training_log();
   Ending ending = resume(trainer, files, best, log);
   control.progress(trainer.samples(), "");
 
   const double started = steady_seconds();
   double saved = started;
   TrainingResult result;
-  if (trainer.samples() == 0)  // a good start may be the best there is
+  if (trainer.samples() == 0)  // the agents to start from compete, too
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
   if (config.samples == 0) ending = Ending::kBudget;
   while (ending == Ending::kNone) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
     if (stats.samples >= config.samples) ending = Ending::kBudget;
+    TrainingLogRow row = {stats, environment.statistics(), environment.sharpness(), kNan, kNan};
     if (ending == Ending::kBudget || stats.iteration % config.evaluate_iterations == 0) {
       const Evaluation rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
       consider(best, trainer, rollout.score);
-      log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), &rollout));
+      row.rollout_reward = rollout.reward;
+      row.rollout_position_error = rollout.position_error;
       if (config.stop_reward > 0.0 && rollout.reward >= config.stop_reward)
         ending = Ending::kThreshold;
       else if (config.stall_evaluations > 0 && best.age >= config.stall_evaluations)
         ending = Ending::kStall;
-    } else {
-      log.rows.push_back(log_row(stats, environment.statistics(), environment.sharpness(), nullptr));
     }
+    append(log, row);
     control.progress(stats.samples, detail_of(stats));
     if (ending != Ending::kNone) break;
     const double now = steady_seconds();

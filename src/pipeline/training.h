@@ -1,4 +1,4 @@
-/// Training of policies on references: the seam between files and the learner.
+/// Training of policies on references: PPO with checkpoints, a log, and an end.
 ///
 /// One policy on one clip (imitation), one on many clips (an option's pre-training), or several options on
 /// one clip under its arrangement (joint fine-tuning) are the same loop. `train` runs PPO until the samples
@@ -14,53 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "core/named_values.h"
 #include "pipeline/record/ending.h"
 #include "pipeline/record/progress.h"
 #include "pipeline/record/table.h"
+#include "pipeline/training_config.h"
 #include "rl/policy.h"
-#include "rl/ppo_config.h"
-#include "rl/tracking/pack.h"
 
 namespace mimicx {
-
-/// PPO for tracking: many small iterations with a generous KL, and a discount that looks 0.4 s ahead: what a
-/// pose error costs shows at once. Measured in docs/experiments.md.
-inline rl::PpoConfig tracking_ppo() {
-  rl::PpoConfig ppo;
-  ppo.gamma = 0.92;
-  ppo.lambda = 0.9;
-  ppo.horizon = 16;
-  ppo.minibatch = 1024;
-  ppo.pass_rows = 256;
-  ppo.kl_target = 0.06;
-  ppo.step_size = 1e-4;
-  return ppo;
-}
-
-/// Everything that the result of a training depends on. Defaults: docs/experiments.md.
-struct TrainingConfig {
-  std::int64_t samples = 4'000'000;      ///< budget: character steps
-  std::uint64_t seed = 1;                ///< the one root of every random number
-  int characters = 256;                  ///< simulated side by side
-  int group_size = 64;                   ///< characters that one worker carries through a roll-out
-  std::vector<int> hidden = {128, 128};  ///< of actor and critic
-  double sigma_share = 0.75;             ///< share of the budget during which σ falls
-  int evaluate_iterations = 20;          ///< between roll-outs of the mean action; the best agents are kept
-  double stop_reward = 0.0;              ///< mean reward of a roll-out that is good enough; 0: none is
-  int stall_evaluations = 0;  ///< roll-outs in a row that follow the motion to its end, but none better than
-                              ///< before, that end the training; 0: none do
-  rl::PpoConfig ppo = tracking_ppo();  ///< its seed and sigma_samples follow from the members above
-  rl::TrackingConfig tracking;
-};
-
-/// Every number of the configuration but samples and seed, by name: for the manifest.
-NamedValues settings_of(const TrainingConfig& config);
-/// Changes one of them, for experiments and ablations.
-/// @throws std::invalid_argument for an unknown name or a fraction where a whole number is expected
-void apply_setting(TrainingConfig& config, const std::string& name, double value);
-/// @throws std::invalid_argument naming a setting that no training can have
-void check(const TrainingConfig& config);
 
 struct TrainingFiles {
   std::filesystem::path checkpoint;  ///< complete state
@@ -83,7 +43,7 @@ struct TrainingResult {
   std::vector<rl::Agent> agents;  ///< the best of those that were rolled out during the training
   std::int64_t samples = 0;
   Ending ending = Ending::kBudget;
-  bool interrupted = false;  ///< `should_stop` said so: the state is in the checkpoint
+  bool interrupted = false;  ///< `should_stop` was true: the state is in the checkpoint
   double seconds = 0.0;      ///< of this call
 };
 
@@ -93,14 +53,15 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
                      std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
                      const TrainingControl& control);
 
-/// What tells `progress` how far a training of so many samples is, a job of that label.
+/// A callback for TrainingControl::progress that shows a training of so many samples under this label.
 std::function<void(std::int64_t, const std::string&)> progress_of_training(Progress& progress,
                                                                            const std::string& label,
                                                                            std::int64_t samples);
 
-/// How many roll-outs in a row have followed the motion to its end without being markedly better than before.
-/// A roll-out that falls says that learning has not settled, even where an earlier one was lucky.
-/// @param age, best_score  before the roll-out of `score` (m; over 0.5 where it was not followed)
+/// The number of roll-outs in a row that followed the motion to its end and were not markedly better than the
+/// best one before. A roll-out that falls starts the count anew: learning has not settled.
+/// @param age, best_score  the number and the best score before the roll-out
+/// @param score  of the roll-out, m; over 0.5 where it did not follow the motion
 int stall_age(int age, double score, double best_score);
 
 /// An agent before its first sample.

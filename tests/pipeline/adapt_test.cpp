@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "pipeline/plan.h"
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"
@@ -84,25 +86,34 @@ TEST_F(Adapt, NothingDependsOnKeypointsThatAreNotWanted) {
   std::filesystem::create_directories(out("blind"));
   write_clip(out("blind") / "stand_1.npz", clip);
   run(pretraining("options"));
-  AdaptConfig config = adapting("seen", "options");
-  config.run.fit = false;
-  config.run.inputs = {noisy.string()};
-  const std::string log = "training/stand_1.csv";
-  run(config);
-  const std::string with_eq3 = results_of(out("seen")).at(log);
-  config.run.keypoints = false;
-  config.run.out = out("unwanted");
-  run(config);
-  const std::string unwanted = results_of(out("unwanted")).at(log);
-  config.run.inputs = {(out("blind") / "stand_1.npz").string()};
-  config.run.out = out("none");
-  run(config);
-  EXPECT_EQ(unwanted, results_of(out("none")).at(log));
-  EXPECT_NE(unwanted, with_eq3);
+  const auto log_of = [&](const std::string& folder, const std::filesystem::path& input, bool fit) {
+    AdaptConfig config = adapting(folder, "options");
+    config.run.fit = fit;
+    config.run.inputs = {input.string()};
+    run(config);
+    return results_of(out(folder)).at("training/stand_1.csv");
+  };
+  const std::string unwanted = log_of("unwanted", noisy, false);
+  EXPECT_EQ(unwanted, log_of("none", out("blind") / "stand_1.npz", false));
+  EXPECT_NE(unwanted, log_of("fitted", noisy, true));
+}
+
+TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
+  run(pretraining("options"));
+  for (const ArrangementConfig& wrong :
+       {ArrangementConfig{0.1, 0.1}, ArrangementConfig{std::nan(""), 0.1}, ArrangementConfig{-1.0, -0.1},
+        ArrangementConfig{-1.0, 1.1}, ArrangementConfig{-1.0, std::nan("")}}) {
+    AdaptConfig config = adapting("run", "options");
+    config.arrangement = wrong;
+    EXPECT_THROW(run(config), std::invalid_argument) << wrong.switch_penalty << ' ' << wrong.rescue_reward;
+  }
+  AdaptConfig config = adapting("run", "options");
+  config.options = nullptr;
+  EXPECT_THROW(run(config), std::invalid_argument);
 }
 
 TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
-  AdaptConfig config;
+  AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPlan;
   config.run.inputs = {(motions / "sway.npz").string()};
   config.run.out = out("run");

@@ -44,7 +44,7 @@ struct Cli : testing::Test {
 TEST_F(Cli, HelpIsEverywhere) {
   EXPECT_EQ(mimicx("--help").status, 0);
   for (const char* command : {"plan", "run", "pretrain", "adapt", "imitate", "fit", "cluster", "evaluate",
-                              "info", "convert", "audit", "export-mjcf", "synth"}) {
+                              "info", "convert", "audit", "export-mjcf", "synth", "config"}) {
     const Call call = mimicx(std::string(command) + " --help");
     EXPECT_EQ(call.status, 0) << command;
     EXPECT_TRUE(says(call, command)) << call.text;
@@ -82,6 +82,11 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "adapt " + a + out + " --method dance",
                                        "adapt " + a + out + " --method plan --set gamma=0.9",
                                        "adapt " + a + out + " --method paper --set plan_horizon=5",
+                                       "adapt " + a + out + " --switch-penalty 1",
+                                       "adapt " + a + out + " --switch-penalty nan",
+                                       "adapt " + a + out + " --rescue-reward 1.5",
+                                       "adapt " + a + out + " --rescue-reward nan",
+                                       "run " + a + out + " --rescue-reward -1",
                                        std::string("evaluate"),
                                        std::string("info"),
                                        "convert " + a,
@@ -107,6 +112,38 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
     EXPECT_EQ(call.status, 2) << "mimicx " << arguments << '\n' << call.text;
     EXPECT_FALSE(call.text.empty());
   }
+}
+
+TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
+  const auto json = nlohmann::json::parse(mimicx("config --json").text);
+  for (const auto& [command, option, setting] :
+       std::vector<std::array<std::string, 3>>{{"imitate", "--samples", "samples"},
+                                               {"adapt", "--budget-samples", "samples"},
+                                               {"adapt", "--switch-penalty", "switch_penalty"},
+                                               {"adapt", "--rescue-reward", "rescue_reward"},
+                                               {"adapt", "--seed", "seed"},
+                                               {"pretrain small", "--samples", "samples"},
+                                               {"pretrain small", "--radius", "cluster_radius"}}) {
+    const double value = json.at(command).at(setting);
+    const Call help = mimicx(command.substr(0, command.find(' ')) + " --help");
+    const std::size_t at = help.text.find(option + " ");
+    ASSERT_NE(at, std::string::npos) << command << ' ' << option;
+    const std::size_t bracket = help.text.find('[', at);
+    EXPECT_EQ(std::stod(help.text.substr(bracket + 1)), value) << command << ' ' << option << help.text;
+  }
+  const Call table = mimicx("config");
+  EXPECT_EQ(table.status, 0);
+  EXPECT_TRUE(says(table, "pretrain paper") && says(table, "switch_penalty")) << table.text;
+}
+
+TEST_F(Cli, TheSelectorsNumbersAreRecorded) {
+  write_clip(path("a.npz"), standing_clip(20));
+  mimicx("adapt " + path("a.npz") +
+         " --budget-samples 0 --threads 1 --switch-penalty -0.5 --rescue-reward 0.25" + " --out " +
+         path("out"));
+  const auto manifest = nlohmann::json::parse(read_file(path("out/manifest.json")));
+  EXPECT_EQ(manifest["run"]["settings"]["switch_penalty"], -0.5);
+  EXPECT_EQ(manifest["run"]["settings"]["rescue_reward"], 0.25);
 }
 
 TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
@@ -316,9 +353,9 @@ TEST_F(Cli, ExportMjcfTakesTheBodyThatConvertWritesQposFor) {
   clip.rest_joints.emplace();
   const Character standard = make_character();
   for (std::size_t b = 0; b < kBodies; ++b)
-    (*clip.rest_joints)[b] = b == 0 ? rest_pelvis("smplx")
-                                    : Vector3d((*clip.rest_joints)[static_cast<std::size_t>(kParents[b])] +
-                                               1.1 * standard.joint_offset[b]);
+    (*clip.rest_joints)[b] =
+        b == 0 ? rest_pelvis("smplx")
+               : Vector3d((*clip.rest_joints)[kParents[b]] + 1.1 * standard.joint_offset[b]);
   write_clip(path("a.npz"), clip);
   EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("a.xml")).status, 0);
   EXPECT_EQ(read_file(path("a.xml")), to_mjcf(character_of(clip), {}));

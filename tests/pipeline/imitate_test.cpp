@@ -7,8 +7,6 @@
 #include <numbers>
 
 #include "core/npz.h"
-#include "pipeline/adapt.h"
-#include "pipeline/pretrain.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
@@ -18,7 +16,7 @@ namespace mimicx {
 namespace {
 
 ImitateConfig small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
-  ImitateConfig config;
+  ImitateConfig config = imitate_configuration();
   config.run.inputs = inputs;
   config.run.out = out;
   config.training = small_training();
@@ -157,6 +155,21 @@ TEST_F(Imitate, TheManifestSaysWhatTheForcesLeaveUnexplained) {
   EXPECT_EQ(found, 3);
 }
 
+TEST_F(Imitate, Eq3SeesTheKeypointsOnlyWhereTheMotionWasFittedOntoThem) {
+  const std::string noisy = std::string(MIMICX_SOURCE_DIR) + "/data/synthetic/test/noisy/stand_1.npz";
+  const auto lowest_projection = [&](bool fit) {
+    ImitateConfig config = small_run(out(fit ? "fitted" : "unfitted"), {noisy});
+    config.run.fit = fit;
+    run(config);
+    const Table log = read_csv(config.run.out / "training" / "stand_1.csv");
+    double lowest = 1.0;
+    for (const auto& row : log.rows) lowest = std::min(lowest, row[log.column("reward_term:projection")]);
+    return lowest;
+  };
+  EXPECT_EQ(lowest_projection(false), 1.0);
+  EXPECT_LT(lowest_projection(true), 1.0);
+}
+
 TEST_F(Imitate, StartsOverWhenTheInputChanged) {
   const ImitateConfig config = small_run(out("run"), {stand});
   run(config);
@@ -282,53 +295,6 @@ TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
   config.training.seed = 2;
   run(config);
   EXPECT_NE(results_of(out("one")).at("training/stand.csv"), results_of(out("two")).at("training/stand.csv"));
-}
-
-TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
-  const NamedValues defaults = settings_of({});
-  for (const auto& [name, value] : defaults) {
-    const bool flag = name == "residual_actions" || name == "self_contact" || name == "velocity_feed_forward";
-    const double other = flag ? 1.0 - value : value + 1.0;
-    TrainingConfig config;
-    apply_setting(config, name, other);
-    const NamedValues changed = settings_of(config);
-    for (std::size_t k = 0; k < defaults.size(); ++k)
-      EXPECT_EQ(changed[k].second, defaults[k].first == name ? other : defaults[k].second) << name;
-  }
-  TrainingConfig config;
-  EXPECT_THROW(apply_setting(config, "no_such_setting", 1.0), std::invalid_argument);
-  EXPECT_THROW(apply_setting(config, "epochs", 1.5), std::invalid_argument);
-}
-
-TEST(TrainingSettings, WhatNoTrainingCanHaveIsRefusedByName) {
-  for (const char* name :
-       {"characters", "group_size", "hidden_1", "evaluate_iterations", "horizon", "sigma_start", "epochs",
-        "minibatch", "gradient_slots", "pass_rows", "bin_frames", "physics_passes"}) {
-    TrainingConfig config;
-    apply_setting(config, name, 0.0);
-    EXPECT_THROW(check(config), std::invalid_argument) << name;
-  }
-  for (const auto& [name, value] : std::vector<std::pair<const char*, double>>{{"gamma", 1.5},
-                                                                               {"characters", 100},
-                                                                               {"physics_rate", 100},
-                                                                               {"step_size", -1},
-                                                                               {"hidden_2", 1e6}}) {
-    TrainingConfig config;
-    apply_setting(config, name, value);
-    EXPECT_THROW(check(config), std::invalid_argument) << name;
-  }
-  TrainingConfig config;
-  for (const double value : {1e12, HUGE_VAL, std::nan("")})
-    EXPECT_THROW(apply_setting(config, "epochs", value), std::invalid_argument);
-  EXPECT_NO_THROW(check(config));
-  EXPECT_NO_THROW(check(fine_tuning_defaults()));
-  for (const char* preset : {"small", "paper"}) EXPECT_NO_THROW(check(pretrain_preset(preset)));
-}
-
-TEST(Settings, NameEveryParameterOnce) {
-  const NamedValues values = settings_of({});
-  for (std::size_t i = 0; i < values.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(values[i].first, values[j].first);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 #include "motion/synth/synth.h"
-#include "pipeline/imitate.h"
+#include "pipeline/configurations.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx {
@@ -13,7 +13,7 @@ namespace {
 
 SequenceEntry imitate_one(const std::filesystem::path& input) {
   const TemporaryFolder folder;
-  ImitateConfig config;
+  ImitateConfig config = imitate_configuration();
   config.run.inputs = {input.string()};
   config.run.out = folder.path / "run";
   config.run.threads = available_threads();

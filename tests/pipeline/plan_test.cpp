@@ -26,7 +26,7 @@ struct PlanMotions : testing::Test {
     write_clip(lean, leaning);
   }
   PlanMotionsConfig planning(const std::string& name, const std::vector<std::string>& inputs) const {
-    PlanMotionsConfig config;
+    PlanMotionsConfig config = plan_configuration();
     config.run.inputs = inputs;
     config.run.out = out(name);
     config.planning.plan.horizon.backtracks = 1;  // what is lost shall be so soon
@@ -167,12 +167,12 @@ TEST_F(PlanMotions, RefusesAFolderOfOtherSettings) {
 }
 
 TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
-  const NamedValues defaults = planning_settings({});
+  const NamedValues defaults = settings_of(PlanningConfig{});
   for (const auto& [name, value] : defaults) {
     const double other = name == "self_contact" ? 1.0 - value : value + 1.0;
     PlanningConfig config;
     apply_setting(config, name, other);
-    const NamedValues changed = planning_settings(config);
+    const NamedValues changed = settings_of(config);
     for (std::size_t k = 0; k < defaults.size(); ++k)
       EXPECT_EQ(changed[k].second, defaults[k].first == name ? other : defaults[k].second) << name;
   }

@@ -65,6 +65,32 @@ TEST_F(Pretrain, NamesWhatItCannotReadAndGoesOn) {
   EXPECT_NE(results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
 }
 
+TEST_F(Pretrain, WithoutAFitNothingDependsOnKeypoints) {
+  const std::filesystem::path noisy = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy";
+  std::filesystem::remove_all(motions);
+  std::filesystem::create_directories(motions);
+  Clip clip = read_clip(noisy / "stand_1.npz");
+  write_clip(motions / "stand_1.npz", clip);
+  PretrainConfig config = pretraining("seen");
+  config.clusters.clusters = 1;
+  config.fit = false;
+  run(config);
+  clip.keypoints.reset();
+  write_clip(motions / "stand_1.npz", clip);
+  config.out = out("blind");
+  run(config);
+  EXPECT_EQ(read_file(out("seen") / "training" / "option0.csv"),
+            read_file(out("blind") / "training" / "option0.csv"));
+}
+
+TEST_F(Pretrain, RefusesAFolderWhoseManifestIsNone) {
+  std::filesystem::create_directories(out("run"));
+  for (const char* text : {"", "{", "[]", "{}", "{\"run\": 1}"}) {
+    std::ofstream(out("run") / "manifest.json") << text;
+    EXPECT_THROW(run(pretraining("run")), std::invalid_argument) << text;
+  }
+}
+
 TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {
   PretrainConfig config = pretraining("run");
   run(config);

@@ -6,8 +6,6 @@
 #include <filesystem>
 
 #include "motion/synth/synth.h"
-#include "pipeline/adapt.h"
-#include "pipeline/pretrain.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
@@ -25,7 +23,7 @@ struct PretrainedOptions : testing::Test {
     write_clip(motions / "walk.npz", synthesize(walk));
   }
   PretrainConfig pretraining(const std::string& out) const {
-    PretrainConfig config;
+    PretrainConfig config = pretrain_configuration("small");
     config.inputs = {motions.string()};
     config.out = folder.path / out;
     config.training = small_training();
@@ -41,11 +39,10 @@ struct PretrainedOptions : testing::Test {
         .value;
   }
   AdaptConfig adapting(const std::string& out, const std::string& options) const {
-    AdaptConfig config;
+    AdaptConfig config = adapt_configuration();
     config.method = AdaptMethod::kPaper;
     config.run.inputs = {(motions / "sway.npz").string()};
     config.run.out = folder.path / out;
-    config.run.fit = true;
     config.training = small_training();
     config.training.evaluate_iterations = 2;
     config.arrangement.switch_penalty = -0.01;

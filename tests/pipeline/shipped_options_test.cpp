@@ -4,8 +4,7 @@
 #include <sstream>
 
 #include "motion/synth/set.h"
-#include "pipeline/adapt.h"
-#include "pipeline/imitate.h"
+#include "pipeline/configurations.h"
 #include "pipeline/options/clusters.h"
 #include "pipeline/temporary_folder.h"
 
@@ -32,15 +31,14 @@ SequenceEntry entry_of(Config& config, const std::string& name, const Work& work
 }
 
 SequenceEntry adapted(const std::string& name, const std::shared_ptr<const OptionSet>& options) {
-  AdaptConfig config;
+  AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPaper;
-  config.training = fine_tuning_defaults();
   config.options = options;
   return entry_of(config, name, [&](const RunContext& context) { adapt(config, context); });
 }
 
 SequenceEntry untrained(const std::string& name) {
-  ImitateConfig config;
+  ImitateConfig config = imitate_configuration();
   return entry_of(config, name, [&](const RunContext& context) { imitate(config, context); });
 }
 

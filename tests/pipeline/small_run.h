@@ -4,14 +4,13 @@
 #include <sstream>
 #include <string>
 
-#include "pipeline/record/run_context.h"
-#include "pipeline/training.h"
+#include "pipeline/configurations.h"
 
 namespace mimicx {
 
 /// Several iterations, groups and checkpoints.
 inline TrainingConfig small_training() {
-  TrainingConfig training;
+  TrainingConfig training = imitate_configuration().training;
   training.samples = 6 * 64 * 8;
   training.characters = 64;
   training.group_size = 16;

@@ -31,7 +31,7 @@ Kinematics kinematics_of(const Character& c, const ReferenceFrame& s) {
       k.w[i] = w_J;
       v[i] = s.v_root;
     } else {
-      const auto lambda = static_cast<std::size_t>(kParents[i]);
+      const int lambda = kParents[i];
       k.w[i] = k.w[lambda] + w_J;
       v[i] = v[lambda] + k.w[lambda].cross(k.poses.p_WB[i] - k.poses.p_WB[lambda]);
     }
@@ -63,11 +63,10 @@ Vector6d shifted(Vector6d wrench, const Vector3d& from, const Vector3d& to) {
 }
 
 /// Height of a body's lowest contact point; infinite for one without any.
-double height_of(const Character& c, const BodyPoses& poses, std::size_t body) {
+double height_of(const Character& c, const BodyPoses& poses, int body) {
   double lowest = HUGE_VAL;
   for (const ContactPoint& point : c.contact_points)
-    if (static_cast<std::size_t>(point.body) == body)
-      lowest = std::min(lowest, lowest_position(point, poses).z());
+    if (point.body == body) lowest = std::min(lowest, lowest_position(point, poses).z());
   return lowest;
 }
 
@@ -236,7 +235,7 @@ Audit audit_poses(const Clip& clip) {
   ours.body_model = "mimicx";
   Audit audit;
   const Character character = make_character(ours.betas);
-  const std::vector<BodyPoses> poses = poses_of(ours);
+  const List<BodyPoses> poses = poses_of(ours);
   audit.weight = SimulationOptions{}.gravity * character.total_mass();
   int frame = 0;
   for (const FrameDemand& demand : motion_demands(ours, {kFloorReach, kFloorReach, true})) {
@@ -244,7 +243,7 @@ Audit audit_poses(const Clip& clip) {
     row.index = ++frame;
     row.root.head<3>() = demand.residual_moment;
     row.root.tail<3>() = demand.residual_force;
-    row.lowest = lowest_contact(character, poses[static_cast<std::size_t>(frame)]);
+    row.lowest = lowest_contact(character, poses[frame]);
     audit.rows.push_back(row);
   }
   audit.failures = failures_of(audit);

@@ -1,8 +1,8 @@
 /// `mimicx audit`: do the forces in a file explain the motion in it?                docs/physics.md §9
 ///
 /// Inverse dynamics says what a motion needs (physics/inverse_dynamics.h, other equations than those that
-/// simulated it), the file says what acted. What is left at the root is the *unexplained root wrench*: a hand
-/// from outside that would have to hold the body. Three kinds of evidence:
+/// simulated it), the file says what acted. The difference at the root is the *unexplained root wrench*: what
+/// a hand from outside would have to push with. There are three kinds of evidence:
 ///  - physics steps (`substeps/NAME.npz`): everything is known at every step; as recorded in float32, and
 ///    replayed in double precision, which must explain itself to rounding;
 ///  - frames (`motions/NAME.npz`): momentum at the frames against the mean forces between them, (10);

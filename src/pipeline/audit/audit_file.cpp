@@ -73,9 +73,8 @@ std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alon
 }
 
 std::string evidence_name(Evidence evidence) {
-  constexpr std::array<const char*, 4> kNames = {"physics steps", "replayed in double", "frames",
-                                                 "poses alone"};
-  return kNames[static_cast<std::size_t>(evidence)];
+  constexpr Array<const char*, 4> kNames = {"physics steps", "replayed in double", "frames", "poses alone"};
+  return kNames[static_cast<int>(evidence)];
 }
 
 std::string audit_table_head() {

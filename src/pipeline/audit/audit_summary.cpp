@@ -9,8 +9,8 @@
 namespace mimicx {
 namespace {
 
-/// What an audit lets pass; forces in parts of the weight, moments in metres (N·m per N of weight). What the
-/// joints' torques are off by counts like an unexplained moment at the root.
+/// The most that an audit lets pass; forces in parts of the weight, moments in metres (N·m per N of weight).
+/// The gap between required and exported joint torques has the limits of the root's moment.
 struct Limits {
   double mean_force, mean_moment, max_force, max_moment;
 };
@@ -97,7 +97,7 @@ std::string percent(double share) {
   return text;
 }
 
-/// Says of a motion that fails by its poses how it stands on the floor.
+/// How a motion that fails by its poses stands on the floor, in words.
 std::string where_it_stands(const NamedValues& values) {
   char text[160];
   std::snprintf(text, sizeof text,

@@ -1,4 +1,4 @@
-/// The rows of an audit in a few numbers, and what they let pass.                        docs/physics.md §9
+/// The rows of an audit in a few numbers, and the limits that they must keep. docs/physics.md §9
 #pragma once
 
 #include <string>

@@ -83,25 +83,25 @@ PerBody<BodyLoad> body_loads(const Character& c, const std::vector<BodyPoses>& p
 
 /// A point of a foot on the floor and the force on it.
 struct Touch {
-  std::size_t body;
+  int body;
   Vector3d p, force;
 };
 
-std::vector<Touch> touching_points(const Character& c, const BodyPoses& poses, const Touching& touching) {
+List<Touch> touching_points(const Character& c, const BodyPoses& poses, const Touching& touching) {
   const std::size_t count = touching.whole_body ? c.contact_points.size() : kFootPoints;
-  std::vector<Touch> touches;
+  List<Touch> touches;
   for (std::size_t i = 0; i < count; ++i) {
     const ContactPoint& point = c.contact_points[i];
-    const auto body = static_cast<std::size_t>(point.body);
     const Vector3d p = lowest_position(point, poses);
-    if (p.z() <= touching.height && p.z() >= -touching.depth) touches.push_back({body, p, Vector3d::Zero()});
+    if (p.z() <= touching.height && p.z() >= -touching.depth)
+      touches.push_back({point.body, p, Vector3d::Zero()});
   }
   return touches;
 }
 
 /// Forces at `touches` that come nearest to `wanted` = (moment about `center`; force).
 /// @return what is left of it
-Vector6d share_out(const Vector3d& center, const Vector6d& wanted, std::vector<Touch>& touches) {
+Vector6d share_out(const Vector3d& center, const Vector6d& wanted, List<Touch>& touches) {
   if (touches.empty()) return wanted;
   constexpr Eigen::Index kEdges = 4;
   const auto edge = [](Eigen::Index k) {
@@ -110,7 +110,7 @@ Vector6d share_out(const Vector3d& center, const Vector6d& wanted, std::vector<T
   };
   Matrix6X A(6, kEdges * static_cast<Eigen::Index>(touches.size()));
   for (Eigen::Index i = 0; i < A.cols(); ++i) {
-    const Vector3d arm = touches[static_cast<std::size_t>(i / kEdges)].p - center;
+    const Vector3d arm = touches[i / kEdges].p - center;
     const Vector3d force = edge(i % kEdges), moment = arm.cross(force);
     for (Eigen::Index k = 0; k < 3; ++k) {
       A(k, i) = moment[k];
@@ -118,8 +118,7 @@ Vector6d share_out(const Vector3d& center, const Vector6d& wanted, std::vector<T
     }
   }
   const Eigen::VectorXd x = non_negative_least_squares(A, wanted);
-  for (Eigen::Index i = 0; i < A.cols(); ++i)
-    touches[static_cast<std::size_t>(i / kEdges)].force += x[i] * edge(i % kEdges);
+  for (Eigen::Index i = 0; i < A.cols(); ++i) touches[i / kEdges].force += x[i] * edge(i % kEdges);
   return wanted - A * x;
 }
 
@@ -133,7 +132,7 @@ FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, s
     wanted.head<3>() += load.moment + (load.p_com - center).cross(load.force);
     wanted.tail<3>() += load.force;
   }
-  std::vector<Touch> touches = touching_points(c, poses[t], touching);
+  List<Touch> touches = touching_points(c, poses[t], touching);
   const Vector6d left = share_out(center, wanted, touches);
   FrameDemand demand;
   demand.residual_moment = left.head<3>();
@@ -148,8 +147,8 @@ FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, s
     force[touch.body] -= touch.force;
     torque[touch.body] -= (touch.p - poses[t].p_WB[touch.body]).cross(touch.force);
   }
-  for (std::size_t b = kBodies - 1; b > 0; --b) {
-    const auto parent = static_cast<std::size_t>(kParents[b]);
+  for (int b = kBodies - 1; b > 0; --b) {
+    const int parent = kParents[b];
     force[parent] += force[b];
     torque[parent] += torque[b] + (poses[t].p_WB[b] - poses[t].p_WB[parent]).cross(force[b]);
   }
@@ -174,10 +173,9 @@ std::vector<FrameDemand> motion_demands(const Clip& clip, const Touching& touchi
 
 PerBody<double> torque_ratios(const Character& character, const BodyPoses& poses, const FrameDemand& demand) {
   PerBody<double> ratios{};
-  for (int body = 1; body < kBodies; ++body) {
-    const auto b = static_cast<std::size_t>(body);
-    const double torque = is_hinge(body) ? std::abs(demand.torque[b].dot(poses.q_WB[b] * hinge_axis(body)))
-                                         : demand.torque[b].norm();
+  for (int b = 1; b < kBodies; ++b) {
+    const double torque =
+        is_hinge(b) ? std::abs(demand.torque[b].dot(poses.q_WB[b] * hinge_axis(b))) : demand.torque[b].norm();
     ratios[b] = torque / character.joint[b].torque_limit;
   }
   return ratios;

@@ -1,6 +1,8 @@
 #include "pipeline/options/arrangement.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "pipeline/options/selector.h"
 #include "pipeline/options/side_by_side.h"
@@ -17,9 +19,17 @@ std::vector<int> distinct(std::vector<int> numbers) {
 
 }  // namespace
 
+void check(const ArrangementConfig& config) {
+  if (!(config.switch_penalty <= 0.0) || !std::isfinite(config.switch_penalty))
+    throw std::invalid_argument("the switch penalty must be finite and at most 0");
+  if (!(config.rescue_reward >= 0.0 && config.rescue_reward <= 1.0))
+    throw std::invalid_argument("the rescue reward must be 0 to 1, as rewards are");
+}
+
 ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
                      const OptionSet& set, const ArrangementConfig& config) {
-  std::vector<const Option*> all;
+  check(config);
+  List<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
   const SideBySide side_by_side =
       roll_out_side_by_side(encoded_for(clip, all), tracking, all, config.rescue_reward);
@@ -29,13 +39,14 @@ ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const 
   // The option of frame t acts towards frame t + 1, where its reward is found. Nothing is left to do in the
   // last frame: it keeps the option of the frame before.
   const auto& rewards = side_by_side.rewards;
-  arranged.options = select_options({rewards.begin() + 1, rewards.end()}, config.switch_penalty).options;
+  arranged.options =
+      select_options(OptionRewards(rewards.begin() + 1, rewards.end()), config.switch_penalty).options;
   arranged.options.push_back(arranged.options.back());
 
   arranged.kept = distinct(arranged.options);
   std::vector<const Option*> kept;
   for (const int option : arranged.kept) {
-    kept.push_back(all[static_cast<std::size_t>(option)]);
+    kept.push_back(all[option]);
     arranged.agents.push_back(kept.back()->agent);
   }
   auto seen = std::make_shared<rl::TrackingClip>(*encoded_for(clip, kept));

@@ -14,21 +14,23 @@
 namespace mimicx {
 
 struct ArrangementConfig {
-  double switch_penalty = -1.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
-  double rescue_reward =
-      0.1;  ///< σ of the side-by-side roll-out: under it a character is handed a better state
+  double switch_penalty = 0.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
+  double rescue_reward = 0.0;   ///< σ: a character of less reward is put into the best one's state
 };
 
+/// @throws std::invalid_argument unless the penalty is finite and at most 0, and σ in [0, 1]
+void check(const ArrangementConfig& config);
+
 struct ArrangedClip {
-  std::vector<int> options;                      ///< [frames] the option that acts, its number in the set
-  std::vector<int> breaks;                       ///< frames at which no option of the set could follow
-  std::vector<int> kept;                         ///< numbers in the set of the options that occur, ascending
-  std::vector<rl::Agent> agents;                 ///< of the kept options
+  List<int> options;                             ///< [frames] the option that acts, its number in the set
+  List<int> breaks;                              ///< frames at which no option of the set could follow
+  List<int> kept;                                ///< numbers in the set of the options that occur, ascending
+  List<rl::Agent> agents;                        ///< of the kept options
   std::shared_ptr<const rl::TrackingClip> clip;  ///< as the kept options see it, with their arrangement
 };
 
 /// @param clip  as `make_tracking_clip` gives it: not encoded, without an arrangement
-/// @throws std::invalid_argument for a positive switch penalty
+/// @throws std::invalid_argument as `check`
 ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
                      const OptionSet& set, const ArrangementConfig& config);
 

@@ -40,9 +40,9 @@ Points points_of(const std::vector<NamedFeatures>& motions) {
   return points;
 }
 
-MotionCluster cluster_of(const ClusterNode& leaf, const std::vector<NamedFeatures>& motions) {
+MotionCluster cluster_of(const ClusterNode& leaf, const List<NamedFeatures>& motions) {
   MotionCluster cluster;
-  for (int member : leaf.members) cluster.members.push_back(motions[static_cast<std::size_t>(member)].name);
+  for (int member : leaf.members) cluster.members.push_back(motions[member].name);
   for (std::size_t k = 0; k < kFeatures; ++k)
     cluster.centre[k] = feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
   cluster.diameter = leaf.diameter;
@@ -81,7 +81,7 @@ MotionCluster cluster_of(const Json& json) {
 
 }  // namespace
 
-Clusters cluster_motions(std::vector<NamedFeatures> motions, const ClusterSettings& settings) {
+Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& settings) {
   make_canonical(motions);
   Clusters out;
   out.settings = settings;
@@ -95,10 +95,9 @@ Clusters cluster_motions(std::vector<NamedFeatures> motions, const ClusterSettin
     }
     out.tree.push_back(branch);
   }
-  std::vector<MotionFeatures> centres;
+  List<MotionFeatures> centres;
   for (const MotionCluster& cluster : out.clusters) centres.push_back(cluster.centre);
-  for (std::size_t c = 0; c < centres.size(); ++c)
-    out.clusters[c].description = describe_cluster(centres, static_cast<int>(c));
+  for (int c = 0; c < centres.count(); ++c) out.clusters[c].description = describe_cluster(centres, c);
   return out;
 }
 
@@ -117,9 +116,9 @@ int nearest_cluster(const Clusters& clusters, const MotionFeatures& features) {
 
 std::string format_cluster_tree(const Clusters& clusters) {
   std::string out;
-  std::vector<int> depth;
+  List<int> depth;
   for (const ClusterBranch& branch : clusters.tree) {
-    depth.push_back(branch.parent < 0 ? 0 : depth[static_cast<std::size_t>(branch.parent)] + 1);
+    depth.push_back(branch.parent < 0 ? 0 : depth[branch.parent] + 1);
     const std::string indent(2 * static_cast<std::size_t>(depth.back()), ' ');
     const bool leaf = branch.cluster >= 0;
     char diameter[40];
@@ -127,7 +126,7 @@ std::string format_cluster_tree(const Clusters& clusters) {
     out += indent + (leaf ? "cluster " + std::to_string(branch.cluster) + ": " : "") +
            std::to_string(branch.motions) + (branch.motions == 1 ? " motion" : " motions") + diameter;
     if (!leaf) continue;
-    const MotionCluster& cluster = clusters.clusters[static_cast<std::size_t>(branch.cluster)];
+    const MotionCluster& cluster = clusters.clusters[branch.cluster];
     out += indent + "  " + cluster.description + '\n';
     for (const auto& member : cluster.members) out += indent + "  - " + member + '\n';
   }
@@ -135,7 +134,7 @@ std::string format_cluster_tree(const Clusters& clusters) {
 }
 
 std::string format_clusters(const Clusters& clusters) {
-  const ClusterSettings& s = clusters.settings;
+  const ClusterConfig& s = clusters.settings;
   Json json = {{"settings",
                 {{"radius", s.radius},
                  {"clusters", s.clusters ? Json(*s.clusters) : Json(nullptr)},

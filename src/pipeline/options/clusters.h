@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/containers.h"
 #include "motion/features.h"
 
 namespace mimicx {
@@ -24,12 +25,9 @@ struct NamedFeatures {
   MotionFeatures features;
 };
 
-/// l_max without a wish for another: groups kinds of motion without lumping a walk with a jump (METHOD §6).
-inline constexpr double kDefaultClusterRadius = 3.0;
-
-struct ClusterSettings {
-  double radius = kDefaultClusterRadius;  ///< l_max: no two members of a cluster are farther apart
-  std::optional<int> clusters;            ///< how many to make instead; `radius` then follows from it
+struct ClusterConfig {
+  double radius = 0.0;          ///< l_max: no two members of a cluster are farther apart
+  std::optional<int> clusters;  ///< how many to make instead; `radius` then follows from it
   std::uint64_t seed = 0;
 };
 
@@ -48,14 +46,14 @@ struct ClusterBranch {
 };
 
 struct Clusters {
-  ClusterSettings settings;             ///< `radius` as it was in the end
-  std::vector<ClusterBranch> tree;      ///< depth first; [0] is the root
-  std::vector<MotionCluster> clusters;  ///< by number
+  ClusterConfig settings;           ///< `radius` as it was in the end
+  std::vector<ClusterBranch> tree;  ///< depth first; [0] is the root
+  List<MotionCluster> clusters;     ///< by number
 };
 
 /// @throws std::invalid_argument without motions, for two of one name, for more clusters than distinct
 ///         motions, and for a radius below 0
-Clusters cluster_motions(std::vector<NamedFeatures> motions, const ClusterSettings& settings);
+Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& settings);
 
 /// Number of the cluster whose centre is nearest; of equally near ones the first.
 int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
@@ -64,9 +62,9 @@ int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
 std::string format_cluster_tree(const Clusters& clusters);
 
 std::string format_clusters(const Clusters& clusters);
-/// Under a temporary name first, then renamed.
+/// Writes a temporary file and renames it: a reader sees the old file or the new one.
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters);
-/// @throws DataError for a file that is none, or one of other features or units
+/// @throws DataError for a file that holds no clusters, or clusters of other features or units
 Clusters read_clusters(const std::filesystem::path& path);
 
 }  // namespace mimicx

@@ -26,8 +26,8 @@ int compare(const Points& points, int a, int b) {
 }
 
 /// Rows in lexicographic order. Equal rows are interchangeable.
-std::vector<int> canonical_order(const Points& points) {
-  std::vector<int> order(static_cast<std::size_t>(points.rows()));
+List<int> canonical_order(const Points& points) {
+  List<int> order(static_cast<std::size_t>(points.rows()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return compare(points, a, b) < 0; });
   return order;
@@ -67,7 +67,7 @@ bool assign(const Points& points, Partition& p) {
       const double d = squared_distance(points, i, p.centres, c);
       if (d < least) nearest = c, least = d;
     }
-    int& cluster = p.cluster[static_cast<std::size_t>(i)];
+    int& cluster = p.cluster[i];
     changed = changed || cluster != nearest;
     cluster = static_cast<int>(nearest);
     p.cost += least;
@@ -76,13 +76,13 @@ bool assign(const Points& points, Partition& p) {
 }
 
 /// The point that is farthest from the centres of `taken`.
-Index farthest_point(const Points& points, const Points& centres, const std::vector<bool>& taken) {
+Index farthest_point(const Points& points, const Points& centres, const List<bool>& taken) {
   Index farthest = 0;
   double most = -1.0;
   for (Index i = 0; i < points.rows(); ++i) {
     double near = std::numeric_limits<double>::infinity();
     for (Index c = 0; c < centres.rows(); ++c)
-      if (taken[static_cast<std::size_t>(c)]) near = std::min(near, squared_distance(points, i, centres, c));
+      if (taken[c]) near = std::min(near, squared_distance(points, i, centres, c));
     if (near > most) farthest = i, most = near;
   }
   return farthest;
@@ -91,30 +91,38 @@ Index farthest_point(const Points& points, const Points& centres, const std::vec
 /// Moves every centre to the mean of its points, then those without points to where they get some.
 void move_centres(const Points& points, Partition& p) {
   Points sum = Points::Zero(p.centres.rows(), p.centres.cols());
-  std::vector<int> count(static_cast<std::size_t>(p.centres.rows()), 0);
+  List<int> count(static_cast<std::size_t>(p.centres.rows()), 0);
   for (Index i = 0; i < points.rows(); ++i) {
-    const int c = p.cluster[static_cast<std::size_t>(i)];
+    const int c = p.cluster[i];
     sum.row(c) += points.row(i);
-    ++count[static_cast<std::size_t>(c)];
+    ++count[c];
   }
-  std::vector<bool> taken(count.size());
-  for (std::size_t c = 0; c < count.size(); ++c) {
+  List<bool> taken(count.size());
+  for (int c = 0; c < count.count(); ++c) {
     taken[c] = count[c] > 0;
-    if (taken[c]) p.centres.row(static_cast<Index>(c)) = sum.row(static_cast<Index>(c)) / count[c];
+    if (taken[c]) p.centres.row(c) = sum.row(c) / count[c];
   }
-  for (std::size_t c = 0; c < count.size(); ++c) {
+  for (int c = 0; c < count.count(); ++c) {
     if (taken[c]) continue;
-    p.centres.row(static_cast<Index>(c)) = points.row(farthest_point(points, p.centres, taken));
+    p.centres.row(c) = points.row(farthest_point(points, p.centres, taken));
     taken[c] = true;
   }
 }
 
+/// Why it ends: no step raises the cost. The nearest centre costs a point least, the mean costs a cluster
+/// least, and the centre of an empty cluster costs nothing wherever it is. A cost that falls belongs to a
+/// partition that has not been there before, and there are finitely many. Rounded means could go round for
+/// ever, so the first round that does not lower the cost is the last.
 /// A partition that no longer changes has no empty cluster: the centre of one would have been moved onto a
 /// point that is nearer to it than to all others.
 Partition lloyd_sorted(const Points& sorted, const Points& centres) {
   require_clusters(sorted, centres.rows());
-  Partition p{std::vector<int>(static_cast<std::size_t>(sorted.rows()), -1), centres, 0.0};
-  while (assign(sorted, p)) move_centres(sorted, p);
+  Partition p{List<int>(static_cast<std::size_t>(sorted.rows()), -1), centres, 0.0};
+  double cost = std::numeric_limits<double>::infinity();
+  while (assign(sorted, p) && p.cost < cost) {
+    cost = p.cost;
+    move_centres(sorted, p);
+  }
   return p;
 }
 
@@ -159,8 +167,8 @@ Partition k_means_sorted(const Points& sorted, Index k, std::uint64_t seed, int 
 
 /// A partition of sorted points as one of the points in the order they were given in.
 Partition unsorted(Partition p, const std::vector<int>& order) {
-  std::vector<int> cluster(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) cluster[static_cast<std::size_t>(order[i])] = p.cluster[i];
+  List<int> cluster(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) cluster[order[i]] = p.cluster[i];
   p.cluster = std::move(cluster);
   return p;
 }
@@ -191,22 +199,22 @@ int grow(const Points& sorted, std::uint64_t seed, std::vector<int> members, int
     parts[halves.cluster[i] == calm ? 0 : 1].push_back(members[i]);
   for (std::size_t side = 0; side < 2; ++side) {
     const int child = grow(sorted, seed, std::move(parts[side]), index, tree);
-    tree[static_cast<std::size_t>(index)].children[side] = child;
+    tree[index].children[side] = child;
   }
   return index;
 }
 
 int copy_top(const ClusterTree& tree, int from, double radius, int parent, ClusterTree& top) {
   const auto index = static_cast<int>(top.size());
-  ClusterNode node = tree[static_cast<std::size_t>(from)];
+  ClusterNode node = tree[from];
   const auto children = node.children;
   node.parent = parent;
   node.children = {-1, -1};
-  const bool split = !tree[static_cast<std::size_t>(from)].is_leaf() && node.diameter > radius;
+  const bool split = !tree[from].is_leaf() && node.diameter > radius;
   top.push_back(std::move(node));
   for (std::size_t side = 0; split && side < 2; ++side) {
     const int child = copy_top(tree, children[side], radius, index, top);
-    top[static_cast<std::size_t>(index)].children[side] = child;
+    top[index].children[side] = child;
   }
   return index;
 }
@@ -214,24 +222,24 @@ int copy_top(const ClusterTree& tree, int from, double radius, int parent, Clust
 }  // namespace
 
 Partition lloyd(const Points& points, const Points& centres) {
-  const std::vector<int> order = canonical_order(points);
+  const List<int> order = canonical_order(points);
   return unsorted(lloyd_sorted(rows(points, order), centres), order);
 }
 
 Partition k_means(const Points& points, int k, std::uint64_t seed) {
-  const std::vector<int> order = canonical_order(points);
+  const List<int> order = canonical_order(points);
   return unsorted(k_means_sorted(rows(points, order), k, seed, 0), order);
 }
 
 ClusterTree complete_tree(const Points& points, std::uint64_t seed) {
   if (points.rows() == 0) throw std::invalid_argument("complete_tree: no points");
-  const std::vector<int> order = canonical_order(points);
+  const List<int> order = canonical_order(points);
   std::vector<int> all(order.size());
   std::iota(all.begin(), all.end(), 0);
   ClusterTree tree;
   grow(rows(points, order), seed, std::move(all), -1, tree);
   for (ClusterNode& node : tree) {
-    for (int& member : node.members) member = order[static_cast<std::size_t>(member)];
+    for (int& member : node.members) member = order[member];
     std::sort(node.members.begin(), node.members.end());
   }
   return tree;
@@ -257,7 +265,7 @@ double radius_for_clusters(const ClusterTree& tree, int clusters) {
                                 " clusters (there are no more distinct motions), found " +
                                 std::to_string(clusters));
   if (clusters == possible) return 0.0;
-  // The widest node that stays whole; what is as wide as the last one split is split with it.
+  // The widest node that stays whole. Nodes as wide as the last one that is split are split with it.
   auto whole = diameters.begin() + (clusters - 1);
   const double split = clusters > 1 ? *(whole - 1) : std::numeric_limits<double>::infinity();
   whole = std::find_if(whole, diameters.end(), [&](double d) { return d < split; });

@@ -21,19 +21,22 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/containers.h"
+
 namespace mimicx {
 
 /// Points are rows: [N][D].
 using Points = Eigen::MatrixXd;
 
 struct Partition {
-  std::vector<int> cluster;  ///< [N] nearest centre; of equally near ones the first
-  Points centres;            ///< [k][D] means of the members
-  double cost = 0.0;         ///< sum of squared distances to the centres
+  List<int> cluster;  ///< [N] nearest centre; of equally near ones the first
+  Points centres;     ///< [k][D] means of the members
+  double cost = 0.0;  ///< sum of squared distances to the centres
 };
 
-/// Lloyd's iteration from the given centres until nothing changes. A centre that loses its last point moves
-/// to the point farthest from its own centre, so no cluster of the result is empty.
+/// Lloyd's iteration from the given centres until nothing changes or the cost no longer falls. A centre that
+/// loses its last point moves to the point farthest from its own centre, so no cluster of the result is
+/// empty.
 /// @throws std::invalid_argument when there are fewer distinct points than centres
 Partition lloyd(const Points& points, const Points& centres);
 
@@ -52,7 +55,7 @@ struct ClusterNode {
 
 /// Nodes in depth-first order, first child first; [0] is the root. The leaves, in this order, are the
 /// clusters 0, 1, ….
-using ClusterTree = std::vector<ClusterNode>;
+using ClusterTree = List<ClusterNode>;
 
 /// The complete tree: every leaf holds equal points only. @throws std::invalid_argument without points
 ClusterTree complete_tree(const Points& points, std::uint64_t seed);

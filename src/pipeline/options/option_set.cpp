@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kCount = "options.count";
 
-std::string prefix_of(std::size_t k) { return "option" + std::to_string(k) + "."; }
+std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
 /// @throws DataError where actor and state or action do not fit
 void check_shape(const Npz& archive, const std::string& prefix, const Option& option) {
@@ -25,7 +25,7 @@ void check_shape(const Npz& archive, const std::string& prefix, const Option& op
 void write_options(const std::filesystem::path& path, const OptionSet& set) {
   Npz archive;
   archive.set(kCount, NpyArray::scalar_int(static_cast<std::int64_t>(set.options.size())));
-  for (std::size_t k = 0; k < set.options.size(); ++k) {
+  for (int k = 0; k < set.options.count(); ++k) {
     const TrainedOption& trained = set.options[k];
     const std::string prefix = prefix_of(k);
     save(archive, prefix, trained.option);
@@ -44,7 +44,7 @@ std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path)
   if (!(count >= 1.0 && count <= 1000.0))
     throw DataError(archive.path, kCount, "1 to 1000 options", std::to_string(count));
   auto set = std::make_shared<OptionSet>();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+  for (int k = 0; k < static_cast<int>(count); ++k) {
     const std::string prefix = prefix_of(k);
     const auto number = [&](const char* key) { return archive.at(prefix + key).to_double().at(0); };
     TrainedOption trained;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/containers.h"
 #include "motion/features.h"
 #include "pipeline/options/option.h"
 
@@ -19,18 +20,19 @@ struct TrainedOption {
   Option option;
   std::string description;  ///< what its motions are like
   MotionFeatures centre{};  ///< of its cluster
-  int motions = 0;          ///< it was trained on
+  int motions = 0;          ///< number of motions it was trained on
   std::int64_t samples = 0;
 };
 
 struct OptionSet {
-  std::vector<TrainedOption> options;
+  List<TrainedOption> options;
   std::string checksum;  ///< of the file; empty where it was not read from one
 };
 
 void write_options(const std::filesystem::path& path, const OptionSet& set);
 /// @param path  the file, or a folder that holds `options.npz`
-/// @throws DataError for a file that is none, or whose options do not fit this program's states and actions
+/// @throws DataError for a file without options, and for options that do not fit this program's states and
+/// actions
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path);
 
 }  // namespace mimicx

@@ -7,8 +7,9 @@
 namespace mimicx {
 namespace {
 
-/// What would give no optimum: unequal rows, values that are not finite, a premium on switching.
-void require_usable(const std::vector<std::vector<double>>& reward, double switch_penalty) {
+/// Refuses what has no optimum: rows of different lengths, values that are not finite, a premium on
+/// switching.
+void require_usable(const OptionRewards& reward, double switch_penalty) {
   if (!(switch_penalty <= 0.0) || !std::isfinite(switch_penalty))
     throw std::invalid_argument("select_options: the switch penalty must be finite and at most 0");
   for (const auto& row : reward) {
@@ -20,23 +21,22 @@ void require_usable(const std::vector<std::vector<double>>& reward, double switc
 }
 
 /// Index of the largest entry; of equal ones the first.
-std::size_t best_of(const std::vector<double>& values) {
-  return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+int best_of(const List<double>& values) {
+  return static_cast<int>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
 }  // namespace
 
-Arrangement select_options(const std::vector<std::vector<double>>& reward, double switch_penalty) {
+Arrangement select_options(const OptionRewards& reward, double switch_penalty) {
   require_usable(reward, switch_penalty);
   if (reward.empty()) return {};
-  const std::size_t frames = reward.size(), options = reward.front().size();
-  std::vector<double> dp = reward.front();
+  List<double> dp = reward.front();
   // from[t][c]: the option of frame t - 1 when c acts in frame t.
-  std::vector<std::vector<std::size_t>> from(frames, std::vector<std::size_t>(options));
-  for (std::size_t t = 1; t < frames; ++t) {
-    const std::size_t best = best_of(dp);
+  List<List<int>> from(reward.size(), List<int>(dp.size()));
+  for (int t = 1; t < reward.count(); ++t) {
+    const int best = best_of(dp);
     const double switched = switch_penalty + dp[best];
-    for (std::size_t c = 0; c < options; ++c) {
+    for (int c = 0; c < dp.count(); ++c) {
       const bool stay = dp[c] >= switched;
       from[t][c] = stay ? c : best;
       // dp[best] is changed in its own turn only, and `switched` holds the old one.
@@ -44,11 +44,13 @@ Arrangement select_options(const std::vector<std::vector<double>>& reward, doubl
     }
   }
   Arrangement arrangement;
-  std::size_t option = best_of(dp);
+  int option = best_of(dp);
   arrangement.value = dp[option];
-  arrangement.options.resize(frames);
-  for (std::size_t t = frames; t-- > 0; option = from[t][option])
-    arrangement.options[t] = static_cast<int>(option);
+  arrangement.options.resize(reward.size());
+  for (int t = reward.count() - 1; t >= 0; --t) {
+    arrangement.options[t] = option;
+    option = from[t][option];
+  }
   return arrangement;
 }
 

@@ -16,17 +16,22 @@
 
 #include <vector>
 
+#include "core/containers.h"
+
 namespace mimicx {
 
+/// [frame][option]
+using OptionRewards = List<List<double>>;
+
 struct Arrangement {
-  std::vector<int> options;  ///< [frames] index of the option that acts
-  double value = 0.0;        ///< R of Eq. 4
+  List<int> options;   ///< [frames] index of the option that acts
+  double value = 0.0;  ///< R of Eq. 4
 };
 
 /// Ties go to staying, then to the lower index. An empty `reward` gives an empty arrangement.
 /// @param reward          [frames][options]
 /// @param switch_penalty  w_p ≤ 0, in units of reward, added for every switch
 /// @throws std::invalid_argument for w_p > 0, for rows of different or no length, for values not finite
-Arrangement select_options(const std::vector<std::vector<double>>& reward, double switch_penalty);
+Arrangement select_options(const OptionRewards& reward, double switch_penalty);
 
 }  // namespace mimicx

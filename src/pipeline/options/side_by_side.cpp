@@ -9,17 +9,16 @@ namespace {
 
 /// Characters 0 … C − 1, kLanes to a pack.
 struct Characters {
-  std::vector<rl::TrackingPack> packs;
-  rl::TrackingPack& pack(std::size_t c) { return packs[c / kLanes]; }
-  static int lane(std::size_t c) { return static_cast<int>(c % kLanes); }
+  List<rl::TrackingPack> packs;
+  rl::TrackingPack& pack(int c) { return packs[c / kLanes]; }
+  static int lane(int c) { return c % kLanes; }
 };
 
 /// Hands the best character's state to those that failed. @return false where all failed
-bool rescue(Characters& characters, const std::vector<double>& rewards, double threshold) {
-  const auto best =
-      static_cast<std::size_t>(std::max_element(rewards.begin(), rewards.end()) - rewards.begin());
+bool rescue(Characters& characters, const List<double>& rewards, double threshold) {
+  const auto best = static_cast<int>(std::max_element(rewards.begin(), rewards.end()) - rewards.begin());
   if (!(rewards[best] >= threshold)) return false;
-  for (std::size_t c = 0; c < rewards.size(); ++c)
+  for (int c = 0; c < rewards.count(); ++c)
     if (!(rewards[c] >= threshold))
       characters.pack(c).copy_lane(Characters::lane(c), characters.pack(best), Characters::lane(best));
   return true;
@@ -30,27 +29,27 @@ bool rescue(Characters& characters, const std::vector<double>& rewards, double t
 SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& clip,
                                  const rl::TrackingConfig& config, const std::vector<const Option*>& options,
                                  double threshold) {
-  const std::size_t count = options.size();
   std::vector<rl::Agent> agents;
   for (const Option* option : options) agents.push_back(option->agent);
   const rl::MeanAction policy = rl::mean_action(agents);
-  Characters characters{
-      std::vector<rl::TrackingPack>((count + kLanes - 1) / kLanes, rl::TrackingPack(clip, config))};
+  const int count = static_cast<int>(options.size());
+  Characters characters;
+  characters.packs.assign((options.size() + kLanes - 1) / kLanes, rl::TrackingPack(clip, config));
   Data<rl::TrackingPack::P> scratch;
-  std::vector<float> state(static_cast<std::size_t>(clip->state_size()));
-  std::array<float, kDofs> action{};
+  List<float> state(static_cast<std::size_t>(clip->state_size()));
+  Array<float, kDofs> action{};
   SideBySide result;
-  result.rewards.emplace_back(count, 1.0);
+  result.rewards.emplace_back(options.size(), 1.0);
   for (int t = 1; t < clip->size(); ++t) {
-    for (std::size_t c = 0; c < count; ++c) {
+    for (int c = 0; c < count; ++c) {
       rl::TrackingPack& pack = characters.pack(c);
-      pack.observe(Characters::lane(c), static_cast<int>(c), state.data());
-      policy(static_cast<int>(c), state.data(), action.data());
+      pack.observe(Characters::lane(c), c, state.data());
+      policy(c, state.data(), action.data());
       pack.act(Characters::lane(c), action.data());
     }
     for (rl::TrackingPack& pack : characters.packs) pack.advance(scratch);
-    std::vector<double> rewards(count);
-    for (std::size_t c = 0; c < count; ++c) {
+    List<double> rewards(options.size());
+    for (int c = 0; c < count; ++c) {
       const rl::TrackingPack& pack = characters.pack(c);
       const bool fell = !(pack.worst_distance(Characters::lane(c)) <= config.terminate_distance);
       rewards[c] = fell ? 0.0 : pack.reward(Characters::lane(c)).total;
@@ -58,7 +57,7 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& 
     result.rewards.push_back(rewards);
     if (rescue(characters, rewards, threshold)) continue;
     result.breaks.push_back(t);
-    for (std::size_t c = 0; c < count; ++c) characters.pack(c).reset(Characters::lane(c), t);
+    for (int c = 0; c < count; ++c) characters.pack(c).reset(Characters::lane(c), t);
   }
   return result;
 }

@@ -1,5 +1,5 @@
-/// C characters on one clip, one per option: the rewards the selector chooses from.  METHOD: docs/method.md
-/// §8
+/// C characters on one clip, one per option: the rewards from which the selector chooses.
+///                                                                          METHOD: docs/method.md §8
 ///
 /// All act at once, each by the mean action of its option. Where a character's reward falls under σ, or it
 /// has fallen, it takes over the state of the best character at that moment; where all of them have, all
@@ -7,12 +7,13 @@
 #pragma once
 
 #include "pipeline/options/option.h"
+#include "pipeline/options/selector.h"
 
 namespace mimicx {
 
 struct SideBySide {
   /// [frame][option] of the pose reached at the frame, before any reset; frame 0 is the start, with reward 1.
-  std::vector<std::vector<double>> rewards;
+  OptionRewards rewards;
   std::vector<int> breaks;  ///< frames at which all options had failed
 };
 

@@ -52,7 +52,7 @@ std::string join(const std::vector<std::string>& words) {
 struct Superlative {
   const char* words;
   double Impression::*value;
-  double least;  ///< below this nobody would say it, whatever the others do
+  double least;  ///< a smaller value is never called so, even if the others are smaller still
 };
 constexpr std::array<Superlative, 6> kSuperlatives = {{
     {"the fastest", &Impression::travel, 0.5},
@@ -62,7 +62,7 @@ constexpr std::array<Superlative, 6> kSuperlatives = {{
     {"the busiest arms", &Impression::arms, 0.4},
     {"the most vigorous", &Impression::effort, 3.0},
 }};
-constexpr double kStandsOut = 1.2;  ///< times the next
+constexpr double kStandsOut = 1.2;  ///< the largest value is named where it is this many times the next one
 
 }  // namespace
 
@@ -82,18 +82,17 @@ std::string describe_motion(const MotionFeatures& features) {
   return join(words);
 }
 
-std::string describe_cluster(const std::vector<MotionFeatures>& centres, int cluster) {
-  const auto index = static_cast<std::size_t>(cluster);
-  const Impression mine = impression_of(centres[index]);
+std::string describe_cluster(const List<MotionFeatures>& centres, int cluster) {
+  const Impression mine = impression_of(centres[cluster]);
   std::vector<std::string> words;
   for (const Superlative& s : kSuperlatives) {
     double next = 0.0;
-    for (std::size_t c = 0; c < centres.size(); ++c)
-      if (c != index) next = std::max(next, impression_of(centres[c]).*s.value);
+    for (int c = 0; c < centres.count(); ++c)
+      if (c != cluster) next = std::max(next, impression_of(centres[c]).*s.value);
     if (mine.*s.value >= std::max(s.least, kStandsOut * next)) words.push_back(s.words);
   }
   const std::string standing_out = centres.size() > 1 && !words.empty() ? "; of all " + join(words) : "";
-  return describe_motion(centres[index]) + standing_out;
+  return describe_motion(centres[cluster]) + standing_out;
 }
 
 }  // namespace mimicx

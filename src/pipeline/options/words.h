@@ -5,8 +5,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "core/containers.h"
 #include "motion/features.h"
 
 namespace mimicx {
@@ -17,6 +17,6 @@ std::string describe_motion(const MotionFeatures& features);
 
 /// `describe_motion` of one centre, and in what it exceeds all others by a fifth.
 /// @param centres  of all clusters @param cluster  which of them to describe
-std::string describe_cluster(const std::vector<MotionFeatures>& centres, int cluster);
+std::string describe_cluster(const List<MotionFeatures>& centres, int cluster);
 
 }  // namespace mimicx

@@ -1,7 +1,7 @@
 /// A simulated motion for the tools its input came from: the input's format, body and, if wanted, frame rate.
 ///
-/// The body is told as the input told it (body model and β), with the pelvis where the simulation had it. At
-/// 30 fps a copy holds all members of the simulated motion that its format has a place for. At the input's
+/// The file names the body as the input did (body model and β), with the pelvis where the simulation had it.
+/// At 30 fps a copy holds all members of the simulated motion that its format has a place for. At the input's
 /// rate it has the input's frames, rotations by slerp; torques, wrenches and rewards are means over intervals
 /// of the simulation and stay out, and what the input held beside the body (hands, face, eyes) comes along
 /// untouched.

@@ -26,8 +26,8 @@ NpyArray rewards_member(const std::vector<rl::Reward>& rewards) {
 }
 
 /// Whether a member of the input still means the same beside `frames` frames.
-bool fits(const NpyArray& array, int input_frames, std::size_t frames) {
-  const bool per_frame = !array.shape.empty() && array.shape[0] == static_cast<std::size_t>(input_frames);
+bool fits(const NpyArray& array, std::size_t input_frames, std::size_t frames) {
+  const bool per_frame = !array.shape.empty() && array.shape[0] == input_frames;
   return !per_frame || array.shape[0] == frames;
 }
 
@@ -57,7 +57,7 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   for (const auto& member : input.passthrough) {
-    if (fits(member.second, input.frames(), rollout.poses.size()) && (input.fps == reference.fps))
+    if (fits(member.second, input.rotations.size(), rollout.poses.size()) && (input.fps == reference.fps))
       clip.passthrough.push_back(member);
     else
       notes.push_back("'" + member.first + "' of the input is not passed on: the frames no longer match");

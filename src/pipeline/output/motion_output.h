@@ -12,7 +12,7 @@ namespace mimicx {
 
 /// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards;
 /// members of the input that the program does not use pass through where their frames still match.
-/// @param notes  a line is added for what could not pass through
+/// @param notes  gets a line for every member that could not pass through
 void write_simulated(const std::filesystem::path& path, const Clip& input, const Reference& reference,
                      const rl::TrackingRollout& rollout, std::vector<std::string>& notes);
 

@@ -16,7 +16,7 @@ void write_qpos(const std::filesystem::path& path, const Clip& clip) {
     append(q[t][kPelvis], qpos);
     for (const int body : order) {
       if (body == kPelvis) continue;
-      const Quaterniond& joint = q[t][static_cast<std::size_t>(body)];
+      const Quaterniond& joint = q[t][body];
       if (is_hinge(body))
         qpos.push_back(log_map(joint).dot(hinge_axis(body)));
       else
@@ -25,7 +25,7 @@ void write_qpos(const std::filesystem::path& path, const Clip& clip) {
   }
   std::vector<std::string> names;
   for (const int body : order)
-    if (body != kPelvis) names.emplace_back(kBodyNames[static_cast<std::size_t>(body)]);
+    if (body != kPelvis) names.emplace_back(kBodyNames[body]);
   Npz npz;
   npz.set("qpos", NpyArray::from_double({q.size(), kQpos}, qpos.data()));
   npz.set("fps", NpyArray::scalar(clip.fps));

@@ -12,7 +12,7 @@ constexpr std::size_t kRowVelocities = 6 + kDofs;
 
 void append_joints(const PerBody<Vector3d>& row, std::vector<double>& values) {
   for (int body = 1; body < kBodies; ++body) {
-    const Vector3d& v = row[static_cast<std::size_t>(body)];
+    const Vector3d& v = row[body];
     if (is_hinge(body))
       values.push_back(v.dot(hinge_axis(body)));
     else
@@ -23,7 +23,7 @@ void append_joints(const PerBody<Vector3d>& row, std::vector<double>& values) {
 /// Entry 0 is left as it is.
 void take_joints(const double* values, PerBody<Vector3d>& row) {
   for (int body = 1; body < kBodies; ++body) {
-    Vector3d& v = row[static_cast<std::size_t>(body)];
+    Vector3d& v = row[body];
     if (is_hinge(body)) {
       v = *values * hinge_axis(body);
       values += 1;

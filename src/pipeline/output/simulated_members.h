@@ -26,11 +26,11 @@ NpyArray wrenches_member(const WrenchRows& rows, Precision precision);
 /// (rows, 61): pelvis linear velocity in the world, pelvis angular velocity in its own frame, then as
 /// `joints_member`.
 NpyArray velocities_member(const std::vector<ReferenceFrame>& frames, Precision precision);
-/// Of any shape.
+/// Numbers of any shape.
 NpyArray numbers_member(std::vector<std::size_t> shape, const std::vector<double>& values,
                         Precision precision);
 
-/// Reading back; hinges get their vector along the axis.
+/// Read them back; a hinge's number becomes a vector along its axis.
 /// @throws DataError naming file and member unless it is there with `rows` rows of finite numbers
 VectorRows read_joints(const Npz& npz, const std::string& key, std::size_t rows);
 WrenchRows read_wrenches(const Npz& npz, const std::string& key, std::size_t rows);

@@ -1,10 +1,10 @@
 #include "pipeline/record/manifest.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
+#include "core/containers.h"
 #include "core/error.h"
 #include "pipeline/record/json.h"
 #include "pipeline/record/run_folder.h"
@@ -12,8 +12,8 @@
 namespace mimicx {
 namespace {
 
-constexpr std::array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
-                                                      "limit-seconds", "followed", "lost"};
+constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
+                                                 "limit-seconds", "followed", "lost"};
 
 double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -39,7 +39,7 @@ Json to_json(const SequenceEntry& e) {
           {"status", e.ok ? "ok" : "failed"},
           {"reason", e.reason},
           {"method", e.method},
-          {"ending", kEndings[static_cast<std::size_t>(e.ending)]},
+          {"ending", kEndings[static_cast<int>(e.ending)]},
           {"frames", e.frames},
           {"fps", e.fps},
           {"seed", e.seed},
@@ -87,7 +87,7 @@ SequenceEntry entry_of(const Json& json) {
   e.ok_before = json.at("ok_before");
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
-  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // runs from before it have none
+  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // older manifests have none
   e.preparation = named_values(json.at("preparation"));
   e.decisions = json.value("decisions", std::vector<std::string>{});
   e.notes = json.at("notes").get<std::vector<std::string>>();

@@ -40,7 +40,7 @@ struct SequenceEntry {
   NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
   NamedValues metrics;         ///< of the simulated motion, against the prepared reference
   NamedValues metrics_before;  ///< of the simulated motion before training
-  bool ok_before = false;      ///< whether it was a success already
+  bool ok_before = false;      ///< whether the motion was a success before training
   NamedValues audit;           ///< of the simulated motion: what its forces leave unexplained (audit.h)
   NamedValues preparation;     ///< what preparation did to the input
   std::vector<std::string> decisions;  ///< what reading the input decided

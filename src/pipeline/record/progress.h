@@ -1,7 +1,7 @@
 /// How far a long job is, for the person who waits: done, rate and time left.
 ///
 /// On a terminal one live line, redrawn a few times a second; otherwise a plain line every ten seconds, so
-/// that a log stays readable. Never writes to a result: nothing here touches the determinism of a run.
+/// that a log stays readable. It writes to no result, so it cannot change the bytes of a run.
 #pragma once
 
 #include <functional>

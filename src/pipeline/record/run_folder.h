@@ -1,4 +1,4 @@
-/// Where the files of a run stand, and how a folder is told to belong to this run.
+/// Where the files of a run stand, and how its inputs are named and told apart.
 ///
 ///     DIR/manifest.json          what was done with every input
 ///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
@@ -6,7 +6,7 @@
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
-///     DIR/substeps/NAME.npz      every physics step of it, where asked for
+///     DIR/substeps/NAME.npz      every physics step of the result, where asked for
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
 ///     DIR/plans/NAME.npz         the plan that the motion was simulated from, where there was one

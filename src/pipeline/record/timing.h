@@ -1,5 +1,5 @@
-/// `timing.json`: how long every motion took. Wall-clock times differ from run to run: they stand apart from
-/// everything that is promised to be the same bytes.
+/// `timing.json`: how long every motion took. Wall-clock times differ from run to run, so they stand apart
+/// from the files that are promised to be the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace mimicx {
 /// Wall-clock record of one sequence, summed over interruptions.
 struct Timing {
   std::string name;
-  double seconds = 0.0;           ///< all of it
+  double seconds = 0.0;           ///< of all work on it
   double planning_seconds = 0.0;  ///< of planning
   double training_seconds = 0.0;  ///< of training
   int threads = 0;

@@ -38,7 +38,7 @@ std::string arrangement_note(const std::vector<std::array<int, 2>>& arrangement)
   return text;
 }
 
-/// A row per metric that some column has, in the order of the last column, then what others have besides.
+/// A row per metric: those of the last column in its order, then those that only other columns have.
 std::vector<ReportMetric> rows_of(const std::vector<NamedValues>& columns) {
   std::vector<ReportMetric> rows;
   for (std::size_t c = columns.size(); c-- > 0;)
@@ -119,7 +119,7 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   return s;
 }
 
-/// One that says why its files cannot be shown, where that is so: the others are.
+/// The sequence with its motions; where its files cannot be read, without them and with the reason.
 ReportSequence sequence_or_reason(const RunFolder& folder, const SequenceEntry& entry) {
   try {
     return sequence_of(folder, entry);

@@ -1,4 +1,4 @@
-/// The report of a run, made from what stands in its folder: the same whether or not it was interrupted.
+/// The report of a run. It is made from the files in the folder, so an interruption does not change it.
 #pragma once
 
 #include "pipeline/record/manifest.h"

@@ -22,6 +22,13 @@ int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
 
 }  // namespace
 
+void require_whole_groups(int characters, int group_size) {
+  if (group_size < kLanes || group_size % kLanes != 0 || characters < group_size ||
+      characters % group_size != 0)
+    throw std::invalid_argument("characters must be a multiple of group_size, and that of " +
+                                std::to_string(kLanes) + ", the lanes of this build");
+}
+
 std::vector<double> start_weights(const std::vector<double>& fall_rates, double uniform) {
   const std::size_t n = fall_rates.size();
   std::vector<double> hard(n, 0.0);
@@ -62,11 +69,7 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
                                          std::uint64_t seed)
     : clips_(std::move(clips)), config_(config), group_size_(group_size), seed_(seed) {
   if (clips_.empty()) throw std::invalid_argument("TrackingEnvironment: no clips");
-  if (group_size < kLanes || group_size % kLanes != 0 || characters < group_size ||
-      characters % group_size != 0)
-    throw std::invalid_argument(
-        "TrackingEnvironment: characters must be a multiple of the group size, "
-        "and that a multiple of the pack's lanes");
+  require_whole_groups(characters, group_size);
   for (const auto& clip : clips_) {
     const auto bins = static_cast<std::size_t>(bins_of(*clip, config_));
     last_.falls.emplace_back(bins, 0);

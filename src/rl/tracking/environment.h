@@ -34,6 +34,9 @@ struct TrackingStatistics {
   void add(const TrackingStatistics& other);
 };
 
+/// @throws std::invalid_argument unless the characters fill whole groups, and a group whole packs of lanes
+void require_whole_groups(int characters, int group_size);
+
 /// Probability of starting in each bin: a uniform share, and the rest in the bins that lead to falls. A fall
 /// in bin b is learned from starts in b and in the two bins before it.
 std::vector<double> start_weights(const std::vector<double>& fall_rates, double uniform_share);

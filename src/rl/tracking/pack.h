@@ -61,8 +61,10 @@ struct TrackingClip {
   int state_size() const { return encoded.empty() ? kStateSize : kEncodedRest + encoded.front().code_size; }
   int size() const { return static_cast<int>(poses.size()) - 1; }
 };
-/// @throws std::invalid_argument unless the reference has ≥ 2 frames and the physics rate is a multiple of
-/// its fps.
+/// @throws std::invalid_argument unless the physics rate is a multiple of the motion's frame rate
+void require_whole_steps(const TrackingConfig& config, double fps);
+
+/// @throws std::invalid_argument for a reference of less than 2 frames, and as `require_whole_steps`
 std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
                                                        const TrackingConfig& config);
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <sstream>
 
-#include "pipeline/adapt.h"
 #include "pipeline/audit/audit_file.h"
 #include "pipeline/audit/audit_summary.h"
+#include "pipeline/configurations.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/preparation.h"
 #include "pipeline/temporary_folder.h"
@@ -248,13 +248,12 @@ struct CleanedAndRaw : testing::Test {
 // The contrast of docs/physics.md §9, on motions that the shipped options follow without any training.
 TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
   const TemporaryFolder folder;
-  AdaptConfig config;
+  AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPaper;
   RunConfig& run = config.run;
   for (const char* name : {"squat_1", "wave_1"}) run.inputs.push_back(split("noisy", name).string());
   run.out = folder.path / "run";
   run.fit = run.substeps = true;
-  config.training = fine_tuning_defaults();
   config.training.samples = 0;
   config.options = read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options");
   std::ostringstream messages;

@@ -21,7 +21,7 @@ Clip t_pose(const Height& height) {
   pose[kPelvis] = exp_map(Vector3d(std::numbers::pi / 2, 0.0, 0.0));
   const BodyPoses at_origin = forward_kinematics(c, Vector3d::Zero(), pose);
   const ContactPoint& heel = c.contact_points[0];
-  const auto b = static_cast<std::size_t>(heel.body);
+  const int b = heel.body;
   const double sole = (at_origin.p_WB[b] + at_origin.q_WB[b] * heel.p_B).z();
   std::vector<Vector3d> p_root;
   for (int t = 0; t < 7; ++t) p_root.emplace_back(0.2, -0.1, height(t) - sole);

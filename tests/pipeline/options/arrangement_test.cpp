@@ -25,11 +25,10 @@ OptionSet set_of(const std::vector<float>& actions) {
 }
 
 /// Eq. 4 of options that act in frames 0 … N − 2, each towards the frame after it.
-double value_of(const std::vector<std::vector<double>>& rewards, const std::vector<int>& options,
-                double switch_penalty) {
+double value_of(const OptionRewards& rewards, const List<int>& options, double switch_penalty) {
   double value = 0.0;
-  for (std::size_t t = 0; t + 1 < rewards.size(); ++t) {
-    value += rewards[t + 1][static_cast<std::size_t>(options[t])];
+  for (int t = 0; t + 1 < rewards.count(); ++t) {
+    value += rewards[t + 1][options[t]];
     if (t > 0 && options[t] != options[t - 1]) value += switch_penalty;
   }
   return value;
@@ -44,10 +43,10 @@ TEST(Arrangement, IsTheBestOfAllThatThereAre) {
   std::size_t most = 0;
   for (const double penalty : {0.0, -1e-3, -1.0}) {
     const ArrangedClip arranged = arrange(clip, {}, set, {penalty, kRescue});
-    ASSERT_EQ(arranged.options.size(), static_cast<std::size_t>(kFrames));
+    ASSERT_EQ(arranged.options.count(), kFrames);
     double best = -1e9;
     for (int bits = 0; bits < 1 << kActing; ++bits) {
-      std::vector<int> options;
+      List<int> options;
       for (int t = 0; t < kActing; ++t) options.push_back(bits >> t & 1);
       best = std::max(best, value_of(rolled.rewards, options, penalty));
     }
@@ -64,12 +63,12 @@ TEST(Arrangement, KeepsTheOptionsThatActAndNumbersThemAnew) {
   const ArrangedClip arranged = arrange(clip, {}, set, {0.0, kRescue});
   EXPECT_EQ(arranged.kept, (std::vector<int>{1, 3}));
   ASSERT_EQ(arranged.agents.size(), 2u);
-  for (std::size_t k = 0; k < 2; ++k)
+  for (int k = 0; k < 2; ++k)
     EXPECT_TRUE(arranged.agents[k].actor.biases.back() ==
-                set.options[static_cast<std::size_t>(arranged.kept[k])].option.agent.actor.biases.back());
+                set.options[arranged.kept[k]].option.agent.actor.biases.back());
   ASSERT_EQ(arranged.clip->arrangement.size(), 30u);
   for (std::size_t t = 0; t < 30; ++t)
-    EXPECT_EQ(arranged.kept[static_cast<std::size_t>(arranged.clip->arrangement[t])], arranged.options[t]);
+    EXPECT_EQ(arranged.kept[arranged.clip->arrangement[t]], arranged.options[t]);
   EXPECT_TRUE(clip->arrangement.empty()) << "the clip that was given is as it was";
 }
 

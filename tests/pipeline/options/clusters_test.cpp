@@ -49,8 +49,8 @@ double scaled_distance(const MotionFeatures& a, const MotionFeatures& b) {
   return std::sqrt(squared);
 }
 
-ClusterSettings three() {
-  ClusterSettings settings;
+ClusterConfig three() {
+  ClusterConfig settings;
   settings.clusters = 3;
   return settings;
 }
@@ -72,7 +72,7 @@ TEST(Clusters, NoTwoMembersAreFartherApartThanTheRadius) {
         ->features;
   };
   for (double radius : {0.2, 0.5, 2.0}) {
-    ClusterSettings settings;
+    ClusterConfig settings;
     settings.radius = radius;
     std::size_t members = 0;
     for (const auto& c : cluster_motions(motions, settings).clusters) {
@@ -97,8 +97,7 @@ TEST(Clusters, ANewMotionGoesToTheNearestCentre) {
   const auto motions = some_motions();
   const Clusters clusters = cluster_motions(motions, three());
   for (const auto& m : motions) {
-    const auto& members =
-        clusters.clusters[static_cast<std::size_t>(nearest_cluster(clusters, m.features))].members;
+    const auto& members = clusters.clusters[nearest_cluster(clusters, m.features)].members;
     EXPECT_NE(std::find(members.begin(), members.end(), m.name), members.end()) << m.name;
   }
 }
@@ -130,7 +129,7 @@ TEST(Clusters, FilesOfOtherUnitsOrNoneAreRefused) {
 
 TEST(Clusters, ImpossibleWishesAreInvalid) {
   const auto motions = some_motions();
-  ClusterSettings settings;
+  ClusterConfig settings;
   settings.clusters = 24;
   EXPECT_THROW(cluster_motions(motions, settings), std::invalid_argument);
   EXPECT_THROW(cluster_motions({}, {}), std::invalid_argument);

@@ -55,8 +55,7 @@ TEST(KMeans, SeparatesTwoDistantBlobs) {
   Points points(40, 2);
   for (int i = 0; i < 40; ++i) points.row(i) << random.normal() + (i % 2 ? 100.0 : 0.0), random.normal();
   const Partition p = k_means(points, 2, 1);
-  for (int i = 2; i < 40; ++i)
-    EXPECT_EQ(p.cluster[static_cast<std::size_t>(i)], p.cluster[static_cast<std::size_t>(i % 2)]);
+  for (int i = 2; i < 40; ++i) EXPECT_EQ(p.cluster[i], p.cluster[i % 2]);
   EXPECT_NE(p.cluster[0], p.cluster[1]);
 }
 
@@ -80,20 +79,30 @@ TEST(KMeans, FindsTheBestOfAllPartitionsOfAFewPoints) {
   }
 }
 
+TEST(KMeans, EndsWhereRoundingWouldMoveAPointToAndFroForEver) {
+  // At 2^53 a double holds even numbers alone: the means are rounded by as much as the points are apart, and
+  // the rounds of Lloyd's iteration come back to where they were.
+  constexpr double kLarge = 9007199254740992.0;
+  Points points(4, 1), centres(2, 1);
+  points << kLarge, kLarge + 2.0, kLarge + 4.0, kLarge + 6.0;
+  centres << kLarge + 4.0, kLarge + 2.0;
+  const Partition p = lloyd(points, centres);
+  EXPECT_EQ(std::set<int>(p.cluster.begin(), p.cluster.end()).size(), 2u) << "no cluster is empty";
+}
+
 TEST(KMeans, CentresAreMeansAndPointsGoToTheNearest) {
   const Points points = random_points(3, 50);
   const Partition p = k_means(points, 5, 0);
   Points sum = Points::Zero(5, 3);
-  std::vector<int> count(5, 0);
+  List<int> count(5, 0);
   for (int i = 0; i < 50; ++i) {
-    const int mine = p.cluster[static_cast<std::size_t>(i)];
+    const int mine = p.cluster[i];
     sum.row(mine) += points.row(i);
-    ++count[static_cast<std::size_t>(mine)];
+    ++count[mine];
     for (int c = 0; c < 5; ++c)
       EXPECT_LE((points.row(i) - p.centres.row(mine)).norm(), (points.row(i) - p.centres.row(c)).norm());
   }
-  for (int c = 0; c < 5; ++c)
-    EXPECT_LT((sum.row(c) / count[static_cast<std::size_t>(c)] - p.centres.row(c)).norm(), 1e-12);
+  for (int c = 0; c < 5; ++c) EXPECT_LT((sum.row(c) / count[c] - p.centres.row(c)).norm(), 1e-12);
 }
 
 TEST(KMeans, CentresWithoutPointsFindSome) {
@@ -125,8 +134,7 @@ TEST(KMeans, OrderOfThePointsIsIrrelevant) {
     const Partition other = k_means(picked(points, order), 4, 9);
     EXPECT_EQ(other.cost, p.cost);
     EXPECT_TRUE(other.centres == p.centres);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      EXPECT_EQ(other.cluster[i], p.cluster[static_cast<std::size_t>(order[i])]);
+    for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(other.cluster[i], p.cluster[order[i]]);
   }
 }
 
@@ -166,7 +174,7 @@ TEST(ClusterTree, ChildrenShareOutTheirParentsPoints) {
     if (tree[n].is_leaf()) continue;
     std::vector<int> both;
     for (int child : tree[n].children) {
-      const ClusterNode& c = tree[static_cast<std::size_t>(child)];
+      const ClusterNode& c = tree[child];
       EXPECT_EQ(c.parent, static_cast<int>(n));
       EXPECT_FALSE(c.members.empty());
       both.insert(both.end(), c.members.begin(), c.members.end());

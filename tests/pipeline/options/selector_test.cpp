@@ -11,13 +11,13 @@
 namespace mimicx {
 namespace {
 
-using Rewards = std::vector<std::vector<double>>;
+using Rewards = OptionRewards;
 
 /// Eq. 4, written out.
 double value_of(const Rewards& reward, const std::vector<int>& options, double penalty) {
   double value = 0.0;
   for (std::size_t t = 0; t < reward.size(); ++t) {
-    value += reward[t][static_cast<std::size_t>(options[t])];
+    value += reward[t][options[t]];
     if (t + 1 < reward.size() && options[t] != options[t + 1]) value += penalty;
   }
   return value;
@@ -64,7 +64,7 @@ struct Problem {
 Problem random_problem(std::uint64_t seed) {
   Random random(seed, {0x73656c});
   Problem p;
-  p.reward.assign(2 + random.below(6), std::vector<double>(1 + random.below(4)));
+  p.reward.assign(2 + random.below(6), List<double>(1 + random.below(4)));
   for (auto& row : p.reward)
     for (double& r : row) r = random.below(65) / 64.0;
   p.penalty = -static_cast<double>(random.below(33)) / 64.0;

@@ -43,7 +43,7 @@ TEST(Qpos, ForwardKinematicsOfItIsTheMotion) {
     PerBody<Quaterniond> q;
     q[kPelvis] = ball();
     for (const int body : {1, 4, 7, 10, 2, 5, 8, 11, 3, 6, 9, 12, 15, 13, 16, 18, 20, 14, 17, 19, 21})
-      q[static_cast<std::size_t>(body)] = is_hinge(body) ? exp_map(next() * hinge_axis(body)) : ball();
+      q[body] = is_hinge(body) ? exp_map(next() * hinge_axis(body)) : ball();
     EXPECT_EQ(at, 79);
     const BodyPoses again = forward_kinematics(character, {x, y, z}, q);
     for (std::size_t j = 0; j < kBodies; ++j)

@@ -1,74 +1,80 @@
+#include "pipeline/training_config.h"
+
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
 #include "pipeline/output/simulation_settings.h"
-#include "pipeline/training.h"
+#include "rl/tracking/environment.h"
 
 namespace mimicx {
 
 namespace {
 
-/// Calls visit(name, field) for every number of the configuration but samples and seed.
+/// Calls visit(name, field) for every number of the task.
 template <class Config, class Visit>
-void for_each_setting(Config& config, const Visit& add) {
-  add("characters", config.characters);
-  add("group_size", config.group_size);
-  for (std::size_t i = 0; i < config.hidden.size(); ++i)
-    add("hidden_" + std::to_string(i + 1), config.hidden[i]);
-
-  add("sigma_share", config.sigma_share);
-  add("evaluate_iterations", config.evaluate_iterations);
-  add("stop_reward", config.stop_reward);
-  add("stall_evaluations", config.stall_evaluations);
-
-  auto& p = config.ppo;
-  add("horizon", p.horizon);
-  add("gamma", p.gamma);
-  add("lambda", p.lambda);
-  add("sigma_start", p.sigma_start);
-  add("sigma_end", p.sigma_end);
-  add("epochs", p.epochs);
-  add("minibatch", p.minibatch);
-  add("clip", p.clip);
-  add("gradient_norm", p.gradient_norm);
-  add("critic_step_size", p.critic_step_size);
-  add("return_rate", p.return_rate);
-  add("step_size", p.step_size);
-  add("step_factor", p.step_factor);
-  add("step_min", p.step_min);
-  add("step_max", p.step_max);
-  add("kl_target", p.kl_target);
-  add("kl_stop", p.kl_stop);
-  add("penalty_weight", p.penalty_weight);
-  add("penalty_fraction", p.penalty_fraction);
-  add("bound_weight", p.bound_weight);
-  add("mean_bound", p.mean_bound);
-  add("gradient_slots", p.gradient_slots);
-  add("pass_rows", p.pass_rows);
-
-  auto& t = config.tracking;
-  add("residual_actions", t.action_mode);
-  add("velocity_feed_forward", t.velocity_feed_forward);
-  add("max_action", t.max_action);
-  add("reward_root_position", t.reward.root_position);
-  add("reward_root_rotation", t.reward.root_rotation);
-  add("reward_pose", t.reward.pose);
-  add("reward_velocity", t.reward.velocity);
-  add("reward_end_effector", t.reward.end_effector);
-  add("reward_projection", t.reward.projection);
-  add("reward_target", t.reward_target);
-  add("softest_reward", t.softest_reward);
-  add("terminate_distance", t.terminate_distance);
-  add("bin_frames", t.bin_frames);
-  add("uniform_starts", t.uniform_starts);
-
-  for_each_simulation_setting(t.simulation, add);
+void for_each_tracking_setting(Config& t, const Visit& visit) {
+  visit("residual_actions", t.action_mode);
+  visit("velocity_feed_forward", t.velocity_feed_forward);
+  visit("max_action", t.max_action);
+  visit("reward_root_position", t.reward.root_position);
+  visit("reward_root_rotation", t.reward.root_rotation);
+  visit("reward_pose", t.reward.pose);
+  visit("reward_velocity", t.reward.velocity);
+  visit("reward_end_effector", t.reward.end_effector);
+  visit("reward_projection", t.reward.projection);
+  visit("reward_target", t.reward_target);
+  visit("softest_reward", t.softest_reward);
+  visit("terminate_distance", t.terminate_distance);
+  visit("bin_frames", t.bin_frames);
+  visit("uniform_starts", t.uniform_starts);
+  for_each_simulation_setting(t.simulation, visit);
 }
 
-double value_of(rl::ActionMode mode) { return mode == rl::ActionMode::kResidual ? 1.0 : 0.0; }
+/// Calls visit(name, field) for every number of the configuration but samples and seed.
+template <class Config, class Visit>
+void for_each_setting(Config& config, const Visit& visit) {
+  visit("characters", config.characters);
+  visit("group_size", config.group_size);
+  int layer = 0;
+  for (auto& width : config.hidden) visit("hidden_" + std::to_string(++layer), width);
+
+  visit("sigma_share", config.sigma_share);
+  visit("evaluate_iterations", config.evaluate_iterations);
+  visit("stop_reward", config.stop_reward);
+  visit("stall_evaluations", config.stall_evaluations);
+
+  auto& p = config.ppo;
+  visit("horizon", p.horizon);
+  visit("gamma", p.gamma);
+  visit("lambda", p.lambda);
+  visit("sigma_start", p.sigma_start);
+  visit("sigma_end", p.sigma_end);
+  visit("epochs", p.epochs);
+  visit("minibatch", p.minibatch);
+  visit("clip", p.clip);
+  visit("gradient_norm", p.gradient_norm);
+  visit("critic_step_size", p.critic_step_size);
+  visit("return_rate", p.return_rate);
+  visit("step_size", p.step_size);
+  visit("step_factor", p.step_factor);
+  visit("step_min", p.step_min);
+  visit("step_max", p.step_max);
+  visit("kl_target", p.kl_target);
+  visit("kl_stop", p.kl_stop);
+  visit("penalty_weight", p.penalty_weight);
+  visit("penalty_fraction", p.penalty_fraction);
+  visit("bound_weight", p.bound_weight);
+  visit("mean_bound", p.mean_bound);
+  visit("gradient_slots", p.gradient_slots);
+  visit("pass_rows", p.pass_rows);
+
+  for_each_tracking_setting(config.tracking, visit);
+}
+
+double number_of(rl::ActionMode mode) { return mode == rl::ActionMode::kResidual ? 1.0 : 0.0; }
 template <class T>
-double value_of(T value) {
+double number_of(T value) {
   return static_cast<double>(value);
 }
 
@@ -83,7 +89,7 @@ void assign(T& field, double value) {
     throw std::invalid_argument("a fraction where a whole number is expected");
 }
 
-/// What a setting may be, beyond not being negative.
+/// What a setting may be, where that is not 0 to 1e9.
 struct Range {
   std::string name;
   double least, most;
@@ -128,18 +134,24 @@ void check(const TrainingConfig& config) {
       throw std::invalid_argument(text);
     }
   }
-  if (config.group_size % kLanes != 0 || config.characters % config.group_size != 0)
-    throw std::invalid_argument("characters must be a multiple of group_size, and that of " +
-                                std::to_string(kLanes) + ", the lanes of this build");
-  if (std::fmod(config.tracking.simulation.rate, 30.0) != 0.0)
-    throw std::invalid_argument("physics_rate must be a multiple of 30");
-  make_model<double>(make_character(), config.tracking.simulation);  // checks its own
+  // What only the environment, the task and the simulator can judge, they judge themselves.
+  rl::require_whole_groups(config.characters, config.group_size);
+  rl::require_whole_steps(config.tracking, Reference{}.fps);
+  make_model<double>(make_character(), config.tracking.simulation);
 }
 
 NamedValues settings_of(const TrainingConfig& config) {
   NamedValues values;
   for_each_setting(config, [&](const std::string& name, const auto& field) {
-    values.emplace_back(name, value_of(field));
+    values.emplace_back(name, number_of(field));
+  });
+  return values;
+}
+
+NamedValues settings_of(const rl::TrackingConfig& config) {
+  NamedValues values;
+  for_each_tracking_setting(config, [&](const std::string& name, const auto& field) {
+    values.emplace_back(name, number_of(field));
   });
   return values;
 }
@@ -151,8 +163,7 @@ void apply_setting(TrainingConfig& config, const std::string& name, double value
     assign(field, value);
     found = true;
   });
-  if (!found)
-    throw std::invalid_argument("unknown setting '" + name + "': the manifest of a run lists them all");
+  if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
 }  // namespace mimicx

@@ -1,0 +1,47 @@
+/// The configurations that people run, as the columns of one table. `mimicx config` prints it.
+///
+///     imitate         one policy per motion, trained from scratch
+///     adapt           a plan; where it fails, trained options, fine-tuned jointly        docs/method.md §9
+///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
+///     pretrain paper  the same with the paper's networks
+///     plan            optimal control, nothing learned
+///
+/// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
+/// (reward, starts, simulation), the encoder and the plan, which have one value for all, beside their meaning
+/// (rl/tracking/pack.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h, control/plan.h). The printed
+/// table has them, too.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/adapt.h"
+#include "pipeline/imitate.h"
+#include "pipeline/plan.h"
+#include "pipeline/pretrain.h"
+
+namespace mimicx {
+
+PlanMotionsConfig plan_configuration();
+ImitateConfig imitate_configuration();
+AdaptConfig adapt_configuration();
+/// @param preset  "small" or "paper" @throws std::invalid_argument for another one
+PretrainConfig pretrain_configuration(const std::string& preset);
+
+/// Everything a run records as its settings, by name, and the columns; NaN where a configuration has no
+/// such setting.
+struct ConfigurationRow {
+  std::string name;
+  std::array<double, 5> values;
+};
+inline constexpr std::array<const char*, 5> kConfigurationNames = {"imitate", "adapt", "pretrain small",
+                                                                   "pretrain paper", "plan"};
+std::vector<ConfigurationRow> configuration_rows();
+
+/// A line per setting, columns aligned; "-" where there is none.
+std::string format_configurations();
+/// {"imitate": {name: value, …}, …}, the settings in the order of the table.
+std::string configurations_json();
+
+}  // namespace mimicx

@@ -1,0 +1,69 @@
+#include "pipeline/adapt.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "commands.h"
+#include "training.h"
+
+namespace mimicx {
+namespace {
+
+struct Arguments {
+  AdaptConfig config = adapt_configuration();
+  std::string options;
+  std::vector<std::string> settings;
+};
+
+/// data/options of the source tree that holds this program, or of the folder it was started in.
+std::filesystem::path shipped_options() {
+  const std::filesystem::path relative = std::filesystem::path("data") / "options";
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (std::filesystem::path at = program.parent_path(); !error && at != at.root_path();
+       at = at.parent_path())
+    if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
+  if (std::filesystem::exists(relative / "options.npz")) return relative;
+  throw UsageError(
+      "found no data/options beside the program: name trained options with --options, or take --method plan");
+}
+
+}  // namespace
+
+int adapt_motions(AdaptConfig config, std::filesystem::path options,
+                  const std::vector<std::string>& settings) {
+  if (config.method != AdaptMethod::kPlan)
+    config.options = read_options(options.empty() ? shipped_options() : options);
+  apply_settings(settings, config);
+  return with_context([&](const RunContext& context) {
+    return run_inputs(config.run, context, [&] { return adapt(config, context); });
+  });
+}
+
+void declare_adapt(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand(
+      "adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each");
+  static const std::map<std::string, AdaptMethod> kMethods = {
+      {"auto", AdaptMethod::kAuto}, {"plan", AdaptMethod::kPlan}, {"paper", AdaptMethod::kPaper}};
+  command
+      ->add_option("--method", a->config.method,
+                   "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
+                   "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the "
+                   "paper's method, which then takes its minutes; the better of the two is kept")
+      ->transform(CLI::CheckedTransformer(kMethods))
+      ->option_text("TEXT:{auto,plan,paper}");
+  add_run_arguments(*command, a->config.run, a->settings);
+  add_training_arguments(*command, a->config.training, "--budget-samples");
+  add_fit_flag(*command, a->config.run.fit);
+  command->add_option(
+      "--options", a->options,
+      "trained options: a file, or a folder with options.npz; default: those in data/options");
+  add_arrangement_arguments(*command, a->config.arrangement);
+  command->callback(
+      [a, &action] { action = [a] { return adapt_motions(a->config, a->options, a->settings); }; });
+}
+
+}  // namespace mimicx

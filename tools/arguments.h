@@ -1,0 +1,27 @@
+/// Arguments that several subcommands share.
+#pragma once
+
+#include <cstdint>
+
+#include "motion/import/motion_file.h"
+#include "pipeline/options/clusters.h"
+
+namespace CLI {
+class App;
+}
+
+namespace mimicx {
+
+/// --up, --scale, --fps …: what the user knows better than the files.
+void add_read_arguments(CLI::App& command, ReadOptions& read);
+
+/// --threads; default: all there are.
+void add_threads(CLI::App& command, int& threads);
+
+/// --seed; the default is the value that is there.
+void add_seed(CLI::App& command, std::uint64_t& seed);
+
+/// --radius or --clusters.
+void add_cluster_arguments(CLI::App& command, ClusterConfig& clusters);
+
+}  // namespace mimicx

@@ -1,0 +1,35 @@
+#include "pipeline/plan.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands.h"
+#include "training.h"
+
+namespace mimicx {
+namespace {
+
+struct Arguments {
+  PlanMotionsConfig config = plan_configuration();
+  std::vector<std::string> settings;
+};
+
+int plan_all(Arguments a) {
+  apply_settings(a.settings, a.config.planning);
+  return with_context([&](const RunContext& context) {
+    return run_inputs(a.config.run, context, [&] { return plan_motions(a.config, context); });
+  });
+}
+
+}  // namespace
+
+void declare_plan(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand(
+      "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out");
+  add_run_arguments(*command, a->config.run, a->settings);
+  add_fit_flag(*command, a->config.run.fit);
+  command->callback([a, &action] { action = [a] { return plan_all(*a); }; });
+}
+
+}  // namespace mimicx
