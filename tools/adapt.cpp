@@ -58,6 +58,7 @@ void declare_adapt(CLI::App& app, Action& action) {
   add_run_arguments(*command, a->config.run, a->settings);
   add_training_arguments(*command, a->config.training, "--budget-samples");
   add_fit_flag(*command, a->config.run.fit);
+  add_gains_flag(*command, a->config.run.gains);
   command->add_option(
       "--options", a->options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");

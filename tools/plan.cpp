@@ -29,6 +29,7 @@ void declare_plan(CLI::App& app, Action& action) {
       "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out");
   add_run_arguments(*command, a->config.run, a->settings);
   add_fit_flag(*command, a->config.run.fit);
+  add_gains_flag(*command, a->config.run.gains);
   command->callback([a, &action] { action = [a] { return plan_all(*a); }; });
 }
 

@@ -106,6 +106,11 @@ void add_fit_flag(CLI::App& command, bool& fit) {
                    "look at keypoints at all");
 }
 
+void add_gains_flag(CLI::App& command, bool& gains) {
+  command.add_flag("--gains", gains,
+                   "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
+}
+
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement) {
   command
       .add_option("--switch-penalty", arrangement.switch_penalty, "w_p of Eq. 4, in rewards; not positive")

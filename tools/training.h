@@ -37,6 +37,8 @@ void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::strin
 void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples);
 /// --fit and --no-fit.
 void add_fit_flag(CLI::App& command, bool& fit);
+/// --gains.
+void add_gains_flag(CLI::App& command, bool& gains);
 
 /// --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement);

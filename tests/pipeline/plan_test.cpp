@@ -125,6 +125,27 @@ TEST_F(PlanMotions, AFinishedMotionGetsItsStepsFromItsPlan) {
   EXPECT_EQ(after, before);
 }
 
+TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  auto before = results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "plans" / "stand.npz");
+  config.run.gains = true;
+  run(config);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "plans" / "stand.npz"), written) << "planned again";
+  auto after = results_of(out("run"));
+  const std::string gains = after.at("gains/stand.npz");
+  after.erase("gains/stand.npz");
+  EXPECT_EQ(after, before);
+  const std::vector<Eigen::MatrixXf> K = read_gains(out("run") / "gains" / "stand.npz");
+  ASSERT_EQ(K.size(), 19u);
+  for (const Eigen::MatrixXf& one : K) EXPECT_GT(one.norm(), 0.0f);
+  config.run.out = out("at once");
+  config.run.threads = 2;
+  run(config);
+  EXPECT_EQ(results_of(out("at once")).at("gains/stand.npz"), gains);
+}
+
 TEST_F(PlanMotions, APlanOfAnotherInputIsNotTakenUp) {
   run(planning("run", {stand}));
   write_clip(stand, standing_clip(25));
