@@ -49,16 +49,17 @@ void declare_adapt(CLI::App& app, Action& action) {
   static const std::map<std::string, AdaptMethod> kMethods = {
       {"auto", AdaptMethod::kAuto}, {"plan", AdaptMethod::kPlan}, {"paper", AdaptMethod::kPaper}};
   command
-      ->add_option("--method", a->config.method,
-                   "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
-                   "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the "
-                   "paper's method, which then takes its minutes; the better of the two is kept")
+      ->add_option(
+          "--method", a->config.method,
+          "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
+          "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the paper's "
+          "method, whose training then takes minutes; the better of the two is kept")
       ->transform(CLI::CheckedTransformer(kMethods))
       ->option_text("TEXT:{auto,plan,paper}");
   add_run_arguments(*command, a->config.run, a->settings);
   add_training_arguments(*command, a->config.training, "--budget-samples");
-  add_fit_flag(*command, a->config.run.fit);
-  add_gains_flag(*command, a->config.run.gains);
+  add_fit_arguments(*command, a->config.run);
+  add_gains_argument(*command, a->config.run);
   command->add_option(
       "--options", a->options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");

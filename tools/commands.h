@@ -28,6 +28,7 @@ using Action = std::function<int()>;
 
 void declare_plan(CLI::App& app, Action& action);
 void declare_run(CLI::App& app, Action& action);
+void declare_plan(CLI::App& app, Action& action);
 void declare_pretrain(CLI::App& app, Action& action);
 void declare_adapt(CLI::App& app, Action& action);
 void declare_imitate(CLI::App& app, Action& action);

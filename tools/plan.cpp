@@ -14,7 +14,7 @@ struct Arguments {
   std::vector<std::string> settings;
 };
 
-int plan_all(Arguments a) {
+int plan(Arguments a) {
   apply_settings(a.settings, a.config.planning);
   return with_context([&](const RunContext& context) {
     return run_inputs(a.config.run, context, [&] { return plan_motions(a.config, context); });
@@ -28,9 +28,9 @@ void declare_plan(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand(
       "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out");
   add_run_arguments(*command, a->config.run, a->settings);
-  add_fit_flag(*command, a->config.run.fit);
-  add_gains_flag(*command, a->config.run.gains);
-  command->callback([a, &action] { action = [a] { return plan_all(*a); }; });
+  add_fit_arguments(*command, a->config.run);
+  add_gains_argument(*command, a->config.run);
+  command->callback([a, &action] { action = [a] { return plan(*a); }; });
 }
 
 }  // namespace mimicx

@@ -20,7 +20,7 @@ int run_all_stages(Arguments a) {
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
-  a.adapt.method = AdaptMethod::kPaper;
+  a.adapt.method = AdaptMethod::kPaper;  // it is the options that are to be tried
   a.adapt.training.seed = a.pretrain.training.seed;
   a.adapt.run.threads = a.pretrain.threads;
   a.adapt.run.read = a.pretrain.read;

@@ -46,9 +46,9 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->take_all();
 }
 
-void apply_settings(const std::vector<std::string>& settings,
-                    const std::function<void(const std::string& name, double value)>& apply,
-                    const std::function<void()>& check) {
+void for_each_setting(const std::vector<std::string>& settings,
+                      const std::function<void(const std::string& name, double value)>& apply,
+                      const std::function<void()>& check) {
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
     double value = 0.0;
@@ -100,14 +100,14 @@ void add_training_arguments(CLI::App& command, TrainingConfig& training, const s
   add_seed(command, training.seed);
 }
 
-void add_fit_flag(CLI::App& command, bool& fit) {
-  command.add_flag("--fit,!--no-fit", fit,
+void add_fit_arguments(CLI::App& command, RunConfig& run) {
+  command.add_flag("--fit,!--no-fit", run.fit,
                    "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
                    "look at keypoints at all");
 }
 
-void add_gains_flag(CLI::App& command, bool& gains) {
-  command.add_flag("--gains", gains,
+void add_gains_argument(CLI::App& command, RunConfig& run) {
+  command.add_flag("--gains", run.gains,
                    "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
 }
 

@@ -17,29 +17,28 @@ namespace mimicx {
 
 /// --set NAME=NUMBER, repeatable.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
+/// Calls apply(name, value) for every NAME=NUMBER, then check().
+/// @throws UsageError for what is no NAME=NUMBER, and where apply or check throw std::invalid_argument
+void for_each_setting(const std::vector<std::string>& settings,
+                      const std::function<void(const std::string& name, double value)>& apply,
+                      const std::function<void()>& check);
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
-/// @param apply  changes one @param check  looks at all of them, at the end
-/// @throws UsageError for a setting that `apply` or `check` does not take
-void apply_settings(const std::vector<std::string>& settings,
-                    const std::function<void(const std::string& name, double value)>& apply,
-                    const std::function<void()>& check);
-/// By the configuration's own apply_setting and check.
+/// @throws UsageError for a setting that the configuration does not have, or cannot have
 template <class Config>
 void apply_settings(const std::vector<std::string>& settings, Config& config) {
-  apply_settings(
+  for_each_setting(
       settings, [&](const std::string& name, double value) { apply_setting(config, name, value); },
       [&] { check(config); });
 }
 
-/// The arguments of a run over motions.
+/// The arguments of every run over motions.
 void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings);
-/// The budget and the seed of a training. @param samples  name of the argument for the budget
+/// Those of a run that trains. @param samples  name of the argument for the budget
 void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples);
-/// --fit and --no-fit.
-void add_fit_flag(CLI::App& command, bool& fit);
+/// --fit, the default, and --no-fit.
+void add_fit_arguments(CLI::App& command, RunConfig& run);
 /// --gains.
-void add_gains_flag(CLI::App& command, bool& gains);
-
+void add_gains_argument(CLI::App& command, RunConfig& run);
 /// --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement);
 

@@ -1,203 +1,152 @@
 #include "control/analytic.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "control/analytic_math.h"
+#include "control/analytic_step.h"
+#include "physics/pd_target.h"
 
 namespace mimicx::control {
 namespace {
 
-/// Degree of freedom 0 … 54 as body and axis in the child's frame.
-struct Dof {
-  std::size_t body;
-  Vector3d axis;
-};
-std::array<Dof, kDofs> make_dofs() {
-  std::array<Dof, kDofs> dofs;
-  for (int body = 1; body < kBodies; ++body) {
-    const auto first = static_cast<std::size_t>(first_dof(body)), i = static_cast<std::size_t>(body);
-    if (is_hinge(body))
-      dofs[first] = {i, hinge_axis(body)};
-    else
-      for (int k = 0; k < 3; ++k) dofs[first + static_cast<std::size_t>(k)] = {i, Vector3d::Unit(k)};
-  }
-  return dofs;
-}
-
-/// The targets at the ends of a frame, and how they turn with their residuals.
-struct Ends {
-  Target<double> from, to;
-  TargetDerivative turns;  ///< right Jacobians of the two residuals
+/// The PD target at one end of a frame, and how it turns with its residuals: the right Jacobians of exp.
+struct End {
+  Target<double> target;
+  PerBody<Matrix3d> turns;
 };
 
-Vector3d residual_of(const std::array<double, kDofs>& residual, int body) {
-  const auto dof = static_cast<std::size_t>(first_dof(body));
-  if (is_hinge(body)) return residual[dof] * hinge_axis(body);
-  return {residual[dof], residual[dof + 1], residual[dof + 2]};
-}
-
-Ends ends_of(const ControlFrame& frame) {
-  Ends ends{frame.from, frame.to, {}};
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const Vector3d w = residual_of(frame.from_residual, static_cast<int>(i)),
-                   u = residual_of(frame.to_residual, static_cast<int>(i));
-    ends.from.q[i] = quat(eigen(frame.from.q[i]) * exp_map(w));
-    ends.to.q[i] = quat(eigen(frame.to.q[i]) * exp_map(u));
-    ends.turns.from[i] = right_jacobian(w);
-    ends.turns.to[i] = right_jacobian(u);
+End end_of(const Target<double>& reference, const Array<double, kDofs>& residual) {
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  End end{reference, {}};
+  for (int i = 1; i < kBodies; ++i) {
+    const Vector3d r = action_rotation(i, kNoLimit, [&](int dof) { return residual[dof]; });
+    end.target.q[i] = from_eigen(residual_target(to_eigen(reference.q[i]), r));
+    end.turns[i] = right_jacobian(r);
   }
-  return ends;
+  return end;
 }
 
-/// The target at the share s of the way from one end to the other: normalised linear interpolation the
-/// shorter way, q* = (α q_from + β q_to) / ‖·‖; and how it turns: with q*⁻¹ q_from = (c, n) a turn ε of
-/// q_from gives α/‖·‖ (c ε + n × ε).
-Target<double> target_at(const Ends& ends, double s, TargetDerivative& turns) {
-  Target<double> target = ends.to;
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const Quaterniond a = eigen(ends.from.q[i]), b = eigen(ends.to.q[i]);
+/// The target at the share s of the way, and how it turns with the residuals of the two ends. Interpolated
+/// linearly and normalised, q* = (α q_a + β q_b) / l; a turn ε of q_a, seen from q*, gives q* the turn
+/// (α/l) (c ε + n × ε), where (c, n) = q*⁻¹ q_a.
+Target<double> target_at(const End& from, const End& to, double s, TargetDerivative& turns) {
+  Target<double> target;
+  for (int i = 1; i < kBodies; ++i) {
+    const Quaterniond a = to_eigen(from.target.q[i]), b = to_eigen(to.target.q[i]);
     const double share_a = 1.0 - s, share_b = a.dot(b) < 0.0 ? -s : s;
     Quaterniond q;
     q.coeffs() = share_a * a.coeffs() + share_b * b.coeffs();
-    const double norm = q.norm();
-    q.coeffs() /= norm;
+    const double length = q.norm();
+    q.coeffs() /= length;
     const auto turn = [&](const Quaterniond& end, double share) -> Matrix3d {
       const Quaterniond x = q.conjugate() * end;
-      return (share / norm) * (x.w() * Matrix3d::Identity() + skew(x.vec()));
+      return (share / length) * (x.w() * Matrix3d::Identity() + skew(x.vec()));
     };
-    turns.from[i] = turn(a, share_a) * ends.turns.from[i];
-    turns.to[i] = turn(b, share_b) * ends.turns.to[i];
-    target.q[i] = quat(q);
-    target.omega[i] = add_scaled(ends.from.omega[i], s, ends.to.omega[i] - ends.from.omega[i]);
+    turns.from[i] = turn(a, share_a) * from.turns[i];
+    turns.to[i] = turn(b, share_b) * to.turns[i];
+    target.q[i] = from_eigen(q);
+    target.omega[i] = add_scaled(from.target.omega[i], s, to.target.omega[i] - from.target.omega[i]);
   }
   return target;
 }
 
-/// Column c of F as a direction: what it changes at the start of the frame. Residuals act in every step and
-/// are left to `drive`.
-template <class T>
-void seed(int c, int lane, const std::array<Dof, kDofs>& dofs, TangentData<T>& d) {
-  using Traits = ScalarTraits<T>;
-  const auto unit = [&](Vec3<T>& v, int k) { Traits::set(k == 0 ? v.x : k == 1 ? v.y : v.z, lane, 1.0); };
-  const auto along = [&](std::array<Vec3<T>, kBodies>& v, int dof) {
-    const Dof& joint = dofs[static_cast<std::size_t>(dof)];
-    Traits::set(v[joint.body].x, lane, joint.axis.x());
-    Traits::set(v[joint.body].y, lane, joint.axis.y());
-    Traits::set(v[joint.body].z, lane, joint.axis.z());
-  };
-  StateTangent<T>& x = d.state;
-  constexpr int kHalf = kFrameStates / 2;
-  if (c < 3) return unit(x.p, c);
-  if (c < 6) return unit(x.turn[0], c - 3);
-  if (c < kHalf) return along(x.turn, c - 6);
-  if (c < kHalf + 3) return unit(x.v, c - kHalf);
-  if (c < kHalf + 6) return unit(x.spin[0], c - kHalf - 3);
-  if (c < kFrameStates) return along(x.spin, c - kHalf - 6);
-  if (c < kFrameColumns) return;
-  if (c < kFrameColumns + 3) return unit(d.push.n, c - kFrameColumns);
-  if (c < kFrameColumnsWithPush) return unit(d.push.f, c - kFrameColumns - 3);
-}
-
-/// The joint torque that a residual gives in one step.
-template <class T>
-void drive(const SubstepTable<RealOf<T>>& table, int c, int lane, const std::array<Dof, kDofs>& dofs,
-           TangentData<T>& d) {
-  if (c < kFrameStates || c >= kFrameColumns) return;
-  const auto column = static_cast<std::size_t>(c - kFrameStates);
-  const Vec3<RealOf<T>>& torque = column < kDofs ? table.drive_from[column] : table.drive_to[column - kDofs];
-  Vec3<T>& out = d.drive[dofs[column % kDofs].body];
-  ScalarTraits<T>::set(out.x, lane, static_cast<double>(torque.x));
-  ScalarTraits<T>::set(out.y, lane, static_cast<double>(torque.y));
-  ScalarTraits<T>::set(out.z, lane, static_cast<double>(torque.z));
+/// The nominal motion, and the tables of its steps.
+template <class Real>
+void roll_out(const Model<double>& model, const ControlFrame& frame, Data<double>& data,
+              std::vector<SubstepTable<Real>>& tables, State<double>& state, bool& wrong) {
+  const End from = end_of(frame.from, frame.from_residual), to = end_of(frame.to, frame.to_residual);
+  TargetDerivative turns;
+  state = frame.start;
+  wrong = false;
+  tables.resize(static_cast<std::size_t>(frame.substeps));
+  for (int k = 1; k <= frame.substeps; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(frame.substeps);
+    const Target<double> target = target_at(from, to, share, turns);
+    if (tabulate_step(model, target, turns, frame.help, state, data, tables[static_cast<std::size_t>(k - 1)]))
+      wrong = true;
+  }
 }
 
 template <class T>
-void clear(TangentData<T>& d) {
+void clear(AdjointData<T>& d) {
   const Vec3<T> zero = zero3<T>();
-  d.state.p = d.state.v = d.push.n = d.push.f = zero;
+  d.state.p = d.state.v = d.help.n = d.help.f = zero;
   d.state.turn.fill(zero);
   d.state.spin.fill(zero);
-  d.drive.fill(zero);
+  d.from.fill(T(0.0));
+  d.to.fill(T(0.0));
 }
 
-/// Writes the lanes of a state's change into columns first … first + count - 1.
+/// The coordinate of the end that row `row` of the derivative is about, in one lane.
 template <class T>
-void write(const StateTangent<T>& x, const std::array<Dof, kDofs>& dofs, int first, int count,
-           FrameDerivative<T>& out) {
-  const auto row = [&](int r, const T& value) {
-    for (int lane = 0; lane < count; ++lane) out.F(r, first + lane) = ScalarTraits<T>::get(value, lane);
+void seed(int row, int lane, StateAdjoint<T>& x) {
+  const auto half = [&](int k, Vec3<T>& root, PerBody<Vec3<T>>& joints) {
+    if (k < 3) return set_lane(root, lane, Vector3d::Unit(k));
+    if (k < 6) return set_lane(joints[0], lane, Vector3d::Unit(k - 3));
+    const Dof& joint = dofs()[static_cast<std::size_t>(k - 6)];
+    set_lane(joints[joint.body], lane, joint.axis);
   };
-  const auto rows = [&](int r, const Vec3<T>& v) {
-    row(r, v.x);
-    row(r + 1, v.y);
-    row(r + 2, v.z);
+  if (row < kPositions)
+    half(row, x.p, x.turn);
+  else
+    half(row - kPositions, x.v, x.spin);
+}
+
+/// Writes the lanes into the rows from `first` on.
+template <class T>
+void write(const AdjointData<T>& d, int first, int lanes, FrameDerivative<T>& out) {
+  const auto put_column = [&](int column, const T& value) {
+    for (int lane = 0; lane < lanes; ++lane) out.F(first + lane, column) = ScalarTraits<T>::get(value, lane);
   };
-  const auto half = [&](int r, const Vec3<T>& root, const std::array<Vec3<T>, kBodies>& v) {
-    rows(r, root);
-    rows(r + 3, v[0]);
-    for (int dof = 0; dof < kDofs; ++dof) {
-      const Dof& joint = dofs[static_cast<std::size_t>(dof)];
-      const Vec3<T> axis = {T(joint.axis.x()), T(joint.axis.y()), T(joint.axis.z())};
-      row(r + 6 + dof, dot(axis, v[joint.body]));
+  const auto three = [&](int column, const Vec3<T>& v) {
+    put_column(column, v.x);
+    put_column(column + 1, v.y);
+    put_column(column + 2, v.z);
+  };
+  const auto half = [&](int column, const Vec3<T>& root, const PerBody<Vec3<T>>& joints) {
+    three(column, root);
+    three(column + 3, joints[0]);
+    for (int i = 1; i < kBodies; ++i) {
+      const int at = column + 6 + first_dof(i);
+      if (is_hinge(i)) {
+        const Vector3d axis = hinge_axis(i);
+        put_column(at, dot(Vec3<T>{T(axis.x()), T(axis.y()), T(axis.z())}, joints[i]));
+      } else {
+        three(at, joints[i]);
+      }
     }
   };
-  half(0, x.p, x.turn);
-  half(kFrameStates / 2, x.v, x.spin);
-}
-
-/// The steps of a frame; f(target, turns, k) does step k.
-template <class F>
-void for_each_step(const ControlFrame& frame, F&& f) {
-  if (frame.substeps < 1) throw std::invalid_argument("a control frame needs at least one physics step");
-  const Ends ends = ends_of(frame);
-  TargetDerivative turns;
-  for (int k = 1; k <= frame.substeps; ++k) {
-    const Target<double> target =
-        target_at(ends, static_cast<double>(k) / static_cast<double>(frame.substeps), turns);
-    f(target, turns, static_cast<std::size_t>(k - 1));
+  half(0, d.state.p, d.state.turn);
+  half(kPositions, d.state.v, d.state.spin);
+  for (int dof = 0; dof < kDofs; ++dof) {
+    put_column(kTangent + dof, d.from[dof]);
+    put_column(kTangent + kDofs + dof, d.to[dof]);
   }
+  if (out.F.cols() == kFrameColumns) return;
+  three(kFrameColumns, d.help.n);
+  three(kFrameColumns + 3, d.help.f);
 }
 
 }  // namespace
 
 template <class T>
-void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_push,
+void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_help,
                          FrameScratch<T>& scratch, FrameDerivative<T>& out) {
-  out.end = frame.start;
-  out.wrong = false;
-  scratch.substeps.resize(static_cast<std::size_t>(std::max(frame.substeps, 0)));
-  for_each_step(frame, [&](const Target<double>& target, const TargetDerivative& turns, std::size_t k) {
-    if (tabulate_step(model, target, turns, frame.push, out.end, scratch.data, scratch.substeps[k]))
-      out.wrong = true;
-  });
-  static const std::array<Dof, kDofs> dofs = make_dofs();
-  constexpr int kSize = ScalarTraits<T>::kSize;
-  const int columns = with_push ? kFrameColumnsWithPush : kFrameColumns;
-  out.F.resize(kFrameStates, columns);
-  TangentData<T>& d = scratch.tangent;
-  for (int first = 0; first < columns; first += kSize) {
-    const int count = std::min(kSize, columns - first);
+  if (frame.substeps < 1) throw std::invalid_argument("a control frame needs at least one physics step");
+  roll_out(model, frame, scratch.data, scratch.substeps, out.end, out.wrong);
+  const int columns = with_help ? kFrameColumnsWithHelp : kFrameColumns;
+  out.F.resize(kTangent, columns);
+  AdjointData<T>& d = scratch.adjoint;
+  for (int first = 0; first < kTangent; first += ScalarTraits<T>::kSize) {
+    const int lanes = std::min(ScalarTraits<T>::kSize, kTangent - first);
     clear(d);
-    for (int lane = 0; lane < count; ++lane) seed(first + lane, lane, dofs, d);
-    for (const SubstepTable<RealOf<T>>& table : scratch.substeps) {
-      for (int lane = 0; lane < count; ++lane) drive(table, first + lane, lane, dofs, d);
-      advance_tangent(table, d);
-    }
-    write(d.state, dofs, first, count, out);
+    for (int lane = 0; lane < lanes; ++lane) seed(first + lane, lane, d.state);
+    for (auto table = scratch.substeps.rbegin(); table != scratch.substeps.rend(); ++table)
+      retrace_step(*table, d);
+    write(d, first, lanes, out);
   }
-}
-
-State<double> roll_out_frame(const Model<double>& model, const ControlFrame& frame, Data<double>& data,
-                             bool* wrong) {
-  State<double> state = frame.start;
-  bool ran_away = false;
-  SubstepTable<double> table;
-  for_each_step(frame, [&](const Target<double>& target, const TargetDerivative& turns, std::size_t) {
-    if (tabulate_step(model, target, turns, frame.push, state, data, table)) ran_away = true;
-  });
-  if (wrong != nullptr) *wrong = ran_away;
-  return state;
 }
 
 #define MIMICX_INSTANTIATE(T)                                                                             \
@@ -205,10 +154,6 @@ State<double> roll_out_frame(const Model<double>& model, const ControlFrame& fra
                                        FrameDerivative<T>&);
 
 MIMICX_INSTANTIATE(double)
-MIMICX_INSTANTIATE(Pack<8>)
-MIMICX_INSTANTIATE(Pack<16>)
-#if !defined(__AVX2__)
-MIMICX_INSTANTIATE(Pack<4>)
-#endif
+MIMICX_INSTANTIATE(Pack<kLanes>)
 
 }  // namespace mimicx::control

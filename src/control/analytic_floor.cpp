@@ -6,42 +6,69 @@
 namespace mimicx::control {
 namespace {
 
-/// Columns: θ, ω, v, p_z, then α and a of the body in the solve before.
+/// Columns: θ, Dω, dv, dp_z, then Dα and Da of the body in the solve before.
 using Row = Eigen::Matrix<double, 1, 16>;
 using Rows = Eigen::Matrix<double, 3, 16>;
 constexpr int kTheta = 0, kOmega = 3, kVelocity = 6, kHeight = 9, kAlpha = 10, kAcceleration = 13;
 
-/// Velocity of a point at the end of the step, v + dt a, by the body's tangents, without the part of the
-/// accelerations' changes.
-/// @param turn  −[R p_B]×, the point's arm by θ
-Rows end_velocity(const Matrix3d& turn, const Vector3d& arm, const Vector3d& w, const Vector3d& alpha,
-                  double dt) {
-  Rows e = Rows::Zero();
-  e.middleCols<3>(kTheta) = (skew(w) + dt * (skew(alpha) + skew_product(w, w))) * turn;
-  e.middleCols<3>(kOmega) = -skew(arm) - dt * (skew(w.cross(arm)) + skew_product(w, arm));
-  e.middleCols<3>(kVelocity).setIdentity();
-  return e;
+/// A touching point of a body, nominally: its velocity v + ω × arm and the centripetal part of its
+/// acceleration, ω × (ω × arm), by θ and Dω. (dω = Dω + θ × ω; the arm changes by θ × R p_B.)
+struct Point {
+  Vector3d arm, from_centre;  ///< arm from the joint centre; R p_B
+  Matrix3d velocity_by_theta, velocity_by_omega, centripetal_by_theta, centripetal_by_omega;
+};
+Point point_of(const Vector3d& arm, double radius, const Vector3d& w) {
+  Point p;
+  p.arm = arm;
+  p.from_centre = arm + radius * Vector3d::UnitZ();
+  p.velocity_by_theta = skew_product(arm, w) - skew_product(w, p.from_centre);
+  p.velocity_by_omega = -skew(arm);
+  p.centripetal_by_omega = -skew(w.cross(arm)) - skew_product(w, arm);
+  p.centripetal_by_theta = -p.centripetal_by_omega * skew(w) - skew(w) * skew_product(w, p.from_centre);
+  return p;
 }
 
-/// Force of one contact, docs/physics.md §4, (8), by its body's tangents; added to the rows of `wrench`.
+/// d of the point's velocity at the start of the step.
+Rows velocity(const Point& p) {
+  Rows rows = Rows::Zero();
+  rows.middleCols<3>(kTheta) = p.velocity_by_theta;
+  rows.middleCols<3>(kOmega) = p.velocity_by_omega;
+  rows.middleCols<3>(kVelocity).setIdentity();
+  return rows;
+}
+/// … and at its end, v + dt a, but for Dα and Da. @param a  against free fall
+Rows end_velocity(const Point& p, const Vector3d& alpha, const Vector3d& a, double dt) {
+  Rows rows = velocity(p);
+  rows.middleCols<3>(kTheta) += dt * (p.centripetal_by_theta - skew(a) + skew_product(p.arm, alpha) -
+                                      skew_product(alpha, p.from_centre));
+  rows.middleCols<3>(kOmega) += dt * p.centripetal_by_omega;
+  return rows;
+}
+
+Vector3d against_free_fall(const Model<double>& model, const Vec3<double>& a) {
+  return to_eigen(a) + model.options.gravity * Vector3d::UnitZ();
+}
+
+/// D of the wrench of one contact, docs/physics.md §4, (8), added to the rows of `wrench`.
 void add_contact(const Model<double>& model, const Data<double>& d, const GroundContact<double>& c,
                  const Vector3d& v_lin, const Accelerations* before, Eigen::Matrix<double, 6, 16>& wrench) {
   const SimulationOptions& o = model.options;
-  const ContactPoint& point = model.contacts[static_cast<std::size_t>(c.index)];
-  const auto i = static_cast<std::size_t>(point.body);
+  const ContactPoint& contact = model.contacts[static_cast<std::size_t>(c.index)];
+  const int i = contact.body;
   const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;
-  const Vector3d arm = eigen(c.arm), w = eigen(d.w[i]);
-  const Matrix3d turn = -skew(Vector3d(arm + point.radius * Vector3d::UnitZ()));
+  const Vector3d arm = to_eigen(c.arm);
+  const Point point = point_of(arm, contact.radius, to_eigen(d.w[i]));
 
-  Row depth = Row::Zero();
-  depth.segment<3>(kTheta) = -turn.row(2);
+  Row depth = Row::Zero();  // −dp_z − (θ × R p_B)_z
+  depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
   depth[kHeight] = -1.0;
-  // The velocity at which f_end and c_t were taken: that of the start, or the one the solve before predicts.
+  const Rows end = end_velocity(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt);
+  // The velocity at which f_end and c_t were taken is that of the start or the one the solve before predicts.
   Rows at;
   if (before == nullptr) {
-    at = end_velocity(turn, arm, w, Vector3d::Zero(), 0.0);
+    at = velocity(point);
   } else {
-    at = end_velocity(turn, arm, w, eigen(before->alpha[i]), dt);
+    at = end_velocity(point, to_eigen(before->alpha[i]), against_free_fall(model, before->a[i]), dt);
     at.middleCols<3>(kAlpha) = -dt * skew(arm);
     at.middleCols<3>(kAcceleration) = dt * Matrix3d::Identity();
   }
@@ -49,32 +76,32 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const double f_end = o.ground_stiffness * c.depth - damping * v_lin.z();
   const double c_t = o.friction * f_end / std::sqrt(slip_2);
   const Row df_end = o.ground_stiffness * depth - damping * at.row(2);
+  // docs/control_derivatives.md §3, (7)
   const Row dc_t = (c_t / f_end) * df_end - (c_t / slip_2) * (v_lin.x() * at.row(0) + v_lin.y() * at.row(1));
 
-  const Vector3d end = eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
-  const Rows dend = end_velocity(turn, arm, w, eigen(d.a_w[i]), dt);
+  const Vector3d v_end = to_eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
   Rows force;
-  force.row(0) = -c_t * dend.row(0) - end.x() * dc_t;
-  force.row(1) = -c_t * dend.row(1) - end.y() * dc_t;
-  force.row(2) = o.ground_stiffness * depth - damping * dend.row(2);
-  const Vector3d f(-c_t * end.x(), -c_t * end.y(), o.ground_stiffness * c.depth - damping * end.z());
-  Rows moment = skew(arm) * force;
-  moment.middleCols<3>(kTheta) -= skew(f) * turn;
-  wrench.topRows<3>() += moment;
+  force.row(0) = -c_t * end.row(0) - v_end.x() * dc_t;
+  force.row(1) = -c_t * end.row(1) - v_end.y() * dc_t;
+  force.row(2) = o.ground_stiffness * depth - damping * end.row(2);
+  const Vector3d f(-c_t * v_end.x(), -c_t * v_end.y(), o.ground_stiffness * c.depth - damping * v_end.z());
+  // d (arm × f) − θ × (arm × f) and df − θ × f
+  wrench.topRows<3>() += skew(arm) * force;
+  wrench.topLeftCorner<3, 3>() += skew_product(f, point.from_centre) + skew(Vector3d(arm.cross(f)));
   wrench.bottomRows<3>() += force;
+  wrench.bottomLeftCorner<3, 3>() += skew(f);
 }
 
 }  // namespace
 
 void velocities_at_start(const Data<double>& d, ContactVelocities& out) {
-  for (int k = 0; k < d.ground_count; ++k)
-    out[static_cast<std::size_t>(k)] = d.ground[static_cast<std::size_t>(k)].velocity;
+  for (int k = 0; k < d.ground_count; ++k) out[k] = d.ground[static_cast<std::size_t>(k)].velocity;
 }
 
 void predicted_velocities(const Model<double>& model, const Data<double>& d, ContactVelocities& out) {
   for (int k = 0; k < d.ground_count; ++k) {
     const GroundContact<double>& c = d.ground[static_cast<std::size_t>(k)];
-    out[static_cast<std::size_t>(k)] = add_scaled(c.velocity, model.dt, point_acceleration(model, c, d));
+    out[k] = add_scaled(c.velocity, model.dt, point_acceleration(model, c, d));
   }
 }
 
@@ -99,7 +126,7 @@ void tabulate_floor(const Model<double>& model, const Data<double>& d, const Con
       wrench.setZero();
       body = on;
     }
-    add_contact(model, d, c, eigen(linearised[static_cast<std::size_t>(k)]), before, wrench);
+    add_contact(model, d, c, to_eigen(linearised[k]), before, wrench);
   }
   if (body >= 0) finish(body);
 }

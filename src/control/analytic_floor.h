@@ -8,7 +8,7 @@
 namespace mimicx::control {
 
 /// The velocities at which the contacts in use were linearised last, m/s; index as in Data::ground.
-using ContactVelocities = std::array<Vec3<double>, kMaxContacts>;
+using ContactVelocities = Array<Vec3<double>, kMaxContacts>;
 
 /// Before the first solve: the velocities at the start of the step.
 void velocities_at_start(const Data<double>& d, ContactVelocities& out);
@@ -17,7 +17,7 @@ void predicted_velocities(const Model<double>& model, const Data<double>& d, Con
 
 /// Accelerations of the bodies.
 struct Accelerations {
-  std::array<Vec3<double>, kBodies> alpha, a;
+  PerBody<Vec3<double>> alpha, a;
 };
 
 /// One entry per body with a point that pushes.

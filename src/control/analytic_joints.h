@@ -14,8 +14,8 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
 /// The joints that are at their bound in the solve to come. Those in `kept` keep the torque they have, the
 /// others have just been given one along the law at the accelerations in `d`.
 template <class Real>
-void tabulate_saturated(const Model<double>& model, const Data<double>& d,
-                        const std::array<bool, kBodies>& kept, std::vector<SaturatedTable<Real>>& out);
+void tabulate_saturated(const Model<double>& model, const Data<double>& d, const PerBody<bool>& kept,
+                        std::vector<SaturatedTable<Real>>& out);
 
 /// Rotations after the step. @param state  after the step
 template <class Real>

@@ -2,25 +2,22 @@
 #pragma once
 
 #include "control/rotation_derivatives.h"
-#include "physics/spatial.h"
+#include "physics/lanes.h"
 
 namespace mimicx::control {
 
-inline Vector3d eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
-inline Quaterniond eigen(const Quat<double>& q) { return Quaterniond(q.w, q.x, q.y, q.z); }
-inline Matrix3d eigen(const Mat3<double>& m) {
+inline Matrix3d to_eigen(const Mat3<double>& m) {
   Matrix3d out;
-  out << eigen(m.c[0]), eigen(m.c[1]), eigen(m.c[2]);
+  for (int k = 0; k < 3; ++k) out.col(k) = to_eigen(m.c[k]);
   return out;
 }
-inline Matrix3d eigen(const Sym3<double>& s) {
+inline Matrix3d to_eigen(const Sym3<double>& s) {
   Matrix3d out;
-  out << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
+  out.col(0) = Vector3d(s.xx, s.xy, s.xz);
+  out.col(1) = Vector3d(s.xy, s.yy, s.yz);
+  out.col(2) = Vector3d(s.xz, s.yz, s.zz);
   return out;
 }
-
-inline Vec3<double> vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-inline Quat<double> quat(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 template <class Real>
 void put(Vec3<Real>& out, const Vector3d& v) {

@@ -10,10 +10,10 @@ namespace {
 struct Axis {
   Vector3d start, along, p;  ///< start from the joint centre, vector to the end; joint centre, m
 };
-Axis axis_of(const Model<double>& model, const Data<double>& d, std::size_t body) {
+Axis axis_of(const Model<double>& model, const Data<double>& d, int body) {
   const Capsule& c = model.capsule[body];
-  const Matrix3d R = eigen(d.R_WB[body]);
-  return {R * c.a_B, R * (c.b_B - c.a_B), eigen(d.p_WB[body])};
+  const Matrix3d R = to_eigen(d.R_WB[body]);
+  return {R * c.a_B, R * (c.b_B - c.a_B), to_eigen(d.p_WB[body])};
 }
 
 /// Parameters of the closest points, and their derivatives by (u·w, w·r, u·r): those of
@@ -47,47 +47,71 @@ Closest closest(const Vector3d& u, const Vector3d& w, const Vector3d& r) {
   return out;
 }
 
-template <class Real>
-void fill(const Model<double>& model, const Data<double>& d, std::size_t i, std::size_t j,
-          std::vector<SelfPairTable<Real>>& out) {
-  const Axis on_i = axis_of(model, d, i), on_j = axis_of(model, d, j);
-  const Vector3d apart = (on_i.p + on_i.start) - (on_j.p + on_j.start);
-  const Closest c = closest(on_i.along, on_j.along, apart);
-  const Vector3d point_i = on_i.start + c.s * on_i.along, point_j = on_j.start + c.t * on_j.along;
-  const Vector3d gap = (on_i.p + point_i) - (on_j.p + point_j);
-  const double distance = gap.norm(), depth = model.capsule[i].radius + model.capsule[j].radius - distance;
-  if (!(depth > 0.0 && distance > 1e-6)) return;
-  const Vector3d normal = gap / distance;
-  const double reach = model.capsule[j].radius - 0.5 * depth;
-  const Vector3d point = on_j.p + point_j + reach * normal;
-  const Vector3d arm_i = point - on_i.p, arm_j = point - on_j.p;
-  const Vector3d v =
-      (eigen(d.v[i]) + eigen(d.w[i]).cross(arm_i)) - (eigen(d.v[j]) + eigen(d.w[j]).cross(arm_j));
-  const double push = model.options.self_stiffness * depth - model.options.self_damping * v.dot(normal);
-  if (!(push > 0.0)) return;
+/// Columns: θ, Dω, dv, dp of body i, then of body j.
+using Row = Eigen::Matrix<double, 1, 24>;
+using Rows = Eigen::Matrix<double, 3, 24>;
 
-  SelfPairTable<Real>& t = out.emplace_back();
-  t.i = static_cast<int>(i);
-  t.j = static_cast<int>(j);
-  put(t.axis_i, on_i.along);
-  put(t.axis_j, on_j.along);
-  put(t.start_i, on_i.start);
-  put(t.start_j, on_j.start);
-  put(t.apart, apart);
-  put(t.on_i, point_i);
-  put(t.on_j, point_j);
-  for (std::size_t k = 0; k < 3; ++k) {
-    t.s[k] = static_cast<Real>(c.ds[k]);
-    t.t[k] = static_cast<Real>(c.dt[k]);
+/// a × x and x × a for a vector a that does not change.
+Rows cross(const Vector3d& a, const Rows& x) { return skew(a) * x; }
+Rows cross(const Rows& x, const Vector3d& a) { return -skew(a) * x; }
+
+/// How one of the two bodies moves.
+struct Mover {
+  Rows theta = Rows::Zero(), w = Rows::Zero(), v = Rows::Zero(), p = Rows::Zero();
+
+  Mover(int first, const Vector3d& omega) {
+    theta.middleCols<3>(first).setIdentity();
+    w.middleCols<3>(first + 3).setIdentity();
+    w += cross(theta, omega);  // dω = Dω + θ × ω
+    v.middleCols<3>(first + 6).setIdentity();
+    p.middleCols<3>(first + 9).setIdentity();
   }
-  put(t.normal, normal);
-  put(t.arm_i, arm_i);
-  put(t.arm_j, arm_j);
-  put(t.velocity, v);
-  put(t.force, Vector3d(push * normal));
-  t.inverse_distance = static_cast<Real>(1.0 / distance);
-  t.reach = static_cast<Real>(reach);
-  t.push = static_cast<Real>(push);
+};
+
+/// The penalty force of two capsules: `add_self_contact` of physics/contact.h line by line.
+/// @return false where they do not push
+bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i, int j,
+                        Eigen::Matrix<double, 12, 24>& wrench) {
+  const double k = model.options.self_stiffness, damping = model.options.self_damping;
+  const Axis a = axis_of(model, d, i), b = axis_of(model, d, j);
+  const Vector3d apart = (a.p + a.start) - (b.p + b.start), w_i = to_eigen(d.w[i]), w_j = to_eigen(d.w[j]);
+  const Closest c = closest(a.along, b.along, apart);
+  const Vector3d on_i = a.start + c.s * a.along, on_j = b.start + c.t * b.along;
+  const Vector3d gap = (a.p + on_i) - (b.p + on_j);
+  const double distance = gap.norm(), depth = model.capsule[i].radius + model.capsule[j].radius - distance;
+  if (!(depth > 0.0 && distance > 1e-6)) return false;
+  const Vector3d n = gap / distance;
+  const double reach =
+      model.capsule[j].radius - 0.5 * depth;  // from the closest point of j to the common point
+  const Vector3d point = b.p + on_j + reach * n, arm_i = point - a.p, arm_j = point - b.p;
+  const Vector3d v = (to_eigen(d.v[i]) + w_i.cross(arm_i)) - (to_eigen(d.v[j]) + w_j.cross(arm_j));
+  const double push = k * depth - damping * v.dot(n);
+  if (!(push > 0.0)) return false;
+  const Vector3d f = push * n;
+
+  const Mover mi(0, w_i), mj(12, w_j);
+  const Rows du = cross(mi.theta, a.along), dw = cross(mj.theta, b.along);
+  const Rows dr = mi.p + cross(mi.theta, a.start) - mj.p - cross(mj.theta, b.start);
+  const Row u_w = b.along.transpose() * du + a.along.transpose() * dw;
+  const Row w_r = apart.transpose() * dw + b.along.transpose() * dr;
+  const Row u_r = apart.transpose() * du + a.along.transpose() * dr;
+  const Row ds = c.ds[0] * u_w + c.ds[1] * w_r + c.ds[2] * u_r,
+            dt = c.dt[0] * u_w + c.dt[1] * w_r + c.dt[2] * u_r;
+  const Rows don_i = mi.p + cross(mi.theta, on_i) + a.along * ds;
+  const Rows don_j = mj.p + cross(mj.theta, on_j) + b.along * dt;
+  const Row ddistance = n.transpose() * (don_i - don_j);
+  const Rows dn = (don_i - don_j - n * ddistance) / distance;
+  const Rows dpoint = don_j + reach * dn + 0.5 * n * ddistance;
+  const Rows darm_i = dpoint - mi.p, darm_j = dpoint - mj.p;
+  const Rows dv =
+      (mi.v + cross(mi.w, arm_i) + cross(w_i, darm_i)) - (mj.v + cross(mj.w, arm_j) + cross(w_j, darm_j));
+  const Row dpush = -k * ddistance - damping * (n.transpose() * dv + v.transpose() * dn);
+  const Rows df = n * dpush + push * dn;
+  wrench.middleRows<3>(0) = cross(darm_i, f) + cross(arm_i, df) - cross(mi.theta, Vector3d(arm_i.cross(f)));
+  wrench.middleRows<3>(3) = df - cross(mi.theta, f);
+  wrench.middleRows<3>(6) = cross(mj.theta, Vector3d(arm_j.cross(f))) - cross(darm_j, f) - cross(arm_j, df);
+  wrench.middleRows<3>(9) = cross(mj.theta, f) - df;
+  return true;
 }
 
 }  // namespace
@@ -98,13 +122,19 @@ void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
   out.clear();
   if (!model.options.self_contact) return;
   for (const auto& pair : model.self_pairs) {
-    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    const int i = pair[0], j = pair[1];
     // Bodies on which nothing pushes meet nobody.
-    const auto touched = [&](std::size_t body) {
+    const auto touched = [&](int body) {
       const Vec3<double>& f = d.self_wrench[body].f;
       return dot(f, f) > 0.0;
     };
-    if (touched(i) && touched(j)) fill(model, d, i, j, out);
+    Eigen::Matrix<double, 12, 24> wrench;
+    if (!touched(i) || !touched(j) || !differentiate_pair(model, d, i, j, wrench)) continue;
+    SelfPairTable<Real>& table = out.emplace_back();
+    table.i = i;
+    table.j = j;
+    for (int row = 0; row < 12; ++row)
+      for (int k = 0; k < 24; ++k) table.wrench[row][k] = static_cast<Real>(wrench(row, k));
   }
 }
 

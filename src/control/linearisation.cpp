@@ -1,5 +1,7 @@
 #include "control/linearisation.h"
 
+#include <utility>
+
 namespace mimicx::control {
 namespace {
 
@@ -24,14 +26,15 @@ FrameMatrix linearise_analytically(const System& system, const FramePoint& point
   const double inertia = system.mass * kHelpRadius * kHelpRadius;
   const auto help = [&](std::size_t k) { return static_cast<double>(point.u[kDofs + k]); };
   if (system.soft)
-    frame.push = {{inertia * help(3), inertia * help(4), inertia * help(5)},
+    frame.help = {{inertia * help(3), inertia * help(4), inertia * help(5)},
                   {system.mass * help(0), system.mass * help(1), system.mass * help(2)}};
   frame.substeps = system.substeps;
   differentiate_frame(system.exact_model, frame, system.soft, scratch.frame, scratch.derivative);
-  FrameMatrix F = scratch.derivative.F;
+  FrameMatrix F = std::move(scratch.derivative.F);
   if (system.soft) {  // there the moment comes first, and both are forces instead of accelerations
-    F.middleCols<3>(kMemory + kDofs) = static_cast<float>(system.mass) * scratch.derivative.F.rightCols<3>();
-    F.rightCols<3>() = static_cast<float>(inertia) * scratch.derivative.F.middleCols<3>(kMemory + kDofs);
+    const Eigen::Matrix<float, kTangent, kHelp> help = F.rightCols<kHelp>();
+    F.middleCols<3>(kFrameColumns) = static_cast<float>(system.mass) * help.rightCols<3>();
+    F.rightCols<3>() = static_cast<float>(inertia) * help.leftCols<3>();
   }
   if (scratch.derivative.wrong || !F.allFinite()) F.setZero();
   return F;

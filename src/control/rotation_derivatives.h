@@ -16,7 +16,9 @@ namespace mimicx::control {
 /// [a]×, the matrix of b ↦ a × b.
 inline Matrix3d skew(const Vector3d& a) {
   Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  m.col(0) = Vector3d(0.0, a.z(), -a.y());
+  m.col(1) = Vector3d(-a.z(), 0.0, a.x());
+  m.col(2) = Vector3d(a.y(), -a.x(), 0.0);
   return m;
 }
 
@@ -27,15 +29,33 @@ inline Matrix3d skew_product(const Vector3d& a, const Vector3d& b) {
   return m;
 }
 
-/// J_r = 1 − (1 − cos θ)/θ² [r]× + (θ − sin θ)/θ³ [r]×²,  θ = ‖r‖.
-inline Matrix3d right_jacobian(const Vector3d& r) {
-  const double square = r.squaredNorm(), angle = std::sqrt(square);
-  // Series where the quotients lose digits; the next terms are under 1e-16 there.
-  const bool small = square < 1e-6;
-  const double a = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
-  const double b = small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
-  return Matrix3d::Identity() - a * skew(r) + b * skew_product(r, r);
+/// a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³ of a rotation vector with θ² = `square`: by their series where
+/// the quotients lose digits or a physics step makes them often; the terms left out are under 1e-17 there.
+struct ExpCoefficients {
+  double a, b;
+};
+inline ExpCoefficients exp_coefficients(double square) {
+  if (square < 0.01) {
+    const double x = square;
+    return {0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0))),
+            1.0 / 6.0 - x / 120.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0)))};
+  }
+  const double angle = std::sqrt(square);
+  return {(1.0 - std::cos(angle)) / square, (angle - std::sin(angle)) / (square * angle)};
 }
+
+/// exp(r) = 1 + (1 − θ² b) [r]× + a [r]×² and J_r = 1 − a [r]× + b [r]×².
+struct ExpAndJacobian {
+  Matrix3d rotation, jacobian;
+};
+inline ExpAndJacobian exp_and_jacobian(const Vector3d& r) {
+  const double square = r.squaredNorm();
+  const auto [a, b] = exp_coefficients(square);
+  const Matrix3d cross = skew(r), cross_2 = skew_product(r, r);
+  return {Matrix3d::Identity() + (1.0 - square * b) * cross + a * cross_2,
+          Matrix3d::Identity() - a * cross + b * cross_2};
+}
+inline Matrix3d right_jacobian(const Vector3d& r) { return exp_and_jacobian(r).jacobian; }
 
 /// J_r⁻¹ = 1 + ½ [r]× + (1/θ² − cot(θ/2)/(2θ)) [r]×²,  θ = ‖r‖ ≤ π.
 inline Matrix3d inverse_right_jacobian(const Vector3d& r) {

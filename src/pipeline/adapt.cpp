@@ -15,8 +15,6 @@ PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
 
-PlanMotionsConfig plan_alone(const AdaptConfig& config) { return {config.run, planning_of(config)}; }
-
 SimulatedSequence fine_tune(const AdaptConfig& config, const Reference& reference, const SequenceJob& job) {
   const rl::TrackingConfig& tracking = config.training.tracking;
   const auto clip = rl::make_tracking_clip(reference, tracking);
@@ -62,17 +60,16 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const Reference& 
 }
 
 Method method_of(const AdaptConfig& config) {
-  if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
   Method method;
   method.seed = config.training.seed;
   method.samples = config.training.samples;
   method.settings = settings_of(config);
   method.options = config.options->checksum;
   method.simulation = config.training.tracking.simulation;
-  method.name = config.method == AdaptMethod::kAuto ? "auto" : "paper";
-  const auto simulate = config.method == AdaptMethod::kAuto ? plan_or_fine_tune : fine_tune;
-  method.simulate = [simulate, &config](const Reference& reference, const SequenceJob& job) {
-    return simulate(config, reference, job);
+  const bool plan_first = config.method == AdaptMethod::kAuto;
+  method.name = plan_first ? "auto" : "paper";
+  method.simulate = [&config, plan_first](const Reference& reference, const SequenceJob& job) {
+    return plan_first ? plan_or_fine_tune(config, reference, job) : fine_tune(config, reference, job);
   };
   return method;
 }
@@ -80,12 +77,13 @@ Method method_of(const AdaptConfig& config) {
 }  // namespace
 
 NamedValues settings_of(const AdaptConfig& config) {
-  if (config.method == AdaptMethod::kPlan) return settings_of(plan_alone(config));
+  if (config.method == AdaptMethod::kPlan)
+    return settings_of(PlanMotionsConfig{config.run, planning_of(config)});
   NamedValues settings = settings_of(config.training);
   append(settings, settings_of(config.run));
   append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
                     {"rescue_reward", config.arrangement.rescue_reward}});
-  if (config.method == AdaptMethod::kAuto) append(settings, settings_of(config.plan));
+  if (config.method == AdaptMethod::kAuto) append(settings, plan_settings(config.plan));
   return settings;
 }
 
@@ -99,14 +97,13 @@ void apply_setting(AdaptConfig& config, const std::string& name, double value) {
 
 void check(const AdaptConfig& config) {
   if (config.method != AdaptMethod::kPaper) check(planning_of(config));
-  if (config.method == AdaptMethod::kPlan) return;
-  check(config.training);
-  check(config.arrangement);
+  if (config.method != AdaptMethod::kPlan) check(config.training);
 }
 
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context) {
-  check(config);
-  if (config.method == AdaptMethod::kPlan) return plan_motions(plan_alone(config), context);
+  if (config.method == AdaptMethod::kPlan) return plan_motions({config.run, planning_of(config)}, context);
+  if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
+  check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);
 }
 

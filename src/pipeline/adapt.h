@@ -27,15 +27,17 @@ struct AdaptConfig {
   std::shared_ptr<const OptionSet> options;  ///< to start from; not looked at by the plan alone
 };
 
-/// The settings of its method, as the manifest lists them.
+/// The settings, as the manifest lists them.
 NamedValues settings_of(const AdaptConfig& config);
 
 /// Changes a setting of the plan, or one of the training, by its name.
-/// @throws std::invalid_argument as those of planning.h and training.h
+/// @throws std::invalid_argument as those of planning.h and training_config.h
 void apply_setting(AdaptConfig& config, const std::string& name, double value);
+/// @throws std::invalid_argument naming a setting that the method cannot have
 void check(const AdaptConfig& config);
 
-/// @throws std::invalid_argument as `run_sequences`, and without options where they may be needed
+/// @throws std::invalid_argument as `run_sequences`, and without options or with an arrangement that cannot
+/// be where the method may need them
 RunOutcome adapt(const AdaptConfig& config, const RunContext& context);
 
 }  // namespace mimicx

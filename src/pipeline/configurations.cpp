@@ -14,18 +14,18 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-enum Column : std::size_t { kImitate, kAdapt, kSmall, kPaper };
+enum Column { kImitate, kAdapt, kSmall, kPaper };
 
 struct Row {
   std::string_view name;
-  std::array<double, 4> values;
+  Array<double, 4> values;
 };
 
 // What each setting means stands beside its member in training_config.h and rl/ppo_config.h. Where the values
 // come from: docs/method.md §12 and docs/experiments.md. PPO for tracking takes many small iterations with a
 // generous KL, and a discount that looks 0.4 s ahead: what a pose error costs shows at once.
 // clang-format off
-constexpr std::array<Row, 38> kTable = {{
+constexpr Array<Row, 38> kTable = {{
   //                      imitate    adapt      small      paper
   {"samples",            {4e6,       3e6,       80e6,      80e6}},    // per motion; of all options together
   {"seed",               {1,         1,         1,         1}},
@@ -97,14 +97,14 @@ NamedValues with_budget(const TrainingConfig& config, const NamedValues& setting
   return values;
 }
 
-/// The columns, each in the order of its manifest.
-std::array<NamedValues, 5> columns() {
+/// All configurations, each in the order of its manifest.
+Array<NamedValues, 5> columns() {
   const ImitateConfig imitate = imitate_configuration();
   const AdaptConfig adapt = adapt_configuration();
   const PretrainConfig small = pretrain_configuration("small"), paper = pretrain_configuration("paper");
-  return {with_budget(imitate.training, settings_of(imitate)),
+  return {settings_of(plan_configuration()), with_budget(imitate.training, settings_of(imitate)),
           with_budget(adapt.training, settings_of(adapt)), with_budget(small.training, settings_of(small)),
-          with_budget(paper.training, settings_of(paper)), settings_of(plan_configuration())};
+          with_budget(paper.training, settings_of(paper))};
 }
 
 std::string cell(double value) { return std::isnan(value) ? "-" : format_number(value); }
@@ -113,7 +113,7 @@ std::string cell(double value) { return std::isnan(value) ? "-" : format_number(
 
 PlanMotionsConfig plan_configuration() {
   PlanMotionsConfig config;
-  config.run.fit = true;
+  config.run.fit = value(kAdapt, "fit") != 0.0;  // adapt plans first
   return config;
 }
 
@@ -145,17 +145,18 @@ PretrainConfig pretrain_configuration(const std::string& preset) {
 }
 
 std::vector<ConfigurationRow> configuration_rows() {
-  const std::array<NamedValues, 5> all = columns();
+  const Array<NamedValues, 5> all = columns();
   std::vector<ConfigurationRow> rows;
-  for (std::size_t column = 0; column < all.size(); ++column) {
+  for (int column = 0; column < static_cast<int>(all.size()); ++column) {
     std::size_t next = 0;  // behind the setting that came last, so that a new one stands beside its like
     for (const auto& [name, value] : all[column]) {
       std::size_t at = 0;
       while (at < rows.size() && rows[at].name != name) ++at;
       if (at == rows.size()) {
         at = next;
-        rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at),
-                    {name, {kNone, kNone, kNone, kNone, kNone}});
+        ConfigurationRow row{name, {}};
+        row.values.fill(kNone);
+        rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at), row);
       }
       rows[at].values[column] = value;
       next = at + 1;

@@ -1,10 +1,10 @@
 /// The configurations that people run, as the columns of one table. `mimicx config` prints it.
 ///
+///     plan            optimal control, without any training                             docs/control.md
 ///     imitate         one policy per motion, trained from scratch
-///     adapt           a plan; where it fails, trained options, fine-tuned jointly        docs/method.md §9
+///     adapt           the plan, and where it fails trained options, fine-tuned jointly   docs/method.md §9
 ///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
 ///     pretrain paper  the same with the paper's networks
-///     plan            optimal control, nothing learned
 ///
 /// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
 /// (reward, starts, simulation), the encoder and the plan, which have one value for all, beside their meaning
@@ -12,10 +12,10 @@
 /// table has them, too.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "core/containers.h"
 #include "pipeline/adapt.h"
 #include "pipeline/imitate.h"
 #include "pipeline/plan.h"
@@ -29,19 +29,19 @@ AdaptConfig adapt_configuration();
 /// @param preset  "small" or "paper" @throws std::invalid_argument for another one
 PretrainConfig pretrain_configuration(const std::string& preset);
 
-/// Everything a run records as its settings, by name, and the columns; NaN where a configuration has no
-/// such setting.
+inline constexpr Array<const char*, 5> kConfigurationNames = {"plan", "imitate", "adapt", "pretrain small",
+                                                              "pretrain paper"};
+
+/// A setting by the name that manifests record, in every configuration; NaN where one has no such setting.
 struct ConfigurationRow {
   std::string name;
-  std::array<double, 5> values;
+  Array<double, 5> values;  ///< in the order of kConfigurationNames
 };
-inline constexpr std::array<const char*, 5> kConfigurationNames = {"imitate", "adapt", "pretrain small",
-                                                                   "pretrain paper", "plan"};
 std::vector<ConfigurationRow> configuration_rows();
 
 /// A line per setting, columns aligned; "-" where there is none.
 std::string format_configurations();
-/// {"imitate": {name: value, …}, …}, the settings in the order of the table.
+/// {"plan": {name: value, …}, …}, the settings in the order of the table.
 std::string configurations_json();
 
 }  // namespace mimicx

@@ -5,13 +5,12 @@
 namespace mimicx {
 
 NamedValues settings_of(const PlanMotionsConfig& config) {
-  NamedValues settings = settings_of(config.planning);
+  NamedValues settings = planning_settings(config.planning);
   append(settings, settings_of(config.run));
   return settings;
 }
 
 RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context) {
-  check(config.planning);
   Method method;
   method.name = "plan";
   method.settings = settings_of(config);

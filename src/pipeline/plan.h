@@ -14,7 +14,7 @@ struct PlanMotionsConfig {
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const PlanMotionsConfig& config);
 
-/// @throws std::invalid_argument as `run_sequences`, and for settings that no plan can have
+/// @throws std::invalid_argument as `run_sequences`
 RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context);
 
 }  // namespace mimicx

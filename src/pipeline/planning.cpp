@@ -1,10 +1,10 @@
 #include "pipeline/planning.h"
 
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "pipeline/output/simulation_settings.h"
+#include "pipeline/setting.h"
+#include "rl/tracking/pack.h"
 
 namespace mimicx {
 namespace {
@@ -52,32 +52,20 @@ void for_each_setting(Config& config, const Add& add) {
   add("plan_soft_to_hard", config.soft_to_hard, 0, 1);
 }
 
-template <class T>
-double value_of(T value) {
-  return static_cast<double>(value);
-}
-
-template <class T>
-void assign(T& field, double value) {
-  if (!(std::abs(value) <= 1e9)) throw std::invalid_argument("at most 1e9 expected");
-  field = static_cast<T>(value);
-  if (value_of(field) != value) throw std::invalid_argument("a fraction where a whole number is expected");
-}
-
 }  // namespace
 
-NamedValues settings_of(const control::PlanConfig& plan) {
+NamedValues plan_settings(const control::PlanConfig& plan) {
   NamedValues values;
   for_each_setting(plan, [&](const char* name, const auto& field, double, double) {
-    values.emplace_back(name, value_of(field));
+    values.emplace_back(name, number_of(field));
   });
   return values;
 }
 
-NamedValues settings_of(const PlanningConfig& config) {
-  NamedValues values = settings_of(config.plan);
+NamedValues planning_settings(const PlanningConfig& config) {
+  NamedValues values = plan_settings(config.plan);
   for_each_simulation_setting(config.simulation, [&](const char* name, const auto& field) {
-    values.emplace_back(name, value_of(field));
+    values.emplace_back(name, number_of(field));
   });
   return values;
 }
@@ -99,25 +87,20 @@ void apply_setting(PlanningConfig& config, const std::string& name, double value
     assign(field, value);
     found = true;
   });
-  if (!found)
-    throw std::invalid_argument("unknown setting '" + name + "': the manifest of a run lists them all");
+  if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
 void check(const control::PlanConfig& plan) {
-  for_each_setting(plan, [&](const char* name, const auto& field, double least, double most) {
-    const double value = value_of(field);
-    if (value >= least && value <= most) return;
-    char text[120];
-    std::snprintf(text, sizeof text, "%s: expected %g to %g, found %g", name, least, most, value);
-    throw std::invalid_argument(text);
+  for_each_setting(plan, [](const char* name, const auto& field, double least, double most) {
+    require_range(name, number_of(field), least, most);
   });
 }
 
 void check(const PlanningConfig& config) {
   check(config.plan);
-  if (std::fmod(config.simulation.rate, 30.0) != 0.0)
-    throw std::invalid_argument("physics_rate must be a multiple of 30");
-  make_model<double>(make_character(), config.simulation);  // checks its own
+  // What only the task and the simulator can judge, they judge themselves.
+  rl::require_whole_steps(config.simulation.rate, Reference{}.fps);
+  make_model<double>(make_character(), config.simulation);
 }
 
 }  // namespace mimicx

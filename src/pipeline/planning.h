@@ -4,7 +4,7 @@
 #include <string>
 
 #include "control/plan.h"
-#include "pipeline/record/manifest.h"
+#include "core/named_values.h"
 
 namespace mimicx {
 
@@ -16,9 +16,9 @@ struct PlanningConfig {
 
 /// The numbers of the plan by name, all of them beginning with "plan_". The factors of single bodies are not
 /// among them.
-NamedValues settings_of(const control::PlanConfig& plan);
+NamedValues plan_settings(const control::PlanConfig& plan);
 /// Those, and the numbers of the simulation.
-NamedValues settings_of(const PlanningConfig& config);
+NamedValues planning_settings(const PlanningConfig& config);
 
 /// Changes one of them. @return whether there is one of that name
 /// @throws std::invalid_argument for a fraction where a whole number is expected

@@ -1,10 +1,9 @@
 #include "pipeline/training_config.h"
 
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "pipeline/output/simulation_settings.h"
+#include "pipeline/setting.h"
 #include "rl/tracking/environment.h"
 
 namespace mimicx {
@@ -72,23 +71,6 @@ void for_each_setting(Config& config, const Visit& visit) {
   for_each_tracking_setting(config.tracking, visit);
 }
 
-double number_of(rl::ActionMode mode) { return mode == rl::ActionMode::kResidual ? 1.0 : 0.0; }
-template <class T>
-double number_of(T value) {
-  return static_cast<double>(value);
-}
-
-void assign(rl::ActionMode& mode, double value) {
-  mode = value != 0.0 ? rl::ActionMode::kResidual : rl::ActionMode::kAbsolute;
-}
-template <class T>
-void assign(T& field, double value) {
-  if (!(std::abs(value) <= 1e9)) throw std::invalid_argument("at most 1e9 expected");
-  field = static_cast<T>(value);
-  if (static_cast<double>(field) != value)
-    throw std::invalid_argument("a fraction where a whole number is expected");
-}
-
 /// What a setting may be, where that is not 0 to 1e9.
 struct Range {
   std::string name;
@@ -115,6 +97,8 @@ const std::vector<Range>& ranges() {
                                          {"gradient_slots", 1, 1024},
                                          {"pass_rows", 1, 1e9},
                                          {"softest_reward", 0, 1},
+                                         {"residual_actions", 0, 1},
+                                         {"velocity_feed_forward", 0, 1},
                                          {"bin_frames", 1, 1e9},
                                          {"uniform_starts", 0, 1},
                                          {"gravity", -1e9, 1e9}};
@@ -128,15 +112,11 @@ void check(const TrainingConfig& config) {
     double least = 0.0, most = 1e9;
     for (const Range& range : ranges())
       if (range.name == name) least = range.least, most = range.most;
-    if (!(value >= least && value <= most)) {
-      char text[120];
-      std::snprintf(text, sizeof text, "%s: expected %g to %g, found %g", name.c_str(), least, most, value);
-      throw std::invalid_argument(text);
-    }
+    require_range(name, value, least, most);
   }
   // What only the environment, the task and the simulator can judge, they judge themselves.
   rl::require_whole_groups(config.characters, config.group_size);
-  rl::require_whole_steps(config.tracking, Reference{}.fps);
+  rl::require_whole_steps(config.tracking.simulation.rate, Reference{}.fps);
   make_model<double>(make_character(), config.tracking.simulation);
 }
 

@@ -1,69 +1,63 @@
 #include "control/frame_oracle.h"
 
+#include "oracles/dual.h"
+#include "physics/lanes.h"
+#include "physics/step_in_parts.h"
+
 namespace mimicx::control {
 namespace {
 
-/// A degree of freedom as body and axis.
-struct Axis {
-  std::size_t body;
+/// Body and axis of one of the six or 55 rotations of half a state.
+struct Joint {
+  int body;
   Vec3<double> axis;
 };
-Axis axis_of_dof(int dof) {
-  int body = kBodies - 1;
-  while (first_dof(body) > dof) --body;
-  const Vector3d axis = is_hinge(body) ? hinge_axis(body) : Vector3d(Vector3d::Unit(dof - first_dof(body)));
-  return {static_cast<std::size_t>(body), {axis.x(), axis.y(), axis.z()}};
+constexpr Vec3<double> kUnit[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+Joint joint_of(int k) {
+  if (k < 6) return {0, kUnit[k - 3]};
+  const Dof& dof = dofs()[static_cast<std::size_t>(k - 6)];
+  return {dof.body, from_eigen(dof.axis)};
 }
 
 template <class T>
 Vec3<T> times(T h, const Vec3<double>& axis) {
   return h * spread<T>(axis);
 }
-template <class T>
-void put(Quat<T>& out, const Quat<double>& q) {
-  out = spread<T>(q);
-}
-template <class T>
-void put(Vec3<T>& out, const Vec3<double>& v) {
-  out = spread<T>(v);
-}
-constexpr Vec3<double> kUnit[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 /// x ⊕ h e_k.
 template <class T>
 void move(State<T>& x, int k, T h) {
-  const int half = k < 61 ? 0 : 61, row = k - half;
-  if (row < 3) {
-    Vec3<T>& v = half == 0 ? x.p_root : x.v_root;
-    v = v + times(h, kUnit[row]);
+  const bool velocity = k >= kPositions;
+  if (velocity) k -= kPositions;
+  if (k < 3) {
+    (velocity ? x.v_root : x.p_root) += times(h, kUnit[k]);
     return;
   }
-  const Axis joint = row < 6 ? Axis{0, kUnit[row - 3]} : axis_of_dof(row - 6);
-  const std::size_t i = joint.body;
-  if (half == 0)
-    x.q[i] = x.q[i] * exp_map(times(h, joint.axis));
+  const Joint joint = joint_of(k);
+  if (velocity)
+    x.omega[joint.body] += times(h, joint.axis);
   else
-    x.omega[i] = x.omega[i] + times(h, joint.axis);
+    x.q[joint.body] = x.q[joint.body] * exp_map(times(h, joint.axis));
 }
 
 /// The reference turned by its residuals.
 template <class T>
-Target<T> turned(const Target<double>& reference, const std::array<T, kDofs>& residual) {
+Target<T> turned(const Target<double>& reference, const Array<T, kDofs>& residual) {
   Target<T> target;
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    put(target.q[i], reference.q[i]);
-    put(target.omega[i], reference.omega[i]);
-  }
-  std::array<Vec3<T>, kBodies> r;
+  PerBody<Vec3<T>> r;
   r.fill(zero3<T>());
   for (int dof = 0; dof < kDofs; ++dof) {
-    const Axis joint = axis_of_dof(dof);
-    r[joint.body] = r[joint.body] + times(residual[static_cast<std::size_t>(dof)], joint.axis);
+    const Joint joint = joint_of(6 + dof);
+    r[joint.body] += times(residual[dof], joint.axis);
   }
-  for (std::size_t i = 1; i < kBodies; ++i) target.q[i] = target.q[i] * exp_map(r[i]);
+  for (int i = 1; i < kBodies; ++i) {
+    target.q[i] = spread<T>(reference.q[i]) * exp_map(r[i]);
+    target.omega[i] = spread<T>(reference.omega[i]);
+  }
   return target;
 }
 
+/// Normalised linear interpolation the shorter way.
 template <class T>
 Quat<T> between(const Quat<T>& a, const Quat<T>& b, T s) {
   const T cosine = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
@@ -74,71 +68,46 @@ Quat<T> between(const Quat<T>& a, const Quat<T>& b, T s) {
   return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
 
-/// Puts a wrench on the root, between the two parts of a step where the forces on bodies are summed.
+/// Puts the help on the pelvis, between the two parts of a step where the forces on bodies are summed.
 template <class T>
-struct WithPush : StepParts {
+struct WithHelp : StepParts {
   Data<T>& d;
-  Wrench<T> push;
+  Wrench<T> help;
 
-  WithPush(Data<T>& data, const Wrench<T>& wrench) : d(data), push(wrench) {}
+  WithHelp(Data<T>& data, const Wrench<T>& wrench) : d(data), help(wrench) {}
   void finished(Stage stage) {
     if (stage != kKinematics) return;
-    d.bias[0].n -= push.n;
-    d.bias[0].f -= push.f;
+    d.bias[0].n -= help.n;
+    d.bias[0].f -= help.f;
   }
 };
 
-Eigen::VectorXd tangent(const Vec3<double>& p, const Vec3<double>& v,
-                        const std::array<Vec3<double>, kBodies>& turn,
-                        const std::array<Vec3<double>, kBodies>& spin) {
-  Eigen::VectorXd out(122);
-  for (int half = 0; half < 2; ++half) {
-    const Vec3<double>& root = half == 0 ? p : v;
-    const auto& joints = half == 0 ? turn : spin;
-    for (int k = 0; k < 3; ++k) {
-      out(61 * half + k) = dot(root, kUnit[k]);
-      out(61 * half + 3 + k) = dot(joints[0], kUnit[k]);
-    }
-    for (int dof = 0; dof < kDofs; ++dof) {
-      const Axis joint = axis_of_dof(dof);
-      out(61 * half + 6 + dof) = dot(joints[joint.body], joint.axis);
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
+/// The state at the end of a frame moved by h along a column. With T = Dual and h = (0, 1) its derivative.
 template <class T>
-State<T> simulate_frame(const Model<double>& model, const ControlFrame& frame, int column, T h) {
+State<T> simulate(const Model<double>& model, const ControlFrame& frame, int column, T h) {
   State<T> state;
-  put(state.p_root, frame.start.p_root);
-  put(state.v_root, frame.start.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    put(state.q[i], frame.start.q[i]);
-    put(state.omega[i], frame.start.omega[i]);
-  }
-  std::array<T, kDofs> w, u;
-  for (std::size_t k = 0; k < kDofs; ++k) {
+  for_each_member(state, frame.start, [](auto& to, const auto& from) { to = spread<T>(from); });
+  Array<T, kDofs> w, u;
+  for (int k = 0; k < kDofs; ++k) {
     w[k] = frame.from_residual[k];
     u[k] = frame.to_residual[k];
   }
-  Wrench<T> push = {spread<T>(frame.push.n), spread<T>(frame.push.f)};
-  if (column < 122)
+  Wrench<T> help = {spread<T>(frame.help.n), spread<T>(frame.help.f)};
+  if (column < kTangent)
     move(state, column, h);
-  else if (column < 177)
-    w[static_cast<std::size_t>(column - 122)] += h;
-  else if (column < 232)
-    u[static_cast<std::size_t>(column - 177)] += h;
+  else if (column < kTangent + kDofs)
+    w[column - kTangent] += h;
+  else if (column < kFrameColumns)
+    u[column - kTangent - kDofs] += h;
   else
-    (column < 235 ? push.n : push.f) += times(h, kUnit[(column - 232) % 3]);
+    (column < kFrameColumns + 3 ? help.n : help.f) += times(h, kUnit[(column - kFrameColumns) % 3]);
   const Target<T> from = turned(frame.from, w), to = turned(frame.to, u);
   Data<T> d;
-  WithPush<T> parts(d, push);
-  Target<T> target = to;
+  WithHelp<T> parts(d, help);
+  Target<T> target;
   for (int k = 1; k <= frame.substeps; ++k) {
     const T s(static_cast<double>(k) / frame.substeps);
-    for (std::size_t i = 1; i < kBodies; ++i) {
+    for (int i = 1; i < kBodies; ++i) {
       target.q[i] = between(from.q[i], to.q[i], s);
       target.omega[i] = from.omega[i] + s * (to.omega[i] - from.omega[i]);
     }
@@ -147,44 +116,46 @@ State<T> simulate_frame(const Model<double>& model, const ControlFrame& frame, i
   return state;
 }
 
-Eigen::VectorXd state_difference(const State<double>& a, const State<double>& b) {
-  std::array<Vec3<double>, kBodies> turn, spin;
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    turn[i] = log_map(conjugate(b.q[i]) * a.q[i]);
-    spin[i] = a.omega[i] - b.omega[i];
-  }
-  return tangent(a.p_root - b.p_root, a.v_root - b.v_root, turn, spin);
+}  // namespace
+
+State<double> simulate_frame(const Model<double>& model, const ControlFrame& frame, int column, double h) {
+  return simulate(model, frame, column, h);
 }
 
 Eigen::MatrixXd exact_derivative(const Model<double>& model, const ControlFrame& frame) {
-  Eigen::MatrixXd F(122, 238);
-  const auto d = [](const Vec3<Dual>& v) { return Vec3<double>{v.x.d, v.y.d, v.z.d}; };
-  for (int column = 0; column < 238; ++column) {
-    const State<Dual> end = simulate_frame(model, frame, column, Dual(0.0, 1.0));
-    std::array<Vec3<double>, kBodies> turn, spin;
-    for (std::size_t i = 0; i < kBodies; ++i) {
-      const Quat<Dual>& q = end.q[i];  // of a change dq of q the turn is 2 vec(q⁻¹ dq)
+  Eigen::MatrixXd F(kTangent, kFrameColumnsWithHelp);
+  const auto slope = [](const Vec3<Dual>& v) { return Vec3<double>{v.x.d, v.y.d, v.z.d}; };
+  for (int column = 0; column < F.cols(); ++column) {
+    const State<Dual> end = simulate(model, frame, column, Dual(0.0, 1.0));
+    const auto put = [&](int row, const Vec3<double>& root, const auto& joint_part) {
+      for (int k = 0; k < kPositions; ++k)
+        F(row + k, column) =
+            k < 3 ? dot(kUnit[k], root) : dot(joint_of(k).axis, joint_part(joint_of(k).body));
+    };
+    put(0, slope(end.p_root), [&](int i) {
+      const Quat<Dual>& q = end.q[i];  // a change dq of q is the turn 2 vec(q⁻¹ dq)
       const Quat<double> x =
-          Quat<double>{q.w.x, -q.x.x, -q.y.x, -q.z.x} * Quat<double>{q.w.d, q.x.d, q.y.d, q.z.d};
-      turn[i] = {2.0 * x.x, 2.0 * x.y, 2.0 * x.z};
-      spin[i] = d(end.omega[i]);
-    }
-    F.col(column) = tangent(d(end.p_root), d(end.v_root), turn, spin);
+          conjugate(Quat<double>{q.w.x, q.x.x, q.y.x, q.z.x}) * Quat<double>{q.w.d, q.x.d, q.y.d, q.z.d};
+      return Vec3<double>{2.0 * x.x, 2.0 * x.y, 2.0 * x.z};
+    });
+    put(kPositions, slope(end.v_root), [&](int i) { return slope(end.omega[i]); });
   }
   return F;
 }
 
 Eigen::MatrixXd central_differences(const Model<double>& model, const ControlFrame& frame, double h) {
-  Eigen::MatrixXd F(122, 238);
-  for (int column = 0; column < 238; ++column) {
-    const double e = column < 61 ? h : column < 232 ? 10.0 * h : 1e3 * h;  // the state hardly feels a newton
-    F.col(column) =
-        state_difference(simulate_frame(model, frame, column, e), simulate_frame(model, frame, column, -e)) /
-        (2.0 * e);
+  Eigen::MatrixXd F(kTangent, kFrameColumnsWithHelp);
+  const auto apart = [&](int column, double e) {
+    const Tangent<double> d =
+        difference(simulate(model, frame, column, e), simulate(model, frame, column, -e));
+    return Eigen::Map<const Eigen::VectorXd>(d.data(), kTangent).eval();
+  };
+  for (int column = 0; column < F.cols(); ++column) {
+    // The state hardly feels a newton.
+    const double e = h * (column < kPositions ? 1.0 : column < kFrameColumns ? 10.0 : 1000.0);
+    F.col(column) = (8.0 * apart(column, e) - apart(column, 2.0 * e)) / (12.0 * e);
   }
   return F;
 }
-
-template State<double> simulate_frame(const Model<double>&, const ControlFrame&, int, double);
 
 }  // namespace mimicx::control

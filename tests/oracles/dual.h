@@ -46,6 +46,16 @@ inline Dual log_scale(Dual w) {
   return {L, slope * w.d};
 }
 
+/// exp(r) = (c, s r) with c = cos(θ/2), s = sin(θ/2)/θ; by x = θ²: dc/dx = −s/4, ds/dx = (c/2 − s)/2x.
+inline Quat<Dual> exp_map(const Vec3<Dual>& r) {
+  const Dual square = dot(r, r);
+  const double x = square.x, angle = std::sqrt(x);
+  const double c = std::cos(0.5 * angle), s = x < 1e-6 ? 0.5 - x / 48.0 : std::sin(0.5 * angle) / angle;
+  const Dual scale(
+      s, (x < 1e-4 ? -1.0 / 48.0 + x / 1920.0 - x * x / 215040.0 : (0.5 * c - s) / (2.0 * x)) * square.d);
+  return {Dual(c, -0.25 * s * square.d), scale * r.x, scale * r.y, scale * r.z};
+}
+
 template <>
 struct ScalarTraits<Dual> {
   using Real = double;

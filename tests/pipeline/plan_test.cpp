@@ -188,12 +188,12 @@ TEST_F(PlanMotions, RefusesAFolderOfOtherSettings) {
 }
 
 TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
-  const NamedValues defaults = settings_of(PlanningConfig{});
+  const NamedValues defaults = planning_settings({});
   for (const auto& [name, value] : defaults) {
     const double other = name == "self_contact" ? 1.0 - value : value + 1.0;
     PlanningConfig config;
     apply_setting(config, name, other);
-    const NamedValues changed = settings_of(config);
+    const NamedValues changed = planning_settings(config);
     for (std::size_t k = 0; k < defaults.size(); ++k)
       EXPECT_EQ(changed[k].second, defaults[k].first == name ? other : defaults[k].second) << name;
   }

@@ -36,16 +36,16 @@ void for_each_value(State<P>& state, Target<P>& target, F&& f) {
 
 }  // namespace
 
-void require_whole_steps(const TrackingConfig& config, double fps) {
-  const double substeps = config.simulation.rate / fps;
-  if (std::abs(substeps - std::round(substeps)) > 1e-9)
+void require_whole_steps(double physics_rate, double fps) {
+  const double substeps = physics_rate / fps;
+  if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
     throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
 }
 
 std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
                                                        const TrackingConfig& config) {
   if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
-  require_whole_steps(config, reference.fps);
+  require_whole_steps(config.simulation.rate, reference.fps);
   auto clip = std::make_shared<TrackingClip>();
   clip->reference = reference;
   clip->model = make_model<float>(reference.character, config.simulation);

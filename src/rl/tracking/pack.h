@@ -62,7 +62,7 @@ struct TrackingClip {
   int size() const { return static_cast<int>(poses.size()) - 1; }
 };
 /// @throws std::invalid_argument unless the physics rate is a multiple of the motion's frame rate
-void require_whole_steps(const TrackingConfig& config, double fps);
+void require_whole_steps(double physics_rate, double fps);
 
 /// @throws std::invalid_argument for a reference of less than 2 frames, and as `require_whole_steps`
 std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,

@@ -1,0 +1,51 @@
+/// The built program as a user meets it: exit statuses, messages, files.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <string>
+
+#include "motion/import/world.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx {
+
+struct Call {
+  int status;
+  std::string text;  ///< both streams
+};
+
+inline Call mimicx(const std::string& arguments) {
+  FILE* pipe = popen((std::string(MIMICX_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
+  Call call{-1, {}};
+  char buffer[4096];
+  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) call.text.append(buffer, n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) call.status = WEXITSTATUS(status);
+  return call;
+}
+
+inline bool says(const Call& call, const std::string& words) {
+  return call.text.find(words) != std::string::npos;
+}
+
+struct Cli : testing::Test {
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  TemporaryFolder folder;
+};
+
+/// A standing motion as another program wrote it: SMPL-X, y up, at `fps`.
+inline Clip foreign_clip(double fps) {
+  Clip clip = standing_clip(40);
+  clip.body_model = "smplx";
+  clip.fps = fps;
+  rotate_world(rotation_to_z_up('y').conjugate(), clip);
+  std::vector<double> hands(40 * 90, 0.25);
+  clip.passthrough.emplace_back("pose_hand", NpyArray::from_double({40, 90}, hands.data()));
+  return clip;
+}
+
+}  // namespace mimicx

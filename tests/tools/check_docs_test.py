@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""tools/check_docs on a copy of the project with one mistake at a time: every kind of mistake is named.
+
+    check_docs_test.py TOOL
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(sys.argv[1]).resolve().parent.parent
+MISTAKES = [  # what is added to which file, what the check says of it
+    ("docs/usage.md", "[a page](no_such_page.md)", "links to no_such_page.md"),
+    ("docs/usage.md", "`src/core/no_such_file.h`", "there is no src/core/no_such_file.h"),
+    ("docs/usage.md", "`no_such_file.cpp`", "there is no file no_such_file.cpp"),
+    ("docs/usage.md", "`Aba.NoSuchTest`", "there is no test Aba.NoSuchTest"),
+    ("docs/usage.md", "`Aba.NoSuch*`", "there is no test Aba.NoSuch*"),
+    ("docs/usage.md", "[method.md](method.md) §99", "docs/method.md has no §99"),
+    ("docs/usage.md", "[method.md](method.md), §7", "no comma before the first §"),
+    ("docs/usage.md", '[method.md](method.md), "No such title"', 'docs/method.md has no "No such title"'),
+    ("docs/physics.md", "as §99 says", "this page has no §99"),
+    ("src/core/error.h", "/// docs/method.md §8,\n/// §99", "docs/method.md has no §99"),
+    ("src/core/error.h", "/// docs/physics.md §4, (99)", "docs/physics.md has no (99) in §4"),
+    ("src/core/error.h", "/// docs/physics.md §3, (8)", "docs/physics.md has no (8) in §3"),
+    ("src/core/error.h", "/// docs/no_such_page.md", "there is no docs/no_such_page.md"),
+    ("src/core/error.h", "/// as §7 says", "§7 of which page?"),
+    ("src/core/error.h", "/// METHOD", "METHOD is no page"),
+]
+RIGHT = [
+    ("docs/usage.md", '[method.md](method.md) §8 and §9, [physics.md](physics.md) §4, (8), `Aba.*`, "any words"'),
+    ("src/core/error.h", "/// docs/physics.md §2,\n/// (2), docs/method.md §8, §9 and Ericson (2005), §5.1.9"),
+]
+
+
+def complaints(folder):
+    run = subprocess.run([sys.executable, folder / "tools" / "check_docs"], stdout=subprocess.PIPE, text=True, check=False)
+    lines = run.stdout.splitlines()
+    assert (run.returncode == 0) == (len(lines) == 1), run.stdout
+    return set(lines) if run.returncode else set()
+
+
+def with_text(folder, name, text):
+    path = folder / name
+    kept = path.read_text(encoding="utf-8")
+    path.write_text(kept + "\n" + text + "\n", encoding="utf-8")
+    found = complaints(folder)
+    path.write_text(kept, encoding="utf-8")
+    return found
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    copy = pathlib.Path(temporary)
+    for name in ("src", "docs", "tests", "tools", "cmake"):
+        shutil.copytree(ROOT / name, copy / name)
+    for name in ("README.md", "CMakeLists.txt"):
+        shutil.copy(ROOT / name, copy / name)
+    os.symlink(ROOT / "data", copy / "data")
+    before = complaints(copy)
+    for name, text, complaint in MISTAKES:
+        found = with_text(copy, name, text) - before
+        assert len(found) == 1 and complaint in found.pop(), (name, text, found)
+    for name, text in RIGHT:
+        assert with_text(copy, name, text) == before, (name, text)
+    rooms = copy / "tools" / "check_layers"
+    rooms.write_text(rooms.read_text(encoding="utf-8").replace('"nn": "core"', '"nn": "character"'), encoding="utf-8")
+    assert any("picture of the rooms" in line for line in complaints(copy) - before)
+print(f"{len(MISTAKES) + 1} mistakes named")
