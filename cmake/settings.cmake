@@ -39,10 +39,13 @@ elseif(MIMICX_TARGET STREQUAL "x86-64-v4")
 elseif(NOT MIMICX_TARGET STREQUAL "portable")
   message(FATAL_ERROR "MIMICX_TARGET is '${MIMICX_TARGET}': expected x86-64-v3, x86-64-v4 or portable")
 endif()
-# Eigen must neither start threads of its own nor change its blocking with the machine's caches
-# (the latter is fixed in core/parallel.cpp).
+# Eigen must start no threads of its own. Nor may it ask the processor for its caches: it would cut products
+# into blocks by them, and the order in which a product is summed depends on the blocks. These sizes are what
+# it takes instead (32 KiB, 512 KiB, 8 MiB).
 target_compile_definitions(mimicx_settings INTERFACE
-  EIGEN_DONT_PARALLELIZE MIMICX_TARGET="${MIMICX_TARGET}" MIMICX_VERSION="${PROJECT_VERSION}")
+  EIGEN_DONT_PARALLELIZE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768
+  EIGEN_DEFAULT_L2_CACHE_SIZE=524288 EIGEN_DEFAULT_L3_CACHE_SIZE=8388608
+  MIMICX_TARGET="${MIMICX_TARGET}" MIMICX_VERSION="${PROJECT_VERSION}")
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 

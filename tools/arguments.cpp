@@ -8,7 +8,7 @@
 
 namespace mimicx {
 
-void add_read_arguments(CLI::App& command, ReadOptions& read) {
+void add_read_arguments(CLI::App& command, ReadConfig& read) {
   static const std::map<std::string, char> kAxes = {{"x", 'x'},  {"y", 'y'},  {"z", 'z'},
                                                     {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}};
   command

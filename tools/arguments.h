@@ -13,7 +13,7 @@ class App;
 namespace mimicx {
 
 /// --up, --scale, --fps …: what the user knows better than the files.
-void add_read_arguments(CLI::App& command, ReadOptions& read);
+void add_read_arguments(CLI::App& command, ReadConfig& read);
 
 /// --threads; default: all there are.
 void add_threads(CLI::App& command, int& threads);

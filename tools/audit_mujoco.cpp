@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "motion/clip_file.h"
 #include "oracles/mujoco_audit.h"
 #include "pipeline/audit/audit_file.h"
 
@@ -58,7 +59,7 @@ bool compare_file(const std::filesystem::path& path) {
     return compare(name, audit_replayed_steps(motion), mujoco_audit_replayed_steps(motion)) && recorded;
   }
   const SimulatedFrames motion = on_hinge_axes(simulated_frames(read_clip(path), npz));
-  const SimulationOptions simulation;
+  const SimulationConfig simulation;
   return compare(name, audit_frames(motion, simulation), mujoco_audit_frames(motion, simulation));
 }
 

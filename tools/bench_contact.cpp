@@ -23,7 +23,7 @@ void print_scenes() {
         const SceneReport r = run_scene(scene, rate, passes);
         std::printf("%-10s %5.0f %6d  %10.2f %% %8.3f %% %11.1f %11.2f %%\n",
                     kSceneNames[static_cast<int>(scene)], rate, passes, 100 * r.outside_cone,
-                    100 * r.adhesion, 1e3 * r.deepest, 100 * (r.energy_ratio - 1));
+                    100 * r.adhesion, kMm * r.deepest, 100 * (r.energy_ratio - 1));
       }
 }
 
@@ -36,8 +36,8 @@ void print_rest() {
       for (int passes : {1, 2, 3}) {
         const RestReport r = rest(pose, rate, passes);
         std::printf("%-10s %5.0f %6d  %9.2f %10.2f %11.3f %11.1e %11.1e\n",
-                    kRestPoseNames[static_cast<int>(pose)], rate, passes, 1e3 * r.mean_depth, 1e3 * r.deepest,
-                    1e3 * r.creep, r.jitter, r.force_error);
+                    kRestPoseNames[static_cast<int>(pose)], rate, passes, kMm * r.mean_depth, kMm * r.deepest,
+                    kMm * r.creep, r.jitter, r.force_error);
       }
 }
 
@@ -46,7 +46,7 @@ void print_shares() {
   for (RestPose pose : kRestPoses) {
     const RestReport r = rest(pose, kRates[0], 2);
     std::printf("%-10s", kRestPoseNames[static_cast<int>(pose)]);
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       if (r.share[i] > 0.001) std::printf("  %s %.1f", kBodyNames[i].data(), 100 * r.share[i]);
     if (r.heel_share > 0.001) std::printf("  (heels %.1f)", 100 * r.heel_share);
     std::printf("\n");

@@ -30,7 +30,7 @@ struct FrictionAhead : StepParts {
   static void linearise_first(const FloorModel& model, Data<P>& d) {
     const auto start = d.ground;
     relinearise_ground(model, P(1.0) > P(0.0), d);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(d.ground_count); ++k) {
+    for (int k = 0; k < d.ground_count; ++k) {
       Contact& c = d.ground[k];
       const MaskOf<P> pushes = start[k].W_n > P(0.0);
       c.f = select<P>(pushes, {c.f.x, c.f.y, start[k].f.z}, zero3<P>());
@@ -47,7 +47,7 @@ void relinearise_with(const FloorModel& model, const MaskOf<P>& lanes, Data<P>& 
   const P dt(model.dt);
   const auto before = d.ground;
   relinearise_ground(model, lanes, d);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(d.ground_count); ++k) {
+  for (int k = 0; k < d.ground_count; ++k) {
     Contact& c = d.ground[k];
     const Vec3<P> v_end = add_scaled(c.velocity, dt, point_acceleration(model, c, d));
     const P W_t = friction(before[k], c, v_end), c_t = W_t / dt;
@@ -70,21 +70,21 @@ struct HalfWay : StepParts {
 /// The slip of c_t = μ f_n / slip is that of the mean of the last two predicted velocities; the first of all
 /// is the one at the start of the step.
 struct MeanVelocity : StepParts {
-  std::array<Vec3<P>, kMaxContacts> last{};  ///< by GroundContact::index
+  Array<Vec3<P>, kMaxContacts> last{};  ///< by GroundContact::index
 
   void linearise_first(const FloorModel&, const Data<P>& d) {
     for (int k = 0; k < d.ground_count; ++k) {
-      const Contact& c = d.ground[static_cast<std::size_t>(k)];
-      last[static_cast<std::size_t>(c.index)] = c.velocity;
+      const Contact& c = d.ground[k];
+      last[c.index] = c.velocity;
     }
   }
   void linearise_again(const FloorModel& model, const MaskOf<P>& lanes, Data<P>& d) {
     relinearise_with(model, lanes, d, [&](const Contact&, const Contact& now, const Vec3<P>& v_end) {
-      Vec3<P>& v_last = last[static_cast<std::size_t>(now.index)];
+      Vec3<P>& v_last = last[now.index];
       Contact at_mean = now;
       Vec3<P> v = P(0.5) * (v_last + v_end);
       v.z = v_end.z;
-      linearise_ground(model.options, P(model.dt), v, at_mean);
+      linearise_ground(model.config, P(model.dt), v, at_mean);
       v_last = v_end;
       return at_mean.W_t;
     });
@@ -98,7 +98,7 @@ struct LocalMass : StepParts {
   explicit LocalMass(double kg) : mass(kg) {}
 
   void linearise_again(const FloorModel& model, const MaskOf<P>& lanes, Data<P>& d) {
-    const P m(mass), v_s_2(model.options.slip_speed * model.options.slip_speed);
+    const P m(mass), v_s_2(model.config.slip_speed * model.config.slip_speed);
     relinearise_with(model, lanes, d, [&](const Contact& before, const Contact& now, const Vec3<P>& v_end) {
       const P slip_2 = fma(v_end.x, v_end.x, v_end.y * v_end.y);
       const P cone = now.W_t * sqrt(slip_2 + v_s_2);  // μ f_n dt

@@ -34,10 +34,9 @@ struct Start {
   explicit Start(std::uint64_t number) {
     Random random(1, {number});
     for (int i = 0; i < kBodies; ++i) {
-      const auto n = static_cast<std::size_t>(i);
-      q[n] = Quaterniond::Identity();
+      q[i] = Quaterniond::Identity();
       const double x = 0.3 * random.normal(), y = 0.3 * random.normal(), z = 0.3 * random.normal();
-      omega[n] = is_hinge(i) ? Vector3d(x * hinge_axis(i)) : Vector3d(x, y, z);
+      omega[i] = is_hinge(i) ? Vector3d(x * hinge_axis(i)) : Vector3d(x, y, z);
     }
     q[kPelvis] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
     q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.2));
@@ -47,10 +46,10 @@ struct Start {
 
 template <class T>
 void simulate(benchmark::State& timer, bool self_contact, int passes) {
-  SimulationOptions options;
-  options.self_contact = self_contact;
-  options.passes = passes;
-  const auto model = make_model<RealOf<T>>(make_character(), options);
+  SimulationConfig config;
+  config.self_contact = self_contact;
+  config.passes = passes;
+  const auto model = make_model<RealOf<T>>(make_character(), config);
   const auto start = std::make_unique<State<T>>(), state = std::make_unique<State<T>>();
   const auto target = std::make_unique<Target<T>>();
   const auto data = std::make_unique<Data<T>>();
@@ -58,7 +57,7 @@ void simulate(benchmark::State& timer, bool self_contact, int passes) {
     const Start s(static_cast<std::uint64_t>(lane));
     set_lane(start->p_root, lane, s.p_root);
     set_lane(start->v_root, lane, Vector3d::Zero());
-    for (std::size_t i = 0; i < kBodies; ++i) {
+    for (int i = 0; i < kBodies; ++i) {
       set_lane(start->q[i], lane, s.q[i]);
       set_lane(start->omega[i], lane, s.omega[i]);
       set_lane(target->q[i], lane, s.q[i]);
@@ -77,14 +76,13 @@ void simulate(benchmark::State& timer, bool self_contact, int passes) {
 void simulate_mujoco(benchmark::State& timer) {
   MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
   const Start start(0);
-  for (int i = 1; i < kBodies; ++i) mujoco.set_target(i, start.q[static_cast<std::size_t>(i)]);
+  for (int i = 1; i < kBodies; ++i) mujoco.set_target(i, start.q[i]);
   int k = 0;
   for (auto _ : timer) {
     if (k++ % kStepsPerRollout == 0) {
       mj_resetData(&mujoco.model(), &mujoco.data());
       mujoco.set_root(start.p_root, start.q[0], Vector3d::Zero(), start.omega[0]);
-      for (int i = 1; i < kBodies; ++i)
-        mujoco.set_joint(i, start.q[static_cast<std::size_t>(i)], start.omega[static_cast<std::size_t>(i)]);
+      for (int i = 1; i < kBodies; ++i) mujoco.set_joint(i, start.q[i], start.omega[i]);
     }
     mj_step(&mujoco.model(), &mujoco.data());
   }

@@ -35,13 +35,13 @@ struct Marked : StepParts {
 template <class T>
 std::unique_ptr<Simulation<T>> falling() {
   const Character c = make_character();
-  auto s = std::make_unique<Simulation<T>>(c, SimulationOptions{});
+  auto s = std::make_unique<Simulation<T>>(c, SimulationConfig{});
   for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane)
     set_lane(snapshot_of(Scene::kFall, c, static_cast<std::uint64_t>(lane)), lane, s->state, s->target);
   return s;
 }
 
-using PerStage = std::array<double, kStages>;
+using PerStage = Array<double, kStages>;
 
 /// Nanoseconds per step of T (all its lanes), mean over the scene.
 template <class T>
@@ -60,12 +60,12 @@ PerStage measure_stages() {
         last = Clock::now();
       });
       step_in_parts(s->model, s->target, s->state, s->data, timed);
-      for (std::size_t i = 0; i < kStages; ++i) b[i] = std::min(b[i], spent[i]);
+      for (int i = 0; i < kStages; ++i) b[i] = std::min(b[i], spent[i]);
     }
   }
   PerStage mean{};
   for (const PerStage& b : best)
-    for (std::size_t i = 0; i < kStages; ++i) mean[i] += b[i] / kSteps;
+    for (int i = 0; i < kStages; ++i) mean[i] += b[i] / kSteps;
   return mean;
 }
 
@@ -117,7 +117,7 @@ void print_stages(const char* name, const PerStage& operations) {
   const PerStage ns = measure_stages<T>();
   const double peak = fma_peak<T>();
   double total = 0, flops = 0;
-  for (std::size_t i = 0; i < kStages; ++i) total += ns[i], flops += operations[i];
+  for (int i = 0; i < kStages; ++i) total += ns[i], flops += operations[i];
   std::printf("\n%s (%s): fused multiply-adds alone reach %.1f Gflop/s\n", name, MIMICX_TARGET, peak);
   std::printf("%-18s %14s %8s %12s %10s %8s\n", "stage", "ns/character", "share", "operations", "Gflop/s",
               "of peak");
@@ -126,7 +126,7 @@ void print_stages(const char* name, const PerStage& operations) {
     std::printf("%-18s %14.0f %6.1f %% %12.0f %10.1f %6.1f %%\n", stage, time / ScalarTraits<T>::kSize,
                 100 * time / total, count, rate, 100 * rate / peak);
   };
-  for (std::size_t i = 0; i < kStages; ++i) line(kStageNames[i], ns[i], operations[i]);
+  for (int i = 0; i < kStages; ++i) line(kStageNames[i], ns[i], operations[i]);
   line("step", total, flops);
 }
 
@@ -142,12 +142,12 @@ double seconds_per_rollout(int threads) {
   using P = Pack<kLanes>;
   double best = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 2 * kRepetitions; ++repetition) {
-    std::vector<double> spent(static_cast<std::size_t>(threads));
+    List<double> spent(static_cast<std::size_t>(threads));
     parallel_for(threads, threads, [&](int chunk) {
       const auto s = falling<P>();
       const double start = thread_seconds();
       for (int k = 0; k < kSteps; ++k) step(s->model, s->target, s->state, s->data);
-      spent[static_cast<std::size_t>(chunk)] = thread_seconds() - start;
+      spent[chunk] = thread_seconds() - start;
     });
     double sum = 0;
     for (double seconds : spent) sum += seconds / threads;

@@ -1,3 +1,4 @@
+#include "motion/prepare.h"
 #include "pipeline/options/clusters.h"
 
 #include <CLI/CLI.hpp>
@@ -19,7 +20,7 @@ struct Arguments {
   std::vector<std::string> inputs;
   std::string out;
   ClusterConfig config{pretrain_configuration("small").clusters.radius, std::nullopt, 0};
-  ReadOptions read;
+  ReadConfig read;
 };
 
 /// The files named, and the motions of the folders named, each once and in order of their paths.

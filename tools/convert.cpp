@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
+#include "motion/resample.h"
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 struct Arguments {
   std::filesystem::path in, out;
-  ReadOptions read;
+  ReadConfig read;
   std::string rate = "input";
 };
 

@@ -16,7 +16,7 @@ namespace {
 struct Arguments {
   std::vector<double> betas;          ///< at most 10, the others are 0
   std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
-  ReadOptions read;
+  ReadConfig read;
 };
 
 Character character_of_shape(const std::vector<double>& betas) {
@@ -28,7 +28,7 @@ Character character_of_shape(const std::vector<double>& betas) {
 }
 
 /// The very body that `convert` writes qpos for and `adapt` simulates: read in the same way.
-Character character_of_motion(const std::filesystem::path& motion, const ReadOptions& read) {
+Character character_of_motion(const std::filesystem::path& motion, const ReadConfig& read) {
   const Clip clip = read_motion(motion, read);
   tell_decisions(motion.string(), clip, std::cerr);
   return character_of(clip);
@@ -41,7 +41,7 @@ int export_mjcf(const Arguments& a) {
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
   if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
-  write_file_atomically(a.out, to_mjcf(character, SimulationOptions{}));
+  write_file_atomically(a.out, to_mjcf(character, SimulationConfig{}));
   return kAllGood;
 }
 

@@ -1,4 +1,5 @@
 #include "motion/fit/fit.h"
+#include "motion/clip_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -16,8 +17,8 @@ namespace {
 struct Arguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
-  FitOptions config;
-  ReadOptions read;
+  FitConfig config;
+  ReadConfig read;
 };
 
 void print(const std::string& name, const FitReport& r) {

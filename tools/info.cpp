@@ -6,14 +6,14 @@
 #include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
-#include "motion/reference.h"
+#include "motion/prepare.h"
 
 namespace mimicx {
 namespace {
 
 struct Arguments {
   std::filesystem::path file;
-  ReadOptions read;
+  ReadConfig read;
 };
 
 /// How many keypoints the fit and Eq. 3 can use.

@@ -18,12 +18,12 @@ struct Arguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
-  SynthSetOptions set;
+  SynthSetConfig set;
   bool report = false;  ///< print what each motion of the set demands of a body
 };
 
 /// @throws UsageError for a set that cannot be
-std::vector<SynthOptions> checked_clips(const SynthSetOptions& set) {
+std::vector<SynthConfig> checked_clips(const SynthSetConfig& set) {
   try {
     return clips_of_set(set);
   } catch (const std::invalid_argument& error) {
@@ -42,11 +42,11 @@ void write_set(const Arguments& a, std::size_t total) {
 }
 
 /// Residuals in parts of the weight W, torques in parts of their limits.
-void print_report(const std::vector<SynthOptions>& clips) {
+void print_report(const std::vector<SynthConfig>& clips) {
   std::printf("%-20s %7s %18s %20s %26s %12s\n", "motion", "seconds", "root force, % W", "root moment, mm W",
               "worst torque, % of limit", "frames over");
   std::printf("%-20s %7s %9s %8s %11s %8s\n", "", "", "mean", "max", "mean", "max");
-  for (const SynthOptions& options : clips) {
+  for (const SynthConfig& options : clips) {
     const Clip clip = synthesize(options);
     const Feasibility f = feasibility(clip);
     const std::string worst(kBodyNames[f.worst_joint]);
@@ -60,7 +60,7 @@ void print_report(const std::vector<SynthOptions>& clips) {
 int synth(const Arguments& a) {
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
-  const std::vector<SynthOptions> clips = checked_clips(a.set);
+  const std::vector<SynthConfig> clips = checked_clips(a.set);
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
     write_synthetic_data(a.data_set);
@@ -77,7 +77,7 @@ void declare_synth(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command =
       app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
-  SynthSetOptions& set = a->set;
+  SynthSetConfig& set = a->set;
   auto* out = command->add_option("--out", a->out, "folder to write to");
   command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
       ->check(CLI::PositiveNumber);

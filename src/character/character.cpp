@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "character/character_tables.h"
+#include "character/standard_body.h"
 
 namespace mimicx {
 namespace {
@@ -89,12 +89,12 @@ constexpr double kSoleBelowBall = 0.022;  ///< sole under the joint at the ball 
 /// Height of the ankle joint over the sole, m.
 double ankle_height(const Character& c, int side) {
   const int ball = side > 0 ? kLeftFoot : kRightFoot;
-  return kSoleBelowBall - c.joint_offset[static_cast<std::size_t>(ball)].y();
+  return kSoleBelowBall - c.joint_offset[ball].y();
 }
 
 Capsule capsule_of(const Character& c, const Scales& s, int body) {
   const double x = is_right(body) ? -1.0 : 1.0;
-  const auto offset = [&](int b) { return c.joint_offset[static_cast<std::size_t>(b)]; };
+  const auto offset = [&](int b) { return c.joint_offset[b]; };
   const auto bone = [&](int child, double from, double to, double radius) {
     return Capsule{body, from * offset(child), to * offset(child), radius * s.girth};
   };
@@ -178,7 +178,7 @@ void add_foot_points(Character& c, const Scales& s, int side) {
   const double x = side;
   const int ankle = side > 0 ? kLeftAnkle : kRightAnkle, ball = side > 0 ? kLeftFoot : kRightFoot;
   const double sole = -ankle_height(c, side);
-  const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(ball)];
+  const Vector3d ball_p = c.joint_offset[ball];
   const auto add = [&](int body, const Vector3d& p_B, double radius) {
     c.contact_points.push_back({body, p_B, radius});
   };
@@ -194,7 +194,7 @@ void add_foot_points(Character& c, const Scales& s, int side) {
 /// The back of a foot, on which it rests when it points backwards: a sphere between ankle and ball, well
 /// above the sole.
 void add_instep(Character& c, const Scales& s, int side) {
-  const Vector3d ball_p = c.joint_offset[static_cast<std::size_t>(side > 0 ? kLeftFoot : kRightFoot)];
+  const Vector3d ball_p = c.joint_offset[side > 0 ? kLeftFoot : kRightFoot];
   const double radius = 0.026 * s.size;
   const Vector3d above_sole(ball_p.x(), 0.036 * s.size - ankle_height(c, side), 0.6 * ball_p.z());
   c.contact_points.push_back({side > 0 ? kLeftAnkle : kRightAnkle, above_sole, radius});
@@ -203,7 +203,7 @@ void add_instep(Character& c, const Scales& s, int side) {
 /// Spheres at the ends (and for long segments the middle) of the capsules of every other body.
 void add_body_points(Character& c) {
   const auto add = [&](int body, double along) {
-    const Capsule& k = c.capsule[static_cast<std::size_t>(body)];
+    const Capsule& k = c.capsule[body];
     c.contact_points.push_back({body, k.a_B + along * (k.b_B - k.a_B), k.radius});
   };
   for (int body : {kPelvis, kSpine3, kHead, kLeftWrist, kRightWrist}) {
@@ -227,7 +227,7 @@ Offsets offsets_of(const std::array<double, kBetas>& betas) {
     Vector3d gain = Vector3d::Ones();
     for (std::size_t k = 0; k < kBetas; ++k) gain += betas[k] * gain_of(shape_components()[k], i);
     const Vector3d offset = standard.cwiseProduct(gain);
-    offsets[static_cast<std::size_t>(i)] = is_right(i) ? mirrored(offset) : offset;
+    offsets[i] = is_right(i) ? mirrored(offset) : offset;
   }
   return offsets;
 }
@@ -243,11 +243,11 @@ std::array<double, kBetas> nearest_betas(const Offsets& offsets) {
     std::array<double, kBetas> unit{};
     unit[k] = 1.0;
     const Offsets moved = offsets_of(unit);
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       by_beta.block<3, 1>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(k)) =
           moved[i] - standard[i];
   }
-  for (std::size_t i = 0; i < kBodies; ++i)
+  for (int i = 0; i < kBodies; ++i)
     wanted.segment<3>(static_cast<Eigen::Index>(3 * i)) = offsets[i] - standard[i];
   using Square = Eigen::Matrix<double, kBetas, kBetas>;
   const Square normal = by_beta.transpose() * by_beta + kBoneSigma * kBoneSigma * Square::Identity();
@@ -267,12 +267,11 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
   Character standard;
   standard.joint_offset = offsets_of({});
   for (int i = 0; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    c.capsule[n] = capsule_of(c, scales, i);
-    const double growth = capsule_volume(c.capsule[n]) / capsule_volume(capsule_of(standard, Scales{}, i));
-    c.mass[n] = kStandardMass * mass_share(i) * growth;
-    c.com_B[n] = 0.5 * (c.capsule[n].a_B + c.capsule[n].b_B);
-    c.inertia_B[n] = capsule_inertia(c.capsule[n], c.mass[n]);
+    c.capsule[i] = capsule_of(c, scales, i);
+    const double growth = capsule_volume(c.capsule[i]) / capsule_volume(capsule_of(standard, Scales{}, i));
+    c.mass[i] = kStandardMass * mass_share(i) * growth;
+    c.com_B[i] = 0.5 * (c.capsule[i].a_B + c.capsule[i].b_B);
+    c.inertia_B[i] = capsule_inertia(c.capsule[i], c.mass[i]);
   }
   add_foot_points(c, scales, 1);
   add_foot_points(c, scales, -1);
@@ -286,37 +285,12 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
     j.kp *= strength;
     j.kd *= strength;
     j.torque_limit *= strength;
-    c.joint[static_cast<std::size_t>(i)] = j;
+    c.joint[i] = j;
   }
   return c;
 }
 
 }  // namespace
-
-const PerBody<std::string_view> kBodyNames = {
-    "pelvis",     "left_hip",    "right_hip",    "spine1",     "left_knee",     "right_knee",
-    "spine2",     "left_ankle",  "right_ankle",  "spine3",     "left_foot",     "right_foot",
-    "neck",       "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
-    "left_elbow", "right_elbow", "left_wrist",   "right_wrist"};
-
-int body_of_name(std::string_view name) {
-  const auto found = std::find(kBodyNames.begin(), kBodyNames.end(), name);
-  return found == kBodyNames.end() ? -1 : static_cast<int>(found - kBodyNames.begin());
-}
-
-Vector3d hinge_axis(int body) {
-  switch (body) {
-    case kLeftKnee:
-    case kRightKnee:
-      return Vector3d::UnitX();
-    case kLeftElbow:
-      return -Vector3d::UnitY();
-    case kRightElbow:
-      return Vector3d::UnitY();
-    default:
-      throw std::invalid_argument("hinge_axis: body has no hinge");
-  }
-}
 
 double Character::total_mass() const {
   double sum = 0.0;
@@ -335,8 +309,8 @@ Character make_character_of_joints(const RestJoints& joints) {
   const Offsets standard = offsets_of({});
   Offsets offsets;
   offsets[0].setZero();
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    offsets[i] = joints[i] - joints[static_cast<std::size_t>(kParents[i])];
+  for (int i = 1; i < kBodies; ++i) {
+    offsets[i] = joints[i] - joints[kParents[i]];
     const double ratio = offsets[i].norm() / standard[i].norm();
     if (!(ratio > 1.0 / 3.0 && ratio < 3.0))
       throw std::invalid_argument("the bone to " + std::string(kBodyNames[i]) +
@@ -356,8 +330,8 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
   BodyPoses poses;
   poses.p_WB[0] = p_root;
   poses.q_WB[0] = q_joint[0];
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const auto parent = static_cast<std::size_t>(kParents[i]);
+  for (int i = 1; i < kBodies; ++i) {
+    const int parent = kParents[i];
     poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * character.joint_offset[i];
     poses.q_WB[i] = poses.q_WB[parent] * q_joint[i];
   }
@@ -365,7 +339,7 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
 }
 
 Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses) {
-  const auto body = static_cast<std::size_t>(point.body);
+  const int body = point.body;
   return poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
 }
 
@@ -374,6 +348,13 @@ double lowest_contact(const Character& character, const BodyPoses& poses) {
   for (const ContactPoint& point : character.contact_points)
     lowest = std::min(lowest, lowest_position(point, poses).z());
   return lowest;
+}
+
+Vector3d center_of_mass(const Character& character, const BodyPoses& poses) {
+  Vector3d sum = Vector3d::Zero();
+  for (int i = 0; i < kBodies; ++i)
+    sum += character.mass[i] * (poses.p_WB[i] + poses.q_WB[i] * character.com_B[i]);
+  return sum / character.total_mass();
 }
 
 }  // namespace mimicx

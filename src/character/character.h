@@ -1,5 +1,5 @@
 /// The humanoid: 22 bodies on the SMPL-X body skeleton, its shape from β, masses, collision shapes and
-/// the parameters of its PD controllers.                                            METHOD: docs/method.md §2
+/// the parameters of its PD controllers.                                            docs/method.md §2
 ///
 /// Frames. In the rest pose (T-pose) every body frame B_i is parallel to the model frame: x to the
 /// character's left, y up, z forward. Its origin is the joint that connects body i to its parent. The world
@@ -15,70 +15,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/containers.h"
-#include "core/so3.h"
+#include "character/bodies.h"
+#include "character/joint_parameters.h"
 
 namespace mimicx {
 
-inline constexpr int kBodies = 22;
-inline constexpr int kJoints = 21;  ///< actuated joints: every body but the pelvis
-inline constexpr int kDofs = 55;    ///< actuated degrees of freedom: 17 · 3 + 4 · 1
 inline constexpr int kBetas = 10;
-
-/// One value per body; the subscript is a `Body` or an int.
-template <class T>
-using PerBody = Array<T, kBodies>;
-
-enum Body : int {
-  kPelvis,
-  kLeftHip,
-  kRightHip,
-  kSpine1,
-  kLeftKnee,
-  kRightKnee,
-  kSpine2,
-  kLeftAnkle,
-  kRightAnkle,
-  kSpine3,
-  kLeftFoot,
-  kRightFoot,
-  kNeck,
-  kLeftCollar,
-  kRightCollar,
-  kHead,
-  kLeftShoulder,
-  kRightShoulder,
-  kLeftElbow,
-  kRightElbow,
-  kLeftWrist,
-  kRightWrist
-};
-
-/// SMPL-X names, in the order of `Body`.
-extern const PerBody<std::string_view> kBodyNames;
-/// The body of that name, -1 for any other name.
-int body_of_name(std::string_view name);
-/// Parent of each body; -1 for the pelvis. Parents come before their children.
-inline constexpr PerBody<int> kParents = {-1, 0, 0, 0, 1,  2,  3,  4,  5,  6,  7,
-                                          8,  9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
-
-/// Knees and elbows turn about one axis; every other joint is spherical.
-constexpr bool is_hinge(int body) {
-  return body == kLeftKnee || body == kRightKnee || body == kLeftElbow || body == kRightElbow;
-}
-/// Unit axis of a hinge in the (coincident at rest) parent and child frames; positive angles flex.
-Vector3d hinge_axis(int body);
-
-/// First degree of freedom of a body's joint in 0..54, bodies 1..21 in order.
-constexpr int first_dof(int body) {
-  int dof = 0;
-  for (int i = 1; i < body; ++i) dof += is_hinge(i) ? 1 : 3;
-  return dof;
-}
-static_assert(first_dof(kBodies - 1) + 3 == kDofs);
-
-/// End effectors e^p of the state: wrists and balls of the feet.                    METHOD §3
-inline constexpr std::array<int, 4> kEndEffectors = {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot};
 
 /// A sphere (or, with radius 0, a point) that can touch the floor, fixed to a body.
 struct ContactPoint {
@@ -101,27 +43,15 @@ struct Capsule {
   double radius;      ///< m
 };
 
-/// PD controller, limits and armature of the joint that connects a body to its parent.
-struct JointParameters {
-  double kp = 0;            ///< N·m/rad
-  double kd = 0;            ///< N·m·s/rad
-  double armature = 0;      ///< kg·m²
-  double torque_limit = 0;  ///< N·m: |τ| of a hinge, ‖τ‖ of a spherical joint
-  /// Anatomical range: rotation from `centre` (a rotation vector; the component along the axis for a
-  /// hinge) stays inside the ellipsoid of half axes `half_range` (rad) in the child's frame at rest.
-  Vector3d centre = Vector3d::Zero();
-  Vector3d half_range = Vector3d::Constant(3.0);
-};
-
 /// Everything the simulator, the kinematics and the metrics need to know of one body shape.
 struct Character {
   std::array<double, kBetas> betas{};
-  PerBody<Vector3d> joint_offset;  ///< rest position of joint i in its parent's frame; 0 for the pelvis
-  PerBody<double> mass;            ///< kg
-  PerBody<Vector3d> com_B;         ///< centre of mass in the body's frame, m
-  PerBody<Matrix3d> inertia_B;     ///< about the centre of mass, body's axes, kg·m²
-  PerBody<Capsule> capsule;        ///< one per body, index = body
-  std::vector<ContactPoint> contact_points;    ///< the kFootPoints of the soles first
+  PerBody<Vector3d> joint_offset;     ///< rest position of joint i in its parent's frame; 0 for the pelvis
+  PerBody<double> mass;               ///< kg
+  PerBody<Vector3d> com_B;            ///< centre of mass in the body's frame, m
+  PerBody<Matrix3d> inertia_B;        ///< about the centre of mass, body's axes, kg·m²
+  PerBody<Capsule> capsule;           ///< one per body, index = body
+  List<ContactPoint> contact_points;  ///< the kFootPoints of the soles first
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of bodies whose capsules collide
   PerBody<JointParameters> joint;              ///< index = body; entry 0 unused
 
@@ -143,8 +73,8 @@ using RestJoints = PerBody<Vector3d>;
 /// @throws std::invalid_argument for a bone shorter than a third or longer than three times the standard one
 Character make_character_of_joints(const RestJoints& joints);
 
-/// Rest position of the pelvis J0 (m) in the y-up frame of a body model: pelvis = trans + J0.  METHOD §2
-/// Known: "mimicx", "smplx", "smplh", "smpl".
+/// Rest position of the pelvis J0 (m) in the y-up frame of a body model: pelvis = trans + J0.  docs/method.md
+/// §2 Known: "mimicx", "smplx", "smplh", "smpl".
 Vector3d rest_pelvis(std::string_view body_model);
 
 /// World poses of all bodies. @param q_joint  [22] rotations relative to the parent; entry 0 is the root's
@@ -160,5 +90,7 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
 Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses);
 /// World height of the character's lowest contact point, m.
 double lowest_contact(const Character& character, const BodyPoses& poses);
+/// World position of the whole body's centre of mass, m.
+Vector3d center_of_mass(const Character& character, const BodyPoses& poses);
 
 }  // namespace mimicx

@@ -46,13 +46,13 @@ Rows end_velocity(const Point& p, const Vector3d& alpha, const Vector3d& a, doub
 }
 
 Vector3d against_free_fall(const Model<double>& model, const Vec3<double>& a) {
-  return to_eigen(a) + model.options.gravity * Vector3d::UnitZ();
+  return to_eigen(a) + model.config.gravity * Vector3d::UnitZ();
 }
 
 /// D of the wrench of one contact, docs/physics.md §4, (8), added to the rows of `wrench`.
 void add_contact(const Model<double>& model, const Data<double>& d, const GroundContact<double>& c,
                  const Vector3d& v_lin, const Accelerations* before, Eigen::Matrix<double, 6, 16>& wrench) {
-  const SimulationOptions& o = model.options;
+  const SimulationConfig& o = model.config;
   const ContactPoint& contact = model.contacts[static_cast<std::size_t>(c.index)];
   const int i = contact.body;
   const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;

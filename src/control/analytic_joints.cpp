@@ -24,7 +24,7 @@ Matrix3d range_stiffness(const Model<double>& model, const Quat<double>& q, int 
   const Eigen::RowVector3d dexcess = ((2.0 * g - 1.0) * dg - excess * dslope) / slope;
   // push = −k (excess/slope) gradient
   const Eigen::RowVector3d dratio = (dexcess - (excess / slope) * dslope) / slope;
-  return -model.options.limit_stiffness * (gradient * dratio + (excess / slope) * dgradient);
+  return -model.config.limit_stiffness * (gradient * dratio + (excess / slope) * dgradient);
 }
 
 }  // namespace
@@ -36,8 +36,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
   for (int k = 0; k < out.solve_count; ++k)
     for (const SaturatedTable<Real>& joint : out.solve(k).saturated) bounded[joint.body] = true;
   out.law.clear();
-  const double dt = model.dt,
-               range_damping = dt * model.options.limit_stiffness + model.options.limit_damping;
+  const double dt = model.dt, range_damping = dt * model.config.limit_stiffness + model.config.limit_damping;
   for (int i = 1; i < kBodies; ++i) {
     const Matrix3d R = to_eigen(d.R_WB[i]);
     const Vector3d phi = log_map(to_eigen(conjugate(state.q[i]) * target.q[i]));

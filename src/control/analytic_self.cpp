@@ -72,7 +72,7 @@ struct Mover {
 /// @return false where they do not push
 bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i, int j,
                         Eigen::Matrix<double, 12, 24>& wrench) {
-  const double k = model.options.self_stiffness, damping = model.options.self_damping;
+  const double k = model.config.self_stiffness, damping = model.config.self_damping;
   const Axis a = axis_of(model, d, i), b = axis_of(model, d, j);
   const Vector3d apart = (a.p + a.start) - (b.p + b.start), w_i = to_eigen(d.w[i]), w_j = to_eigen(d.w[j]);
   const Closest c = closest(a.along, b.along, apart);
@@ -120,7 +120,7 @@ template <class Real>
 void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
                            std::vector<SelfPairTable<Real>>& out) {
   out.clear();
-  if (!model.options.self_contact) return;
+  if (!model.config.self_contact) return;
   for (const auto& pair : model.self_pairs) {
     const int i = pair[0], j = pair[1];
     // Bodies on which nothing pushes meet nobody.

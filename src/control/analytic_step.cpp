@@ -19,7 +19,7 @@ void tabulate_bodies(const Model<double>& model, const Data<double>& d, const St
                      SubstepTable<Real>& out) {
   for (int i = 0; i < kBodies; ++i) {
     BodyTable<Real>& b = out.body[i];
-    const Vector3d w = to_eigen(d.w[i]), h = model.mass[i] * to_eigen(d.d[i]);
+    const Vector3d w = to_eigen(d.w[i]), h = model.mass[i] * to_eigen(d.com[i]);
     const Matrix3d I_o = to_eigen(d.I_o[i]);
     put(b.R, d.R_WB[i]);
     put(b.w, d.w[i]);
@@ -44,7 +44,7 @@ void tabulate_inertias(const Model<double>& model, const Data<double>& d, SolveT
     const Inertia<double>& IA = d.IA[i];
     put(b.alpha, d.a_w[i]);
     Vec3<double> a = d.a_v[i];
-    a.z += model.options.gravity;
+    a.z += model.config.gravity;
     put(b.a, a);
     put(b.n, IA.A * d.a_w[i] + IA.B * d.a_v[i] + d.pA[i].n);
     put(b.f, transpose_times(IA.B, d.a_w[i]) + IA.C * d.a_v[i] + d.pA[i].f);
@@ -131,7 +131,7 @@ struct Solves {
     d.changed.fill(true);
     solve_and_tabulate();
     PerBody<bool> kept{};
-    for (int pass = 1; pass < model.options.passes; ++pass) {
+    for (int pass = 1; pass < model.config.passes; ++pass) {
       predicted_velocities(model, d, linearised);
       relinearise_ground(model, true, d);
       apply_torque_bounds(model, d);
@@ -158,7 +158,7 @@ bool tabulate_step(const Model<double>& model, const Target<double>& target, con
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
   d.self_wrench.fill({zero3<double>(), zero3<double>()});
-  if (model.options.self_contact) add_self_contact(model, d);
+  if (model.config.self_contact) add_self_contact(model, d);
   d.bias[0].n -= help.n;
   d.bias[0].f -= help.f;
   detect_ground(model, d);

@@ -5,15 +5,15 @@
 
 namespace mimicx::control {
 
-System make_system(const Character& character, const SimulationOptions& options,
+System make_system(const Character& character, const SimulationConfig& config,
                    std::vector<State<double>> reference, double fps) {
   if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
-  const double substeps = options.rate / fps;
+  const double substeps = config.rate / fps;
   if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
     throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
   System system;
-  system.model = make_model<float>(character, options);
-  system.exact_model = make_model<double>(character, options);
+  system.model = make_model<float>(character, config);
+  system.exact_model = make_model<double>(character, config);
   system.mass = character.total_mass();
   system.fps = fps;
   system.substeps = static_cast<int>(std::lround(substeps));

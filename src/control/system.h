@@ -48,7 +48,7 @@ struct System {
 };
 
 /// @throws std::invalid_argument for fewer than 2 frames, or unless the physics rate is a multiple of fps
-System make_system(const Character& character, const SimulationOptions& options,
+System make_system(const Character& character, const SimulationConfig& config,
                    std::vector<State<double>> reference, double fps);
 
 /// A state in the numbers that the simulator can hold.

@@ -1,4 +1,4 @@
-/// The header of an npy array, and the element types it can name. Internal to npz.h's implementation.
+/// The header of an npy array, and the element types it can name. What npy.cpp reads first.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/npz.h"
+#include "core/npy_array.h"
 
 namespace mimicx {
 

@@ -1,15 +1,11 @@
-/// The zip half of npz.h.
 #include "core/npz.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
-#include "core/file.h"
 #ifdef MIMICX_WITH_ZLIB
 #include <zlib.h>
 #endif
@@ -233,6 +229,30 @@ void Npz::set(const std::string& key, NpyArray array) {
   members_.emplace_back(key, std::move(array));
 }
 
+double number_at(const Npz& archive, const std::string& key) {
+  const NpyArray& array = archive.at(key);
+  if (array.type == NpyArray::Type::kText) throw DataError(archive.path, key, "a number", "text");
+  if (array.size() != 1)
+    throw DataError(archive.path, key, "one number", std::to_string(array.size()) + " of them");
+  return array.to_double().front();
+}
+
+std::int64_t whole_number_at(const Npz& archive, const std::string& key) {
+  const double value = number_at(archive, key);
+  if (!(std::abs(value) <= 0x1p53) || value != std::floor(value))
+    throw DataError(archive.path, key, "a whole number", std::to_string(value));
+  return static_cast<std::int64_t>(value);
+}
+
+const std::string& text_at(const Npz& archive, const std::string& key) {
+  const NpyArray& array = archive.at(key);
+  if (array.text.size() != 1)
+    throw DataError(
+        archive.path, key, "one text",
+        array.type == NpyArray::Type::kText ? std::to_string(array.text.size()) + " of them" : "numbers");
+  return array.text.front();
+}
+
 Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_bytes,
               const std::vector<std::string>& keys) {
   const Bytes bytes(data, path);
@@ -291,24 +311,6 @@ std::string format_npz(const Npz& archive) {
 
 void write_npz(const std::filesystem::path& path, const Npz& archive) {
   write_file_atomically(path, format_npz(archive));
-}
-
-void write_file_atomically(const std::filesystem::path& path, const std::string& content) {
-  std::filesystem::path temporary = path;
-  temporary += ".tmp";
-  std::error_code error;
-  errno = 0;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.flush();
-    if (!out) error.assign(errno == 0 ? EIO : errno, std::generic_category());
-  }
-  if (!error) std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw DataError(path.string(), "", "a writable file", error.message());
 }
 
 }  // namespace mimicx

@@ -17,8 +17,4 @@ void parallel_for(int chunks, int threads, const std::function<void(int chunk)>&
 /// Number of processors this process may use.
 int available_threads();
 
-/// Fixes Eigen's blocking sizes, which it otherwise takes from the CPU's caches and on which the order
-/// of summation in a product depends. Called once at the start of `main`, of the tests and benchmarks.
-void fix_eigen_blocking();
-
 }  // namespace mimicx

@@ -48,12 +48,12 @@ double vertical_turning(const ReferenceFrame& frame) { return (frame.q[0] * fram
 
 }  // namespace
 
-const std::array<std::string, kFeatures>& feature_names() {
-  static const std::array<std::string, kFeatures> names = [] {
-    std::array<std::string, kFeatures> out;
+const Array<std::string, kFeatures>& feature_names() {
+  static const Array<std::string, kFeatures> names = [] {
+    Array<std::string, kFeatures> out;
     out[kRootHeight] = "root_height";
     out[kRootTurning] = "root_turning";
-    for (std::size_t j = 0; j < kBodies; ++j) {
+    for (int j = 0; j < kBodies; ++j) {
       out[kPlanarVelocity + j] = "planar_velocity." + std::string(kBodyNames[j]);
       out[kVerticalVelocity + j] = "vertical_velocity." + std::string(kBodyNames[j]);
       out[kAcceleration + j] = "acceleration." + std::string(kBodyNames[j]);
@@ -74,16 +74,16 @@ MotionFeatures motion_features(const Reference& reference) {
     velocity.fill(Vector3d::Zero());
     acceleration.fill(Vector3d::Zero());
     for (int i = 0; i < window.weights.cols(); ++i) {
-      const auto frame = static_cast<std::size_t>(window.first + i);
+      const int frame = window.first + i;
       turning += window.weights(0, i) * vertical_turning(reference.frames[frame]);
-      for (std::size_t j = 0; j < kBodies; ++j) {
+      for (int j = 0; j < kBodies; ++j) {
         velocity[j] += window.weights(1, i) * reference.poses[frame].p_WB[j];
         acceleration[j] += window.weights(2, i) * reference.poses[frame].p_WB[j];
       }
     }
-    sum[kRootHeight] += reference.poses[static_cast<std::size_t>(t)].p_WB[0].z();
+    sum[kRootHeight] += reference.poses[t].p_WB[0].z();
     sum[kRootTurning] += turning * turning;
-    for (std::size_t j = 0; j < kBodies; ++j) {
+    for (int j = 0; j < kBodies; ++j) {
       sum[kPlanarVelocity + j] += velocity[j].head<2>().squaredNorm();
       sum[kVerticalVelocity + j] += velocity[j].z() * velocity[j].z();
       sum[kAcceleration + j] += acceleration[j].squaredNorm();
@@ -100,7 +100,7 @@ const MotionFeatures& feature_units() {
     MotionFeatures out;
     out[kRootHeight] = kHeightUnit;
     out[kRootTurning] = kTurningUnit;
-    for (std::size_t j = 0; j < kBodies; ++j) {
+    for (int j = 0; j < kBodies; ++j) {
       out[kPlanarVelocity + j] = joints * kPlanarUnit;
       out[kVerticalVelocity + j] = joints * kVerticalUnit;
       out[kAcceleration + j] = joints * kAccelerationUnit;
@@ -112,7 +112,7 @@ const MotionFeatures& feature_units() {
 
 MotionFeatures scaled_features(const MotionFeatures& features) {
   MotionFeatures scaled;
-  for (std::size_t k = 0; k < kFeatures; ++k) scaled[k] = features[k] / feature_units()[k];
+  for (int k = 0; k < kFeatures; ++k) scaled[k] = features[k] / feature_units()[k];
   return scaled;
 }
 

@@ -1,5 +1,5 @@
 /// What kind of motion a clip is, in 68 numbers: how high the root is, how it turns, how the joints move.
-///                                                                              Eq. 1; METHOD §6
+///                                                                              Eq. 1; docs/method.md §6
 ///
 /// Source: Eq. 1 of the paper, after Onuma et al. 2008 and Won et al. 2020. Every entry but the first is the
 /// mean over the frames of a squared speed or acceleration, in SI units:
@@ -29,7 +29,7 @@ namespace mimicx {
 inline constexpr int kFeatures = 2 + 3 * kBodies;
 
 /// In the order above, SI units.
-using MotionFeatures = std::array<double, kFeatures>;
+using MotionFeatures = Array<double, kFeatures>;
 
 /// Index of the first entry of each kind; joint entries follow the order of `Body`.
 inline constexpr int kRootHeight = 0;
@@ -39,7 +39,7 @@ inline constexpr int kVerticalVelocity = kPlanarVelocity + kBodies;
 inline constexpr int kAcceleration = kVerticalVelocity + kBodies;
 
 /// "root_height", …, "acceleration.right_wrist".
-const std::array<std::string, kFeatures>& feature_names();
+const Array<std::string, kFeatures>& feature_names();
 
 /// @param reference  poses, and the root's angular velocities, must be set, as `prepare_reference` does
 /// @throws DataError for fewer than 3 frames

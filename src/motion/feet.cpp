@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "core/units.h"
 #include "motion/surface.h"
 
@@ -12,33 +13,26 @@ namespace {
 constexpr double kStandingSpeed = 0.4;    // m/s
 constexpr double kStandingHeight = 0.06;  // m over the low percentile
 constexpr double kLowShare = 0.1;
-constexpr int kFewestFrames = 10;
+constexpr std::size_t kFewestFrames = 10;
 constexpr double kSmallest = 10.0 * kDegree, kLargest = 30.0 * kDegree;
 constexpr double kLargestBend = 60.0 * kDegree;
 
-double quantile(std::vector<double> values, double share) {
-  const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + n, values.end());
-  return values[static_cast<std::size_t>(n)];
-}
-
 /// Speed of a joint at a frame, m/s, by central differences.
-double speed(const std::vector<BodyPoses>& poses, std::size_t t, int body, double fps) {
-  const std::size_t before = t > 0 ? t - 1 : 0, after = std::min(t + 1, poses.size() - 1);
+double speed(const PerFrame<BodyPoses>& poses, int t, int body, double fps) {
+  const int before = std::max(t - 1, 0), after = std::min(t + 1, poses.count() - 1);
   if (after == before) return 0.0;
-  const auto i = static_cast<std::size_t>(body);
-  return fps / static_cast<double>(after - before) * (poses[after].p_WB[i] - poses[before].p_WB[i]).norm();
+  return fps / (after - before) * (poses[after].p_WB[body] - poses[before].p_WB[body]).norm();
 }
 
 /// Body-fixed rotation that levels a body whose up axis (y) should point up in the given frames.
-Quaterniond levelling(const std::vector<BodyPoses>& poses, const std::vector<bool>& standing, int body) {
-  std::array<std::vector<double>, 3> up;  // world's up in the body's frame
-  for (std::size_t t = 0; t < poses.size(); ++t) {
+Quaterniond levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body) {
+  Array<std::vector<double>, 3> up;  // world's up in the body's frame
+  for (int t = 0; t < poses.count(); ++t) {
     if (!standing[t]) continue;
-    const Vector3d u = poses[t].q_WB[static_cast<std::size_t>(body)].conjugate() * Vector3d::UnitZ();
-    for (std::size_t k = 0; k < 3; ++k) up[k].push_back(u[static_cast<int>(k)]);
+    const Vector3d u = poses[t].q_WB[body].conjugate() * Vector3d::UnitZ();
+    for (int k = 0; k < 3; ++k) up[k].push_back(u[k]);
   }
-  if (static_cast<int>(up[0].size()) < kFewestFrames) return Quaterniond::Identity();
+  if (up[0].size() < kFewestFrames) return Quaterniond::Identity();
   const Vector3d median(quantile(up[0], 0.5), quantile(up[1], 0.5), quantile(up[2], 0.5));
   if (median.norm() < 0.5) return Quaterniond::Identity();  // no common direction
   const Vector3d rotation = log_map(rotation_between(Vector3d::UnitY(), median));
@@ -49,13 +43,13 @@ Quaterniond levelling(const std::vector<BodyPoses>& poses, const std::vector<boo
 
 }  // namespace
 
-std::vector<bool> standing_frames(const std::vector<BodyPoses>& poses, int ankle, double fps) {
+PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
   const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
-  std::vector<double> heights;
-  for (const BodyPoses& pose : poses) heights.push_back(pose.p_WB[static_cast<std::size_t>(ankle)].z());
+  PerFrame<double> heights;
+  for (const BodyPoses& pose : poses) heights.push_back(pose.p_WB[ankle].z());
   const double low = quantile(heights, kLowShare);
-  std::vector<bool> standing(poses.size());
-  for (std::size_t t = 0; t < poses.size(); ++t)
+  PerFrame<bool> standing(poses.size());
+  for (int t = 0; t < poses.count(); ++t)
     standing[t] = heights[t] < low + kStandingHeight && speed(poses, t, ankle, fps) < kStandingSpeed &&
                   speed(poses, t, ball, fps) < kStandingSpeed;
   return standing;
@@ -65,12 +59,11 @@ double level_feet(Reference& reference) {
   double largest = 0.0;
   for (int ankle : {kLeftAnkle, kRightAnkle}) {
     const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
-    const std::vector<bool> standing = standing_frames(reference.poses, ankle, reference.fps);
+    const PerFrame<bool> standing = standing_frames(reference.poses, ankle, reference.fps);
     const Quaterniond sole = levelling(reference.poses, standing, ankle);
     const Quaterniond toes = levelling(reference.poses, standing, ball);
     for (ReferenceFrame& frame : reference.frames) {
-      Quaterniond &q_ankle = frame.q[static_cast<std::size_t>(ankle)],
-                  &q_ball = frame.q[static_cast<std::size_t>(ball)];
+      Quaterniond &q_ankle = frame.q[ankle], &q_ball = frame.q[ball];
       q_ankle = (q_ankle * sole).normalized();
       q_ball = (sole.conjugate() * q_ball * toes).normalized();
     }
@@ -79,12 +72,12 @@ double level_feet(Reference& reference) {
   return largest;
 }
 
-std::vector<double> support_heights(const Reference& reference) {
+PerFrame<double> support_heights(const Reference& reference) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
   const auto left = standing_frames(reference.poses, kLeftAnkle, reference.fps);
   const auto right = standing_frames(reference.poses, kRightAnkle, reference.fps);
-  std::vector<double> heights;
-  for (std::size_t t = 0; t < reference.poses.size(); ++t) {
+  PerFrame<double> heights;
+  for (int t = 0; t < reference.size(); ++t) {
     std::vector<SurfacePoint> support;
     for (const SurfacePoint& point : points)
       if ((point.body != kLeftFoot || left[t]) && (point.body != kRightFoot || right[t]))
@@ -95,11 +88,10 @@ std::vector<double> support_heights(const Reference& reference) {
 }
 
 void bend_toes(Reference& reference) {
-  for (std::size_t t = 0; t < reference.frames.size(); ++t)
+  for (int t = 0; t < reference.size(); ++t)
     for (int ball : {kLeftFoot, kRightFoot}) {
-      const auto i = static_cast<std::size_t>(ball);
-      const Vector3d& p = reference.poses[t].p_WB[i];
-      const Quaterniond& q = reference.poses[t].q_WB[i];
+      const Vector3d& p = reference.poses[t].p_WB[ball];
+      const Quaterniond& q = reference.poses[t].q_WB[ball];
       const auto lowest = [&](double angle) {  // of the toe points, extended by that angle
         const Quaterniond bent = q * exp_map(Vector3d(-angle, 0, 0));
         double z = p.z();
@@ -113,7 +105,7 @@ void bend_toes(Reference& reference) {
         const double middle = 0.5 * (low + high);
         (lowest(middle) < 0.0 ? low : high) = middle;
       }
-      Quaterniond& joint = reference.frames[t].q[i];
+      Quaterniond& joint = reference.frames[t].q[ball];
       joint = (joint * exp_map(Vector3d(-high, 0, 0))).normalized();
     }
 }

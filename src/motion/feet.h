@@ -1,4 +1,4 @@
-/// Feet: a step of reference preparation (reference.cpp) that levels soles and bends toes.
+/// Feet: the step of preparation (prepare.h) that levels soles and bends toes.
 ///
 /// Estimators and converted skeletons often carry a constant error in the pitch of the feet: a person who
 /// stands flat comes out on tip-toe or on the heels, and a simulated character that is asked to stand there
@@ -11,15 +11,13 @@
 /// be.
 #pragma once
 
-#include <vector>
-
 #include "motion/reference.h"
 
 namespace mimicx {
 
 /// Frames in which a foot stands: ankle and ball slower than 0.4 m/s and the ankle within 6 cm of where it is
 /// lowest (10th percentile). @param ankle  kLeftAnkle or kRightAnkle
-std::vector<bool> standing_frames(const std::vector<BodyPoses>& poses, int ankle, double fps);
+PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps);
 
 /// Levels both soles and both toes by constant rotations of at most 30°; `poses` must be those of `frames`
 /// and are stale afterwards. Feet with fewer than 10 standing frames, or less than 10° off,
@@ -29,7 +27,7 @@ double level_feet(Reference& reference);
 
 /// Height of the lowest surface point per frame, m, without the toes of feet that do not stand: converted
 /// motions seldom bend their toes, and stiff toes that dip at push-off say nothing about the floor.
-std::vector<double> support_heights(const Reference& reference);
+PerFrame<double> support_heights(const Reference& reference);
 
 /// Extends toes that reach below the floor (z = 0) until they lie on it, by at most 60°. `poses` must be
 /// those of `frames` and are stale afterwards.

@@ -1,27 +1,16 @@
-/// Knees and elbows as hinges.                                                        METHOD §2
-///
-/// A limb is: upper body A (hip or shoulder), hinge body B (knee or elbow), end body C (ankle or wrist); in
-/// the world u is the vector from A's joint to B's and v the one from B's to C's. The hinge angle follows
-/// from the angle α between u and v alone. It fixes the distance |u + v|, so that turning A points its chain
-/// exactly at C's joint; what is left is the swivel ψ about the line from A's joint to C's, and one value ψ*
-/// of it puts B's joint where it was: then u, v and all joints are exact.
-///
-/// Near a straight limb ψ* loses its meaning (B's joint is nearly on that line) and would turn A by large
-/// angles for millimetres; ψ is then drawn, smoothly, to the swivel of A's own SMPL rotation. C's joint stays
-/// where it was; B's moves by a few millimetres. The bones of the rest pose are not in one plane with
-/// the hinge's normal: the limb cannot be straighter than about 8° (leg) or 5° (arm), the rest is residual.
+#include "motion/hinge.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "core/units.h"
-#include "motion/reference.h"
 
 namespace mimicx {
 namespace {
 
 constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis: such a joint stays as it is
-constexpr double kStraightWeight = 0.06;           ///< κ²: pull to SMPL's own swivel, in units of sin²α
+constexpr double kStraightWeight = 0.06;           ///< pull to SMPL's own swivel, in units of sin²α
 constexpr double kStraightFrom = 15.0 * kDegree;   ///< the pull fades out …
 constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and is gone: above, the conversion is exact
 
@@ -44,12 +33,13 @@ double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& t
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
-/// Flexing angle at which the bones a (upper) and b (lower, in the hinge's child) enclose a·b' = `dot`:
-/// a·Rot(axis, θ)b = axial + A cos θ + B sin θ, solved for θ at or past the straightest angle.
+/// The flexing angle at which the scalar product of the bones is `dot`.  docs/method.md, "Hinges", (1)
+/// @param a, b  upper bone in its own frame; lower bone in the frame of the hinge's child, m
 double solve_hinge(const Vector3d& a, const Vector3d& b, const Vector3d& axis, double dot) {
   const double axial = axis.dot(a) * axis.dot(b);
-  const double A = a.dot(b) - axial, B = a.dot(axis.cross(b));
-  return std::atan2(B, A) + std::acos(std::clamp((dot - axial) / std::hypot(A, B), -1.0, 1.0));
+  const double along = a.dot(b) - axial, across = a.dot(axis.cross(b));
+  const double cosine = std::clamp((dot - axial) / std::hypot(along, across), -1.0, 1.0);
+  return std::atan2(across, along) + std::acos(cosine);
 }
 
 double smooth_step(double x) {
@@ -57,20 +47,21 @@ double smooth_step(double x) {
   return x * x * (3.0 - 2.0 * x);
 }
 
-/// ψ between ψ* (the limb is bent) and 0 (it is straight): the minimiser of
-/// s·|e^{iψ} - e^{iψ*}|² + κ²·|e^{iψ} - 1|² with s the product of the true and the hinged limb's sines.
+/// The swivel between the exact one (the limb is bent) and 0 (it is straight).  docs/method.md, "Hinges", (3)
+/// @param bend, hinged_bend  angle between the bones in the SMPL motion and at the hinge's angle, rad
 double blended_swivel(double exact, double bend, double hinged_bend) {
   const double pull =
       kStraightWeight * (1.0 - smooth_step((bend - kStraightFrom) / (kStraightUntil - kStraightFrom)));
   return std::arg(std::sin(bend) * std::sin(hinged_bend) * std::polar(1.0, exact) + pull);
 }
 
-/// @param R  world rotations of the SMPL motion; @param q  joint rotations to change
+/// One limb of one frame.  docs/method.md, "Hinges", (2)
+/// @param R  world rotations of the SMPL motion
+/// @param q  joint rotations to change
 void convert_limb(const Character& character, const Limb& limb, const PerBody<Quaterniond>& R,
                   PerBody<Quaterniond>& q) {
-  const auto A = static_cast<std::size_t>(limb.upper), B = static_cast<std::size_t>(limb.hinge);
-  const auto C = static_cast<std::size_t>(limb.end), P = static_cast<std::size_t>(kParents[A]);
-  const Vector3d axis = hinge_axis(limb.hinge);
+  const int A = limb.upper, B = limb.hinge, C = limb.end, P = kParents[A];
+  const Vector3d axis = hinge_axis(B);
   const Quaterniond twist = twist_about(q[B], axis);
   if (q[B].angularDistance(twist) < kAlreadyHinge) {
     q[B] = exp_map(hinge_angle(twist, axis) * axis);
@@ -91,12 +82,12 @@ void convert_limb(const Character& character, const Limb& limb, const PerBody<Qu
 
 }  // namespace
 
-std::vector<PerBody<Quaterniond>> to_hinges(const Character& character,
-                                            const std::vector<PerBody<Quaterniond>>& smpl) {
-  std::vector<PerBody<Quaterniond>> out = smpl;
+PerFrame<PerBody<Quaterniond>> to_hinges(const Character& character,
+                                         const PerFrame<PerBody<Quaterniond>>& smpl) {
+  PerFrame<PerBody<Quaterniond>> out = smpl;
   for (PerBody<Quaterniond>& q : out) {
     PerBody<Quaterniond> R = q;
-    for (std::size_t i = 1; i < kBodies; ++i) R[i] = R[static_cast<std::size_t>(kParents[i])] * q[i];
+    for (int i = 1; i < kBodies; ++i) R[i] = R[kParents[i]] * q[i];
     for (const Limb& limb : kLimbs) convert_limb(character, limb, R, q);
   }
   return out;

@@ -31,7 +31,7 @@ struct Mean {
 };
 
 /// Order 1: Δp, 2: Δ²p, 3: Δ³p of joint j, at frames t .. t + order.
-Vector3d difference(const std::vector<Joints>& p, std::size_t t, std::size_t j, int order) {
+Vector3d difference(const PerFrame<Joints>& p, int t, int j, int order) {
   switch (order) {
     case 1:
       return p[t + 1][j] - p[t][j];
@@ -48,8 +48,8 @@ double procrustes_error(const Joints& p, const Joints& g) {
   using Points = Eigen::Matrix<double, 3, kBodies>;
   Points P, G;
   for (int j = 0; j < kBodies; ++j) {
-    P.col(j) = p[static_cast<std::size_t>(j)];
-    G.col(j) = g[static_cast<std::size_t>(j)];
+    P.col(j) = p[j];
+    G.col(j) = g[j];
   }
   P.colwise() -= Vector3d(P.rowwise().mean());
   G.colwise() -= Vector3d(G.rowwise().mean());
@@ -66,13 +66,13 @@ double procrustes_error(const Joints& p, const Joints& g) {
 void compare_with_truth(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {
   const auto &p = motion.joints, &g = truth.joints;
   Mean root, global, local, procrustes, vel, accel;
-  for (std::size_t t = 0; t < p.size(); ++t) {
+  for (int t = 0; t < p.count(); ++t) {
     root.add((p[t][0] - g[t][0]).norm());
-    for (std::size_t j = 0; j < kBodies; ++j) {
+    for (int j = 0; j < kBodies; ++j) {
       global.add((p[t][j] - g[t][j]).norm());
       local.add(((p[t][j] - p[t][0]) - (g[t][j] - g[t][0])).norm());
-      if (t + 1 < p.size()) vel.add((difference(p, t, j, 1) - difference(g, t, j, 1)).norm());
-      if (t + 2 < p.size()) accel.add((difference(p, t, j, 2) - difference(g, t, j, 2)).norm());
+      if (t + 1 < p.count()) vel.add((difference(p, t, j, 1) - difference(g, t, j, 1)).norm());
+      if (t + 2 < p.count()) accel.add((difference(p, t, j, 2) - difference(g, t, j, 2)).norm());
     }
     procrustes.add(procrustes_error(p[t], g[t]));
   }
@@ -113,8 +113,8 @@ double floating_height(const std::vector<Vector3d>& points) {
 void judge_physics(const MotionSamples& motion, Metrics& m) {
   const auto& surface = motion.surface;
   Mean fs, fs_0, gp, gp_max, floating, jitter, self_pen;
-  for (std::size_t t = 0; t < surface.size(); ++t) {
-    if (t + 1 < surface.size()) {
+  for (int t = 0; t < surface.count(); ++t) {
+    if (t + 1 < surface.count()) {
       fs.add(slide(surface[t], surface[t + 1], kContactHeight));
       fs_0.add(slide(surface[t], surface[t + 1], 0.0));
     }
@@ -123,8 +123,8 @@ void judge_physics(const MotionSamples& motion, Metrics& m) {
     floating.add(floating_height(surface[t]));
   }
   for (const double depth : motion.self_depth) self_pen.add(depth);
-  for (std::size_t t = 0; t + 3 < motion.joints.size(); ++t)
-    for (std::size_t j = 0; j < kBodies; ++j) jitter.add(difference(motion.joints, t, j, 3).norm());
+  for (int t = 0; t + 3 < motion.frames(); ++t)
+    for (int j = 0; j < kBodies; ++j) jitter.add(difference(motion.joints, t, j, 3).norm());
   m.fs = fs.times(kMm);
   m.fs_0 = fs_0.times(kMm);
   m.gp = gp.times(kMm);
@@ -137,9 +137,9 @@ void judge_physics(const MotionSamples& motion, Metrics& m) {
 void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {
   const auto &p = motion.surface, &g = truth.surface;
   Mean slide, floating;
-  for (std::size_t t = 0; t < p.size(); ++t) {
+  for (int t = 0; t < p.count(); ++t) {
     if (lowest(g[t]) <= kContactHeight) floating.add(floating_height(p[t]));
-    for (std::size_t i = 0; i < kFootPoints && t + 1 < p.size(); ++i)
+    for (std::size_t i = 0; i < kFootPoints && t + 1 < p.count(); ++i)
       if ((g[t + 1][i] - g[t][i]).norm() < kStaticMotion) slide.add((p[t + 1][i] - p[t][i]).norm());
   }
   m.fs_gt = slide.times(kMm);
@@ -148,10 +148,9 @@ void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& 
 
 double self_depth(const Character& character, const BodyPoses& poses) {
   Mean depth;
-  for (const auto& [i, j] : character.self_pairs) {
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+  for (const auto& [a, b] : character.self_pairs) {
     const Capsule &A = character.capsule[a], &B = character.capsule[b];
-    const auto world = [&](std::size_t body, const Vector3d& p_B) -> Vector3d {
+    const auto world = [&](int body, const Vector3d& p_B) -> Vector3d {
       return poses.p_WB[body] + poses.q_WB[body] * p_B;
     };
     const double gap = segment_distance(world(a, A.a_B), world(a, A.b_B), world(b, B.a_B), world(b, B.b_B)) -
@@ -176,7 +175,7 @@ double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& 
   return (r + s * d1 - t * d2).norm();
 }
 
-MotionSamples sample_motion(const Character& character, const std::vector<BodyPoses>& poses, double fps) {
+MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
   const std::vector<SurfacePoint> points = surface_points(character);
   MotionSamples samples;
   samples.fps = fps;
@@ -231,10 +230,10 @@ Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth)
 
 Success judge_success(const MotionSamples& simulated, const MotionSamples& reference) {
   Success s;
-  const auto frames = static_cast<std::size_t>(std::min(simulated.frames(), reference.frames()));
+  const int frames = std::min(simulated.frames(), reference.frames());
   Mean mpjpe;
-  for (std::size_t t = 0; t < frames; ++t)
-    for (std::size_t j = 0; j < kBodies; ++j) {
+  for (int t = 0; t < frames; ++t)
+    for (int j = 0; j < kBodies; ++j) {
       const Vector3d &p = simulated.joints[t][j], &g = reference.joints[t][j];
       s.max_distance_m = std::max(s.max_distance_m, (p - g).norm());
       mpjpe.add(((p - simulated.joints[t][0]) - (g - reference.joints[t][0])).norm());

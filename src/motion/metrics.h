@@ -1,4 +1,4 @@
-/// How close a motion is to the truth and how physical it is by itself.                METRICS; METHOD §10
+/// How close a motion is to the truth and how physical it is by itself.                docs/metrics.md
 ///
 /// Positions go in in metres, at the frame rate given; values come out in the unit of `metric_definitions`
 /// (mm, mm/frame, …). Every value is a mean and says of how many samples; it is NaN where there is none
@@ -17,15 +17,15 @@ namespace mimicx {
 
 /// What the metrics look at; one entry per frame.
 struct MotionSamples {
-  std::vector<PerBody<Vector3d>> joints;       ///< world positions, m
-  std::vector<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
-  std::vector<double> self_depth;              ///< mean depth of the overlapping self pairs, m; 0 without any
+  PerFrame<PerBody<Vector3d>> joints;       ///< world positions, m
+  PerFrame<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
+  std::vector<double> self_depth;           ///< mean depth of the overlapping self pairs, m; 0 without any
   double fps = 30.0;
 
-  int frames() const { return static_cast<int>(joints.size()); }
+  int frames() const { return joints.count(); }
 };
 
-MotionSamples sample_motion(const Character& character, const std::vector<BodyPoses>& poses, double fps);
+MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
 
 struct MetricValue {
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -51,8 +51,8 @@ const std::vector<MetricDefinition>& metric_definitions();
 /// @throws std::invalid_argument when truth and motion differ in length, frame rate or number of points
 Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth);
 
-/// METRICS, success: the whole length was simulated, no body was ever farther than 0.5 m from the prepared
-/// reference, and MPJPE to it is at most 60 mm.
+/// docs/metrics.md, "Success": the whole length was simulated, no body was ever farther than 0.5 m from the
+/// prepared reference, and MPJPE to it is at most 60 mm.
 struct Success {
   bool success = false;
   std::string reason;         ///< why not; empty for a success

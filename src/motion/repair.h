@@ -1,36 +1,36 @@
 /// Steps of reference preparation that change a motion: bridging of glitches and alignment with the floor.
-/// Each is a function of plain data, so that it can be tested alone; reference.cpp strings them together.
+/// Each is a function of plain data, so that it can be tested alone; prepare.cpp strings them together.
 ///
 /// What they do not do: no retargeting, no smoothing of the motion, no model of stairs or slopes.
 #pragma once
-
-#include <vector>
 
 #include "motion/clip.h"
 
 namespace mimicx {
 
-/// Frames of an estimator's glitch: a short stretch (at most a third of a second) between two jumps that no
-/// human makes (a joint at more than 12 m/s or turning at more than 25 rad/s, and three times faster than the
-/// motion around it), such that the motion is plausible without it. A glitch that touches either end of
-/// the clip may have one jump only.
-std::vector<bool> find_glitches(const Clip& clip);
+/// Frames of an estimator's glitches. A glitch is a stretch of at most a third of a second between two jumps;
+/// without it the motion is plausible. A jump is a step that no human makes: a joint moves at more than
+/// 12 m/s or turns at more than 25 rad/s, three times faster than the motion around it. A glitch that touches
+/// either end of the clip has one jump and lasts a sixth of a second at most.
+PerFrame<bool> find_glitches(const Clip& clip);
 
 /// Replaces the flagged frames by interpolation between their neighbours; at the ends by the nearest sound
 /// frame. A clip without a sound frame stays as it is.
-void bridge_glitches(Clip& clip, const std::vector<bool>& flagged);
+void bridge_glitches(Clip& clip, const PerFrame<bool>& flagged);
 
 struct FloorCorrection {
-  double shift = 0;            ///< m, the static part
-  std::vector<double> height;  ///< m to add to every frame, static part included
+  double shift = 0;         ///< m, the static part
+  PerFrame<double> height;  ///< m to add to every frame, static part included
 };
 
-/// Heights that put a motion on the floor, from the height of its lowest surface point per frame (m).
-/// A static shift first; then the support height (a low percentile over 1.2 s, so that a flight does not
-/// count) is brought to the floor, slowly and by at most 0.15 m; last, what is still deeper than 10 mm
-/// is lifted. A jump keeps its height, because no correction looks at less than a second but the last, which
-/// only acts on penetration.
-/// @param known  the floor is known to be at 0: there is no static shift
-FloorCorrection floor_correction(const std::vector<double>& lowest, double fps, bool known = false);
+/// Heights that put a motion on the floor, in three steps:
+///   1. a static shift brings a low percentile of all heights to 0;
+///   2. a slow change of at most 0.15 m brings the height of the support to 0: that is a low percentile over
+///      1.2 s, so that a flight does not count;
+///   3. frames that are still deeper than 10 mm are lifted, smoothly.
+/// A jump keeps its height: the first two steps look at more than a second, the third at penetration alone.
+/// @param lowest  height of the lowest surface point per frame, m
+/// @param known   the floor is known to be at 0: there is no static shift
+FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known = false);
 
 }  // namespace mimicx

@@ -1,26 +1,25 @@
-/// Change of frame rate; declared in clip.h.
+#include "motion/resample.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include "motion/clip.h"
 
 namespace mimicx {
 namespace {
 
 /// A time of the output between two frames of the input.
 struct Between {
-  std::size_t frame, next;
+  int frame, next;
   double share;  ///< of the next frame
 };
 
-Between locate(double frame, std::size_t frames) {
-  const auto before = std::min(static_cast<std::size_t>(frame), frames - 1);
-  return {before, std::min(before + 1, frames - 1),
-          std::clamp(frame - static_cast<double>(before), 0.0, 1.0)};
+Between locate(double frame, int frames) {
+  const int before = std::min(static_cast<int>(frame), frames - 1);
+  return {before, std::min(before + 1, frames - 1), std::clamp(frame - before, 0.0, 1.0)};
 }
 
-/// Detected in both frames: linear, with the lower confidence; else that of the nearer frame.
+/// A keypoint between two frames. Where both detected it, it is interpolated and keeps the lower confidence;
+/// else it is that of the nearer frame.
 Vector3d interpolate_keypoint(const Vector3d& a, const Vector3d& b, double share) {
   if (a.z() <= 0.0 || b.z() <= 0.0) return share < 0.5 ? a : b;
   Vector3d uvc = (1.0 - share) * a + share * b;
@@ -40,11 +39,11 @@ Eigen::Matrix4d interpolate_pose(const Eigen::Matrix4d& a, const Eigen::Matrix4d
 Clip resampled(const Clip& clip, double fps) {
   if (!(fps > 0.0)) throw std::invalid_argument("resampled: the frame rate must be positive");
   if (clip.fps == fps || clip.frames() == 0) return clip;
-  const auto frames = static_cast<std::size_t>(clip.frames());
+  const int frames = clip.frames();
   const auto q = joint_rotations(clip);
   const double ratio = clip.fps / fps;
   // The last frame counts as reached when rounding alone keeps it away.
-  const auto count = static_cast<std::size_t>(static_cast<double>(frames - 1) / ratio + 1e-9) + 1;
+  const auto count = static_cast<std::size_t>((frames - 1) / ratio + 1e-9) + 1;
   Clip out = clip;
   out.fps = fps;
   out.rotations.resize(count);
@@ -53,9 +52,9 @@ Clip resampled(const Clip& clip, double fps) {
     out.keypoints->uvc.resize(count);
     if (clip.keypoints->extrinsics.size() > 1) out.keypoints->extrinsics.resize(count);
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto [t, n, share] = locate(static_cast<double>(k) * ratio, frames);
-    for (std::size_t j = 0; j < kBodies; ++j) out.rotations[k][j] = log_map(q[t][j].slerp(share, q[n][j]));
+  for (int k = 0; k < out.frames(); ++k) {
+    const auto [t, n, share] = locate(k * ratio, frames);
+    for (int j = 0; j < kBodies; ++j) out.rotations[k][j] = log_map(q[t][j].slerp(share, q[n][j]));
     out.trans[k] = (1.0 - share) * clip.trans[t] + share * clip.trans[n];
     if (!out.keypoints) continue;
     const auto &a = clip.keypoints->uvc[t], &b = clip.keypoints->uvc[n];
@@ -67,7 +66,7 @@ Clip resampled(const Clip& clip, double fps) {
   }
   std::string dropped;
   std::erase_if(out.passthrough, [&](const auto& member) {
-    const bool per_frame = !member.second.shape.empty() && member.second.shape[0] == frames;
+    const bool per_frame = !member.second.shape.empty() && member.second.shape[0] == clip.rotations.size();
     if (per_frame) dropped += (dropped.empty() ? "" : ", ") + member.first;
     return per_frame;
   });

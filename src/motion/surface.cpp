@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace mimicx {
 namespace {
@@ -29,8 +30,8 @@ void add_cap(std::vector<SurfacePoint>& points, int body, const Vector3d& end, c
 
 std::vector<SurfacePoint> surface_points(const Character& character) {
   std::vector<SurfacePoint> points;
-  for (std::size_t i = 0; i < kFootPoints; ++i)
-    points.push_back({character.contact_points[i].body, sole_point(character.contact_points[i])});
+  for (const ContactPoint& point : std::span(character.contact_points).first(kFootPoints))
+    points.push_back({point.body, sole_point(point)});
   for (const Capsule& c : character.capsule) {
     if (c.body == kLeftAnkle || c.body == kRightAnkle || c.body == kLeftFoot || c.body == kRightFoot)
       continue;
@@ -43,13 +44,11 @@ std::vector<SurfacePoint> surface_points(const Character& character) {
 
 std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
   PerBody<Matrix3d> R_WB;
-  for (std::size_t i = 0; i < kBodies; ++i) R_WB[i] = poses.q_WB[i].toRotationMatrix();
+  for (int i = 0; i < kBodies; ++i) R_WB[i] = poses.q_WB[i].toRotationMatrix();
   std::vector<Vector3d> positions;
   positions.reserve(points.size());
-  for (const SurfacePoint& point : points) {
-    const auto body = static_cast<std::size_t>(point.body);
-    positions.push_back(poses.p_WB[body] + R_WB[body] * point.p_B);
-  }
+  for (const SurfacePoint& point : points)
+    positions.push_back(poses.p_WB[point.body] + R_WB[point.body] * point.p_B);
   return positions;
 }
 

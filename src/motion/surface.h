@@ -1,5 +1,5 @@
 /// Body-fixed sample points on the surface of a character, for everything that asks how high a motion stands
-/// over the floor.                                                                        METRICS
+/// over the floor.                                                                docs/metrics.md
 ///
 /// There is no mesh: the points lie on the collision shapes. They are fixed to their bodies, because the
 /// moving "lowest point of a capsule" would read rolling as sliding. Heel, ball and toe of each foot come

@@ -4,6 +4,7 @@
 
 #include "nn/adam.h"
 #include "nn/checkpoint.h"
+#include "nn/gradient.h"
 
 namespace mimicx::nn {
 namespace {
@@ -56,7 +57,7 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
 
     std::vector<Var> all = encoder_parameters;
     all.insert(all.end(), decoder_parameters.begin(), decoder_parameters.end());
-    const std::vector<Var> gradients = tape.gradient(loss, all);
+    const std::vector<Var> gradients = gradient(tape, loss, all);
     const double done = static_cast<double>(step) / config.steps;
     const auto step_size = static_cast<float>(config.step_size * (1.0 - 0.9 * done));
     std::size_t next = 0;

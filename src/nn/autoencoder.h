@@ -1,9 +1,9 @@
-/// Denoising auto-encoder: x corrupted → z → x.                             METHOD: docs/method.md §7
+/// Denoising auto-encoder: x corrupted → z → x.                             docs/method.md §7
 ///
 /// Source: Vincent et al., "Extracting and composing robust features with denoising autoencoders", ICML 2008.
 /// Inputs are normalised feature by feature, corrupted by Gaussian noise, encoded and decoded; the loss is
-/// the mean squared error against the uncorrupted, normalised input. What the code keeps is what the training
-/// samples have in common; an error that differs from sample to sample is what it drops.
+/// the mean squared error against the uncorrupted, normalised input. The code keeps what the training samples
+/// have in common and drops errors that differ from sample to sample.
 /// Deterministic: the result depends on samples, configuration and seed alone.
 #pragma once
 

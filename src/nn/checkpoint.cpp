@@ -72,9 +72,8 @@ Mlp<S> load_mlp(const Npz& archive, const std::string& prefix) {
   }
   if (mlp.sizes.size() < 2)
     throw DataError(archive.path, prefix + "sizes", "at least two sizes", std::to_string(mlp.sizes.size()));
-  const NpyArray& activation = archive.at(prefix + "activation");
   try {
-    mlp.activation = activation_from_string(activation.text.empty() ? "" : activation.text.front());
+    mlp.activation = activation_from_string(text_at(archive, prefix + "activation"));
   } catch (const std::invalid_argument& error) {
     throw DataError(archive.path, prefix + "activation", "the name of an activation", error.what());
   }

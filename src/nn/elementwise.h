@@ -71,18 +71,19 @@ constexpr auto inverse_factorials() {
 
 template <class S>
 inline ExpParts<S> exp_parts(S x) {
-  using C = ExpConstants<S>;
-  x = x < -C::kLimit ? -C::kLimit : x;
-  x = x > C::kLimit ? C::kLimit : x;
-  const S shifted = x * S(1.44269504088896340736) + C::kRound;
-  const S n = shifted - C::kRound;
-  const S r = (x - n * C::kLn2High) - n * C::kLn2Low;
+  using Constants = ExpConstants<S>;
+  x = x < -Constants::kLimit ? -Constants::kLimit : x;
+  x = x > Constants::kLimit ? Constants::kLimit : x;
+  const S shifted = x * S(1.44269504088896340736) + Constants::kRound;
+  const S n = shifted - Constants::kRound;
+  const S r = (x - n * Constants::kLn2High) - n * Constants::kLn2Low;
   constexpr auto kInverseFactorial = inverse_factorials<S>();
-  S tail = kInverseFactorial[C::kDegree];
-  for (std::size_t k = C::kDegree - 1; k >= 2; --k) tail = tail * r + kInverseFactorial[k];
-  using Bits = typename C::Bits;
-  const Bits exponent = std::bit_cast<Bits>(shifted) - std::bit_cast<Bits>(C::kRound) + C::kBias;
-  return {std::bit_cast<S>(exponent << C::kMantissaBits), r + r * r * tail};
+  S tail = kInverseFactorial[Constants::kDegree];
+  for (std::size_t k = Constants::kDegree - 1; k >= 2; --k) tail = tail * r + kInverseFactorial[k];
+  using Bits = typename Constants::Bits;
+  const Bits exponent =
+      std::bit_cast<Bits>(shifted) - std::bit_cast<Bits>(Constants::kRound) + Constants::kBias;
+  return {std::bit_cast<S>(exponent << Constants::kMantissaBits), r + r * r * tail};
 }
 
 template <class S>

@@ -38,7 +38,7 @@ struct Normaliser {
   int features() const { return static_cast<int>(moments.mean.size()); }
 };
 
-/// Knows nothing yet: the identity apart from the clipping.
+/// Of no samples yet: the identity apart from the clipping.
 template <class S>
 Normaliser<S> make_normaliser(int features, S limit = S(10));
 

@@ -48,10 +48,12 @@ template <class S>
 static Gradients matmul_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
   const Recipe<S> recipe = tape.recipe(node);
   const Var a = recipe.inputs[0], b = recipe.inputs[1];
-  const bool ta = recipe.flags[0] != 0, tb = recipe.flags[1] != 0;
+  const bool transpose_a = recipe.flags[0] != 0, transpose_b = recipe.flags[1] != 0;
   Gradients result;
-  if (wanted[0]) result[0] = ta ? matmul(tape, b, g, tb, true) : matmul(tape, g, b, false, !tb);
-  if (wanted[1]) result[1] = tb ? matmul(tape, g, a, true, ta) : matmul(tape, a, g, !ta, false);
+  if (wanted[0])
+    result[0] = transpose_a ? matmul(tape, b, g, transpose_b, true) : matmul(tape, g, b, false, !transpose_b);
+  if (wanted[1])
+    result[1] = transpose_b ? matmul(tape, g, a, true, transpose_a) : matmul(tape, a, g, !transpose_a, false);
   return result;
 }
 

@@ -1,8 +1,9 @@
 /// Reverse-mode differentiation on a tape, differentiable again.
 ///
 /// Every operation (ops.h) appends a node: its value, its inputs and its adjoint rule (vector-Jacobian
-/// product). A rule is itself written in operations, so `gradient` only appends more nodes, and the result of
-/// a gradient can enter a loss that is differentiated once more (gradient penalty, METHOD §7).
+/// product). A rule is itself written in operations, so `gradient` (gradient.h) only appends more nodes, and
+/// the result of a gradient can enter a loss that is differentiated once more (gradient penalty,
+/// docs/method.md §7).
 ///
 /// Memory. Node i of one pass uses the buffer that node i of the pass before `reset()` used: a tape that
 /// sees the same operations with the same shapes allocates no values after its first pass. Use one tape per
@@ -69,10 +70,6 @@ class Tape {
   Var append(const Recipe& recipe, Eigen::Index rows, Eigen::Index cols);
   const Recipe& recipe(Var v) const { return node(v).recipe; }
 
-  /// Gradients of the 1×1 node `scalar` with respect to each of `wrt`, appended to the tape. Nothing is
-  /// computed that no entry of `wrt` needs. An entry that `scalar` does not depend on gives zeros.
-  std::vector<Var> gradient(Var scalar, std::span<const Var> wrt);
-
  private:
   struct Node {
     Recipe recipe;
@@ -82,21 +79,12 @@ class Tape {
 
   const Node& node(Var v) const { return nodes_[static_cast<std::size_t>(v.index)]; }
   Node& next();
-  void mark_dependents(Var scalar, std::span<const Var> wrt);
-  void propagate(Var node);
 
   std::deque<Node> nodes_;  ///< a deque, because references to values must survive growth
   int size_ = 0;
-  std::vector<char> depends_;  ///< [node] leads from a member of wrt
-  std::vector<Var> adjoint_;   ///< [node] gradient of the scalar, as far as it has been gathered
 };
 
 extern template class Tape<float>;
 extern template class Tape<double>;
-
-template <class S>
-std::vector<Var> gradient(Tape<S>& tape, Var scalar, std::span<const Var> wrt) {
-  return tape.gradient(scalar, wrt);
-}
 
 }  // namespace mimicx::nn

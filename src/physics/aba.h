@@ -22,26 +22,26 @@ namespace mimicx {
 /// What changed in a body changes every body between it and the root.
 template <class T>
 void carry_changes_to_root(Data<T>& d) {
-  for (std::size_t i = kBodies - 1; i > 0; --i)
-    if (d.changed[i]) d.changed[static_cast<std::size_t>(kParents[i])] = true;
+  for (int i = kBodies - 1; i > 0; --i)
+    if (d.changed[i]) d.changed[kParents[i]] = true;
 }
 
 /// IA, pA of the changed bodies: rigid body and floor contact.                   RBDA eqs. 7.21, 7.22
 template <class T>
 [[gnu::flatten]] void aba_initialise(const Model<RealOf<T>>& model, Data<T>& d) {
   const T zero(0.0);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     if (!d.changed[i]) continue;
     const T m(model.mass[i]);
-    const Vec3<T> h = m * d.d[i];
+    const Vec3<T> h = m * d.com[i];
     d.IA[i].A = d.I_o[i];
     d.IA[i].B = {{{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}};  // h×
     d.IA[i].C = {m, zero, zero, m, zero, m};
     d.pA[i] = d.bias[i];
   }
   for (int k = 0; k < d.ground_count; ++k) {
-    const GroundContact<T>& contact = d.ground[static_cast<std::size_t>(k)];
-    const auto i = static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(contact.index)].body);
+    const GroundContact<T>& contact = d.ground[k];
+    const int i = model.contacts[contact.index].body;
     assert(d.changed[i]);
     add_ground(contact, d.IA[i], d.pA[i]);
   }
@@ -83,7 +83,7 @@ Sym3<T> schur(const Sym3<T>& C, const Mat3<T>& B, const Mat3<T>& M) {
 
 /// Ia, pa of a body behind a ball joint.           RBDA eqs. 7.23, 7.24; their form: docs/physics.md §2, (3)
 template <class T>
-void ball_joint_inertia(std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
+void ball_joint_inertia(int i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   const Inertia<T>& IA = d.IA[i];
   const T delta = d.delta[i];
   d.D_inv[i] = inverse(add_diagonal(IA.A, delta));  // D = SᵀU + δ
@@ -106,7 +106,7 @@ void ball_joint_inertia(std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa
 
 /// Ia, pa of a body behind a hinge, S = [axis; 0]: the book's rank-one update.     RBDA eqs. 7.23, 7.24
 template <class T>
-void hinge_inertia(const Vec3<T>& axis, std::size_t i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
+void hinge_inertia(const Vec3<T>& axis, int i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   const Inertia<T>& IA = d.IA[i];
   const Vec3<T> U_n = IA.A * axis, U_f = transpose_times(IA.B, axis);  // U = IA S
   const T D_inv = T(1.0) / (dot(axis, U_n) + d.delta[i]);
@@ -125,12 +125,12 @@ void hinge_inertia(const Vec3<T>& axis, std::size_t i, Data<T>& d, Inertia<T>& I
 /// Pass 2, tip to root.                                                          RBDA table 7.1
 template <class T>
 [[gnu::flatten]] void aba_inertia_pass(const Model<RealOf<T>>& model, Data<T>& d) {
-  for (std::size_t i = kBodies - 1; i > 0; --i) {
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
+  for (int i = kBodies - 1; i > 0; --i) {
+    const int lambda = kParents[i];
     if (!d.changed[lambda]) continue;
     Inertia<T> Ia;
     Wrench<T> pa;
-    if (is_hinge(static_cast<int>(i)))
+    if (is_hinge(i))
       hinge_inertia(d.R_WB[i] * spread<T>(model.axis[i]), i, d, Ia, pa);
     else
       ball_joint_inertia(i, d, Ia, pa);
@@ -158,11 +158,11 @@ void solve_root(Data<T>& d) {
 template <class T>
 [[gnu::flatten]] void aba_acceleration_pass(const Model<RealOf<T>>& model, Data<T>& d) {
   solve_root(d);
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
+  for (int i = 1; i < kBodies; ++i) {
+    const int lambda = kParents[i];
     const Vec3<T> a_w = d.a_w[lambda] + d.c_w[i];  // a' = X a_λ + c
     const Vec3<T> a_v = d.a_v[lambda] + cross(d.a_w[lambda], d.r[i]) + d.c_v[i];
-    if (is_hinge(static_cast<int>(i))) {
+    if (is_hinge(i)) {
       const Vec3<T> axis = d.R_WB[i] * spread<T>(model.axis[i]);
       const Inertia<T>& IA = d.IA[i];
       const T U_a = dot(axis, IA.A * a_w + IA.B * a_v);

@@ -18,7 +18,7 @@ namespace mimicx {
 
 /// Law of a floor contact: fills f, W_t, W_n with the coefficients taken at v_end.  docs/physics.md §4, (8)
 template <class T>
-void linearise_ground(const SimulationOptions& o, T dt, const Vec3<T>& v_end, GroundContact<T>& contact) {
+void linearise_ground(const SimulationConfig& o, T dt, const Vec3<T>& v_end, GroundContact<T>& contact) {
   const T k(o.ground_stiffness), damping = fma(dt, k, T(o.ground_damping));
   const T f_end = fma(k, contact.depth, -(damping * v_end.z));
   const auto pushes = (contact.depth > T(0.0)) & (f_end > T(0.0));
@@ -34,17 +34,17 @@ void linearise_ground(const SimulationOptions& o, T dt, const Vec3<T>& v_end, Gr
 /// Finds the points that touch in any lane and linearises them at the start of the step.
 template <class T>
 [[gnu::flatten]] void detect_ground(const Model<RealOf<T>>& model, Data<T>& d) {
-  const SimulationOptions& o = model.options;
+  const SimulationConfig& o = model.config;
   d.ground_count = 0;
   for (int index = 0; index < static_cast<int>(model.contacts.size()); ++index) {
-    const ContactPoint& point = model.contacts[static_cast<std::size_t>(index)];
-    const auto i = static_cast<std::size_t>(point.body);
+    const ContactPoint& point = model.contacts[index];
+    const int i = point.body;
     const Mat3<T>& R = d.R_WB[i];
     const T x(point.p_B.x()), y(point.p_B.y()), z(point.p_B.z()), radius(point.radius);
     const T centre_z = fma(R.c[0].z, x, fma(R.c[1].z, y, R.c[2].z * z));
     const T depth = T(o.skin) + radius - (d.p_WB[i].z + centre_z);
     if (!any(depth > T(0.0))) continue;
-    GroundContact<T>& contact = d.ground[static_cast<std::size_t>(d.ground_count++)];
+    GroundContact<T>& contact = d.ground[d.ground_count++];
     contact.index = index;
     contact.depth = depth;
     contact.arm = R * Vec3<T>{x, y, z};
@@ -86,7 +86,7 @@ void add_ground(const GroundContact<T>& c, Inertia<T>& IA, Wrench<T>& pA) {
 /// Acceleration of the touching point after a solve.
 template <class T>
 Vec3<T> point_acceleration(const Model<RealOf<T>>& model, const GroundContact<T>& c, const Data<T>& d) {
-  const auto i = static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(c.index)].body);
+  const int i = model.contacts[c.index].body;
   return d.a_v[i] + cross(d.a_w[i], c.arm) + c.centripetal;
 }
 
@@ -95,14 +95,14 @@ Vec3<T> point_acceleration(const Model<RealOf<T>>& model, const GroundContact<T>
 template <class T>
 [[gnu::flatten]] void relinearise_ground(const Model<RealOf<T>>& model, const MaskOf<T>& lanes, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
-    GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
+    GroundContact<T>& c = d.ground[k];
     GroundContact<T> renewed = c;
     const Vec3<T> v_end = add_scaled(c.velocity, T(model.dt), point_acceleration(model, c, d));
-    linearise_ground(model.options, T(model.dt), v_end, renewed);
+    linearise_ground(model.config, T(model.dt), v_end, renewed);
     c.f = select<T>(lanes, renewed.f, c.f);
     c.W_t = select(lanes, renewed.W_t, c.W_t);
     c.W_n = select(lanes, renewed.W_n, c.W_n);
-    d.changed[static_cast<std::size_t>(model.contacts[static_cast<std::size_t>(c.index)].body)] = true;
+    d.changed[model.contacts[c.index].body] = true;
   }
 }
 
@@ -110,7 +110,7 @@ template <class T>
 template <class T>
 [[gnu::flatten]] void find_applied_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
-    GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
+    GroundContact<T>& c = d.ground[k];
     const Vec3<T> a = point_acceleration(model, c, d);
     c.applied = {fma(-c.W_t, a.x, c.f.x), fma(-c.W_t, a.y, c.f.y), fma(-c.W_n, a.z, c.f.z)};
   }
@@ -135,21 +135,20 @@ void closest_on_segments(const Vec3<T>& p, const Vec3<T>& u, const Vec3<T>& q, c
 /// Penalty forces between capsules, added to the bias of both bodies and kept for export.
 template <class T>
 [[gnu::flatten]] void add_self_contact(const Model<RealOf<T>>& model, Data<T>& d) {
-  const T k(model.options.self_stiffness), damping(model.options.self_damping), zero(0.0);
-  PerBody<Vec3<T>> arm, axis,
-      middle;  // start of the capsule's axis, its vector; its middle in world
-  for (int body : model.capsule_bodies) {
-    const auto i = static_cast<std::size_t>(body);
+  const T k(model.config.self_stiffness), damping(model.config.self_damping), zero(0.0);
+  PerBody<Vec3<T>> arm, axis, middle;  // start of the capsule's axis, its vector; its middle in world
+  for (const int i : model.capsule_bodies) {
     const Capsule& c = model.capsule[i];
     const Vector3d along = c.b_B - c.a_B;
     arm[i] = d.R_WB[i] * Vec3<T>{T(c.a_B.x()), T(c.a_B.y()), T(c.a_B.z())};
     axis[i] = d.R_WB[i] * Vec3<T>{T(along.x()), T(along.y()), T(along.z())};
     middle[i] = add_scaled(d.p_WB[i] + arm[i], T(0.5), axis[i]);
   }
-  for (const auto& pair : model.self_pairs) {
-    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
-    const Capsule &ci = model.capsule[i], &cj = model.capsule[j];
-    const double reach = 0.5 * ((ci.b_B - ci.a_B).norm() + (cj.b_B - cj.a_B).norm()) + ci.radius + cj.radius;
+  for (const auto& [i, j] : model.self_pairs) {
+    const Capsule &capsule_i = model.capsule[i], &capsule_j = model.capsule[j];
+    const double reach =
+        0.5 * ((capsule_i.b_B - capsule_i.a_B).norm() + (capsule_j.b_B - capsule_j.a_B).norm()) +
+        capsule_i.radius + capsule_j.radius;
     const Vec3<T> apart = middle[i] - middle[j];
     if (!any(dot(apart, apart) < T(reach * reach))) continue;
     T s, t;
@@ -158,11 +157,11 @@ template <class T>
     const Vec3<T> on_i = add_scaled(start_i, s, axis[i]), on_j = add_scaled(start_j, t, axis[j]);
     const Vec3<T> gap = on_i - on_j;
     const T distance = max(norm(gap), T(1e-6));
-    const T depth = T(ci.radius + cj.radius) - distance;
+    const T depth = T(capsule_i.radius + capsule_j.radius) - distance;
     if (!any(depth > zero)) continue;
     const Vec3<T> normal = (T(1.0) / distance) * gap;
     // The point in the middle of the overlap, on both bodies.
-    const Vec3<T> point = add_scaled(on_j, T(cj.radius) - T(0.5) * depth, normal);
+    const Vec3<T> point = add_scaled(on_j, T(capsule_j.radius) - T(0.5) * depth, normal);
     const Vec3<T> arm_i = point - d.p_WB[i], arm_j = point - d.p_WB[j];
     const Vec3<T> v = (d.v[i] + cross(d.w[i], arm_i)) - (d.v[j] + cross(d.w[j], arm_j));
     const T push = max(fma(k, depth, -(damping * dot(v, normal))), zero);
@@ -172,8 +171,7 @@ template <class T>
     d.self_wrench[j].f -= f;
     d.self_wrench[j].n -= cross(arm_j, f);
   }
-  for (int body : model.capsule_bodies) {
-    const auto i = static_cast<std::size_t>(body);
+  for (const int i : model.capsule_bodies) {
     d.bias[i].f -= d.self_wrench[i].f;
     d.bias[i].n -= d.self_wrench[i].n;
   }

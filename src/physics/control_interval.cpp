@@ -25,7 +25,7 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
   MaskOf<T> wrong = T(0.0) > T(1.0);
   for (int k = 1; k <= substeps; ++k) {
     const T s(static_cast<Real>(k) / static_cast<Real>(substeps));
-    for (std::size_t i = 1; i < kBodies; ++i) {
+    for (int i = 1; i < kBodies; ++i) {
       target.q[i] = interpolate(from.q[i], to.q[i], s);
       target.omega[i] = add_scaled(from.omega[i], s, to.omega[i] - from.omega[i]);
     }

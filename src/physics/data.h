@@ -57,7 +57,7 @@ struct Data {
 
   // rigid bodies in world axes
   PerBody<Sym3<T>> I_o;     ///< rotational inertia about the joint centre
-  PerBody<Vec3<T>> d;       ///< centre of mass from the joint centre, m
+  PerBody<Vec3<T>> com;     ///< centre of mass from the joint centre, m
   PerBody<Wrench<T>> bias;  ///< velocity-product and gravity force of the rigid body, self contact included
   PerBody<Wrench<T>> self_wrench;
 
@@ -80,17 +80,17 @@ struct Data {
   /// torque of the branch it carries, was linearised anew in some lane. The others keep theirs.
   PerBody<bool> changed;
 
-  std::array<GroundContact<T>, kMaxContacts> ground;
+  Array<GroundContact<T>, kMaxContacts> ground;
   int ground_count = 0;  ///< points that touch in at least one lane
 };
 
 /// What really acted during an interval, for export and audit: sums over the physics steps.
 template <class T>
 struct Applied {
-  PerBody<Vec3<T>> joint_torque;            ///< child's frame, N·m (PD and range; without armature)
-  PerBody<Vec3<T>> range_torque;            ///< the part of it that came from the anatomical range
-  PerBody<Wrench<T>> ground, self;          ///< about the body's joint centre, world axes
-  std::array<T, kMaxContacts> point_force;  ///< normal force per Model::contacts entry, N
+  PerBody<Vec3<T>> joint_torque;       ///< child's frame, N·m (PD and range; without armature)
+  PerBody<Vec3<T>> range_torque;       ///< the part of it that came from the anatomical range
+  PerBody<Wrench<T>> ground, self;     ///< about the body's joint centre, world axes
+  Array<T, kMaxContacts> point_force;  ///< normal force per Model::contacts entry, N
   int steps = 0;
 };
 

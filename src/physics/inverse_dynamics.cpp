@@ -32,7 +32,7 @@ Vector6d to_parent(const Quaterniond& q, const Vector3d& r, const Vector6d& f) {
 }
 
 /// I v of a body whose frame's origin is its joint centre.                                RBDA eq. 2.63
-Vector6d times_inertia(const Character& c, std::size_t i, const Vector6d& v) {
+Vector6d times_inertia(const Character& c, int i, const Vector6d& v) {
   const Vector3d& d = c.com_B[i];
   const Vector3d force = c.mass[i] * (linear(v) + angular(v).cross(d));
   return spatial(c.inertia_B[i] * angular(v) + d.cross(force), force);
@@ -56,9 +56,9 @@ RequiredForces inverse_dynamics(const Character& c, double gravity, const Motion
   v[0] = spatial(s.omega[0], to_pelvis * s.v_root);
   a[0] = spatial(s.omega_d[0],
                  to_pelvis * (s.a_root + gravity * Vector3d::UnitZ()) - s.omega[0].cross(linear(v[0])));
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     if (i > 0) {
-      const auto lambda = static_cast<std::size_t>(kParents[i]);
+      const int lambda = kParents[i];
       q_WB[i] = q_WB[lambda] * s.q[i];
       const Vector6d v_J = spatial(s.omega[i], Vector3d::Zero());
       v[i] = to_child(s.q[i], c.joint_offset[i], v[lambda]) + v_J;
@@ -71,13 +71,13 @@ RequiredForces inverse_dynamics(const Character& c, double gravity, const Motion
   // Tip to root.
   RequiredForces forces;
   forces.joint[0].setZero();
-  for (std::size_t i = kBodies - 1; i > 0; --i) {
+  for (int i = kBodies - 1; i > 0; --i) {
     forces.joint[i] = angular(f[i]) + c.joint[i].armature * s.omega_d[i];  // Sᵀf
-    if (is_hinge(static_cast<int>(i))) {
-      const Vector3d axis = hinge_axis(static_cast<int>(i));
+    if (is_hinge(i)) {
+      const Vector3d axis = hinge_axis(i);
       forces.joint[i] = axis * axis.dot(forces.joint[i]);
     }
-    f[static_cast<std::size_t>(kParents[i])] += to_parent(s.q[i], c.joint_offset[i], f[i]);
+    f[kParents[i]] += to_parent(s.q[i], c.joint_offset[i], f[i]);
   }
   forces.root = spatial(q_WB[0] * angular(f[0]), q_WB[0] * linear(f[0]));
   return forces;

@@ -15,7 +15,7 @@ namespace mimicx {
 
 /// Torque and implicit diagonal of the anatomical range of joint i; zero inside it.
 template <class T>
-void compute_range(const Model<RealOf<T>>& model, const State<T>& state, std::size_t i, Data<T>& d) {
+void compute_range(const Model<RealOf<T>>& model, const State<T>& state, int i, Data<T>& d) {
   const Quat<T> x = conjugate(spread<T>(model.range_centre[i])) * state.q[i];
   const T two = select(x.w < T(0.0), T(-2.0), T(2.0));
   const Vec3<T> inverse = spread<T>(model.range_inverse[i]);
@@ -28,7 +28,7 @@ void compute_range(const Model<RealOf<T>>& model, const State<T>& state, std::si
   const Vec3<T> gradient = {s.x * inverse.x, s.y * inverse.y, s.z * inverse.z};  // g·∇g
   const T slope = max(norm(gradient), T(1e-6));
   const T excess = (g - T(1.0)) * g / slope;  // distance to the ellipsoid along ∇g, rad
-  const T k(model.options.limit_stiffness), c(model.options.limit_damping), dt(model.dt);
+  const T k(model.config.limit_stiffness), c(model.config.limit_damping), dt(model.dt);
   const T gain = fma(dt, k, c);
   const Vec3<T> push = d.R_WB[i] * ((-k * excess / slope) * gradient);
   const Vec3<T> w_J = d.R_WB[i] * state.omega[i];
@@ -41,7 +41,7 @@ template <class T>
 [[gnu::flatten]] void compute_joint_torques(const Model<RealOf<T>>& model, const State<T>& state,
                                             const Target<T>& target, Data<T>& d) {
   const T dt(model.dt);
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const T kp(model.kp[i]), kd(model.kd[i]);
     const Vec3<T> phi = log_map(conjugate(state.q[i]) * target.q[i]);
     const Vec3<T> damping = (-fma(dt, kp, kd)) * state.omega[i];
@@ -54,18 +54,18 @@ template <class T>
 
 /// Torque of the PD controller that acted in the last solve, world axes.
 template <class T>
-Vec3<T> applied_pd_torque(const Data<T>& d, std::size_t i) {
+Vec3<T> applied_pd_torque(const Data<T>& d, int i) {
   return add_scaled(d.tau[i], select(d.saturated[i], T(0.0), -d.delta_pd[i]), d.qdd[i]);
 }
 template <class T>
-Vec3<T> applied_range_torque(const Data<T>& d, std::size_t i) {
+Vec3<T> applied_range_torque(const Data<T>& d, int i) {
   return add_scaled(d.tau_range[i], -d.delta_range[i], d.qdd[i]);
 }
 
 /// The first pass uses the implicit law in every joint.
 template <class T>
 void use_pd_law(const Model<RealOf<T>>& model, Data<T>& d) {
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     d.saturated[i] = T(0.0) > T(1.0);
     d.tau[i] = d.tau_pd[i];
     d.delta[i] = T(model.armature[i]) + d.delta_pd[i] + d.delta_range[i];
@@ -77,13 +77,13 @@ void use_pd_law(const Model<RealOf<T>>& model, Data<T>& d) {
 /// active-set form of Newton's method for τ = clamp(law − δ·q̈).
 template <class T>
 [[gnu::flatten]] void apply_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const T limit(model.torque_limit[i]), armature(model.armature[i]);
     const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
     const T size = norm(law);  // of a hinge both vectors lie along its axis
     const MaskOf<T> over = size > limit;
     const MaskOf<T> constant = over | d.saturated[i];  // now or before: the parent will see the difference
-    if (any(constant)) d.changed[static_cast<std::size_t>(kParents[i])] = true;
+    if (any(constant)) d.changed[kParents[i]] = true;
     d.saturated[i] = over;
     const T scale = limit / max(size, limit);
     d.tau[i] = select<T>(d.saturated[i], scale * law, d.tau_pd[i]);
@@ -98,14 +98,14 @@ template <class T>
 template <class T>
 [[gnu::flatten]] MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
   MaskOf<T> again = T(0.0) > T(1.0);
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const T limit(model.torque_limit[i]);
     const Vec3<T> torque = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
     const T size_2 = dot(torque, torque);
     const MaskOf<T> over = (size_2 > limit * limit) & !d.saturated[i];
     if (!any(over)) continue;
     again = again | over;
-    d.changed[static_cast<std::size_t>(kParents[i])] = true;
+    d.changed[kParents[i]] = true;
     d.saturated[i] = d.saturated[i] | over;
     const T scale = limit / sqrt(max(size_2, limit * limit));
     d.tau[i] = select<T>(over, scale * torque, d.tau[i]);

@@ -19,8 +19,8 @@ template <class T>
   d.p_WB[0] = state.p_root;
   d.w[0] = d.R_WB[0] * state.omega[0];
   d.v[0] = state.v_root;
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const auto lambda = static_cast<std::size_t>(kParents[i]);
+  for (int i = 1; i < kBodies; ++i) {
+    const int lambda = kParents[i];
     d.q_WB[i] = d.q_WB[lambda] * state.q[i];
     d.R_WB[i] = to_matrix(d.q_WB[i]);
     d.r[i] = d.R_WB[lambda] * spread<T>(model.joint_offset[i]);
@@ -39,13 +39,13 @@ template <class T>
 /// RBDA eq. 2.72 in the axes of docs/physics.md §2, (1)
 template <class T>
 [[gnu::flatten]] void compute_rigid_bodies(const Model<RealOf<T>>& model, Data<T>& d) {
-  const T g(model.options.gravity);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  const T g(model.config.gravity);
+  for (int i = 0; i < kBodies; ++i) {
     const T m(model.mass[i]);
     const Sym3<RealOf<T>>& I = model.inertia_o[i];
     d.I_o[i] = congruence(d.R_WB[i], Sym3<T>{T(I.xx), T(I.xy), T(I.xz), T(I.yy), T(I.yz), T(I.zz)});
-    d.d[i] = d.R_WB[i] * spread<T>(model.com[i]);
-    const Vec3<T> h = m * d.d[i];
+    d.com[i] = d.R_WB[i] * spread<T>(model.com[i]);
+    const Vec3<T> h = m * d.com[i];
     const T weight = m * g;
     Vec3<T> f = cross(d.w[i], cross(d.w[i], h));
     f.z += weight;

@@ -43,14 +43,14 @@ template <class A, class B, class F>
 void for_each_member(State<A>& a, const State<B>& b, F&& f) {
   f(a.p_root, b.p_root);
   f(a.v_root, b.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     f(a.q[i], b.q[i]);
     f(a.omega[i], b.omega[i]);
   }
 }
 template <class A, class B, class F>
 void for_each_member(Target<A>& a, const Target<B>& b, F&& f) {
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     f(a.q[i], b.q[i]);
     f(a.omega[i], b.omega[i]);
   }

@@ -15,14 +15,13 @@ std::string numbers(const Vector3d& v) {
   return out.str();
 }
 
-void write_joint(const Character& c, int body, const MjcfOptions& what, std::ostream& out) {
-  const auto i = static_cast<std::size_t>(body);
-  if (body == 0) {
+void write_joint(const Character& c, int body, const MjcfConfig& what, std::ostream& out) {
+  if (body == kPelvis) {
     out << "<freejoint name=\"pelvis\"/>\n";
     return;
   }
-  const JointParameters& j = c.joint[i];
-  out << "<joint name=\"" << kBodyNames[i] << "\" type=\"" << (is_hinge(body) ? "hinge" : "ball")
+  const JointParameters& j = c.joint[body];
+  out << "<joint name=\"" << kBodyNames[body] << "\" type=\"" << (is_hinge(body) ? "hinge" : "ball")
       << "\" armature=\"" << j.armature << '"';
   if (what.springs) out << " stiffness=\"" << j.kp << "\" damping=\"" << j.kd << '"';
   if (is_hinge(body)) out << " axis=\"" << numbers(hinge_axis(body)) << '"';
@@ -35,14 +34,13 @@ void write_shape(const Capsule& k, std::ostream& out) {
       << numbers(k.b_B) << "\" contype=\"0\" conaffinity=\"0\" rgba=\"0.7 0.65 0.6 1\"/>\n";
 }
 
-void write_body(const Character& c, int body, const MjcfOptions& what, std::ostream& out) {
-  const auto i = static_cast<std::size_t>(body);
-  const Matrix3d& I = c.inertia_B[i];
-  out << "<body name=\"" << kBodyNames[i] << "\" pos=\"" << numbers(c.joint_offset[i]) << "\">\n";
+void write_body(const Character& c, int body, const MjcfConfig& what, std::ostream& out) {
+  const Matrix3d& I = c.inertia_B[body];
+  out << "<body name=\"" << kBodyNames[body] << "\" pos=\"" << numbers(c.joint_offset[body]) << "\">\n";
   write_joint(c, body, what, out);
-  out << "<inertial pos=\"" << numbers(c.com_B[i]) << "\" mass=\"" << c.mass[i] << "\" fullinertia=\""
+  out << "<inertial pos=\"" << numbers(c.com_B[body]) << "\" mass=\"" << c.mass[body] << "\" fullinertia=\""
       << numbers(I.diagonal()) << ' ' << numbers({I(0, 1), I(0, 2), I(1, 2)}) << "\"/>\n";
-  if (what.shapes) write_shape(c.capsule[i], out);
+  if (what.shapes) write_shape(c.capsule[body], out);
   for (const ContactPoint& point : c.contact_points) {
     if (point.body != body) continue;
     const double radius = std::max(point.radius, 0.005);
@@ -50,14 +48,14 @@ void write_body(const Character& c, int body, const MjcfOptions& what, std::ostr
     out << "<geom type=\"sphere\" size=\"" << radius << "\" pos=\"" << numbers(centre) << "\"/>\n";
   }
   for (int child = body + 1; child < kBodies; ++child)
-    if (kParents[static_cast<std::size_t>(child)] == body) write_body(c, child, what, out);
+    if (kParents[child] == body) write_body(c, child, what, out);
   out << "</body>\n";
 }
 
-void append_subtree(int body, PerBody<int>& order, std::size_t& count) {
+void append_subtree(int body, PerBody<int>& order, int& count) {
   order[count++] = body;
   for (int child = body + 1; child < kBodies; ++child)
-    if (kParents[static_cast<std::size_t>(child)] == body) append_subtree(child, order, count);
+    if (kParents[child] == body) append_subtree(child, order, count);
 }
 
 /// Where each joint's numbers stand in qpos and qvel.
@@ -67,8 +65,8 @@ void write_coordinates(std::ostream& out) {
   for (const int body : mjcf_order()) {
     const int positions = body == kPelvis ? 7 : is_hinge(body) ? 1 : 4;
     const int velocities = body == kPelvis ? 6 : is_hinge(body) ? 1 : 3;
-    out << kBodyNames[static_cast<std::size_t>(body)] << ": " << qpos << " (" << positions << "), " << qvel
-        << " (" << velocities << ")\n";
+    out << kBodyNames[body] << ": " << qpos << " (" << positions << "), " << qvel << " (" << velocities
+        << ")\n";
     qpos += positions;
     qvel += velocities;
   }
@@ -79,19 +77,19 @@ void write_coordinates(std::ostream& out) {
 
 PerBody<int> mjcf_order() {
   PerBody<int> order{};
-  std::size_t count = 0;
+  int count = 0;
   append_subtree(kPelvis, order, count);
   return order;
 }
 
-std::string to_mjcf(const Character& character, const SimulationOptions& options, const MjcfOptions& what) {
+std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what) {
   std::ostringstream out;
   out << std::setprecision(std::numeric_limits<double>::max_digits10);
   write_coordinates(out);
   out << "<mujoco model=\"humanoid\">\n"
       << "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n"
-      << "<option timestep=\"" << 1.0 / options.rate << "\" gravity=\"0 0 " << -options.gravity << "\"/>\n"
-      << "<default><geom contype=\"0\" conaffinity=\"1\" friction=\"" << options.friction
+      << "<option timestep=\"" << 1.0 / config.rate << "\" gravity=\"0 0 " << -config.gravity << "\"/>\n"
+      << "<default><geom contype=\"0\" conaffinity=\"1\" friction=\"" << config.friction
       << " 0.005 0.0001\"/></default>\n"
       << "<worldbody>\n"
       << "<light pos=\"0 0 4\"/>\n"

@@ -22,14 +22,13 @@
 
 namespace mimicx {
 
-struct MjcfOptions {
+struct MjcfConfig {
   bool springs = false;  ///< PD gains as the joints' stiffness and damping, pulling towards the T-pose
   bool shapes = true;    ///< capsules to look at; they collide with nothing
 };
 
 /// The text of the file.
-std::string to_mjcf(const Character& character, const SimulationOptions& options,
-                    const MjcfOptions& what = {});
+std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what = {});
 
 /// Bodies in the order of the file, depth first.
 PerBody<int> mjcf_order();

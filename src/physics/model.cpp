@@ -12,27 +12,28 @@ Vec3<Real> convert(const Vector3d& v) {
   return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
 }
 
-void check(const SimulationOptions& o) {
+void check(const SimulationConfig& o) {
   if (!(o.rate >= 30.0 && o.rate <= 10000.0))
     throw std::invalid_argument("simulation rate must be 30..10000 Hz");
   if (o.passes < 1 || o.passes > 20) throw std::invalid_argument("simulation passes must be 1..20");
-  for (double positive : {o.ground_stiffness, o.ground_damping, o.slip_speed, o.max_speed})
-    if (!(positive > 0.0)) throw std::invalid_argument("contact parameters must be positive");
+  for (double positive : {o.ground_stiffness, o.ground_damping, o.slip_speed, o.max_speed, o.max_joint_speed})
+    if (!(positive > 0.0))
+      throw std::invalid_argument("contact parameters and largest speeds must be positive");
   for (double value : {o.friction, o.self_stiffness, o.self_damping, o.limit_stiffness, o.limit_damping})
     if (!(value >= 0.0)) throw std::invalid_argument("contact parameters must not be negative");
 }
 
 template <class Real>
 void fill_joints(const Character& c, Model<Real>& m) {
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const JointParameters& j = c.joint[i];
-    const bool hinge = is_hinge(static_cast<int>(i));
+    const bool hinge = is_hinge(i);
     m.kp[i] = static_cast<Real>(j.kp);
     m.kd[i] = static_cast<Real>(j.kd);
     m.armature[i] = static_cast<Real>(j.armature);
     m.torque_limit[i] = static_cast<Real>(j.torque_limit);
-    m.axis[i] = hinge ? convert<Real>(hinge_axis(static_cast<int>(i))) : Vec3<Real>{0, 0, 0};
-    const Vector3d centre = hinge ? Vector3d(j.centre.x() * hinge_axis(static_cast<int>(i))) : j.centre;
+    m.axis[i] = hinge ? convert<Real>(hinge_axis(i)) : Vec3<Real>{0, 0, 0};
+    const Vector3d centre = hinge ? Vector3d(j.centre.x() * hinge_axis(i)) : j.centre;
     const Quaterniond q = exp_map(centre);
     m.range_centre[i] = {static_cast<Real>(q.w()), static_cast<Real>(q.x()), static_cast<Real>(q.y()),
                          static_cast<Real>(q.z())};
@@ -43,14 +44,14 @@ void fill_joints(const Character& c, Model<Real>& m) {
 template <class Real>
 void fill_contacts(const Character& c, Model<Real>& m) {
   for (int body = 0; body < kBodies; ++body) {
-    m.contact_begin[static_cast<std::size_t>(body)] = static_cast<int>(m.contacts.size());
-    for (std::size_t k = 0; k < c.contact_points.size(); ++k)
+    m.contact_begin[body] = m.contacts.count();
+    for (int k = 0; k < c.contact_points.count(); ++k)
       if (c.contact_points[k].body == body) {
         m.contacts.push_back(c.contact_points[k]);
-        m.contact_source.push_back(static_cast<int>(k));
+        m.contact_source.push_back(k);
       }
   }
-  m.contact_begin[kBodies] = static_cast<int>(m.contacts.size());
+  m.contact_begin[kBodies] = m.contacts.count();
   m.capsule = c.capsule;
   m.self_pairs = c.self_pairs;
   for (int body = 0; body < kBodies; ++body)
@@ -62,14 +63,14 @@ void fill_contacts(const Character& c, Model<Real>& m) {
 }  // namespace
 
 template <class Real>
-Model<Real> make_model(const Character& c, const SimulationOptions& options) {
-  check(options);
-  if (c.contact_points.size() > kMaxContacts)
+Model<Real> make_model(const Character& c, const SimulationConfig& config) {
+  check(config);
+  if (c.contact_points.count() > kMaxContacts)
     throw std::invalid_argument("make_model: too many contact points");
   Model<Real> m{};
-  m.options = options;
-  m.dt = static_cast<Real>(1.0 / options.rate);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  m.config = config;
+  m.dt = static_cast<Real>(1.0 / config.rate);
+  for (int i = 0; i < kBodies; ++i) {
     m.joint_offset[i] = convert<Real>(c.joint_offset[i]);
     m.mass[i] = static_cast<Real>(c.mass[i]);
     m.com[i] = convert<Real>(c.com_B[i]);
@@ -84,7 +85,7 @@ Model<Real> make_model(const Character& c, const SimulationOptions& options) {
   return m;
 }
 
-template Model<float> make_model(const Character&, const SimulationOptions&);
-template Model<double> make_model(const Character&, const SimulationOptions&);
+template Model<float> make_model(const Character&, const SimulationConfig&);
+template Model<double> make_model(const Character&, const SimulationConfig&);
 
 }  // namespace mimicx

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "character/character.h"
+#include "core/units.h"
 #include "physics/spatial.h"
 
 namespace mimicx {
@@ -16,10 +17,10 @@ namespace mimicx {
 inline constexpr int kMaxContacts = 48;  ///< contact points a character may have
 
 /// Numerical parameters; the defaults are measured in docs/physics.md.
-struct SimulationOptions {
+struct SimulationConfig {
   double rate = 240.0;            ///< physics steps per second
   int passes = 2;                 ///< linearisations of contact and torque bounds per step, ≥ 1
-  double gravity = 9.81;          ///< m/s², downwards
+  double gravity = kGravity;      ///< m/s², downwards
   double ground_stiffness = 4e5;  ///< k of a contact point, N/m
   double ground_damping = 4e3;    ///< c, N·s/m
   double friction = 1.0;          ///< μ
@@ -30,7 +31,8 @@ struct SimulationOptions {
   double self_damping = 30.0;       ///< N·s/m
   double limit_stiffness = 5000.0;  ///< of joint ranges, N·m/rad
   double limit_damping = 50.0;      ///< N·m·s/rad
-  double max_speed = 100.0;  ///< of the pelvis, m/s, and a sixth of a joint's, rad/s: faster has run away
+  double max_speed = 100.0;         ///< m/s; a pelvis that is faster has run away
+  double max_joint_speed = 600.0;   ///< rad/s; a joint that turns faster has run away
 };
 
 template <class Real>
@@ -45,19 +47,19 @@ struct Model {
   PerBody<Quat<Real>> range_centre;
   PerBody<Vec3<Real>> range_inverse;  ///< 1 / (2 sin(half range / 2)) per axis
 
-  std::vector<ContactPoint> contacts;          ///< sorted by body
-  std::array<int, kBodies + 1> contact_begin;  ///< contacts of body i: [contact_begin[i], contact_begin[i+1])
-  std::vector<int> contact_source;             ///< index in Character::contact_points
+  List<ContactPoint> contacts;            ///< sorted by body
+  Array<int, kBodies + 1> contact_begin;  ///< contacts of body i: [contact_begin[i], contact_begin[i+1])
+  List<int> contact_source;               ///< index in Character::contact_points
   PerBody<Capsule> capsule;
   std::vector<std::array<int, 2>> self_pairs;
   std::vector<int> capsule_bodies;  ///< bodies that occur in self_pairs
 
-  SimulationOptions options;
+  SimulationConfig config;
   Real dt;  ///< 1 / rate, s
 };
 
-/// @throws std::invalid_argument for options outside their range or more than kMaxContacts contact points.
+/// @throws std::invalid_argument for settings outside their range or more than kMaxContacts contact points.
 template <class Real>
-Model<Real> make_model(const Character& character, const SimulationOptions& options = {});
+Model<Real> make_model(const Character& character, const SimulationConfig& config = {});
 
 }  // namespace mimicx

@@ -131,20 +131,20 @@ Pack<N> min(Pack<N> a, Pack<N> b) {
 }
 
 /// Whether any lane of a mask is set.
-template <class M>
-bool any(M mask) {
-  if constexpr (sizeof(M) == 64) {
+template <class Mask>
+bool any(Mask mask) {
+  if constexpr (sizeof(Mask) == 64) {
 #if defined(__AVX512F__)
     return _mm512_test_epi32_mask((__m512i)mask, (__m512i)mask) != 0;
 #endif
   }
-  if constexpr (sizeof(M) == 32) {
+  if constexpr (sizeof(Mask) == 32) {
 #if defined(__AVX2__)
     return _mm256_testz_si256((__m256i)mask, (__m256i)mask) == 0;
 #endif
   }
   bool result = false;
-  for (std::size_t i = 0; i < sizeof(M) / sizeof(std::int32_t); ++i) result = result || mask[i] != 0;
+  for (std::size_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i) result = result || mask[i] != 0;
   return result;
 }
 

@@ -1,5 +1,5 @@
 /// What an action a ∈ R⁵⁵ means to the PD controllers: a rotation per joint, as a rotation vector for ball
-/// joints and an angle about the axis for hinges.                                                METHOD §4
+/// joints and an angle about the axis for hinges. docs/method.md §4
 ///
 /// Learned policies and plans share these lines, so that a plan replayed as actions has the same bytes.
 #pragma once

@@ -155,9 +155,9 @@ Sym3<T> congruence(const Mat3<T>& R, const Sym3<T>& s) {
   const auto entry = [&](T Vec3<T>::*i, T Vec3<T>::*j) {
     return fma(m.c[0].*i, R.c[0].*j, fma(m.c[1].*i, R.c[1].*j, (m.c[2].*i) * (R.c[2].*j)));
   };
-  using V = Vec3<T>;
-  return {entry(&V::x, &V::x), entry(&V::x, &V::y), entry(&V::x, &V::z),
-          entry(&V::y, &V::y), entry(&V::y, &V::z), entry(&V::z, &V::z)};
+  using Vec = Vec3<T>;
+  return {entry(&Vec::x, &Vec::x), entry(&Vec::x, &Vec::y), entry(&Vec::x, &Vec::z),
+          entry(&Vec::y, &Vec::y), entry(&Vec::y, &Vec::z), entry(&Vec::z, &Vec::z)};
 }
 
 /// Unit Hamilton quaternion.

@@ -24,7 +24,7 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, cons
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
   d.ground_count = 0;
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     d.tau[i] = d.R_WB[i] * tau[i];
     d.tau_range[i] = zero3<T>();
     d.delta[i] = T(model.armature[i]);
@@ -43,14 +43,14 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
     d.bias[kPelvis].f -= help->f;
   }
   zero_self_contact(d);
-  if (model.options.self_contact) add_self_contact(model, d);
+  if (model.config.self_contact) add_self_contact(model, d);
   detect_ground(model, d);
   compute_joint_torques(model, state, target, d);
   use_pd_law(model, d);
   d.changed.fill(true);
   solve(model, d);
   const MaskOf<T> all = T(1.0) > T(0.0);
-  for (int pass = 1; pass < model.options.passes; ++pass) {
+  for (int pass = 1; pass < model.config.passes; ++pass) {
     relinearise_ground(model, all, d);
     apply_torque_bounds(model, d);
     solve(model, d);
@@ -73,20 +73,19 @@ MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>&
 
 template <class T>
 void record_applied(const Model<RealOf<T>>& model, const Data<T>& d, Applied<T>& applied) {
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const Vec3<T> range = applied_range_torque(d, i);
     applied.joint_torque[i] += transpose_times(d.R_WB[i], applied_pd_torque(d, i) + range);
     applied.range_torque[i] += transpose_times(d.R_WB[i], range);
   }
   for (int k = 0; k < d.ground_count; ++k) {
-    const GroundContact<T>& c = d.ground[static_cast<std::size_t>(k)];
-    const auto index = static_cast<std::size_t>(c.index);
-    Wrench<T>& wrench = applied.ground[static_cast<std::size_t>(model.contacts[index].body)];
+    const GroundContact<T>& c = d.ground[k];
+    Wrench<T>& wrench = applied.ground[model.contacts[c.index].body];
     wrench.f += c.applied;
     wrench.n += cross(c.arm, c.applied);
-    applied.point_force[index] += c.applied.z;
+    applied.point_force[c.index] += c.applied.z;
   }
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     applied.self[i].f += d.self_wrench[i].f;
     applied.self[i].n += d.self_wrench[i].n;
   }

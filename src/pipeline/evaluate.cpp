@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "motion/reference.h"
+#include "motion/clip_file.h"
 #include "pipeline/record/json.h"
 
 namespace mimicx {

@@ -11,7 +11,7 @@ namespace mimicx {
 /// Everything that the plan of a motion depends on.
 struct PlanningConfig {
   control::PlanConfig plan;
-  SimulationOptions simulation;
+  SimulationConfig simulation;
 };
 
 /// The numbers of the plan by name, all of them beginning with "plan_". The factors of single bodies are not

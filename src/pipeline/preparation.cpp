@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "motion/prepare.h"
+
 namespace mimicx {
 namespace {
 
@@ -33,7 +35,7 @@ NamedValues values_of(const FitReport& r) {
 
 }  // namespace
 
-PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptions& read, bool fit) {
+PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadConfig& read, bool fit) {
   PreparedMotion motion;
   motion.input = read_motion(path, read);
   motion.has_fit = fit && motion.input.keypoints.has_value();

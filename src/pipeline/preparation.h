@@ -32,7 +32,7 @@ struct PreparedMotion {
 
 /// @param fit  move the motion onto its keypoints first, where it has any
 /// @throws DataError as reading, fitting and preparing do
-PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadOptions& read, bool fit);
+PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadConfig& read, bool fit);
 
 /// Prints what reading decided and what it warns of, a line each, behind the file's name.
 void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out);

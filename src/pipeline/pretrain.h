@@ -31,7 +31,7 @@ struct PretrainConfig {
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
   bool fit = false;         ///< move motions onto their keypoints first, where they have any
-  ReadOptions read;
+  ReadConfig read;
   int threads = 1;
 };
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/audit/audit.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/substeps.h"
@@ -107,7 +108,7 @@ PreparedMotion prepare_sequence(const RunState& run, SequenceEntry& entry) {
 }
 
 /// Whether the recorded forces explain the motion, into the entry.
-void audit_sequence(const Reference& reference, const SimulationOptions& simulation,
+void audit_sequence(const Reference& reference, const SimulationConfig& simulation,
                     const rl::TrackingRollout& rollout, SequenceEntry& entry) {
   SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
   for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);

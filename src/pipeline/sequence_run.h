@@ -32,7 +32,7 @@ namespace mimicx {
 struct RunConfig {
   std::vector<std::string> inputs;  ///< as given; recorded as such
   std::filesystem::path out;
-  ReadOptions read;
+  ReadConfig read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
@@ -73,10 +73,10 @@ struct SimulatedSequence {
 struct Method {
   std::string name;  ///< imitate, plan, paper or auto
   std::uint64_t seed = 0;
-  std::int64_t samples = 0;      ///< budget per motion
-  NamedValues settings;          ///< as the manifest lists them, those of the RunConfig among them
-  std::string options;           ///< checksum of the trained options; empty without
-  SimulationOptions simulation;  ///< under which it simulates, for the audit
+  std::int64_t samples = 0;     ///< budget per motion
+  NamedValues settings;         ///< as the manifest lists them, those of the RunConfig among them
+  std::string options;          ///< checksum of the trained options; empty without
+  SimulationConfig simulation;  ///< under which it simulates, for the audit
   std::function<SimulatedSequence(const Reference&, const SequenceJob&)> simulate;
 };
 

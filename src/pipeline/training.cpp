@@ -112,19 +112,16 @@ Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& l
   trainer.load(archive, kTrainerPrefix);
   for (std::size_t k = 0; k < best.agents.size(); ++k)
     best.agents[k] = rl::load_agent(archive, kBestPrefix + std::to_string(k) + ".");
-  best.score = archive.at(kBestScoreKey).to_double().at(0);
-  best.age = static_cast<int>(archive.at(kBestAgeKey).to_double().at(0));
+  best.score = number_at(archive, kBestScoreKey);
+  best.age = static_cast<int>(whole_number_at(archive, kBestAgeKey));
   log.rows = read_csv(files.log).rows;
   const auto iterations = static_cast<std::size_t>(trainer.iterations());
   if (log.rows.size() > iterations) log.rows.resize(iterations);
-  return static_cast<Ending>(static_cast<int>(archive.at(kEndingKey).to_double().at(0)));
+  return static_cast<Ending>(static_cast<int>(whole_number_at(archive, kEndingKey)));
 }
 
-rl::PpoConfig seeded(const TrainingConfig& config) {
-  rl::PpoConfig ppo = config.ppo;
-  ppo.seed = config.seed;
-  ppo.sigma_samples = static_cast<std::int64_t>(config.sigma_share * static_cast<double>(config.samples));
-  return ppo;
+rl::Course course_of(const TrainingConfig& config) {
+  return {config.seed, static_cast<std::int64_t>(config.sigma_share * static_cast<double>(config.samples))};
 }
 
 std::string detail_of(const rl::IterationStats& s) {
@@ -165,7 +162,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
   rl::TrackingEnvironment environment(clips, config.tracking, config.characters, config.group_size,
                                       config.seed);
   Best best{agents};
-  Trainer trainer(seeded(config), std::move(agents), environment);
+  Trainer trainer(config.ppo, course_of(config), std::move(agents), environment);
   Table log = empty_training_log();
   Ending ending = resume(trainer, files, best, log);
   control.progress(trainer.samples(), "");

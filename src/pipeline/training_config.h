@@ -11,7 +11,7 @@
 
 #include "core/named_values.h"
 #include "rl/ppo_config.h"
-#include "rl/tracking/pack.h"
+#include "rl/tracking/config.h"
 
 namespace mimicx {
 
@@ -27,7 +27,7 @@ struct TrainingConfig {
   /// The training ends after this many roll-outs in a row that follow the motion to its end without being
   /// better than the best one before; 0: it does not end so.
   int stall_evaluations = 0;
-  rl::PpoConfig ppo{};  ///< its seed and sigma_samples follow from the members above
+  rl::PpoConfig ppo{};
   rl::TrackingConfig tracking;
 };
 

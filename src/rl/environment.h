@@ -1,9 +1,12 @@
 /// What the learner asks of an environment: independent groups of characters.
 ///
-/// A roll-out runs over groups in parallel and over time inside a group without any barrier, so `observe`
-/// and `step` of different groups must be safe to call at the same time; everything an environment shares
-/// between groups (failure statistics, curricula) is gathered per group and merged by `end_iteration`,
+/// A roll-out runs over groups in parallel and over time inside a group without any barrier, so `observe`,
+/// `actor` and `step` of different groups must be safe to call at the same time; everything an environment
+/// shares between groups (failure statistics, curricula) is gathered per group and merged by `end_iteration`,
 /// which runs alone. Large groups (64 characters and more) keep the policy's matrix products efficient.
+///
+/// Several agents may act in one environment: it says how many there are, and which of them acts for a
+/// character now. An environment of a single agent says 1 and 0.
 ///
 /// Termination is a true end: nothing is earned after it. Truncation is a time limit: the episode would
 /// have gone on, and the learner bootstraps with V of the observation it would have gone on from (Pardo et
@@ -15,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "core/containers.h"
 #include "core/npz.h"
 #include "nn/matrix.h"
 
@@ -28,7 +32,7 @@ struct StepResult {
   Flags terminated;                      ///< [group_size]; wins where both flags are set
   Flags truncated;                       ///< [group_size]
   nn::Matrix<float> final_observations;  ///< [group_size × observation_dim]; a row is read where truncated
-  std::vector<int> final_actors;         ///< [group_size] whose observation that is: 0 for a single agent
+  List<int> final_actors;                ///< [group_size] the agent whose observation that is
 
   StepResult(int group_size, int observation_dim)
       : reward(Eigen::ArrayXf::Zero(group_size)),
@@ -38,8 +42,13 @@ struct StepResult {
         final_actors(static_cast<std::size_t>(group_size), 0) {}
 };
 
-template <class E>
-concept Environment = requires(E environment, const E& constant, int group,
+/// A character of an environment.
+struct CharacterPlace {
+  int group, character;
+};
+
+template <class World>
+concept Environment = requires(World environment, const World& constant, int group, int character,
                                Eigen::Ref<nn::Matrix<float>> observations,
                                const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result,
                                Npz& archive, const Npz& constant_archive, const std::string& prefix) {
@@ -47,21 +56,14 @@ concept Environment = requires(E environment, const E& constant, int group,
   { constant.group_size() } -> std::convertible_to<int>;
   { constant.observation_dim() } -> std::convertible_to<int>;
   { constant.action_dim() } -> std::convertible_to<int>;
-  constant.observe(group, observations);     // [group_size × observation_dim]
+  { constant.agents() } -> std::convertible_to<int>;
+  { constant.actor(group, character) } -> std::convertible_to<int>;  // 0 … agents − 1: who acts now
+  constant.observe(group, observations);                             // [group_size × observation_dim]
   environment.step(group, actions, result);  // [group_size × action_dim]; overwrites all of `result`
-  environment.end_iteration();               // alone, after every roll-out
-  constant.save(archive, prefix);            // everything an exact continuation needs
+  // Alone, after every roll-out; returns the characters that it has put at the start of a new episode.
+  { environment.end_iteration() } -> std::convertible_to<std::vector<CharacterPlace>>;
+  constant.save(archive, prefix);  // everything an exact continuation needs
   environment.load(constant_archive, prefix);
 };
-
-/// Which agent acts for a character now: environments for several agents have a member `actor(group,
-/// character)`; in all others there is one agent, number 0.
-template <Environment E>
-int acting_agent(const E& environment, int group, int character) {
-  if constexpr (requires { environment.actor(group, character); })
-    return environment.actor(group, character);
-  else
-    return 0;
-}
 
 }  // namespace mimicx::rl

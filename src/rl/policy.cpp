@@ -73,11 +73,15 @@ Agent load_agent(const Npz& archive, const std::string& prefix) {
               nn::load_mlp<float>(archive, prefix + "critic."),
               nn::load_normaliser<float>(archive, prefix + "observations."),
               {}};
+  for (const nn::Mlp<float>* network : {&agent.actor, &agent.critic})
+    if (network->inputs() != agent.observations.features())
+      throw DataError(archive.path, prefix + "observations.mean",
+                      std::to_string(network->inputs()) + " numbers",
+                      std::to_string(agent.observations.features()));
   const std::vector<double> scale = archive.at(prefix + "returns.scale").to_double();
   if (scale.size() != 2)
     throw DataError(archive.path, prefix + "returns.scale", "2 numbers", std::to_string(scale.size()));
-  agent.returns = {scale[0], scale[1],
-                   static_cast<std::int64_t>(archive.at(prefix + "returns.batches").to_double().at(0))};
+  agent.returns = {scale[0], scale[1], whole_number_at(archive, prefix + "returns.batches")};
   return agent;
 }
 

@@ -1,9 +1,9 @@
 /// The agent: a Gaussian policy, its critic and the scales of what goes in and comes out.
 ///
-/// π(a|s) = N(μ(s), σ²·1): the mean depends on the state, the covariance is fixed and diagonal (METHOD §7);
-/// σ is one number that training lowers on a schedule, so it is an argument and no parameter. Because σ is
-/// the same for the old and the new policy, the normalising constant of the density cancels in every ratio
-/// and is left out: `log_density` is −‖a − μ‖²/2σ².
+/// π(a|s) = N(μ(s), σ²·1): the mean depends on the state, the covariance is fixed and diagonal
+/// (docs/method.md §7); σ is one number that training lowers on a schedule, so it is an argument and no
+/// parameter. Because σ is the same for the old and the new policy, the normalising constant of the density
+/// cancels in every ratio and is left out: `log_density` is −‖a − μ‖²/2σ².
 ///
 /// The critic predicts (V − mean)/deviation of recent returns, so that one step size suits every task. When
 /// those two numbers move, V moves with them: returns that grow or shrink as a whole need no relearning. (The
@@ -65,6 +65,7 @@ void unscale_values(const ReturnScale& scale, nn::Matrix<float>& values);
 void follow_returns(ReturnScale& scale, double mean, double square, double rate);
 
 void save(Npz& archive, const std::string& prefix, const Agent& agent);
+/// @throws DataError naming archive and key
 Agent load_agent(const Npz& archive, const std::string& prefix);
 
 }  // namespace mimicx::rl

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "nn/checkpoint.h"
+#include "nn/gradient.h"
 #include "rl/ppo_loss.h"
 
 namespace mimicx::rl {
@@ -27,7 +28,7 @@ struct RowPlace {
 };
 
 RowPlace place(const RolloutBuffer& buffer, int row) {
-  return {buffer.groups[static_cast<std::size_t>(row / buffer.group_rows())], row % buffer.group_rows()};
+  return {buffer.groups[row / buffer.group_rows()], row % buffer.group_rows()};
 }
 
 /// The λ-return, target of the critic.
@@ -143,7 +144,7 @@ void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::
   }
   slot.sums.policy_loss += tape.scalar(surrogate);
   measure_policy(tape.value(means), tape.value(density), sigma, config.clip, slot);
-  accumulate(tape, tape.gradient(loss, parameters), slot.actor_gradient);
+  accumulate(tape, nn::gradient(tape, loss, parameters), slot.actor_gradient);
 }
 
 void critic_pass(const Agent& agent, std::size_t batch_rows, GradientSlot& slot) {
@@ -154,7 +155,7 @@ void critic_pass(const Agent& agent, std::size_t batch_rows, GradientSlot& slot)
   const nn::Var error = value_loss(tape, values, tape.refer(slot.targets));
   const nn::Var loss = scale(tape, error, 1.0F / static_cast<float>(batch_rows));
   slot.sums.value_loss += tape.scalar(error);
-  accumulate(tape, tape.gradient(loss, parameters), slot.critic_gradient);
+  accumulate(tape, nn::gradient(tape, loss, parameters), slot.critic_gradient);
 }
 
 void clear(const nn::Mlp<float>& mlp, Gradients& gradients) {
@@ -171,7 +172,7 @@ LossSums take_gradients(const Learner& learner, const PpoConfig& config, const R
                         int threads, UpdateScratch& scratch) {
   const Agent& agent = learner.agent;
   parallel_for(config.gradient_slots, threads, [&](int index) {
-    GradientSlot& slot = scratch.slots[static_cast<std::size_t>(index)];
+    GradientSlot& slot = scratch.slots[index];
     slot.sums = {};
     clear(agent.actor, slot.actor_gradient);
     clear(agent.critic, slot.critic_gradient);
@@ -232,9 +233,9 @@ void average(IterationStats& stats) {
 
 }  // namespace
 
-double exploration_sigma(const PpoConfig& config, std::int64_t samples) {
-  if (config.sigma_samples <= 0) return config.sigma_end;
-  const double progress = std::min(1.0, double(samples) / double(config.sigma_samples));
+double exploration_sigma(const PpoConfig& config, std::int64_t falling_samples, std::int64_t samples) {
+  if (falling_samples <= 0) return config.sigma_end;
+  const double progress = std::min(1.0, double(samples) / double(falling_samples));
   return config.sigma_start + progress * (config.sigma_end - config.sigma_start);
 }
 
@@ -256,7 +257,7 @@ Learner make_learner(const PpoConfig& config, Agent agent) {
 }
 
 void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buffer, std::span<const int> rows,
-            double sigma, std::uint64_t stream, int threads, UpdateScratch& scratch, IterationStats& stats) {
+            double sigma, const ShuffleKey& key, int threads, UpdateScratch& scratch, IterationStats& stats) {
   if (rows.empty()) return;
   stats.learned = true;
   stats.step_size = learner.step_size;
@@ -268,8 +269,8 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
   scratch.order.assign(rows.begin(), rows.end());
   for (int epoch = 0; epoch < config.epochs && !stopped; ++epoch) {
     shuffle(scratch.order,
-            Random(config.seed, {kShuffle, stream, static_cast<std::uint64_t>(learner.iteration),
-                                 static_cast<std::uint64_t>(epoch)}));
+            Random(key.seed, {kShuffle, key.learner, static_cast<std::uint64_t>(learner.iteration),
+                              static_cast<std::uint64_t>(epoch)}));
     double epoch_kl = 0.0;
     for (std::size_t k = 0; k < minibatches; ++k) {
       const auto batch = part(scratch.order, k, minibatches);
@@ -290,7 +291,7 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
     if (!stopped) stats.kl = epoch_kl / static_cast<double>(minibatches);
   }
   average(stats);
-  // A single step cannot see its own KL, unless the minibatch after it was the one that stopped.
+  // A step does not see the KL that it leads to; the minibatch after it does.
   if (stopped || stats.minibatches > 1)
     learner.step_size = adapted_step_size(config, learner.step_size, stats.kl);
 }
@@ -331,14 +332,30 @@ void save(Npz& archive, const std::string& prefix, const Learner& learner) {
   archive.set(prefix + "samples", NpyArray::scalar_int(learner.samples));
 }
 
+namespace {
+
+/// Moments for every parameter of the network, of its shape.
+nn::Adam<float> load_moments(const Npz& archive, const std::string& prefix, nn::Mlp<float>& network) {
+  nn::Adam<float> adam = nn::load_adam<float>(archive, prefix);
+  const auto weights = parameters(network);
+  bool fits = adam.first.size() == weights.size();
+  for (std::size_t k = 0; fits && k < weights.size(); ++k)
+    fits = adam.first[k].rows() == weights[k]->rows() && adam.first[k].cols() == weights[k]->cols();
+  if (!fits) throw DataError(archive.path, prefix + "first", "moments of every parameter", "others");
+  return adam;
+}
+
+}  // namespace
+
 Learner load_learner(const Npz& archive, const std::string& prefix) {
-  const auto number = [&](const char* key) { return archive.at(prefix + key).to_double().at(0); };
-  return {load_agent(archive, prefix + "agent."),
-          nn::load_adam<float>(archive, prefix + "actor_adam."),
-          nn::load_adam<float>(archive, prefix + "critic_adam."),
-          number("step_size"),
-          static_cast<std::int64_t>(number("iteration")),
-          static_cast<std::int64_t>(number("samples"))};
+  Learner learner;
+  learner.agent = load_agent(archive, prefix + "agent.");
+  learner.actor_adam = load_moments(archive, prefix + "actor_adam.", learner.agent.actor);
+  learner.critic_adam = load_moments(archive, prefix + "critic_adam.", learner.agent.critic);
+  learner.step_size = number_at(archive, prefix + "step_size");
+  learner.iteration = whole_number_at(archive, prefix + "iteration");
+  learner.samples = whole_number_at(archive, prefix + "samples");
+  return learner;
 }
 
 }  // namespace mimicx::rl

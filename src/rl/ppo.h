@@ -64,22 +64,28 @@ struct GradientSlot {
 
 /// Buffers of `update`; nothing in them outlives a call.
 struct UpdateScratch {
-  std::vector<GradientSlot> slots;
+  List<GradientSlot> slots;
   std::vector<int> order;  ///< shuffled rows
 
   explicit UpdateScratch(const PpoConfig& config) : slots(static_cast<std::size_t>(config.gradient_slots)) {}
 };
 
+/// Which random numbers shuffle the rows, together with iteration and epoch.
+struct ShuffleKey {
+  std::uint64_t seed;     ///< of the training
+  std::uint64_t learner;  ///< number of the learner among those of the iteration
+};
+
 /// All epochs over the given rows of the buffer (their advantages are there already); adapts the step size.
-/// @param sigma   under which the rows were collected
-/// @param stream  tells the shuffles of several learners in one iteration apart
+/// @param sigma  under which the rows were collected
 void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buffer, std::span<const int> rows,
-            double sigma, std::uint64_t stream, int threads, UpdateScratch& scratch, IterationStats& stats);
+            double sigma, const ShuffleKey& key, int threads, UpdateScratch& scratch, IterationStats& stats);
 
 /// Reward, episode length, explained variance and saturation of a roll-out.
 void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationStats& stats);
 
 void save(Npz& archive, const std::string& prefix, const Learner& learner);
+/// @throws DataError naming archive and key
 Learner load_learner(const Npz& archive, const std::string& prefix);
 
 }  // namespace mimicx::rl

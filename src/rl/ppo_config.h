@@ -1,64 +1,63 @@
-/// Everything PPO can be told, with its defaults.
+/// Everything PPO can be told.
 ///
 /// Sources: [S] Schulman et al., "Proximal policy optimization algorithms", 2017; [A] Andrychowicz et al.,
 /// "What matters for on-policy deep actor-critic methods?", ICLR 2021; [R] Rudin et al., "Learning to walk in
 /// minutes using massively parallel deep reinforcement learning", CoRL 2021; [C] Chen et al., "Learning
-/// smooth humanoid locomotion through Lipschitz-constrained policies", 2024; the rest is METHOD §12 and the
-/// measurements of docs/experiments.md.
+/// smooth humanoid locomotion through Lipschitz-constrained policies", 2024; the rest is docs/method.md §12
+/// and the measurements of docs/experiments.md.
 #pragma once
 
 #include <cstdint>
 
 namespace mimicx::rl {
 
+/// There are no defaults: whoever trains says all of it (src/pipeline/configurations.h for the trainings that
+/// people run).
 struct PpoConfig {
-  std::uint64_t seed = 1;  ///< of the networks, the action noise and the shuffles
-
   // Roll-out and returns.
-  int horizon = 32;      ///< steps of every character in one iteration
-  double gamma = 0.97;   ///< discount per step
-  double lambda = 0.95;  ///< of the advantage estimation
+  int horizon;    ///< steps of every character in one iteration
+  double gamma;   ///< discount per step
+  double lambda;  ///< of the advantage estimation
 
-  // Exploration: σ falls linearly from start to end while the first `sigma_samples` samples are drawn.
-  double sigma_start = 0.07;
-  double sigma_end = 0.04;
-  std::int64_t sigma_samples = 2'000'000;
+  // Exploration: σ falls linearly from start to end (`exploration_sigma`).
+  double sigma_start;
+  double sigma_end;
 
   // Update. Value losses are not clipped and there is no entropy bonus: the one does not help [A], the other
   // means nothing for a fixed σ. Advantages are normalised over the whole iteration.
-  int epochs = 2;              ///< passes over the roll-out
-  int minibatch = 4096;        ///< rows; an iteration is cut into the nearest number of equal minibatches
-  double clip = 0.2;           ///< ratio stays in 1 ± clip [S, Eq. 7]
-  double gradient_norm = 1.0;  ///< limit of each network's gradient; the critic's loss is in scaled returns
-  double critic_step_size = 5e-4;  ///< Adam's, constant: the critic's steps do not move the policy
-  double return_rate = 0.1;        ///< how fast the scale of the returns follows
+  int epochs;               ///< passes over the roll-out
+  int minibatch;            ///< rows; an iteration is cut into the nearest number of equal minibatches
+  double clip;              ///< the ratio counts within 1 ± clip [S, Eq. 7]
+  double gradient_norm;     ///< limit of each network's gradient; the critic's loss is in scaled returns
+  double critic_step_size;  ///< Adam's, constant: the critic's steps do not move the policy
+  double return_rate;       ///< share of the new batch in the running scale of the returns
 
   // Step size of the actor: divided (multiplied) by `step_factor` after an iteration whose last epoch saw a
   // KL(old ‖ new) above twice (under half) the target [R]; an iteration ends early where a minibatch finds
   // it above `kl_stop` times the target.
-  double step_size = 5e-5;
-  double step_factor = 1.5;
-  double step_min = 1e-6;
-  double step_max = 2e-3;
-  double kl_target = 0.02;
-  double kl_stop = 4.0;
+  double step_size;  ///< at the start
+  double step_factor;
+  double step_min;
+  double step_max;
+  double kl_target;
+  double kl_stop;
 
-  // Gradient penalty: weight · σ² · mean ‖∇_s log π(a|s)‖² on normalised observations [C]; the σ² is METHOD
-  // §7. 0 switches it off. It is evaluated on this fraction of every minibatch.
-  double penalty_weight = 0.0;
-  double penalty_fraction = 0.125;
+  // Gradient penalty: weight · σ² · mean ‖∇_s log π(a|s)‖² on normalised observations [C]; for the σ² see
+  // docs/method.md §7. A weight of 0 switches it off.
+  double penalty_weight;
+  double penalty_fraction;  ///< share of every minibatch on which it is evaluated
 
   // Means beyond ± mean_bound cost weight · Σ excess² and are counted as saturated.
-  double bound_weight = 0.0;
-  double mean_bound = 3.0;
+  double bound_weight;
+  double mean_bound;
 
-  // Work division; part of the result's bits, unlike the number of threads.
-  int gradient_slots = 4;  ///< parts of a minibatch whose gradients are taken side by side
-  int pass_rows = 512;     ///< rows of one forward and backward pass
+  // How the work is cut. The bits of the result depend on it; they do not depend on the number of threads.
+  int gradient_slots;  ///< parts of a minibatch whose gradients are taken side by side
+  int pass_rows;       ///< rows of one forward and backward pass
 };
 
-/// σ after that many samples.
-double exploration_sigma(const PpoConfig& config, std::int64_t samples);
+/// σ after `samples` samples: it falls while the first `falling_samples` are drawn and stays then.
+double exploration_sigma(const PpoConfig& config, std::int64_t falling_samples, std::int64_t samples);
 
 /// The actor's next step size, from the KL that the last one led to.
 double adapted_step_size(const PpoConfig& config, double step_size, double kl);

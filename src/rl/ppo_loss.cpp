@@ -1,5 +1,7 @@
 #include "rl/ppo_loss.h"
 
+#include "nn/gradient.h"
+
 namespace mimicx::rl {
 
 using nn::Tape;
@@ -27,8 +29,8 @@ Var gradient_penalty(Tape<S>& tape, const nn::Mlp<S>& actor, std::span<const Var
   const Var means = forward(tape, actor, parameters, observations);
   const Var total = sum(tape, log_density(tape, means, actions, sigma));
   const Var wrt[] = {observations};
-  const Var gradient = tape.gradient(total, wrt).front();
-  return scale(tape, sum(tape, square(tape, gradient)), sigma * sigma);
+  const Var slope = gradient(tape, total, wrt).front();
+  return scale(tape, sum(tape, square(tape, slope)), sigma * sigma);
 }
 
 template <class S>

@@ -11,12 +11,12 @@ constexpr int kNobody = -1;
 /// Calls visit(agent index, its raw observations [n × dim]) for every agent with rows; `scratch.rows` are
 /// those rows.
 template <class Visit>
-void for_each_actor(const Agents& agents, const std::vector<int>& actors, const nn::Matrix<float>& raw,
+void for_each_actor(const Agents& agents, const List<int>& actors, const nn::Matrix<float>& raw,
                     CollectScratch& scratch, const Visit& visit) {
-  for (std::size_t agent = 0; agent < agents.size(); ++agent) {
+  for (int agent = 0; agent < agents.count(); ++agent) {
     scratch.rows.clear();
-    for (std::size_t i = 0; i < actors.size(); ++i)
-      if (actors[i] == static_cast<int>(agent)) scratch.rows.push_back(static_cast<int>(i));
+    for (int i = 0; i < actors.count(); ++i)
+      if (actors[i] == agent) scratch.rows.push_back(i);
     if (scratch.rows.empty()) continue;
     scratch.part_raw = raw(scratch.rows, Eigen::all);
     visit(agent, scratch.part_raw);
@@ -31,10 +31,10 @@ void value_part(const Agent& agent, const nn::Matrix<float>& raw, CollectScratch
 }
 
 /// V of every row → scratch.values [G × 1].
-void value_all(const Agents& agents, const std::vector<int>& actors, const nn::Matrix<float>& raw,
+void value_all(const Agents& agents, const List<int>& actors, const nn::Matrix<float>& raw,
                CollectScratch& scratch) {
   scratch.values.resize(raw.rows(), 1);  // rows of nobody stay as they are
-  for_each_actor(agents, actors, raw, scratch, [&](std::size_t agent, const nn::Matrix<float>& part) {
+  for_each_actor(agents, actors, raw, scratch, [&](int agent, const nn::Matrix<float>& part) {
     value_part(*agents[agent], part, scratch);
     scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
   });
@@ -57,7 +57,7 @@ RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int o
   group.actors.assign(static_cast<std::size_t>(rows), 0);
   group.moments.assign(static_cast<std::size_t>(agents), nn::make_moments(observation_dim));
   group.ages.assign(static_cast<std::size_t>(group_size), 0);
-  return {horizon, group_size, std::vector<GroupRollout>(static_cast<std::size_t>(groups), group)};
+  return {horizon, group_size, List<GroupRollout>(static_cast<std::size_t>(groups), group)};
 }
 
 void begin_rollout(GroupRollout& rollout) {
@@ -71,16 +71,15 @@ void record_decision(const Agents& agents, double sigma, int t, Random& random, 
   const Eigen::Index size = scratch.raw.rows(), first = t * size;
   scratch.means.resize(size, rollout.means.cols());
   scratch.values.resize(size, 1);
-  for_each_actor(
-      agents, scratch.actors, scratch.raw, scratch, [&](std::size_t index, const nn::Matrix<float>& part) {
-        const Agent& agent = *agents[index];
-        nn::merge(rollout.moments[index], nn::moments_of(part));
-        value_part(agent, part, scratch);
-        nn::evaluate(agent.actor, scratch.part_normalised, scratch.actor, scratch.part_means);
-        scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
-        scratch.means(scratch.rows, Eigen::all) = scratch.part_means;
-        rollout.observations.middleRows(first, size)(scratch.rows, Eigen::all) = scratch.part_normalised;
-      });
+  for_each_actor(agents, scratch.actors, scratch.raw, scratch, [&](int index, const nn::Matrix<float>& part) {
+    const Agent& agent = *agents[index];
+    nn::merge(rollout.moments[index], nn::moments_of(part));
+    value_part(agent, part, scratch);
+    nn::evaluate(agent.actor, scratch.part_normalised, scratch.actor, scratch.part_means);
+    scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
+    scratch.means(scratch.rows, Eigen::all) = scratch.part_means;
+    rollout.observations.middleRows(first, size)(scratch.rows, Eigen::all) = scratch.part_normalised;
+  });
   sample_actions(scratch.means, sigma, random, scratch.actions, rollout.log_density.row(t).transpose());
   rollout.values.row(t) = scratch.values.transpose();
   rollout.means.middleRows(first, size) = scratch.means;
@@ -95,7 +94,7 @@ void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRo
   rollout.truncated.row(t) = result.truncated.matrix().transpose();
   const Eigen::Index size = result.reward.size();
   for (Eigen::Index i = 0; i < size; ++i) {
-    auto& age = rollout.ages[static_cast<std::size_t>(i)];
+    auto& age = rollout.ages[i];
     ++age;
     if (!result.terminated[i] && !result.truncated[i]) continue;
     ++rollout.ended_episodes;
@@ -106,7 +105,7 @@ void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRo
   // Only these rows: the bits of a product may depend on which rows stand beside each other.
   scratch.final_actors = result.final_actors;
   for (Eigen::Index i = 0; i < size; ++i)
-    if (!result.truncated[i]) scratch.final_actors[static_cast<std::size_t>(i)] = kNobody;
+    if (!result.truncated[i]) scratch.final_actors[i] = kNobody;
   scratch.values.setZero(size, 1);
   value_all(agents, scratch.final_actors, result.final_observations, scratch);
   rollout.final_values.row(t) = scratch.values.transpose();

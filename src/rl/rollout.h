@@ -1,19 +1,20 @@
-/// What one roll-out of T steps leaves behind, one record per group of characters.
+/// What one roll-out of H steps leaves behind, one record per group of characters.
 ///
 /// Rows. Character i of a group at step t is row t·G + i of the group's matrices (G = group size), so every
-/// step writes one contiguous block and [T][G] arrays are the same memory as [T·G] columns. A row of the
-/// whole buffer is group·T·G + t·G + i. Observations are kept as the networks saw them (normalised), since
+/// step writes one contiguous block and [H][G] arrays are the same memory as [H·G] columns. A row of the
+/// whole buffer is group·H·G + t·G + i. Observations are kept as the networks saw them (normalised), since
 /// the statistics stay fixed while a roll-out is collected and learned from.
 ///
 /// Several agents may share a roll-out: each acts, and values, the rows that name it. The value of an
 /// observation is always that of the agent who acts there, so a return that crosses from one agent's rows
-/// into another's is bootstrapped with the other's critic.                                        METHOD §9
-/// The recording functions know agents and no environment; who acts in which row is the caller's choice.
+/// into another's is bootstrapped with the other's critic. docs/method.md §9 The recording functions know
+/// agents and no environment; who acts in which row is the caller's choice.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "core/containers.h"
 #include "core/random.h"
 #include "nn/normaliser.h"
 #include "rl/environment.h"
@@ -23,35 +24,35 @@
 namespace mimicx::rl {
 
 /// The agents of a roll-out, referred to.
-using Agents = std::vector<const Agent*>;
+using Agents = List<const Agent*>;
 
 struct GroupRollout {
-  nn::Matrix<float> observations;    ///< [T·G × observation_dim], normalised
-  nn::Matrix<float> actions;         ///< [T·G × action_dim]
-  nn::Matrix<float> means;           ///< [T·G × action_dim] of the policy that acted
-  nn::Matrix<float> log_density;     ///< [T][G] of the actions under that policy
-  nn::Matrix<float> rewards;         ///< [T][G]
-  nn::Matrix<float> values;          ///< [T][G] V(s_t)
-  nn::Matrix<float> last_values;     ///< [1][G] V(s_T)
-  nn::Matrix<float> final_values;    ///< [T][G] V(final observation) where truncated
-  nn::Matrix<float> advantages;      ///< [T][G]
-  FlagMatrix terminated, truncated;  ///< [T][G]
+  nn::Matrix<float> observations;    ///< [H·G × observation_dim], normalised
+  nn::Matrix<float> actions;         ///< [H·G × action_dim]
+  nn::Matrix<float> means;           ///< [H·G × action_dim] of the policy that acted
+  nn::Matrix<float> log_density;     ///< [H][G] of the actions under that policy
+  nn::Matrix<float> rewards;         ///< [H][G]
+  nn::Matrix<float> values;          ///< [H][G] V(s_t)
+  nn::Matrix<float> last_values;     ///< [1][G] V(s_H)
+  nn::Matrix<float> final_values;    ///< [H][G] V(final observation) where truncated
+  nn::Matrix<float> advantages;      ///< [H][G]
+  FlagMatrix terminated, truncated;  ///< [H][G]
 
-  std::vector<int> actors;  ///< [T·G] who acted
+  std::vector<int> actors;  ///< [H·G] who acted
 
-  std::vector<nn::Moments> moments;  ///< [agent] of the raw observations it saw in this roll-out
-  std::vector<std::int64_t> ages;    ///< [G] steps since the last reset; lives on from roll-out to roll-out
-  std::int64_t ended_episodes = 0;   ///< in this roll-out
-  std::int64_t ended_steps = 0;      ///< lengths of those episodes together
+  List<nn::Moments> moments;        ///< [agent] of the raw observations it saw in this roll-out
+  List<std::int64_t> ages;          ///< [G] steps since the last reset; lives on from roll-out to roll-out
+  std::int64_t ended_episodes = 0;  ///< in this roll-out
+  std::int64_t ended_steps = 0;     ///< lengths of those episodes together
 };
 
 struct RolloutBuffer {
   int horizon = 0;
   int group_size = 0;
-  std::vector<GroupRollout> groups;
+  List<GroupRollout> groups;
 
   int group_rows() const { return horizon * group_size; }
-  int rows() const { return group_rows() * static_cast<int>(groups.size()); }
+  int rows() const { return group_rows() * groups.count(); }
 };
 
 RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int observation_dim,
@@ -60,12 +61,12 @@ RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int o
 /// Buffers of one group's collection.
 struct CollectScratch {
   nn::Matrix<float> raw;                     ///< [G × observation_dim] as observed
-  std::vector<int> actors;                   ///< [G] who acts
+  List<int> actors;                          ///< [G] who acts
   nn::Matrix<float> means, actions, values;  ///< [G × …]
   StepResult result;
 
   // Of one agent's rows.
-  std::vector<int> rows, final_actors;
+  List<int> rows, final_actors;
   nn::Matrix<float> part_raw, part_normalised, part_means, part_values;
   nn::Workspace<float> actor, critic;
 
@@ -88,13 +89,12 @@ void finish_rollout(const Agents& agents, double gamma, double lambda, CollectSc
                     GroupRollout& rollout);
 
 /// One group over the whole horizon. @param random  keyed by iteration and group
-template <Environment E>
-void collect_group(E& environment, int group, const Agents& agents, double sigma, double gamma, double lambda,
-                   Random random, CollectScratch& scratch, GroupRollout& rollout) {
+template <Environment World>
+void collect_group(World& environment, int group, const Agents& agents, double sigma, double gamma,
+                   double lambda, Random random, CollectScratch& scratch, GroupRollout& rollout) {
   const auto observe = [&] {
     environment.observe(group, scratch.raw);
-    for (std::size_t i = 0; i < scratch.actors.size(); ++i)
-      scratch.actors[i] = acting_agent(environment, group, static_cast<int>(i));
+    for (int i = 0; i < scratch.actors.count(); ++i) scratch.actors[i] = environment.actor(group, i);
   };
   begin_rollout(rollout);
   const int horizon = static_cast<int>(rollout.rewards.rows());

@@ -1,11 +1,13 @@
 /// The training loop: collect → advantages → update, for one or several agents in one environment.
 ///
-/// Several agents learn jointly (METHOD §9): the environment says who acts where, every agent's critic values
-/// its own rows, and every agent learns from its own rows. Random numbers are keyed by what they are for: the
-/// noise of the actions by (seed, purpose, iteration, group). `save` takes the complete state between two
-/// iterations; loading it into a trainer of the same configuration and environment and going on gives the
-/// same bytes as never having stopped.
+/// Several agents learn jointly (docs/method.md §9): the environment says who acts where, every agent's
+/// critic values its own rows, and every agent learns from its own rows. Random numbers are keyed by what
+/// they are for: the noise of the actions by (seed, purpose, iteration, group). `save` takes the complete
+/// state between two iterations. A trainer of the same configuration, seed and environment that loads it and
+/// goes on gives the same bytes as one that never stopped.
 #pragma once
+
+#include <stdexcept>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -14,13 +16,21 @@
 
 namespace mimicx::rl {
 
-template <Environment E>
+/// What may differ between two trainings of one configuration.
+struct Course {
+  std::uint64_t seed;            ///< of the actions' noise and the shuffles
+  std::int64_t falling_samples;  ///< while these are drawn σ falls
+};
+
+template <Environment World>
 class PpoTrainer {
  public:
-  /// @param agents       at least one, all of one shape
+  /// @param agents       as many as act in the environment, all of one shape
   /// @param environment  referred to, must outlive the trainer
-  PpoTrainer(const PpoConfig& config, std::vector<Agent> agents, E& environment)
+  /// @throws std::invalid_argument for another number of agents
+  PpoTrainer(const PpoConfig& config, const Course& course, std::vector<Agent> agents, World& environment)
       : config_(config),
+        course_(course),
         environment_(environment),
         buffer_(make_rollout_buffer(environment.groups(), environment.group_size(), config.horizon,
                                     environment.observation_dim(), environment.action_dim(),
@@ -29,19 +39,21 @@ class PpoTrainer {
                  CollectScratch(environment.group_size(), environment.observation_dim())),
         update_(config),
         rows_(agents.size()) {
+    if (static_cast<int>(agents.size()) != environment.agents())
+      throw std::invalid_argument("PpoTrainer: " + std::to_string(agents.size()) + " agents where " +
+                                  std::to_string(environment.agents()) + " act");
     for (Agent& agent : agents) learners_.push_back(make_learner(config, std::move(agent)));
   }
-  PpoTrainer(const PpoConfig& config, Agent agent, E& environment)
-      : PpoTrainer(config, std::vector<Agent>{std::move(agent)}, environment) {}
 
   /// One iteration. The result does not depend on the number of threads.
   IterationStats iterate(int threads) {
     IterationStats stats;
     stats.iteration = iteration_;
-    stats.sigma = exploration_sigma(config_, samples_);
+    stats.sigma = exploration_sigma(config_, course_.falling_samples, samples_);
 
     collect(stats.sigma, threads);
-    environment_.end_iteration();
+    const std::vector<CharacterPlace> restarted = environment_.end_iteration();
+    for (const auto [group, character] : restarted) buffer_.groups[group].ages[character] = 0;
     samples_ += buffer_.rows();
     stats.samples = samples_;
     describe_rollout(buffer_, config_.mean_bound, stats);
@@ -49,9 +61,10 @@ class PpoTrainer {
     std::vector<IterationStats> parts(learners_.size(), stats);
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       Learner& learner = learners_[k];
-      // Nothing is learned before the observations have a scale: what the networks saw would not match.
+      // The first roll-out only measures the observations: learning needs the scale that acting had.
       if (learner.agent.observations.moments.count > 0)
-        update(learner, config_, buffer_, rows_[k], stats.sigma, k, threads, update_, parts[k]);
+        update(learner, config_, buffer_, rows_[k], stats.sigma, {course_.seed, k}, threads, update_,
+               parts[k]);
       learner.samples += static_cast<std::int64_t>(rows_[k].size());
       ++learner.iteration;
     }
@@ -93,8 +106,8 @@ class PpoTrainer {
         throw DataError(archive.path, key, "networks of this training's sizes", "others");
       learners_[k] = std::move(loaded);
     }
-    iteration_ = static_cast<std::int64_t>(archive.at(prefix + "iteration").to_double().at(0));
-    samples_ = static_cast<std::int64_t>(archive.at(prefix + "samples").to_double().at(0));
+    iteration_ = whole_number_at(archive, prefix + "iteration");
+    samples_ = whole_number_at(archive, prefix + "samples");
     const std::vector<double> ages = archive.at(prefix + "ages").to_double();
     const auto size = static_cast<std::size_t>(buffer_.group_size);
     if (ages.size() != size * buffer_.groups.size())
@@ -110,12 +123,11 @@ class PpoTrainer {
   void collect(double sigma, int threads) {
     Agents agents;
     for (const Learner& learner : learners_) agents.push_back(&learner.agent);
-    parallel_for(static_cast<int>(buffer_.groups.size()), threads, [&](int group) {
-      const auto index = static_cast<std::size_t>(group);
-      const Random random(config_.seed, {kActionNoise, static_cast<std::uint64_t>(iteration_),
+    parallel_for(buffer_.groups.count(), threads, [&](int group) {
+      const Random random(course_.seed, {kActionNoise, static_cast<std::uint64_t>(iteration_),
                                          static_cast<std::uint64_t>(group)});
       collect_group(environment_, group, agents, sigma, config_.gamma, config_.lambda, random,
-                    collect_[index], buffer_.groups[index]);
+                    collect_[group], buffer_.groups[group]);
     });
   }
 
@@ -124,7 +136,7 @@ class PpoTrainer {
     for (auto& rows : rows_) rows.clear();
     int row = 0;
     for (const GroupRollout& group : buffer_.groups)
-      for (const int actor : group.actors) rows_[static_cast<std::size_t>(actor)].push_back(row++);
+      for (const int actor : group.actors) rows_[actor].push_back(row++);
   }
 
   /// The roll-out's observations join the statistics only now: acting and learning saw the same scale.
@@ -161,13 +173,14 @@ class PpoTrainer {
   }
 
   PpoConfig config_;
-  E& environment_;
+  Course course_;
+  World& environment_;
   std::vector<Learner> learners_;
   std::int64_t iteration_ = 0, samples_ = 0;
   RolloutBuffer buffer_;
-  std::vector<CollectScratch> collect_;
+  List<CollectScratch> collect_;
   UpdateScratch update_;
-  std::vector<std::vector<int>> rows_;  ///< [agent]
+  List<std::vector<int>> rows_;  ///< [agent]
 };
 
 }  // namespace mimicx::rl

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "core/units.h"
 
 namespace mimicx {
 namespace {
@@ -29,12 +30,9 @@ PerBody<Quaterniond> rest_rotations() {
 }
 
 int mirror_of(int body) {
-  const std::string name(kBodyNames[static_cast<std::size_t>(body)]);
-  for (const auto& [side, other] : {std::pair{"left", "right"}, std::pair{"right", "left"}})
-    if (name.starts_with(side))
-      for (int i = 0; i < kBodies; ++i)
-        if (kBodyNames[static_cast<std::size_t>(i)] == other + name.substr(std::string(side).size()))
-          return i;
+  const std::string name(kBodyNames[body]);
+  if (name.starts_with("left_")) return body_of_name("right_" + name.substr(5));
+  if (name.starts_with("right_")) return body_of_name("left_" + name.substr(6));
   return body;
 }
 
@@ -61,7 +59,7 @@ TEST(Character, DegreesOfFreedomAddUpTo55) {
   int dofs = 0;
   for (int i = 1; i < kBodies; ++i) {
     EXPECT_EQ(first_dof(i), dofs);
-    EXPECT_LT(kParents[static_cast<std::size_t>(i)], i);
+    EXPECT_LT(kParents[i], i);
     dofs += is_hinge(i) ? 1 : 3;
   }
   EXPECT_EQ(dofs, 55);
@@ -81,8 +79,8 @@ TEST(Character, LeftIsTheMirrorImageOfRight) {
   Random random(1, {2});
   for (int n = 0; n < 10; ++n) {
     const Character c = make_character(random_betas(random, 3.0));
-    for (std::size_t i = 0; i < kBodies; ++i) {
-      const auto m = static_cast<std::size_t>(mirror_of(static_cast<int>(i)));
+    for (int i = 0; i < kBodies; ++i) {
+      const int m = mirror_of(i);
       EXPECT_LT((mirrored(c.joint_offset[i]) - c.joint_offset[m]).norm(), 1e-12) << i;
       EXPECT_NEAR(c.mass[i], c.mass[m], 1e-12);
       EXPECT_LT((mirrored(c.com_B[i]) - c.com_B[m]).norm(), 1e-12);
@@ -93,7 +91,7 @@ TEST(Character, LeftIsTheMirrorImageOfRight) {
         EXPECT_EQ(c.joint[i].torque_limit, c.joint[m].torque_limit);
         // Under the mirror rotations about y and z change sign; a hinge's component does so with its axis.
         const Vector3d centre = c.joint[i].centre;
-        if (!is_hinge(static_cast<int>(i))) {
+        if (!is_hinge(i)) {
           EXPECT_LT((Vector3d(centre.x(), -centre.y(), -centre.z()) - c.joint[m].centre).norm(), 1e-12) << i;
         }
       }
@@ -111,7 +109,7 @@ TEST(Character, JointPositionsAreAffineInBeta) {
       return forward_kinematics(make_character(betas), Vector3d::Zero(), rest_rotations()).p_WB;
     };
     const auto pa = at(a), pb = at(b), pm = at(mix);
-    for (std::size_t i = 0; i < kBodies; ++i) EXPECT_LT((0.3 * pa[i] + 0.7 * pb[i] - pm[i]).norm(), 1e-12);
+    for (int i = 0; i < kBodies; ++i) EXPECT_LT((0.3 * pa[i] + 0.7 * pb[i] - pm[i]).norm(), 1e-12);
   }
 }
 
@@ -122,7 +120,7 @@ TEST(Character, EveryBetaChangesTheShapeAndLargeOnesAreRefused) {
     betas[k] = 1.0;
     const Character c = make_character(betas);
     double change = 0.0;
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       change +=
           (c.joint_offset[i] - standard.joint_offset[i]).norm() + std::abs(c.mass[i] - standard.mass[i]);
     EXPECT_GT(change, 1e-3) << k;
@@ -140,8 +138,7 @@ double smallest_gap(const Character& c, bool with_thighs = true) {
   double smallest = 1e9;
   for (const auto& [i, j] : c.self_pairs) {
     if (!with_thighs && i == kLeftHip && j == kRightHip) continue;
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    smallest = std::min(smallest, capsule_gap(c.capsule[a], rest.p_WB[a], c.capsule[b], rest.p_WB[b]));
+    smallest = std::min(smallest, capsule_gap(c.capsule[i], rest.p_WB[i], c.capsule[j], rest.p_WB[j]));
   }
   return smallest;
 }
@@ -182,7 +179,7 @@ TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
   double narrowest = 1.0;
   for (int n = 0; n < 10; ++n) narrowest = std::min(narrowest, narrowest_gap_near(random_betas(random, 3.0)));
   std::printf("  measured: narrowest gap of self pairs but the thighs in the rest pose %.1f mm\n",
-              1e3 * narrowest);
+              kMm * narrowest);
   EXPECT_GT(narrowest, 0.0);
 }
 
@@ -192,9 +189,9 @@ double nearest_hand(const Character& c, const BodyPoses& rest, double height) {
   double nearest = 0.0;
   for (const auto& [i, j] : c.self_pairs) {
     if (i != kLeftWrist || (j != kPelvis && j != kSpine1 && j != kSpine2 && j != kSpine3)) continue;
-    const Capsule& trunk = c.capsule[static_cast<std::size_t>(j)];
+    const Capsule& trunk = c.capsule[j];
     const double reach = trunk.radius + hand;
-    const double up = height - (rest.p_WB[static_cast<std::size_t>(j)] + trunk.a_B).y();
+    const double up = height - (rest.p_WB[j] + trunk.a_B).y();
     if (std::abs(up) < reach) nearest = std::max(nearest, std::sqrt(reach * reach - up * up));
   }
   return nearest;
@@ -214,7 +211,7 @@ TEST(Character, InertiaIsThatOfASolidCapsule) {
   const Character c = make_character();
   Random random(1, {5});
   for (const int body : {kLeftHip, kPelvis, kLeftWrist}) {
-    const Capsule& capsule = c.capsule[static_cast<std::size_t>(body)];
+    const Capsule& capsule = c.capsule[body];
     const Vector3d low = capsule.a_B.cwiseMin(capsule.b_B).array() - capsule.radius;
     const Vector3d high = capsule.a_B.cwiseMax(capsule.b_B).array() + capsule.radius;
     Vector3d centre = Vector3d::Zero();
@@ -232,11 +229,10 @@ TEST(Character, InertiaIsThatOfASolidCapsule) {
     }
     centre /= inside;
     second = second / inside - centre * centre.transpose();
-    const Matrix3d inertia =
-        c.mass[static_cast<std::size_t>(body)] * (second.trace() * Matrix3d::Identity() - second);
-    const Matrix3d& I = c.inertia_B[static_cast<std::size_t>(body)];
+    const Matrix3d inertia = c.mass[body] * (second.trace() * Matrix3d::Identity() - second);
+    const Matrix3d& I = c.inertia_B[body];
     EXPECT_LT((inertia - I).norm(), 0.015 * I.norm()) << body;
-    EXPECT_LT((centre - c.com_B[static_cast<std::size_t>(body)]).norm(), 0.002) << body;
+    EXPECT_LT((centre - c.com_B[body]).norm(), 0.002) << body;
   }
 }
 
@@ -246,14 +242,14 @@ TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
     const Character c = make_character(random_betas(random, 3.0));
     const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
     const double sole = rest.p_WB[kLeftAnkle].y() + c.contact_points[0].p_B.y();
-    for (std::size_t i = 0; i < kFootPoints; ++i) {
+    for (int i = 0; i < kFootPoints; ++i) {
       const ContactPoint& p = c.contact_points[i];
       EXPECT_TRUE(p.body == (i < 4    ? kLeftAnkle
                              : i < 6  ? kLeftFoot
                              : i < 10 ? kRightAnkle
                                       : kRightFoot))
           << i;
-      EXPECT_NEAR((rest.p_WB[static_cast<std::size_t>(p.body)] + sole_point(p)).y(), sole, 1e-12) << i;
+      EXPECT_NEAR((rest.p_WB[p.body] + sole_point(p)).y(), sole, 1e-12) << i;
     }
   }
 }
@@ -266,7 +262,7 @@ TEST(Character, NoPointOfASphereIsLowerThanItsLowestPosition) {
   const BodyPoses poses = forward_kinematics(c, Vector3d(1.0, 2.0, 3.0), q);
   int as_low = 0;
   for (const ContactPoint& point : c.contact_points) {
-    const auto body = static_cast<std::size_t>(point.body);
+    const int body = point.body;
     const Vector3d lowest = lowest_position(point, poses);
     EXPECT_GE(lowest.z(), lowest_contact(c, poses));
     as_low += lowest.z() == lowest_contact(c, poses);
@@ -289,12 +285,12 @@ TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) 
     q[kLeftFoot] = q[kLeftAnkle].conjugate();
     const BodyPoses poses = forward_kinematics(c, Vector3d::Zero(), q);
     const auto lowest = [&](const ContactPoint& p) {
-      const auto i = static_cast<std::size_t>(p.body);
+      const int i = p.body;
       return (poses.p_WB[i] + poses.q_WB[i] * p.p_B).y() - p.radius;
     };
     const double toe = lowest(c.contact_points[4]);
     EXPECT_GT(lowest(c.contact_points[0]), toe - 1e-12) << "heel";
-    for (std::size_t ball : {2, 3}) EXPECT_NEAR(lowest(c.contact_points[ball]), toe, 1e-12);
+    for (const int ball : {2, 3}) EXPECT_NEAR(lowest(c.contact_points[ball]), toe, 1e-12);
   }
 }
 
@@ -302,16 +298,14 @@ TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) 
 RestJoints rest_joints(const Character& c) {
   RestJoints joints;
   joints[0] = rest_pelvis("mimicx");
-  for (std::size_t i = 1; i < kBodies; ++i)
-    joints[i] = joints[static_cast<std::size_t>(kParents[i])] + c.joint_offset[i];
+  for (int i = 1; i < kBodies; ++i) joints[i] = joints[kParents[i]] + c.joint_offset[i];
   return joints;
 }
 
 TEST(CharacterOfJoints, HasTheBonesItWasGivenAndTheNearestShape) {
   const std::array<double, kBetas> betas = {1.5, 0, -1, 0.5, 1, -0.5, 0.3, 1, 0, 0.4};
   const Character shaped = make_character(betas), made = make_character_of_joints(rest_joints(shaped));
-  for (std::size_t i = 0; i < kBodies; ++i)
-    EXPECT_LT((made.joint_offset[i] - shaped.joint_offset[i]).norm(), 1e-14);
+  for (int i = 0; i < kBodies; ++i) EXPECT_LT((made.joint_offset[i] - shaped.joint_offset[i]).norm(), 1e-14);
   // The prior pulls the shape towards the standard one, never past it or away from it.
   EXPECT_GT(made.betas[0], 0.5 * betas[0]);
   EXPECT_LT(made.betas[0], betas[0]);
@@ -337,12 +331,12 @@ TEST(ForwardKinematics, EqualsTheProductOfHomogeneousMatrices) {
     r = Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
   const Vector3d root(0.3, -2.0, 1.1);
   const BodyPoses poses = forward_kinematics(c, root, q);
-  for (std::size_t body = 0; body < kBodies; ++body) {
+  for (int body = 0; body < kBodies; ++body) {
     Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
-    for (int i = static_cast<int>(body); i >= 0; i = kParents[static_cast<std::size_t>(i)]) {
+    for (int i = static_cast<int>(body); i >= 0; i = kParents[i]) {
       Eigen::Matrix4d step = Eigen::Matrix4d::Identity();
-      step.topLeftCorner<3, 3>() = q[static_cast<std::size_t>(i)].toRotationMatrix();
-      step.topRightCorner<3, 1>() = i == 0 ? root : c.joint_offset[static_cast<std::size_t>(i)];
+      step.topLeftCorner<3, 3>() = q[i].toRotationMatrix();
+      step.topRightCorner<3, 1>() = i == 0 ? root : c.joint_offset[i];
       T = step * T;
     }
     EXPECT_LT((T.topRightCorner<3, 1>() - poses.p_WB[body]).norm(), 1e-12) << body;

@@ -97,7 +97,7 @@ Census expect_exact(const char* name, const Model<double>& model, const ControlF
   std::printf("  %-16s chain rule %.0e, differences %.0e\n", name, exact, differences);
   EXPECT_LT(exact, 1e-9) << name;
   EXPECT_LT(differences, 1e-6) << name;
-  return d.census(model.options.passes);
+  return d.census(model.config.passes);
 }
 
 TEST(AnalyticDerivative, IsExactInTheAir) {
@@ -169,7 +169,7 @@ TEST(AnalyticDerivative, IsExactInSelfContact) {
   int frames = 0;
   for (int trial = 0; trial < 200 && frames < 4; ++trial) {
     const ControlFrame frame = frame_of(random_snapshot(random, 1.6, 1.0, 3.0), random, 0.1);
-    if (Derived(model, frame).census(model.options.passes).self_pairs < 8) continue;
+    if (Derived(model, frame).census(model.config.passes).self_pairs < 8) continue;
     expect_exact("self contact", model, frame);
     ++frames;
   }
@@ -189,7 +189,7 @@ TEST(AnalyticDerivative, IsExactForOtherShapesRatesAndPasses) {
   Random random(8);
   for (const int passes : {1, 3}) {
     const Character character = make_character(random_betas(random));
-    SimulationOptions options;
+    SimulationConfig options;
     options.passes = passes;
     options.rate = passes == 1 ? 480.0 : 120.0;
     const Model<double> model = make_model<double>(character, options);

@@ -49,7 +49,7 @@ State<double> frame_in_double(const System& system, const Model<double>& model, 
 }
 
 Eigen::MatrixXd in_double(const System& system, const Character& character, const FramePoint& point) {
-  const Model<double> model = make_model<double>(character, system.model.options);
+  const Model<double> model = make_model<double>(character, system.model.config);
   Eigen::MatrixXd F(kTangent, kMemory + system.controls());
   const double h = 1e-6;
   for (int k = 0; k < F.cols(); ++k) {

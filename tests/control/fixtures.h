@@ -6,7 +6,7 @@
 #include "control/system.h"
 #include "control/tangent.h"
 #include "core/random.h"
-#include "motion/reference.h"
+#include "motion/prepare.h"
 #include "motion/synth/synth.h"
 
 namespace mimicx::control {
@@ -24,7 +24,7 @@ inline State<double> to_state(const ReferenceFrame& frame) {
 
 /// A synthetic motion, cut to its first frames (0: all of it).
 inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed, std::size_t frames = 0) {
-  SynthOptions options;
+  SynthConfig options;
   options.kind = kind;
   options.seed = seed;
   Reference reference = prepare_reference(synthesize(options), {}, nullptr);
@@ -36,10 +36,10 @@ inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed
   return reference;
 }
 
-inline System system_of(const Reference& reference, const SimulationOptions& options = {}) {
+inline System system_of(const Reference& reference, const SimulationConfig& config = {}) {
   std::vector<State<double>> states;
   for (const ReferenceFrame& frame : reference.frames) states.push_back(to_state(frame));
-  return make_system(reference.character, options, std::move(states), reference.fps);
+  return make_system(reference.character, config, std::move(states), reference.fps);
 }
 
 /// A change of a state, every coordinate about `size`.

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "fuzz/driver.h"
 #include "motion/import/bvh.h"
+#include "motion/import/bvh_write.h"
 #include "motion/import/retarget.h"
 
 namespace mimicx::fuzz {

@@ -1,5 +1,6 @@
 // Arrays: as a Motion-X file, and as each member of an archive, past the checksums that guard a zip.
 #include "fuzz/driver.h"
+#include "motion/clip_file.h"
 #include "motion/import/motion_file.h"
 #include "motion/import/motionx.h"
 #include "motion/made_motions.h"

@@ -1,5 +1,6 @@
 // Archives: zip directory, members, and the motion in them.
 #include "fuzz/driver.h"
+#include "motion/clip_file.h"
 #include "motion/import/motion_file.h"
 #include "motion/made_motions.h"
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "motion/made_motions.h"
+#include "motion/prepare.h"
 
 namespace mimicx {
 namespace {

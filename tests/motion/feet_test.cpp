@@ -2,36 +2,34 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "core/units.h"
+#include "motion/prepare.h"
 #include "motion/synth/synth.h"
 
 namespace mimicx {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 /// The motion with both feet turned by a constant rotation, as an estimator's error would.
 Clip with_turned_feet(Clip clip, const Vector3d& rotation) {
   for (auto& frame : clip.rotations)
-    for (std::size_t ankle : {kLeftAnkle, kRightAnkle})
+    for (const int ankle : {kLeftAnkle, kRightAnkle})
       frame[ankle] = log_map(exp_map(frame[ankle]) * exp_map(rotation));
   return clip;
 }
 
 Clip walk() {
-  SynthOptions options;
-  options.kind = "walk";
-  options.seed = 3;
-  return synthesize(options);
+  SynthConfig config;
+  config.kind = "walk";
+  config.seed = 3;
+  return synthesize(config);
 }
 
 TEST(Feet, ExactMotionsAreLeftAlone) {
   for (const std::string& kind : synthetic_kinds()) {
-    SynthOptions options;
-    options.kind = kind;
+    SynthConfig config;
+    config.kind = kind;
     PreparationReport report;
-    prepare_reference(synthesize(options), {}, &report);
+    prepare_reference(synthesize(config), {}, &report);
     EXPECT_EQ(report.foot_level_deg, 0.0) << kind;
     EXPECT_LT(report.change_max_mm, 0.5) << kind;
   }
@@ -49,7 +47,7 @@ TEST(Feet, AConstantErrorOfTheFeetIsRemoved) {
         worst = std::max(worst, (levelled.poses[t].p_WB[i] - exact.poses[t].p_WB[i]).norm());
     EXPECT_LT(worst, 0.015);
 
-    PreparationOptions off;
+    PreparationConfig off;
     off.level_feet = false;
     const Reference raw = prepare_reference(with_turned_feet(walk(), error), off, nullptr);
     double raw_worst = 0.0;

@@ -1,11 +1,12 @@
-/// Conversion of knees and elbows to hinges (METHOD §2), on random and on real poses.
+#include "motion/hinge.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "motion/clip_file.h"
 #include "motion/made_motions.h"
-#include "motion/reference.h"
 
 namespace mimicx {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using test::Rotations;
 
 struct Limb {
-  std::size_t upper, hinge, end;
+  int upper, hinge, end;
 };
 constexpr Limb kLimbs[] = {{kLeftHip, kLeftKnee, kLeftAnkle},
                            {kRightHip, kRightKnee, kRightAnkle},
@@ -61,7 +62,7 @@ TEST(Hinges, TurnAboutTheirAxisOnlyTowardsTheFlexingSide) {
   for (int n = 0; n < 200; ++n) {
     const Rotations q = to_hinges(c, {random_rotations(random, 0.7)})[0];
     for (const Limb& limb : kLimbs) {
-      const Vector3d axis = hinge_axis(static_cast<int>(limb.hinge)), r = log_map(q[limb.hinge]);
+      const Vector3d axis = hinge_axis(limb.hinge), r = log_map(q[limb.hinge]);
       EXPECT_LT(r.cross(axis).norm(), 1e-12);
       EXPECT_GT(r.dot(axis), -7.0 / 180 * test::kPi);
     }
@@ -71,8 +72,7 @@ TEST(Hinges, TurnAboutTheirAxisOnlyTowardsTheFlexingSide) {
 TEST(Hinges, OtherJointsAreUntouched) {
   Random random(1, {3});
   const Rotations smpl = random_rotations(random, 0.6), q = to_hinges(make_character(), {smpl})[0];
-  for (const std::size_t body :
-       std::initializer_list<std::size_t>{kPelvis, kSpine1, kSpine3, kLeftFoot, kHead, kLeftCollar})
+  for (const int body : {kPelvis, kSpine1, kSpine3, kLeftFoot, kHead, kLeftCollar})
     EXPECT_EQ(q[body].coeffs(), smpl[body].coeffs()) << kBodyNames[body];
 }
 
@@ -81,11 +81,11 @@ TEST(Hinges, MotionsThatAreHingedAlreadyStayAsTheyAre) {
   for (int n = 0; n < 100; ++n) {
     Rotations q = random_rotations(random, 0.6);
     for (const Limb& limb : kLimbs)
-      q[limb.hinge] = exp_map(random.uniform(-0.15, 2.6) * hinge_axis(static_cast<int>(limb.hinge)));
+      q[limb.hinge] = exp_map(random.uniform(-0.15, 2.6) * hinge_axis(limb.hinge));
     const Rotations out = to_hinges(make_character(), {q})[0];
-    for (std::size_t i = 0; i < kBodies; ++i) EXPECT_LT(q[i].angularDistance(out[i]), 1e-7) << kBodyNames[i];
+    for (int i = 0; i < kBodies; ++i) EXPECT_LT(q[i].angularDistance(out[i]), 1e-7) << kBodyNames[i];
     const Rotations twice = to_hinges(make_character(), {out})[0];
-    for (std::size_t i = 0; i < kBodies; ++i) EXPECT_LT(out[i].angularDistance(twice[i]), 1e-7);
+    for (int i = 0; i < kBodies; ++i) EXPECT_LT(out[i].angularDistance(twice[i]), 1e-7);
   }
 }
 
@@ -96,8 +96,7 @@ TEST(Hinges, NearlyHingedMotionsHardlyChange) {
     Rotations q = random_rotations(random, 0.6);
     for (const Limb& limb : kLimbs) {
       const Vector3d off = 1e-3 * test::random_vector(random);
-      q[limb.hinge] =
-          exp_map(off) * exp_map(random.uniform(0.1, 2.6) * hinge_axis(static_cast<int>(limb.hinge)));
+      q[limb.hinge] = exp_map(off) * exp_map(random.uniform(0.1, 2.6) * hinge_axis(limb.hinge));
     }
     const Rotations out = to_hinges(c, {q})[0];
     for (const Limb& limb : kLimbs)
@@ -112,24 +111,24 @@ TEST(Hinges, EndsStayInPlaceAndTheMotionIsContinuousThroughStraightLimbs) {
   constexpr int kFrames = 2000;
   for (const Limb& limb : kLimbs)
     for (const double tilt : {-0.10, -0.03, 0.02, 0.08}) {
-      const Vector3d axis = hinge_axis(static_cast<int>(limb.hinge));
+      const Vector3d axis = hinge_axis(limb.hinge);
       const Vector3d across =
           limb.end == kLeftAnkle || limb.end == kRightAnkle ? Vector3d::UnitZ() : Vector3d::UnitX();
-      std::vector<Rotations> smpl(kFrames);
+      PerFrame<Rotations> smpl(kFrames);
       for (int t = 0; t < kFrames; ++t) {
-        Rotations& q = smpl[static_cast<std::size_t>(t)];
+        Rotations& q = smpl[t];
         q.fill(Quaterniond::Identity());
         const double flexion = 0.3 + 0.5 * std::cos(2 * test::kPi * t / kFrames);  // 46° … -11°
         q[limb.hinge] = exp_map(tilt * across) * exp_map(flexion * axis);
       }
-      const std::vector<Rotations> q = to_hinges(c, smpl);
+      const PerFrame<Rotations> q = to_hinges(c, smpl);
       for (std::size_t t = 0; t < kFrames; ++t) {
         const BodyPoses before = pose_of(c, smpl[t]), after = pose_of(c, q[t]);
         // A limb cannot be straighter than its rest bones allow: 2 mm of reach at most.
         EXPECT_LT((before.p_WB[limb.end] - after.p_WB[limb.end]).norm(), 0.0021);
         EXPECT_LT((before.p_WB[limb.hinge] - after.p_WB[limb.hinge]).norm(), 0.045);
         if (t > 0) {
-          for (const std::size_t body : {limb.upper, limb.hinge, limb.end})
+          for (const int body : {limb.upper, limb.hinge, limb.end})
             EXPECT_LT(q[t][body].angularDistance(q[t - 1][body]), 0.05)
                 << kBodyNames[body] << " frame " << t << " tilt " << tilt;
         }
@@ -149,10 +148,10 @@ TEST(Hinges, ResidualOfRealMotionsIsUnderFiveMillimetresOnAverage) {
       double sum = 0.0, end = 0.0;
       for (std::size_t t = 0; t < smpl.size(); ++t) {
         const BodyPoses before = pose_of(c, smpl[t]), after = pose_of(c, hinged[t]);
-        for (std::size_t i = 0; i < kBodies; ++i) {
+        for (int i = 0; i < kBodies; ++i) {
           const double e = (before.p_WB[i] - after.p_WB[i]).norm();
           sum += e / static_cast<double>(kBodies * smpl.size());
-          if (!is_hinge(static_cast<int>(i))) end = std::max(end, e);
+          if (!is_hinge(i)) end = std::max(end, e);
         }
       }
       EXPECT_LT(sum, 0.0015) << entry.path();  // mean over all joints

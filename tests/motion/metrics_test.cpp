@@ -192,8 +192,7 @@ TEST(SelfPenetration, IsTheOverlapOfTheCapsules) {
   // Crossed sticks 50 mm apart, radii 30 and 40 mm: 20 mm deep. The head stays out of reach.
   c.capsule[kLeftWrist] = {kLeftWrist, {-0.2, 0, 0}, {0.2, 0, 0}, 0.03};
   c.capsule[kRightWrist] = {kRightWrist, {0, 0, -0.2}, {0, 0, 0.2}, 0.04};
-  for (const int wrist : {kLeftWrist, kRightWrist})
-    pose.q_WB[static_cast<std::size_t>(wrist)] = Quaterniond::Identity();
+  for (const int wrist : {kLeftWrist, kRightWrist}) pose.q_WB[wrist] = Quaterniond::Identity();
   pose.p_WB[kLeftWrist] = {5, 5, 5};
   pose.p_WB[kRightWrist] = {5, 5.05, 5};
   BodyPoses apart = pose;

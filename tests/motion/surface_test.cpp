@@ -18,7 +18,7 @@ TEST(Surface, FeetComeFirstAndEveryOtherPointLiesOnItsCapsule) {
   const auto points = surface_points(c);
   PerBody<int> count{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto body = static_cast<std::size_t>(points[i].body);
+    const int body = points[i].body;
     ++count[body];
     if (i < kFootPoints) {
       EXPECT_EQ(points[i].p_B, sole_point(c.contact_points[i]));
@@ -26,7 +26,7 @@ TEST(Surface, FeetComeFirstAndEveryOtherPointLiesOnItsCapsule) {
       EXPECT_NEAR(distance_to_axis(c.capsule[body], points[i].p_B), c.capsule[body].radius, 1e-12);
     }
   }
-  for (std::size_t i = 0; i < kBodies; ++i) EXPECT_GT(count[i], 1) << kBodyNames[i];
+  for (int i = 0; i < kBodies; ++i) EXPECT_GT(count[i], 1) << kBodyNames[i];
 }
 
 TEST(Surface, SolesOfTheStandingCharacterAreTheLowest) {
@@ -48,15 +48,15 @@ TEST(Surface, MissesTheLowestPointOfACapsuleByLessThanAnEighthOfItsRadius) {
     PerBody<double> lowest;
     lowest.fill(1e9);
     for (std::size_t i = kFootPoints; i < points.size(); ++i) {
-      double& z = lowest[static_cast<std::size_t>(points[i].body)];
+      double& z = lowest[points[i].body];
       z = std::min(z, up.dot(points[i].p_B));
     }
     for (const Capsule& capsule : c.capsule) {
-      const double z = lowest[static_cast<std::size_t>(capsule.body)];
+      const double z = lowest[capsule.body];
       if (z == 1e9) continue;  // ankles and feet have sole points only
       const double exact = std::min(up.dot(capsule.a_B), up.dot(capsule.b_B)) - capsule.radius;
       EXPECT_GE(z, exact - 1e-12);
-      EXPECT_LT(z, exact + 0.125 * capsule.radius) << kBodyNames[static_cast<std::size_t>(capsule.body)];
+      EXPECT_LT(z, exact + 0.125 * capsule.radius) << kBodyNames[capsule.body];
     }
   }
 }

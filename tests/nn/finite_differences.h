@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "nn/gradient.h"
 #include "nn/ops.h"
 
 namespace mimicx::nn {

@@ -75,8 +75,8 @@ TEST_P(EveryActivation, PenaltyGradientMatchesFiniteDifferences) {
       copies(mlp));
 }
 
-/// E‖∇_s log π(a|s)‖² = Σ_i ‖∇_s μ_i‖²/σ_i².  METHOD §7. The left side is quadratic in ε = (a − μ)/σ, so the
-/// three points ε = √3·e_i, whose mean of εεᵀ is the unit matrix, give its expectation exactly; the
+/// E‖∇_s log π(a|s)‖² = Σ_i ‖∇_s μ_i‖²/σ_i².  docs/method.md §7. The left side is quadratic in ε = (a − μ)/σ,
+/// so the three points ε = √3·e_i, whose mean of εεᵀ is the unit matrix, give its expectation exactly; the
 /// Jacobian of the right side is taken by finite differences.
 TEST_P(EveryActivation, ExpectedPenaltyEqualsJacobianNormOverVariance) {
   const auto mlp = small_network(GetParam());

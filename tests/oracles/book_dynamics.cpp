@@ -24,20 +24,19 @@ Eigen::VectorXd book_inverse_dynamics(const BookModel& model, const BookPosition
                                       const BookForces& external) {
   const BookKinematics k = book_kinematics(model, q, qd);
   PerBody<Vector6d> a, f;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const BookBody& body = model.body[i];
     // Gravity enters as a fictitious acceleration −a_g of the world.
-    const Vector6d a_parent =
-        body.parent < 0 ? Vector6d(-spatial_gravity(model)) : a[static_cast<std::size_t>(body.parent)];
+    const Vector6d a_parent = body.parent < 0 ? Vector6d(-spatial_gravity(model)) : a[body.parent];
     a[i] = k.X[i] * a_parent + body.S * qdd.segment(body.dof, body.dofs) + cross_motion(k.v[i]) * k.v_J[i];
     f[i] = body.I * a[i] + cross_force(k.v[i]) * body.I * k.v[i] - to_body(k.R_WB[i], external[i]);
   }
   Eigen::VectorXd tau(kBookDofs);
-  for (std::size_t i = kBodies; i-- > 0;) {
+  for (int i = kBodies - 1; i >= 0; --i) {
     const BookBody& body = model.body[i];
     tau.segment(body.dof, body.dofs) =
         body.S.transpose() * f[i] + body.armature * qdd.segment(body.dof, body.dofs);
-    if (body.parent >= 0) f[static_cast<std::size_t>(body.parent)] += k.X[i].transpose() * f[i];
+    if (body.parent >= 0) f[body.parent] += k.X[i].transpose() * f[i];
   }
   return tau;
 }
@@ -45,17 +44,17 @@ Eigen::VectorXd book_inverse_dynamics(const BookModel& model, const BookPosition
 Eigen::MatrixXd book_mass_matrix(const BookModel& model, const BookPosition& q) {
   const BookKinematics k = book_kinematics(model, q, Eigen::VectorXd::Zero(kBookDofs));
   PerBody<Matrix6d> I_c;
-  for (std::size_t i = 0; i < kBodies; ++i) I_c[i] = model.body[i].I;
+  for (int i = 0; i < kBodies; ++i) I_c[i] = model.body[i].I;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(kBookDofs, kBookDofs);
-  for (std::size_t i = kBodies; i-- > 0;) {
+  for (int i = kBodies - 1; i >= 0; --i) {
     const BookBody& body = model.body[i];
-    if (body.parent >= 0) I_c[static_cast<std::size_t>(body.parent)] += k.X[i].transpose() * I_c[i] * k.X[i];
+    if (body.parent >= 0) I_c[body.parent] += k.X[i].transpose() * I_c[i] * k.X[i];
     Eigen::MatrixXd F = I_c[i] * body.S;
     H.block(body.dof, body.dof, body.dofs, body.dofs) =
         body.S.transpose() * F + body.armature * Eigen::MatrixXd::Identity(body.dofs, body.dofs);
-    for (std::size_t j = i; model.body[j].parent >= 0;) {
+    for (int j = i; model.body[j].parent >= 0;) {
       F = (k.X[j].transpose() * F).eval();
-      j = static_cast<std::size_t>(model.body[j].parent);
+      j = model.body[j].parent;
       const BookBody& ancestor = model.body[j];
       H.block(ancestor.dof, body.dof, ancestor.dofs, body.dofs) = ancestor.S.transpose() * F;
       H.block(body.dof, ancestor.dof, body.dofs, ancestor.dofs) = F.transpose() * ancestor.S;
@@ -79,14 +78,14 @@ Eigen::VectorXd book_forward_dynamics_aba(const BookModel& model, const BookPosi
   PerBody<Vector6d> pA, c, a;
   PerBody<Eigen::MatrixXd> U, D;
   PerBody<Eigen::VectorXd> u;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     IA[i] = model.body[i].I;
     c[i] = cross_motion(k.v[i]) * k.v_J[i];
     pA[i] = cross_force(k.v[i]) * model.body[i].I * k.v[i] - to_body(k.R_WB[i], external[i]);
   }
-  for (std::size_t i = kBodies - 1; i > 0; --i) {
+  for (int i = kBodies - 1; i > 0; --i) {
     const BookBody& body = model.body[i];
-    const auto lambda = static_cast<std::size_t>(body.parent);
+    const int lambda = body.parent;
     U[i] = IA[i] * body.S;
     D[i] = body.S.transpose() * U[i] + body.armature * Eigen::MatrixXd::Identity(body.dofs, body.dofs);
     u[i] = tau.segment(body.dof, body.dofs) - body.S.transpose() * pA[i];
@@ -99,9 +98,9 @@ Eigen::VectorXd book_forward_dynamics_aba(const BookModel& model, const BookPosi
   Eigen::VectorXd qdd(kBookDofs);
   a[0] = IA[0].ldlt().solve(tau.head<6>() - pA[0]);
   qdd.head<6>() = a[0] + k.X[0] * spatial_gravity(model);
-  for (std::size_t i = 1; i < kBodies; ++i) {
+  for (int i = 1; i < kBodies; ++i) {
     const BookBody& body = model.body[i];
-    const Vector6d a_prime = k.X[i] * a[static_cast<std::size_t>(body.parent)] + c[i];
+    const Vector6d a_prime = k.X[i] * a[body.parent] + c[i];
     const Eigen::VectorXd x = D[i].inverse() * (u[i] - U[i].transpose() * a_prime);
     qdd.segment(body.dof, body.dofs) = x;
     a[i] = a_prime + body.S * x;

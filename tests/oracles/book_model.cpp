@@ -42,10 +42,9 @@ BookModel make_book_model(const Character& character, double gravity) {
   model.gravity = Vector3d(0, 0, -gravity);
   int dof = 0;
   for (int i = 0; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    BookBody& body = model.body[n];
-    body.parent = kParents[n];
-    body.offset = character.joint_offset[n];
+    BookBody& body = model.body[i];
+    body.parent = kParents[i];
+    body.offset = character.joint_offset[i];
     body.dofs = i == 0 ? 6 : is_hinge(i) ? 1 : 3;
     body.dof = dof;
     dof += body.dofs;
@@ -54,10 +53,10 @@ BookModel make_book_model(const Character& character, double gravity) {
       body.S.col(0).head<3>() = hinge_axis(i);
     else
       body.S.setIdentity();
-    if (i > 0) body.armature = character.joint[n].armature;
-    const double m = character.mass[n];
-    const Matrix3d c = book_skew(character.com_B[n]);
-    body.I.topLeftCorner<3, 3>() = character.inertia_B[n] + m * c * c.transpose();
+    if (i > 0) body.armature = character.joint[i].armature;
+    const double m = character.mass[i];
+    const Matrix3d c = book_skew(character.com_B[i]);
+    body.I.topLeftCorner<3, 3>() = character.inertia_B[i] + m * c * c.transpose();
     body.I.topRightCorner<3, 3>() = m * c;
     body.I.bottomLeftCorner<3, 3>() = m * c.transpose();
     body.I.bottomRightCorner<3, 3>() = m * Matrix3d::Identity();
@@ -67,7 +66,7 @@ BookModel make_book_model(const Character& character, double gravity) {
 
 BookKinematics book_kinematics(const BookModel& model, const BookPosition& q, const Eigen::VectorXd& qd) {
   BookKinematics k;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const BookBody& body = model.body[i];
     k.v_J[i] = body.S * qd.segment(body.dof, body.dofs);
     if (body.parent < 0) {
@@ -76,7 +75,7 @@ BookKinematics book_kinematics(const BookModel& model, const BookPosition& q, co
       k.X[i] = motion_transform(q.R[i], Vector3d::Zero());
       k.v[i] = k.v_J[i];
     } else {
-      const auto parent = static_cast<std::size_t>(body.parent);
+      const int parent = body.parent;
       k.R_WB[i] = k.R_WB[parent] * q.R[i];
       k.p_WB[i] = k.p_WB[parent] + k.R_WB[parent] * body.offset;
       k.X[i] = motion_transform(q.R[i], body.offset);

@@ -10,15 +10,14 @@ namespace {
 
 BodyWrenches external_of(const rl::ActingForces& forces) {
   BodyWrenches sum;
-  for (std::size_t i = 0; i < kBodies; ++i) sum[i] = forces.ground[i] + forces.self_contact[i];
+  for (int i = 0; i < kBodies; ++i) sum[i] = forces.ground[i] + forces.self_contact[i];
   return sum;
 }
 
 double torque_gap(const RequiredForces& required, const rl::ActingForces& forces) {
   double largest = 0.0;
   for (int i = 1; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    Vector3d gap = required.joint[n] - forces.joint_torque[n];
+    Vector3d gap = required.joint[i] - forces.joint_torque[i];
     if (is_hinge(i)) gap = gap.dot(hinge_axis(i)) * hinge_axis(i);
     largest = std::max(largest, gap.norm());
   }
@@ -42,10 +41,9 @@ MotionState still(const ReferenceFrame& frame) {
 void put_hinges_on_their_axes(ReferenceFrame& frame) {
   for (int body = 1; body < kBodies; ++body) {
     if (!is_hinge(body)) continue;
-    const auto i = static_cast<std::size_t>(body);
     const Vector3d axis = hinge_axis(body);
-    frame.q[i] = exp_map(axis.dot(log_map(frame.q[i].normalized())) * axis);
-    frame.omega[i] = axis.dot(frame.omega[i]) * axis;
+    frame.q[body] = exp_map(axis.dot(log_map(frame.q[body].normalized())) * axis);
+    frame.omega[body] = axis.dot(frame.omega[body]) * axis;
   }
 }
 
@@ -57,7 +55,7 @@ std::vector<AuditRow> step_rows(const SubstepMotion& motion, const std::vector<r
   for (std::size_t k = 0; k < steps.size(); ++k) {
     MotionState state = still(steps[k].state);
     state.a_root = rate * (next[k].v_root - state.v_root);
-    for (std::size_t i = 0; i < kBodies; ++i) state.omega_d[i] = rate * (next[k].omega[i] - state.omega[i]);
+    for (int i = 0; i < kBodies; ++i) state.omega_d[i] = rate * (next[k].omega[i] - state.omega[i]);
     const RequiredForces required = mujoco_inverse_dynamics(mujoco, state, external_of(steps[k].forces));
     rows[k].index = static_cast<int>(k);
     rows[k].root = about(mujoco_momentum(mujoco, state).center, required.root, state.p_root);
@@ -91,8 +89,7 @@ std::vector<AuditRow> mujoco_audit_replayed_steps(const SubstepMotion& motion) {
   return step_rows(motion, replay.steps, replay.next);
 }
 
-std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion,
-                                          const SimulationOptions& simulation) {
+std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation) {
   MujocoCharacter mujoco(motion.character, simulation);
   const double weight = simulation.gravity * motion.character.total_mass();
   std::vector<AuditRow> rows;
@@ -108,14 +105,14 @@ std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion,
     row.root[5] += weight;
     const BodyPoses from = forward_kinematics(motion.character, a.p_root, a.q),
                     to = forward_kinematics(motion.character, b.p_root, b.q);
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       row.root -= about(point, external[i], 0.5 * (from.p_WB[i] + to.p_WB[i]));
 
     MotionState middle = a;
     middle.p_root = 0.5 * (a.p_root + b.p_root);
     middle.v_root = 0.5 * (a.v_root + b.v_root);
     middle.a_root = motion.fps * (b.v_root - a.v_root);
-    for (std::size_t i = 0; i < kBodies; ++i) {
+    for (int i = 0; i < kBodies; ++i) {
       middle.q[i] = a.q[i] * exp_map(0.5 * log_map(a.q[i].conjugate() * b.q[i]));
       middle.omega[i] = 0.5 * (a.omega[i] + b.omega[i]);
       middle.omega_d[i] = motion.fps * (b.omega[i] - a.omega[i]);

@@ -17,7 +17,7 @@ SimulatedFrames on_hinge_axes(SimulatedFrames motion);
 std::vector<AuditRow> mujoco_audit_steps(const SubstepMotion& motion);
 std::vector<AuditRow> mujoco_audit_replayed_steps(const SubstepMotion& motion);
 /// Momentum at the frames against the mean forces between them, (10).
-std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const SimulationOptions& simulation);
+std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation);
 
 /// The largest difference between the two engines in a row's numbers, in N and N·m, in parts of the larger of
 /// the weight and the floor's push.

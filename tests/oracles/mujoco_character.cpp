@@ -7,9 +7,9 @@
 
 namespace mimicx {
 
-MujocoCharacter::MujocoCharacter(const Character& character, const SimulationOptions& options,
-                                 const MjcfOptions& what) {
-  const std::string text = to_mjcf(character, options, what);
+MujocoCharacter::MujocoCharacter(const Character& character, const SimulationConfig& config,
+                                 const MjcfConfig& what) {
+  const std::string text = to_mjcf(character, config, what);
   const auto files = std::make_unique<mjVFS>();  // an in-memory file system: megabytes, not for the stack
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), "character.xml", static_cast<int>(text.size()));
@@ -19,7 +19,7 @@ MujocoCharacter::MujocoCharacter(const Character& character, const SimulationOpt
   mj_deleteVFS(files.get());
   if (!model_ || message[0] != '\0') throw std::runtime_error(std::string("MuJoCo: ") + message);
   data_.reset(mj_makeData(model_.get()));
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, std::string(kBodyNames[i]).c_str());
     qpos_[i] = model_->jnt_qposadr[joint];
     dof_[i] = model_->jnt_dofadr[joint];

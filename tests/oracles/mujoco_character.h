@@ -15,14 +15,14 @@ namespace mimicx {
 class MujocoCharacter {
  public:
   /// @throws std::runtime_error with the compiler's message if MuJoCo refuses the model or warns.
-  MujocoCharacter(const Character& character, const SimulationOptions& options, const MjcfOptions& what = {});
+  MujocoCharacter(const Character& character, const SimulationConfig& config, const MjcfConfig& what = {});
 
   mjModel& model() { return *model_; }
   const mjModel& model() const { return *model_; }
   mjData& data() { return *data_; }
   /// First entry of a body's joint in qpos and in qvel.
-  int qpos(int body) const { return qpos_[static_cast<std::size_t>(body)]; }
-  int dof(int body) const { return dof_[static_cast<std::size_t>(body)]; }
+  int qpos(int body) const { return qpos_[body]; }
+  int dof(int body) const { return dof_[body]; }
 
   void set_root(const Vector3d& p, const Quaterniond& q_WB, const Vector3d& v_W, const Vector3d& w_B);
   /// Rotation and angular velocity of a joint, both as in physics/data.h.

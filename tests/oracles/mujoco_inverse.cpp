@@ -3,17 +3,14 @@
 namespace mimicx {
 namespace {
 
-int body_id(const MujocoCharacter& mujoco, std::size_t body) {
+int body_id(const MujocoCharacter& mujoco, int body) {
   return mj_name2id(&mujoco.model(), mjOBJ_BODY, std::string(kBodyNames[body]).c_str());
 }
 
 void set_state(MujocoCharacter& mujoco, const MotionState& state) {
   mujoco.model().opt.disableflags |= mjDSBL_CONTACT;
   mujoco.set_root(state.p_root, state.q[0], state.v_root, state.omega[0]);
-  for (int i = 1; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    mujoco.set_joint(i, state.q[n], state.omega[n]);
-  }
+  for (int i = 1; i < kBodies; ++i) mujoco.set_joint(i, state.q[i], state.omega[i]);
 }
 
 }  // namespace
@@ -27,15 +24,14 @@ RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const MotionStat
   qacc.segment<3>(0) = state.a_root;
   qacc.segment<3>(3) = state.omega_d[0];
   for (int i = 1; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
     if (is_hinge(i))
-      qacc[mujoco.dof(i)] = hinge_axis(i).dot(state.omega_d[n]);
+      qacc[mujoco.dof(i)] = hinge_axis(i).dot(state.omega_d[i]);
     else
-      qacc.segment<3>(mujoco.dof(i)) = state.omega_d[n];
+      qacc.segment<3>(mujoco.dof(i)) = state.omega_d[i];
   }
   mj_inverse(&m, &d);
   Eigen::VectorXd forces = Eigen::Map<Eigen::VectorXd>(d.qfrc_inverse, m.nv);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const int id = body_id(mujoco, i);
     const Vector3d moment = wrenches[i].head<3>(), force = wrenches[i].tail<3>();
     Eigen::VectorXd generalised = Eigen::VectorXd::Zero(m.nv);
@@ -49,7 +45,7 @@ RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const MotionStat
   required.joint[0].setZero();
   for (int i = 1; i < kBodies; ++i) {
     const int dof = mujoco.dof(i);
-    required.joint[static_cast<std::size_t>(i)] =
+    required.joint[i] =
         is_hinge(i) ? Vector3d(forces[dof] * hinge_axis(i)) : Vector3d(forces.segment<3>(dof));
   }
   return required;

@@ -20,17 +20,17 @@ struct Bodies {
   const Character& c;
   const Data<T>& d;
   int lane;
-  Vector3d at(const PerBody<Vec3<T>>& x, std::size_t i) const { return lane_of(x[i], lane); }
-  Matrix3d R(std::size_t i) const { return lane_of(d.q_WB[i], lane).normalized().toRotationMatrix(); }
-  Vector3d com_arm(std::size_t i) const { return R(i) * c.com_B[i]; }
-  Vector3d com(std::size_t i) const { return at(d.p_WB, i) + com_arm(i); }
-  Matrix3d inertia(std::size_t i) const { return R(i) * c.inertia_B[i] * R(i).transpose(); }
+  Vector3d at(const PerBody<Vec3<T>>& x, int i) const { return lane_of(x[i], lane); }
+  Matrix3d R(int i) const { return lane_of(d.q_WB[i], lane).normalized().toRotationMatrix(); }
+  Vector3d com_arm(int i) const { return R(i) * c.com_B[i]; }
+  Vector3d com(int i) const { return at(d.p_WB, i) + com_arm(i); }
+  Matrix3d inertia(int i) const { return R(i) * c.inertia_B[i] * R(i).transpose(); }
 };
 
 template <class T>
 Momentum momentum(const Bodies<T>& b) {
   Momentum sum;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const Vector3d w = b.at(b.d.w, i), p = b.c.mass[i] * (b.at(b.d.v, i) + w.cross(b.com_arm(i)));
     sum.linear += p;
     sum.angular += b.inertia(i) * w + b.com(i).cross(p);
@@ -41,7 +41,7 @@ Momentum momentum(const Bodies<T>& b) {
 template <class T>
 Momentum momentum_rate(const Bodies<T>& b) {
   Momentum sum;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const Vector3d w = b.at(b.d.w, i), alpha = b.at(b.d.a_w, i), arm = b.com_arm(i);
     const Vector3d f = b.c.mass[i] * (b.at(b.d.a_v, i) + alpha.cross(arm) + w.cross(w.cross(arm)));
     sum.linear += f;
@@ -53,7 +53,7 @@ Momentum momentum_rate(const Bodies<T>& b) {
 template <class T>
 Momentum external(const Bodies<T>& b, const PerBody<Wrench<T>>& ground, double gravity) {
   Momentum sum;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const Vector3d weight(0, 0, -gravity * b.c.mass[i]), f = lane_of(ground[i].f, b.lane);
     sum.linear += weight + f;
     sum.angular += b.com(i).cross(weight) + lane_of(ground[i].n, b.lane) + b.at(b.d.p_WB, i).cross(f);
@@ -71,14 +71,14 @@ Audit audit_momentum(std::uint64_t trial) {
   Random random(31, {trial});
   const Character character = make_character(random_betas(random));
   const auto s =
-      std::make_unique<Simulation<T>>(character, SimulationOptions{}, random_snapshot(random, 1.5, 4.0, 0.9));
+      std::make_unique<Simulation<T>>(character, SimulationConfig{}, random_snapshot(random, 1.5, 4.0, 0.9));
   Audit audit;
   double linear = 0, angular = 0;
   for (int k = 0; k < 240; ++k) {
     s->advance();
     const Bodies<T> bodies{character, s->data, 0};
     const Momentum rate = momentum_rate(bodies);
-    const Momentum forces = external(bodies, s->applied.ground, s->model.options.gravity);
+    const Momentum forces = external(bodies, s->applied.ground, s->model.config.gravity);
     linear = std::max(linear, rate.linear.norm());
     angular = std::max(angular, rate.angular.norm());
     audit.mismatch = std::max({audit.mismatch, (rate.linear - forces.linear).norm() / linear,
@@ -106,11 +106,11 @@ Momentum momentum(const Character& c, const Snapshot& s) {
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
   PerBody<Vector3d> w, v;
   Momentum sum;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     w[i] = poses.q_WB[i] * s.omega[i];
     v[i] = s.v_root;
     if (i > 0) {
-      const auto lambda = static_cast<std::size_t>(kParents[i]);
+      const int lambda = kParents[i];
       w[i] += w[lambda];
       v[i] = v[lambda] + w[lambda].cross(poses.p_WB[i] - poses.p_WB[lambda]);
     }
@@ -128,7 +128,7 @@ Momentum drift(const Character& c, const Snapshot& s) {
   const auto moved = [&](double t) {
     Snapshot m = s;
     m.p_root += t * s.v_root;
-    for (std::size_t i = 0; i < kBodies; ++i) m.q[i] = s.q[i].normalized() * exp_map(t * s.omega[i]);
+    for (int i = 0; i < kBodies; ++i) m.q[i] = s.q[i].normalized() * exp_map(t * s.omega[i]);
     return momentum(c, m);
   };
   const Momentum after = moved(h), before = moved(-h);
@@ -152,7 +152,7 @@ TEST(Step, StatesChangeTheirMomentumByTheImpulsesOfWeightAndFloorInEveryStep) {
       after.p_root = before.p_root;
       after.q = before.q;
       const Momentum h = momentum(c, before), h_next = momentum(c, after), moving = drift(c, before);
-      const Momentum f = external(Bodies<double>{c, s.data, 0}, s.applied.ground, s.model.options.gravity);
+      const Momentum f = external(Bodies<double>{c, s.data, 0}, s.applied.ground, s.model.config.gravity);
       const Vector3d linear = h_next.linear - h.linear + dt * (moving.linear - f.linear);
       const Vector3d angular = h_next.angular - h.angular + dt * (moving.angular - f.angular);
       const double scale = dt * std::max(1000.0, f.linear.norm());  // N·s and N·m·s: a body is 1 m long
@@ -171,13 +171,13 @@ TEST(Step, RneaWithRecordedWrenchesGivesTheRecordedTorques) {
     Random random(32, {trial});
     const Character character = make_character(random_betas(random));
     Simulation<double> s(character, {}, random_snapshot(random, 1.5, 4.0, 0.9));
-    const BookModel book = make_book_model(character, s.model.options.gravity);
+    const BookModel book = make_book_model(character, s.model.config.gravity);
     for (int k = 0; k < 240; ++k) {
       Snapshot before;
       read_lane(s.state, 0, before);
       s.advance();
       BookForces forces;
-      for (std::size_t i = 0; i < kBodies; ++i) {
+      for (int i = 0; i < kBodies; ++i) {
         forces[i].head<3>() = lane_of(s.applied.ground[i].n, 0) + lane_of(s.applied.self[i].n, 0);
         forces[i].tail<3>() = lane_of(s.applied.ground[i].f, 0) + lane_of(s.applied.self[i].f, 0);
       }
@@ -197,8 +197,8 @@ Character limp() {
   for (JointParameters& j : c.joint) j.kp = j.kd = 0;
   return c;
 }
-SimulationOptions flight(double rate) {
-  SimulationOptions o;
+SimulationConfig flight(double rate) {
+  SimulationConfig o;
   o.rate = rate;
   o.limit_stiffness = o.limit_damping = 0;
   o.self_contact = false;
@@ -210,10 +210,10 @@ double energy(const Character& c, Simulation<double>& s) {
   update_kinematics(s.model, s.state, s.data);
   const Bodies<double> b{c, s.data, 0};
   double sum = 0;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const Vector3d w = b.at(s.data.w, i), v = b.at(s.data.v, i) + w.cross(b.com_arm(i));
     sum += 0.5 * c.mass[i] * v.squaredNorm() + 0.5 * w.dot(b.inertia(i) * w) +
-           c.mass[i] * s.model.options.gravity * b.com(i).z();
+           c.mass[i] * s.model.config.gravity * b.com(i).z();
     if (i > 0) sum += 0.5 * c.joint[i].armature * lane_of(s.state.omega[i], 0).squaredNorm();
   }
   return sum;
@@ -247,10 +247,10 @@ TEST(Step, FreeFallConservesAngularMomentum) {
   std::array<double, 3> drift;
   for (std::size_t k = 0; k < drift.size(); ++k) {
     const double rate = 240.0 * static_cast<double>(1 << (2 * k));
-    SimulationOptions options;
-    options.rate = rate;
-    options.gravity = 0.0;
-    Simulation<double> s(c, options, start);
+    SimulationConfig config;
+    config.rate = rate;
+    config.gravity = 0.0;
+    Simulation<double> s(c, config, start);
     update_kinematics(s.model, s.state, s.data);
     const Momentum before = momentum(Bodies<double>{c, s.data, 0});
     double worst = 0;

@@ -9,7 +9,7 @@ Snapshot snapshot_of(Scene scene, const Character& c, std::uint64_t lane) {
   Snapshot s = standing(c);
   const auto spin = [&](double speed) {
     for (int i = 0; i < kBodies; ++i)
-      s.omega[static_cast<std::size_t>(i)] =
+      s.omega[i] =
           is_hinge(i) ? Vector3d(speed * r.normal() * hinge_axis(i)) : Vector3d(speed * random_vector(r));
   };
   if (scene == Scene::kFall) {
@@ -33,7 +33,7 @@ namespace {
 
 double energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double gravity) {
   double sum = 0;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const Quaterniond q = lane_of(d.q_WB[i], lane);
     const Vector3d w = lane_of(d.w[i], lane), arm = q * c.com_B[i], v = lane_of(d.v[i], lane) + w.cross(arm);
     const Vector3d w_B = q.conjugate() * w;
@@ -48,24 +48,24 @@ double energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double 
 SceneReport run_scene(Scene scene, double rate, int passes, const SceneStep& advance) {
   using P = Pack<kLanes>;
   const Character c = make_character();
-  SimulationOptions o;
+  SimulationConfig o;
   o.rate = rate;
   o.passes = passes;
   const auto s = std::make_unique<ScenePack>(c, o);
   for (int lane = 0; lane < kLanes; ++lane)
     set_lane(snapshot_of(scene, c, static_cast<std::uint64_t>(lane)), lane, s->state, s->target);
   SceneReport report;
-  std::array<double, kLanes> first{};
+  Array<double, kLanes> first{};
   double normal = 0, pull = 0, beyond = 0;
   for (int k = 0; k < static_cast<int>(3 * rate); ++k) {
     report.wrong = advance(*s) || report.wrong;
     for (int lane = 0; lane < kLanes; ++lane) {
       const double now = energy(c, s->data, lane, o.gravity);
-      double& start = first[static_cast<std::size_t>(lane)];
+      double& start = first[lane];
       if (k == 0) start = now;
       report.energy_ratio = std::max(report.energy_ratio, now / start);
       for (int n = 0; n < s->data.ground_count; ++n) {
-        const GroundContact<P>& contact = s->data.ground[static_cast<std::size_t>(n)];
+        const GroundContact<P>& contact = s->data.ground[n];
         const Vector3d f = lane_of(contact.applied, lane);
         report.deepest = std::max(report.deepest, ScalarTraits<P>::get(contact.depth, lane) - o.skin);
         const double f_n = std::max(0.0, f.z());

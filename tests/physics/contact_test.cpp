@@ -40,7 +40,7 @@ Snapshot block_at(double height, const Vector3d& velocity) {
 }
 
 TEST(GroundContact, RestingBlockSinksByItsWeightOverTheStiffness) {
-  const SimulationOptions o;
+  const SimulationConfig o;
   Simulation<double> s(block(), o, block_at(0.001, Vector3d::Zero()));
   for (int k = 0; k < 480; ++k) s.advance();
   EXPECT_NEAR(s.state.p_root.z - 0.1, o.skin - kBlockMass * o.gravity / (4 * o.ground_stiffness), 1e-7);
@@ -48,7 +48,7 @@ TEST(GroundContact, RestingBlockSinksByItsWeightOverTheStiffness) {
 
 TEST(GroundContact, SlidingBlockDeceleratesWithTheFrictionCoefficient) {
   for (double friction : {0.5, 1.0}) {
-    SimulationOptions o;
+    SimulationConfig o;
     o.friction = friction;
     const double depth = kBlockMass * o.gravity / (4 * o.ground_stiffness);
     Simulation<double> s(block(), o, block_at(o.skin - depth, {1.2, -1.6, 0}));
@@ -64,7 +64,7 @@ TEST(GroundContact, SlidingBlockDeceleratesWithTheFrictionCoefficient) {
 
 // The law is k s − (c + k dt) v at the end of the step: it is implicit Euler of the damped spring.
 TEST(GroundContact, LandingBlockFollowsImplicitEulerOfTheDampedSpring) {
-  SimulationOptions o;
+  SimulationConfig o;
   o.passes = 3;
   const double dt = 1.0 / o.rate, k = 4 * o.ground_stiffness, c = 4 * o.ground_damping;
   const double start = o.skin - 1e-4;
@@ -84,7 +84,7 @@ SceneReport run(Scene scene, double rate, int passes) {
   const SceneReport r = run_scene(scene, rate, passes);
   std::printf("  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, ",
               kSceneNames[static_cast<int>(scene)], rate, passes, 100 * r.outside_cone, 100 * r.adhesion);
-  std::printf("energy ratio %.3f, deepest %.0f mm\n", r.energy_ratio, 1e3 * r.deepest);
+  std::printf("energy ratio %.3f, deepest %.0f mm\n", r.energy_ratio, kMm * r.deepest);
   return r;
 }
 
@@ -109,7 +109,7 @@ TEST(GroundContact, NothingBlowsUpAtAnyRateInStandFallDropAndThrow) {
 /// How many of `characters` run away within 3 s.
 int runaways(Scene scene, double rate, int passes, int characters) {
   const Character c = make_character();
-  SimulationOptions o;
+  SimulationConfig o;
   o.rate = rate;
   o.passes = passes;
   int gone = 0;
@@ -163,7 +163,7 @@ TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
 
 TEST(SelfContact, HoldsAnArmOutOfTheTrunk) {
   const Character c = make_character();
-  SimulationOptions o;
+  SimulationConfig o;
   o.gravity = 0;
   const auto depth_of = [&](bool self_contact) {
     o.self_contact = self_contact;
@@ -178,10 +178,9 @@ TEST(SelfContact, HoldsAnArmOutOfTheTrunk) {
       if (k % 16 != 0) continue;
       const Data<double>& d = simulation.data;
       for (const auto& pair : simulation.model.self_pairs) {
-        const Capsule &a = c.capsule[static_cast<std::size_t>(pair[0])],
-                      &b = c.capsule[static_cast<std::size_t>(pair[1])];
+        const Capsule &a = c.capsule[pair[0]], &b = c.capsule[pair[1]];
         const auto at = [&](const Capsule& capsule, double t) {
-          const auto i = static_cast<std::size_t>(capsule.body);
+          const int i = capsule.body;
           return Vector3d(lane_of(d.p_WB[i], 0) +
                           lane_of(d.q_WB[i], 0) * (capsule.a_B + t * (capsule.b_B - capsule.a_B)));
         };
@@ -195,8 +194,8 @@ TEST(SelfContact, HoldsAnArmOutOfTheTrunk) {
     return deepest;
   };
   const double without = depth_of(false), with = depth_of(true);
-  std::printf("  measured: deepest overlap %.0f mm, %.0f mm without self contact\n", 1e3 * with,
-              1e3 * without);
+  std::printf("  measured: deepest overlap %.0f mm, %.0f mm without self contact\n", kMm * with,
+              kMm * without);
   EXPECT_GT(without, 0.06);
   EXPECT_LT(with, 0.03);
 }

@@ -28,10 +28,9 @@ struct Interval {
       const Snapshot a = random_snapshot(random, 0.8, 1.0, 1.0);
       set_lane(a, lane, state, from);
       Snapshot b = a;
-      for (std::size_t i = 1; i < kBodies; ++i)
-        b.target_q[i] = a.target_q[i] * exp_map(is_hinge(static_cast<int>(i))
-                                                    ? Vector3d(0.1 * hinge_axis(static_cast<int>(i)))
-                                                    : Vector3d(0.1 * random_vector(random)));
+      for (int i = 1; i < kBodies; ++i)
+        b.target_q[i] = a.target_q[i] * exp_map(is_hinge(i) ? Vector3d(0.1 * hinge_axis(i))
+                                                            : Vector3d(0.1 * random_vector(random)));
       State<T> ignored;
       set_lane(b, lane, ignored, to);
     }
@@ -61,10 +60,9 @@ TEST(ControlInterval, IsItsStepsTowardsTargetsInBetween) {
   for (int k = 1; k <= substeps; ++k) {
     Target<double> target{};
     const double share = static_cast<double>(k) / substeps;
-    for (std::size_t i = 1; i < kBodies; ++i) {
+    for (int i = 1; i < kBodies; ++i) {
       const Quaterniond q = to_eigen(s->from.q[i]).slerp(share, to_eigen(s->to.q[i]));
-      EXPECT_LT(q.angularDistance(to_eigen(seen[static_cast<std::size_t>(k - 1)].q[i])), 1e-4)
-          << kBodyNames[i];
+      EXPECT_LT(q.angularDistance(to_eigen(seen[k - 1].q[i])), 1e-4) << kBodyNames[i];
       target.q[i] = from_eigen(q);
       target.omega[i] =
           from_eigen(Vector3d((1.0 - share) * to_eigen(s->from.omega[i]) + share * to_eigen(s->to.omega[i])));
@@ -73,7 +71,7 @@ TEST(ControlInterval, IsItsStepsTowardsTargetsInBetween) {
   }
   // Nlerp against slerp is all that differs.
   EXPECT_LT((to_eigen(by_hand.p_root) - to_eigen(s->state.p_root)).norm(), 1e-5);
-  for (std::size_t i = 0; i < kBodies; ++i)
+  for (int i = 0; i < kBodies; ++i)
     EXPECT_LT(to_eigen(by_hand.q[i]).angularDistance(to_eigen(s->state.q[i])), 1e-4) << kBodyNames[i];
 }
 
@@ -110,7 +108,7 @@ TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
   const Character character = make_character();
   Snapshot snapshot = standing(stiffened(character));
   snapshot.p_root.z() += 0.5;
-  const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationOptions{}, snapshot);
+  const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationConfig{}, snapshot);
   Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * 9.81}};
   const Vector3d before = to_eigen(s->state.p_root);
   // The moment about the pelvis of a centre of mass that hangs before it turns the body, so only for a
@@ -123,11 +121,11 @@ TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
 TEST(PdTarget, ActionsAreClampedAndWhatIsNoNumberIsZero) {
   std::array<float, kDofs> action{};
   const int hip = first_dof(kLeftHip), knee = first_dof(kLeftKnee);
-  action[static_cast<std::size_t>(hip)] = 9.0f;
-  action[static_cast<std::size_t>(hip + 1)] = std::numeric_limits<float>::quiet_NaN();
-  action[static_cast<std::size_t>(hip + 2)] = -0.25f;
-  action[static_cast<std::size_t>(knee)] = 0.5f;
-  const auto entry = [&](int dof) { return action[static_cast<std::size_t>(dof)]; };
+  action[hip] = 9.0f;
+  action[hip + 1] = std::numeric_limits<float>::quiet_NaN();
+  action[hip + 2] = -0.25f;
+  action[knee] = 0.5f;
+  const auto entry = [&](int dof) { return action[dof]; };
   EXPECT_EQ(action_rotation(kLeftHip, 2.5, entry), Vector3d(2.5, 0.0, -0.25));
   EXPECT_EQ(action_rotation(kLeftKnee, 2.5, entry), Vector3d(0.5 * hinge_axis(kLeftKnee)));
   const Quaterniond reference = exp_map(Vector3d(0.3, -0.2, 0.1));

@@ -15,7 +15,7 @@ double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 /// A random shape, state and torques, and the simulator's answer to them.
 struct Trial {
   Character character;
-  SimulationOptions options;
+  SimulationConfig config;
   Snapshot snapshot;
   PerBody<Vec3<double>> tau;
   Data<double> data{};
@@ -25,11 +25,11 @@ struct Trial {
     character = make_character(random_betas(random));
     snapshot = random_snapshot(random, 2.5, 5.0, 1.0);
     tau.fill(zero3<double>());
-    for (std::size_t i = 1; i < kBodies; ++i) {
+    for (int i = 1; i < kBodies; ++i) {
       const Vector3d t = 40.0 * random_vector(random);
       tau[i] = {t.x(), t.y(), t.z()};
     }
-    Simulation<double> simulation(character, options, snapshot);
+    Simulation<double> simulation(character, config, snapshot);
     forward_dynamics(simulation.model, simulation.state, tau, simulation.data);
     data = simulation.data;
   }
@@ -38,7 +38,7 @@ struct Trial {
 TEST(Aba, AccelerationsSatisfyRneaOnRandomShapesAndStates) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const BookModel book = make_book_model(t.character, t.options.gravity);
+    const BookModel book = make_book_model(t.character, t.config.gravity);
     const Eigen::VectorXd tau =
         book_inverse_dynamics(book, book_position(t.snapshot), book_velocity(t.snapshot),
                               book_acceleration(t.snapshot, t.data), no_forces());
@@ -49,7 +49,7 @@ TEST(Aba, AccelerationsSatisfyRneaOnRandomShapesAndStates) {
 TEST(Aba, AgreesWithCompositeInertiasAndCholesky) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const BookModel book = make_book_model(t.character, t.options.gravity);
+    const BookModel book = make_book_model(t.character, t.config.gravity);
     const Eigen::VectorXd qdd = book_forward_dynamics_dense(
         book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), no_forces());
     EXPECT_LT(relative_difference(book_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
@@ -59,7 +59,7 @@ TEST(Aba, AgreesWithCompositeInertiasAndCholesky) {
 TEST(Aba, AgreesWithTheLiteralDenseAlgorithm) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const BookModel book = make_book_model(t.character, t.options.gravity);
+    const BookModel book = make_book_model(t.character, t.config.gravity);
     const Eigen::VectorXd qdd = book_forward_dynamics_aba(
         book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), no_forces());
     EXPECT_LT(relative_difference(book_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
@@ -72,7 +72,7 @@ TEST(BookOracle, KineticEnergyIsThatOfTheBodiesMovedByDifferences) {
   Random random(8);
   const Character character = make_character(random_betas(random));
   const Snapshot s = random_snapshot(random, 2.5, 3.0, 1.0);
-  BookModel book = make_book_model(character, 9.81);
+  BookModel book = make_book_model(character, kGravity);
   for (BookBody& body : book.body) body.armature = 0.0;
   const Eigen::VectorXd qd = book_velocity(s);
   const double energy = 0.5 * qd.dot(book_mass_matrix(book, book_position(s)) * qd);
@@ -81,12 +81,12 @@ TEST(BookOracle, KineticEnergyIsThatOfTheBodiesMovedByDifferences) {
   const auto moved = [&](double t) {
     Snapshot m = s;
     m.p_root += t * s.v_root;
-    for (std::size_t i = 0; i < kBodies; ++i) m.q[i] = s.q[i] * exp_map(t * s.omega[i]);
+    for (int i = 0; i < kBodies; ++i) m.q[i] = s.q[i] * exp_map(t * s.omega[i]);
     return forward_kinematics(character, m.p_root, m.q);
   };
   const BodyPoses before = moved(-h), after = moved(h), now = moved(0);
   double expected = 0.0;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const auto com = [&](const BodyPoses& p) { return Vector3d(p.p_WB[i] + p.q_WB[i] * character.com_B[i]); };
     const Vector3d v = (com(after) - com(before)) / (2 * h);
     const Vector3d w_W = log_map(after.q_WB[i] * before.q_WB[i].conjugate()) / (2 * h);
@@ -107,7 +107,7 @@ TEST(Kinematics, VelocitiesAndVelocityProductsMatchDifferences) {
   const auto moved = [&](double t) {  // along the motion with ω and v_root constant: q̈ = 0
     Snapshot m = s;
     m.p_root += t * s.v_root;
-    for (std::size_t i = 0; i < kBodies; ++i) m.q[i] = s.q[i] * exp_map(t * s.omega[i]);
+    for (int i = 0; i < kBodies; ++i) m.q[i] = s.q[i] * exp_map(t * s.omega[i]);
     Simulation<double> other(character, {}, m);
     update_kinematics(other.model, other.state, other.data);
     return other.data;
@@ -115,13 +115,13 @@ TEST(Kinematics, VelocitiesAndVelocityProductsMatchDifferences) {
   const Data<double> before = moved(-h), after = moved(h);
   PerBody<Vector3d> a_w, a_v;  // accelerations propagated with the c terms
   a_w[0] = a_v[0] = Vector3d::Zero();
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     const auto at = [&](const PerBody<Vec3<double>>& x) { return lane_of(x[i], 0); };
     EXPECT_LT((at(now.v) - (at(after.p_WB) - at(before.p_WB)) / (2 * h)).norm(), 1e-7);
     const Vector3d w = log_map(lane_of(after.q_WB[i], 0) * lane_of(before.q_WB[i], 0).conjugate()) / (2 * h);
     EXPECT_LT((at(now.w) - w).norm(), 1e-7);
     if (i > 0) {
-      const auto lambda = static_cast<std::size_t>(kParents[i]);
+      const int lambda = kParents[i];
       a_w[i] = a_w[lambda] + at(now.c_w);
       a_v[i] = a_v[lambda] + a_w[lambda].cross(at(now.r)) + at(now.c_v);
     }
@@ -143,22 +143,22 @@ TEST(Aba, ReproducesTheTwoBodyExampleWorkedByHand) {
   c.mass.fill(0.0);
   c.com_B.fill(Vector3d::Zero());
   c.inertia_B.fill(Matrix3d::Zero());
-  for (auto i : std::initializer_list<std::size_t>{kPelvis, kLeftHip}) {
+  for (const int i : {kPelvis, kLeftHip}) {
     c.mass[i] = 1.0;
     c.inertia_B[i] = Matrix3d::Identity();
   }
   c.com_B[kLeftHip] = {1, 0, 0};
   c.joint_offset[kLeftHip] = Vector3d::Zero();
   c.joint[kLeftHip].armature = 0.0;
-  SimulationOptions options;
-  options.gravity = 0.0;
+  SimulationConfig config;
+  config.gravity = 0.0;
   Snapshot s;
   s.q.fill(Quaterniond::Identity());
   s.target_q = s.q;
   s.omega.fill(Vector3d::Zero());
   s.target_omega = s.omega;
   s.omega[kLeftHip] = {0, 0, 2};
-  Simulation<double> simulation(c, options, s);
+  Simulation<double> simulation(c, config, s);
   PerBody<Vec3<double>> tau;
   tau.fill(zero3<double>());
   tau[kLeftHip] = {0, 0, 1};

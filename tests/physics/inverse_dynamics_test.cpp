@@ -37,9 +37,9 @@ TEST(InverseDynamics, EqualsTheDenseOracleOnRandomShapesStatesAndWrenches) {
     const Quaterniond to_pelvis = s.q[0].conjugate();
     const Eigen::VectorXd qdd =
         book_vector(m.omega_d[0], to_pelvis * m.a_root - s.omega[0].cross(to_pelvis * s.v_root), m.omega_d);
-    const Eigen::VectorXd expected =
-        book_inverse_dynamics(make_book_model(c, 9.81), book_position(s), book_velocity(s), qdd, wrenches);
-    const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, 9.81, m, wrenches));
+    const Eigen::VectorXd expected = book_inverse_dynamics(make_book_model(c, kGravity), book_position(s),
+                                                           book_velocity(s), qdd, wrenches);
+    const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, kGravity, m, wrenches));
     EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -63,8 +63,7 @@ TEST(InverseDynamics, ReproducesTheTwoLinkArmWorkedByHand) {
   c.com_B.fill(Vector3d::Zero());
   c.inertia_B.fill(Matrix3d::Zero());
   for (JointParameters& j : c.joint) j.armature = 0.0;
-  for (auto i : std::initializer_list<std::size_t>{kSpine1, kSpine2, kSpine3, kLeftCollar, kLeftShoulder})
-    c.joint_offset[i].setZero();
+  for (const int i : {kSpine1, kSpine2, kSpine3, kLeftCollar, kLeftShoulder}) c.joint_offset[i].setZero();
   c.joint_offset[kLeftElbow] = {0.3, 0, 0};
   c.mass[kLeftShoulder] = 2.0;
   c.com_B[kLeftShoulder] = {0.3, 0, 0};
@@ -101,13 +100,12 @@ Vector3d moved_point(const Character& c, const Snapshot& s, const ContactPoint& 
   } else {
     int body = 1;
     while (body + 1 < kBodies && first_dof(body + 1) <= dof - 6) ++body;
-    const auto i = static_cast<std::size_t>(body);
     const Vector3d axis =
         is_hinge(body) ? hinge_axis(body) : Vector3d(Vector3d::Unit(dof - 6 - first_dof(body)));
-    m.q[i] = s.q[i] * exp_map(h * axis);
+    m.q[body] = s.q[body] * exp_map(h * axis);
   }
   const BodyPoses poses = forward_kinematics(c, m.p_root, m.q);
-  const auto b = static_cast<std::size_t>(point.body);
+  const int b = point.body;
   return poses.p_WB[b] + poses.q_WB[b] * point.p_B;
 }
 
@@ -127,7 +125,7 @@ TEST(Kinematics, PointVelocitiesAreTheJacobianOfDifferencesTimesTheRates) {
   Simulation<double> simulation(c, {}, s);
   update_kinematics(simulation.model, simulation.state, simulation.data);
   for (const ContactPoint& point : c.contact_points) {
-    const auto b = static_cast<std::size_t>(point.body);
+    const int b = point.body;
     const Vector3d arm = lane_of(simulation.data.q_WB[b], 0) * point.p_B;
     const Vector3d v = lane_of(simulation.data.v[b], 0) + lane_of(simulation.data.w[b], 0).cross(arm);
     EXPECT_LT((v - point_jacobian(c, s, point) * book_velocity(s)).norm(), 1e-7) << point.body;
@@ -142,7 +140,7 @@ TEST(InverseDynamics, AForceOnAPointIsHeldByTheTransposedJacobianOfDifferences) 
   const MotionState m = at_rest(s);
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
   for (const ContactPoint& point : c.contact_points) {
-    const auto b = static_cast<std::size_t>(point.body);
+    const int b = point.body;
     const Vector3d force = 100.0 * random_vector(random);
     BodyWrenches wrenches;
     wrenches.fill(Vector6d::Zero());
@@ -162,10 +160,11 @@ TEST(InverseDynamics, OfRestIsTheWeightAtTheCentreOfMass) {
   none.fill(Vector6d::Zero());
   const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
   Vector3d moment = Vector3d::Zero();
-  for (std::size_t i = 0; i < kBodies; ++i)
-    moment += (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i] - s.p_root).cross(Vector3d(0, 0, 9.81 * c.mass[i]));
-  const RequiredForces forces = inverse_dynamics(c, 9.81, m, none);
-  EXPECT_LT((forces.root.tail<3>() - Vector3d(0, 0, 9.81 * c.total_mass())).norm(), 1e-10);
+  for (int i = 0; i < kBodies; ++i)
+    moment +=
+        (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i] - s.p_root).cross(Vector3d(0, 0, kGravity * c.mass[i]));
+  const RequiredForces forces = inverse_dynamics(c, kGravity, m, none);
+  EXPECT_LT((forces.root.tail<3>() - Vector3d(0, 0, kGravity * c.total_mass())).norm(), 1e-10);
   EXPECT_LT((forces.root.head<3>() - moment).norm(), 1e-10);
 }
 

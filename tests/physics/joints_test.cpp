@@ -12,24 +12,24 @@
 namespace mimicx {
 namespace {
 
-constexpr auto kKnee = static_cast<std::size_t>(kLeftKnee);
+constexpr int kKnee = kLeftKnee;
 
 /// The left knee as a lone oscillator: pelvis and thigh too heavy to move, nothing below the shank, no
 /// gravity, no ranges.
 struct KneeOscillator {
   Character character = make_character();
-  SimulationOptions options;
+  SimulationConfig config;
   double inertia;  ///< of the shank about the knee's axis plus armature, kg·m²
 
   explicit KneeOscillator(double rate) {
-    options.rate = rate;
-    options.gravity = options.limit_stiffness = options.limit_damping = 0;
-    options.self_contact = false;
-    for (auto i : std::initializer_list<std::size_t>{kPelvis, kLeftHip}) {
+    config.rate = rate;
+    config.gravity = config.limit_stiffness = config.limit_damping = 0;
+    config.self_contact = false;
+    for (const int i : {kPelvis, kLeftHip}) {
       character.mass[i] = 1e12;
       character.inertia_B[i] = 1e12 * Matrix3d::Identity();
     }
-    for (auto i : std::initializer_list<std::size_t>{kLeftAnkle, kLeftFoot}) {
+    for (const int i : {kLeftAnkle, kLeftFoot}) {
       character.mass[i] = 0;
       character.inertia_B[i].setZero();
     }
@@ -50,7 +50,7 @@ struct KneeOscillator {
     s.target_omega = s.omega;
     s.q[kKnee] = exp_map(angle * hinge_axis(kLeftKnee));
     s.omega[kKnee] = speed * hinge_axis(kLeftKnee);
-    return Simulation<double>(character, options, s);
+    return Simulation<double>(character, config, s);
   }
 };
 double knee_angle(const Simulation<double>& s) {
@@ -61,7 +61,7 @@ TEST(ImplicitPd, HingeFollowsImplicitEulerOfTheOscillator) {
   const KneeOscillator knee(240);
   const JointParameters& j = knee.character.joint[kKnee];
   Simulation<double> s = knee.start(0.5, 2.0);
-  const double dt = 1.0 / knee.options.rate;
+  const double dt = 1.0 / knee.config.rate;
   double angle = 0.5, speed = 2.0;
   for (int k = 0; k < 240; ++k) {
     s.advance();
@@ -108,25 +108,25 @@ TEST(ImplicitPd, VelocityFeedForwardTracksARampWithoutLag) {
 template <class Check>
 void thrash(const Character& character, double rate, int passes, Check&& check) {
   using P = Pack<kLanes>;
-  SimulationOptions options;
-  options.rate = rate;
-  options.passes = passes;
-  const auto s = std::make_unique<Simulation<P>>(character, options);
+  SimulationConfig config;
+  config.rate = rate;
+  config.passes = passes;
+  const auto s = std::make_unique<Simulation<P>>(character, config);
   std::array<Snapshot, kLanes> start;
   for (int lane = 0; lane < kLanes; ++lane) {
     Random random(41, {static_cast<std::uint64_t>(lane)});
-    start[static_cast<std::size_t>(lane)] = random_snapshot(random, 1.0, 3.0, 1.0);
-    set_lane(start[static_cast<std::size_t>(lane)], lane, s->state, s->target);
+    start[lane] = random_snapshot(random, 1.0, 3.0, 1.0);
+    set_lane(start[lane], lane, s->state, s->target);
   }
   const int interval = static_cast<int>(rate / 30.0);
   for (int k = 0; k < static_cast<int>(rate); ++k) {
     for (int lane = 0; k % interval == 0 && lane < kLanes; ++lane) {
       Random random(42, {static_cast<std::uint64_t>(lane), static_cast<std::uint64_t>(k)});
-      for (std::size_t i = 1; i < kBodies; ++i) {
+      for (int i = 1; i < kBodies; ++i) {
         const Vector3d turn = 0.4 * random_vector(random);
-        const bool hinge = is_hinge(static_cast<int>(i));
-        const Vector3d along = hinge ? Vector3d(turn.x() * hinge_axis(static_cast<int>(i))) : turn;
-        set_lane(s->target.q[i], lane, start[static_cast<std::size_t>(lane)].target_q[i] * exp_map(along));
+        const bool hinge = is_hinge(i);
+        const Vector3d along = hinge ? Vector3d(turn.x() * hinge_axis(i)) : turn;
+        set_lane(s->target.q[i], lane, start[lane].target_q[i] * exp_map(along));
       }
     }
     s->advance();
@@ -141,7 +141,7 @@ TEST(TorqueBound, IsNeverExceededHoweverTheCharacterThrashes) {
       double worst = 0;
       long saturated = 0, samples = 0;
       thrash(make_character(), rate, passes, [&](const Simulation<P>& s) {
-        for (std::size_t i = 1; i < kBodies; ++i) {
+        for (int i = 1; i < kBodies; ++i) {
           const Vec3<P> torque = applied_pd_torque(s.data, i);
           for (int lane = 0; lane < kLanes; ++lane) {
             const double share = lane_of(torque, lane).norm() / s.model.torque_limit[i];
@@ -173,13 +173,13 @@ TEST(TorqueBound, HoldsForEveryShapeAtEveryRateAndScalesWithTheMass) {
   using P = Pack<kLanes>;
   const Character standard = make_character();
   for (const Character& character : shapes()) {
-    for (std::size_t i = 1; i < kBodies; ++i)
+    for (int i = 1; i < kBodies; ++i)
       EXPECT_NEAR(character.joint[i].torque_limit / standard.joint[i].torque_limit,
                   character.total_mass() / standard.total_mass(), 1e-12);
     for (double rate : {120.0, 240.0, 480.0}) {
       double worst = 0;
       thrash(character, rate, 2, [&](const Simulation<P>& s) {
-        for (std::size_t i = 1; i < kBodies; ++i)
+        for (int i = 1; i < kBodies; ++i)
           for (int lane = 0; lane < kLanes; ++lane)
             worst = std::max(
                 worst, lane_of(applied_pd_torque(s.data, i), lane).norm() / character.joint[i].torque_limit);
@@ -193,13 +193,13 @@ TEST(TorqueBound, HoldsForEveryShapeAtEveryRateAndScalesWithTheMass) {
 // The bound would also hold if the controller did nothing: where no bound is near, the solve is the law's.
 TEST(TorqueBound, LeavesUnsaturatedJointsToTheImplicitLaw) {
   const Character character = make_character();
-  SimulationOptions options;
+  SimulationConfig config;
   Snapshot start = standing(character);
   start.target_q[kLeftShoulder] = start.q[kLeftShoulder] * exp_map(Vector3d(0, 0, 0.05));
-  Simulation<double> s(character, options, start);
+  Simulation<double> s(character, config, start);
   s.advance();
   const JointParameters& j = character.joint[kLeftShoulder];
-  const double dt = 1.0 / options.rate;
+  const double dt = 1.0 / config.rate;
   Snapshot end;
   read_lane(s.state, 0, end);
   // The law at the end of the step, to first order: φ − dt ω.
@@ -234,20 +234,19 @@ struct Excess {
 
 /// One joint driven from the centre of its range about `axis` with all the torque it has.
 Excess drive(const Character& character, int body, const Vector3d& axis, double rate = 240.0) {
-  SimulationOptions options;
-  options.rate = rate;
-  options.gravity = 0;
-  options.self_contact = false;
+  SimulationConfig config;
+  config.rate = rate;
+  config.gravity = 0;
+  config.self_contact = false;
   Snapshot s;
   s.p_root = {0, 0, 50};
   s.omega.fill(Vector3d::Zero());
   s.target_omega = s.omega;
-  for (int b = 0; b < kBodies; ++b)
-    s.q[static_cast<std::size_t>(b)] = range_centre(character.joint[static_cast<std::size_t>(b)], b);
+  for (int b = 0; b < kBodies; ++b) s.q[b] = range_centre(character.joint[b], b);
   s.target_q = s.q;
   const auto i = static_cast<std::size_t>(body);
   s.target_q[i] = s.q[i] * exp_map(3.0 * axis);
-  Simulation<double> simulation(character, options, s);
+  Simulation<double> simulation(character, config, s);
   Excess result{0, 0};
   for (int k = 0; k < static_cast<int>(rate); ++k) {
     simulation.advance();
@@ -260,7 +259,7 @@ Excess drive(const Character& character, int body, const Vector3d& axis, double 
 /// Every joint driven against its range from all sides for a second; what it then gives is (6) within
 /// `tolerance`, of it, for the free body still swings. @return the deepest slam, rad
 double drive_all(const Character& character, double rate, double tolerance) {
-  const SimulationOptions options;
+  const SimulationConfig config;
   double largest = 0;
   for (int body = 1; body < kBodies; ++body)
     for (int direction = 0; direction < (is_hinge(body) ? 2 : 6); ++direction) {
@@ -268,12 +267,11 @@ double drive_all(const Character& character, double rate, double tolerance) {
       const Vector3d axis = sign * (is_hinge(body) ? hinge_axis(body) : Vector3d::Unit(direction / 2));
       const Excess e = drive(character, body, axis, rate);
       // The range is a spring on the chord 2 sin(θ/2), so on the angle it is cos(θ/2) times as stiff.
-      const JointParameters& j = character.joint[static_cast<std::size_t>(body)];
+      const JointParameters& j = character.joint[body];
       const double half = j.half_range(is_hinge(body) ? 0 : direction / 2);
-      const double give = j.torque_limit / (options.limit_stiffness * std::cos(0.5 * half));
-      EXPECT_NEAR(e.held, give, tolerance * give)
-          << kBodyNames[static_cast<std::size_t>(body)] << " " << axis.transpose() << " at " << rate
-          << " Hz, " << character.total_mass() << " kg";
+      const double give = j.torque_limit / (config.limit_stiffness * std::cos(0.5 * half));
+      EXPECT_NEAR(e.held, give, tolerance * give) << kBodyNames[body] << " " << axis.transpose() << " at "
+                                                  << rate << " Hz, " << character.total_mass() << " kg";
       largest = std::max(largest, e.largest);
     }
   return largest;

@@ -19,7 +19,7 @@ Snapshot violent(std::uint64_t lane) {
 
 template <class T>
 std::unique_ptr<Simulation<T>> violent_pack(const Character& character, std::uint64_t first) {
-  auto simulation = std::make_unique<Simulation<T>>(character, SimulationOptions{});
+  auto simulation = std::make_unique<Simulation<T>>(character, SimulationConfig{});
   for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane)
     set_lane(violent(first + static_cast<std::uint64_t>(lane)), lane, simulation->state, simulation->target);
   return simulation;
@@ -35,7 +35,7 @@ std::vector<float> bits_of(const Simulation<T>& s, int lane) {
   };
   add(s.state.p_root);
   add(s.state.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     add(s.state.q[i]);
     all.push_back(ScalarTraits<T>::get(s.state.q[i].w, lane));
     add(s.state.omega[i]);
@@ -104,9 +104,9 @@ struct AllAnew : StepParts {
 template <class T>
 void expect_same_bits_when_all_is_solved_anew(double height) {
   const Character character = make_character();
-  SimulationOptions options;
-  options.passes = 3;
-  const auto s = std::make_unique<Simulation<T>>(character, options);
+  SimulationConfig config;
+  config.passes = 3;
+  const auto s = std::make_unique<Simulation<T>>(character, config);
   for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) {
     Snapshot start = standing(character), far = violent(static_cast<std::uint64_t>(lane));
     start.p_root.z() += height;
@@ -121,7 +121,7 @@ void expect_same_bits_when_all_is_solved_anew(double height) {
     s->advance();
     ASSERT_EQ(std::memcmp(&anew->qdd, &s->data.qdd, sizeof anew->qdd), 0) << "step " << k;
     ASSERT_EQ(std::memcmp(&anew->a_v, &s->data.a_v, sizeof anew->a_v), 0) << "step " << k;
-    for (std::size_t i = 1; i < kBodies; ++i) saturated += any(s->data.saturated[i]) ? 1 : 0;
+    for (int i = 1; i < kBodies; ++i) saturated += any(s->data.saturated[i]) ? 1 : 0;
     touching += s->data.ground_count > 0 ? 1 : 0;
   }
   EXPECT_GT(all_anew.kept, 240);
@@ -138,14 +138,14 @@ TEST(Step, KeepingUnchangedBranchesBetweenSolvesGivesTheBitsOfSolvingAllAnew) {
 
 TEST(Step, PackAgreesWithDoubleByTolerance) {
   const Character character = make_character();
-  const auto pack = std::make_unique<Simulation<Pack<8>>>(character, SimulationOptions{});
+  const auto pack = std::make_unique<Simulation<Pack<8>>>(character, SimulationConfig{});
   std::vector<Simulation<double>> singles;
   for (int lane = 0; lane < 8; ++lane) {
     Snapshot s = standing(character);
     s.p_root.z() += 0.02 * lane;
     s.v_root = {0.1 * lane, -0.05 * lane, 0};
     set_lane(s, lane, pack->state, pack->target);
-    singles.emplace_back(character, SimulationOptions{}, s);
+    singles.emplace_back(character, SimulationConfig{}, s);
   }
   for (int k = 0; k < 60; ++k) {
     pack->advance();
@@ -154,9 +154,9 @@ TEST(Step, PackAgreesWithDoubleByTolerance) {
   for (int lane = 0; lane < 8; ++lane) {
     Snapshot in_pack, alone;
     read_lane(pack->state, lane, in_pack);
-    read_lane(singles[static_cast<std::size_t>(lane)].state, 0, alone);
+    read_lane(singles[lane].state, 0, alone);
     EXPECT_LT((in_pack.p_root - alone.p_root).norm(), 2e-5) << "lane " << lane;
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       EXPECT_LT(in_pack.q[i].angularDistance(alone.q[i]), 1e-3) << "lane " << lane << " body " << i;
   }
 }
@@ -168,7 +168,7 @@ TEST(Aba, PackAccelerationsAgreeWithDoubleOnRandomStates) {
     PerBody<Vec3<Pack<8>>> tau;
     PerBody<Vec3<double>> tau_1;
     Random random(22, {first});
-    for (std::size_t i = 0; i < kBodies; ++i) {
+    for (int i = 0; i < kBodies; ++i) {
       const Vector3d t = 40.0 * random_vector(random);
       tau_1[i] = {t.x(), t.y(), t.z()};
       for (int lane = 0; lane < 8; ++lane) set_lane(tau[i], lane, t);
@@ -178,7 +178,7 @@ TEST(Aba, PackAccelerationsAgreeWithDoubleOnRandomStates) {
       Simulation<double> single(character, {}, violent(first + static_cast<std::uint64_t>(lane)));
       forward_dynamics(single.model, single.state, tau_1, single.data);
       double error = 0, size = 0;
-      for (std::size_t i = 0; i < kBodies; ++i) {
+      for (int i = 0; i < kBodies; ++i) {
         error = std::max(error, (lane_of(pack->data.qdd[i], lane) - lane_of(single.data.qdd[i], 0)).norm());
         size = std::max(size, lane_of(single.data.qdd[i], 0).norm());
       }

@@ -20,7 +20,7 @@ Eigen::MatrixXd coordinates(const MujocoCharacter& mujoco, const Snapshot& s) {
 
 struct MujocoTrial {
   Character character;
-  SimulationOptions options;
+  SimulationConfig config;
   Snapshot snapshot;
   std::unique_ptr<MujocoCharacter> mujoco;
 
@@ -28,11 +28,9 @@ struct MujocoTrial {
     Random random(51, {number});
     character = make_character(random_betas(random));
     snapshot = random_snapshot(random, 2.5, 5.0, 50.0);
-    mujoco = std::make_unique<MujocoCharacter>(character, options);
+    mujoco = std::make_unique<MujocoCharacter>(character, config);
     mujoco->set_root(snapshot.p_root, snapshot.q[0], snapshot.v_root, snapshot.omega[0]);
-    for (int i = 1; i < kBodies; ++i)
-      mujoco->set_joint(i, snapshot.q[static_cast<std::size_t>(i)],
-                        snapshot.omega[static_cast<std::size_t>(i)]);
+    for (int i = 1; i < kBodies; ++i) mujoco->set_joint(i, snapshot.q[i], snapshot.omega[i]);
   }
 };
 
@@ -49,7 +47,7 @@ TEST(Mujoco, MassMatrixAndBiasForcesAgreeWithTheOracle) {
     Eigen::Matrix<double, -1, -1, Eigen::RowMajor> M(kBookDofs, kBookDofs);
     mj_fullM(&m, M.data(), d.qM);
     const Eigen::MatrixXd P = coordinates(*t.mujoco, t.snapshot);
-    const BookModel book = make_book_model(t.character, t.options.gravity);
+    const BookModel book = make_book_model(t.character, t.config.gravity);
     const BookPosition q = book_position(t.snapshot);
     EXPECT_LT(relative_difference(P.transpose() * book_mass_matrix(book, q) * P, M), 1e-8);
 
@@ -68,7 +66,7 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     Random random(52, {n});
     PerBody<Vec3<double>> tau;
     tau.fill(zero3<double>());
-    for (std::size_t i = 1; i < kBodies; ++i) {
+    for (int i = 1; i < kBodies; ++i) {
       const Vector3d torque = 40.0 * random_vector(random);
       tau[i] = {torque.x(), torque.y(), torque.z()};
     }
@@ -77,7 +75,7 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     Eigen::Map<Eigen::VectorXd>(d.qfrc_applied, kBookDofs) = P.transpose() * book_torque(tau);
     mj_forward(&t.mujoco->model(), &d);
 
-    Simulation<double> s(t.character, t.options, t.snapshot);
+    Simulation<double> s(t.character, t.config, t.snapshot);
     forward_dynamics(s.model, s.state, tau, s.data);
     Eigen::VectorXd ours = book_acceleration(t.snapshot, s.data);
     const Eigen::VectorXd qd = book_velocity(t.snapshot);
@@ -112,8 +110,7 @@ TEST(Mjcf, TheFileSaysWhereEveryJointStandsInMujocosCoordinates) {
   const std::string text = to_mjcf(character, {});
   MujocoCharacter mujoco(character, {});
   for (int body = 0; body < kBodies; ++body) {
-    const std::string line = std::string(kBodyNames[static_cast<std::size_t>(body)]) + ": " +
-                             std::to_string(mujoco.qpos(body)) +
+    const std::string line = std::string(kBodyNames[body]) + ": " + std::to_string(mujoco.qpos(body)) +
                              (body == 0        ? " (7), "
                               : is_hinge(body) ? " (1), "
                                                : " (4), ") +
@@ -128,10 +125,9 @@ TEST(Mjcf, JointCentresAreThoseOfForwardKinematics) {
     mj_kinematics(&t.mujoco->model(), &t.mujoco->data());
     const BodyPoses poses = forward_kinematics(t.character, t.snapshot.p_root, t.snapshot.q);
     for (int i = 0; i < kBodies; ++i) {
-      const int id = mj_name2id(&t.mujoco->model(), mjOBJ_BODY,
-                                std::string(kBodyNames[static_cast<std::size_t>(i)]).c_str());
+      const int id = mj_name2id(&t.mujoco->model(), mjOBJ_BODY, std::string(kBodyNames[i]).c_str());
       const Vector3d p = Eigen::Map<Vector3d>(t.mujoco->data().xpos + 3 * id);
-      EXPECT_LT((p - poses.p_WB[static_cast<std::size_t>(i)]).norm(), 1e-12);
+      EXPECT_LT((p - poses.p_WB[i]).norm(), 1e-12);
     }
   }
 }
@@ -141,7 +137,7 @@ Eigen::VectorXd all_of(const RequiredForces& forces) {
   Eigen::VectorXd all(6 + 3 * kJoints);
   all.head<6>() = forces.root;
   for (int i = 1; i < kBodies; ++i) {
-    const Vector3d& torque = forces.joint[static_cast<std::size_t>(i)];
+    const Vector3d& torque = forces.joint[i];
     all.segment<3>(3 + 3 * i) = is_hinge(i) ? Vector3d(torque.dot(hinge_axis(i)) * hinge_axis(i)) : torque;
   }
   return all;
@@ -153,7 +149,7 @@ TEST(Mujoco, InverseDynamicsAgreesWithTheAudits) {
     Random random(54, {n});
     const MotionState state = random_motion(t.snapshot, random);
     const BodyWrenches wrenches = random_wrenches(random);
-    const RequiredForces required = inverse_dynamics(t.character, t.options.gravity, state, wrenches);
+    const RequiredForces required = inverse_dynamics(t.character, t.config.gravity, state, wrenches);
     const RequiredForces theirs = mujoco_inverse_dynamics(*t.mujoco, state, wrenches);
     EXPECT_LT(relative_difference(all_of(required), all_of(theirs)), 1e-8) << "trial " << n;
   }
@@ -165,7 +161,7 @@ TEST(Mujoco, MomentumAgreesWithTheSumOverTheBodies) {
     Random random(56, {n});
     const MotionState state = random_motion(t.snapshot, random);
     // The first six rows of H q̇ are the momentum of the whole about the pelvis, in its axes.
-    const BookModel book = make_book_model(t.character, t.options.gravity);
+    const BookModel book = make_book_model(t.character, t.config.gravity);
     const Eigen::MatrixXd H = book_mass_matrix(book, book_position(t.snapshot));
     const Eigen::VectorXd h = H * book_velocity(t.snapshot);
     const MujocoMomentum theirs = mujoco_momentum(*t.mujoco, state);
@@ -191,14 +187,14 @@ TEST(Mujoco, FindsEveryStepOfAViolentRollOutExplained) {
       read_lane(s.state, 0, before);
       s.advance();
       read_lane(s.state, 0, after);
-      MotionState state{before.p_root, before.v_root, s.model.options.rate * (after.v_root - before.v_root),
+      MotionState state{before.p_root, before.v_root, s.model.config.rate * (after.v_root - before.v_root),
                         before.q,      before.omega,  {}};
       BodyWrenches wrenches;
       RequiredForces acted;
       acted.root.setZero();
       double scale = 100.0;
-      for (std::size_t i = 0; i < kBodies; ++i) {
-        state.omega_d[i] = s.model.options.rate * (after.omega[i] - before.omega[i]);
+      for (int i = 0; i < kBodies; ++i) {
+        state.omega_d[i] = s.model.config.rate * (after.omega[i] - before.omega[i]);
         wrenches[i].head<3>() = lane_of(s.applied.ground[i].n, 0) + lane_of(s.applied.self[i].n, 0);
         wrenches[i].tail<3>() = lane_of(s.applied.ground[i].f, 0) + lane_of(s.applied.self[i].f, 0);
         acted.joint[i] = lane_of(s.applied.joint_torque[i], 0);

@@ -16,7 +16,7 @@ Quaterniond about_z(double angle) { return exp_map(Vector3d(0, 0, angle)); }
 /// Flexion of hips and knees, plantar flexion of the ankles, extension of the balls of the feet.
 void bend_legs(double hip, double knee, double ankle, double ball, Snapshot& s) {
   for (int side : {0, 1}) {
-    const auto body = [&](int left) { return static_cast<std::size_t>(left + side); };
+    const auto body = [&](int left) { return left + side; };
     s.q[body(kLeftHip)] = about_x(-hip);
     s.q[body(kLeftKnee)] = about_x(knee);
     s.q[body(kLeftAnkle)] = about_x(ankle);
@@ -37,16 +37,16 @@ void stand_on_toe_balls(const Character& c, Snapshot& s) {
   for (int iteration = 0; iteration < 30; ++iteration) {
     const BodyPoses poses = forward_kinematics(c, s.p_root, s.q);
     Vector3d offset = Vector3d::Zero();
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       offset += c.mass[i] / c.total_mass() * (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i]);
-    for (std::size_t k = 0; k < kFootPoints; ++k) {
+    for (int k = 0; k < kFootPoints; ++k) {
       const ContactPoint& p = c.contact_points[k];
-      const auto i = static_cast<std::size_t>(p.body);
+      const int i = p.body;
       if (!is_heel(p)) offset -= (poses.p_WB[i] + poses.q_WB[i] * p.p_B) / 8.0;
     }
     s.q[0] = about_x(offset.y() / offset.z()) * s.q[0];
-    for (std::size_t foot : {std::size_t{kLeftFoot}, std::size_t{kRightFoot}}) {
-      const auto ankle = static_cast<std::size_t>(kParents[foot]);
+    for (const int foot : {kLeftFoot, kRightFoot}) {
+      const auto ankle = kParents[foot];
       s.q[foot] = poses.q_WB[ankle].conjugate() * level;
     }
   }
@@ -102,7 +102,7 @@ Snapshot rest_pose(RestPose pose, const Character& c) {
 RestReport rest(RestPose pose, double rate, int passes) {
   const bool lying = pose == RestPose::kSupine || pose == RestPose::kProne;
   const Character c = lying ? make_character() : stiffened(make_character());
-  SimulationOptions o;
+  SimulationConfig o;
   o.rate = rate;
   o.passes = passes;
   Simulation<double> s(c, o, rest_pose(pose, c));
@@ -117,9 +117,9 @@ RestReport rest(RestPose pose, double rate, int passes) {
     s.advance();
     Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
     for (int n = 0; n < s.data.ground_count; ++n) {
-      const GroundContact<double>& contact = s.data.ground[static_cast<std::size_t>(n)];
-      const ContactPoint& point = s.model.contacts[static_cast<std::size_t>(contact.index)];
-      const auto body = static_cast<std::size_t>(point.body);
+      const GroundContact<double>& contact = s.data.ground[n];
+      const ContactPoint& point = s.model.contacts[contact.index];
+      const int body = point.body;
       const Vector3d f = lane_of(contact.applied, 0);
       const Vector3d at = lane_of(s.data.p_WB[body], 0) + lane_of(contact.arm, 0);
       force += f;
@@ -132,18 +132,18 @@ RestReport rest(RestPose pose, double rate, int passes) {
       loaded += 1;
       report.creep = std::max(report.creep, lane_of(contact.velocity, 0).head<2>().norm());
     }
-    for (std::size_t n = 0; n < s.model.contacts.size(); ++n) {
+    for (int n = 0; n < s.model.contacts.count(); ++n) {
       least[n] = std::min(least[n], s.applied.point_force[n]);
       most[n] = std::max(most[n], s.applied.point_force[n]);
     }
     Vector3d mass_centre = Vector3d::Zero();
-    for (std::size_t i = 0; i < kBodies; ++i)
+    for (int i = 0; i < kBodies; ++i)
       mass_centre +=
           c.mass[i] / c.total_mass() * (lane_of(s.data.p_WB[i], 0) + lane_of(s.data.q_WB[i], 0) * c.com_B[i]);
     report.force_error = std::max(report.force_error, (force - Vector3d(0, 0, weight)).norm() / weight);
     report.centre_error = std::max(report.centre_error, (moment / force.z() - mass_centre).head<2>().norm());
   }
-  for (std::size_t n = 0; n < s.model.contacts.size(); ++n)
+  for (int n = 0; n < s.model.contacts.count(); ++n)
     report.jitter = std::max(report.jitter, (most[n] - least[n]) / weight);
   report.mean_depth = depth_sum / loaded;
   return report;

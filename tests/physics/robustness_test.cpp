@@ -22,7 +22,7 @@ Snapshot anything(Random& random) {
   Snapshot s = random_snapshot(random, 3.1, speed, random.uniform(-0.5, 2.0));
   const double feed_forward = std::pow(10.0, random.uniform(-2.0, 2.0));
   for (int i = 1; i < kBodies; ++i)
-    s.target_omega[static_cast<std::size_t>(i)] =
+    s.target_omega[i] =
         feed_forward * (is_hinge(i) ? Vector3d(random.normal() * hinge_axis(i)) : random_vector(random));
   return s;
 }
@@ -30,7 +30,7 @@ Snapshot anything(Random& random) {
 /// New targets of the same kind, the state as it is.
 void new_target(Random& random, int lane, Simulation<P>& s) {
   const Snapshot aim = anything(random);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     set_lane(s.target.q[i], lane, aim.target_q[i]);
     set_lane(s.target.omega[i], lane, aim.target_omega[i]);
   }
@@ -42,7 +42,7 @@ bool is_finite(const Simulation<P>& s, int lane) {
   const auto add = [&](const Vec3<P>& v) { sum += lane_of(v, lane).cwiseAbs().sum(); };
   add(s.state.p_root);
   add(s.state.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     sum += lane_of(s.state.q[i], lane).coeffs().cwiseAbs().sum();
     add(s.state.omega[i]);
     add(s.applied.joint_torque[i]);
@@ -61,10 +61,10 @@ TEST(Robustness, AMillionStepsOfAnythingAreFiniteInEveryLaneThatIsNotFlagged) {
   std::unique_ptr<Simulation<P>> s;
   for (int k = 0; k < kSteps; ++k) {
     if (k % 4096 == 0) {  // another shape, rate and number of passes
-      SimulationOptions options;
-      options.rate = 120.0 * static_cast<double>(1 << (shapes % 3));
-      options.passes = 1 + static_cast<int>(shapes / 3 % 3);
-      s = std::make_unique<Simulation<P>>(make_character(random_betas(random)), options);
+      SimulationConfig config;
+      config.rate = 120.0 * static_cast<double>(1 << (shapes % 3));
+      config.passes = 1 + static_cast<int>(shapes / 3 % 3);
+      s = std::make_unique<Simulation<P>>(make_character(random_betas(random)), config);
       for (int lane = 0; lane < kLanes; ++lane) set_lane(anything(random), lane, s->state, s->target);
       ++shapes;
     }
@@ -95,7 +95,7 @@ std::array<float, 6 + 7 * kBodies> bits_of(const State<P>& state, int lane) {
     add(v.y);
     add(v.z);
   }
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     for (const P& x : {state.q[i].w, state.q[i].x, state.q[i].y, state.q[i].z}) add(x);
     for (const P& x : {state.omega[i].x, state.omega[i].y, state.omega[i].z}) add(x);
   }
@@ -111,14 +111,14 @@ TEST(Robustness, WhateverGoesWrongInOtherLanesALaneKeepsItsBits) {
     Random random(82, {trial});
     const int kept = static_cast<int>(trial) % kLanes;
     const Snapshot tame = random_snapshot(random, 1.2, 3.0, 0.9);
-    const auto alone = std::make_unique<Simulation<P>>(character, SimulationOptions{}, tame);
-    const auto crowd = std::make_unique<Simulation<P>>(character, SimulationOptions{}, tame);
+    const auto alone = std::make_unique<Simulation<P>>(character, SimulationConfig{}, tame);
+    const auto crowd = std::make_unique<Simulation<P>>(character, SimulationConfig{}, tame);
     for (int k = 0; k < 240; ++k) {
       for (int lane = 0; lane < kLanes; ++lane) {
         if (lane == kept || random.uniform() > 0.1) continue;
         Snapshot s = anything(random);
         const double kind = random.uniform();
-        const auto body = static_cast<std::size_t>(random.below(kBodies));
+        const auto body = random.below(kBodies);
         if (kind < 0.1) s.omega[body].x() = std::numeric_limits<double>::quiet_NaN();
         if (kind > 0.1 && kind < 0.2) s.p_root.z() = std::numeric_limits<double>::infinity();
         if (kind > 0.2 && kind < 0.3) s.target_q[body].w() = std::numeric_limits<double>::quiet_NaN();
@@ -140,7 +140,7 @@ TEST(Robustness, NumbersThatAreNoneAreFlaggedInTheSameStepWhereverTheyStand) {
   const Character character = make_character();
   Random random(83);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t body = 0; body < kBodies; ++body)
+  for (int body = 0; body < kBodies; ++body)
     for (int place = 0; place < 4; ++place) {
       if (body == 0 && place > 1) continue;  // the pelvis has no target
       Snapshot s = random_snapshot(random, 1.0, 1.0, 3.0);
@@ -148,7 +148,7 @@ TEST(Robustness, NumbersThatAreNoneAreFlaggedInTheSameStepWhereverTheyStand) {
       if (place == 1) s.omega[body].y() = nan;
       if (place == 2) s.target_q[body].z() = nan;
       if (place == 3) s.target_omega[body].x() = nan;
-      const auto simulation = std::make_unique<Simulation<P>>(character, SimulationOptions{}, s);
+      const auto simulation = std::make_unique<Simulation<P>>(character, SimulationConfig{}, s);
       const auto wrong = simulation->advance();
       EXPECT_TRUE(ScalarTraits<P>::lane(wrong, 0)) << kBodyNames[body] << " " << place;
     }
@@ -156,8 +156,8 @@ TEST(Robustness, NumbersThatAreNoneAreFlaggedInTheSameStepWhereverTheyStand) {
 
 TEST(Robustness, AJointThatTurnsByHalfACircleWithinAStepHasRunAway) {
   const Character c = make_character();
-  for (const double rate : {30.0, 120.0}) {  // where that is slower than six times max_speed
-    SimulationOptions o;
+  for (const double rate : {30.0, 120.0}) {  // where that is slower than max_joint_speed
+    SimulationConfig o;
     o.rate = rate;
     Simulation<double> s(c, o, standing(c));
     for (const double turn : {0.99, 1.01}) {  // half circles per step

@@ -22,10 +22,10 @@ struct SoleMotion {
   double lowest = 1, highest = -1, creep = 0;
 };
 
-SoleMotion stand(const Character& c, const Snapshot& pose, double rate, std::size_t sole_points) {
-  SimulationOptions options;
-  options.rate = rate;
-  Simulation<double> s(c, options, pose);
+SoleMotion stand(const Character& c, const Snapshot& pose, double rate, int sole_points) {
+  SimulationConfig config;
+  config.rate = rate;
+  Simulation<double> s(c, config, pose);
   const int settle = static_cast<int>(2 * rate);
   for (int k = 0; k < settle; ++k) s.advance();
   SoleMotion motion;
@@ -33,15 +33,15 @@ SoleMotion stand(const Character& c, const Snapshot& pose, double rate, std::siz
   for (int k = 0; k < settle; ++k) {
     s.advance();
     const std::vector<Vector3d> now = contact_positions(c, s);
-    for (std::size_t i = 0; i < sole_points; ++i) {  // contact points begin with the left foot's six
+    for (int i = 0; i < sole_points; ++i) {  // contact points begin with the left foot's six
       motion.lowest = std::min(motion.lowest, now[i].z());
       motion.highest = std::max(motion.highest, now[i].z());
       motion.creep = std::max(motion.creep, (now[i] - last[i]).head<2>().norm() * rate);
     }
     last = now;
   }
-  std::printf("  measured: %zu points at %.0f Hz: soles %.2f .. %.2f mm, fastest creep %.3f mm/s\n",
-              sole_points, rate, 1e3 * motion.lowest, 1e3 * motion.highest, 1e3 * motion.creep);
+  std::printf("  measured: %d points at %.0f Hz: soles %.2f .. %.2f mm, fastest creep %.3f mm/s\n",
+              sole_points, rate, kMm * motion.lowest, kMm * motion.highest, kMm * motion.creep);
   return motion;
 }
 
@@ -76,20 +76,20 @@ TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
   Snapshot pose = standing(c);
   pose.q[0] = exp_map(Vector3d(0, 0, 0));  // face up: z of the body is forward
   pose.p_root.z() += 0.02 - lowest_point(c, pose);
-  SimulationOptions options;
-  Simulation<double> s(c, options, pose);
+  SimulationConfig config;
+  Simulation<double> s(c, config, pose);
   for (int k = 0; k < 960; ++k) s.advance();
   double force = 0, points = 0;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     force += s.applied.ground[i].f.z;
     EXPECT_LT(lane_of(s.data.v[i], 0).norm(), 0.01) << kBodyNames[i];
   }
   for (double f : s.applied.point_force) points += f;
-  EXPECT_NEAR(force, c.total_mass() * options.gravity, 2.0);
+  EXPECT_NEAR(force, c.total_mass() * config.gravity, 2.0);
   EXPECT_NEAR(points, force, 1e-9 * force);
   double lowest = 1;
   for (const Vector3d& p : contact_positions(c, s)) lowest = std::min(lowest, p.z());
-  std::printf("  measured: lowest point of the lying body %.2f mm\n", 1e3 * lowest);
+  std::printf("  measured: lowest point of the lying body %.2f mm\n", kMm * lowest);
   EXPECT_GT(lowest, -2.5e-3);
 }
 
@@ -122,15 +122,15 @@ TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
         const RestReport r = rest(pose, rate, passes);
         double sum = 0;
         for (int body : carriers(pose)) {
-          const double share = r.share[static_cast<std::size_t>(body)];
-          EXPECT_GT(share, body == kHead ? 0.005 : 0.02) << kBodyNames[static_cast<std::size_t>(body)];
+          const double share = r.share[body];
+          EXPECT_GT(share, body == kHead ? 0.005 : 0.02) << kBodyNames[body];
           sum += share;
         }
         EXPECT_NEAR(sum, 1.0, 2e-3);
         EXPECT_LT(r.force_error, 5e-3);
         EXPECT_LT(r.centre_error, 5e-3);  // on the toes the stiff figure still sways by 2 mm
         std::printf("  measured: %-10s centre of pressure to centre of mass %.2f mm\n",
-                    kRestPoseNames[static_cast<int>(pose)], 1e3 * r.centre_error);
+                    kRestPoseNames[static_cast<int>(pose)], kMm * r.centre_error);
       }
 }
 

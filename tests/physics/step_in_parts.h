@@ -60,7 +60,7 @@ void solve_in_parts(const Model<RealOf<T>>& model, const Target<T>& target, cons
   compute_rigid_bodies(model, d);
   parts.finished(kKinematics);
   d.self_wrench.fill({zero3<T>(), zero3<T>()});
-  if (model.options.self_contact) add_self_contact(model, d);
+  if (model.config.self_contact) add_self_contact(model, d);
   parts.finished(kSelfContact);
   detect_ground(model, d);
   parts.linearise_first(model, d);
@@ -71,7 +71,7 @@ void solve_in_parts(const Model<RealOf<T>>& model, const Target<T>& target, cons
   d.changed.fill(true);
   solve_once_in_parts(model, d, parts);
   const MaskOf<T> all = T(1.0) > T(0.0);
-  for (int pass = 1; pass < model.options.passes; ++pass) {
+  for (int pass = 1; pass < model.config.passes; ++pass) {
     parts.linearise_again(model, all, d);
     parts.finished(kFloor);
     apply_torque_bounds(model, d);

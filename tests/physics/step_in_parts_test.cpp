@@ -21,9 +21,9 @@ struct Counting : StepParts {
 
 /// Thrown onto the floor with targets far away, so that contacts, ranges and torque bounds all act.
 template <class T>
-std::unique_ptr<Simulation<T>> thrown(const SimulationOptions& options) {
+std::unique_ptr<Simulation<T>> thrown(const SimulationConfig& config) {
   const Character c = make_character();
-  auto s = std::make_unique<Simulation<T>>(c, options);
+  auto s = std::make_unique<Simulation<T>>(c, config);
   for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) {
     Random random(73, {static_cast<std::uint64_t>(lane)});
     Snapshot start = snapshot_of(Scene::kThrow, c, static_cast<std::uint64_t>(lane));
@@ -34,8 +34,8 @@ std::unique_ptr<Simulation<T>> thrown(const SimulationOptions& options) {
 }
 
 template <class T>
-void expect_the_bits_of_step(const SimulationOptions& options) {
-  const auto whole = thrown<T>(options), parts = thrown<T>(options);
+void expect_the_bits_of_step(const SimulationConfig& config) {
+  const auto whole = thrown<T>(config), parts = thrown<T>(config);
   Counting counting;
   const int steps = 240;
   for (int k = 0; k < steps; ++k) {
@@ -43,18 +43,18 @@ void expect_the_bits_of_step(const SimulationOptions& options) {
     step_in_parts(parts->model, parts->target, parts->state, parts->data, counting);
     ASSERT_EQ(std::memcmp(&whole->state, &parts->state, sizeof whole->state), 0) << "step " << k;
   }
-  EXPECT_GT(counting.solves, steps * options.passes) << "the repetitions for torque bounds must take part";
+  EXPECT_GT(counting.solves, steps * config.passes) << "the repetitions for torque bounds must take part";
 }
 
 TEST(StepInParts, GivesTheBitsOfStep) {
   for (int passes : {1, 2, 3})
     for (bool self_contact : {false, true}) {
-      SimulationOptions options;
-      options.passes = passes;
-      options.self_contact = self_contact;
-      expect_the_bits_of_step<double>(options);
-      expect_the_bits_of_step<Pack<8>>(options);
-      expect_the_bits_of_step<Pack<16>>(options);
+      SimulationConfig config;
+      config.passes = passes;
+      config.self_contact = self_contact;
+      expect_the_bits_of_step<double>(config);
+      expect_the_bits_of_step<Pack<8>>(config);
+      expect_the_bits_of_step<Pack<16>>(config);
     }
 }
 

@@ -30,11 +30,10 @@ Snapshot random_snapshot(Random& random, double angle, double speed, double heig
                        : Vector3d(speed * random_vector(random));
   };
   for (int i = 0; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    s.q[n] = rotation(i);
-    s.omega[n] = spin(i);
-    s.target_q[n] = rotation(i);
-    s.target_omega[n] = i == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(0.3 * spin(i));
+    s.q[i] = rotation(i);
+    s.omega[i] = spin(i);
+    s.target_q[i] = rotation(i);
+    s.target_omega[i] = i == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(0.3 * spin(i));
   }
   return s;
 }
@@ -50,12 +49,9 @@ Snapshot standing(const Character& character) {
   s.q.fill(Quaterniond::Identity());
   s.q[0] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
   const double bend = 0.3;  // hip and ankle undo what the knee flexes: trunk upright, soles flat
-  for (auto hip : std::initializer_list<std::size_t>{kLeftHip, kRightHip})
-    s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
-  for (auto knee : std::initializer_list<std::size_t>{kLeftKnee, kRightKnee})
-    s.q[knee] = exp_map(Vector3d(bend, 0, 0));
-  for (auto ankle : std::initializer_list<std::size_t>{kLeftAnkle, kRightAnkle})
-    s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
+  for (const int hip : {kLeftHip, kRightHip}) s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
+  for (const int knee : {kLeftKnee, kRightKnee}) s.q[knee] = exp_map(Vector3d(bend, 0, 0));
+  for (const int ankle : {kLeftAnkle, kRightAnkle}) s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
   s.q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.25));
   s.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.25));
   s.q[kLeftElbow] = exp_map(0.3 * hinge_axis(kLeftElbow));
@@ -69,7 +65,7 @@ namespace {
 
 Vector3d centre_of_mass(const Character& c, const BodyPoses& poses) {
   Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < kBodies; ++i) sum += c.mass[i] * (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i]);
+  for (int i = 0; i < kBodies; ++i) sum += c.mass[i] * (poses.p_WB[i] + poses.q_WB[i] * c.com_B[i]);
   return sum / c.total_mass();
 }
 
@@ -77,11 +73,11 @@ Vector3d centre_of_mass(const Character& c, const BodyPoses& poses) {
 Vector3d middle_of_soles(const Character& c, std::initializer_list<int> feet, const BodyPoses& poses) {
   Vector3d sum = Vector3d::Zero();
   double count = 0;
-  for (std::size_t k = 0; k < kFootPoints; ++k)
+  for (int k = 0; k < kFootPoints; ++k)
     for (int foot : feet) {
       const ContactPoint& point = c.contact_points[k];
-      if (point.body != foot && point.body != kParents[static_cast<std::size_t>(foot)]) continue;
-      const auto i = static_cast<std::size_t>(point.body);
+      if (point.body != foot && point.body != kParents[foot]) continue;
+      const int i = point.body;
       sum += poses.p_WB[i] + poses.q_WB[i] * sole_point(point);
       count += 1;
     }
@@ -98,9 +94,9 @@ void balance(const Character& character, std::initializer_list<int> feet, Snapsh
     s.q[0] = exp_map(lean) * upright;
     BodyPoses poses = forward_kinematics(character, s.p_root, s.q);
     for (int foot : feet) {
-      const auto ankle = static_cast<std::size_t>(kParents[static_cast<std::size_t>(foot)]);
-      s.q[ankle] = poses.q_WB[static_cast<std::size_t>(kParents[ankle])].conjugate() * flat;
-      s.q[static_cast<std::size_t>(foot)] = Quaterniond::Identity();
+      const auto ankle = kParents[foot];
+      s.q[ankle] = poses.q_WB[kParents[ankle]].conjugate() * flat;
+      s.q[foot] = Quaterniond::Identity();
     }
     poses = forward_kinematics(character, s.p_root, s.q);
     const Vector3d offset = centre_of_mass(character, poses) - middle_of_soles(character, feet, poses);
@@ -129,7 +125,7 @@ MotionState random_motion(const Snapshot& s, Random& random) {
   m.omega = s.omega;
   for (int i = 0; i < kBodies; ++i) {
     const Vector3d x = 50.0 * random_vector(random);
-    m.omega_d[static_cast<std::size_t>(i)] = is_hinge(i) ? Vector3d(x.x() * hinge_axis(i)) : x;
+    m.omega_d[i] = is_hinge(i) ? Vector3d(x.x() * hinge_axis(i)) : x;
   }
   return m;
 }
@@ -146,7 +142,7 @@ BodyWrenches random_wrenches(Random& random) {
 BookPosition book_position(const Snapshot& s) {
   BookPosition position;
   position.p_root = s.p_root;
-  for (std::size_t i = 0; i < kBodies; ++i) position.R[i] = s.q[i].toRotationMatrix();
+  for (int i = 0; i < kBodies; ++i) position.R[i] = s.q[i].toRotationMatrix();
   return position;
 }
 
@@ -157,7 +153,7 @@ Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
   out.segment<3>(3) = linear;
   int dof = 6;
   for (int i = 1; i < kBodies; ++i) {
-    const Vector3d& x = joints[static_cast<std::size_t>(i)];
+    const Vector3d& x = joints[i];
     if (is_hinge(i)) {
       out(dof++) = hinge_axis(i).dot(x);
     } else {
@@ -176,7 +172,7 @@ Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
   const Matrix3d R = s.q[0].toRotationMatrix();
   const BodyPoses poses = forward_kinematics(Character{}, s.p_root, s.q);
   PerBody<Vector3d> joints;
-  for (std::size_t i = 0; i < kBodies; ++i) joints[i] = poses.q_WB[i].conjugate() * to_eigen(d.qdd[i]);
+  for (int i = 0; i < kBodies; ++i) joints[i] = poses.q_WB[i].conjugate() * to_eigen(d.qdd[i]);
   // The spatial acceleration differs from the classical one by ω × v.                  RBDA §2.11
   return book_vector(R.transpose() * to_eigen(d.a_w[0]),
                      R.transpose() * to_eigen(d.a_v[0]) - s.omega[0].cross(R.transpose() * s.v_root), joints);
@@ -184,7 +180,7 @@ Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
 
 Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau) {
   PerBody<Vector3d> joints;
-  for (std::size_t i = 0; i < kBodies; ++i) joints[i] = to_eigen(tau[i]);
+  for (int i = 0; i < kBodies; ++i) joints[i] = to_eigen(tau[i]);
   return book_vector(Vector3d::Zero(), Vector3d::Zero(), joints);
 }
 

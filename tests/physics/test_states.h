@@ -56,7 +56,7 @@ template <class T>
 void set_lane(const Snapshot& s, int lane, State<T>& state, Target<T>& target) {
   set_lane(state.p_root, lane, s.p_root);
   set_lane(state.v_root, lane, s.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     set_lane(state.q[i], lane, s.q[i]);
     set_lane(state.omega[i], lane, s.omega[i]);
     set_lane(target.q[i], lane, s.target_q[i]);
@@ -68,7 +68,7 @@ template <class T>
 void read_lane(const State<T>& state, int lane, Snapshot& s) {
   s.p_root = lane_of(state.p_root, lane);
   s.v_root = lane_of(state.v_root, lane);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     s.q[i] = lane_of(state.q[i], lane);
     s.omega[i] = lane_of(state.omega[i], lane);
   }
@@ -83,10 +83,10 @@ struct Simulation {
   Data<T> data{};
   Applied<T> applied{};
 
-  Simulation(const Character& character, const SimulationOptions& options)
-      : model(make_model<RealOf<T>>(character, options)) {}
-  Simulation(const Character& character, const SimulationOptions& options, const Snapshot& s)
-      : Simulation(character, options) {
+  Simulation(const Character& character, const SimulationConfig& config)
+      : model(make_model<RealOf<T>>(character, config)) {}
+  Simulation(const Character& character, const SimulationConfig& config, const Snapshot& s)
+      : Simulation(character, config) {
     for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) set_lane(s, lane, state, target);
   }
   /// One step, with what acted in it (alone) in `applied`.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "motion/clip_file.h"
 #include "pipeline/plan.h"
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "motion/import/bvh.h"
+#include "motion/import/bvh_write.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/results.h"
 

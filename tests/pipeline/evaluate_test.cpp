@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "motion/clip_file.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 

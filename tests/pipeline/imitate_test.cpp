@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "core/parallel.h"
+#include "motion/clip_file.h"
 #include "motion/synth/synth.h"
 #include "pipeline/configurations.h"
 #include "pipeline/temporary_folder.h"
@@ -36,7 +37,7 @@ struct FollowsSynthetic : testing::TestWithParam<SyntheticLimit> {};
 
 TEST_P(FollowsSynthetic, WithinItsGlobalPositionError) {
   const TemporaryFolder folder;
-  SynthOptions options;
+  SynthConfig options;
   options.kind = GetParam().kind;
   write_clip(folder.path / "clip.npz", synthesize(options));
   const SequenceEntry entry = imitate_one(folder.path / "clip.npz");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/output/plan_file.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
@@ -64,7 +65,7 @@ TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
   EXPECT_EQ(manifest.method, "plan");
   EXPECT_EQ(manifest.samples, 0);
   EXPECT_EQ(value_of(manifest.settings, "plan_horizon"), control::HorizonOptions{}.horizon);
-  EXPECT_EQ(value_of(manifest.settings, "physics_rate"), SimulationOptions{}.rate);
+  EXPECT_EQ(value_of(manifest.settings, "physics_rate"), SimulationConfig{}.rate);
   const SequenceEntry& entry = manifest.sequences.at(0);
   EXPECT_TRUE(entry.ok) << entry.reason;
   EXPECT_EQ(entry.method, "plan");

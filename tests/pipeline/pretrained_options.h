@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "motion/clip_file.h"
 #include "motion/synth/synth.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
@@ -18,7 +19,7 @@ struct PretrainedOptions : testing::Test {
     std::filesystem::create_directories(motions);
     write_clip(motions / "stand.npz", standing_clip(20));
     write_clip(motions / "sway.npz", standing_clip(25));
-    SynthOptions walk;
+    SynthConfig walk;
     walk.kind = "walk";
     write_clip(motions / "walk.npz", synthesize(walk));
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "motion/clip.h"
+#include "motion/clip_file.h"
 #include "motion/reference.h"
 
 namespace mimicx {

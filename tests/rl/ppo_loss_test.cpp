@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "nn/gradient.h"
+
 namespace mimicx::rl {
 namespace {
 
@@ -34,7 +36,7 @@ TEST(PpoLoss, SurrogateIsTheClippedRatioTimesTheAdvantage) {
     const Var loss = surrogate_loss(tape, density, old, advantage, 0.2);
     EXPECT_NEAR(tape.scalar(loss), -gains[k], 1e-12);
     const Var wrt[] = {density};
-    EXPECT_NEAR(tape.scalar(tape.gradient(loss, wrt).front()), -slopes[k], 1e-12);
+    EXPECT_NEAR(tape.scalar(nn::gradient(tape, loss, wrt).front()), -slopes[k], 1e-12);
   }
 }
 
@@ -44,7 +46,7 @@ TEST(PpoLoss, RatioOfAnyTwoDensitiesStaysFinite) {
   const Var loss = surrogate_loss(tape, density, old, tape.constant(1, 1, -1.0F), 0.2F);
   const Var wrt[] = {density};
   EXPECT_TRUE(std::isfinite(tape.scalar(loss)));
-  EXPECT_TRUE(std::isfinite(tape.scalar(tape.gradient(loss, wrt).front())));
+  EXPECT_TRUE(std::isfinite(tape.scalar(nn::gradient(tape, loss, wrt).front())));
 }
 
 TEST(PpoLoss, FirstGradientIsThePolicyGradient) {
@@ -59,7 +61,7 @@ TEST(PpoLoss, FirstGradientIsThePolicyGradient) {
   const M old = tape.value(density);
   const Var wrt[] = {mean};
   const Var loss = surrogate_loss(tape, density, tape.constant(old), tape.constant(advantages), 0.2);
-  const M gradient = tape.value(tape.gradient(loss, wrt).front());
+  const M gradient = tape.value(nn::gradient(tape, loss, wrt).front());
   for (int i = 0; i < 7; ++i) {
     EXPECT_NEAR(old(i), -(actions.row(i) - means.row(i)).squaredNorm() / (2 * sigma * sigma), 1e-12);
     for (int k = 0; k < 3; ++k)
@@ -127,7 +129,7 @@ TEST(GradientPenalty, ItsGradientMatchesFiniteDifferences) {
   const auto vars = parameters_on_tape(tape, actor);
   const Var value =
       gradient_penalty<double>(tape, actor, vars, tape.constant(observations), tape.constant(actions), sigma);
-  const auto gradient = tape.gradient(value, vars);
+  const auto gradient = nn::gradient(tape, value, vars);
   std::vector<M> analytic;
   for (const Var v : gradient) analytic.push_back(tape.value(v));
   const auto parameters = nn::parameters(actor);

@@ -114,18 +114,19 @@ class ToyEnvironment {
   int group_size() const { return group_size_; }
   int observation_dim() const { return Task::kObservation; }
   int action_dim() const { return Task::kAction; }
+  int agents() const { return 1; }
+  int actor(int, int) const { return 0; }
 
   void observe(int group, Eigen::Ref<nn::Matrix<float>> observations) const {
-    const Group& g = groups_[static_cast<std::size_t>(group)];
-    for (int i = 0; i < group_size_; ++i)
-      Task::observe(g.states[static_cast<std::size_t>(i)], observations.row(i).data());
+    const Group& g = groups_[group];
+    for (int i = 0; i < group_size_; ++i) Task::observe(g.states[i], observations.row(i).data());
   }
 
   void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result) {
-    Group& g = groups_[static_cast<std::size_t>(group)];
+    Group& g = groups_[group];
     for (int i = 0; i < group_size_; ++i) {
-      auto& state = g.states[static_cast<std::size_t>(i)];
-      int& age = g.ages[static_cast<std::size_t>(i)];
+      auto& state = g.states[i];
+      int& age = g.ages[i];
       const Outcome outcome = Task::step(state, actions.row(i).data(), g.random);
       result.reward[i] = static_cast<float>(outcome.reward);
       result.terminated[i] = outcome.terminated;
@@ -137,7 +138,10 @@ class ToyEnvironment {
     }
   }
 
-  void end_iteration() { ++iterations_; }
+  std::vector<CharacterPlace> end_iteration() {
+    ++iterations_;
+    return {};
+  }
 
   void save(Npz& archive, const std::string& prefix) const {
     std::vector<double> numbers = {static_cast<double>(iterations_)};
@@ -151,6 +155,11 @@ class ToyEnvironment {
 
   void load(const Npz& archive, const std::string& prefix) {
     const std::vector<double> numbers = archive.at(prefix + "toy").to_double();
+    const std::size_t expected =
+        1 + groups_.size() * static_cast<std::size_t>(1 + group_size_ * (Task::kState + 1));
+    if (numbers.size() != expected)
+      throw DataError(archive.path, prefix + "toy", std::to_string(expected) + " numbers",
+                      std::to_string(numbers.size()));
     auto next = numbers.begin();
     iterations_ = static_cast<int>(*next++);
     for (Group& g : groups_) {
@@ -164,12 +173,12 @@ class ToyEnvironment {
  private:
   struct Group {
     Random random;
-    std::vector<typename Task::State> states;
-    std::vector<int> ages;
+    List<typename Task::State> states;
+    List<int> ages;
   };
   int group_size_;
   int iterations_ = 0;
-  std::vector<Group> groups_;
+  List<Group> groups_;
 };
 
 static_assert(Environment<ToyEnvironment<Pendulum>>);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "rl/ppo_fixture.h"
 #include "rl/toy_environments.h"
 #include "rl/trainer.h"
 
@@ -12,6 +13,7 @@ namespace {
 using namespace toy;
 
 constexpr int kThreads = 1;
+constexpr Course kCourse = {.seed = 1, .falling_samples = 2'000'000};
 
 Agent agent_for(int observations, int actions, std::uint64_t seed) {
   AgentShape shape;
@@ -23,7 +25,7 @@ Agent agent_for(int observations, int actions, std::uint64_t seed) {
 }
 
 PpoConfig toy_config() {
-  PpoConfig config;
+  PpoConfig config = ppo_for_tests();
   config.minibatch = 1024;
   config.step_max = 1e-2;
   config.critic_step_size = 1e-3;
@@ -64,7 +66,7 @@ TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
   Agent agent = agent_for(2, 1, 1);
   Random random(1);
   agent.actor = nn::make_mlp<float>({2, 1}, nn::Activation::kLinear, 0.02F, random);
-  PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, agent, world);
+  PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, kCourse, {agent}, world);
   Eigen::RowVector3d law = Eigen::RowVector3d::Zero();
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
   for (int k = 0; k < 50; ++k) {  // it goes on trembling about the optimum: take the mean
@@ -82,16 +84,14 @@ double pendulum_return(const Agent& agent) {
   nn::Matrix<float> raw(64, Pendulum::kObservation), x, means;
   nn::Workspace<float> workspace;
   Random random(77);
-  std::vector<Pendulum::State> states;
+  List<Pendulum::State> states;
   for (int i = 0; i < 64; ++i) states.push_back(Pendulum::reset(random));
   double total = 0.0;
   for (int t = 0; t < Pendulum::kLimit; ++t) {
-    for (std::size_t i = 0; i < 64; ++i)
-      Pendulum::observe(states[i], raw.row(static_cast<Eigen::Index>(i)).data());
+    for (int i = 0; i < 64; ++i) Pendulum::observe(states[i], raw.row(i).data());
     nn::normalise(agent.observations, raw, x);
     nn::evaluate(agent.actor, x, workspace, means);
-    for (std::size_t i = 0; i < 64; ++i)
-      total += Pendulum::step(states[i], means.row(static_cast<Eigen::Index>(i)).data(), random).reward;
+    for (int i = 0; i < 64; ++i) total += Pendulum::step(states[i], means.row(i).data(), random).reward;
   }
   return total / 64.0;
 }
@@ -101,9 +101,9 @@ TEST(ToyTasks, PendulumSwingsUp) {
   PpoConfig config = toy_config();
   config.sigma_start = 0.6;
   config.sigma_end = 0.15;
-  config.sigma_samples = 600'000;
   const Agent untrained = agent_for(3, 1, 3);
-  PpoTrainer<ToyEnvironment<Pendulum>> trainer(config, untrained, world);
+  PpoTrainer<ToyEnvironment<Pendulum>> trainer(config, {.seed = 1, .falling_samples = 600'000}, {untrained},
+                                               world);
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
   EXPECT_LT(pendulum_return(untrained), -800.0);
   EXPECT_GT(pendulum_return(trainer.learner().agent), -250.0);
@@ -112,7 +112,7 @@ TEST(ToyTasks, PendulumSwingsUp) {
 template <class Task>
 double learned_value(const PpoConfig& config) {
   ToyEnvironment<Task> world(2, 32, 4);
-  PpoTrainer<ToyEnvironment<Task>> trainer(config, agent_for(2, 1, 4), world);
+  PpoTrainer<ToyEnvironment<Task>> trainer(config, kCourse, {agent_for(2, 1, 4)}, world);
   for (int k = 0; k < 150; ++k) trainer.iterate(kThreads);
   double sum = 0.0;
   for (const GroupRollout& group : trainer.buffer().groups) sum += group.values.cast<double>().sum();
@@ -140,7 +140,7 @@ TEST(ToyTasks, StepSizeFindsTheTargetKlFromFarBelowAndAbove) {
     config.sigma_start = config.sigma_end = 0.1;
     config.step_size = start;
     config.step_max = 1.0;
-    PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, agent_for(2, 1, 5), world);
+    PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, kCourse, {agent_for(2, 1, 5)}, world);
     for (int k = 0; k < 40; ++k) trainer.iterate(kThreads);
     double kl = 0.0;
     for (int k = 0; k < 20; ++k) kl += trainer.iterate(kThreads).kl / 20.0;

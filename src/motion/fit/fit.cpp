@@ -6,8 +6,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "motion/fit/problem.h"
-#include "motion/reference.h"
+#include "motion/fit/labels.h"
+#include "motion/fit/projection.h"
+#include "motion/fit/terms.h"
 
 namespace mimicx {
 namespace {
@@ -23,34 +24,29 @@ constexpr double kBlindPriorFrames = 5.0;  ///< `prior_frames` where nothing but
 
 /// A state with everything that follows from it.
 struct Evaluated {
-  std::vector<FrameKinematics> motion;
-  std::vector<FootPositions> feet;
+  PerFrame<FrameKinematics> motion;
+  PerFrame<FootPositions> feet;
 };
 
 Evaluated evaluate(const FitProblem& problem, const FitState& state) {
   const Character character = character_of(problem, state);
   Evaluated e;
-  for (std::size_t t = 0; t < problem.q.size(); ++t) {
+  for (int t = 0; t < problem.frames(); ++t) {
     e.motion.push_back(kinematics(problem, state, character, t));
-    FootPositions feet;
-    for (std::size_t i = 0; i < kFootPoints; ++i) {
-      const auto body = static_cast<std::size_t>(foot_body(i));
-      feet[i] = e.motion[t].poses.p_WB[body] + e.motion[t].R[body] * sole_point(character.contact_points[i]);
-    }
-    e.feet.push_back(feet);
+    e.feet.push_back(foot_positions(character, e.motion[t]));
   }
   return e;
 }
 
 /// Where the detections should be, pixels: [frames][K].
-std::vector<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const FitState& state,
-                                                  const Evaluated& e) {
-  std::vector<std::vector<Eigen::Vector2d>> predicted;
-  for (std::size_t t = 0; t < e.motion.size(); ++t) {
+PerFrame<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const FitState& state,
+                                               const Evaluated& e) {
+  PerFrame<std::vector<Eigen::Vector2d>> predicted;
+  for (int t = 0; t < problem.frames(); ++t) {
     predicted.emplace_back();
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const auto b = static_cast<std::size_t>(problem.points[k].body);
-      const Projection seen = project_point(problem, state, t, k, e.motion[t].poses.p_WB[b]);
+      const int body = problem.points[k].body;
+      const Projection seen = project_point(problem, state, t, k, e.motion[t].poses.p_WB[body]);
       const Eigen::Vector2d detected = problem.uvc[t][k].head<2>();
       predicted.back().push_back(seen.valid ? Eigen::Vector2d(detected + problem.box[t] * seen.error)
                                             : detected);
@@ -67,12 +63,12 @@ struct Residual {
 Residual residual_of(const FitProblem& problem, const FitState& state, const Evaluated& e) {
   Residual out;
   double squares = 0.0, weights = 0.0;
-  for (std::size_t t = 0; t < e.motion.size(); ++t)
+  for (int t = 0; t < problem.frames(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const auto b = static_cast<std::size_t>(problem.points[k].body);
+      const int body = problem.points[k].body;
       const double confidence = problem.uvc[t][k].z();
-      const Projection seen = project_point(problem, state, t, k, e.motion[t].poses.p_WB[b]);
-      if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.options.keypoint_kernel)
+      const Projection seen = project_point(problem, state, t, k, e.motion[t].poses.p_WB[body]);
+      if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.config.keypoint_kernel)
         ++out.dropped;
       if (confidence <= 0.0 || !seen.valid) continue;
       squares += confidence * seen.error.squaredNorm();
@@ -91,14 +87,14 @@ double advance(const BandSolution& step, FitState& state) {
     longest = std::max(longest, x.cwiseAbs().maxCoeff());
   }
   const double scale = std::min(1.0, kLargestTurn / std::max(turn, 1e-12));
-  for (std::size_t t = 0; t < state.c.size(); ++t) state.c[t] += scale * step.x[t];
+  for (int t = 0; t < state.c.count(); ++t) state.c[t] += scale * step.x[t];
   state.g += scale * step.g;
   return scale * longest;
 }
 
 /// Keypoints of the clip with the labels and the camera of the fit.
 void correct_keypoints(const FitProblem& problem, const FitState& state, Keypoints& keypoints) {
-  for (std::size_t t = 0; t < keypoints.uvc.size(); ++t)
+  for (int t = 0; t < keypoints.uvc.count(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k)
       keypoints.uvc[t][problem.points[k].column] = problem.uvc[t][k];
   keypoints.intrinsics.topLeftCorner<2, 2>() *= std::exp(state.g[kLogFocal]);
@@ -108,9 +104,9 @@ void correct_keypoints(const FitProblem& problem, const FitState& state, Keypoin
 }
 
 Clip result_of(const Clip& input, const FitProblem& problem, const FitState& state) {
-  std::vector<Vector3d> p_root;
-  std::vector<PerBody<Quaterniond>> q;
-  for (std::size_t t = 0; t < problem.q.size(); ++t) {
+  PerFrame<Vector3d> p_root;
+  PerFrame<PerBody<Quaterniond>> q;
+  for (int t = 0; t < problem.frames(); ++t) {
     p_root.push_back(problem.p_root[t] + state.c[t].head<3>());
     q.push_back(rotations_of(problem, state, t));
   }
@@ -128,9 +124,9 @@ Clip result_of(const Clip& input, const FitProblem& problem, const FitState& sta
 
 /// Largest and mean distance of the joints of two clips, mm.
 void report_change(const Clip& before, const Clip& after, FitReport& report) {
-  const std::vector<BodyPoses> a = poses_of(before), b = poses_of(after);
-  for (std::size_t t = 0; t < a.size(); ++t)
-    for (std::size_t j = 0; j < kBodies; ++j) {
+  const PerFrame<BodyPoses> a = poses_of(before), b = poses_of(after);
+  for (int t = 0; t < a.count(); ++t)
+    for (int j = 0; j < kBodies; ++j) {
       const double mm = kMm * (a[t].p_WB[j] - b[t].p_WB[j]).norm();
       report.change_mean_mm += mm / static_cast<double>(a.size() * kBodies);
       report.change_max_mm = std::max(report.change_max_mm, mm);
@@ -147,11 +143,11 @@ std::string reason_to_refuse(const FitProblem& problem) {
 
 /// Gauss-Newton with labels and contacts found anew before each step.
 FitState iterate(FitProblem& problem, FitReport& report) {
-  const std::vector<std::vector<Vector3d>> detected = problem.uvc;
+  const PerFrame<std::vector<Vector3d>> detected = problem.uvc;
   FitState state = initial_state(problem);
   Evaluated e = evaluate(problem, state);
   report.residual_before = residual_of(problem, state, e).rms;
-  for (report.iterations = 0; report.iterations < problem.options.iterations;) {
+  for (report.iterations = 0; report.iterations < problem.config.iterations;) {
     report.swapped_frames = order_labels(detected, predict(problem, state, e), problem);
     const Contacts contacts = find_contacts(e.feet, problem.fps, report.iterations >= kUnsettled);
     BorderedBand system = linearise(problem, state, e.motion, e.feet, contacts);
@@ -184,14 +180,14 @@ Clip solved(const Clip& clip, FitProblem& problem, FitReport& report) {
 
 }  // namespace
 
-Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* report) {
+Clip fit_keypoints(const Clip& clip, const FitConfig& config, FitReport* report) {
   FitReport r;
   Clip fitted = clip;
   if (!clip.keypoints) {
     r.notes.push_back("no keypoints: left as it is");
   } else {
     require_usable(clip, 3);
-    FitProblem problem = make_problem(clip, options);
+    FitProblem problem = make_problem(clip, config);
     if (const std::string why = reason_to_refuse(problem); !why.empty())
       r.notes.push_back(why);
     else
@@ -201,15 +197,15 @@ Clip fit_keypoints(const Clip& clip, const FitOptions& options, FitReport* repor
   return fitted;
 }
 
-Clip steady(const Clip& clip, const FitOptions& options, FitReport* report) {
+Clip steady(const Clip& clip, const FitConfig& config, FitReport* report) {
   FitReport r;
   if (report) *report = r;
   if (clip.frames() < kTremorFrames) return clip;
   require_usable(clip, 3);
   Clip blind = clip;
   blind.keypoints.reset();
-  FitOptions trusting = options;
-  trusting.prior_frames = std::min(options.prior_frames, kBlindPriorFrames);
+  FitConfig trusting = config;
+  trusting.prior_frames = std::min(config.prior_frames, kBlindPriorFrames);
   FitProblem problem = make_problem(blind, trusting);
   Clip calm = problem.rotation_jitter < kTremor * kDegree ? clip : solved(clip, problem, r);
   if (report) *report = r;

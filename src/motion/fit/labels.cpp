@@ -1,8 +1,7 @@
-/// Left and right in order, and feet that stand: what the keypoint fit decides anew before each step.
+#include "motion/fit/labels.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "motion/fit/problem.h"
 
 namespace mimicx {
 namespace {
@@ -10,11 +9,6 @@ namespace {
 constexpr double kFar = 0.15;        ///< heights of the box: farther detections count no more than this
 constexpr double kBetter = 0.4;      ///< a swap must lower a limb's cost to this share …
 constexpr double kFarEnough = 0.03;  ///< … and its points must be so far off on average, heights of the box
-
-constexpr double kLabelSpeed = 0.3;                             ///< m/s over five frames at 30 fps
-constexpr double kLabelHeight = 0.03, kUnsettledHeight = 0.05;  ///< m
-constexpr double kLabelLowShare = 0.1;
-constexpr double kSpeedWindow = 2.0 / 30.0;  ///< s to either side
 
 bool is_leg(int body) {
   return body == kLeftHip || body == kRightHip || body == kLeftKnee || body == kRightKnee ||
@@ -57,11 +51,11 @@ bool prefers_swap(const std::vector<Vector3d>& detected, const std::vector<Eigen
 
 }  // namespace
 
-int order_labels(const std::vector<std::vector<Vector3d>>& detected,
-                 const std::vector<std::vector<Eigen::Vector2d>>& predicted, FitProblem& problem) {
+int order_labels(const PerFrame<std::vector<Vector3d>>& detected,
+                 const PerFrame<std::vector<Eigen::Vector2d>>& predicted, FitProblem& problem) {
   int frames = 0;
   problem.uvc = detected;
-  for (std::size_t t = 0; t < detected.size(); ++t) {
+  for (int t = 0; t < detected.count(); ++t) {
     if (problem.box[t] <= 0.0) continue;
     bool any = false;
     for (bool legs : {true, false}) {
@@ -73,38 +67,6 @@ int order_labels(const std::vector<std::vector<Vector3d>>& detected,
     frames += any ? 1 : 0;
   }
   return frames;
-}
-
-Contacts find_contacts(const std::vector<FootPositions>& feet, double fps, bool settled) {
-  Contacts contacts(feet.size());
-  const std::size_t last = feet.size() - 1;
-  const auto window = static_cast<std::size_t>(std::max(1.0, std::round(kSpeedWindow * fps)));
-  for (std::size_t foot = 0; foot < 2; ++foot) {
-    const std::size_t first = foot * kFootPoints / 2, end = first + kFootPoints / 2;
-    double floor = 0.0;
-    if (!settled) {
-      std::vector<double> lowest;
-      for (const FootPositions& p : feet) {
-        double z = p[first].z();
-        for (std::size_t i = first; i < end; ++i) z = std::min(z, p[i].z());
-        lowest.push_back(z);
-      }
-      const auto low =
-          lowest.begin() + static_cast<std::ptrdiff_t>(kLabelLowShare * static_cast<double>(lowest.size()));
-      std::nth_element(lowest.begin(), low, lowest.end());
-      floor = *low;
-    }
-    const double ceiling = floor + (settled ? kLabelHeight : kUnsettledHeight);
-    for (std::size_t t = 0; t < feet.size(); ++t) {
-      const std::size_t before = t > window ? t - window : 0, after = std::min(t + window, last);
-      for (std::size_t i = first; i < end; ++i) {
-        const double speed =
-            (feet[after][i] - feet[before][i]).norm() * fps / static_cast<double>(after - before);
-        contacts[t][i] = feet[t][i].z() < ceiling && speed < kLabelSpeed;
-      }
-    }
-  }
-  return contacts;
 }
 
 }  // namespace mimicx

@@ -17,8 +17,8 @@ void require_definite(const Eigen::LLT<Eigen::Ref<MatrixXd>>& factor) {
 
 /// diagonal, next, second ← the blocks of L. In place, frame by frame.
 void factorise(BorderedBand& s) {
-  const std::size_t frames = s.diagonal.size();
-  for (std::size_t t = 0; t < frames; ++t) {
+  const int frames = s.frames();
+  for (int t = 0; t < frames; ++t) {
     MatrixXd& D = s.diagonal[t];
     if (t >= 1) D.noalias() -= s.next[t - 1] * s.next[t - 1].transpose();
     if (t >= 2) D.noalias() -= s.second[t - 2] * s.second[t - 2].transpose();
@@ -34,8 +34,8 @@ void factorise(BorderedBand& s) {
 
 /// Y ← L⁻¹ Y, Y in blocks of rows: a vector or the border.
 template <class Block>
-void forward(const BorderedBand& s, std::vector<Block>& Y) {
-  for (std::size_t t = 0; t < Y.size(); ++t) {
+void forward(const BorderedBand& s, PerFrame<Block>& Y) {
+  for (int t = 0; t < Y.count(); ++t) {
     if (t >= 1) Y[t].noalias() -= s.next[t - 1] * Y[t - 1];
     if (t >= 2) Y[t].noalias() -= s.second[t - 2] * Y[t - 2];
     s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(Y[t]);
@@ -43,10 +43,10 @@ void forward(const BorderedBand& s, std::vector<Block>& Y) {
 }
 
 /// y ← L⁻ᵀ y
-void backward(const BorderedBand& s, std::vector<VectorXd>& y) {
-  for (std::size_t t = y.size(); t-- > 0;) {
-    if (t + 1 < y.size()) y[t].noalias() -= s.next[t].transpose() * y[t + 1];
-    if (t + 2 < y.size()) y[t].noalias() -= s.second[t].transpose() * y[t + 2];
+void backward(const BorderedBand& s, PerFrame<VectorXd>& y) {
+  for (int t = y.count() - 1; t >= 0; --t) {
+    if (t + 1 < y.count()) y[t].noalias() -= s.next[t].transpose() * y[t + 1];
+    if (t + 2 < y.count()) y[t].noalias() -= s.second[t].transpose() * y[t + 2];
     s.diagonal[t].transpose().triangularView<Eigen::Upper>().solveInPlace(y[t]);
   }
 }
@@ -66,14 +66,14 @@ BandSolution solve(BorderedBand& s) {
   factorise(s);
   forward(s, s.border);
   forward(s, s.rhs);
-  for (std::size_t t = 0; t < s.rhs.size(); ++t) {
+  for (int t = 0; t < s.frames(); ++t) {
     s.corner.noalias() -= s.border[t].transpose() * s.border[t];
     s.rhs_border.noalias() -= s.border[t].transpose() * s.rhs[t];
   }
   const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(s.corner);
   require_definite(factor);
   BandSolution out{std::move(s.rhs), factor.solve(s.rhs_border)};
-  for (std::size_t t = 0; t < out.x.size(); ++t) out.x[t].noalias() -= s.border[t] * out.g;
+  for (int t = 0; t < s.frames(); ++t) out.x[t].noalias() -= s.border[t] * out.g;
   backward(s, out.x);
   return out;
 }

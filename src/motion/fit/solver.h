@@ -1,4 +1,5 @@
-/// The linear system of the keypoint fit: a symmetric positive definite block band with a border.
+/// The linear system of the keypoint fit, docs/method.md, "Keypoint fit", (9): a symmetric positive definite
+/// block band with a border.
 ///
 ///   ⎡ A   B ⎤ ⎡ x ⎤   ⎡ a ⎤     A: frames × frames blocks of n × n, block bandwidth 2 (neighbours and
 ///   ⎣ Bᵀ  C ⎦ ⎣ g ⎦ = ⎣ b ⎦        the frames after them); C: m × m of unknowns that every frame shares
@@ -8,7 +9,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+
+#include "core/containers.h"
 
 namespace mimicx {
 
@@ -16,22 +18,22 @@ struct BorderedBand {
   using MatrixXd = Eigen::MatrixXd;
   using VectorXd = Eigen::VectorXd;
 
-  std::vector<MatrixXd> diagonal;  ///< [frames] n × n: block (t, t)
-  std::vector<MatrixXd> next;      ///< [frames] n × n: block (t + 1, t); unused for the last frame
-  std::vector<MatrixXd> second;    ///< [frames] n × n: block (t + 2, t); unused for the last two
-  std::vector<MatrixXd> border;    ///< [frames] n × m: rows of B
-  MatrixXd corner;                 ///< m × m: C
-  std::vector<VectorXd> rhs;       ///< [frames] n: a
-  VectorXd rhs_border;             ///< m: b
+  PerFrame<MatrixXd> diagonal;  ///< [frames] n × n: block (t, t)
+  PerFrame<MatrixXd> next;      ///< [frames] n × n: block (t + 1, t); unused for the last frame
+  PerFrame<MatrixXd> second;    ///< [frames] n × n: block (t + 2, t); unused for the last two
+  PerFrame<MatrixXd> border;    ///< [frames] n × m: rows of B
+  MatrixXd corner;              ///< m × m: C
+  PerFrame<VectorXd> rhs;       ///< [frames] n: a
+  VectorXd rhs_border;          ///< m: b
 
   /// All zero.
   BorderedBand(int frames, int n, int m);
-  int frames() const { return static_cast<int>(diagonal.size()); }
+  int frames() const { return diagonal.count(); }
 };
 
 struct BandSolution {
-  std::vector<Eigen::VectorXd> x;  ///< [frames] n
-  Eigen::VectorXd g;               ///< m
+  PerFrame<Eigen::VectorXd> x;  ///< [frames] n
+  Eigen::VectorXd g;            ///< m
 };
 
 /// Solves the system; overwrites it with its factors.

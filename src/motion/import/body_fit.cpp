@@ -6,7 +6,7 @@
 namespace mimicx {
 namespace {
 
-using Betas = std::array<double, kBetas>;
+using Betas = Array<double, kBetas>;
 
 using Vector = Eigen::VectorXd;
 
@@ -22,7 +22,7 @@ Betas minimise(const Residual& residual, double weight) {
     Eigen::MatrixXd J(r.size(), kBetas);
     for (int k = 0; k < kBetas; ++k) {
       Betas moved = betas;
-      double& beta = moved[static_cast<std::size_t>(k)];
+      double& beta = moved[k];
       const double h = beta > 0.0 ? -kDifference : kDifference;  // stays within the bounds
       beta += h;
       J.col(k) = (residual(moved) - r) / h;
@@ -39,8 +39,7 @@ Betas minimise(const Residual& residual, double weight) {
         g[k] = 0.0;
       }
     const Vector next = b - A.ldlt().solve(g);
-    for (int k = 0; k < kBetas; ++k)
-      betas[static_cast<std::size_t>(k)] = std::clamp(next[k], -kMaxBeta, kMaxBeta);
+    for (int k = 0; k < kBetas; ++k) betas[k] = std::clamp(next[k], -kMaxBeta, kMaxBeta);
   }
   return betas;
 }
@@ -49,9 +48,7 @@ Betas minimise(const Residual& residual, double weight) {
 
 BodyLengths lengths_of(const Character& character) {
   const auto& offset = character.joint_offset;
-  const auto mean = [&](std::size_t left, std::size_t right) {
-    return 0.5 * (offset[left].norm() + offset[right].norm());
-  };
+  const auto mean = [&](int left, int right) { return 0.5 * (offset[left].norm() + offset[right].norm()); };
   const Vector3d hips = 0.5 * (offset[kLeftHip] + offset[kRightHip]);
   const Vector3d chest = offset[kSpine1] + offset[kSpine2] + offset[kSpine3];
   const Vector3d left = offset[kLeftCollar] + offset[kLeftShoulder],
@@ -68,26 +65,26 @@ BodyLengths lengths_of(const Character& character) {
   return lengths;
 }
 
-Betas fit_betas(const BodyLengths& lengths) {
-  // 8 mm of length weigh as much as β_k = 5: odd skeletons do not make odd bodies for the last millimetres.
+std::array<double, kBetas> fit_betas(const BodyLengths& lengths) {
+  // A length that is off by 8 mm costs as much as β_k = 5: an odd skeleton gets an ordinary body that misses
+  // its lengths by some millimetres.
   constexpr double kSigma = 0.005, kPull = 0.1;
   return minimise(
       [&](const Betas& betas) {
         const BodyLengths made = lengths_of(make_character(betas));
         Vector r = Vector::Zero(kLengths);
-        for (std::size_t i = 0; i < kLengths; ++i)
-          if (lengths[i] > 0.0) r[static_cast<Eigen::Index>(i)] = (made[i] - lengths[i]) / kSigma;
+        for (int i = 0; i < kLengths; ++i)
+          if (lengths[i] > 0.0) r[i] = (made[i] - lengths[i]) / kSigma;
         return r;
       },
       kPull);
 }
 
-Betas fit_betas(const PerBody<Vector3d>& offsets, double& error) {
+std::array<double, kBetas> fit_betas(const PerBody<Vector3d>& offsets, double& error) {
   const auto residual = [&](const Betas& betas) {
     const Character character = make_character(betas);
     Vector r(3 * kJoints);
-    for (std::size_t j = 1; j < kBodies; ++j)
-      r.segment<3>(3 * static_cast<Eigen::Index>(j - 1)) = character.joint_offset[j] - offsets[j];
+    for (int j = 1; j < kBodies; ++j) r.segment<3>(3 * (j - 1)) = character.joint_offset[j] - offsets[j];
     return r;
   };
   const Betas betas = minimise(residual, 1e-12);  // the girth, which moves no joint, is 0

@@ -22,12 +22,12 @@ enum Length : int {
   kTrunk,
   kLengths
 };
-using BodyLengths = std::array<double, kLengths>;
+using BodyLengths = Array<double, kLengths>;
 
 /// Those of a character. The trunk reaches from the middle of the hips to the middle of the shoulders.
 BodyLengths lengths_of(const Character& character);
 
-/// @return β; components that no length tells of (girth, head) are 0
+/// @return β; the components that change none of these lengths (girth, head) are 0
 std::array<double, kBetas> fit_betas(const BodyLengths& lengths);
 
 /// The β whose rest offsets are nearest to the given ones. @param error  largest difference that is left, m

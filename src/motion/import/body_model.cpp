@@ -28,7 +28,7 @@ MatrixXd matrix_of(const Npz& npz, const std::string& key, const std::vector<std
 void check_tree(const Npz& npz) {
   const MatrixXd tree = matrix_of(npz, "kintree_table", {2, kBodies});
   for (Index i = 1; i < kBodies; ++i)
-    if (tree(0, i) != kParents[static_cast<std::size_t>(i)])
+    if (tree(0, i) != kParents[i])
       throw DataError(npz.path, "kintree_table", "SMPL-X's tree of joints",
                       "another parent of joint " + std::to_string(i));
 }
@@ -38,7 +38,7 @@ RestJoints regressed(const MatrixXd& regressor, const MatrixXd& vertices, const 
   const MatrixXd joints = regressor * vertices;
   if (!joints.allFinite()) throw DataError(npz.path, "", "finite joints", "some that are not");
   RestJoints out;
-  for (std::size_t i = 0; i < kBodies; ++i) out[i] = joints.row(static_cast<Index>(i)).transpose();
+  for (int i = 0; i < kBodies; ++i) out[i] = joints.row(i).transpose();
   return out;
 }
 
@@ -47,7 +47,7 @@ RestJoints regressed(const MatrixXd& regressor, const MatrixXd& vertices, const 
 RestJoints BodyModel::joints(const std::array<double, kBetas>& betas) const {
   RestJoints out = mean;
   for (std::size_t k = 0; k < kBetas; ++k)
-    for (std::size_t i = 0; i < kBodies; ++i) out[i] += betas[k] * by_beta[k][i];
+    for (int i = 0; i < kBodies; ++i) out[i] += betas[k] * by_beta[k][i];
   return out;
 }
 
@@ -67,7 +67,7 @@ BodyModel read_body_model(const std::filesystem::path& path) {
   for (Index k = 0; k < kBetas; ++k) {
     MatrixXd moved(vertices.rows(), 3);
     for (Index axis = 0; axis < 3; ++axis) moved.col(axis) = directions.col(axis * components + k);
-    model.by_beta[static_cast<std::size_t>(k)] = regressed(regressor, moved, npz);
+    model.by_beta[k] = regressed(regressor, moved, npz);
   }
   return model;
 }

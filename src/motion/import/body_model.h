@@ -1,4 +1,4 @@
-/// Joints of a licensed body model, from the file its owner has: SMPLX_NEUTRAL.npz.         METHOD §2
+/// Joints of a licensed body model, from the file its owner has: SMPLX_NEUTRAL.npz.         docs/method.md §2
 ///
 ///     J(β) = J_regressor · (v_template + shapedirs[:, :, :10] · β)
 ///
@@ -16,8 +16,8 @@ namespace mimicx {
 
 /// Rest joints of the first 22 bodies, affine in β.
 struct BodyModel {
-  RestJoints mean;                         ///< β = 0, m
-  std::array<RestJoints, kBetas> by_beta;  ///< what each β adds
+  RestJoints mean;                    ///< β = 0, m
+  Array<RestJoints, kBetas> by_beta;  ///< what each β adds
 
   RestJoints joints(const std::array<double, kBetas>& betas) const;
 };

@@ -4,14 +4,13 @@
 /// Source: the files people have; the format has no standard. What is read: any number and order of channels
 /// per joint, rotations (degrees) multiplied in that order; position channels on any joint, which replace its
 /// OFFSET; End Sites; names with spaces; keywords in any case; any line ends, tabs, blank lines. One frame is
-/// one line. Unit and axes are not in the file: retarget.h finds them.
+/// one line. Unit and axes are not in the file: retarget.h finds them. bvh_write.h writes such files.
 ///
 /// What it does not do: one skeleton per file, no more than 256 levels and 4096 joints.
 #pragma once
 
 #include <filesystem>
 
-#include "motion/clip.h"
 #include "motion/import/skeleton.h"
 
 namespace mimicx {
@@ -20,13 +19,5 @@ namespace mimicx {
 SkeletonMotion read_bvh(const std::filesystem::path& path);
 /// The same from text in memory. @param path  for messages; its stem is the motion's name
 SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& path);
-
-/// Writes a clip for other tools: y up, metres (what Blender's importer takes a unit to be), the 22 SMPL
-/// joint names, the T-pose of the clip's body at rest, the clip's own frame rate.
-/// The root has position channels; every joint turns by Zrotation Yrotation Xrotation, angles chosen so that
-/// curves do not jump.
-void write_bvh(const std::filesystem::path& path, const Clip& clip);
-/// The text `write_bvh` writes.
-std::string format_bvh(const Clip& clip);
 
 }  // namespace mimicx

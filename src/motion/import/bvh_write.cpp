@@ -1,3 +1,5 @@
+#include "motion/import/bvh_write.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <numbers>
 
 #include "core/units.h"
-#include "motion/import/bvh.h"
 
 namespace mimicx {
 namespace {
@@ -47,18 +48,16 @@ bool has_children(int body) { return std::find(kParents.begin(), kParents.end(),
 void write_joint(const Character& character, int body, int depth, std::string& out, std::vector<int>& order) {
   order.push_back(body);
   const std::string indent(static_cast<std::size_t>(depth), '\t');
-  const auto b = static_cast<std::size_t>(body);
-  out += indent + (body == 0 ? "ROOT " : "JOINT ") + std::string(kBodyNames[b]) + '\n' + indent + "{\n";
+  out += indent + (body == 0 ? "ROOT " : "JOINT ") + std::string(kBodyNames[body]) + '\n' + indent + "{\n";
   // Readers disagree on whether a root's position replaces its OFFSET or adds to it: 0 suits both.
-  out += indent + "\tOFFSET " + triple(body == 0 ? Vector3d::Zero() : character.joint_offset[b]) + '\n';
+  out += indent + "\tOFFSET " + triple(body == 0 ? Vector3d::Zero() : character.joint_offset[body]) + '\n';
   out += indent + (body == 0 ? "\tCHANNELS 6 Xposition Yposition Zposition" : "\tCHANNELS 3") +
          " Zrotation Yrotation Xrotation\n";
   for (int child = 1; child < kBodies; ++child)
-    if (kParents[static_cast<std::size_t>(child)] == body)
-      write_joint(character, child, depth + 1, out, order);
+    if (kParents[child] == body) write_joint(character, child, depth + 1, out, order);
   if (!has_children(body))  // as long as the body's capsule, so that importers draw a bone
     out += indent + "\tEnd Site\n" + indent + "\t{\n" + indent + "\t\tOFFSET " +
-           triple(character.capsule[b].b_B) + '\n' + indent + "\t}\n";
+           triple(character.capsule[body].b_B) + '\n' + indent + "\t}\n";
   out += indent + "}\n";
 }
 
@@ -77,13 +76,12 @@ std::string format_bvh(const Clip& clip) {
   PerBody<Vector3d> angles;
   angles.fill(Vector3d::Zero());
   const auto rotations = joint_rotations(clip);
-  for (std::size_t t = 0; t < rotations.size(); ++t) {
+  for (int t = 0; t < clip.frames(); ++t) {
     out += triple(q_YZ * (clip.trans[t] + rest));
     for (const int body : order) {
-      const auto b = static_cast<std::size_t>(body);
-      const Quaterniond q = body == kPelvis ? q_YZ * rotations[t][b] : rotations[t][b];
-      angles[b] = zyx_angles(q.toRotationMatrix(), angles[b]);
-      out += ' ' + triple(angles[b]);
+      const Quaterniond q = body == kPelvis ? q_YZ * rotations[t][body] : rotations[t][body];
+      angles[body] = zyx_angles(q.toRotationMatrix(), angles[body]);
+      out += ' ' + triple(angles[body]);
     }
     out += '\n';
   }

@@ -46,6 +46,8 @@ const std::array<HumanoidJoint, 17>& humanoid() {
   return joints;
 }
 
+using Row = Array<double, kColumns>;
+
 /// Any JSON value, checked and forgotten.
 void skip_value(TextInput& in, int depth) {
   if (depth > kMaxNesting) in.fail_with("at most 64 levels of brackets", "more");
@@ -73,12 +75,12 @@ void skip_value(TextInput& in, int depth) {
   }
 }
 
-std::array<double, kColumns> read_row(TextInput& in, std::size_t frame) {
-  std::array<double, kColumns> row{};
+Row read_row(TextInput& in, std::size_t frame) {
+  Row row{};
   in.expect("[");
   for (int c = 0; c < kColumns; ++c) {
     if (c > 0) in.expect(",");
-    double& value = row[static_cast<std::size_t>(c)];
+    double& value = row[c];
     value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame + 1));
     if (std::abs(value) > kMaxFrameValue) in.fail_with("a number within ±10000", std::to_string(value));
   }
@@ -86,11 +88,11 @@ std::array<double, kColumns> read_row(TextInput& in, std::size_t frame) {
   return row;
 }
 
-void add_frame(TextInput& in, const std::array<double, kColumns>& row, SkeletonMotion& motion) {
+void add_frame(TextInput& in, const Row& row, SkeletonMotion& motion) {
   const auto& joints = humanoid();
   auto& translation = motion.translation.emplace_back();
   auto& rotation = motion.rotation.emplace_back();
-  std::size_t c = 4;
+  int c = 4;
   for (const HumanoidJoint& joint : joints) {
     translation.push_back(joint.parent < 0 ? Vector3d(row[1], row[2], row[3]) : joint.offset);
     Quaterniond q = Quaterniond::Identity();
@@ -104,7 +106,7 @@ void add_frame(TextInput& in, const std::array<double, kColumns>& row, SkeletonM
       q.normalize();
     }
     rotation.push_back(q);
-    c += static_cast<std::size_t>(joint.numbers);
+    c += joint.numbers;
   }
 }
 
@@ -116,7 +118,7 @@ std::vector<double> read_frames(TextInput& in, SkeletonMotion& motion) {
   do {
     if (durations.size() == kMaxJointFrames / humanoid().size())
       in.fail_with("less than a million frames", "more");
-    const auto row = read_row(in, durations.size());
+    const Row row = read_row(in, durations.size());
     add_frame(in, row, motion);
     durations.push_back(row[0]);
   } while (in.peek() == "," && !in.word().empty());

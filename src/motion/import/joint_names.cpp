@@ -49,7 +49,7 @@ constexpr std::array<std::array<int, 2>, 12> kNeeded = {{{kLeftHip, kPelvis},
                                                          {kLeftWrist, kLeftElbow},
                                                          {kRightWrist, kRightElbow}}};
 
-std::string body_name(int body) { return std::string(kBodyNames[static_cast<std::size_t>(body)]); }
+std::string body_name(int body) { return std::string(kBodyNames[body]); }
 
 /// Lower-case parts of a name; a part that is a side by itself is taken out.
 std::vector<std::string> split(const std::string& name, Side& side) {
@@ -109,7 +109,7 @@ void find_by_name(const SkeletonMotion& motion, JointMap& map) {
   const auto taken = [&](int joint) { return std::find(map.begin(), map.end(), joint) != map.end(); };
   for (const Part& part : parts())
     for (const Side side : part.left == part.right ? std::vector{kMiddle} : std::vector{kLeft, kRight}) {
-      int& joint = map[static_cast<std::size_t>(side == kRight ? part.right : part.left)];
+      int& joint = map[side == kRight ? part.right : part.left];
       if (joint >= 0) continue;  // the user's word
       std::optional<Match> best;
       for (std::size_t j = 0; j < motion.joints.size(); ++j) {
@@ -125,7 +125,7 @@ void find_by_name(const SkeletonMotion& motion, JointMap& map) {
 /// From a joint up to the root, the joint itself first.
 std::vector<int> path_to_root(const SkeletonMotion& motion, int joint) {
   std::vector<int> path;
-  for (; joint >= 0; joint = motion.joints[static_cast<std::size_t>(joint)].parent) path.push_back(joint);
+  for (; joint >= 0; joint = motion.joints[joint].parent) path.push_back(joint);
   return path;
 }
 
@@ -152,50 +152,44 @@ void raise_neck(const SkeletonMotion& motion, JointMap& map) {
   const std::vector<int> path = path_to_root(motion, map[kHead]);
   const auto neck = std::find(path.begin(), path.end(), map[kNeck]);
   if (neck == path.end() || neck - path.begin() < 2) return;
-  const SkeletonJoint& joint = motion.joints[static_cast<std::size_t>(map[kNeck])];
+  const SkeletonJoint& joint = motion.joints[map[kNeck]];
   if (joint.parent == map[kSpine3] && joint.offset.isZero()) map[kNeck] = *(neck - 1);
 }
 
 /// Pelvis, chest and collars from the tree; wrists and feet from end sites.
 void find_by_shape(const SkeletonMotion& motion, JointMap& map) {
-  const auto both = [&](int left, int right) {
-    return map[static_cast<std::size_t>(left)] >= 0 && map[static_cast<std::size_t>(right)] >= 0;
-  };
+  const auto both = [&](int left, int right) { return map[left] >= 0 && map[right] >= 0; };
   if (map[kPelvis] < 0 && both(kLeftHip, kRightHip))
     map[kPelvis] = meeting_point(motion, map[kLeftHip], map[kRightHip]);
   if (map[kSpine3] < 0 && both(kLeftShoulder, kRightShoulder))
     map[kSpine3] = meeting_point(motion, map[kLeftShoulder], map[kRightShoulder]);
   for (const auto& [collar, shoulder] :
        {std::array{kLeftCollar, kLeftShoulder}, {kRightCollar, kRightShoulder}}) {
-    const int joint = map[static_cast<std::size_t>(shoulder)];
-    if (map[static_cast<std::size_t>(collar)] >= 0 || joint < 0 || map[kSpine3] < 0) continue;
+    const int joint = map[shoulder];
+    if (map[collar] >= 0 || joint < 0 || map[kSpine3] < 0) continue;
     const std::vector<int> path = path_to_root(motion, joint);
     const auto chest = std::find(path.begin(), path.end(), map[kSpine3]);
-    if (chest != path.end() && chest - path.begin() >= 2)
-      map[static_cast<std::size_t>(collar)] = *(chest - 1);
+    if (chest != path.end() && chest - path.begin() >= 2) map[collar] = *(chest - 1);
   }
   for (const auto& [end, parent] : {std::array{kLeftWrist, kLeftElbow},
                                     {kRightWrist, kRightElbow},
                                     {kLeftFoot, kLeftAnkle},
                                     {kRightFoot, kRightAnkle}})
-    if (map[static_cast<std::size_t>(end)] < 0 && map[static_cast<std::size_t>(parent)] >= 0)
-      map[static_cast<std::size_t>(end)] = end_site_of(motion, map[static_cast<std::size_t>(parent)]);
+    if (map[end] < 0 && map[parent] >= 0) map[end] = end_site_of(motion, map[parent]);
 }
 
 void check(const SkeletonMotion& motion, const JointMap& map) {
-  const auto joint_name = [&](int joint) {
-    return "'" + motion.joints[static_cast<std::size_t>(joint)].name + "'";
-  };
+  const auto joint_name = [&](int joint) { return "'" + motion.joints[joint].name + "'"; };
   std::string missing;
   for (const auto& [body, above] : kNeeded)
-    if (map[static_cast<std::size_t>(body)] < 0) missing += (missing.empty() ? "" : ", ") + body_name(body);
+    if (map[body] < 0) missing += (missing.empty() ? "" : ", ") + body_name(body);
   if (!missing.empty())
     throw DataError(
         motion.path, "skeleton",
         "a joint for each of hips, knees, ankles, shoulders, elbows and wrists (a joint map can name them)",
         "none for " + missing);
   for (const auto& [body, above] : kNeeded) {
-    const int joint = map[static_cast<std::size_t>(body)], parent = map[static_cast<std::size_t>(above)];
+    const int joint = map[body], parent = map[above];
     const std::vector<int> path = path_to_root(motion, joint);
     if (parent < 0 || joint == parent || std::find(path.begin(), path.end(), parent) == path.end())
       throw DataError(motion.path, "skeleton",
@@ -228,7 +222,7 @@ void apply_user_map(const std::filesystem::path& path, const SkeletonMotion& mot
     if (found < 0)
       throw DataError(path.string(), place, "one of the 22 body names, e.g. left_knee",
                       "'" + printable(body) + "'");
-    int& entry = map[static_cast<std::size_t>(found)];
+    int& entry = map[found];
     for (std::size_t j = 0; j < motion.joints.size() && entry < 0; ++j)
       if (motion.joints[j].name == printable(joint)) entry = static_cast<int>(j);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "motion/import/world.h"
 
 namespace mimicx {
@@ -25,8 +26,8 @@ bool has_straight_legs(const Landmarks& pose) {
 /// Mean angle by which the bodies turn relative to their parents between two poses, rad.
 double step_between(const Landmarks& a, const Landmarks& b) {
   double sum = 0.0;
-  for (std::size_t j = 1; j < kBodies; ++j) {
-    const auto parent = static_cast<std::size_t>(kParents[j]);
+  for (int j = 1; j < kBodies; ++j) {
+    const int parent = kParents[j];
     sum += (a.q[parent].conjugate() * a.q[j]).angularDistance(b.q[parent].conjugate() * b.q[j]);
   }
   return sum / kJoints;
@@ -42,31 +43,28 @@ Vector3d Landmarks::forward() const { return direction(kRightHip, kLeftHip).cros
 
 Landmarks landmarks_of(const SkeletonPose& pose, const JointMap& map) {
   Landmarks out;
-  for (std::size_t b = 0; b < kBodies; ++b) {
-    const auto parent = static_cast<std::size_t>(std::max(kParents[b], 0));
-    const auto joint = static_cast<std::size_t>(map[b]);
-    out.p[b] = map[b] < 0 ? out.p[parent] : pose.p[joint];
-    out.q[b] = map[b] < 0 ? out.q[parent] : pose.q[joint];
+  for (int b = 0; b < kBodies; ++b) {
+    const int parent = std::max(kParents[b], 0), joint = map[b];
+    out.p[b] = joint < 0 ? out.p[parent] : pose.p[joint];
+    out.q[b] = joint < 0 ? out.q[parent] : pose.q[joint];
   }
   return out;
 }
 
 Landmarks transformed(const Landmarks& landmarks, const Quaterniond& turn, double scale) {
   Landmarks out;
-  for (std::size_t b = 0; b < kBodies; ++b) {
+  for (int b = 0; b < kBodies; ++b) {
     out.p[b] = scale * (turn * landmarks.p[b]);
     out.q[b] = turn * landmarks.q[b];
   }
   return out;
 }
 
-double leg_length(const std::vector<Landmarks>& poses) {
+double leg_length(const PerFrame<Landmarks>& poses) {
   double sum = 0.0;
   for (const Landmarks& pose : poses)
-    for (const auto& [hip, knee, ankle] : kLegs) {
-      const auto p = [&](int b) { return pose.p[static_cast<std::size_t>(b)]; };
-      sum += 0.5 * ((p(knee) - p(hip)).norm() + (p(ankle) - p(knee)).norm());
-    }
+    for (const auto& [hip, knee, ankle] : kLegs)
+      sum += 0.5 * ((pose.p[knee] - pose.p[hip]).norm() + (pose.p[ankle] - pose.p[knee]).norm());
   return sum / static_cast<double>(poses.size());
 }
 
@@ -97,17 +95,16 @@ bool is_t_pose(const Landmarks& pose) {
          pose.direction(kRightShoulder, kRightElbow).dot(left) < -0.85;
 }
 
-bool starts_with_t_pose(const std::vector<Landmarks>& frames) {
+bool starts_with_t_pose(const PerFrame<Landmarks>& frames) {
   if (frames.size() < 3 || !is_t_pose(frames[0])) return false;
   std::vector<double> steps;
-  for (std::size_t t = 1; t < frames.size(); ++t) steps.push_back(step_between(frames[t - 1], frames[t]));
+  for (int t = 1; t < frames.count(); ++t) steps.push_back(step_between(frames[t - 1], frames[t]));
   const double first = steps[0];
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
   constexpr double kJump = 0.05;  // rad in the mean over the bodies: three degrees
-  return first > kJump && first > 5.0 * steps[steps.size() / 2];
+  return first > kJump && first > 5.0 * median(steps);
 }
 
-std::optional<char> up_of(const std::vector<Landmarks>& poses) {
+std::optional<char> up_of(const PerFrame<Landmarks>& poses) {
   Vector3d sum = Vector3d::Zero();
   std::size_t count = 0;
   for (const Landmarks& pose : poses) {

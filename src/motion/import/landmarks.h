@@ -16,13 +16,9 @@ struct Landmarks {
   PerBody<Vector3d> p;
   PerBody<Quaterniond> q;
 
-  Vector3d between(int left, int right) const {
-    return 0.5 * (p[static_cast<std::size_t>(left)] + p[static_cast<std::size_t>(right)]);
-  }
+  Vector3d between(int left, int right) const { return 0.5 * (p[left] + p[right]); }
   /// Unit vector from one joint to another.
-  Vector3d direction(int from, int to) const {
-    return (p[static_cast<std::size_t>(to)] - p[static_cast<std::size_t>(from)]).normalized();
-  }
+  Vector3d direction(int from, int to) const { return (p[to] - p[from]).normalized(); }
   /// Unit vector from the middle of the hips to the middle of the shoulders.
   Vector3d trunk() const;
   /// Unit vector to where the body faces: across hips and trunk.
@@ -34,7 +30,7 @@ Landmarks landmarks_of(const SkeletonPose& pose, const JointMap& map);
 Landmarks transformed(const Landmarks& landmarks, const Quaterniond& turn, double scale);
 
 /// Mean length of a leg, hip to knee to ankle, over the poses.
-double leg_length(const std::vector<Landmarks>& poses);
+double leg_length(const PerFrame<Landmarks>& poses);
 
 /// How far a pose is from a straight stance, 0 … : bends of hips and knees, half those of the elbows, and
 /// arms that reach forward or back.
@@ -45,12 +41,12 @@ bool is_stance(const Landmarks& pose);
 bool is_t_pose(const Landmarks& pose);
 
 /// The first frame is a T-pose out of which the motion jumps.
-bool starts_with_t_pose(const std::vector<Landmarks>& frames);
+bool starts_with_t_pose(const PerFrame<Landmarks>& frames);
 
 /// The axis along which stretched bodies stand, over all poses whose legs are straight under the trunk; none
 /// where there are few of these, or they stand along different axes. 'x', 'y', 'z', or capitals for the
 /// negative axes.
-std::optional<char> up_of(const std::vector<Landmarks>& poses);
+std::optional<char> up_of(const PerFrame<Landmarks>& poses);
 
 /// A unit of length that makes a leg of `length` file units a human one (0.45 to 1.2 m).
 struct Unit {

@@ -8,8 +8,10 @@
 #include <system_error>
 
 #include "core/file.h"
+#include "motion/clip_file.h"
 #include "motion/import/body_model.h"
 #include "motion/import/bvh.h"
+#include "motion/import/bvh_write.h"
 #include "motion/import/deepmimic.h"
 #include "motion/import/motionx.h"
 #include "motion/import/plausibility.h"
@@ -25,7 +27,7 @@ constexpr std::size_t kFirstBytes = 64;               ///< bytes that tell a for
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
 constexpr double kFloorWorthSaying = 0.05;  ///< m
 
-void require_sense(const ReadOptions& o) {
+void require_sense(const ReadConfig& o) {
   const auto require = [](bool sense, const char* what) {
     if (!sense) throw std::invalid_argument(what);
   };
@@ -36,7 +38,7 @@ void require_sense(const ReadOptions& o) {
 }
 
 /// The file's own body: nothing of it, its joints by the licensed model, or what its model says.
-void choose_body(const ReadOptions& o, Clip& clip) {
+void choose_body(const ReadConfig& o, Clip& clip) {
   const bool foreign = clip.body_model != "mimicx";
   if (o.standard_body) {
     const Vector3d pelvis = rest_pelvis(clip);
@@ -63,7 +65,7 @@ void choose_body(const ReadOptions& o, Clip& clip) {
   }
 }
 
-void settle_scale(const ReadOptions& o, bool believed, Clip& clip) {
+void settle_scale(const ReadConfig& o, bool believed, Clip& clip) {
   if (o.scale) {
     scale_world(*o.scale, clip);
     clip.decisions.push_back("scale: " + short_number(*o.scale) + " m per unit, as asked for");
@@ -87,7 +89,7 @@ char in_file(char axis, char custom) {
 }
 
 /// @param custom  the axis that the format has up, which is z by now
-void settle_up(const ReadOptions& o, bool believed, char custom, Clip& clip) {
+void settle_up(const ReadConfig& o, bool believed, char custom, Clip& clip) {
   const auto turn_up = [&](char axis) {
     if (axis != custom) rotate_world(rotation_to_z_up(axis) * rotation_to_z_up(custom).conjugate(), clip);
   };
@@ -118,7 +120,7 @@ double usual_rate(double fps) {
   return 0.0;
 }
 
-void settle_fps(const ReadOptions& o, bool believed, Clip& clip) {
+void settle_fps(const ReadConfig& o, bool believed, Clip& clip) {
   if (o.fps) {
     clip.decisions.push_back("frame rate: " + short_number(*o.fps) + " fps, as asked for (the file says " +
                              short_number(clip.fps) + ")");
@@ -139,7 +141,7 @@ void settle_fps(const ReadOptions& o, bool believed, Clip& clip) {
   clip.decisions.push_back(line);
 }
 
-void settle_floor(const ReadOptions& o, bool believed, Clip& clip) {
+void settle_floor(const ReadConfig& o, bool believed, Clip& clip) {
   if (o.floor) {
     shift_world({0.0, 0.0, -*o.floor}, clip);
     clip.on_floor = true;
@@ -154,7 +156,7 @@ void settle_floor(const ReadOptions& o, bool believed, Clip& clip) {
 }
 
 void require_near(const std::filesystem::path& path, const Clip& clip) {
-  for (std::size_t t = 0; t < clip.trans.size(); ++t)
+  for (int t = 0; t < clip.frames(); ++t)
     if (!(clip.trans[t].cwiseAbs().maxCoeff() < kFarthest))
       throw DataError(path.string(), "frame " + std::to_string(t), "a place within 100 km of the origin",
                       short_number(clip.trans[t].cwiseAbs().maxCoeff()) + " m");
@@ -166,18 +168,18 @@ std::string lower_case(std::string text) {
 }
 
 /// A motion of a foreign skeleton on our body, axes and unit settled.
-Clip retargeted(const SkeletonMotion& motion, const std::string& format, const ReadOptions& o) {
-  RetargetOptions options;
-  options.standard_body = o.standard_body;
-  options.scale = o.scale.value_or(0.0);
-  options.up = o.up;
-  options.joint_map = o.joint_map;
-  Clip clip = retarget(motion, options);
+Clip retargeted(const SkeletonMotion& motion, const std::string& format, const ReadConfig& o) {
+  RetargetConfig config;
+  config.standard_body = o.standard_body;
+  config.scale = o.scale.value_or(0.0);
+  config.up = o.up;
+  config.joint_map = o.joint_map;
+  Clip clip = retarget(motion, config);
   clip.decisions.insert(clip.decisions.begin(), "format: " + format);
   return clip;
 }
 
-Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& o) {
+Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& o) {
   const std::string name = path.stem().string();
   switch (recognise(bytes)) {
     case MotionFormat::kNpz: {
@@ -202,7 +204,7 @@ Clip read_any(const std::string& bytes, const std::filesystem::path& path, const
 
 }  // namespace
 
-std::string ReadOptions::text() const {
+std::string ReadConfig::text() const {
   std::string out;
   const auto add = [&](const std::string& what) { out += (out.empty() ? "" : " ") + what; };
   const auto number = [&](const char* name, const std::optional<double>& value) {
@@ -232,23 +234,23 @@ MotionFormat recognise(const std::string& bytes) {
   return MotionFormat::kUnknown;
 }
 
-Clip read_motion(const std::filesystem::path& path, const ReadOptions& options) {
-  return motion_from(read_file(path), path, options);
+Clip read_motion(const std::filesystem::path& path, const ReadConfig& config) {
+  return motion_from(read_file(path), path, config);
 }
 
-Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadOptions& options) {
-  require_sense(options);
-  Clip clip = read_any(bytes, path, options);
+Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& config) {
+  require_sense(config);
+  Clip clip = read_any(bytes, path, config);
   const MotionFormat format = recognise(bytes);
   const bool skeleton = format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
   const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
   if (!skeleton) {
-    choose_body(options, clip);
-    settle_scale(options, believed, clip);
-    settle_up(options, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
+    choose_body(config, clip);
+    settle_scale(config, believed, clip);
+    settle_up(config, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
   }
-  settle_fps(options, believed, clip);
-  settle_floor(options, believed, clip);
+  settle_fps(config, believed, clip);
+  settle_floor(config, believed, clip);
   if (!believed)
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
   require_near(path, clip);

@@ -4,8 +4,8 @@
 /// Formats: AMASS-like npz (clip.h), Motion-X npy (motionx.h), BVH (bvh.h), DeepMimic JSON (deepmimic.h).
 /// Traps and thresholds: docs/formats.md.
 ///
-/// Files of our own layout (body_model "mimicx") are believed: z up, metres. What the user says (options) is
-/// believed of every file.
+/// Files of our own layout (body_model "mimicx") are believed: z up, metres. What the user says
+/// (`ReadConfig`) is believed of every file.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@
 namespace mimicx {
 
 /// What the user knows better than the file.
-struct ReadOptions {
+struct ReadConfig {
   std::optional<char> up;  ///< axis that points up in the file: x, y, z; capital letters: the negative axes
   std::optional<double> scale;  ///< metres per unit of length of the file
   std::optional<double> fps;    ///< the frame rate the motion was recorded at
@@ -34,12 +34,11 @@ struct ReadOptions {
 enum class MotionFormat { kNpz, kNpy, kBvh, kDeepMimic, kUnknown };
 MotionFormat recognise(const std::string& bytes);
 
-/// @throws DataError for a file that cannot be read, std::invalid_argument for an option that makes no sense
-Clip read_motion(const std::filesystem::path& path, const ReadOptions& options = {});
+/// @throws DataError for a file that cannot be read, std::invalid_argument for a setting that makes no sense
+Clip read_motion(const std::filesystem::path& path, const ReadConfig& config = {});
 
 /// The same from bytes in memory. @param path  for messages; its stem is the motion's name
-Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
-                 const ReadOptions& options = {});
+Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& config = {});
 
 /// Whether a folder's entry is taken for a motion: by its suffix; a .txt by its content.
 bool is_motion_file(const std::filesystem::path& path);

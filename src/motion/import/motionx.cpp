@@ -67,8 +67,7 @@ Clip motionx_from(const NpyArray& array, const std::string& name, const std::str
   clip.decisions.emplace_back("format: Motion-X (30 fps, SMPL-X)");
   for (Index t = 0; t < values.rows(); ++t) {
     clip.rotations.emplace_back();
-    for (std::size_t j = 0; j < kBodies; ++j)
-      clip.rotations.back()[j] = values.row(t).segment<3>(kBody + static_cast<Index>(3 * j));
+    for (int j = 0; j < kBodies; ++j) clip.rotations.back()[j] = values.row(t).segment<3>(kBody + 3 * j);
     clip.trans.emplace_back(values.row(t).segment<3>(kTrans));
   }
   read_betas(values, clip);
@@ -91,10 +90,8 @@ NpyArray to_motionx(const Clip& clip) {
   rotate_world(rotation_to_z_up('y').conjugate(), out);
   MatrixXd values = MatrixXd::Zero(out.frames(), kMotionxColumns);
   for (Index t = 0; t < values.rows(); ++t) {
-    const auto frame = static_cast<std::size_t>(t);
-    for (std::size_t j = 0; j < kBodies; ++j)
-      values.row(t).segment<3>(kBody + static_cast<Index>(3 * j)) = out.rotations[frame][j];
-    values.row(t).segment<3>(kTrans) = out.trans[frame];
+    for (int j = 0; j < kBodies; ++j) values.row(t).segment<3>(kBody + 3 * j) = out.rotations[t][j];
+    values.row(t).segment<3>(kTrans) = out.trans[t];
     for (std::size_t k = 0; k < kBetas; ++k) values(t, kBetaColumns + static_cast<Index>(k)) = out.betas[k];
   }
   for (const Columns& part : kParts)

@@ -1,10 +1,10 @@
 /// Motion-X files: one npy array (frames, 322) at 30 fps, y up, SMPL-X.
 ///
 /// Columns: 0:3 root_orient, 3:66 pose_body, 66:156 hands, 156:159 jaw, 159:209 expression, 209:309 face
-/// shape, 309:312 trans, 312:322 betas.            Source: github.com/IDEA-Research/Motion-X, README, "Data
-/// loading" Part of the data set (AIST) has trans in units of 1/94 m with z negated, part of that again not:
-/// which it is shows in the speed. Hands, jaw, expression and face shape pass through as the members
-/// pose_hand, pose_jaw, expression and face_shape.
+/// shape, 309:312 trans, 312:322 betas. Source: github.com/IDEA-Research/Motion-X, README, "Data loading".
+/// Some files of the AIST part have trans in units of 1/94 m with z negated; they are recognised by their
+/// speed. Hands, jaw, expression and face shape pass through as the members pose_hand, pose_jaw, expression
+/// and face_shape.
 #pragma once
 
 #include "motion/clip.h"

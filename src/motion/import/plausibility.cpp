@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
+#include "core/quantile.h"
 #include "core/units.h"
 #include "motion/import/world.h"
 #include "motion/surface.h"
@@ -35,18 +37,14 @@ constexpr double kFloorShare = 0.05;
 constexpr double kFastPelvis = 8.0;  ///< m/s in the median: a sprinter's pace
 constexpr double kFastJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
 
-/// Of the finite values: absurd input may lead to others.
+/// Quantile of the finite values: absurd input may lead to others. 0 where there is none.
 double percentile(std::vector<double> values, double share) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return 0.0;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  return values.empty() ? 0.0 : quantile(std::move(values), share);
 }
 
 /// Speed of a joint from the frame before, m/s.
-double speed_of(const std::vector<BodyPoses>& poses, std::size_t t, std::size_t joint, double fps) {
+double speed_of(const PerFrame<BodyPoses>& poses, int t, int joint, double fps) {
   return fps * (poses[t].p_WB[joint] - poses[t - 1].p_WB[joint]).norm();
 }
 
@@ -58,23 +56,16 @@ double median_height(const Clip& clip) {
   return percentile(heights, 0.5);
 }
 
-Vector3d centre_of_mass(const Character& character, const BodyPoses& pose) {
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < kBodies; ++i)
-    sum += character.mass[i] * (pose.p_WB[i] + pose.q_WB[i] * character.com_B[i]);
-  return sum / character.total_mass();
-}
-
-std::vector<double> lowest_heights(const Character& character, const std::vector<BodyPoses>& poses) {
+PerFrame<double> lowest_heights(const Character& character, const PerFrame<BodyPoses>& poses) {
   const std::vector<SurfacePoint> points = surface_points(character);
-  std::vector<double> lowest;
+  PerFrame<double> lowest;
   for (const BodyPoses& pose : poses) lowest.push_back(lowest_height(points, pose));
   return lowest;
 }
 
 /// How much the farthest point of the body in a direction moves in that direction, m: little, where the
 /// direction is down and the floor stops it.
-double support_spread(const Clip& clip, const std::vector<BodyPoses>& poses, const Vector3d& down) {
+double support_spread(const Clip& clip, const PerFrame<BodyPoses>& poses, const Vector3d& down) {
   const std::vector<SurfacePoint> points = surface_points(character_of(clip));
   std::vector<double> deepest;
   for (const BodyPoses& pose : poses) {
@@ -86,18 +77,16 @@ double support_spread(const Clip& clip, const std::vector<BodyPoses>& poses, con
 }
 
 /// Length of a joint's path, m.
-double path_of(const std::vector<BodyPoses>& poses, std::size_t joint) {
+double path_of(const PerFrame<BodyPoses>& poses, int joint) {
   double length = 0.0;
-  for (std::size_t t = 1; t < poses.size(); ++t)
-    length += (poses[t].p_WB[joint] - poses[t - 1].p_WB[joint]).norm();
+  for (int t = 1; t < poses.count(); ++t) length += (poses[t].p_WB[joint] - poses[t - 1].p_WB[joint]).norm();
   return length;
 }
 
 /// Largest extent of a joint's path in frames first … last, m.
-double travel_of(const std::vector<BodyPoses>& poses, std::size_t joint, std::size_t first,
-                 std::size_t last) {
+double travel_of(const PerFrame<BodyPoses>& poses, int joint, int first, int last) {
   Vector3d low = poses[first].p_WB[joint], high = low;
-  for (std::size_t t = first; t <= last; ++t) {
+  for (int t = first; t <= last; ++t) {
     low = low.cwiseMin(poses[t].p_WB[joint]);
     high = high.cwiseMax(poses[t].p_WB[joint]);
   }
@@ -109,18 +98,18 @@ struct Parabola {
   double acceleration = 0;  ///< m per frame²
   double residual = 0;      ///< m, root mean square
 };
-Parabola fit_parabola(const std::vector<double>& z, std::size_t first, std::size_t last) {
-  const auto n = static_cast<Eigen::Index>(last - first + 1);
+Parabola fit_parabola(const PerFrame<double>& z, int first, int last) {
+  const int n = last - first + 1;
   Eigen::MatrixX3d powers(n, 3);
   Eigen::VectorXd values(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto s = static_cast<double>(i) - 0.5 * static_cast<double>(n - 1);
+  for (int i = 0; i < n; ++i) {
+    const double s = i - 0.5 * (n - 1);
     powers.row(i) << 1.0, s, 0.5 * s * s;
-    values[i] = z[first + static_cast<std::size_t>(i)];
+    values[i] = z[first + i];
   }
   const Matrix3d normal = powers.transpose() * powers;
   const Vector3d c = normal.inverse() * (powers.transpose() * values);
-  return {c[2], (powers * c - values).norm() / std::sqrt(static_cast<double>(n))};
+  return {c[2], (powers * c - values).norm() / std::sqrt(n)};
 }
 
 }  // namespace
@@ -132,9 +121,9 @@ std::string short_number(double value) {
 }
 
 double support_speed(const Clip& clip) {
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
   std::vector<double> stillest;
-  for (std::size_t t = 1; t < poses.size(); ++t)
+  for (int t = 1; t < poses.count(); ++t)
     stillest.push_back(
         std::min(speed_of(poses, t, kLeftFoot, clip.fps), speed_of(poses, t, kRightFoot, clip.fps)));
   return percentile(stillest, 0.5);
@@ -157,7 +146,7 @@ double detect_scale(const Clip& clip) {
 }
 
 UpAxis detect_up(const Clip& clip) {
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
   Vector3d mean = Vector3d::Zero();
   for (const BodyPoses& pose : poses)
     mean += (pose.p_WB[kNeck] - 0.5 * (pose.p_WB[kLeftAnkle] + pose.p_WB[kRightAnkle])).normalized();
@@ -179,17 +168,17 @@ UpAxis detect_up(const Clip& clip) {
 
 std::optional<FallRate> rate_from_flights(const Clip& clip) {
   const Character character = character_of(clip);
-  const std::vector<BodyPoses> poses = poses_of(clip);
-  const std::vector<double> lowest = lowest_heights(character, poses);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
+  const PerFrame<double> lowest = lowest_heights(character, poses);
   const double floor = percentile(lowest, kFloorShare);
-  std::vector<double> height;
-  for (const BodyPoses& pose : poses) height.push_back(centre_of_mass(character, pose).z());
+  PerFrame<double> height;
+  for (const BodyPoses& pose : poses) height.push_back(center_of_mass(character, pose).z());
   FallRate fall;
   double sum = 0.0, weights = 0.0;
-  for (std::size_t first = 0; first < lowest.size();) {
-    std::size_t end = first;
-    while (end < lowest.size() && lowest[end] > floor + kClear) ++end;
-    const auto length = static_cast<int>(end - first);
+  for (int first = 0; first < lowest.count();) {
+    int end = first;
+    while (end < lowest.count() && lowest[end] > floor + kClear) ++end;
+    const int length = end - first;
     if (length >= kShortestFlight) {
       const Parabola p = fit_parabola(height, first, end - 1);
       // The uncertainty of the curvature falls with the fifth power of the length.
@@ -219,12 +208,12 @@ double detect_floor(const Clip& clip) {
 }
 
 std::vector<std::string> implausible_speeds(const Clip& clip) {
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
   std::vector<double> pelvis, fastest;
-  for (std::size_t t = 1; t < poses.size(); ++t) {
+  for (int t = 1; t < poses.count(); ++t) {
     pelvis.push_back(speed_of(poses, t, kPelvis, clip.fps));
     double most = 0.0;
-    for (std::size_t j = 0; j < kBodies; ++j) most = std::max(most, speed_of(poses, t, j, clip.fps));
+    for (int j = 0; j < kBodies; ++j) most = std::max(most, speed_of(poses, t, j, clip.fps));
     fastest.push_back(most);
   }
   std::vector<std::string> said;

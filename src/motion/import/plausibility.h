@@ -1,8 +1,8 @@
 /// Whether a motion can be what its file says: up axis, unit of length, frame rate, floor, speeds.
 ///
-/// Files are often read in the wrong axes, unit or frame rate, and nothing complains: the numbers are
-/// numbers. A human gives these mistakes away: one foot is nearly at rest most of the time, the body stands
-/// along the vertical, and it falls with g when nothing carries it.
+/// A file that is read in the wrong axes, unit or frame rate still holds valid numbers. The motion shows such
+/// a mistake: one foot of a human is nearly at rest most of the time, the body stands along the vertical, and
+/// it falls with g when nothing carries it.
 /// Thresholds and what they were measured on: docs/formats.md, "What reading decides".
 ///
 /// What it does not do: no change of the clip (world.h does), no repair of single frames (repair.h).
@@ -34,7 +34,7 @@ struct UpAxis {
   double along = 0.0;  ///< mean component along the axis of the unit vector from the feet to the neck
 };
 /// Along which axis of the world the body stands. Another axis than z must be better in two ways: the body
-/// stands along it, and the floor stops the body there (crawling, it stands along the floor).
+/// stands along it, and the floor stops the body there. (A body that crawls lies along the floor.)
 UpAxis detect_up(const Clip& clip);
 
 /// Frame rates that explain a fall.

@@ -26,8 +26,8 @@ std::string sentence(const char* format, Values... values) {
 struct Source {
   JointMap map;
   PerBody<bool> turns{};
-  std::vector<Landmarks> frames;   ///< first in the file's unit and axes, then z up and in metres
-  std::vector<Landmarks> neutral;  ///< poses the calibration starts from, like `frames`
+  PerFrame<Landmarks> frames;   ///< first in the file's unit and axes, then z up and in metres
+  PerFrame<Landmarks> neutral;  ///< poses the calibration starts from, like `frames`
   std::string neutral_name;
   bool neutral_stands = true;  ///< it is a stance, not the frames that come nearest to one
 };
@@ -35,8 +35,8 @@ struct Source {
 Source read_source(const SkeletonMotion& motion, const std::filesystem::path& joint_map) {
   Source source;
   source.map = map_joints(motion, joint_map);
-  for (std::size_t b = 0; b < kBodies; ++b)
-    source.turns[b] = source.map[b] >= 0 && !motion.joints[static_cast<std::size_t>(source.map[b])].end_site;
+  for (int b = 0; b < kBodies; ++b)
+    source.turns[b] = source.map[b] >= 0 && !motion.joints[source.map[b]].end_site;
   for (int t = 0; t < motion.frames(); ++t)
     source.frames.push_back(landmarks_of(pose_of(motion, t), source.map));
   return source;
@@ -45,9 +45,8 @@ Source read_source(const SkeletonMotion& motion, const std::filesystem::path& jo
 /// Bones that directions are taken from must be there in every frame.
 void check_bones(const SkeletonMotion& motion, const Source& source) {
   const double least = 0.01 * leg_length(source.frames);
-  for (std::size_t t = 0; t < source.frames.size(); ++t) {
-    const auto check = [&](int a, int b) {
-      const auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);
+  for (int t = 0; t < source.frames.count(); ++t) {
+    const auto check = [&](int from, int to) {
       if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
         throw DataError(
             motion.path, "frame " + std::to_string(t + 1),
@@ -70,12 +69,12 @@ void drop_t_pose(Source& source, Clip& clip) {
 }
 
 /// Up axis of the motion; the format's custom where the motion does not show one.
-char find_up(const SkeletonMotion& motion, const Source& source, const RetargetOptions& options, Clip& clip) {
+char find_up(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config, Clip& clip) {
   const auto found = up_of(source.frames);
   std::string why = "stretched bodies stand along it";
   char up = found.value_or('y');
-  if (options.up) {
-    up = *options.up;
+  if (config.up) {
+    up = *config.up;
     why = "as told";
   } else if (motion.metric_y_up) {
     up = 'y';
@@ -87,13 +86,13 @@ char find_up(const SkeletonMotion& motion, const Source& source, const RetargetO
   return up;
 }
 
-double find_scale(const SkeletonMotion& motion, const Source& source, const RetargetOptions& options,
+double find_scale(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
                   Clip& clip) {
   const double leg = leg_length(source.frames);
-  if (options.scale != 0.0) {
+  if (config.scale != 0.0) {
     clip.decisions.push_back(
-        sentence("unit %.6g m: as told; legs are %.2f m long", options.scale, options.scale * leg));
-    return options.scale;
+        sentence("unit %.6g m: as told; legs are %.2f m long", config.scale, config.scale * leg));
+    return config.scale;
   }
   if (motion.metric_y_up) return 1.0;
   if (const auto unit = unit_of(leg)) {
@@ -117,8 +116,8 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
     source.neutral_name = "the rest pose";
   } else if (source.neutral.empty()) {
     // A tenth of the frames: one alone may be mid-gesture.
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t t = 0; t < source.frames.size(); ++t) order.emplace_back(bend_of(source.frames[t]), t);
+    std::vector<std::pair<double, int>> order;
+    for (int t = 0; t < source.frames.count(); ++t) order.emplace_back(bend_of(source.frames[t]), t);
     std::sort(order.begin(), order.end());
     order.resize((order.size() + 9) / 10);
     for (const auto& [bend, t] : order) source.neutral.push_back(source.frames[t]);
@@ -129,16 +128,14 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
   int backwards = 0;
   for (const Landmarks& pose : source.neutral)
     for (const auto& [ankle, toes] : {std::array{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}})
-      if (source.map[static_cast<std::size_t>(toes)] >= 0)
-        backwards += pose.direction(ankle, toes).dot(pose.forward()) < 0.0 ? 1 : -1;
+      if (source.map[toes] >= 0) backwards += pose.direction(ankle, toes).dot(pose.forward()) < 0.0 ? 1 : -1;
   if (backwards > 0) clip.warnings.emplace_back("the toes point backwards: are left and right exchanged?");
 }
 
 BodyLengths measured_lengths(const Source& source) {
-  const auto mean = [](const std::vector<Landmarks>& poses, int from, int to) {
+  const auto mean = [](const PerFrame<Landmarks>& poses, int from, int to) {
     double sum = 0.0;
-    for (const Landmarks& pose : poses)
-      sum += (pose.p[static_cast<std::size_t>(from)] - pose.p[static_cast<std::size_t>(to)]).norm();
+    for (const Landmarks& pose : poses) sum += (pose.p[from] - pose.p[to]).norm();
     return sum / static_cast<double>(poses.size());
   };
   const auto limb = [&](int left, int left_end, int right, int right_end) {
@@ -162,7 +159,7 @@ BodyLengths measured_lengths(const Source& source) {
 }
 
 /// Frames of the character that follow the landmarks.
-void solve(const Character& character, const Calibration& calibration, const std::vector<Landmarks>& frames,
+void solve(const Character& character, const Calibration& calibration, const PerFrame<Landmarks>& frames,
            double leg_ratio, Clip& clip) {
   const Vector3d hips = 0.5 * (character.joint_offset[kLeftHip] + character.joint_offset[kRightHip]);
   clip.rotations.clear();
@@ -171,8 +168,7 @@ void solve(const Character& character, const Calibration& calibration, const std
     const auto q = body_rotations(character, calibration, pose);
     auto& rotations = clip.rotations.emplace_back();
     rotations[0] = log_map(q[0]);
-    for (std::size_t b = 1; b < kBodies; ++b)
-      rotations[b] = log_map(q[static_cast<std::size_t>(kParents[b])].conjugate() * q[b]);
+    for (int b = 1; b < kBodies; ++b) rotations[b] = log_map(q[kParents[b]].conjugate() * q[b]);
     clip.trans.push_back(leg_ratio * pose.between(kLeftHip, kRightHip) - q[0] * hips -
                          rest_pelvis(clip.body_model));
   }
@@ -183,20 +179,19 @@ constexpr PerBody<bool> kCompared = [] {
   PerBody<bool> compared{};
   compared.fill(true);
   for (const int body : {kPelvis, kSpine1, kSpine2, kSpine3, kLeftCollar, kRightCollar})
-    compared[static_cast<std::size_t>(body)] = false;
+    compared[body] = false;
   return compared;
 }();
 
 void measure(const Clip& clip, const Source& source, double lift, RetargetReport& report) {
   report.residual_mm.fill(std::numeric_limits<double>::quiet_NaN());
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
   double sum = 0.0;
   int count = 0;
-  for (int body = 1; body < kBodies; ++body) {
-    const auto b = static_cast<std::size_t>(body);
+  for (int b = 1; b < kBodies; ++b) {
     if (source.map[b] < 0 || !kCompared[b]) continue;
     double distance = 0.0;
-    for (std::size_t t = 0; t < poses.size(); ++t)
+    for (int t = 0; t < poses.count(); ++t)
       distance +=
           (poses[t].p_WB[b] - report.leg_ratio * source.frames[t].p[b] - lift * Vector3d::UnitZ()).norm();
     report.residual_mm[b] = kMm * distance / static_cast<double>(poses.size());
@@ -209,7 +204,7 @@ void measure(const Clip& clip, const Source& source, double lift, RetargetReport
 /// The residual of every body that has one, in one line.
 std::string residuals_line(const RetargetReport& report) {
   std::string line;
-  for (std::size_t b = 0; b < kBodies; ++b)
+  for (int b = 0; b < kBodies; ++b)
     if (!std::isnan(report.residual_mm[b]))
       line += (line.empty() ? "residuals in mm: " : ", ") + std::string(kBodyNames[b]) +
               sentence(" %.0f", report.residual_mm[b]);
@@ -221,12 +216,12 @@ std::string residuals_line(const RetargetReport& report) {
 bool take_own_skeleton(const SkeletonMotion& motion, Clip& clip) {
   PerBody<int> joint{};
   PerBody<Vector3d> offsets;
-  for (std::size_t b = 0; b < kBodies; ++b) {
+  for (int b = 0; b < kBodies; ++b) {
     const auto found = std::find_if(motion.joints.begin(), motion.joints.end(), [&](const SkeletonJoint& j) {
       return j.name == kBodyNames[b] && !j.end_site;
     });
     if (found == motion.joints.end()) return false;
-    if (b > 0 && found->parent != joint[static_cast<std::size_t>(kParents[b])]) return false;
+    if (b > 0 && found->parent != joint[kParents[b]]) return false;
     joint[b] = static_cast<int>(found - motion.joints.begin());
     offsets[b] = found->offset;
   }
@@ -236,10 +231,9 @@ bool take_own_skeleton(const SkeletonMotion& motion, Clip& clip) {
   if (error > kSame || joint[0] != 0) return false;
   clip.betas = betas;
   const Quaterniond up = rotation_to_z_up('y');
-  for (std::size_t t = 0; t < motion.rotation.size(); ++t) {
+  for (int t = 0; t < motion.frames(); ++t) {
     auto& rotations = clip.rotations.emplace_back();
-    for (std::size_t b = 0; b < kBodies; ++b)
-      rotations[b] = log_map(motion.rotation[t][static_cast<std::size_t>(joint[b])]);
+    for (int b = 0; b < kBodies; ++b) rotations[b] = log_map(motion.rotation[t][joint[b]]);
     rotations[0] = log_map(up * motion.rotation[t][0]);
     clip.trans.push_back(up * motion.translation[t][0] - rest_pelvis(clip.body_model));
   }
@@ -247,21 +241,21 @@ bool take_own_skeleton(const SkeletonMotion& motion, Clip& clip) {
   return true;
 }
 
-void retarget_foreign(const SkeletonMotion& motion, const RetargetOptions& options, RetargetReport& report,
+void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config, RetargetReport& report,
                       Clip& clip) {
-  Source source = read_source(motion, options.joint_map);
+  Source source = read_source(motion, config.joint_map);
   check_bones(motion, source);
-  for (std::size_t b = 0; b < kBodies; ++b)
+  for (int b = 0; b < kBodies; ++b)
     if (source.map[b] < 0 && b != kSpine1 && b != kSpine2) report.unmapped.emplace_back(kBodyNames[b]);
   drop_t_pose(source, clip);
-  report.up = find_up(motion, source, options, clip);
-  report.scale = find_scale(motion, source, options, clip);
+  report.up = find_up(motion, source, config, clip);
+  report.scale = find_scale(motion, source, config, clip);
   const Quaterniond up = rotation_to_z_up(report.up);
   for (Landmarks& pose : source.frames) pose = transformed(pose, up, report.scale);
   choose_neutral(motion, source, up, report.scale, clip);
 
   const BodyLengths lengths = measured_lengths(source);
-  if (!options.standard_body) clip.betas = fit_betas(lengths);
+  if (!config.standard_body) clip.betas = fit_betas(lengths);
   const Character character = make_character(clip.betas);
   const BodyLengths made = lengths_of(character);
   report.leg_ratio = (made[kThigh] + made[kShank]) / (lengths[kThigh] + lengths[kShank]);
@@ -274,7 +268,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetOptions& optio
   const double lift = put_on_floor(clip);
   measure(clip, source, lift, report);
   clip.decisions.push_back(sentence(
-      options.standard_body
+      config.standard_body
           ? "standard body: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the mean"
           : "body shape fitted: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the "
             "mean",
@@ -287,8 +281,8 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetOptions& optio
 
 }  // namespace
 
-Clip retarget(const SkeletonMotion& motion, const RetargetOptions& options, RetargetReport* report) {
-  if (!(options.scale >= 0.0 && std::isfinite(options.scale)))
+Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config, RetargetReport* report) {
+  if (!(config.scale >= 0.0 && std::isfinite(config.scale)))
     throw std::invalid_argument("retarget: the scale must be positive, or 0 to find it");
   Clip clip;
   clip.name = motion.name;
@@ -296,10 +290,9 @@ Clip retarget(const SkeletonMotion& motion, const RetargetOptions& options, Reta
   clip.warnings = motion.warnings;
   clip.decisions = motion.decisions;
   RetargetReport local;
-  const bool as_is =
-      !options.standard_body && options.scale == 0.0 && !options.up && options.joint_map.empty();
-  if (!(as_is && take_own_skeleton(motion, clip))) retarget_foreign(motion, options, local, clip);
-  for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
+  const bool as_is = !config.standard_body && config.scale == 0.0 && !config.up && config.joint_map.empty();
+  if (!(as_is && take_own_skeleton(motion, clip))) retarget_foreign(motion, config, local, clip);
+  for (int t = 0; t < clip.frames(); ++t) {
     bool finite = clip.trans[t].allFinite();
     for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
     if (!finite)

@@ -24,7 +24,7 @@
 
 namespace mimicx {
 
-struct RetargetOptions {
+struct RetargetConfig {
   bool standard_body = false;  ///< β = 0 instead of the fitted one
   double scale = 0.0;          ///< metres per file unit; 0: found from the length of the legs
   std::optional<char> up;      ///< of the file: 'x', 'y', 'z', capitals for the negative axes; none: found
@@ -38,13 +38,13 @@ struct RetargetReport {
   double mean_residual_mm = 0.0;      ///< over the bodies that have one
   std::vector<std::string> unmapped;  ///< bodies without a joint of their own, which follow their parent
   double scale = 1.0;                 ///< metres per file unit
-  char up = 'y';                      ///< the file's up axis, as in the options
+  char up = 'y';                      ///< the file's up axis, as in the settings
   double leg_ratio = 1.0;             ///< the character's legs over the skeleton's
 };
 
 /// @return a clip of body model "mimicx", z up, metres, at the file's frame rate, standing on z = 0
-/// @throws DataError when bodies cannot be found; std::invalid_argument for an option that makes no sense
-Clip retarget(const SkeletonMotion& motion, const RetargetOptions& options = {},
+/// @throws DataError when bodies cannot be found; std::invalid_argument for a setting that makes no sense
+Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config = {},
               RetargetReport* report = nullptr);
 
 }  // namespace mimicx

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <span>
 
+#include "core/quantile.h"
 #include "core/units.h"
 #include "motion/feet.h"
 #include "motion/surface.h"
@@ -14,24 +16,22 @@ namespace {
 constexpr std::size_t kEnough = 10;  ///< standing frames
 
 /// Median of "up" in the ankle's frame while the foot stands; none where it hardly does.
-std::optional<Vector3d> standing_up(const std::vector<BodyPoses>& poses, int ankle, double fps) {
-  const auto body = static_cast<std::size_t>(ankle);
-  const std::vector<bool> stands = standing_frames(poses, ankle, fps);
-  std::vector<std::pair<double, std::size_t>> order;  // height of the ankle, frame
-  for (std::size_t t = 0; t < poses.size(); ++t)
-    if (stands[t]) order.emplace_back(poses[t].p_WB[body].z(), t);
+std::optional<Vector3d> standing_up(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
+  const PerFrame<bool> stands = standing_frames(poses, ankle, fps);
+  std::vector<std::pair<double, int>> order;  // height of the ankle, frame
+  for (int t = 0; t < poses.count(); ++t)
+    if (stands[t]) order.emplace_back(poses[t].p_WB[ankle].z(), t);
   if (order.size() < kEnough) return std::nullopt;
   std::sort(order.begin(), order.end());
   order.resize((order.size() + 2) / 3);
-  Vector3d median;
+  Vector3d up;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const auto& [height, t] : order)
-      values.push_back((poses[t].q_WB[body].conjugate() * Vector3d::UnitZ())[axis]);
-    std::sort(values.begin(), values.end());
-    median[axis] = values[values.size() / 2];
+      values.push_back((poses[t].q_WB[ankle].conjugate() * Vector3d::UnitZ())[axis]);
+    up[axis] = median(values);
   }
-  return median.normalized();
+  return up.normalized();
 }
 
 Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
@@ -41,7 +41,7 @@ Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip) {
   constexpr double kLeast = 5.0 * kDegree, kAlike = 15.0 * kDegree;
   const double most = (neutral_stands ? 30.0 : 60.0) * kDegree;
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
   std::optional<Vector3d> left = standing_up(poses, kLeftAnkle, clip.fps);
   std::optional<Vector3d> right = standing_up(poses, kRightAnkle, clip.fps);
   if (neutral_stands) {
@@ -55,7 +55,7 @@ void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip) {
     if (angle < kLeast || angle > most) return;
     const Quaterniond turn = rotation_between(Vector3d::UnitY(), *up);
     for (const int body : {ankle, toes}) {
-      Quaterniond& q_JB = calibration.q_JB[static_cast<std::size_t>(body)];
+      Quaterniond& q_JB = calibration.q_JB[body];
       q_JB = (q_JB * turn).normalized();
     }
     char text[96];
@@ -69,24 +69,23 @@ void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip) {
 
 double put_on_floor(Clip& clip) {
   const auto points = surface_points(make_character(clip.usable_betas()));
-  const std::vector<BodyPoses> poses = poses_of(clip);
-  const std::vector<bool> left = standing_frames(poses, kLeftAnkle, clip.fps);
-  const std::vector<bool> right = standing_frames(poses, kRightAnkle, clip.fps);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
+  const PerFrame<bool> left = standing_frames(poses, kLeftAnkle, clip.fps);
+  const PerFrame<bool> right = standing_frames(poses, kRightAnkle, clip.fps);
   std::vector<double> feet, all;  // heights of the lowest points
-  for (std::size_t t = 0; t < poses.size(); ++t) {
+  for (int t = 0; t < poses.count(); ++t) {
     const std::vector<Vector3d> p = surface_positions(points, poses[t]);
-    double lowest[2] = {p[0].z(), p[0].z()};  // of the feet, of all
-    for (std::size_t i = 0; i < p.size(); ++i)
-      for (int k = i < kFootPoints ? 0 : 1; k < 2; ++k) lowest[k] = std::min(lowest[k], p[i].z());
-    if (left[t] || right[t]) feet.push_back(lowest[0]);
-    all.push_back(lowest[1]);
+    const auto lowest = [&](std::size_t count) {  // of the first points: those of the feet stand in front
+      double z = p[0].z();
+      for (const Vector3d& point : std::span(p).first(count)) z = std::min(z, point.z());
+      return z;
+    };
+    if (left[t] || right[t]) feet.push_back(lowest(kFootPoints));
+    all.push_back(lowest(p.size()));
   }
   const bool stands = feet.size() >= kEnough;
-  std::vector<double>& heights = stands ? feet : all;
-  const auto floor =
-      heights.begin() + static_cast<std::ptrdiff_t>(stands ? heights.size() / 2 : heights.size() / 20);
-  std::nth_element(heights.begin(), floor, heights.end());
-  const double lift = -*floor;
+  const std::vector<double>& heights = stands ? feet : all;
+  const double lift = -ranked(heights, static_cast<int>(heights.size() / (stands ? 2 : 20)));
   for (Vector3d& trans : clip.trans) trans.z() += lift;
   char text[64];
   std::snprintf(text, sizeof text, "floor: moved by %+.3f m", lift);

@@ -6,17 +6,18 @@
 
 namespace mimicx {
 
-/// While a foot stands its sole is level: the median "up" in its frame, over the third of its standing frames
-/// with the lowest ankle (heels come up while the ball still stands), shows the constant error of the
-/// calibration. Where the neutral pose is a stance, the error is the skeleton's: then it is the same on both
-/// feet, mirrored, and what is not stays; at most 30°. Else each foot has its own, at most 60°. `clip` must
-/// be solved again.
+/// Removes the constant error of the calibration from the soles. While a foot stands its sole is level, so
+/// the median direction of "up" in the foot's frame shows the error. The third of its standing frames with
+/// the lowest ankle counts, because heels come up while the ball still stands. Where the neutral pose is a
+/// stance, the error is the skeleton's and the same on both feet, mirrored; errors that differ stay, and so
+/// do errors of more than 30°. Elsewhere each foot has an error of its own, up to 60°. `calibration` changes;
+/// `clip` gets a decision for each foot and must be solved again.
 /// @param neutral_stands  the neutral pose is a stance
 void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip);
 
-/// Moves the clip to where the lowest point of feet that stand is on the floor z = 0 (median over the frames
-/// in which one does); where none ever stands, to where all but the lowest 5 % of the frames have nothing
-/// under the floor.
+/// Moves the clip onto the floor z = 0. Over the frames in which a foot stands, the median of the height of
+/// the lowest foot point becomes 0. Where hardly any foot ever stands, 5 % of the frames stay below the
+/// floor.
 /// @return by how much, m
 double put_on_floor(Clip& clip);
 

@@ -10,8 +10,6 @@ namespace {
 
 using JointRotations = PerBody<Quaterniond>;
 
-std::size_t at(int body) { return static_cast<std::size_t>(body); }
-
 /// Joint at the end of a body's bone, or -1 for bodies whose direction is free.
 int bone_end(int body) {
   const auto found =
@@ -21,7 +19,7 @@ int bone_end(int body) {
 
 /// Rest direction of a body's bone in its own frame.
 Vector3d bone_direction(const Character& character, int body) {
-  return character.joint_offset[at(bone_end(body))].normalized();
+  return character.joint_offset[bone_end(body)].normalized();
 }
 
 /// The shortest rotation in the world that takes q's image of `from` to `to`, applied to q.
@@ -60,7 +58,7 @@ Trunk trunk_of(const Character& character) {
 /// The sole level, the foot pointing where its toes are; without toes where the body faces.
 Quaterniond level_foot(const Character& character, const Landmarks& pose, int ankle, int toes,
                        bool has_toes) {
-  const Vector3d rest = has_toes ? character.joint_offset[at(toes)] : Vector3d::UnitZ();
+  const Vector3d rest = has_toes ? character.joint_offset[toes] : Vector3d::UnitZ();
   Vector3d points = has_toes ? pose.direction(ankle, toes) : pose.forward();
   if (std::hypot(points.x(), points.y()) < 0.1) points = pose.forward();
   return aligned(Vector3d::UnitY(), rest, Vector3d::UnitZ(), points);
@@ -73,17 +71,16 @@ JointRotations neutral_rotations(const Character& character, const Landmarks& po
   JointRotations q;
   q[kPelvis] = aligned(x, rest, pose.direction(kRightHip, kLeftHip), pose.trunk());
   const Quaterniond chest = aligned(x, rest, pose.direction(kRightShoulder, kLeftShoulder), pose.trunk());
-  for (int body = 1; body < kBodies; ++body) {
-    const auto b = at(body);
-    q[b] = body == kSpine3 ? chest : q[at(kParents[b])];
-    if (body == kSpine1) q[b] = q[kPelvis].slerp(1.0 / 3.0, chest);
-    if (body == kSpine2) q[b] = q[kPelvis].slerp(2.0 / 3.0, chest);
-    if (const int end = bone_end(body); end >= 0) {
-      const Vector3d bone = bone_direction(character, body);
-      q[b] = swung(q[b], bone, pose.direction(body, end)) * exp_map(twists[b] * bone);
+  for (int b = 1; b < kBodies; ++b) {
+    q[b] = b == kSpine3 ? chest : q[kParents[b]];
+    if (b == kSpine1) q[b] = q[kPelvis].slerp(1.0 / 3.0, chest);
+    if (b == kSpine2) q[b] = q[kPelvis].slerp(2.0 / 3.0, chest);
+    if (const int end = bone_end(b); end >= 0) {
+      const Vector3d bone = bone_direction(character, b);
+      q[b] = swung(q[b], bone, pose.direction(b, end)) * exp_map(twists[b] * bone);
     }
-    if (body == kLeftAnkle) q[b] = level_foot(character, pose, body, kLeftFoot, map[kLeftFoot] >= 0);
-    if (body == kRightAnkle) q[b] = level_foot(character, pose, body, kRightFoot, map[kRightFoot] >= 0);
+    if (b == kLeftAnkle) q[b] = level_foot(character, pose, b, kLeftFoot, map[kLeftFoot] >= 0);
+    if (b == kRightAnkle) q[b] = level_foot(character, pose, b, kRightFoot, map[kRightFoot] >= 0);
   }
   return q;
 }
@@ -107,7 +104,7 @@ void solve_trunk(const Character& character, const Vector3d& direction, JointRot
 
 }  // namespace
 
-Calibration calibrate(const Character& character, const std::vector<Landmarks>& neutral,
+Calibration calibrate(const Character& character, const PerFrame<Landmarks>& neutral,
                       const PerBody<bool>& turns, const JointMap& map, const Twists& twists) {
   Calibration out;
   out.turns = turns;
@@ -115,7 +112,7 @@ Calibration calibrate(const Character& character, const std::vector<Landmarks>& 
   sum.fill(Eigen::Vector4d::Zero());
   for (const Landmarks& pose : neutral) {
     const JointRotations q = neutral_rotations(character, pose, map, twists);
-    for (std::size_t b = 0; b < kBodies; ++b) {
+    for (int b = 0; b < kBodies; ++b) {
       const Eigen::Vector4d q_JB = (pose.q[b].conjugate() * q[b]).coeffs();
       sum[b] += sum[b].dot(q_JB) < 0.0 ? Eigen::Vector4d(-q_JB) : q_JB;
     }
@@ -123,26 +120,25 @@ Calibration calibrate(const Character& character, const std::vector<Landmarks>& 
                 (pose.between(kLeftShoulder, kRightShoulder) - pose.p[kSpine3]) /
                 static_cast<double>(neutral.size());
   }
-  for (std::size_t b = 0; b < kBodies; ++b) out.q_JB[b] = Quaterniond(sum[b]).normalized();
+  for (int b = 0; b < kBodies; ++b) out.q_JB[b] = Quaterniond(sum[b]).normalized();
   return out;
 }
 
 Twists measure_twists(const Character& character, const Calibration& calibration,
-                      const std::vector<Landmarks>& frames) {
+                      const PerFrame<Landmarks>& frames) {
   Twists twists{};
   for (const auto& [upper, lower] : {Bone{kLeftHip, kLeftKnee},
                                      {kRightHip, kRightKnee},
                                      {kLeftShoulder, kLeftElbow},
                                      {kRightShoulder, kRightElbow}}) {
-    if (!calibration.turns[at(upper)]) continue;
+    if (!calibration.turns[upper]) continue;
     // A hinge h keeps h · v, v the lower bone in the upper body's frame. With a twist α about the upper bone
     // u that is h_u v_u + a cos α + b sin α, where a and b come from what of h and v is across u.
     const Vector3d u = bone_direction(character, upper), h = hinge_axis(lower), across = h - h.dot(u) * u;
     Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
     Eigen::Vector2d products = Eigen::Vector2d::Zero();
     for (const Landmarks& pose : frames) {
-      const Quaterniond q =
-          swung(pose.q[at(upper)] * calibration.q_JB[at(upper)], u, pose.direction(upper, lower));
+      const Quaterniond q = swung(pose.q[upper] * calibration.q_JB[upper], u, pose.direction(upper, lower));
       const Vector3d v = q.conjugate() * pose.direction(lower, bone_end(lower));
       const Eigen::Vector2d ab(across.dot(v), -across.dot(u.cross(v)));
       squares += ab * ab.transpose();
@@ -157,7 +153,7 @@ Twists measure_twists(const Character& character, const Calibration& calibration
       const double cost = cs.dot(squares * cs) - 2.0 * products.dot(cs) - 2.0 * pull * cs.x();
       if (cost >= best) continue;
       best = cost;
-      twists[at(upper)] = angle;
+      twists[upper] = angle;
     }
   }
   return twists;
@@ -166,17 +162,16 @@ Twists measure_twists(const Character& character, const Calibration& calibration
 JointRotations body_rotations(const Character& character, const Calibration& calibration,
                               const Landmarks& pose) {
   JointRotations q;
-  const auto calibrated = [&](std::size_t b) { return (pose.q[b] * calibration.q_JB[b]).normalized(); };
+  const auto calibrated = [&](int b) { return (pose.q[b] * calibration.q_JB[b]).normalized(); };
   q[kPelvis] = calibrated(kPelvis);
   q[kSpine3] = calibrated(kSpine3);
   const Vector3d shoulders = pose.p[kSpine3] + pose.q[kSpine3] * calibration.p_JS;
   solve_trunk(character, (shoulders - pose.between(kLeftHip, kRightHip)).normalized(), q);
-  for (int body = 1; body < kBodies; ++body) {
-    const auto b = at(body);
-    if (body == kSpine1 || body == kSpine2 || body == kSpine3) continue;
-    q[b] = calibration.turns[b] ? calibrated(b) : q[at(kParents[b])];
-    if (const int end = bone_end(body); end >= 0)
-      q[b] = swung(q[b], bone_direction(character, body), pose.direction(body, end));
+  for (int b = 1; b < kBodies; ++b) {
+    if (b == kSpine1 || b == kSpine2 || b == kSpine3) continue;
+    q[b] = calibration.turns[b] ? calibrated(b) : q[kParents[b]];
+    if (const int end = bone_end(b); end >= 0)
+      q[b] = swung(q[b], bone_direction(character, b), pose.direction(b, end));
   }
   return q;
 }

@@ -35,17 +35,19 @@ struct Calibration {
 /// they bend. Index: kLeftHip, kRightHip, kLeftShoulder, kRightShoulder; others 0.
 using Twists = PerBody<double>;
 
-/// @param neutral  poses that count as neutral, z up: bodies are taken to stand in them as they would had
-/// each bone
-///                 swung there from the T-pose by the shortest way, soles level
+/// Finds how each body stands in the frame of its joint, as a mean over neutral poses. In a neutral pose a
+/// body is taken to stand as if its bone had swung there from the T-pose by the shortest way; soles are
+/// level.
+/// @param neutral  poses that count as neutral, z up, m
 /// @param turns    bodies that have a joint that turns
-Calibration calibrate(const Character& character, const std::vector<Landmarks>& neutral,
+/// @param twists   of thighs and upper arms, on top of the shortest way
+Calibration calibrate(const Character& character, const PerFrame<Landmarks>& neutral,
                       const PerBody<bool>& turns, const JointMap& map, const Twists& twists = {});
 
-/// The twists, within ±90°, with which hinges of knees and elbows explain best how the lower bones move;
-/// towards 0 where they hardly bend. To a tenth of a degree.
+/// The twists, within ±90°, with which the hinges of knees and elbows explain best how the lower bones move.
+/// Limbs that hardly bend show little of it and get twists near 0. Resolution: a tenth of a degree.
 Twists measure_twists(const Character& character, const Calibration& calibration,
-                      const std::vector<Landmarks>& frames);
+                      const PerFrame<Landmarks>& frames);
 
 /// World rotations of the bodies for a pose: q_WJ · q_JB, then limbs and trunk swung onto their exact
 /// directions.

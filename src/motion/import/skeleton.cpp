@@ -10,12 +10,12 @@ double whole_rate(double fps) {
 }
 
 SkeletonPose pose_of(const SkeletonMotion& motion, int frame) {
-  const auto& translation = motion.translation[static_cast<std::size_t>(frame)];
-  const auto& rotation = motion.rotation[static_cast<std::size_t>(frame)];
+  const auto& translation = motion.translation[frame];
+  const auto& rotation = motion.rotation[frame];
   SkeletonPose pose{translation, rotation};
-  for (std::size_t j = 0; j < motion.joints.size(); ++j) {
-    if (motion.joints[j].parent < 0) continue;
-    const auto parent = static_cast<std::size_t>(motion.joints[j].parent);
+  for (int j = 0; j < motion.joints.count(); ++j) {
+    const int parent = motion.joints[j].parent;
+    if (parent < 0) continue;
     pose.q[j] = (pose.q[parent] * rotation[j]).normalized();
     pose.p[j] = pose.p[parent] + pose.q[parent] * translation[j];
   }
@@ -25,8 +25,7 @@ SkeletonPose pose_of(const SkeletonMotion& motion, int frame) {
 SkeletonPose rest_pose(const SkeletonMotion& motion) {
   SkeletonPose pose;
   for (const SkeletonJoint& joint : motion.joints) {
-    pose.p.push_back(joint.parent < 0 ? joint.offset
-                                      : pose.p[static_cast<std::size_t>(joint.parent)] + joint.offset);
+    pose.p.push_back(joint.parent < 0 ? joint.offset : pose.p[joint.parent] + joint.offset);
     pose.q.push_back(Quaterniond::Identity());
   }
   return pose;

@@ -11,9 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "core/containers.h"
 #include "core/so3.h"
 
 namespace mimicx {
+
+/// One value per joint of a skeleton, in the order of `SkeletonMotion::joints`.
+template <class T>
+using PerJoint = PerFrame<T>;
 
 struct SkeletonJoint {
   std::string name;  ///< printable UTF-8
@@ -27,13 +32,13 @@ struct SkeletonMotion {
   std::string path;  ///< where it came from, for messages
   double fps = 30.0;
   bool metric_y_up = false;  ///< the format itself says metres and y up; else both are found by looking
-  std::vector<SkeletonJoint> joints;
-  std::vector<std::vector<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
-  std::vector<std::vector<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent
-  std::vector<std::string> warnings;               ///< one line each
-  std::vector<std::string> decisions;              ///< what reading decided, one line each
+  PerJoint<SkeletonJoint> joints;
+  PerFrame<PerJoint<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
+  PerFrame<PerJoint<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent
+  std::vector<std::string> warnings;         ///< one line each
+  std::vector<std::string> decisions;        ///< what reading decided, one line each
 
-  int frames() const { return static_cast<int>(rotation.size()); }
+  int frames() const { return rotation.count(); }
 };
 
 /// Joints times frames that a file may have: 16 M, 0.9 GB of memory; two hours of a body at 100 frames per
@@ -47,8 +52,8 @@ double whole_rate(double fps);
 
 /// World poses of all joints, file's unit and axes.
 struct SkeletonPose {
-  std::vector<Vector3d> p;     ///< [joints]
-  std::vector<Quaterniond> q;  ///< [joints]
+  PerJoint<Vector3d> p;
+  PerJoint<Quaterniond> q;
 };
 SkeletonPose pose_of(const SkeletonMotion& motion, int frame);
 /// Every rotation the identity, every translation the offset.

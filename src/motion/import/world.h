@@ -1,7 +1,8 @@
 /// Changes of the world a clip stands in: its axes, its unit of length, the height of its floor.
 ///
 /// SMPL's trans is not the pelvis: pelvis = trans + J0, and a rotation of the model turns about its pelvis. A
-/// change of the world moves the pelvis, and what is stored follows: trans' = R (trans + J0) − J0. METHOD §2
+/// change of the world moves the pelvis, and what is stored follows: trans' = R (trans + J0) − J0
+/// (docs/method.md §2).
 /// Cameras move along, so that pixels stay what they are.
 #pragma once
 

@@ -13,8 +13,6 @@
 /// What it does not do: ask for joint torques or contacts (pipeline/audit/feasibility.h does); move the feet.
 #pragma once
 
-#include <vector>
-
 #include "core/units.h"
 #include "motion/synth/plan.h"
 
@@ -26,7 +24,7 @@ struct SynthPose {
   PerBody<Quaterniond> q;
   Vector3d p_com = Vector3d::Zero();  ///< centre of mass
   double shortfall = 0.0;             ///< of the worse leg, m
-  std::array<double, 2> knee{};       ///< flexion, rad
+  PerSide<double> knee{};             ///< flexion, rad
 };
 
 /// The pose of a frame whose centre of mass is at `p_com`.
@@ -39,8 +37,6 @@ double com_height_for_knee(const Character& character, const PlanFrame& frame, c
 
 /// Motion of the plan. Where a step stretches a leg too far, the centre of mass goes lower than planned.
 /// @throws std::invalid_argument when a leg is too short for its place all the same
-std::vector<SynthPose> solve_plan(const Character& character, std::vector<PlanFrame> plan, double fps);
-
-Vector3d center_of_mass(const Character& character, const BodyPoses& poses);
+PerFrame<SynthPose> solve_plan(const Character& character, PerFrame<PlanFrame> plan, double fps);
 
 }  // namespace mimicx

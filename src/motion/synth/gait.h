@@ -16,9 +16,9 @@ struct GaitStyle {
 /// @param plan  feet and heading set; posture and height those of standing
 /// @param stride  distance of the feet in a full step, m
 void follow_feet(const Character& character, const GaitStyle& style, double stride, const FeetTracks& feet,
-                 std::vector<PlanFrame>& plan);
+                 PerFrame<PlanFrame>& plan);
 
 /// The pelvis faces where the feet point on average, without their steps. @param plan  feet set
-void face_along_feet(std::vector<PlanFrame>& plan);
+void face_along_feet(PerFrame<PlanFrame>& plan);
 
 }  // namespace mimicx

@@ -9,15 +9,11 @@ namespace {
 constexpr double kToesFollow =
     0.7;  ///< share of the foot's pitch that the toes take; they extend by the rest
 
-const Vector3d& offset(const Character& c, int body) {
-  return c.joint_offset[static_cast<std::size_t>(body)];
-}
-
 /// Position of a point of the sole in the ankle's frame, toes straight. @param index  0..5: heel, ball, toe
 Vector3d foot_point(const Character& c, int side, int index) {
   const ContactPoint& point = c.contact_points[static_cast<std::size_t>(6 * side + index)];
   const bool on_toes = point.body == kLeftFoot || point.body == kRightFoot;
-  return on_toes ? Vector3d(offset(c, point.body) + sole_point(point)) : sole_point(point);
+  return on_toes ? Vector3d(c.joint_offset[point.body] + sole_point(point)) : sole_point(point);
 }
 
 /// Rotation about the line from a point of the sole to its neighbour, lateral axis to the left.
@@ -42,7 +38,7 @@ Matrix3d frame_of(const Vector3d& first, const Vector3d& second) {
 }  // namespace
 
 FootPose foot_pose(const Character& c, int side, const FootTarget& target) {
-  const Vector3d ball = offset(c, side == 0 ? kLeftFoot : kRightFoot);
+  const Vector3d ball = c.joint_offset[side == 0 ? kLeftFoot : kRightFoot];
   const Roll over_toes = roll_over(c, side, 4), over_heel = roll_over(c, side, 0);
   // In the frame of the flat foot (origin: its ankle): toes roll first, the foot follows at their joint.
   const Quaterniond toes = exp_map(kToesFollow * target.heel_rise * over_toes.axis);
@@ -63,8 +59,8 @@ FootPose foot_pose(const Character& c, int side, const FootTarget& target) {
 LegPose solve_leg(const Character& c, int side, const Vector3d& p_pelvis, const Quaterniond& q_pelvis,
                   const FootPose& foot, const Vector3d& knee_axis) {
   const int hip = side == 0 ? kLeftHip : kRightHip, knee = side == 0 ? kLeftKnee : kRightKnee;
-  const Vector3d thigh = offset(c, knee), shank = offset(c, side == 0 ? kLeftAnkle : kRightAnkle);
-  const Vector3d to_ankle = foot.p_ankle - (p_pelvis + q_pelvis * offset(c, hip));
+  const Vector3d thigh = c.joint_offset[knee], shank = c.joint_offset[side == 0 ? kLeftAnkle : kRightAnkle];
+  const Vector3d to_ankle = foot.p_ankle - (p_pelvis + q_pelvis * c.joint_offset[hip]);
   // |thigh + Rx(k)·shank|² = constant + A cos k + B sin k; the flexing solution is the larger k.
   const double constant = thigh.squaredNorm() + shank.squaredNorm() + 2.0 * thigh.x() * shank.x();
   const double A = 2.0 * (thigh.y() * shank.y() + thigh.z() * shank.z());

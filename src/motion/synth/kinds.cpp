@@ -22,8 +22,8 @@ const std::vector<SynthKind>& synth_kinds() {
   return kinds;
 }
 
-std::array<FootTarget, 2> random_stance(const PlanRequest& request, double narrow, double wide,
-                                        double least_out, double most_out) {
+PerSide<FootTarget> random_stance(const PlanRequest& request, double narrow, double wide, double least_out,
+                                  double most_out) {
   const double half_width = rest_half_width(request.character) * request.random.uniform(narrow, wide);
   const double toes_out = kDegree * request.random.uniform(least_out, most_out);
   return feet_apart(half_width, toes_out);

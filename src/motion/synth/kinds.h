@@ -2,8 +2,8 @@
 ///
 /// A kind draws its parameters from the random stream it is given and fills one `PlanFrame` per frame. Two
 /// draws never stand in one argument list: compilers differ in the order of evaluation.
-/// To add a kind: write its plan beside its like (synth_kinds_standing, _walking, _jump, _fighting …) and
-/// name it at the end of `synth_kinds()`: the random streams are keyed by the place in that list.
+/// To add a kind: write its plan in a file of the folder kinds, declare it below and name it at the end of
+/// `synth_kinds()`. The random streams are keyed by the place in that list.
 #pragma once
 
 #include <string>
@@ -15,8 +15,6 @@
 
 namespace mimicx {
 
-inline constexpr double kSynthFps = 30.0;
-
 /// What a plan is made for.
 struct PlanRequest {
   const Character& character;
@@ -24,12 +22,16 @@ struct PlanRequest {
   int frames;
 
   double seconds() const { return (frames - 1) / kSynthFps; }
+  /// One frame of the plan for each frame of the motion, all the same.
+  PerFrame<PlanFrame> every_frame(const PlanFrame& frame) const {
+    return PerFrame<PlanFrame>(static_cast<std::size_t>(frames), frame);
+  }
 };
 
 struct SynthKind {
   std::string name;
   double shortest, longest;  ///< range of the length where none is asked for, s
-  std::vector<PlanFrame> (*plan)(const PlanRequest&);
+  PerFrame<PlanFrame> (*plan)(const PlanRequest&);
 };
 
 const std::vector<SynthKind>& synth_kinds();
@@ -39,25 +41,28 @@ PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
 
 /// Two feet apart at random. @param narrow, wide  half width in units of the rest pose's
 /// @param least_out, most_out  how far the toes turn out, degrees
-std::array<FootTarget, 2> random_stance(const PlanRequest& request, double narrow, double wide,
-                                        double least_out, double most_out);
+PerSide<FootTarget> random_stance(const PlanRequest& request, double narrow, double wide, double least_out,
+                                  double most_out);
 
-/// Time of a frame, s.
-inline double time_of(std::size_t frame) { return static_cast<double>(frame) / kSynthFps; }
-
-std::vector<PlanFrame> plan_stand(const PlanRequest& request);
-std::vector<PlanFrame> plan_squat(const PlanRequest& request);
-std::vector<PlanFrame> plan_wave(const PlanRequest& request);
-std::vector<PlanFrame> plan_bow(const PlanRequest& request);
-std::vector<PlanFrame> plan_walk(const PlanRequest& request);
-std::vector<PlanFrame> plan_walk_turn(const PlanRequest& request);
-std::vector<PlanFrame> plan_side_step(const PlanRequest& request);
-std::vector<PlanFrame> plan_turn_in_place(const PlanRequest& request);
-std::vector<PlanFrame> plan_jump(const PlanRequest& request);
-std::vector<PlanFrame> plan_jog(const PlanRequest& request);
-std::vector<PlanFrame> plan_dance(const PlanRequest& request);
-std::vector<PlanFrame> plan_kick(const PlanRequest& request);
-std::vector<PlanFrame> plan_punch(const PlanRequest& request);
-std::vector<PlanFrame> plan_lunge(const PlanRequest& request);
+// The plans: kinds/standing.cpp
+PerFrame<PlanFrame> plan_stand(const PlanRequest& request);
+PerFrame<PlanFrame> plan_squat(const PlanRequest& request);
+PerFrame<PlanFrame> plan_wave(const PlanRequest& request);
+PerFrame<PlanFrame> plan_bow(const PlanRequest& request);
+// kinds/walking.cpp
+PerFrame<PlanFrame> plan_walk(const PlanRequest& request);
+PerFrame<PlanFrame> plan_walk_turn(const PlanRequest& request);
+PerFrame<PlanFrame> plan_side_step(const PlanRequest& request);
+PerFrame<PlanFrame> plan_turn_in_place(const PlanRequest& request);
+// kinds/jump.cpp
+PerFrame<PlanFrame> plan_jump(const PlanRequest& request);
+// kinds/jog.cpp
+PerFrame<PlanFrame> plan_jog(const PlanRequest& request);
+// kinds/dance.cpp
+PerFrame<PlanFrame> plan_dance(const PlanRequest& request);
+// kinds/fighting.cpp
+PerFrame<PlanFrame> plan_kick(const PlanRequest& request);
+PerFrame<PlanFrame> plan_punch(const PlanRequest& request);
+PerFrame<PlanFrame> plan_lunge(const PlanRequest& request);
 
 }  // namespace mimicx

@@ -8,38 +8,36 @@
 #include "core/units.h"
 #include "motion/estimator_error.h"
 #include "motion/surface.h"
-#include "motion/synth/noise_streams.h"
 #include "motion/synth/track.h"
 
 namespace mimicx {
 namespace {
 
 /// still·N + slow·S + jitter·J, each from the stream, in this order.
-std::vector<double> three_scales(Random& random, int frames, double still, double slow, double slow_frames,
-                                 double jitter, double jitter_frames) {
+PerFrame<double> three_scales(Random& random, int frames, double still, double slow, double slow_frames,
+                              double jitter, double jitter_frames) {
   const double constant = still * random.normal();
-  const std::vector<double> slowly = smooth_noise(random, frames, slow_frames);
-  const std::vector<double> quickly = smooth_noise(random, frames, jitter_frames);
-  std::vector<double> sum(static_cast<std::size_t>(frames));
-  for (std::size_t t = 0; t < sum.size(); ++t) sum[t] = constant + slow * slowly[t] + jitter * quickly[t];
+  const PerFrame<double> slowly = smooth_noise(random, frames, slow_frames);
+  const PerFrame<double> quickly = smooth_noise(random, frames, jitter_frames);
+  PerFrame<double> sum(slowly.size());
+  for (int t = 0; t < frames; ++t) sum[t] = constant + slow * slowly[t] + jitter * quickly[t];
   return sum;
 }
 
-using MotionRotations = std::vector<PerBody<Quaterniond>>;
+using MotionRotations = PerFrame<PerBody<Quaterniond>>;
 
 /// Item 1 of the model: errors of the joint rotations, about the child's axes.
 void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, MotionRotations& q) {
-  const int frames = static_cast<int>(q.size());
+  const int frames = q.count();
   for (int body = 1; body < kBodies; ++body) {
-    const auto b = static_cast<std::size_t>(body);
-    Random random(seed, {kJointStream, b});
-    std::array<std::vector<double>, 3> error;
+    Random random(seed, {kJointStream, static_cast<std::uint64_t>(body)});
+    Array<PerFrame<double>, 3> error;
     for (auto& axis : error)
       axis = three_scales(random, frames, p.joint_static, p.joint_slow, p.slow_tau * fps, p.joint_jitter,
                           p.jitter_frames);
-    for (std::size_t t = 0; t < q.size(); ++t)
-      q[t][b] = q[t][b] * exp_map(relative_joint_error(body) * kDegree *
-                                  Vector3d(error[0][t], error[1][t], error[2][t]));
+    for (int t = 0; t < q.count(); ++t)
+      q[t][body] = q[t][body] * exp_map(relative_joint_error(body) * kDegree *
+                                        Vector3d(error[0][t], error[1][t], error[2][t]));
   }
 }
 
@@ -48,21 +46,21 @@ void apply_bursts(const std::vector<Burst>& bursts, MotionRotations& q) {
   for (const Burst& burst : bursts)
     for (int k = 0; k < burst.length; ++k) {
       const double window = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (k + 0.5) / burst.length);
-      auto& joint = q[static_cast<std::size_t>(burst.first + k)][static_cast<std::size_t>(burst.joint)];
+      Quaterniond& joint = q[burst.first + k][burst.joint];
       joint = joint * exp_map(window * burst.peak);
     }
 }
 
 /// Item 3: orientation of the root, about the world's axes.
 void disturb_root(const NoisePreset& p, std::uint64_t seed, double fps, MotionRotations& q) {
-  const int frames = static_cast<int>(q.size());
+  const int frames = q.count();
   Random random(seed, {kRootStream}), walk(seed, {kHeadingStream});
-  std::array<std::vector<double>, 3> error;
+  Array<PerFrame<double>, 3> error;
   for (auto& axis : error)
     axis = three_scales(random, frames, p.root_static, p.root_slow, p.slow_tau * fps, p.root_jitter,
                         p.jitter_frames);
   double heading = 0.0;
-  for (std::size_t t = 0; t < q.size(); ++t) {
+  for (int t = 0; t < q.count(); ++t) {
     const Vector3d degrees(error[0][t], error[1][t], error[2][t] + heading);
     q[t][kPelvis] = exp_map(kDegree * degrees) * q[t][kPelvis];
     heading += p.heading_walk / std::sqrt(fps) * walk.normal();
@@ -71,27 +69,27 @@ void disturb_root(const NoisePreset& p, std::uint64_t seed, double fps, MotionRo
 
 /// Item 4: the root's path over the floor. @param depth  horizontal unit vector away from the camera
 void disturb_path(const NoisePreset& p, std::uint64_t seed, double fps, const Vector3d& depth,
-                  std::vector<Vector3d>& p_root) {
-  const int frames = static_cast<int>(p_root.size());
+                  PerFrame<Vector3d>& p_root) {
+  const int frames = p_root.count();
   Random path(seed, {kPathStream});
   const double scale = 1.0 + p.speed_error * path.normal();
   const Quaterniond turn = rotation_z(kDegree * p.heading_error * path.normal());
   const Vector3d start(p_root.front().x(), p_root.front().y(), 0.0);
   const auto along = [&](std::uint64_t axis) {
     Random random(seed, {kDepthStream, axis}), drifting(seed, {kDriftStream, axis});
-    std::vector<double> offset = three_scales(random, frames, p.depth_static, p.depth_slow, p.depth_tau * fps,
-                                              p.depth_jitter, p.depth_jitter_frames);
-    const std::vector<double> speed = smooth_noise(drifting, frames, p.drift_tau * fps);
+    PerFrame<double> offset = three_scales(random, frames, p.depth_static, p.depth_slow, p.depth_tau * fps,
+                                           p.depth_jitter, p.depth_jitter_frames);
+    const PerFrame<double> speed = smooth_noise(drifting, frames, p.drift_tau * fps);
     double drift = 0.0;
-    for (std::size_t t = 0; t < offset.size(); ++t) {
+    for (int t = 0; t < frames; ++t) {
       offset[t] += drift;
       drift += p.drift * speed[t] / fps;
     }
     return offset;
   };
-  const std::vector<double> deep = along(0), lateral = along(1);
+  const PerFrame<double> deep = along(0), lateral = along(1);
   const Vector3d across(-depth.y(), depth.x(), 0.0);
-  for (std::size_t t = 0; t < p_root.size(); ++t) {
+  for (int t = 0; t < frames; ++t) {
     const Vector3d travelled =
         turn * (scale * Vector3d(p_root[t].x() - start.x(), p_root[t].y() - start.y(), 0.0));
     const double height = p_root[t].z();
@@ -102,18 +100,18 @@ void disturb_path(const NoisePreset& p, std::uint64_t seed, double fps, const Ve
 
 /// Item 5: height. Estimators put feet on a floor, more or less, and that floor is off.
 void disturb_height(const NoisePreset& p, std::uint64_t seed, double fps,
-                    const std::vector<double>& true_support, const Character& character,
-                    const MotionRotations& q, std::vector<Vector3d>& p_root) {
-  const int frames = static_cast<int>(q.size());
+                    const PerFrame<double>& true_support, const Character& character,
+                    const MotionRotations& q, PerFrame<Vector3d>& p_root) {
+  const int frames = q.count();
   const std::vector<SurfacePoint> surface = surface_points(character);
-  std::vector<double> error(q.size());
-  for (std::size_t t = 0; t < q.size(); ++t)
+  PerFrame<double> error(q.size());
+  for (int t = 0; t < q.count(); ++t)
     error[t] = lowest_height(surface, forward_kinematics(character, p_root[t], q[t])) - true_support[t];
   if (p.snap_frames > 0.0) error = smoothed(error, p.snap_frames);
   Random random(seed, {kHeightStream});
-  const std::vector<double> offset = three_scales(random, frames, p.height_static, p.height_slow,
-                                                  kHeightTau * fps, p.height_jitter, p.depth_jitter_frames);
-  for (std::size_t t = 0; t < q.size(); ++t) p_root[t].z() += p.height_offset + offset[t] - p.snap * error[t];
+  const PerFrame<double> offset = three_scales(random, frames, p.height_static, p.height_slow,
+                                               kHeightTau * fps, p.height_jitter, p.depth_jitter_frames);
+  for (int t = 0; t < q.count(); ++t) p_root[t].z() += p.height_offset + offset[t] - p.snap * error[t];
 }
 
 /// What the program is told of shape and camera.
@@ -121,7 +119,7 @@ std::array<double, kBetas> told_betas(const std::array<double, kBetas>& betas, d
                                       std::uint64_t seed) {
   Random random(seed, {kToldShapeStream});
   std::array<double, kBetas> told = betas;
-  for (double& beta : told) beta = std::clamp(beta + sigma * random.normal(), -5.0, 5.0);
+  for (double& beta : told) beta = std::clamp(beta + sigma * random.normal(), -kMaxBeta, kMaxBeta);
   return told;
 }
 
@@ -175,17 +173,16 @@ CameraError camera_error(std::string_view name) {
   throw std::invalid_argument("camera_error: unknown camera '" + std::string(name) + "'");
 }
 
-std::vector<double> smooth_noise(Random& random, int count, double frames) {
+PerFrame<double> smooth_noise(Random& random, int count, double frames) {
   const int radius = static_cast<int>(std::ceil(4.0 * frames));
-  std::vector<double> kernel(static_cast<std::size_t>(2 * radius + 1));
+  std::vector<double> kernel;
   double squares = 0.0;
   for (int k = -radius; k <= radius; ++k) {
-    double& weight = kernel[static_cast<std::size_t>(k + radius)];
-    weight = std::exp(-0.5 * k * k / (frames * frames));
-    squares += weight * weight;
+    kernel.push_back(std::exp(-0.5 * k * k / (frames * frames)));
+    squares += kernel.back() * kernel.back();
   }
-  std::vector<double> white(static_cast<std::size_t>(count) + kernel.size() - 1),
-      out(static_cast<std::size_t>(count));
+  PerFrame<double> out(static_cast<std::size_t>(count));
+  std::vector<double> white(out.size() + kernel.size() - 1);
   for (double& value : white) value = random.normal();
   for (std::size_t i = 0; i < out.size(); ++i) {
     double sum = 0.0;
@@ -196,9 +193,9 @@ std::vector<double> smooth_noise(Random& random, int count, double frames) {
 }
 
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps) {
-  static constexpr std::array<int, 12> kLimbs = {kLeftHip,   kRightHip,   kLeftKnee,     kRightKnee,
-                                                 kLeftAnkle, kRightAnkle, kLeftShoulder, kRightShoulder,
-                                                 kLeftElbow, kRightElbow, kLeftWrist,    kRightWrist};
+  static constexpr Array<int, 12> kLimbs = {kLeftHip,   kRightHip,   kLeftKnee,     kRightKnee,
+                                            kLeftAnkle, kRightAnkle, kLeftShoulder, kRightShoulder,
+                                            kLeftElbow, kRightElbow, kLeftWrist,    kRightWrist};
   Random random(seed, {kBurstStream});
   std::vector<Burst> bursts;
   for (const Interval& interval : poisson_intervals(random, preset.burst_rate, preset.burst_frames_min,
@@ -212,20 +209,20 @@ std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, in
   return bursts;
 }
 
-Clip add_noise(const Clip& truth, const NoiseOptions& options) {
+Clip add_noise(const Clip& truth, const NoiseConfig& config) {
   if (truth.frames() < 2) throw std::invalid_argument("add_noise: at least 2 frames are needed");
   if (truth.body_model != "mimicx") throw std::invalid_argument("add_noise: the body model must be 'mimicx'");
-  const NoisePreset& preset = options.preset;
-  const std::uint64_t seed = options.seed;
+  const NoisePreset& preset = config.preset;
+  const std::uint64_t seed = config.seed;
   const Vector3d rest = rest_pelvis(truth.body_model);
   const Character character = make_character(truth.betas);
   const std::vector<SurfacePoint> surface = surface_points(character);
   MotionRotations q(truth.rotations.size());
-  std::vector<Vector3d> p_root;
-  std::vector<BodyPoses> poses;
-  std::vector<double> support;
-  for (std::size_t t = 0; t < q.size(); ++t) {
-    for (std::size_t b = 0; b < kBodies; ++b) q[t][b] = exp_map(truth.rotations[t][b]);
+  PerFrame<Vector3d> p_root;
+  PerFrame<BodyPoses> poses;
+  PerFrame<double> support;
+  for (int t = 0; t < q.count(); ++t) {
+    for (int b = 0; b < kBodies; ++b) q[t][b] = exp_map(truth.rotations[t][b]);
     p_root.push_back(truth.trans[t] + rest);
     poses.push_back(forward_kinematics(character, p_root[t], q[t]));
     support.push_back(lowest_height(surface, poses[t]));
@@ -237,7 +234,7 @@ Clip add_noise(const Clip& truth, const NoiseOptions& options) {
   noisy.name = truth.name;
   noisy.fps = truth.fps;
   noisy.gender = truth.gender;
-  noisy.betas = told_betas(truth.betas, options.camera.beta, seed);
+  noisy.betas = told_betas(truth.betas, config.camera.beta, seed);
   disturb_joints(preset, seed, truth.fps, q);
   apply_bursts(bursts, q);
   disturb_root(preset, seed, truth.fps, q);
@@ -245,12 +242,12 @@ Clip add_noise(const Clip& truth, const NoiseOptions& options) {
   disturb_path(preset, seed, truth.fps, Vector3d(view.x(), view.y(), 0.0).normalized(), p_root);
   disturb_height(preset, seed, truth.fps, support, make_character(noisy.betas), q, p_root);
   noisy.rotations.resize(q.size());
-  for (std::size_t t = 0; t < q.size(); ++t) {
-    for (std::size_t b = 0; b < kBodies; ++b) noisy.rotations[t][b] = log_map(q[t][b]);
+  for (int t = 0; t < q.count(); ++t) {
+    for (int b = 0; b < kBodies; ++b) noisy.rotations[t][b] = log_map(q[t][b]);
     noisy.trans.push_back(p_root[t] - rest);
   }
-  noisy.keypoints = detect_keypoints(poses, camera, options.keypoints, bursts, seed, truth.fps);
-  const Camera told = told_camera(camera, options.camera, seed);
+  noisy.keypoints = detect_keypoints(poses, camera, config.keypoints, bursts, seed, truth.fps);
+  const Camera told = told_camera(camera, config.camera, seed);
   noisy.keypoints->intrinsics = told.intrinsics;
   noisy.keypoints->extrinsics = {told.extrinsics};
   return noisy;

@@ -11,14 +11,9 @@
 /// What it does not do: no images, no occlusion by geometry; the truth is never written into the noisy clip.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "core/random.h"
-#include "motion/clip.h"
+#include "motion/synth/noise_keypoints.h"
 
 namespace mimicx {
 
@@ -52,53 +47,24 @@ struct CameraError {
 /// "calibrated" (exact), "perturbed" or "wild". @throws std::invalid_argument for another name.
 CameraError camera_error(std::string_view name);
 
-enum class KeypointSet { kJoints22, kCoco17 };
-
-struct NoiseOptions {
+struct NoiseConfig {
   NoisePreset preset = noise_preset("gvhmr-like");
   CameraError camera = camera_error("perturbed");
   KeypointSet keypoints = KeypointSet::kJoints22;
   std::uint64_t seed = 0;
 };
 
-/// Occlusion of one limb joint: a Hann window of rotation error, low confidence for its keypoints.
-struct Burst {
-  int joint;
-  int first, length;  ///< frames
-  Vector3d peak;      ///< rotation vector at the window's middle, rad
-};
-
-/// A pinhole camera: world → camera (x right, y down, z forward), intrinsics in pixels.
-struct Camera {
-  Matrix3d intrinsics = Matrix3d::Identity();
-  Eigen::Matrix4d extrinsics = Eigen::Matrix4d::Identity();
-};
-
-/// u, v in pixels and depth in metres.
-Vector3d project(const Camera& camera, const Vector3d& p_W);
-
 /// The estimator's result for a clean clip of body model "mimicx": rotations, trans and β with errors,
 /// keypoints of the clean motion with detection errors, and the camera as the program is told of it.
 /// @throws std::invalid_argument for fewer than 2 frames or another body model.
-Clip add_noise(const Clip& truth, const NoiseOptions& options);
-
-/// Names of a keypoint set, in file order: the 22 joints, or COCO-17.
-std::vector<std::string> keypoint_names(KeypointSet set);
+Clip add_noise(const Clip& truth, const NoiseConfig& config);
 
 // The parts of the model, shared between its files and tested one by one.
 
 /// J_s, and S_τ with frames = τ · fps: unit variance, correlated over `frames`. @param random  advanced
-std::vector<double> smooth_noise(Random& random, int count, double frames);
+PerFrame<double> smooth_noise(Random& random, int count, double frames);
 
 /// Bursts of a clip, in the order of their beginnings.
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps);
-
-/// A camera 4 to 6 m away (farther only when the motion would leave the picture), 1.2 to 1.8 m high.
-/// @throws std::invalid_argument when the motion would leave it at any distance
-Camera place_camera(const std::vector<BodyPoses>& truth, std::uint64_t seed);
-
-/// Detections of the clean motion. @param truth  poses of every frame
-Keypoints detect_keypoints(const std::vector<BodyPoses>& truth, const Camera& camera, KeypointSet set,
-                           const std::vector<Burst>& bursts, std::uint64_t seed, double fps);
 
 }  // namespace mimicx

@@ -1,11 +1,10 @@
+#include "motion/synth/noise_keypoints.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-
-#include "motion/synth/noise.h"
-#include "motion/synth/noise_streams.h"
 
 namespace mimicx {
 namespace {
@@ -28,21 +27,20 @@ struct Landmark {
   Vector3d p_B;
 };
 
+/// Where the points of COCO that are no joints lie on the head, m.
+Vector3d place_on_head(const std::string& name) {
+  if (name == "nose") return {0.0, 0.055, 0.100};
+  const double side = name.starts_with("left_") ? 1.0 : -1.0;
+  return name.ends_with("eye") ? Vector3d(side * 0.032, 0.085, 0.080) : Vector3d(side * 0.075, 0.065, 0.005);
+}
+
 std::vector<Landmark> landmarks(KeypointSet set) {
   std::vector<Landmark> points;
-  if (set == KeypointSet::kJoints22) {
-    for (int b = 0; b < kBodies; ++b)
-      points.push_back({std::string(kBodyNames[static_cast<std::size_t>(b)]), b, Vector3d::Zero()});
-    return points;
+  for (const std::string& name : keypoint_names(set)) {
+    const int body = body_of_name(name);
+    points.push_back(body < 0 ? Landmark{name, kHead, place_on_head(name)}
+                              : Landmark{name, body, Vector3d::Zero()});
   }
-  points = {{"nose", kHead, {0.0, 0.055, 0.100}},
-            {"left_eye", kHead, {0.032, 0.085, 0.080}},
-            {"right_eye", kHead, {-0.032, 0.085, 0.080}},
-            {"left_ear", kHead, {0.075, 0.065, 0.005}},
-            {"right_ear", kHead, {-0.075, 0.065, 0.005}}};
-  for (int b : {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist, kLeftHip,
-                kRightHip, kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle})
-    points.push_back({std::string(kBodyNames[static_cast<std::size_t>(b)]), b, Vector3d::Zero()});
   return points;
 }
 
@@ -57,7 +55,7 @@ double box_size(const Camera& camera, const BodyPoses& poses) {
   return (high - low).maxCoeff();
 }
 
-bool in_picture(const Camera& camera, const std::vector<BodyPoses>& motion) {
+bool in_picture(const Camera& camera, const PerFrame<BodyPoses>& motion) {
   for (const BodyPoses& poses : motion)
     for (const Vector3d& joint : poses.p_WB) {
       const Vector3d seen = project(camera, joint);
@@ -81,7 +79,7 @@ Eigen::Matrix4d look_at(const Vector3d& eye, const Vector3d& target) {
 }
 
 bool is_descendant(int body, int ancestor) {
-  while (body > ancestor) body = kParents[static_cast<std::size_t>(body)];
+  while (body > ancestor) body = kParents[body];
   return body == ancestor;
 }
 
@@ -99,27 +97,25 @@ std::size_t mirror_of(const std::vector<Landmark>& points, std::size_t k) {
 
 /// Left and right of both arms or both legs change places for a few frames.
 void swap_sides(const std::vector<Landmark>& points, std::uint64_t seed, double fps,
-                std::vector<std::vector<Vector3d>>& uvc) {
+                PerFrame<std::vector<Vector3d>>& uvc) {
   Random random(seed, {kSwapStream});
   for (const Interval& interval :
-       poisson_intervals(random, kSwapRate, kSwapShortest, kSwapLongest, static_cast<int>(uvc.size()), fps)) {
+       poisson_intervals(random, kSwapRate, kSwapShortest, kSwapLongest, uvc.count(), fps)) {
     const int limb = random.below(2) == 0 ? kLeftHip : kLeftShoulder;
     for (int t = interval.first; t < interval.first + interval.length; ++t)
       for (std::size_t k = 0; k < points.size(); ++k)
-        if (is_descendant(points[k].body, limb))
-          std::swap(uvc[static_cast<std::size_t>(t)][k],
-                    uvc[static_cast<std::size_t>(t)][mirror_of(points, k)]);
+        if (is_descendant(points[k].body, limb)) std::swap(uvc[t][k], uvc[t][mirror_of(points, k)]);
   }
 }
 
 /// 1 where a burst hides the keypoint. @return [frames][K]
-std::vector<std::vector<char>> hidden_by(const std::vector<Burst>& bursts,
-                                         const std::vector<Landmark>& points, std::size_t frames) {
-  std::vector<std::vector<char>> hidden(frames, std::vector<char>(points.size(), 0));
+PerFrame<std::vector<char>> hidden_by(const std::vector<Burst>& bursts, const std::vector<Landmark>& points,
+                                      std::size_t frames) {
+  PerFrame<std::vector<char>> hidden(frames, std::vector<char>(points.size(), 0));
   for (const Burst& burst : bursts)
     for (int t = burst.first; t < burst.first + burst.length; ++t)
       for (std::size_t k = 0; k < points.size(); ++k)
-        if (is_descendant(points[k].body, burst.joint)) hidden[static_cast<std::size_t>(t)][k] = 1;
+        if (is_descendant(points[k].body, burst.joint)) hidden[t][k] = 1;
   return hidden;
 }
 
@@ -130,13 +126,13 @@ Eigen::Vector2d normal_pair(Random& random) {
 }
 
 /// Errors of one keypoint over time, in units of the box, and its confidence.
-std::vector<Vector3d> detector_errors(const Landmark& point, std::size_t k, std::uint64_t seed,
-                                      const std::vector<std::vector<char>>& hidden) {
+PerFrame<Vector3d> detector_errors(const Landmark& point, std::size_t k, std::uint64_t seed,
+                                   const PerFrame<std::vector<char>>& hidden) {
   Random still(seed, {kKeypointBiasStream, k}), random(seed, {kKeypointStream, k});
   const double factor = point.body == kLeftWrist || point.body == kRightWrist ? kWristNoise : 1.0;
   const Eigen::Vector2d bias = kBias * normal_pair(still);
   Eigen::Vector2d wandering = normal_pair(random);  // unit variance at every frame
-  std::vector<Vector3d> errors;
+  PerFrame<Vector3d> errors;
   for (const std::vector<char>& frame : hidden) {
     const Eigen::Vector2d white = normal_pair(random), step = normal_pair(random);
     const Eigen::Vector2d occlusion = normal_pair(random);
@@ -152,28 +148,13 @@ std::vector<Vector3d> detector_errors(const Landmark& point, std::size_t k, std:
 
 }  // namespace
 
-std::vector<Interval> poisson_intervals(Random& random, double rate, double shortest, double longest,
-                                        int frames, double fps) {
-  std::vector<Interval> intervals;
-  double time = 0.0;
-  while (rate > 0.0) {
-    time -= std::log(1.0 - random.uniform()) / rate;  // waiting times are exponential
-    const int first = static_cast<int>(time * fps);
-    if (!(time * fps < frames)) break;
-    const auto lengths = static_cast<std::uint32_t>(longest - shortest) + 1;
-    const int length = static_cast<int>(shortest) + static_cast<int>(random.below(lengths));
-    intervals.push_back({first, std::min(length, frames - first)});
-  }
-  return intervals;
-}
-
 Vector3d project(const Camera& camera, const Vector3d& p_W) {
   const Vector3d p_C = camera.extrinsics.block<3, 3>(0, 0) * p_W + camera.extrinsics.block<3, 1>(0, 3);
   const Vector3d pixel = camera.intrinsics * p_C;
   return {pixel.x() / pixel.z(), pixel.y() / pixel.z(), p_C.z()};
 }
 
-Camera place_camera(const std::vector<BodyPoses>& truth, std::uint64_t seed) {
+Camera place_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed) {
   Random random(seed, {kCameraStream});
   Vector3d low = truth.front().p_WB[kPelvis], high = low;
   for (const BodyPoses& poses : truth) {
@@ -197,17 +178,11 @@ Camera place_camera(const std::vector<BodyPoses>& truth, std::uint64_t seed) {
   throw std::invalid_argument("place_camera: the motion does not fit into any picture");
 }
 
-std::vector<std::string> keypoint_names(KeypointSet set) {
-  std::vector<std::string> names;
-  for (const Landmark& point : landmarks(set)) names.push_back(point.name);
-  return names;
-}
-
-Keypoints detect_keypoints(const std::vector<BodyPoses>& truth, const Camera& camera, KeypointSet set,
+Keypoints detect_keypoints(const PerFrame<BodyPoses>& truth, const Camera& camera, KeypointSet set,
                            const std::vector<Burst>& bursts, std::uint64_t seed, double fps) {
   const std::vector<Landmark> points = landmarks(set);
   const auto hidden = hidden_by(bursts, points, truth.size());
-  std::vector<double> box;
+  PerFrame<double> box;
   for (const BodyPoses& poses : truth) box.push_back(box_size(camera, poses));
   Keypoints keypoints;
   keypoints.names = keypoint_names(set);
@@ -215,10 +190,10 @@ Keypoints detect_keypoints(const std::vector<BodyPoses>& truth, const Camera& ca
   keypoints.extrinsics = {camera.extrinsics};
   keypoints.uvc.assign(truth.size(), std::vector<Vector3d>(points.size()));
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::vector<Vector3d> errors = detector_errors(points[k], k, seed, hidden);
-    const auto b = static_cast<std::size_t>(points[k].body);
-    for (std::size_t t = 0; t < truth.size(); ++t) {
-      const Vector3d seen = project(camera, truth[t].p_WB[b] + truth[t].q_WB[b] * points[k].p_B);
+    const PerFrame<Vector3d> errors = detector_errors(points[k], k, seed, hidden);
+    const auto& [name, body, p_B] = points[k];
+    for (int t = 0; t < truth.count(); ++t) {
+      const Vector3d seen = project(camera, truth[t].p_WB[body] + truth[t].q_WB[body] * p_B);
       keypoints.uvc[t][k] = {seen.x() + box[t] * errors[t].x(), seen.y() + box[t] * errors[t].y(),
                              errors[t].z()};
     }

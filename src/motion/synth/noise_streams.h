@@ -1,11 +1,12 @@
-/// What the files of the noise model share and nobody else needs: the purposes of its random streams, and
-/// intervals that begin at random.
+/// What the files of the noise model share: the purposes of its random streams, intervals that begin at
+/// random, and occlusions.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "core/random.h"
+#include "core/so3.h"
 
 namespace mimicx {
 
@@ -28,6 +29,13 @@ enum NoiseStream : std::uint64_t {
 };
 
 inline constexpr double kHeightTau = 1.5;  ///< of the slow term of the height, s
+
+/// Occlusion of one limb joint: a Hann window of rotation error, low confidence for its keypoints.
+struct Burst {
+  int joint;
+  int first, length;  ///< frames
+  Vector3d peak;      ///< rotation vector at the window's middle, rad
+};
 
 struct Interval {
   int first, length;  ///< frames

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/synth/kinds.h"
-
 namespace mimicx {
 namespace {
 
@@ -92,26 +90,25 @@ FootTarget FootTracks::at(double time) const {
   return target;
 }
 
-FeetTracks standing_feet(const Character& character, const std::array<FootTarget, 2>& start) {
+FeetTracks standing_feet(const Character& character, const PerSide<FootTarget>& start) {
   const double forefoot = forefoot_length(character);
   FeetTracks feet;
-  for (std::size_t side = 0; side < 2; ++side)
-    feet.foot[side] = standing_knots(start[side], forefoot).tracks();
+  for (int side = 0; side < 2; ++side) feet.foot[side] = standing_knots(start[side], forefoot).tracks();
   feet.load = MinJerkTrack({{0.0, 0.5}});
   feet.splay = 0.5 * character.joint_offset[kLeftFoot].x() / forefoot;
   return feet;
 }
 
-FeetTracks stepping_feet(const Character& character, const std::array<FootTarget, 2>& start,
+FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& start,
                          const std::vector<FootSwing>& swings, double settle) {
   const double forefoot = forefoot_length(character), leg = leg_length(character);
   FeetTracks feet = standing_feet(character, start);
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     FootKnots knots = standing_knots(start[side], forefoot);
     FootTarget from = start[side];
     double landed = -2.0 * settle;
     for (const FootSwing& swing : swings) {
-      if (swing.side != static_cast<int>(side)) continue;
+      if (swing.side != side) continue;
       add_swing(swing, from, landed, leg, knots);
       add_rest(landed, swing.start, settle, kMidFoot * forefoot, knots.pressure);
       knots.pressure.push_back({swing.start, kToeOff * forefoot});
@@ -140,7 +137,7 @@ FeetTracks stepping_feet(const Character& character, const std::array<FootTarget
 void place_feet(const FeetTracks& feet, double time, PlanFrame& frame) {
   const double left = feet.load.at(time);
   frame.pressure.setZero();
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     frame.foot[side] = feet.foot[side].at(time);
     const double ahead = feet.foot[side].pressure.at(time), outward = side == 0 ? feet.splay : -feet.splay;
     const Vector3d in_foot = rotation_z(frame.foot[side].yaw) * Vector3d(ahead, outward * ahead, 0.0);
@@ -148,8 +145,8 @@ void place_feet(const FeetTracks& feet, double time, PlanFrame& frame) {
   }
 }
 
-std::array<FootTarget, 2> feet_apart(double half_width, double toes_out) {
-  std::array<FootTarget, 2> feet;
+PerSide<FootTarget> feet_apart(double half_width, double toes_out) {
+  PerSide<FootTarget> feet;
   feet[0].place = {0.0, half_width};
   feet[1].place = {0.0, -half_width};
   feet[0].yaw = toes_out;
@@ -176,7 +173,7 @@ PlanFrame relaxed_posture(const Character& c) {
   constexpr double kGap = 0.028;  ///< m
   double half_trunk = 0.0;
   for (int body : {kPelvis, kSpine2, kSpine3}) {
-    const Capsule& capsule = c.capsule[static_cast<std::size_t>(body)];
+    const Capsule& capsule = c.capsule[body];
     half_trunk = std::max(half_trunk, capsule.b_B.x() + capsule.radius);
   }
   const Capsule& thigh = c.capsule[kLeftHip];
@@ -204,7 +201,7 @@ void hold_postures(const std::vector<PostureKey>& keys, double time, PlanFrame& 
   frame.trunk = a.trunk + part * (b.trunk - a.trunk);
   frame.head = a.head + part * (b.head - a.head);
   frame.com_height = std::lerp(a.com_height, b.com_height, part);
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     const ArmPosture &p = a.arm[side], &q = b.arm[side];
     frame.arm[side] = {std::lerp(p.forward, q.forward, part), std::lerp(p.out, q.out, part),
                        std::lerp(p.rotation, q.rotation, part), std::lerp(p.elbow, q.elbow, part)};

@@ -6,13 +6,20 @@
 /// What it does not do: place the pelvis. That follows from balance (motion/synth/balance.h).
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "motion/synth/inverse_kinematics.h"
 #include "motion/synth/track.h"
 
 namespace mimicx {
+
+inline constexpr double kSynthFps = 30.0;  ///< frames per second of every plan
+/// Time of a frame, s.
+inline double time_of(int frame) { return frame / kSynthFps; }
+
+/// One value for the left side (0) and one for the right (1).
+template <class T>
+using PerSide = Array<T, 2>;
 
 /// An arm by anatomy; all zero is straight down along the body.
 struct ArmPosture {
@@ -27,8 +34,8 @@ struct PlanFrame {
   Vector3d pelvis = Vector3d::Zero();  ///< tilt on top of the heading, rotation vector, rad
   Vector3d trunk = Vector3d::Zero();   ///< of the thorax relative to the pelvis, spread over the spine
   Vector3d head = Vector3d::Zero();    ///< of the head relative to the thorax, spread over neck and head
-  std::array<ArmPosture, 2> arm;       ///< left, right
-  std::array<FootTarget, 2> foot;      ///< left, right
+  PerSide<ArmPosture> arm;             ///< left, right
+  PerSide<FootTarget> foot;            ///< left, right
   Eigen::Vector2d pressure = Eigen::Vector2d::Zero();  ///< centre of pressure, m; unused in flight
   double com_height = 0.0;                             ///< of the whole body, m
   bool flight = false;                                 ///< no foot touches the floor
@@ -52,26 +59,26 @@ struct FootTracks {
 
 /// Both feet and the share of the load on the left one, 0..1.
 struct FeetTracks {
-  std::array<FootTracks, 2> foot;
+  PerSide<FootTracks> foot;
   MinJerkTrack load;
   double splay = 0.0;  ///< the line of the load leaves the foot's axis outward by this much per m ahead
 };
 
 /// Feet that stand where they are, equally loaded in their middle.
-FeetTracks standing_feet(const Character& character, const std::array<FootTarget, 2>& start);
+FeetTracks standing_feet(const Character& character, const PerSide<FootTarget>& start);
 
 /// Feet that walk: heel first, flat, then over the toes; the load moves over while both feet stand.
 /// @param swings  in order of their starts; where both feet are in the air (running), load and pressure are
 ///                the caller's to set
 /// @param settle  time the load takes from the middle to a foot before the first swing and back at the end, s
-FeetTracks stepping_feet(const Character& character, const std::array<FootTarget, 2>& start,
+FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& start,
                          const std::vector<FootSwing>& swings, double settle);
 
 /// Feet and the centre of pressure that follows from them. Leaves the posture alone.
 void place_feet(const FeetTracks& feet, double time, PlanFrame& frame);
 
 /// Two feet on the line y, toes turned out. @param half_width  of the middle to each ankle, m
-std::array<FootTarget, 2> feet_apart(double half_width, double toes_out);
+PerSide<FootTarget> feet_apart(double half_width, double toes_out);
 
 /// Half distance of the ankles with the legs straight down as in the rest pose, m.
 double rest_half_width(const Character& character);

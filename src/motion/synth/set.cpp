@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "motion/clip_file.h"
+
 namespace mimicx {
 namespace {
 
@@ -38,7 +40,7 @@ NoisePreset preset_of(const std::string& noise) {
 }
 
 /// Every clip has errors and a camera of its own, whichever set it is in.
-std::uint64_t noise_seed(const SynthOptions& clip) {
+std::uint64_t noise_seed(const SynthConfig& clip) {
   const std::vector<std::string> kinds = synthetic_kinds();
   const auto index = std::find(kinds.begin(), kinds.end(), clip.kind) - kinds.begin();
   Random random(clip.seed, {kSetNoiseStream, static_cast<std::uint64_t>(index)});
@@ -48,31 +50,30 @@ std::uint64_t noise_seed(const SynthOptions& clip) {
 
 }  // namespace
 
-std::vector<SynthOptions> clips_of_set(const SynthSetOptions& options) {
+std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config) {
   const std::vector<std::string> known = synthetic_kinds();
-  const std::vector<std::string>& kinds = options.kinds.empty() ? known : options.kinds;
+  const std::vector<std::string>& kinds = config.kinds.empty() ? known : config.kinds;
   for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
     if (std::find(known.begin(), known.end(), *kind) == known.end())
       throw std::invalid_argument("unknown kind of motion '" + *kind + "'");
     if (std::find(kinds.begin(), kind, *kind) != kind)
       throw std::invalid_argument("kind of motion '" + *kind + "' is named twice");
   }
-  if (options.clips < 0) throw std::invalid_argument("the number of clips must not be negative");
-  std::vector<SynthOptions> clips(options.clips == 0 ? kinds.size()
-                                                     : static_cast<std::size_t>(options.clips));
+  if (config.clips < 0) throw std::invalid_argument("the number of clips must not be negative");
+  std::vector<SynthConfig> clips(config.clips == 0 ? kinds.size() : static_cast<std::size_t>(config.clips));
   for (std::size_t i = 0; i < clips.size(); ++i) {
     clips[i].kind = kinds[i % kinds.size()];
-    clips[i].seed = options.seed + i / kinds.size();
+    clips[i].seed = config.seed + i / kinds.size();
     clips[i].betas_from_seed = true;
   }
   return clips;
 }
 
-SynthPair make_synth_pair(const SynthOptions& clip, const SynthSetOptions& options) {
-  NoiseOptions noise;
-  noise.preset = preset_of(options.noise);
-  noise.camera = camera_error(options.camera);
-  noise.keypoints = options.keypoints;
+SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config) {
+  NoiseConfig noise;
+  noise.preset = preset_of(config.noise);
+  noise.camera = camera_error(config.camera);
+  noise.keypoints = config.keypoints;
   noise.seed = noise_seed(clip);
   SynthPair pair;
   pair.truth = synthesize(clip);
@@ -82,13 +83,13 @@ SynthPair make_synth_pair(const SynthOptions& clip, const SynthSetOptions& optio
   return pair;
 }
 
-void write_synth_set(const std::filesystem::path& directory, const SynthSetOptions& options,
+void write_synth_set(const std::filesystem::path& directory, const SynthSetConfig& config,
                      const std::function<void(std::size_t index, const Clip& truth)>& written) {
-  const std::vector<SynthOptions> clips = clips_of_set(options);
+  const std::vector<SynthConfig> clips = clips_of_set(config);
   std::filesystem::create_directories(directory / "truth");
   std::filesystem::create_directories(directory / "noisy");
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    const SynthPair pair = make_synth_pair(clips[i], options);
+    const SynthPair pair = make_synth_pair(clips[i], config);
     const std::string file = pair.truth.name + ".npz";
     write_clip(directory / "truth" / file, pair.truth);
     write_clip(directory / "noisy" / file, pair.noisy);
@@ -97,11 +98,11 @@ void write_synth_set(const std::filesystem::path& directory, const SynthSetOptio
 }
 
 void write_synthetic_data(const std::filesystem::path& directory) {
-  SynthSetOptions options;
-  options.seed = kTestSeed;
-  write_synth_set(directory / "test", options);
-  options.seed = kTrainingSeed;
-  write_synth_set(directory / "train", options);
+  SynthSetConfig config;
+  config.seed = kTestSeed;
+  write_synth_set(directory / "test", config);
+  config.seed = kTrainingSeed;
+  write_synth_set(directory / "train", config);
 }
 
 }  // namespace mimicx

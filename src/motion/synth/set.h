@@ -20,7 +20,7 @@ namespace mimicx {
 
 inline constexpr std::uint64_t kTestSeed = 1, kTrainingSeed = 101;  ///< first seeds of the two splits
 
-struct SynthSetOptions {
+struct SynthSetConfig {
   std::vector<std::string> kinds;    ///< empty: all of `synthetic_kinds()`
   int clips = 0;                     ///< 0: one of each kind
   std::uint64_t seed = kTestSeed;    ///< of the first clip of every kind
@@ -31,7 +31,7 @@ struct SynthSetOptions {
 
 /// The clips of a set, in order.
 /// @throws std::invalid_argument for an unknown kind, a kind named twice or a negative number of clips
-std::vector<SynthOptions> clips_of_set(const SynthSetOptions& options);
+std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config);
 
 struct SynthPair {
   Clip truth, noisy;
@@ -39,11 +39,11 @@ struct SynthPair {
 
 /// One clip of a set, both rounded to the grid.
 /// @throws std::invalid_argument for an unknown kind, noise or camera
-SynthPair make_synth_pair(const SynthOptions& clip, const SynthSetOptions& options);
+SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config);
 
 /// Writes the files of a set; files of other names stay as they are.
 /// @param written  told after each clip: its index in `clips_of_set` and its truth
-void write_synth_set(const std::filesystem::path& directory, const SynthSetOptions& options,
+void write_synth_set(const std::filesystem::path& directory, const SynthSetConfig& config,
                      const std::function<void(std::size_t index, const Clip& truth)>& written = {});
 
 /// The data set in data/synthetic: test/ and train/, each one clip of every kind with the first seed of its

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "motion/reference.h"
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 
@@ -14,10 +13,10 @@ namespace {
 // Purposes of the random streams.
 constexpr std::uint64_t kPlanStream = 0x53594E01, kPlaceStream = 0x53594E02, kShapeStream = 0x53594E03;
 
-std::array<double, kBetas> shape_of(const SynthOptions& options) {
-  std::array<double, kBetas> betas = options.betas;
-  Random random(options.seed, {kShapeStream});
-  if (options.betas_from_seed)
+std::array<double, kBetas> shape_of(const SynthConfig& config) {
+  std::array<double, kBetas> betas = config.betas;
+  Random random(config.seed, {kShapeStream});
+  if (config.betas_from_seed)
     for (double& beta : betas) beta += std::clamp(0.7 * random.normal(), -2.0, 2.0);
   return betas;
 }
@@ -30,33 +29,33 @@ std::vector<std::string> synthetic_kinds() {
   return names;
 }
 
-Clip synthesize(const SynthOptions& options) {
+Clip synthesize(const SynthConfig& config) {
   const auto& kinds = synth_kinds();
   const auto kind =
-      std::find_if(kinds.begin(), kinds.end(), [&](const SynthKind& k) { return k.name == options.kind; });
-  if (kind == kinds.end()) throw std::invalid_argument("synthesize: unknown kind '" + options.kind + "'");
+      std::find_if(kinds.begin(), kinds.end(), [&](const SynthKind& k) { return k.name == config.kind; });
+  if (kind == kinds.end()) throw std::invalid_argument("synthesize: unknown kind '" + config.kind + "'");
   const auto index = static_cast<std::uint64_t>(kind - kinds.begin());
-  Random random(options.seed, {kPlanStream, index}), place(options.seed, {kPlaceStream, index});
+  Random random(config.seed, {kPlanStream, index}), place(config.seed, {kPlaceStream, index});
   const double chosen = random.uniform(kind->shortest, kind->longest);
-  const double seconds = options.seconds == 0.0 ? chosen : options.seconds;
+  const double seconds = config.seconds == 0.0 ? chosen : config.seconds;
   if (!(seconds >= 4.0 && seconds <= 60.0))
     throw std::invalid_argument("synthesize: the length must be 4 to 60 s");
-  const Character character = make_character(shape_of(options));
+  const Character character = make_character(shape_of(config));
   const int frames = static_cast<int>(std::lround(seconds * kSynthFps)) + 1;
-  const std::vector<SynthPose> motion =
+  const PerFrame<SynthPose> motion =
       solve_plan(character, kind->plan({character, random, frames}), kSynthFps);
 
   const Quaterniond heading = rotation_z(place.uniform(-std::numbers::pi, std::numbers::pi));
   const double x = place.uniform(-1.0, 1.0), y = place.uniform(-1.0, 1.0);
   const Vector3d origin(x, y, 0.0);
-  std::vector<Vector3d> p_root;
-  std::vector<PerBody<Quaterniond>> q;
+  PerFrame<Vector3d> p_root;
+  PerFrame<PerBody<Quaterniond>> q;
   for (const SynthPose& pose : motion) {
     p_root.push_back(origin + heading * pose.p_root);
     q.push_back(pose.q);
     q.back()[kPelvis] = heading * pose.q[kPelvis];
   }
-  return to_clip(options.kind + "_" + std::to_string(options.seed), kSynthFps, character, p_root, q);
+  return to_clip(config.kind + "_" + std::to_string(config.seed), kSynthFps, character, p_root, q);
 }
 
 }  // namespace mimicx

@@ -21,7 +21,7 @@
 
 namespace mimicx {
 
-struct SynthOptions {
+struct SynthConfig {
   std::string kind = "stand";          ///< one of `synthetic_kinds()`
   std::uint64_t seed = 0;              ///< varies amplitudes, timing, heading and place
   std::array<double, kBetas> betas{};  ///< shape of the body
@@ -29,11 +29,11 @@ struct SynthOptions {
   double seconds = 0.0;                ///< length; 0 lets the kind choose (4 to 10 s); otherwise 4 to 60 s
 };
 
-/// Names accepted as `SynthOptions::kind`, in a fixed order.
+/// Names accepted as `SynthConfig::kind`, in a fixed order.
 std::vector<std::string> synthetic_kinds();
 
-/// The exact motion; same options, same bytes. The clip is named kind_seed.
+/// The exact motion; the same settings give the same bytes. The clip is named kind_seed.
 /// @throws std::invalid_argument for an unknown kind, a length outside 4 to 60 s, or a shape with |β_k| > 5.
-Clip synthesize(const SynthOptions& options);
+Clip synthesize(const SynthConfig& config);
 
 }  // namespace mimicx

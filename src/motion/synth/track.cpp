@@ -34,18 +34,17 @@ double MinJerkTrack::at(double time) const {
   return a.value + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))));
 }
 
-std::vector<double> smoothed(const std::vector<double>& values, double sigma) {
-  const int n = static_cast<int>(values.size());
-  const int radius = static_cast<int>(std::ceil(4.0 * sigma));
-  std::vector<double> out(values.size());
-  for (int i = 0; i < n; ++i) {
+PerFrame<double> smoothed(const PerFrame<double>& values, double sigma) {
+  const int last = values.count() - 1, radius = static_cast<int>(std::ceil(4.0 * sigma));
+  PerFrame<double> out(values.size());
+  for (int i = 0; i <= last; ++i) {
     double sum = 0.0, weights = 0.0;
     for (int k = -radius; k <= radius; ++k) {
       const double weight = std::exp(-0.5 * k * k / (sigma * sigma));
-      sum += weight * values[static_cast<std::size_t>(std::clamp(i + k, 0, n - 1))];
+      sum += weight * values[std::clamp(i + k, 0, last)];
       weights += weight;
     }
-    out[static_cast<std::size_t>(i)] = sum / weights;
+    out[i] = sum / weights;
   }
   return out;
 }

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "core/containers.h"
+
 namespace mimicx {
 
 struct Knot {
@@ -29,6 +31,6 @@ class MinJerkTrack {
 };
 
 /// `values` filtered by a Gaussian of `sigma` frames; the ends are continued by their last value.
-std::vector<double> smoothed(const std::vector<double>& values, double sigma);
+PerFrame<double> smoothed(const PerFrame<double>& values, double sigma);
 
 }  // namespace mimicx

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/resample.h"
 #include "physics/inverse_dynamics.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/feasibility.h"
@@ -149,7 +150,7 @@ Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kin
 }
 
 /// One physics step: velocities change by dt·a with a taken at the state before.
-AuditRow step_row(const Character& c, const SimulationOptions& o, const rl::Substep& step,
+AuditRow step_row(const Character& c, const SimulationConfig& o, const rl::Substep& step,
                   ReferenceFrame next) {
   rl::Substep s = step;
   for (auto& q : s.state.q) q.normalize();
@@ -166,7 +167,7 @@ AuditRow step_row(const Character& c, const SimulationOptions& o, const rl::Subs
 
 }  // namespace
 
-Audit audit_frames(const SimulatedFrames& motion, const SimulationOptions& simulation) {
+Audit audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation) {
   const Character& c = motion.character;
   Audit audit;
   audit.evidence = Evidence::kFrames;
@@ -235,8 +236,8 @@ Audit audit_poses(const Clip& clip) {
   ours.body_model = "mimicx";
   Audit audit;
   const Character character = make_character(ours.betas);
-  const List<BodyPoses> poses = poses_of(ours);
-  audit.weight = SimulationOptions{}.gravity * character.total_mass();
+  const auto poses = poses_of(ours);
+  audit.weight = SimulationConfig{}.gravity * character.total_mass();
   int frame = 0;
   for (const FrameDemand& demand : motion_demands(ours, {kFloorReach, kFloorReach, true})) {
     AuditRow row;

@@ -30,7 +30,7 @@ struct SimulatedFrames {
   std::vector<rl::ActingForces> forces;  ///< means over the interval that ends at the frame
 };
 
-Audit audit_frames(const SimulatedFrames& motion, const SimulationOptions& simulation);
+Audit audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation);
 /// As recorded, and replayed in double precision.
 Audit audit_steps(const SubstepMotion& motion);
 Audit audit_replayed_steps(const SubstepMotion& motion);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "motion/clip_file.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/record/json.h"
@@ -67,7 +68,7 @@ std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alon
   }
   const Clip clip = read_clip(path);
   if (npz.has("joint_torques") && !poses_alone)
-    return {audit_frames(simulated_frames(clip, npz), SimulationOptions{})};
+    return {audit_frames(simulated_frames(clip, npz), SimulationConfig{})};
   if (clip.frames() < 3) throw DataError(npz.path, "", "at least 3 frames", std::to_string(clip.frames()));
   return {audit_poses(clip)};
 }

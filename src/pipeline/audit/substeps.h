@@ -14,7 +14,7 @@ namespace mimicx {
 
 struct SubstepMotion {
   Character character;
-  SimulationOptions simulation;
+  SimulationConfig simulation;
   std::vector<rl::Substep> steps;
   ReferenceFrame last;  ///< state after the last step
 };

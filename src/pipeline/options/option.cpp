@@ -46,7 +46,7 @@ void save(Npz& archive, const std::string& prefix, const Option& option) {
 
 Option load_option(const Npz& archive, const std::string& prefix) {
   Option option{rl::load_agent(archive, prefix + "agent."), std::nullopt};
-  if (archive.at(prefix + "has_encoder").to_double().at(0) != 0.0)
+  if (number_at(archive, prefix + "has_encoder") != 0.0)
     option.encoder = nn::load_autoencoder(archive, prefix + "encoder.");
   return option;
 }

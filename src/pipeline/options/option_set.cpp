@@ -40,17 +40,17 @@ void write_options(const std::filesystem::path& path, const OptionSet& set) {
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path) {
   const std::filesystem::path file = std::filesystem::is_directory(path) ? path / "options.npz" : path;
   const Npz archive = read_npz(file);
-  const double count = archive.at(kCount).to_double().at(0);
+  const double count = number_at(archive, kCount);
   if (!(count >= 1.0 && count <= 1000.0))
     throw DataError(archive.path, kCount, "1 to 1000 options", std::to_string(count));
   auto set = std::make_shared<OptionSet>();
   for (int k = 0; k < static_cast<int>(count); ++k) {
     const std::string prefix = prefix_of(k);
-    const auto number = [&](const char* key) { return archive.at(prefix + key).to_double().at(0); };
+    const auto number = [&](const char* key) { return number_at(archive, prefix + key); };
     TrainedOption trained;
     trained.option = load_option(archive, prefix);
     check_shape(archive, prefix, trained.option);
-    trained.description = archive.at(prefix + "description").text.at(0);
+    trained.description = text_at(archive, prefix + "description");
     const std::vector<double> centre = archive.at(prefix + "centre").to_double();
     if (centre.size() != trained.centre.size())
       throw DataError(archive.path, prefix + "centre", std::to_string(trained.centre.size()) + " numbers",

@@ -1,5 +1,8 @@
 #include "pipeline/output/clean_copy.h"
 
+#include "motion/clip_file.h"
+#include "motion/resample.h"
+
 namespace mimicx {
 
 std::string clean_suffix(const std::filesystem::path& input) {
@@ -17,7 +20,7 @@ Clip at_rate_of(const Clip& motion, const Clip& like) {
 }
 
 void write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
-                      const ReadOptions& read, bool input_rate, const std::filesystem::path& copy) {
+                      const ReadConfig& read, bool input_rate, const std::filesystem::path& copy) {
   const Clip original = read_motion(input, read);
   Clip clean = read_clip(motion);
   if (input_rate && original.fps != clean.fps) clean = at_rate_of(clean, original);

@@ -21,6 +21,6 @@ Clip at_rate_of(const Clip& motion, const Clip& like);
 
 /// @param motion  file of the simulated motion @param input  the file it was made from, read with `read`
 void write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
-                      const ReadOptions& read, bool input_rate, const std::filesystem::path& copy);
+                      const ReadConfig& read, bool input_rate, const std::filesystem::path& copy);
 
 }  // namespace mimicx

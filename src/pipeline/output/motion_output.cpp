@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "motion/clip_file.h"
 #include "pipeline/output/simulated_members.h"
 
 namespace mimicx {

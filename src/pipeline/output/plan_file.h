@@ -17,7 +17,7 @@ namespace mimicx {
 struct StoredPlan {
   std::string input_checksum;  ///< of the input it was made for
   double fps = 30.0;
-  SimulationOptions simulation;
+  SimulationConfig simulation;
   std::vector<State<double>> reference;  ///< [frames]
   control::Plan plan;
 };

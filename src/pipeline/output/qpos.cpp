@@ -1,6 +1,6 @@
 #include "pipeline/output/qpos.h"
 
-#include "motion/reference.h"
+#include "motion/hinge.h"
 #include "physics/mjcf.h"
 #include "pipeline/output/rows.h"
 

@@ -6,8 +6,8 @@
 namespace mimicx {
 
 /// Calls add(name, field) for every one of them.
-template <class Options, class Add>
-void for_each_simulation_setting(Options& s, const Add& add) {
+template <class Config, class Add>
+void for_each_simulation_setting(Config& s, const Add& add) {
   add("physics_rate", s.rate);
   add("physics_passes", s.passes);
   add("gravity", s.gravity);
@@ -22,6 +22,7 @@ void for_each_simulation_setting(Options& s, const Add& add) {
   add("limit_stiffness", s.limit_stiffness);
   add("limit_damping", s.limit_damping);
   add("max_speed", s.max_speed);
+  add("max_joint_speed", s.max_joint_speed);
 }
 
 }  // namespace mimicx

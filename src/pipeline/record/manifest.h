@@ -58,7 +58,7 @@ struct Manifest {
   std::string method;        ///< what simulates the motions: imitate, plan, paper or auto
   NamedValues settings;      ///< every other parameter that the results depend on
   std::string options;       ///< checksum of the options started from; empty: from scratch
-  std::string reading;       ///< what the user said of the files (ReadOptions::text)
+  std::string reading;       ///< what the user said of the files (ReadConfig::text)
   std::vector<SequenceEntry> sequences;
 
   /// Whether the results of `other` may stand beside those of this run.

@@ -7,7 +7,7 @@
 
 #include "core/npz.h"
 #include "core/units.h"
-#include "motion/clip.h"
+#include "motion/clip_file.h"
 #include "motion/metrics.h"
 #include "pipeline/record/table.h"
 #include "pipeline/report/report.h"

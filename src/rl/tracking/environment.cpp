@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "core/error.h"
@@ -29,41 +28,6 @@ void require_whole_groups(int characters, int group_size) {
                                 std::to_string(kLanes) + ", the lanes of this build");
 }
 
-std::vector<double> start_weights(const std::vector<double>& fall_rates, double uniform) {
-  const std::size_t n = fall_rates.size();
-  std::vector<double> hard(n, 0.0);
-  for (std::size_t b = 0; b < n; ++b)
-    for (std::size_t back = 0; back < 3 && back <= b; ++back)
-      hard[b - back] += fall_rates[b] * (0.5 - 0.15 * static_cast<double>(back));
-  const double total = std::accumulate(hard.begin(), hard.end(), 0.0);
-  std::vector<double> weights(n);
-  for (std::size_t b = 0; b < n; ++b)
-    weights[b] = total > 0.0 ? uniform / static_cast<double>(n) + (1.0 - uniform) * hard[b] / total
-                             : 1.0 / static_cast<double>(n);
-  return weights;
-}
-
-void TrackingStatistics::clear() {
-  reward_terms.fill(0.0);
-  reward = learned_reward = saturated_joints = 0.0;
-  steps = 0;
-  for (auto* table : {&falls, &visits})
-    for (auto& row : *table) std::fill(row.begin(), row.end(), 0);
-}
-
-void TrackingStatistics::add(const TrackingStatistics& other) {
-  for (std::size_t k = 0; k < kRewardTerms; ++k) reward_terms[k] += other.reward_terms[k];
-  reward += other.reward;
-  learned_reward += other.learned_reward;
-  saturated_joints += other.saturated_joints;
-  steps += other.steps;
-  for (std::size_t c = 0; c < falls.size(); ++c)
-    for (std::size_t b = 0; b < falls[c].size(); ++b) {
-      falls[c][b] += other.falls[c][b];
-      visits[c][b] += other.visits[c][b];
-    }
-}
-
 TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const TrackingClip>> clips,
                                          const TrackingConfig& config, int characters, int group_size,
                                          std::uint64_t seed)
@@ -78,7 +42,7 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
     start_weights_.push_back(start_weights(fall_rates_.back(), config_.uniform_starts));
   }
   groups_.resize(static_cast<std::size_t>(characters / group_size));
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
+  for (int g = 0; g < groups_.count(); ++g) {
     Group& group = groups_[g];
     const auto packs = static_cast<std::size_t>(group_size / kLanes);
     group.clips.assign(packs, 0);
@@ -86,74 +50,79 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
     group.episodes.assign(static_cast<std::size_t>(group_size), 0);
     group.scratch = std::make_unique<Data<TrackingPack::P>>();
     group.statistics = last_;
-    for (std::size_t p = 0; p < packs; ++p) {
-      follow(static_cast<int>(g), p, next_clip_);
-      next_clip_ = (next_clip_ + 1) % clips_.size();
-    }
+    for (int p = 0; p < group.packs.count(); ++p) follow_next_clip(g, p);
   }
 }
 
-/// Puts a pack on a clip, every lane at a start of its own.
-void TrackingEnvironment::follow(int g, std::size_t p, std::size_t clip) {
-  Group& group = groups_[static_cast<std::size_t>(g)];
-  group.clips[p] = clip;
-  group.packs[p] = TrackingPack(clips_[clip], config_);
-  for (int lane = 0; lane < kLanes; ++lane) restart(g, static_cast<int>(p) * kLanes + lane);
+int TrackingEnvironment::agents() const {
+  int last = 0;
+  for (const auto& clip : clips_)
+    for (const int option : clip->arrangement) last = std::max(last, option);
+  return last + 1;
 }
 
-/// Moves every pack whose turn it is to the next clip.
-void TrackingEnvironment::move_on() {
-  const std::size_t per_group = groups_.front().packs.size();
-  if (clips_.size() <= groups_.size() * per_group) return;
-  for (std::size_t g = 0; g < groups_.size(); ++g)
-    for (std::size_t p = 0; p < per_group; ++p) {
-      const auto turn = static_cast<std::int64_t>(g * per_group + p);
+/// Puts a pack on the clip whose turn it is, every lane at a start of its own.
+void TrackingEnvironment::follow_next_clip(int g, int p) {
+  Group& group = groups_[g];
+  group.clips[p] = next_clip_;
+  group.packs[p] = TrackingPack(clips_[next_clip_], config_);
+  for (int lane = 0; lane < kLanes; ++lane) restart(g, p * kLanes + lane);
+  next_clip_ = (next_clip_ + 1) % clips_.count();
+}
+
+/// Moves every pack whose turn it is to the next clip. @return the characters of these packs
+std::vector<CharacterPlace> TrackingEnvironment::move_on() {
+  std::vector<CharacterPlace> moved;
+  const int per_group = groups_.front().packs.count();
+  if (clips_.count() <= groups_.count() * per_group) return moved;
+  for (int g = 0; g < groups_.count(); ++g)
+    for (int p = 0; p < per_group; ++p) {
+      const int turn = g * per_group + p;
       if ((iteration_ + turn) % kClipIterations != 0) continue;
-      follow(static_cast<int>(g), p, next_clip_);
-      next_clip_ = (next_clip_ + 1) % clips_.size();
+      follow_next_clip(g, p);
+      for (int lane = 0; lane < kLanes; ++lane) moved.push_back({g, p * kLanes + lane});
     }
+  return moved;
 }
 
-int TrackingEnvironment::draw_start(std::size_t clip, int group, int character, std::int64_t episode) const {
+int TrackingEnvironment::draw_start(int clip, int group, int character, std::int64_t episode) const {
   Random random(seed_, {kStartStream, static_cast<std::uint64_t>(group),
                         static_cast<std::uint64_t>(character), static_cast<std::uint64_t>(episode)});
-  const std::vector<double>& weights = start_weights_[clip];
+  const List<double>& weights = start_weights_[clip];
   double draw = random.uniform();
-  std::size_t bin = 0;
-  while (bin + 1 < weights.size() && draw >= weights[bin]) draw -= weights[bin++];
-  const int frame = static_cast<int>(bin) * config_.bin_frames +
+  int bin = 0;
+  while (bin + 1 < weights.count() && draw >= weights[bin]) draw -= weights[bin++];
+  const int frame = bin * config_.bin_frames +
                     static_cast<int>(random.below(static_cast<std::uint32_t>(config_.bin_frames)));
   return std::min(frame, clips_[clip]->size() - 2);  // at least one step to the end
 }
 
 void TrackingEnvironment::restart(int g, int character) {
-  Group& group = groups_[static_cast<std::size_t>(g)];
-  const std::int64_t episode = group.episodes[static_cast<std::size_t>(character)]++;
-  const auto pack = static_cast<std::size_t>(character / kLanes);
+  Group& group = groups_[g];
+  const std::int64_t episode = group.episodes[character]++;
+  const int pack = character / kLanes;
   group.packs[pack].reset(character % kLanes, draw_start(group.clips[pack], g, character, episode));
 }
 
 int TrackingEnvironment::actor(int g, int character) const {
-  const TrackingPack& pack =
-      groups_[static_cast<std::size_t>(g)].packs[static_cast<std::size_t>(character / kLanes)];
+  const TrackingPack& pack = groups_[g].packs[character / kLanes];
   return pack.clip().option_at(pack.frame(character % kLanes));
 }
 
 void TrackingEnvironment::observe(int g, Eigen::Ref<nn::Matrix<float>> observations) const {
-  const Group& group = groups_[static_cast<std::size_t>(g)];
+  const Group& group = groups_[g];
   for (int n = 0; n < group_size_; ++n)
-    group.packs[static_cast<std::size_t>(n / kLanes)].observe(n % kLanes, observations.row(n).data());
+    group.packs[n / kLanes].observe(n % kLanes, observations.row(n).data());
 }
 
 void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>& actions,
                                StepResult& result) {
-  Group& group = groups_[static_cast<std::size_t>(g)];
+  Group& group = groups_[g];
   TrackingStatistics& statistics = group.statistics;
-  for (int n = 0; n < group_size_; ++n)
-    group.packs[static_cast<std::size_t>(n / kLanes)].act(n % kLanes, actions.row(n).data());
+  for (int n = 0; n < group_size_; ++n) group.packs[n / kLanes].act(n % kLanes, actions.row(n).data());
   for (TrackingPack& pack : group.packs) pack.advance(*group.scratch);
   for (int n = 0; n < group_size_; ++n) {
-    const auto p = static_cast<std::size_t>(n / kLanes);
+    const int p = n / kLanes;
     TrackingPack& pack = group.packs[p];
     const int lane = n % kLanes, frame = pack.frame(lane);
     const Reward reward = pack.reward(lane);
@@ -163,23 +132,23 @@ void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>&
     result.reward[n] = static_cast<float>(learned);
     result.terminated[n] = fell;
     result.truncated[n] = ended && !fell;
-    for (std::size_t k = 0; k < kRewardTerms; ++k) statistics.reward_terms[k] += reward.term[k];
+    for (int k = 0; k < kRewardTerms; ++k) statistics.reward_terms[k] += reward.term[k];
     statistics.reward += reward.total;
     statistics.learned_reward += learned;
     statistics.saturated_joints += pack.saturated_joints(lane);
     ++statistics.steps;
-    const auto bin = static_cast<std::size_t>(frame / config_.bin_frames);
+    const int bin = frame / config_.bin_frames;
     ++statistics.visits[group.clips[p]][bin];
     if (fell) ++statistics.falls[group.clips[p]][bin];
     if (result.truncated[n]) {
       pack.observe(lane, result.final_observations.row(n).data());
-      result.final_actors[static_cast<std::size_t>(n)] = actor(g, n);
+      result.final_actors[n] = actor(g, n);
     }
     if (fell || ended) restart(g, n);
   }
 }
 
-void TrackingEnvironment::end_iteration() {
+std::vector<CharacterPlace> TrackingEnvironment::end_iteration() {
   last_.clear();
   for (Group& group : groups_) {
     last_.add(group.statistics);
@@ -190,8 +159,8 @@ void TrackingEnvironment::end_iteration() {
     sharpness_ = std::clamp(mastered ? sharpness_ * kSharpnessStep : sharpness_ / kSharpnessStep,
                             config_.softest_reward, 1.0);
   }
-  for (std::size_t c = 0; c < clips_.size(); ++c) {
-    for (std::size_t b = 0; b < fall_rates_[c].size(); ++b) {
+  for (int c = 0; c < clips_.count(); ++c) {
+    for (int b = 0; b < fall_rates_[c].count(); ++b) {
       if (last_.visits[c][b] == 0) continue;
       const double rate = static_cast<double>(last_.falls[c][b]) / static_cast<double>(last_.visits[c][b]);
       fall_rates_[c][b] = kFallRateMemory * fall_rates_[c][b] + (1.0 - kFallRateMemory) * rate;
@@ -199,17 +168,17 @@ void TrackingEnvironment::end_iteration() {
     start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }
   ++iteration_;
-  move_on();
+  return move_on();
 }
 
 void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
   archive.set(prefix + "sharpness", NpyArray::scalar(sharpness_));
   archive.set(prefix + "iteration", NpyArray::scalar_int(iteration_));
-  archive.set(prefix + "next_clip", NpyArray::scalar_int(static_cast<std::int64_t>(next_clip_)));
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
+  archive.set(prefix + "next_clip", NpyArray::scalar_int(next_clip_));
+  for (int g = 0; g < groups_.count(); ++g) {
     const std::string key = prefix + "group" + std::to_string(g) + ".";
     const Group& group = groups_[g];
-    for (std::size_t p = 0; p < group.packs.size(); ++p) {
+    for (int p = 0; p < group.packs.count(); ++p) {
       const std::vector<float> values = group.packs[p].save();
       archive.set(key + "pack" + std::to_string(p), NpyArray::from_float({values.size()}, values.data()));
     }
@@ -217,14 +186,14 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
     archive.set(key + "clips", NpyArray::from_int64({clips.size()}, clips.data()));
     archive.set(key + "episodes", NpyArray::from_int64({group.episodes.size()}, group.episodes.data()));
   }
-  for (std::size_t c = 0; c < clips_.size(); ++c)
+  for (int c = 0; c < clips_.count(); ++c)
     archive.set(prefix + "fall_rates" + std::to_string(c),
                 NpyArray::from_double({fall_rates_[c].size()}, fall_rates_[c].data()));
 }
 
 void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   const auto numbers = [&](const std::string& name, std::size_t size) {
-    std::vector<double> values = archive.at(prefix + name).to_double();
+    List<double> values = archive.at(prefix + name).to_double();
     if (values.size() != size)
       throw DataError(archive.path, prefix + name, std::to_string(size) + " numbers",
                       std::to_string(values.size()));
@@ -234,16 +203,16 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
     if (!(value >= 0.0 && value < static_cast<double>(clips_.size())))
       throw DataError(archive.path, prefix, "one of " + std::to_string(clips_.size()) + " clips",
                       std::to_string(value));
-    return static_cast<std::size_t>(value);
+    return static_cast<int>(value);
   };
-  sharpness_ = numbers("sharpness", 1)[0];
-  iteration_ = static_cast<std::int64_t>(numbers("iteration", 1)[0]);
-  next_clip_ = clip_index(numbers("next_clip", 1)[0]);
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
+  sharpness_ = number_at(archive, prefix + "sharpness");
+  iteration_ = whole_number_at(archive, prefix + "iteration");
+  next_clip_ = clip_index(number_at(archive, prefix + "next_clip"));
+  for (int g = 0; g < groups_.count(); ++g) {
     const std::string key = "group" + std::to_string(g) + ".";
     Group& group = groups_[g];
-    const std::vector<double> clips = numbers(key + "clips", group.packs.size());
-    for (std::size_t p = 0; p < group.packs.size(); ++p) {
+    const List<double> clips = numbers(key + "clips", group.packs.size());
+    for (int p = 0; p < group.packs.count(); ++p) {
       group.clips[p] = clip_index(clips[p]);
       group.packs[p] = TrackingPack(clips_[group.clips[p]], config_);
       const std::vector<double> values =
@@ -254,7 +223,7 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
     group.episodes.assign(episodes.begin(), episodes.end());
     group.statistics.clear();
   }
-  for (std::size_t c = 0; c < clips_.size(); ++c) {
+  for (int c = 0; c < clips_.count(); ++c) {
     fall_rates_[c] = numbers("fall_rates" + std::to_string(c), fall_rates_[c].size());
     start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }

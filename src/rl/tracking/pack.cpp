@@ -36,45 +36,20 @@ void for_each_value(State<P>& state, Target<P>& target, F&& f) {
 
 }  // namespace
 
-void require_whole_steps(double physics_rate, double fps) {
-  const double substeps = physics_rate / fps;
-  if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
-    throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
-}
-
-std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
-                                                       const TrackingConfig& config) {
-  if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
-  require_whole_steps(config.simulation.rate, reference.fps);
-  auto clip = std::make_shared<TrackingClip>();
-  clip->reference = reference;
-  clip->model = make_model<float>(reference.character, config.simulation);
-  for (std::size_t t = 0; t < reference.frames.size(); ++t)
-    clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
-  Pose rest = clip->poses.back();
-  rest.frame.v_root.setZero();
-  for (auto& omega : rest.frame.omega) omega.setZero();
-  clip->poses.push_back(rest);
-  for (const Pose& pose : clip->poses) clip->joints.push_back(joint_features(pose.frame));
-  if (reference.keypoints) clip->keypoints = match_keypoints(*reference.keypoints);
-  return clip;
-}
-
 TrackingPack::TrackingPack(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config)
     : clip_(std::move(clip)), config_(config) {
   for (int lane = 0; lane < kLanes; ++lane) reset(lane, 0);
 }
 
 void TrackingPack::reset(int lane, int frame) {
-  const auto n = static_cast<std::size_t>(lane);
-  const Pose& start = clip_->poses[static_cast<std::size_t>(frame)];
-  frames_[n] = frame;
-  broken_[n] = false;
-  fresh_[n] = true;
-  poses_[n] = start;
+  const Pose& start = clip_->poses[frame];
+  frames_[lane] = frame;
+  broken_[lane] = false;
+  fresh_[lane] = true;
+  poses_[lane] = start;
   set_lane(state_.p_root, lane, start.frame.p_root);
   set_lane(state_.v_root, lane, start.frame.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     set_lane(state_.q[i], lane, start.frame.q[i]);
     set_lane(state_.omega[i], lane, start.frame.omega[i]);
     set_lane(to_.q[i], lane, start.frame.q[i]);
@@ -85,23 +60,22 @@ void TrackingPack::reset(int lane, int frame) {
 }
 
 void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
-  const auto to = static_cast<std::size_t>(lane), at = static_cast<std::size_t>(from);
   mimicx::copy_lane(state_, lane, other.state_, from);
   mimicx::copy_lane(to_, lane, other.to_, from);
   mimicx::copy_lane(from_, lane, other.from_, from);
-  frames_[to] = other.frames_[at];
-  poses_[to] = other.poses_[at];
-  broken_[to] = other.broken_[at];
-  fresh_[to] = other.fresh_[at];
-  saturated_[to] = other.saturated_[at];
+  frames_[lane] = other.frames_[from];
+  poses_[lane] = other.poses_[from];
+  broken_[lane] = other.broken_[from];
+  fresh_[lane] = other.fresh_[from];
+  saturated_[lane] = other.saturated_[from];
 }
 
 void TrackingPack::observe(int lane, int option, float* out) const {
-  const auto next = static_cast<std::size_t>(frame(lane) + 1);
+  const int next = frame(lane) + 1;
   const auto& betas = clip_->reference.character.betas;
   if (!clip_->encoded.empty()) {
-    const EncodedReference& encoded = clip_->encoded[static_cast<std::size_t>(option)];
-    const float* code = encoded.codes.data() + next * static_cast<std::size_t>(encoded.code_size);
+    const EncodedReference& encoded = clip_->encoded[option];
+    const float* code = encoded.codes.data() + next * encoded.code_size;
     encoded_state(code, encoded.code_size, encoded.decoded[next], clip_->poses[next], betas, pose(lane), out);
     return;
   }
@@ -109,13 +83,12 @@ void TrackingPack::observe(int lane, int option, float* out) const {
 }
 
 void TrackingPack::act(int lane, const float* action) {
-  const ReferenceFrame& next = clip_->poses[static_cast<std::size_t>(frame(lane) + 1)].frame;
+  const ReferenceFrame& next = clip_->poses[frame(lane) + 1].frame;
   const bool residual = config_.action_mode == ActionMode::kResidual;
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
     const Vector3d rotation = action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
-    set_lane(to_.q[i], lane, residual ? residual_target(next.q[i], rotation) : exp_map(rotation));
-    set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? next.omega[i] : Vector3d::Zero());
+    set_lane(to_.q[body], lane, residual ? residual_target(next.q[body], rotation) : exp_map(rotation));
+    set_lane(to_.omega[body], lane, config_.velocity_feed_forward ? next.omega[body] : Vector3d::Zero());
   }
 }
 
@@ -124,26 +97,26 @@ void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepW
   const MaskOf<P> wrong =
       advance_interval(clip_->model, from_, to_, substeps, state_, scratch, applied, watch);
   for (int lane = 0; lane < kLanes; ++lane)
-    if (wrong[lane] != 0) broken_[static_cast<std::size_t>(lane)] = true;
+    if (wrong[lane] != 0) broken_[lane] = true;
   saturated_.fill(0);
-  for (std::size_t i = 1; i < kBodies; ++i)
+  for (int i = 1; i < kBodies; ++i)
     for (int lane = 0; lane < kLanes; ++lane)
-      if (scratch.saturated[i][lane] != 0) ++saturated_[static_cast<std::size_t>(lane)];
+      if (scratch.saturated[i][lane] != 0) ++saturated_[lane];
   update_kinematics(clip_->model, state_, scratch);
   from_ = to_;
-  fresh_.reset();
+  fresh_.fill(false);
   for (int lane = 0; lane < kLanes; ++lane) {
-    auto& frame = frames_[static_cast<std::size_t>(lane)];
+    auto& frame = frames_[lane];
     frame = std::min(frame + 1, clip_->size() - 1);
     read_pose(scratch, lane);
   }
 }
 
 void TrackingPack::read_pose(const Data<P>& d, int lane) {
-  Pose& pose = poses_[static_cast<std::size_t>(lane)];
+  Pose& pose = poses_[lane];
   pose.frame.p_root = lane_of(state_.p_root, lane);
   pose.frame.v_root = lane_of(state_.v_root, lane);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     pose.frame.q[i] = lane_of(state_.q[i], lane).normalized();
     pose.frame.omega[i] = lane_of(state_.omega[i], lane);
     pose.p_WB[i] = lane_of(d.p_WB[i], lane);
@@ -151,18 +124,17 @@ void TrackingPack::read_pose(const Data<P>& d, int lane) {
 }
 
 Reward TrackingPack::reward(int lane) const {
-  if (broken_[static_cast<std::size_t>(lane)]) return {};
-  const auto t = static_cast<std::size_t>(frame(lane));
+  if (broken_[lane]) return {};
+  const int t = frame(lane);
   const KeypointFrame* keypoints = clip_->keypoints.empty() ? nullptr : &clip_->keypoints[t];
   return tracking_reward(config_.reward, clip_->poses[t], pose(lane), keypoints);
 }
 
 double TrackingPack::worst_distance(int lane) const {
-  if (broken_[static_cast<std::size_t>(lane)]) return std::numeric_limits<double>::infinity();
-  const auto& reference = clip_->poses[static_cast<std::size_t>(frame(lane))].p_WB;
+  if (broken_[lane]) return std::numeric_limits<double>::infinity();
+  const auto& reference = clip_->poses[frame(lane)].p_WB;
   double worst = 0.0;
-  for (std::size_t i = 0; i < kBodies; ++i)
-    worst = std::max(worst, (pose(lane).p_WB[i] - reference[i]).norm());
+  for (int i = 0; i < kBodies; ++i) worst = std::max(worst, (pose(lane).p_WB[i] - reference[i]).norm());
   return worst;
 }
 
@@ -173,9 +145,9 @@ std::vector<float> TrackingPack::save() const {
   for_each_value(state, target, [&](P& x) {
     for (int lane = 0; lane < kLanes; ++lane) values.push_back(x[lane]);
   });
-  for (std::size_t n = 0; n < kLanes; ++n) {
-    values.push_back(static_cast<float>(frames_[n]));
-    values.push_back(fresh_[n] ? 1.0f : 0.0f);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    values.push_back(static_cast<float>(frames_[lane]));
+    values.push_back(fresh_[lane] ? 1.0f : 0.0f);
   }
   return values;
 }
@@ -187,15 +159,14 @@ void TrackingPack::load(const std::vector<float>& values) {
     for (int lane = 0; lane < kLanes; ++lane) x.set(lane, values[k++]);
   });
   from_ = to_;
-  broken_.reset();
+  broken_.fill(false);
   Data<P> d;
   update_kinematics(clip_->model, state_, d);
   for (int lane = 0; lane < kLanes; ++lane) {
-    const auto n = static_cast<std::size_t>(lane);
-    frames_[n] = static_cast<int>(values[k++]);
-    fresh_[n] = values[k++] != 0.0f;
-    if (fresh_[n])
-      poses_[n] = clip_->poses[static_cast<std::size_t>(frames_[n])];
+    frames_[lane] = static_cast<int>(values[k++]);
+    fresh_[lane] = values[k++] != 0.0f;
+    if (fresh_[lane])
+      poses_[lane] = clip_->poses[frames_[lane]];
     else
       read_pose(d, lane);
   }

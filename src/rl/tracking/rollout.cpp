@@ -22,7 +22,7 @@ Vector6d first_lane(const Wrench<P>& w, double scale) {
 ActingForces forces_of(const Applied<P>& applied) {
   const double scale = applied.steps > 0 ? 1.0 / applied.steps : 0.0;
   ActingForces forces;
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     forces.joint_torque[i] = first_lane(applied.joint_torque[i], scale);
     forces.range_torque[i] = first_lane(applied.range_torque[i], scale);
     forces.ground[i] = first_lane(applied.ground[i], scale);
@@ -35,7 +35,7 @@ ReferenceFrame first_lane(const State<P>& state) {
   ReferenceFrame frame;
   frame.p_root = lane_of(state.p_root, 0);
   frame.v_root = lane_of(state.v_root, 0);
-  for (std::size_t i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kBodies; ++i) {
     frame.q[i] = lane_of(state.q[i], 0);
     frame.omega[i] = lane_of(state.omega[i], 0);
   }
@@ -48,7 +48,7 @@ TrackingPack::SubstepWatcher recorder(const Model<float>& model, Applied<P>& scr
     clear(scratch);
     record_applied(model, solved, scratch);
     Substep step{first_lane(before), {}, {}, forces_of(scratch)};
-    for (std::size_t i = 0; i < kBodies; ++i) {
+    for (int i = 0; i < kBodies; ++i) {
       step.target_q[i] = i == 0 ? Quaterniond::Identity() : lane_of(target.q[i], 0);
       step.target_omega[i] = lane_of(target.omega[i], 0);
     }
@@ -59,7 +59,7 @@ TrackingPack::SubstepWatcher recorder(const Model<float>& model, Applied<P>& scr
 
 double mean_distance(const Pose& a, const Pose& b) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < kBodies; ++i) sum += (a.p_WB[i] - b.p_WB[i]).norm();
+  for (int i = 0; i < kBodies; ++i) sum += (a.p_WB[i] - b.p_WB[i]).norm();
   return sum / kBodies;
 }
 
@@ -67,13 +67,13 @@ double mean_distance(const Pose& a, const Pose& b) {
 
 MeanAction mean_action(const std::vector<Agent>& agents) {
   struct Actor {
-    std::vector<Agent> agents;
+    List<Agent> agents;
     nn::Matrix<float> state, normalised, mean;
     nn::Workspace<float> workspace;
   };
   auto actor = std::make_shared<Actor>(Actor{agents, {}, {}, {}, {}});
   return [actor](int option, const float* state, float* action) {
-    const Agent& agent = actor->agents[static_cast<std::size_t>(option)];
+    const Agent& agent = actor->agents[option];
     actor->state = Eigen::Map<const nn::Matrix<float>>(state, 1, agent.actor.inputs());
     nn::normalise(agent.observations, actor->state, actor->normalised);
     nn::evaluate(agent.actor, actor->normalised, actor->workspace, actor->mean);
@@ -111,7 +111,7 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
     out.rewards.push_back(pack.reward(0));
     out.forces.push_back(forces_of(applied));
     out.mean_reward += out.rewards.back().total;
-    out.mean_position_error += mean_distance(pack.pose(0), clip->poses[static_cast<std::size_t>(t)]);
+    out.mean_position_error += mean_distance(pack.pose(0), clip->poses[t]);
   }
   const double steps = static_cast<double>(std::max<std::size_t>(out.poses.size() - 1, 1));
   out.mean_reward /= steps;

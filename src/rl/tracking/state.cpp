@@ -35,15 +35,14 @@ std::array<float, kJointFeatures> joint_features(const ReferenceFrame& frame) {
   float* rotation = features.data();
   float* velocity = features.data() + 106;
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
     if (is_hinge(body)) {
       const Vector3d axis = hinge_axis(body);
-      *rotation++ = static_cast<float>(log_map(frame.q[i]).dot(axis));
-      *velocity++ = static_cast<float>(frame.omega[i].dot(axis));
+      *rotation++ = static_cast<float>(log_map(frame.q[body]).dot(axis));
+      *velocity++ = static_cast<float>(frame.omega[body].dot(axis));
     } else {
-      const Vector6d r = rotation_6d(frame.q[i]);
+      const Vector6d r = rotation_6d(frame.q[body]);
       for (int k = 0; k < 6; ++k) *rotation++ = static_cast<float>(r[k]);
-      for (int k = 0; k < 3; ++k) *velocity++ = static_cast<float>(frame.omega[i][k]);
+      for (int k = 0; k < 3; ++k) *velocity++ = static_cast<float>(frame.omega[body][k]);
     }
   }
   return features;
@@ -59,8 +58,7 @@ void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& jo
   out = put(f.v_root, heading, out);
   out = put(f.q[0] * f.omega[0], heading, out);
   for (float x : joints) *out++ = x;
-  for (int body : kEndEffectors)
-    out = put(pose.p_WB[static_cast<std::size_t>(body)] - f.p_root, heading, out);
+  for (int body : kEndEffectors) out = put(pose.p_WB[body] - f.p_root, heading, out);
 }
 
 void own_pose_features(const Pose& pose, float* out) {
@@ -86,29 +84,29 @@ void encoded_state(const float* code, int code_size, const std::array<float, kPo
                    const Pose& reference, const std::array<double, kBetas>& betas, const Pose& simulated,
                    float* out) {
   const Eigen::Vector2d heading = heading_direction(simulated.frame.q[0]);
-  float* beta = std::copy(code, code + code_size, out);
-  float* P_hat = beta + kBetas;
-  float* difference = P_hat + kPoseFeatures;
+  float* shape = std::copy(code, code + code_size, out);
+  float* of_simulated = shape + kBetas;
+  float* difference = of_simulated + kPoseFeatures;
   float* offset = difference + kPoseFeatures;
-  for (std::size_t k = 0; k < kBetas; ++k) beta[k] = static_cast<float>(betas[k]);
-  pose_features(simulated, joint_features(simulated.frame), heading, P_hat);
+  for (std::size_t k = 0; k < kBetas; ++k) shape[k] = static_cast<float>(betas[k]);
+  pose_features(simulated, joint_features(simulated.frame), heading, of_simulated);
   turn_features(decoded.data(), heading_direction(reference.frame.q[0]), heading, difference);
-  for (int k = 0; k < kPoseFeatures; ++k) difference[k] -= P_hat[k];
+  for (int k = 0; k < kPoseFeatures; ++k) difference[k] -= of_simulated[k];
   put_root_offset(reference, simulated, heading, offset);
 }
 
 void tracking_state(const Pose& reference, const std::array<float, kJointFeatures>& reference_joints,
                     const std::array<double, kBetas>& betas, const Pose& simulated, float* out) {
   const Eigen::Vector2d heading = heading_direction(simulated.frame.q[0]);
-  float* P = out;
-  float* beta = P + kPoseFeatures;
-  float* P_hat = beta + kBetas;
-  float* difference = P_hat + kPoseFeatures;
+  float* of_reference = out;
+  float* shape = of_reference + kPoseFeatures;
+  float* of_simulated = shape + kBetas;
+  float* difference = of_simulated + kPoseFeatures;
   float* offset = difference + kPoseFeatures;
-  pose_features(reference, reference_joints, heading, P);
-  for (std::size_t k = 0; k < kBetas; ++k) beta[k] = static_cast<float>(betas[k]);
-  pose_features(simulated, joint_features(simulated.frame), heading, P_hat);
-  for (int k = 0; k < kPoseFeatures; ++k) difference[k] = P[k] - P_hat[k];
+  pose_features(reference, reference_joints, heading, of_reference);
+  for (std::size_t k = 0; k < kBetas; ++k) shape[k] = static_cast<float>(betas[k]);
+  pose_features(simulated, joint_features(simulated.frame), heading, of_simulated);
+  for (int k = 0; k < kPoseFeatures; ++k) difference[k] = of_reference[k] - of_simulated[k];
   put_root_offset(reference, simulated, heading, offset);
 }
 

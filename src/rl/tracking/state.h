@@ -1,4 +1,4 @@
-/// The state of the tracking task: exactly 570 numbers.                     METHOD: docs/method.md §3
+/// The state of the tracking task: exactly 570 numbers.                     docs/method.md §3
 ///
 ///     s_t = { P_{t+1} [186], β [10], P̂_t [186], P_{t+1} − P̂_t [186], root offset [2] }
 ///     P   = { r^h 1, r^a 6, ṙ^p 3, ṙ^a 3, x^a 17·6 + 4·1, ẋ^a 17·3 + 4·1, e^p 4·3 }
@@ -7,7 +7,7 @@
 /// subtracted), so that the state does not depend on where in the world it looks or stands. The root offset
 /// is horizontal: the height is already in P. Angular velocities of joints are in the child's frame.
 ///
-/// An option with an encoder sees instead (METHOD §7)
+/// An option with an encoder sees instead (docs/method.md §7)
 ///
 ///     s_t = { z, β [10], P̂_t [186], D(z) − P̂_t [186], root offset [2] },   z = E(P_{t+1})
 ///

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "motion/made_motions.h"
 #include "motion/metrics.h"
+#include "motion/resample.h"
 #include "motion/synth/noise.h"
 #include "motion/synth/synth.h"
 
@@ -17,10 +18,10 @@ using namespace test;
 
 /// Three seconds of a synthetic motion.
 Clip truth_of(const std::string& kind) {
-  SynthOptions options;
-  options.kind = kind;
-  options.seed = 5;
-  Clip clip = synthesize(options);
+  SynthConfig config;
+  config.kind = kind;
+  config.seed = 5;
+  Clip clip = synthesize(config);
   clip.rotations.resize(90);
   clip.trans.resize(90);
   return clip;
@@ -28,7 +29,7 @@ Clip truth_of(const std::string& kind) {
 
 /// Detections that are where they should be.
 Keypoints exact_keypoints(const Clip& truth) {
-  const std::vector<BodyPoses> poses = poses_of(truth);
+  const PerFrame<BodyPoses> poses = poses_of(truth);
   const Camera camera = place_camera(poses, 1);
   Keypoints k;
   k.names = keypoint_names(KeypointSet::kJoints22);
@@ -60,10 +61,10 @@ Clip disturbed(const Clip& truth, std::uint64_t seed) {
   return clip;
 }
 
-FitOptions exact_camera() {
-  FitOptions options;
-  options.focal_sigma = options.tilt_sigma = options.beta_sigma = options.keypoint_bias_sigma = 0.0;
-  return options;
+FitConfig exact_camera() {
+  FitConfig config;
+  config.focal_sigma = config.tilt_sigma = config.beta_sigma = config.keypoint_bias_sigma = 0.0;
+  return config;
 }
 
 Metrics against(const Clip& truth, const Clip& motion) {
@@ -75,11 +76,11 @@ Metrics against(const Clip& truth, const Clip& motion) {
 }
 
 Clip noisy_of(const Clip& truth, const char* preset, KeypointSet set, std::uint64_t seed) {
-  NoiseOptions options;
-  options.preset = noise_preset(preset);
-  options.keypoints = set;
-  options.seed = seed;
-  return add_noise(truth, options);
+  NoiseConfig config;
+  config.preset = noise_preset(preset);
+  config.keypoints = set;
+  config.seed = seed;
+  return add_noise(truth, config);
 }
 
 bool same(const Clip& a, const Clip& b) {
@@ -114,7 +115,7 @@ TEST(Fit, KneesAndElbowsAreHingesAfterwards) {
   const Clip fitted = fit_keypoints(disturbed(truth_of("walk"), 2), {}, nullptr);
   for (const auto& frame : fitted.rotations)
     for (int b : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow})
-      EXPECT_LT(frame[static_cast<std::size_t>(b)].cross(hinge_axis(b)).norm(), 1e-9);
+      EXPECT_LT(frame[b].cross(hinge_axis(b)).norm(), 1e-9);
 }
 
 TEST(Fit, ABurstOfExchangedSidesIsHealed) {
@@ -122,10 +123,9 @@ TEST(Fit, ABurstOfExchangedSidesIsHealed) {
   const Clip expected = fit_keypoints(input, exact_camera(), nullptr);
   Clip swapped = input;
   for (std::size_t t = 30; t < 38; ++t) {
-    for (const Body left :
-         {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
-      std::swap(swapped.keypoints->uvc[t][static_cast<std::size_t>(left)],
-                swapped.keypoints->uvc[t][static_cast<std::size_t>(left) + 1]);
+    for (const std::size_t left : std::initializer_list<std::size_t>{
+             kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
+      std::swap(swapped.keypoints->uvc[t][left], swapped.keypoints->uvc[t][left + 1]);
   }
   FitReport report;
   const Clip fitted = fit_keypoints(swapped, exact_camera(), &report);
@@ -171,12 +171,12 @@ TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {
   const Clip truth = truth_of("walk");
   Clip input = disturbed(truth, 5);
   input.keypoints->intrinsics.topLeftCorner<2, 2>() *= 1.10;
-  FitOptions options;
-  options.beta_sigma = 0.0;
+  FitConfig config;
+  config.beta_sigma = 0.0;
   FitReport report;
-  fit_keypoints(input, options, &report);
-  EXPECT_LT(std::abs(std::log(report.focal_scale)), 3.0 * options.focal_sigma);
-  EXPECT_LT(std::abs(report.tilt_deg), 3.0 * options.tilt_sigma);
+  fit_keypoints(input, config, &report);
+  EXPECT_LT(std::abs(std::log(report.focal_scale)), 3.0 * config.focal_sigma);
+  EXPECT_LT(std::abs(report.tilt_deg), 3.0 * config.tilt_sigma);
 }
 
 TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
@@ -185,10 +185,10 @@ TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
   const double told = 0.6 * kPi / 180.0;
   Eigen::Matrix4d& E = input.keypoints->extrinsics[0];
   E.topRows<3>() = (Eigen::AngleAxisd(told, Vector3d::UnitX()).toRotationMatrix() * E.topRows<3>()).eval();
-  FitOptions options;
-  options.focal_sigma = options.beta_sigma = 0.0;
+  FitConfig config;
+  config.focal_sigma = config.beta_sigma = 0.0;
   FitReport report;
-  const Clip fitted = fit_keypoints(input, options, &report);
+  const Clip fitted = fit_keypoints(input, config, &report);
   EXPECT_NEAR(report.tilt_deg, -0.6, 0.15);
   const Eigen::Matrix4d exact = exact_keypoints(truth).extrinsics[0];
   EXPECT_LT((fitted.keypoints->extrinsics[0] - exact).norm(), (E - exact).norm() / 3.0);

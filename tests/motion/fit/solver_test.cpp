@@ -43,12 +43,11 @@ Made random_system(int frames, int n, int m, std::uint64_t seed) {
   D.bottomRightCorner(m, m) = B.transpose() * D.topLeftCorner(size, size).llt().solve(B) +
                               extra * extra.transpose() + MatrixXd::Identity(m, m);
   for (int t = 0; t < frames; ++t) {
-    const auto i = static_cast<std::size_t>(t);
-    made.band.diagonal[i] = D.block(t * n, t * n, n, n);
-    if (t + 1 < frames) made.band.next[i] = D.block((t + 1) * n, t * n, n, n);
-    if (t + 2 < frames) made.band.second[i] = D.block((t + 2) * n, t * n, n, n);
-    made.band.border[i] = B.middleRows(t * n, n);
-    made.band.rhs[i] = made.rhs.segment(t * n, n);
+    made.band.diagonal[t] = D.block(t * n, t * n, n, n);
+    if (t + 1 < frames) made.band.next[t] = D.block((t + 1) * n, t * n, n, n);
+    if (t + 2 < frames) made.band.second[t] = D.block((t + 2) * n, t * n, n, n);
+    made.band.border[t] = B.middleRows(t * n, n);
+    made.band.rhs[t] = made.rhs.segment(t * n, n);
   }
   made.band.corner = D.bottomRightCorner(m, m);
   made.band.rhs_border = made.rhs.tail(m);
@@ -61,7 +60,7 @@ TEST(BorderedBand, SolutionIsThatOfTheDenseSystem) {
     const VectorXd expected = made.dense.ldlt().solve(made.rhs);
     const BandSolution found = solve(made.band);
     for (int t = 0; t < frames; ++t)
-      EXPECT_LT((found.x[static_cast<std::size_t>(t)] - expected.segment(5 * t, 5)).norm(), 1e-8) << frames;
+      EXPECT_LT((found.x[t] - expected.segment(5 * t, 5)).norm(), 1e-8) << frames;
     EXPECT_LT((found.g - expected.tail(3)).norm(), 1e-8) << frames;
   }
 }

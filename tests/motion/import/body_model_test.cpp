@@ -1,10 +1,12 @@
 #include "motion/import/body_model.h"
+#include "motion/clip_file.h"
 
 #include <gtest/gtest.h>
 
 #include "core/npz.h"
 #include "motion/import/motion_file.h"
 #include "motion/made_motions.h"
+#include "motion/prepare.h"
 #include "motion/scratch.h"
 
 namespace mimicx {
@@ -29,8 +31,7 @@ struct SmallModel {
     const Character body = make_character();
     vertices.row(0) = Vector3d(0.01, -0.36, 0.02).transpose();
     for (Index j = 1; j < kBodies; ++j)
-      vertices.row(j) = vertices.row(kParents[static_cast<std::size_t>(j)]) +
-                        1.1 * body.joint_offset[static_cast<std::size_t>(j)].transpose();
+      vertices.row(j) = vertices.row(kParents[j]) + 1.1 * body.joint_offset[j].transpose();
     for (std::size_t k = 0; k < kComponents; ++k) {
       directions.emplace_back(kVertices, 3);
       for (Index i = 0; i < directions.back().size(); ++i)
@@ -57,10 +58,9 @@ struct SmallModel {
     npz.set("weights", from_matrix(MatrixXd::Zero(kVertices, kFileJoints)));
     return npz;
   }
-  Vector3d joint(std::size_t j, const std::array<double, kBetas>& betas) const {
-    Vector3d p = vertices.row(static_cast<Index>(j)).transpose();
-    for (std::size_t k = 0; k < kBetas; ++k)
-      p += betas[k] * directions[k].row(static_cast<Index>(j)).transpose();
+  Vector3d joint(Index j, const std::array<double, kBetas>& betas) const {
+    Vector3d p = vertices.row(j).transpose();
+    for (std::size_t k = 0; k < kBetas; ++k) p += betas[k] * directions[k].row(j).transpose();
     return p;
   }
 };
@@ -71,8 +71,7 @@ TEST(BodyModel, JointsAreTheRegressorTimesTheShapedVertices) {
   const SmallModel small;
   write_npz(scratch("model.npz"), small.file());
   const RestJoints joints = read_body_model(scratch("model.npz")).joints(kSomeBetas);
-  for (std::size_t j = 0; j < kBodies; ++j)
-    EXPECT_LT((joints[j] - small.joint(j, kSomeBetas)).norm(), 1e-12) << j;
+  for (int j = 0; j < kBodies; ++j) EXPECT_LT((joints[j] - small.joint(j, kSomeBetas)).norm(), 1e-12) << j;
 }
 
 TEST(BodyModel, FilesOfAnotherLayoutAreRefusedByMember) {
@@ -97,21 +96,21 @@ TEST(BodyModel, AMotionIsPlayedOnTheJointsOfItsOwnBody) {
   clip.body_model = "smplx";
   clip.betas = kSomeBetas;
   write_clip(scratch("clip.npz"), clip);
-  ReadOptions options;
-  options.smplx = scratch("model.npz");
-  const Clip read = read_motion(scratch("clip.npz"), options);
+  ReadConfig config;
+  config.smplx = scratch("model.npz");
+  const Clip read = read_motion(scratch("clip.npz"), config);
   EXPECT_TRUE(read.warnings.empty()) << "the shape is known now";
   // Forward kinematics by hand, frame 1.
   const auto poses = poses_of(read);
   PerBody<Quaterniond> q;
   PerBody<Vector3d> p;
-  for (std::size_t j = 0; j < kBodies; ++j) {
+  for (int j = 0; j < kBodies; ++j) {
     const Quaterniond local = exp_map(clip.rotations[1][j]);
     if (j == 0) {
       q[0] = local;
       p[0] = clip.trans[1] + small.joint(0, kSomeBetas);
     } else {
-      const auto parent = static_cast<std::size_t>(kParents[j]);
+      const int parent = kParents[j];
       q[j] = q[parent] * local;
       p[j] = p[parent] + q[parent] * (small.joint(j, kSomeBetas) - small.joint(parent, kSomeBetas));
     }
@@ -125,16 +124,16 @@ TEST(BodyModel, AMotionIsPlayedOnTheJointsOfItsOwnBody) {
   // Written and read again without the model, it keeps its body.
   write_clip(scratch("again.npz"), read);
   const auto again = poses_of(read_motion(scratch("again.npz")));
-  for (std::size_t j = 0; j < kBodies; ++j) EXPECT_EQ(again[1].p_WB[j], poses[1].p_WB[j]);
+  for (int j = 0; j < kBodies; ++j) EXPECT_EQ(again[1].p_WB[j], poses[1].p_WB[j]);
 }
 
 TEST(BodyModel, TheStandardBodyKeepsThePelvisWhereItIs) {
   Clip clip = test::random_clip(3, 4, 0.4);
   clip.betas[0] = 2.0;
   write_clip(scratch("clip.npz"), clip);
-  ReadOptions options;
-  options.standard_body = true;
-  const Clip read = read_motion(scratch("clip.npz"), options);
+  ReadConfig config;
+  config.standard_body = true;
+  const Clip read = read_motion(scratch("clip.npz"), config);
   EXPECT_EQ(read.betas, (std::array<double, kBetas>{}));
   EXPECT_EQ(poses_of(read)[2].p_WB[0], poses_of(clip)[2].p_WB[0]);
 }
@@ -146,9 +145,9 @@ TEST(BodyModel, BetasOfAnotherModelStayAside) {
   clip.body_model = "smplh";
   clip.betas = kSomeBetas;
   write_clip(scratch("clip.npz"), clip);
-  ReadOptions options;
-  options.smplx = scratch("model.npz");
-  const Clip read = read_motion(scratch("clip.npz"), options);
+  ReadConfig config;
+  config.smplx = scratch("model.npz");
+  const Clip read = read_motion(scratch("clip.npz"), config);
   EXPECT_FALSE(read.rest_joints);
   EXPECT_EQ(read.warnings.size(), 1u);
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "motion/import/bvh_write.h"
 #include "motion/made_motions.h"
 
 namespace mimicx {
@@ -238,8 +239,7 @@ double round_trip_error(const Clip& clip) {
       for (std::size_t b = 0; b < kBodies; ++b)
         if (motion.joints[j].name == kBodyNames[b]) {
           const Vector3d& p = pose.p[j];  // y up → z up
-          worst = std::max(
-              worst, (Vector3d(p.x(), -p.z(), p.y()) - poses[static_cast<std::size_t>(t)].p_WB[b]).norm());
+          worst = std::max(worst, (Vector3d(p.x(), -p.z(), p.y()) - poses[t].p_WB[b]).norm());
         }
   }
   return worst;

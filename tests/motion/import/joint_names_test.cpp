@@ -10,7 +10,8 @@
 namespace mimicx {
 namespace {
 
-using Names = std::vector<std::string>;
+using Names = PerBody<std::string>;
+using Words = std::vector<std::string>;
 
 /// A skeleton with the tree of the 22 bodies and the given names; an empty name leaves the body out: what
 /// hangs on it hangs on its parent instead. @param joint  index of each body's joint, -1 where left out
@@ -18,14 +19,12 @@ SkeletonMotion skeleton(const Names& names, PerBody<int>& joint) {
   SkeletonMotion motion;
   motion.path = "made";
   joint.fill(-1);
-  for (std::size_t b = 0; b < kBodies; ++b) {
+  for (int b = 0; b < kBodies; ++b) {
     int parent = kParents[b];
-    while (parent >= 0 && joint[static_cast<std::size_t>(parent)] < 0)
-      parent = kParents[static_cast<std::size_t>(parent)];
+    while (parent >= 0 && joint[parent] < 0) parent = kParents[parent];
     if (names[b].empty()) continue;
-    joint[b] = static_cast<int>(motion.joints.size());
-    motion.joints.push_back(
-        {names[b], parent < 0 ? -1 : joint[static_cast<std::size_t>(parent)], Vector3d(0, 1, 0), false});
+    joint[b] = motion.joints.count();
+    motion.joints.push_back({names[b], parent < 0 ? -1 : joint[parent], Vector3d(0, 1, 0), false});
   }
   return motion;
 }
@@ -37,23 +36,22 @@ void expect_found(const std::string& vocabulary, const Names& names) {
   JointMap map = map_joints(motion);
   map[kSpine1] = joint[kSpine1];
   map[kSpine2] = joint[kSpine2];
-  for (std::size_t b = 0; b < kBodies; ++b)
-    EXPECT_EQ(map[b], joint[b]) << vocabulary << ": " << kBodyNames[b];
+  for (int b = 0; b < kBodies; ++b) EXPECT_EQ(map[b], joint[b]) << vocabulary << ": " << kBodyNames[b];
 }
 
 /// Left and right of pairs of names in which '#' stands for the side; the trunk apart.
-Names both(const std::string& left, const std::string& right, const Names& middle, const Names& limbs) {
+Names both(const std::string& left, const std::string& right, const Words& middle, const Words& limbs) {
   const auto side = [&](const std::string& name, const std::string& s) {
     const std::size_t at = name.find('#');
     return at == std::string::npos ? name : name.substr(0, at) + s + name.substr(at + 1);
   };
-  Names names(kBodies);
-  const std::array<int, 6> middle_bodies = {kPelvis, kSpine1, kSpine2, kSpine3, kNeck, kHead};
-  for (std::size_t i = 0; i < 6; ++i) names[static_cast<std::size_t>(middle_bodies[i])] = middle[i];
-  const std::array<int, 8> left_bodies = {kLeftHip,    kLeftKnee,     kLeftAnkle, kLeftFoot,
-                                          kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist};
+  Names names;
+  const Array<int, 6> middle_bodies = {kPelvis, kSpine1, kSpine2, kSpine3, kNeck, kHead};
+  for (std::size_t i = 0; i < 6; ++i) names[middle_bodies[i]] = middle[i];
+  const Array<int, 8> left_bodies = {kLeftHip,    kLeftKnee,     kLeftAnkle, kLeftFoot,
+                                     kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist};
   for (std::size_t i = 0; i < 8; ++i) {
-    const auto b = static_cast<std::size_t>(left_bodies[i]);
+    const int b = left_bodies[i];
     names[b] = side(limbs[i], left);
     names[b + 1] = side(limbs[i], right);
   }
@@ -72,7 +70,9 @@ TEST(JointNames, VocabulariesAreUnderstood) {
                                "LowerArm_#", "Hand_#"}));
   expect_found("Daz", both("l", "r", {"hip", "abdomen", "", "chest", "neck", "head"},
                            {"#Thigh", "#Shin", "#Foot", "", "#Collar", "#Shldr", "#ForeArm", "#Hand"}));
-  expect_found("SMPL", Names(kBodyNames.begin(), kBodyNames.end()));
+  Names smpl;
+  std::copy(kBodyNames.begin(), kBodyNames.end(), smpl.begin());
+  expect_found("SMPL", smpl);
   expect_found("SMPL, short", both("L", "R", {"Pelvis", "Spine1", "Spine2", "Spine3", "Neck", "Head"},
                                    {"#_Hip", "#_Knee", "#_Ankle", "#_Foot", "#_Collar", "#_Shoulder",
                                     "#_Elbow", "#_Wrist"}));
@@ -106,21 +106,20 @@ TEST(JointNames, ASurerNameGoesBeforeAnother) {
   for (std::size_t j = 2; j + 1 < motion.joints.size(); ++j)
     motion.joints[j].parent += motion.joints[j].parent > 0 ? 1 : 0;
   const JointMap map = map_joints(motion);
-  EXPECT_EQ(motion.joints[static_cast<std::size_t>(map[kLeftAnkle])].name, "foot_l");
-  EXPECT_EQ(motion.joints[static_cast<std::size_t>(map[kLeftWrist])].name, "hand_l");
+  EXPECT_EQ(motion.joints[map[kLeftAnkle]].name, "foot_l");
+  EXPECT_EQ(motion.joints[map[kLeftWrist]].name, "hand_l");
 }
 
 TEST(JointNames, EndSitesStandInForWristsAndFeet) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
-  for (const int body : {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot})
-    names[static_cast<std::size_t>(body)].clear();
+  for (const int body : {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot}) names[body].clear();
   SkeletonMotion motion = skeleton(names, joint);
   for (const int body : {kLeftElbow, kRightElbow, kLeftAnkle})
-    motion.joints.push_back({"end", joint[static_cast<std::size_t>(body)], Vector3d::Zero(), true});
+    motion.joints.push_back({"end", joint[body], Vector3d::Zero(), true});
   const JointMap map = map_joints(motion);
-  EXPECT_EQ(map[kLeftWrist], static_cast<int>(motion.joints.size()) - 3);
-  EXPECT_EQ(map[kLeftFoot], static_cast<int>(motion.joints.size()) - 1);
+  EXPECT_EQ(map[kLeftWrist], motion.joints.count() - 3);
+  EXPECT_EQ(map[kLeftFoot], motion.joints.count() - 1);
   EXPECT_EQ(map[kRightFoot], -1);
 }
 

@@ -1,4 +1,5 @@
 #include "motion/import/motion_file.h"
+#include "motion/clip_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,6 +13,7 @@
 #include "motion/import/plausibility.h"
 #include "motion/import/world.h"
 #include "motion/made_motions.h"
+#include "motion/prepare.h"
 #include "motion/scratch.h"
 #include "motion/synth/synth.h"
 
@@ -23,10 +25,10 @@ using test::scratch;
 
 /// A synthetic motion as a file of somebody else: body model smplx, so that nothing in it is believed.
 Clip foreign(const std::string& kind) {
-  SynthOptions options;
-  options.kind = kind;
-  options.seed = 3;
-  Clip clip = synthesize(options);
+  SynthConfig config;
+  config.kind = kind;
+  config.seed = 3;
+  Clip clip = synthesize(config);
   clip.betas = {};
   clip.body_model = "smplx";
   clip.keypoints.reset();
@@ -34,10 +36,10 @@ Clip foreign(const std::string& kind) {
   return clip;
 }
 
-Clip reread(const Clip& clip, const ReadOptions& options = {}) {
+Clip reread(const Clip& clip, const ReadConfig& config = {}) {
   const fs::path path = scratch(clip.name + ".npz");
   write_clip(path, clip);
-  return read_motion(path, options);
+  return read_motion(path, config);
 }
 
 bool says(const Clip& clip, const std::string& words) {
@@ -75,7 +77,7 @@ TEST(ReadMotion, TurnsEveryAxisUpAndSaysSo) {
     const Clip back = reread(turned);
     EXPECT_LT(distance(back, clip), 1e-9) << axis;
     EXPECT_TRUE(says(back, axis == 'Z' ? "upside down" : "up axis: " + axis_name(axis))) << axis;
-    ReadOptions asked;
+    ReadConfig asked;
     asked.up = axis;
     EXPECT_LT(distance(reread(turned, asked), clip), 1e-9);
     asked.up = 'z';
@@ -104,7 +106,7 @@ TEST(ReadMotion, FindsCentimetresAndMillimetres) {
     const Clip back = reread(large);
     EXPECT_LT(distance(back, clip), 1e-9) << scale;
     EXPECT_TRUE(says(back, scale == 100.0 ? "centimetres" : "millimetres"));
-    ReadOptions asked;
+    ReadConfig asked;
     asked.scale = 1.0 / scale;
     EXPECT_LT(distance(reread(large, asked), clip), 1e-9);
   }
@@ -123,7 +125,7 @@ TEST(ReadMotion, AFallTellsTheFrameRate) {
     const Clip back = reread(wrong);
     EXPECT_EQ(back.fps, rate) << label;
     EXPECT_TRUE(says(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
-    ReadOptions asked;
+    ReadConfig asked;
     asked.fps = label;
     EXPECT_EQ(reread(wrong, asked).fps, label) << "the user is believed";
   }
@@ -141,7 +143,7 @@ TEST(ReadMotion, AFloorThatTheUserNamesIsZeroAndStays) {
   Clip clip = foreign("walk");
   shift_world({0, 0, 0.4}, clip);
   EXPECT_TRUE(says(reread(clip), "floor: at 0.4"));
-  ReadOptions asked;
+  ReadConfig asked;
   asked.floor = 0.3;  // the motion hovers 0.1 m over the floor that the user names
   const Clip back = reread(clip, asked);
   PreparationReport report;
@@ -159,17 +161,17 @@ TEST(ReadMotion, OurOwnFilesAreBelieved) {
 
 TEST(ReadMotion, OptionsThatMakeNoSenseAreRefused) {
   const Clip clip = foreign("wave");
-  ReadOptions up, scale, fps;
+  ReadConfig up, scale, fps;
   up.up = 'w';
   scale.scale = -1.0;
   fps.fps = 0.0;
-  for (const ReadOptions& bad : {up, scale, fps}) EXPECT_THROW(reread(clip, bad), std::invalid_argument);
+  for (const ReadConfig& bad : {up, scale, fps}) EXPECT_THROW(reread(clip, bad), std::invalid_argument);
 }
 
 TEST(World, EveryAxisCanBeUp) {
-  const std::string axes = "xyzXYZ";
+  const Array<char, 6> axes = {'x', 'y', 'z', 'X', 'Y', 'Z'};
   for (int i = 0; i < 6; ++i) {
-    const char axis = axes[static_cast<std::size_t>(i)];
+    const char axis = axes[i];
     const Vector3d up = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(i % 3);
     EXPECT_LT((rotation_to_z_up(axis) * up - Vector3d::UnitZ()).norm(), 1e-12) << axis;
   }
@@ -229,7 +231,7 @@ TEST(Motionx, UpIsAnAxisOfTheFile) {
   const Clip walk = foreign("walk");
   const fs::path path = scratch("walk.npy");
   write_motion(path, walk);
-  ReadOptions asked;
+  ReadConfig asked;
   asked.up = 'y';
   EXPECT_LT(distance(read_motion(path, asked), walk), 1e-9) << "y is up in the format already";
   EXPECT_TRUE(says(read_motion(path), "up axis: y, turned to z"));
@@ -361,7 +363,7 @@ TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
   write_motion(scratch("walk.bvh"), clip);
   fs::copy_file(scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
   EXPECT_LT(distance(read_motion(path), clip), 1e-6);
-  ReadOptions asked;
+  ReadConfig asked;
   asked.fps = 25.0;
   EXPECT_EQ(read_motion(path, asked).fps, 25.0);
   EXPECT_EQ(recognise("\xEF\xBB\xBF\r\n hierarchy\n"), MotionFormat::kBvh);

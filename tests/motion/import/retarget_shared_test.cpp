@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "motion/clip_file.h"
 #include "motion/import/bvh.h"
 #include "motion/import/deepmimic.h"
 #include "motion/import/retarget.h"
+#include "motion/resample.h"
 
 namespace mimicx {
 namespace {
@@ -34,7 +36,7 @@ double worst_limb(const RetargetReport& report) {
   double worst = 0.0;
   for (const int body : {kLeftHip, kLeftKnee, kLeftAnkle, kLeftShoulder, kLeftElbow, kLeftWrist, kRightHip,
                          kRightKnee, kRightAnkle, kRightShoulder, kRightElbow, kRightWrist})
-    worst = std::max(worst, report.residual_mm[static_cast<std::size_t>(body)]);
+    worst = std::max(worst, report.residual_mm[body]);
   return worst;
 }
 
@@ -87,8 +89,7 @@ double distance_mm(const Clip& a, const Clip& b) {
   const auto pa = poses_of(a), pb = poses_of(b);
   const std::size_t frames = std::min(pa.size(), pb.size());
   const auto relative = [](const BodyPoses& pose, int body) {
-    return Vector3d(pose.p_WB[static_cast<std::size_t>(body)] -
-                    0.5 * (pose.p_WB[kLeftHip] + pose.p_WB[kRightHip]));
+    return Vector3d(pose.p_WB[body] - 0.5 * (pose.p_WB[kLeftHip] + pose.p_WB[kRightHip]));
   };
   double sine = 0.0, cosine = 0.0;
   for (std::size_t t = 0; t < frames; ++t)
@@ -121,10 +122,10 @@ TEST(RetargetShared, AgreesWithAnIndependentConversion) {
       {"deepmimic/humanoid3d_dance_b.txt", "deepmimic_humanoid3d_dance_b", 15},
       {"deepmimic/humanoid3d_getup_facedown.txt", "deepmimic_humanoid3d_getup_facedown", 38},
       {"deepmimic/humanoid3d_jump.txt", "deepmimic_humanoid3d_jump", 28}};
-  RetargetOptions options;
-  options.standard_body = true;
+  RetargetConfig config;
+  config.standard_body = true;
   for (const Pair& pair : pairs) {
-    const Clip ours = resampled(retarget(read(shared(pair.source)), options), 30.0);
+    const Clip ours = resampled(retarget(read(shared(pair.source)), config), 30.0);
     const Clip theirs = read_clip(shared("amass") / (pair.converted + std::string("_poses.npz")));
     EXPECT_NEAR(ours.frames(), theirs.frames(), 1);
     const double distance = distance_mm(ours, theirs);

@@ -1,4 +1,5 @@
 #include "motion/import/retarget.h"
+#include "motion/import/bvh_write.h"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +21,11 @@ using test::Disguise;
 using test::disguised;
 
 Clip synthetic(const std::string& kind, std::array<double, kBetas> betas = {}) {
-  SynthOptions options;
-  options.kind = kind;
-  options.seed = 3;
-  options.betas = betas;
-  return synthesize(options);
+  SynthConfig config;
+  config.kind = kind;
+  config.seed = 3;
+  config.betas = betas;
+  return synthesize(config);
 }
 
 Quaterniond about_z(double degrees) { return exp_map(degrees * test::kPi / 180.0 * Vector3d::UnitZ()); }
@@ -41,10 +42,8 @@ Disguise t_pose() {
 /// Arms hang 50° under the horizontal at rest.
 Disguise a_pose() {
   Disguise disguise = t_pose();
-  for (const int body : {kLeftShoulder, kLeftElbow, kLeftWrist})
-    disguise.rest[static_cast<std::size_t>(body)] = about_z(50);
-  for (const int body : {kRightShoulder, kRightElbow, kRightWrist})
-    disguise.rest[static_cast<std::size_t>(body)] = about_z(-50);
+  for (const int body : {kLeftShoulder, kLeftElbow, kLeftWrist}) disguise.rest[body] = about_z(50);
+  for (const int body : {kRightShoulder, kRightElbow, kRightWrist}) disguise.rest[body] = about_z(-50);
   return disguise;
 }
 
@@ -52,9 +51,9 @@ Disguise a_pose() {
 Disguise along_x() {
   Disguise disguise = t_pose();
   const Character character = make_character();
-  for (std::size_t b = 0; b < kBodies; ++b)
-    for (std::size_t child = b + 1; child < kBodies; ++child)
-      if (kParents[child] == static_cast<int>(b))
+  for (int b = 0; b < kBodies; ++b)
+    for (int child = b + 1; child < kBodies; ++child)
+      if (kParents[child] == b)
         disguise.rest[b] = rotation_between(Vector3d::UnitX(), character.joint_offset[child]);
   return disguise;
 }
@@ -118,9 +117,8 @@ TEST(Retarget, TwistsOfTheRestPoseAreFoundWhereLimbsBend) {
   Disguise disguise = t_pose();
   const Quaterniond arm = exp_map(0.7 * Vector3d::UnitX()), leg = exp_map(0.4 * Vector3d::UnitY());
   for (const int body : {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})
-    disguise.rest[static_cast<std::size_t>(body)] = arm;
-  for (const int body : {kLeftHip, kRightHip, kLeftKnee, kRightKnee})
-    disguise.rest[static_cast<std::size_t>(body)] = leg;
+    disguise.rest[body] = arm;
+  for (const int body : {kLeftHip, kRightHip, kLeftKnee, kRightKnee}) disguise.rest[body] = leg;
   for (const std::string kind : {"jog", "punch"}) {
     const Clip original = synthetic(kind);
     EXPECT_LT(worst_turn(retarget(disguised(original, disguise)), original), 5.0) << kind;
@@ -134,8 +132,7 @@ TEST(Retarget, JointsAreWhereTheyWereOnABodyOfAnyShape) {
   const Clip clip = retarget(disguised(original, t_pose()), {}, &report);
   for (const int body : {kLeftHip, kLeftKnee, kLeftAnkle, kLeftShoulder, kLeftElbow, kLeftWrist, kRightHip,
                          kRightKnee, kRightAnkle, kRightShoulder, kRightElbow, kRightWrist})
-    EXPECT_LT(report.residual_mm[static_cast<std::size_t>(body)], 8.0)
-        << kBodyNames[static_cast<std::size_t>(body)];
+    EXPECT_LT(report.residual_mm[body], 8.0) << kBodyNames[body];
   EXPECT_NEAR(report.leg_ratio, 1.0, 0.005);
   const auto a = poses_of(clip), b = poses_of(original);
   for (std::size_t t = 0; t < a.size(); ++t)
@@ -179,33 +176,32 @@ TEST(Retarget, AnUnknownUnitIsScaledToABodyAndSaid) {
 TEST(Retarget, OptionsOverrideWhatIsFound) {
   Disguise disguise = t_pose();
   disguise.unit = 80.0;
-  RetargetOptions options;
-  options.scale = 1.0 / 80.0;
-  options.up = 'z';
-  options.standard_body = true;
+  RetargetConfig config;
+  config.scale = 1.0 / 80.0;
+  config.up = 'z';
+  config.standard_body = true;
   RetargetReport report;
-  const Clip clip = retarget(disguised(synthetic("stand"), disguise), options, &report);
-  EXPECT_EQ(report.scale, options.scale);
+  const Clip clip = retarget(disguised(synthetic("stand"), disguise), config, &report);
+  EXPECT_EQ(report.scale, config.scale);
   EXPECT_EQ(report.up, 'z');
   EXPECT_EQ(clip.betas, (std::array<double, kBetas>{}));
-  options.scale = -1.0;
-  EXPECT_THROW(retarget(disguised(synthetic("stand"), disguise), options), std::invalid_argument);
+  config.scale = -1.0;
+  EXPECT_THROW(retarget(disguised(synthetic("stand"), disguise), config), std::invalid_argument);
 }
 
 TEST(Retarget, PlantedFeetStayPlantedOnABodyOfOtherSize) {
   const Clip original = synthetic("walk", {4, 0, 2, 0, 0, 0, 0, 0, 0, 0});
-  RetargetOptions options;
-  options.standard_body = true;
+  RetargetConfig config;
+  config.standard_body = true;
   RetargetReport report;
-  const Clip clip = retarget(disguised(original, t_pose()), options, &report);
+  const Clip clip = retarget(disguised(original, t_pose()), config, &report);
   EXPECT_LT(report.leg_ratio, 0.9);
   const auto a = poses_of(clip), b = poses_of(original);
   int planted = 0;
   for (std::size_t t = 1; t < a.size(); ++t)
     for (const int ankle : {kLeftAnkle, kRightAnkle}) {
-      const auto k = static_cast<std::size_t>(ankle);
-      if ((b[t].p_WB[k] - b[t - 1].p_WB[k]).norm() > 0.0005) continue;
-      EXPECT_LT((a[t].p_WB[k] - a[t - 1].p_WB[k]).norm(), 0.0035);
+      if ((b[t].p_WB[ankle] - b[t - 1].p_WB[ankle]).norm() > 0.0005) continue;
+      EXPECT_LT((a[t].p_WB[ankle] - a[t - 1].p_WB[ankle]).norm(), 0.0035);
       ++planted;
     }
   EXPECT_GT(planted, 50);
@@ -286,8 +282,7 @@ TEST(Retarget, ExchangedSidesAreNoticed) {
   Disguise disguise = t_pose();
   for (const int body :
        {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist})
-    std::swap(disguise.names[static_cast<std::size_t>(body)],
-              disguise.names[static_cast<std::size_t>(body) + 1]);
+    std::swap(disguise.names[body], disguise.names[body + 1]);
   EXPECT_TRUE(says(retarget(disguised(synthetic("walk"), disguise)).warnings, "left and right exchanged"));
 }
 

@@ -1,6 +1,7 @@
 /// Skeletons made for the tests, and BVH text evaluated in the plainest way.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <numbers>
 #include <string>
@@ -16,10 +17,16 @@ namespace mimicx::test {
 struct Disguise {
   double unit = 1.0;                           ///< file units per metre
   Quaterniond axes = Quaterniond::Identity();  ///< from the world (z up) to the file's axes
-  std::vector<std::string> names;              ///< [22]
+  PerBody<std::string> names;
   /// [22] rest pose: world rotation of each joint in the clip's T-pose (model axes). A bone that hangs in an
   /// A-pose has the rotation that raises it; bones along x have one each.
-  std::vector<Quaterniond> rest = std::vector<Quaterniond>(kBodies, Quaterniond::Identity());
+  PerBody<Quaterniond> rest = unturned();
+
+  static PerBody<Quaterniond> unturned() {
+    PerBody<Quaterniond> rest;
+    rest.fill(Quaterniond::Identity());
+    return rest;
+  }
 };
 
 /// The clip as a skeleton of another make would have it: joints with the same places, frames as the disguise
@@ -30,8 +37,8 @@ inline SkeletonMotion disguised(const Clip& clip, const Disguise& disguise) {
   motion.name = clip.name;
   motion.path = "made";
   motion.fps = clip.fps;
-  for (std::size_t b = 0; b < kBodies; ++b) {
-    const auto parent = static_cast<std::size_t>(kParents[b] < 0 ? 0 : kParents[b]);
+  for (int b = 0; b < kBodies; ++b) {
+    const int parent = std::max(kParents[b], 0);
     const Vector3d offset =
         b == 0 ? Vector3d::Zero()
                : Vector3d(disguise.unit * (disguise.rest[parent].conjugate() * character.joint_offset[b]));
@@ -40,13 +47,13 @@ inline SkeletonMotion disguised(const Clip& clip, const Disguise& disguise) {
   for (const BodyPoses& pose : poses_of(clip)) {
     auto& translation = motion.translation.emplace_back();
     auto& rotation = motion.rotation.emplace_back();
-    for (std::size_t b = 0; b < kBodies; ++b) {
+    for (int b = 0; b < kBodies; ++b) {
       const Quaterniond q = pose.q_WB[b] * disguise.rest[b];
       if (b == 0) {
         translation.push_back(disguise.unit * (disguise.axes * pose.p_WB[0]));
         rotation.push_back(disguise.axes * q);
       } else {
-        const auto parent = static_cast<std::size_t>(kParents[b]);
+        const int parent = kParents[b];
         translation.push_back(motion.joints[b].offset);
         rotation.push_back((pose.q_WB[parent] * disguise.rest[parent]).conjugate() * q);
       }
@@ -56,12 +63,12 @@ inline SkeletonMotion disguised(const Clip& clip, const Disguise& disguise) {
 }
 
 /// Names of the 22 bodies in the manner of Mixamo.
-inline std::vector<std::string> mixamo_names() {
-  std::vector<std::string> names = {
-      "Hips",        "LeftUpLeg",    "RightUpLeg",    "Spine",    "LeftLeg",     "RightLeg",
-      "Spine1",      "LeftFoot",     "RightFoot",     "Spine2",   "LeftToeBase", "RightToeBase",
-      "Neck",        "LeftShoulder", "RightShoulder", "Head",     "LeftArm",     "RightArm",
-      "LeftForeArm", "RightForeArm", "LeftHand",      "RightHand"};
+inline PerBody<std::string> mixamo_names() {
+  PerBody<std::string> names = {"Hips",        "LeftUpLeg",    "RightUpLeg", "Spine",        "LeftLeg",
+                                "RightLeg",    "Spine1",       "LeftFoot",   "RightFoot",    "Spine2",
+                                "LeftToeBase", "RightToeBase", "Neck",       "LeftShoulder", "RightShoulder",
+                                "Head",        "LeftArm",      "RightArm",   "LeftForeArm",  "RightForeArm",
+                                "LeftHand",    "RightHand"};
   for (std::string& name : names) name = "mixamorig:" + name;
   return names;
 }

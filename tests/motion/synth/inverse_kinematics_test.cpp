@@ -9,8 +9,6 @@
 namespace mimicx {
 namespace {
 
-std::size_t at(int body) { return static_cast<std::size_t>(body); }
-
 std::array<double, kBetas> random_betas(Random& random) {
   std::array<double, kBetas> betas;
   for (double& beta : betas) beta = random.uniform(-2.0, 2.0);
@@ -23,10 +21,10 @@ PerBody<Quaterniond> with_leg(int side, const Quaterniond& q_pelvis, const LegPo
   PerBody<Quaterniond> q;
   q.fill(Quaterniond::Identity());
   q[kPelvis] = q_pelvis;
-  q[at(kLeftHip + side)] = leg.hip;
-  q[at(kLeftKnee + side)] = exp_map(leg.knee * hinge_axis(kLeftKnee + side));
-  q[at(kLeftAnkle + side)] = leg.ankle;
-  q[at(kLeftFoot + side)] = foot.q_toes;
+  q[kLeftHip + side] = leg.hip;
+  q[kLeftKnee + side] = exp_map(leg.knee * hinge_axis(kLeftKnee + side));
+  q[kLeftAnkle + side] = leg.ankle;
+  q[kLeftFoot + side] = foot.q_toes;
   return q;
 }
 
@@ -50,8 +48,8 @@ TEST(SolveLeg, PutsTheFootOnItsTarget) {
     ASSERT_LT(leg.shortfall, 1e-9);
     EXPECT_GT(leg.knee, 0.0);
     const BodyPoses poses = forward_kinematics(c, p_pelvis, with_leg(side, q_pelvis, leg, foot));
-    EXPECT_LT((poses.p_WB[at(kLeftAnkle + side)] - foot.p_ankle).norm(), 1e-9);
-    EXPECT_LT(log_map(poses.q_WB[at(kLeftAnkle + side)].conjugate() * foot.q_ankle).norm(), 1e-9);
+    EXPECT_LT((poses.p_WB[kLeftAnkle + side] - foot.p_ankle).norm(), 1e-9);
+    EXPECT_LT(log_map(poses.q_WB[kLeftAnkle + side].conjugate() * foot.q_ankle).norm(), 1e-9);
   }
 }
 
@@ -85,11 +83,11 @@ TEST(SolveLeg, ReportsHowFarATargetIsOutOfReach) {
 /// Points of a sole, in the order of Character::contact_points.
 std::array<Vector3d, 6> sole(const Character& c, int side, const FootTarget& target) {
   const FootPose foot = foot_pose(c, side, target);
-  const Vector3d p_toes = foot.p_ankle + foot.q_ankle * c.joint_offset[at(kLeftFoot + side)];
+  const Vector3d p_toes = foot.p_ankle + foot.q_ankle * c.joint_offset[kLeftFoot + side];
   const Quaterniond q_toes = foot.q_ankle * foot.q_toes;
   std::array<Vector3d, 6> points;
   for (std::size_t i = 0; i < 6; ++i) {
-    const ContactPoint& point = c.contact_points[6 * static_cast<std::size_t>(side) + i];
+    const ContactPoint& point = c.contact_points[side == 0 ? i : 6 + i];
     points[i] = point.body == kLeftFoot + side ? Vector3d(p_toes + q_toes * sole_point(point))
                                                : Vector3d(foot.p_ankle + foot.q_ankle * sole_point(point));
   }

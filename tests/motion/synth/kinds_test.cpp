@@ -200,11 +200,11 @@ TEST(Kick, BringsOneFootUpAndFarAhead) {
 
 TEST(Punch, StretchesBothArmsOutAtShoulderHeight) {
   for (const Motion& m : motions("punch")) {
-    std::array<int, 2> reached{};
+    Array<int, 2> reached{};
     for (std::size_t t = 0; t < m.frames(); ++t)
       for (int side : {0, 1}) {
         const Vector3d arm = m.joint(t, kLeftWrist + side) - m.joint(t, kLeftShoulder + side);
-        if (arm.norm() > 0.42 && std::abs(arm.z()) < 0.2) ++reached[static_cast<std::size_t>(side)];
+        if (arm.norm() > 0.42 && std::abs(arm.z()) < 0.2) ++reached[side];
       }
     EXPECT_GT(std::min(reached[0], reached[1]), 0);
   }

@@ -19,9 +19,9 @@ inline PerBody<Quaterniond> rotations_of(const Clip& clip, std::size_t t) {
   return q;
 }
 
-inline std::vector<BodyPoses> poses_of_clip(const Clip& clip) {
+inline PerFrame<BodyPoses> poses_of_clip(const Clip& clip) {
   const Character character = make_character(clip.betas);
-  std::vector<BodyPoses> poses;
+  PerFrame<BodyPoses> poses;
   for (std::size_t t = 0; t < clip.rotations.size(); ++t)
     poses.push_back(
         forward_kinematics(character, clip.trans[t] + rest_pelvis(clip.body_model), rotations_of(clip, t)));
@@ -30,11 +30,11 @@ inline std::vector<BodyPoses> poses_of_clip(const Clip& clip) {
 
 inline const Clip& truth_of(const std::string& kind) {
   static std::map<std::string, Clip> cache;
-  SynthOptions options;
-  options.kind = kind;
-  options.seed = 5;
+  SynthConfig config;
+  config.kind = kind;
+  config.seed = 5;
   const auto [entry, is_new] = cache.try_emplace(kind);
-  if (is_new) entry->second = synthesize(options);
+  if (is_new) entry->second = synthesize(config);
   return entry->second;
 }
 
@@ -50,14 +50,14 @@ inline const Clip& still_truth() {
 }
 
 /// No error of any kind; the tests switch on one term at a time.
-inline NoiseOptions silent(std::uint64_t seed = 0) {
-  NoiseOptions options;
-  options.preset = NoisePreset{};
-  options.preset.slow_tau = options.preset.depth_tau = options.preset.drift_tau = 0.3;
-  options.preset.jitter_frames = options.preset.depth_jitter_frames = 0.5;
-  options.camera = camera_error("calibrated");
-  options.seed = seed;
-  return options;
+inline NoiseConfig silent(std::uint64_t seed = 0) {
+  NoiseConfig config;
+  config.preset = NoisePreset{};
+  config.preset.slow_tau = config.preset.depth_tau = config.preset.drift_tau = 0.3;
+  config.preset.jitter_frames = config.preset.depth_jitter_frames = 0.5;
+  config.camera = camera_error("calibrated");
+  config.seed = seed;
+  return config;
 }
 
 /// Root mean square of samples that should have mean 0.

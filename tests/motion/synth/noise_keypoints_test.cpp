@@ -24,7 +24,7 @@ TEST(Project, IsThePinholeCamera) {
 TEST(PlaceCamera, SeesTheWholeMotionFromAPersonsHeight) {
   for (const std::string& kind : synthetic_kinds())
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const std::vector<BodyPoses> poses = poses_of_clip(truth_of(kind));
+      const PerFrame<BodyPoses> poses = poses_of_clip(truth_of(kind));
       const Camera camera = place_camera(poses, seed);
       Keypoints k;
       k.extrinsics = {camera.extrinsics};
@@ -50,10 +50,10 @@ TEST(AddNoise, TellsTheCameraAndTheShapeWithTheirErrors) {
   for (const auto& [name, sigma] : sigmas) {
     Spread focal, tilt, beta;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
-      NoiseOptions options = silent(seed);
-      const Keypoints exact = *add_noise(truth, options).keypoints;
-      options.camera = camera_error(name);
-      const Clip noisy = add_noise(truth, options);
+      NoiseConfig config = silent(seed);
+      const Keypoints exact = *add_noise(truth, config).keypoints;
+      config.camera = camera_error(name);
+      const Clip noisy = add_noise(truth, config);
       const Keypoints& told = *noisy.keypoints;
       EXPECT_TRUE(told.uvc == exact.uvc);  // what is seen does not depend on what is told
       EXPECT_LT((camera_position(told) - camera_position(exact)).norm(), 1e-9);
@@ -74,11 +74,11 @@ TEST(AddNoise, TellsTheCameraAndTheShapeWithTheirErrors) {
 struct Detection {
   double u, v, confidence;
 };
-std::vector<std::vector<Detection>> detections(const std::vector<BodyPoses>& poses, std::uint64_t seed,
-                                               const std::vector<Burst>& bursts) {
+PerFrame<PerBody<Detection>> detections(const PerFrame<BodyPoses>& poses, std::uint64_t seed,
+                                        const std::vector<Burst>& bursts) {
   const Camera camera = place_camera(poses, seed);
   const Keypoints k = detect_keypoints(poses, camera, KeypointSet::kJoints22, bursts, seed, 30.0);
-  std::vector<std::vector<Detection>> errors(poses.size(), std::vector<Detection>(kBodies));
+  PerFrame<PerBody<Detection>> errors(poses.size());
   for (std::size_t t = 0; t < poses.size(); ++t) {
     double low_u = 1e9, high_u = -1e9, low_v = 1e9, high_v = -1e9;
     for (const Vector3d& joint : poses[t].p_WB) {
@@ -96,7 +96,7 @@ std::vector<std::vector<Detection>> detections(const std::vector<BodyPoses>& pos
 }
 
 TEST(DetectKeypoints, HasABiasPerClipSmallNoiseAndDropouts) {
-  const std::vector<BodyPoses> poses = poses_of_clip(still_truth());
+  const PerFrame<BodyPoses> poses = poses_of_clip(still_truth());
   Spread bias, quick, quick_wrist, confidence;
   int dropped = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
@@ -122,15 +122,14 @@ TEST(DetectKeypoints, HasABiasPerClipSmallNoiseAndDropouts) {
 }
 
 TEST(DetectKeypoints, IsUnsureOfWhatABurstHides) {
-  const std::vector<BodyPoses> poses = poses_of_clip(truth_of("stand"));
+  const PerFrame<BodyPoses> poses = poses_of_clip(truth_of("stand"));
   const std::vector<Burst> bursts = {{kLeftShoulder, 20, 30, Vector3d::Zero()}};
   Spread hidden;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const auto clear = detections(poses, seed, {}), burst = detections(poses, seed, bursts);
     for (std::size_t t = 0; t < poses.size(); ++t)
       for (int body : {kLeftShoulder, kLeftElbow, kLeftWrist, kRightElbow, kLeftKnee, kHead}) {
-        const Detection &a = burst[t][static_cast<std::size_t>(body)],
-                        &b = clear[t][static_cast<std::size_t>(body)];
+        const Detection &a = burst[t][body], &b = clear[t][body];
         const bool covered =
             t >= 20 && t < 50 && (body == kLeftShoulder || body == kLeftElbow || body == kLeftWrist);
         if (a.confidence == 0.0) continue;
@@ -149,14 +148,14 @@ TEST(DetectKeypoints, IsUnsureOfWhatABurstHides) {
 TEST(DetectKeypoints, MixesUpLeftAndRightNowAndThen) {
   // A line-up of the sides would hide swaps; frames where the left wrist is nearer to the right one's place
   // than to its own count.
-  const std::vector<BodyPoses> poses = poses_of_clip(truth_of("squat"));
+  const PerFrame<BodyPoses> poses = poses_of_clip(truth_of("squat"));
   int swapped_arms = 0, frames = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Camera camera = place_camera(poses, seed);
     const Keypoints k = detect_keypoints(poses, camera, KeypointSet::kJoints22, {}, seed, 30.0);
-    const auto distance = [&](std::size_t t, int detection, int truth) {
-      const Vector3d uv = project(camera, poses[t].p_WB[static_cast<std::size_t>(truth)]);
-      return (k.uvc[t][static_cast<std::size_t>(detection)] - uv).head<2>().norm();
+    const auto distance = [&](std::size_t t, std::size_t detection, int truth) {
+      const Vector3d uv = project(camera, poses[t].p_WB[truth]);
+      return (k.uvc[t][detection] - uv).head<2>().norm();
     };
     // Seen from the side the shoulders coincide: no verdict.
     if (std::abs(project(camera, poses[0].p_WB[kLeftShoulder]).x() -
@@ -180,16 +179,14 @@ TEST(DetectKeypoints, NamesTheCoco17PointsAndPutsThemOnTheSameJoints) {
       "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip",
       "right_hip",      "left_knee",  "right_knee",  "left_ankle", "right_ankle"};
   EXPECT_EQ(names, coco);
-  const std::vector<BodyPoses> poses = poses_of_clip(truth_of("wave"));
+  const PerFrame<BodyPoses> poses = poses_of_clip(truth_of("wave"));
   const Camera camera = place_camera(poses, 7);
   const Keypoints k = detect_keypoints(poses, camera, KeypointSet::kCoco17, {}, 7, 30.0);
   EXPECT_EQ(k.names, coco);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto body = std::find(kBodyNames.begin(), kBodyNames.end(), names[i]);  // face points: the head's
-    const auto b =
-        body == kBodyNames.end() ? std::size_t{kHead} : static_cast<std::size_t>(body - kBodyNames.begin());
+    const int found = body_of_name(names[i]), body = found < 0 ? kHead : found;  // face points: the head's
     if (k.uvc[40][i].z() == 0.0) continue;
-    EXPECT_LT((k.uvc[40][i] - project(camera, poses[40].p_WB[b])).head<2>().norm(), 45.0) << names[i];
+    EXPECT_LT((k.uvc[40][i] - project(camera, poses[40].p_WB[body])).head<2>().norm(), 45.0) << names[i];
   }
   EXPECT_EQ(keypoint_names(KeypointSet::kJoints22)[kLeftFoot], "left_foot");
 }

@@ -49,21 +49,21 @@ TEST(AddNoise, WithoutErrorsReturnsTheTruth) {
 }
 
 TEST(AddNoise, GivesEqualBytesForEqualSeedsAndOthersForOtherSeeds) {
-  NoiseOptions options;
-  options.seed = 4;
-  const Clip a = add_noise(truth_of("wave"), options), b = add_noise(truth_of("wave"), options);
+  NoiseConfig config;
+  config.seed = 4;
+  const Clip a = add_noise(truth_of("wave"), config), b = add_noise(truth_of("wave"), config);
   EXPECT_TRUE(a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas);
   EXPECT_TRUE(a.keypoints->uvc == b.keypoints->uvc && a.keypoints->extrinsics == b.keypoints->extrinsics);
-  options.seed = 5;
-  const Clip c = add_noise(truth_of("wave"), options);
+  config.seed = 5;
+  const Clip c = add_noise(truth_of("wave"), config);
   EXPECT_TRUE(a.rotations != c.rotations && a.keypoints->uvc != c.keypoints->uvc);
 }
 
 TEST(AddNoise, DrawsEveryTermFromAStreamOfItsOwn) {
-  NoiseOptions options, without;
-  options.preset.snap = without.preset.snap = 0.0;  // the height would follow the joints
+  NoiseConfig config, without;
+  config.preset.snap = without.preset.snap = 0.0;  // the height would follow the joints
   without.preset.joint_static = without.preset.joint_slow = without.preset.joint_jitter = 0.0;
-  const Clip a = add_noise(truth_of("wave"), options), b = add_noise(truth_of("wave"), without);
+  const Clip a = add_noise(truth_of("wave"), config), b = add_noise(truth_of("wave"), without);
   EXPECT_TRUE(a.trans == b.trans);
   EXPECT_TRUE(a.keypoints->uvc == b.keypoints->uvc);
   EXPECT_TRUE(a.rotations != b.rotations);
@@ -71,7 +71,7 @@ TEST(AddNoise, DrawsEveryTermFromAStreamOfItsOwn) {
 }
 
 /// Errors of one joint (in its own axes) or of the root (in the world's), degrees.
-Vector3d rotation_error(const Clip& truth, const Clip& noisy, std::size_t t, std::size_t body) {
+Vector3d rotation_error(const Clip& truth, const Clip& noisy, int t, int body) {
   const Quaterniond q = exp_map(truth.rotations[t][body]), n = exp_map(noisy.rotations[t][body]);
   return log_map(body == 0 ? n * q.conjugate() : q.conjugate() * n) / kDegree;
 }
@@ -85,27 +85,26 @@ TEST(AddNoise, GivesJointErrorsTheAmplitudeOfEachTermTimesTheJointsWeight) {
        {&NoisePreset::joint_static, &NoisePreset::joint_slow, &NoisePreset::joint_jitter}) {
     std::map<int, Spread> spread;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
-      NoiseOptions options = silent(seed);
-      options.preset.*term = 2.0;
-      const Clip noisy = add_noise(truth, options);
+      NoiseConfig config = silent(seed);
+      config.preset.*term = 2.0;
+      const Clip noisy = add_noise(truth, config);
       for (const auto& [body, weight] : weights)
         for (int axis = 0; axis < 3; ++axis)
-          spread[body].add(rotation_error(truth, noisy, 20, static_cast<std::size_t>(body))[axis] / weight);
+          spread[body].add(rotation_error(truth, noisy, 20, body)[axis] / weight);
     }
-    for (const auto& [body, s] : spread)
-      EXPECT_NEAR(s.rms(), 2.0, 0.22) << kBodyNames[static_cast<std::size_t>(body)];
+    for (const auto& [body, s] : spread) EXPECT_NEAR(s.rms(), 2.0, 0.22) << kBodyNames[body];
   }
 }
 
 TEST(AddNoise, KeepsTheStaticErrorAndChangesTheOthersAtTheirOwnPace) {
   const Clip& truth = still_truth();
-  const auto change = [&](double NoisePreset::*term, std::size_t frames) {
+  const auto change = [&](double NoisePreset::*term, int frames) {
     Spread spread;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-      NoiseOptions options = silent(seed);
-      options.preset.*term = 2.0;
-      const Clip noisy = add_noise(truth, options);
-      const auto error = [&](std::size_t t) { return rotation_error(truth, noisy, t, kLeftKnee); };
+      NoiseConfig config = silent(seed);
+      config.preset.*term = 2.0;
+      const Clip noisy = add_noise(truth, config);
+      const auto error = [&](int t) { return rotation_error(truth, noisy, t, kLeftKnee); };
       for (int axis = 0; axis < 3; ++axis) spread.add(error(5 + frames)[axis] - error(5)[axis]);
     }
     return spread.rms();
@@ -123,18 +122,18 @@ TEST(AddNoise, TurnsTheRootAboutWorldAxesAndLetsTheHeadingWalk) {
        {&NoisePreset::root_static, &NoisePreset::root_slow, &NoisePreset::root_jitter}) {
     Spread spread;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
-      NoiseOptions options = silent(seed);
-      options.preset.*term = 2.0;
-      const Vector3d error = rotation_error(truth, add_noise(truth, options), 20, 0);
+      NoiseConfig config = silent(seed);
+      config.preset.*term = 2.0;
+      const Vector3d error = rotation_error(truth, add_noise(truth, config), 20, 0);
       for (int axis = 0; axis < 3; ++axis) spread.add(error[axis]);
     }
     EXPECT_NEAR(spread.rms(), 2.0, 0.25);
   }
   Spread walk, tilt;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    NoiseOptions options = silent(seed);
-    options.preset.heading_walk = 1.0;
-    const Vector3d error = rotation_error(truth, add_noise(truth, options), 40, 0);
+    NoiseConfig config = silent(seed);
+    config.preset.heading_walk = 1.0;
+    const Vector3d error = rotation_error(truth, add_noise(truth, config), 40, 0);
     walk.add(error.z());
     tilt.add(error.head<2>().norm());
   }
@@ -148,10 +147,10 @@ TEST(AddNoise, ShiftsTheRootAlongAndAcrossTheCamerasView) {
        {&NoisePreset::depth_static, &NoisePreset::depth_slow, &NoisePreset::depth_jitter}) {
     Spread along, across, up;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-      NoiseOptions options = silent(seed);
-      options.preset.*term = 0.2;
-      options.preset.lateral = 0.3;
-      const Clip noisy = add_noise(truth, options);
+      NoiseConfig config = silent(seed);
+      config.preset.*term = 0.2;
+      config.preset.lateral = 0.3;
+      const Clip noisy = add_noise(truth, config);
       Vector3d depth = viewing_direction(*noisy.keypoints);
       depth.z() = 0.0;
       depth.normalize();
@@ -170,9 +169,9 @@ TEST(AddNoise, LetsTheRootDriftWithASmoothVelocity) {
   const Clip& truth = still_truth();
   Spread speed;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    NoiseOptions options = silent(seed);
-    options.preset.drift = 0.05;
-    const Clip noisy = add_noise(truth, options);
+    NoiseConfig config = silent(seed);
+    config.preset.drift = 0.05;
+    const Clip noisy = add_noise(truth, config);
     const auto offset = [&](std::size_t t) { return Vector3d(noisy.trans[t] - truth.trans[t]); };
     EXPECT_LT(offset(0).norm(), 1e-12);
     const Vector3d view = viewing_direction(*noisy.keypoints);
@@ -185,10 +184,10 @@ TEST(AddNoise, ScalesAndTurnsThePathAboutItsStart) {
   const Clip& truth = truth_of("walk");
   Spread scale, turn;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    NoiseOptions options = silent(seed);
-    options.preset.speed_error = 0.03;
-    options.preset.heading_error = 2.0;
-    const Clip noisy = add_noise(truth, options);
+    NoiseConfig config = silent(seed);
+    config.preset.speed_error = 0.03;
+    config.preset.heading_error = 2.0;
+    const Clip noisy = add_noise(truth, config);
     const Eigen::Vector2d path = (truth.trans.back() - truth.trans.front()).head<2>(),
                           seen = (noisy.trans.back() - noisy.trans.front()).head<2>();
     EXPECT_LT((noisy.trans[0] - truth.trans[0]).norm(), 1e-12);
@@ -201,14 +200,14 @@ TEST(AddNoise, ScalesAndTurnsThePathAboutItsStart) {
 
 TEST(AddNoise, SnapsTheSupportToItsTrueHeight) {
   const Clip& truth = truth_of("squat");
-  NoiseOptions options = silent(3);
-  options.preset.joint_static = options.preset.joint_slow = 4.0;
+  NoiseConfig config = silent(3);
+  config.preset.joint_static = config.preset.joint_slow = 4.0;
   const Character character = make_character();
   const std::vector<SurfacePoint> surface = surface_points(character);
   const auto worst = [&](double snap) {
-    options.preset.snap = snap;
+    config.preset.snap = snap;
     double largest = 0.0;
-    for (const BodyPoses& poses : poses_of_clip(add_noise(truth, options)))
+    for (const BodyPoses& poses : poses_of_clip(add_noise(truth, config)))
       largest = std::max(largest, std::abs(lowest_height(surface, poses)));  // the true support is at 0
     return largest;
   };
@@ -221,11 +220,11 @@ TEST(AddNoise, OffsetsTheHeight) {
   const Clip& truth = still_truth();
   Spread height;
   for (std::uint64_t seed = 0; seed < 600; ++seed) {
-    NoiseOptions options = silent(seed);
-    options.preset.height_offset = 0.06;
-    options.preset.height_static = 0.04;
-    options.preset.height_slow = 0.03;
-    const Clip noisy = add_noise(truth, options);
+    NoiseConfig config = silent(seed);
+    config.preset.height_offset = 0.06;
+    config.preset.height_static = 0.04;
+    config.preset.height_slow = 0.03;
+    const Clip noisy = add_noise(truth, config);
     height.add(noisy.trans[20].z() - truth.trans[20].z());
   }
   EXPECT_NEAR(height.mean(), 0.06, 0.007);
@@ -250,13 +249,13 @@ TEST(DrawBursts, IsAPoissonProcessWithTheLengthsAndSizesOfThePreset) {
 
 TEST(AddNoise, OpensAndClosesABurstWithAHannWindow) {
   const Clip& truth = truth_of("stand");
-  NoiseOptions options = silent(1);
-  options.preset = noise_preset("gvhmr-like");
-  options.preset.burst_rate = 1.0;
-  options.preset.joint_static = options.preset.joint_slow = options.preset.joint_jitter = 0.0;
-  const std::vector<Burst> bursts = draw_bursts(options.preset, options.seed, truth.frames(), truth.fps);
+  NoiseConfig config = silent(1);
+  config.preset = noise_preset("gvhmr-like");
+  config.preset.burst_rate = 1.0;
+  config.preset.joint_static = config.preset.joint_slow = config.preset.joint_jitter = 0.0;
+  const std::vector<Burst> bursts = draw_bursts(config.preset, config.seed, truth.frames(), truth.fps);
   ASSERT_FALSE(bursts.empty());
-  const Clip noisy = add_noise(truth, options);
+  const Clip noisy = add_noise(truth, config);
   int lonely = 0;  // bursts that no other one on the same joint overlaps
   for (const Burst& burst : bursts) {
     int sharing = 0;
@@ -268,8 +267,7 @@ TEST(AddNoise, OpensAndClosesABurstWithAHannWindow) {
     ++lonely;
     for (int k = 0; k < burst.length; ++k) {
       const double window = std::pow(std::sin(M_PI * (k + 0.5) / burst.length), 2);
-      const Vector3d error = rotation_error(truth, noisy, static_cast<std::size_t>(burst.first + k),
-                                            static_cast<std::size_t>(burst.joint));
+      const Vector3d error = rotation_error(truth, noisy, burst.first + k, burst.joint);
       EXPECT_LT((error * kDegree - window * burst.peak).norm(), 1e-9);
     }
   }
@@ -298,11 +296,11 @@ std::map<std::string, double> mean_metrics(const std::string& preset) {
     const Clip& truth = truth_of(kind);
     const MotionSamples exact = sample_motion(make_character(truth.betas), poses_of_clip(truth), truth.fps);
     for (int trial = 0; trial < kTrials; ++trial) {
-      NoiseOptions options;
-      options.preset = noise_preset(preset);
-      options.camera = camera_error("calibrated");
-      options.seed = ++seed;
-      const Clip noisy = add_noise(truth, options);
+      NoiseConfig config;
+      config.preset = noise_preset(preset);
+      config.camera = camera_error("calibrated");
+      config.seed = ++seed;
+      const Clip noisy = add_noise(truth, config);
       const Metrics metrics = evaluate_motion(
           sample_motion(make_character(noisy.betas), poses_of_clip(noisy), noisy.fps), &exact);
       for (const MetricDefinition& definition : metric_definitions())

@@ -1,4 +1,5 @@
 #include "motion/synth/set.h"
+#include "motion/clip_file.h"
 
 #include <gtest/gtest.h>
 
@@ -34,12 +35,12 @@ struct Folder {
 };
 
 TEST(SynthSet, TakesTheKindsInTurnAndThenTheNextSeed) {
-  SynthSetOptions options;
-  options.kinds = {"squat", "walk"};
-  options.clips = 5;
-  options.seed = 101;
+  SynthSetConfig config;
+  config.kinds = {"squat", "walk"};
+  config.clips = 5;
+  config.seed = 101;
   std::vector<std::string> names;
-  for (const SynthOptions& clip : clips_of_set(options)) {
+  for (const SynthConfig& clip : clips_of_set(config)) {
     names.push_back(clip.kind + "_" + std::to_string(clip.seed));
     EXPECT_TRUE(clip.betas_from_seed);
   }
@@ -48,7 +49,7 @@ TEST(SynthSet, TakesTheKindsInTurnAndThenTheNextSeed) {
 
 TEST(SynthSet, IsOneOfEachKindUnlessToldOtherwise) {
   std::vector<std::string> kinds;
-  for (const SynthOptions& clip : clips_of_set({})) {
+  for (const SynthConfig& clip : clips_of_set({})) {
     kinds.push_back(clip.kind);
     EXPECT_EQ(clip.seed, kTestSeed);
   }
@@ -56,29 +57,29 @@ TEST(SynthSet, IsOneOfEachKindUnlessToldOtherwise) {
 }
 
 TEST(SynthSet, RefusesUnknownAndRepeatedKindsNoiseAndCameras) {
-  SynthSetOptions options;
-  options.kinds = {"walk", "fly"};
-  EXPECT_THROW(clips_of_set(options), std::invalid_argument);
-  options.kinds = {"walk", "walk"};
-  EXPECT_THROW(clips_of_set(options), std::invalid_argument);
-  options.kinds = {"walk"};
-  options.clips = -1;
-  EXPECT_THROW(clips_of_set(options), std::invalid_argument);
-  options.clips = 0;
-  options.noise = "loud";
-  EXPECT_THROW(make_synth_pair({}, options), std::invalid_argument);
-  options.noise = "vibe";
-  options.camera = "lost";
-  EXPECT_THROW(make_synth_pair({}, options), std::invalid_argument);
+  SynthSetConfig config;
+  config.kinds = {"walk", "fly"};
+  EXPECT_THROW(clips_of_set(config), std::invalid_argument);
+  config.kinds = {"walk", "walk"};
+  EXPECT_THROW(clips_of_set(config), std::invalid_argument);
+  config.kinds = {"walk"};
+  config.clips = -1;
+  EXPECT_THROW(clips_of_set(config), std::invalid_argument);
+  config.clips = 0;
+  config.noise = "loud";
+  EXPECT_THROW(make_synth_pair({}, config), std::invalid_argument);
+  config.noise = "vibe";
+  config.camera = "lost";
+  EXPECT_THROW(make_synth_pair({}, config), std::invalid_argument);
 }
 
 TEST(SynthSet, WritesTruthAndNoisyUnderOneNamePerClip) {
   const Folder folder("mimicx_synth_set");
-  SynthSetOptions options;
-  options.kinds = {"walk", "wave"};
-  options.clips = 3;
+  SynthSetConfig config;
+  config.kinds = {"walk", "wave"};
+  config.clips = 3;
   std::vector<std::string> told;
-  write_synth_set(folder.path, options, [&](std::size_t index, const Clip& truth) {
+  write_synth_set(folder.path, config, [&](std::size_t index, const Clip& truth) {
     EXPECT_EQ(index, told.size());
     told.push_back(truth.name);
   });
@@ -90,7 +91,7 @@ TEST(SynthSet, WritesTruthAndNoisyUnderOneNamePerClip) {
 }
 
 TEST(SynthSet, MakesAClipTheSameWhicheverSetItIsIn) {
-  SynthSetOptions all, alone;
+  SynthSetConfig all, alone;
   alone.kinds = {"wave"};
   alone.seed = 3;
   const Folder one("mimicx_synth_one"), two("mimicx_synth_two");
@@ -105,7 +106,7 @@ TEST(SynthSet, MakesAClipTheSameWhicheverSetItIsIn) {
 
 TEST(SynthSet, GivesEveryClipErrorsOfItsOwn) {
   const auto error = [](const std::string& kind, std::uint64_t seed) {
-    SynthOptions clip;
+    SynthConfig clip;
     clip.kind = kind;
     clip.seed = seed;
     const SynthPair pair = make_synth_pair(clip, {});
@@ -118,11 +119,11 @@ TEST(SynthSet, GivesEveryClipErrorsOfItsOwn) {
 }
 
 TEST(SynthSet, WithoutNoiseTheEstimateIsTheTruthAndHasKeypoints) {
-  SynthSetOptions options;
-  options.noise = "none";
-  options.camera = "calibrated";
-  options.keypoints = KeypointSet::kCoco17;
-  const SynthPair pair = make_synth_pair({}, options);
+  SynthSetConfig config;
+  config.noise = "none";
+  config.camera = "calibrated";
+  config.keypoints = KeypointSet::kCoco17;
+  const SynthPair pair = make_synth_pair({}, config);
   EXPECT_EQ(pair.noisy.betas, pair.truth.betas);
   for (std::size_t t = 0; t < pair.truth.rotations.size(); ++t) {
     EXPECT_LT((pair.noisy.trans[t] - pair.truth.trans[t]).norm(), 2e-6);

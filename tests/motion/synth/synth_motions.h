@@ -19,10 +19,10 @@ struct Motion {
   std::string kind;
   Clip clip;
   Character character;
-  std::vector<BodyPoses> poses;
+  PerFrame<BodyPoses> poses;
   std::vector<std::array<Vector3d, 12>> sole;  ///< heel, ball and toe of both feet
 
-  Vector3d joint(std::size_t t, int body) const { return poses[t].p_WB[static_cast<std::size_t>(body)]; }
+  Vector3d joint(std::size_t t, int body) const { return poses[t].p_WB[body]; }
   Vector3d mass_center(std::size_t t, std::size_t b) const {
     return poses[t].p_WB[b] + poses[t].q_WB[b] * character.com_B[b];
   }
@@ -43,14 +43,13 @@ struct Motion {
     sole.emplace_back();
     for (std::size_t i = 0; i < kFootPoints; ++i) {
       const ContactPoint& point = character.contact_points[i];
-      const auto b = static_cast<std::size_t>(point.body);
-      sole.back()[i] = poses.back().p_WB[b] + poses.back().q_WB[b] * sole_point(point);
+      sole.back()[i] = poses.back().p_WB[point.body] + poses.back().q_WB[point.body] * sole_point(point);
     }
   }
 };
 
-inline Motion make_motion(const SynthOptions& options) {
-  Motion m{options.kind, synthesize(options), {}, {}, {}};
+inline Motion make_motion(const SynthConfig& config) {
+  Motion m{config.kind, synthesize(config), {}, {}, {}};
   m.character = make_character(m.clip.betas);
   for (std::size_t t = 0; t < m.clip.rotations.size(); ++t) {
     PerBody<Quaterniond> q;
@@ -66,11 +65,11 @@ inline const std::vector<Motion>& motions(const std::string& kind) {
   std::vector<Motion>& list = cache[kind];
   if (list.empty())
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
-      SynthOptions options;
-      options.kind = kind;
-      options.seed = seed;
-      options.betas_from_seed = seed >= 3;
-      list.push_back(make_motion(options));
+      SynthConfig config;
+      config.kind = kind;
+      config.seed = seed;
+      config.betas_from_seed = seed >= 3;
+      list.push_back(make_motion(config));
     }
   return list;
 }

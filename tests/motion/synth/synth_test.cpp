@@ -62,7 +62,7 @@ TEST(Synthesize, TurnsKneesAndElbowsAboutTheirHingesOnly) {
   for_all([](const Motion& m) {
     for (const auto& rotations : m.clip.rotations)
       for (int body : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow}) {
-        const Vector3d& r = rotations[static_cast<std::size_t>(body)];
+        const Vector3d& r = rotations[body];
         const double flexion = r.dot(hinge_axis(body));
         ASSERT_LT((r - flexion * hinge_axis(body)).norm(), 1e-15);
         ASSERT_GT(flexion, 0.08);  // never straight, where the leg would be singular
@@ -86,16 +86,15 @@ TEST(Synthesize, KeepsTheBodyClearOfItself) {
     for (std::size_t t = 0; t < m.frames(); ++t)
       for (const auto& [i, j] : m.character.self_pairs) {
         const auto ends = [&](int body) {
-          const Capsule& capsule = m.character.capsule[static_cast<std::size_t>(body)];
-          const auto b = static_cast<std::size_t>(body);
-          return std::array<Vector3d, 2>{m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * capsule.a_B,
-                                         m.poses[t].p_WB[b] + m.poses[t].q_WB[b] * capsule.b_B};
+          const Capsule& capsule = m.character.capsule[body];
+          const Vector3d& p = m.poses[t].p_WB[body];
+          const Quaterniond& q = m.poses[t].q_WB[body];
+          return std::array<Vector3d, 2>{p + q * capsule.a_B, p + q * capsule.b_B};
         };
         const auto a = ends(i), b = ends(j);
-        const double radii = m.character.capsule[static_cast<std::size_t>(i)].radius +
-                             m.character.capsule[static_cast<std::size_t>(j)].radius;
+        const double radii = m.character.capsule[i].radius + m.character.capsule[j].radius;
         ASSERT_GT(segment_distance(a[0], a[1], b[0], b[1]), radii + 0.005)
-            << kBodyNames[static_cast<std::size_t>(i)] << " and " << kBodyNames[static_cast<std::size_t>(j)];
+            << kBodyNames[i] << " and " << kBodyNames[j];
       }
   });
 }
@@ -104,14 +103,13 @@ TEST(Synthesize, StaysWithinTheRangesOfTheJoints) {
   for_all([](const Motion& m) {
     for (const auto& rotations : m.clip.rotations)
       for (int body = 1; body < kBodies; ++body) {
-        const auto b = static_cast<std::size_t>(body);
-        const JointParameters& joint = m.character.joint[b];
+        const JointParameters& joint = m.character.joint[body];
         if (is_hinge(body)) {
-          const double flexion = rotations[b].dot(hinge_axis(body));
+          const double flexion = rotations[body].dot(hinge_axis(body));
           ASSERT_LT(std::abs(flexion - joint.centre.x()), joint.half_range.x());
         } else {
-          const Vector3d off = log_map(exp_map(joint.centre).conjugate() * exp_map(rotations[b]));
-          ASSERT_LT(off.cwiseQuotient(joint.half_range).norm(), 1.0) << kBodyNames[b];
+          const Vector3d off = log_map(exp_map(joint.centre).conjugate() * exp_map(rotations[body]));
+          ASSERT_LT(off.cwiseQuotient(joint.half_range).norm(), 1.0) << kBodyNames[body];
         }
       }
   });
@@ -162,7 +160,7 @@ TEST(SolvePlan, PutsTheCentreOfPressureWhereThePlanHasIt) {
     Random random(9);
     Motion m;
     m.character = make_character();
-    const std::vector<PlanFrame> plan = kind.plan({m.character, random, 150});
+    const PerFrame<PlanFrame> plan = kind.plan({m.character, random, 150});
     for (const SynthPose& pose : solve_plan(m.character, plan, kSynthFps)) m.add(pose.p_root, pose.q);
     for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
       const Wrench wrench = required_wrench(m, t);
@@ -181,7 +179,7 @@ TEST(Synthesize, AcceleratesSmoothly) {
       for (int body = 0; body < kBodies; ++body) {
         const Vector3d a =
             (m.joint(t + 1, body) - 2.0 * m.joint(t, body) + m.joint(t - 1, body)) / (kDt * kDt);
-        ASSERT_LT(a.norm(), bound) << kBodyNames[static_cast<std::size_t>(body)] << ", frame " << t;
+        ASSERT_LT(a.norm(), bound) << kBodyNames[body] << ", frame " << t;
       }
   });
 }
@@ -236,10 +234,10 @@ TEST(Synthesize, BeginsAndEndsStandingStill) {
 
 TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
   for (const std::string& kind : synthetic_kinds()) {
-    SynthOptions options;
-    options.kind = kind;
-    options.seed = 1;
-    const Clip again = synthesize(options);
+    SynthConfig config;
+    config.kind = kind;
+    config.seed = 1;
+    const Clip again = synthesize(config);
     const Clip &same = motions(kind)[1].clip, &other = motions(kind)[2].clip;
     EXPECT_TRUE(same.rotations == again.rotations && same.trans == again.trans);
     EXPECT_GT((same.rotations[30][kPelvis] - other.rotations[30][kPelvis]).norm(), 1e-3);
@@ -247,21 +245,21 @@ TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
 }
 
 TEST(Synthesize, TakesTheShapeItIsGivenAndOneFromTheSeedOnlyWhenAsked) {
-  SynthOptions options;
-  options.betas[2] = 1.5;
-  EXPECT_EQ(synthesize(options).betas, options.betas);
-  options.betas_from_seed = true;
-  EXPECT_NE(synthesize(options).betas, options.betas);
-  EXPECT_EQ(synthesize(options).betas, synthesize(options).betas);
+  SynthConfig config;
+  config.betas[2] = 1.5;
+  EXPECT_EQ(synthesize(config).betas, config.betas);
+  config.betas_from_seed = true;
+  EXPECT_NE(synthesize(config).betas, config.betas);
+  EXPECT_EQ(synthesize(config).betas, synthesize(config).betas);
 }
 
 TEST(Synthesize, MakesEveryLengthAsked) {
   for (const std::string& kind : synthetic_kinds())
     for (double seconds : {4.0, 12.0}) {
-      SynthOptions options;
-      options.kind = kind;
-      options.seconds = seconds;
-      EXPECT_EQ(synthesize(options).frames(), static_cast<int>(30 * seconds) + 1) << kind;
+      SynthConfig config;
+      config.kind = kind;
+      config.seconds = seconds;
+      EXPECT_EQ(synthesize(config).frames(), static_cast<int>(30 * seconds) + 1) << kind;
     }
 }
 
@@ -269,22 +267,22 @@ TEST(Synthesize, ServesExtremeShapes) {
   Random random(3);
   for (const std::string& kind : synthetic_kinds())
     for (int trial = 0; trial < 4; ++trial) {
-      SynthOptions options;
-      options.kind = kind;
-      for (double& beta : options.betas) beta = random.uniform(-3.0, 3.0);
-      const Motion m = make_motion(options);
+      SynthConfig config;
+      config.kind = kind;
+      for (double& beta : config.betas) beta = random.uniform(-3.0, 3.0);
+      const Motion m = make_motion(config);
       for (std::size_t t = 0; t < m.frames(); ++t) ASSERT_GT(m.lowest(t), -0.0005) << kind;
     }
 }
 
 TEST(Synthesize, RefusesUnknownKindsAndLengths) {
-  SynthOptions options;
-  options.kind = "fly";
-  EXPECT_THROW(synthesize(options), std::invalid_argument);
-  options.kind = "walk";
+  SynthConfig config;
+  config.kind = "fly";
+  EXPECT_THROW(synthesize(config), std::invalid_argument);
+  config.kind = "walk";
   for (double seconds : {-1.0, 2.0, 61.0, std::nan("")}) {
-    options.seconds = seconds;
-    EXPECT_THROW(synthesize(options), std::invalid_argument);
+    config.seconds = seconds;
+    EXPECT_THROW(synthesize(config), std::invalid_argument);
   }
 }
 

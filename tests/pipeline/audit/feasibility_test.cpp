@@ -74,7 +74,7 @@ TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
 }
 
 TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
-  SynthOptions options;
+  SynthConfig options;
   options.kind = "squat";
   const Clip clip = synthesize(options);
   const Character c = make_character(clip.betas);
@@ -87,7 +87,7 @@ TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
 
 TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
   for (const std::string& kind : synthetic_kinds()) {
-    SynthOptions options;
+    SynthConfig options;
     options.kind = kind;
     options.seed = 1;
     options.betas_from_seed = true;

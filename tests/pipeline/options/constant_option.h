@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pipeline/options/option.h"
+#include "rl/tracking/tracking_fixture.h"
 
 namespace mimicx {
 
@@ -17,14 +18,7 @@ inline nn::AutoEncoder some_encoder(const rl::TrackingClip& clip, std::uint64_t 
 
 /// An option whose mean action is `action` in every degree of freedom, whatever it sees.
 inline Option constant_option(int state_size, float action) {
-  rl::AgentShape shape;
-  shape.observation_dim = state_size;
-  shape.action_dim = kDofs;
-  shape.hidden = {4};
-  Option option{rl::make_agent(shape, 1), std::nullopt};
-  option.agent.actor.weights.back().setZero();
-  option.agent.actor.biases.back().setConstant(action);
-  return option;
+  return {rl::agent_that_does(action, state_size), std::nullopt};
 }
 
 }  // namespace mimicx

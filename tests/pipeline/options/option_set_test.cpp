@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/npz.h"
+#include "motion/clip_file.h"
 #include "pipeline/options/constant_option.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/clip_file.h"
 #include "motion/import/world.h"
+#include "motion/resample.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 

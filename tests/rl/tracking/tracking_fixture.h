@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "motion/reference.h"
+#include "rl/policy.h"
 #include "rl/tracking/pack.h"
 
 namespace mimicx::rl {
@@ -17,14 +18,13 @@ inline ReferenceFrame random_frame(Random& random, double size) {
   f.p_root = vec(1.0) + Vector3d(0, 0, 0.9);
   f.v_root = vec(1.0);
   for (int body = 0; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
     Vector3d r = vec(size), w = vec(1.0);
     if (is_hinge(body)) {
       r = hinge_axis(body) * std::abs(r.x());
       w = hinge_axis(body) * w.x();
     }
-    f.q[i] = exp_map(r);
-    f.omega[i] = w;
+    f.q[body] = exp_map(r);
+    f.omega[body] = w;
   }
   f.q[0] = exp_map(Vector3d(std::acos(0.0), 0, 0)) * f.q[0];
   return f;
@@ -57,9 +57,9 @@ inline Reference swaying_reference(int frames) {
     f.q[0] = exp_map(Vector3d(std::acos(0.0), 0, 0));
     f.p_root = {0, 0, 0.951 - 0.784 * (1.0 - std::cos(0.5 * knee))};
     for (int side = 0; side < 2; ++side) {
-      f.q[static_cast<std::size_t>(kLeftHip + side)] = exp_map(Vector3d(-0.5 * knee, 0, 0));
-      f.q[static_cast<std::size_t>(kLeftKnee + side)] = exp_map(Vector3d(knee, 0, 0));
-      f.q[static_cast<std::size_t>(kLeftAnkle + side)] = exp_map(Vector3d(-0.5 * knee, 0, 0));
+      f.q[kLeftHip + side] = exp_map(Vector3d(-0.5 * knee, 0, 0));
+      f.q[kLeftKnee + side] = exp_map(Vector3d(knee, 0, 0));
+      f.q[kLeftAnkle + side] = exp_map(Vector3d(-0.5 * knee, 0, 0));
     }
     f.q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.2 + 0.3 * std::sin(phase)));
     f.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.2 - 0.3 * std::sin(phase)));
@@ -70,6 +70,18 @@ inline Reference swaying_reference(int frames) {
     reference.poses.push_back(forward_kinematics(reference.character, f.p_root, f.q));
   reference.flagged.assign(static_cast<std::size_t>(frames), false);
   return reference;
+}
+
+/// An agent whose mean action is `action` in every degree of freedom, whatever it sees.
+inline Agent agent_that_does(float action, int state_size = kStateSize) {
+  AgentShape shape;
+  shape.observation_dim = state_size;
+  shape.action_dim = kDofs;
+  shape.hidden = {4};
+  Agent agent = make_agent(shape, 1);
+  agent.actor.weights.back().setZero();
+  agent.actor.biases.back().setConstant(action);
+  return agent;
 }
 
 }  // namespace mimicx::rl

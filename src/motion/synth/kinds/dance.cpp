@@ -14,7 +14,7 @@ constexpr double kBegin = 0.85, kDanceRest = 0.75;
 /// A dance in the making: where the dancer stands, what was decided so far.
 struct Dance {
   const PlanRequest& request;
-  std::array<FootTarget, 2> stance;  ///< about the dancer's middle
+  PerSide<FootTarget> stance;  ///< about the dancer's middle
   PlanFrame stand;
   double beat;                                       ///< s
   double time = kBegin;                              ///< beginning of the next figure
@@ -26,7 +26,7 @@ struct Dance {
   double at(double beats) const { return time + beats * beat; }
   /// One foot goes to its place in the stance at `to`, `turned`.
   void step(int side, double beats, const Eigen::Vector2d& to, double turned) {
-    const FootTarget& foot = stance[static_cast<std::size_t>(side)];
+    const FootTarget& foot = stance[side];
     swings.push_back({side, at(beats), at(beats + 0.74), to + Eigen::Rotation2Dd(turned) * foot.place,
                       turned + foot.yaw, 0.05});
   }
@@ -119,27 +119,28 @@ void bow(Dance& d) {
 
 }  // namespace
 
-std::vector<PlanFrame> plan_dance(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_dance(const PlanRequest& request) {
   Random& random = request.random;
   const auto stance = random_stance(request, 1.0, 1.15, 5.0, 9.0);
   const double beat = random.uniform(0.56, 0.60);
   PlanFrame stand = standing_frame(request.character, standing_feet(request.character, stance));
   Dance dance{request, stance, stand, beat, kBegin, Eigen::Vector2d::Zero(), 0.0, {}, {{0.0, stand}}};
-  std::vector<void (*)(Dance&)> figures = {side_steps, steps_ahead, turning_steps, dips, bow};
+  constexpr int kFigures = 5;
+  Array<void (*)(Dance&), kFigures> figures = {side_steps, steps_ahead, turning_steps, dips, bow};
   const int count =
       std::max(1, static_cast<int>((request.seconds() - kBegin - kDanceRest) / (kBeats * beat)));
   for (int k = 0; k < count; ++k) {
     // Every figure once before any comes again.
-    const std::size_t left = figures.size() - static_cast<std::size_t>(k) % figures.size();
-    const std::size_t chosen = random.below(static_cast<std::uint32_t>(left));
+    const int left = kFigures - k % kFigures;
+    const int chosen = static_cast<int>(random.below(static_cast<std::uint32_t>(left)));
     figures[chosen](dance);
     std::swap(figures[chosen], figures[left - 1]);
     dance.time += kBeats * beat;
   }
   dance.hold(0.0, stand);
   const FeetTracks feet = stepping_feet(request.character, stance, dance.swings, 0.45);
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     hold_postures(dance.keys, time_of(i), plan[i]);
     place_feet(feet, time_of(i), plan[i]);
   }

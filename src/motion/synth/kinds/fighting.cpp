@@ -14,7 +14,7 @@ double height_at(const Character& character, const PlanFrame& frame, double knee
 
 /// When the parts of a kick begin, s.
 struct Kick {
-  std::size_t side;
+  int side;
   double shift, leave, chamber, strike, recoil, land;
 };
 
@@ -25,7 +25,7 @@ std::vector<Kick> draw_kicks(const PlanRequest& request) {
   double t = random.uniform(0.25, 0.40);
   while (true) {
     Kick kick{};
-    kick.side = random.below(2);
+    kick.side = static_cast<int>(random.below(2));
     kick.shift = t;
     kick.leave = t + random.uniform(0.55, 0.65);
     kick.chamber = kick.leave + random.uniform(0.28, 0.32);
@@ -39,13 +39,13 @@ std::vector<Kick> draw_kicks(const PlanRequest& request) {
 }
 
 /// Up with a bent knee, out to the front, back and down.
-FeetTracks kicking_feet(const PlanRequest& request, const std::array<FootTarget, 2>& start,
+FeetTracks kicking_feet(const PlanRequest& request, const PerSide<FootTarget>& start,
                         const std::vector<Kick>& kicks) {
   const double leg = leg_length(request.character);
   FeetTracks feet = standing_feet(request.character, start);
-  std::array<std::vector<Knot>, 2> x, lift, toes_up, toes_down;
+  PerSide<std::vector<Knot>> x, lift, toes_up, toes_down;
   std::vector<Knot> load = {{0.0, 0.5}};
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     x[side] = {{0.0, start[side].place.x()}};
     lift[side] = toes_up[side] = toes_down[side] = {{0.0, 0.0}};
   }
@@ -71,7 +71,7 @@ FeetTracks kicking_feet(const PlanRequest& request, const std::array<FootTarget,
     const double standing = k.side == 0 ? 0.0 : 1.0;
     load.insert(load.end(), {{k.shift, 0.5}, {k.leave, standing}, {k.land, standing}, {k.land + 0.7, 0.5}});
   }
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     feet.foot[side].x = MinJerkTrack(x[side]);
     feet.foot[side].lift = MinJerkTrack(lift[side]);
     feet.foot[side].toe_rise = MinJerkTrack(toes_up[side]);
@@ -87,7 +87,7 @@ void hold_guard(PlanFrame& frame) {
 }
 
 /// Both feet as in a step, the knees bent, one foot ahead.
-std::array<FootTarget, 2> fighting_stance(const PlanRequest& request, std::size_t lead) {
+PerSide<FootTarget> fighting_stance(const PlanRequest& request, int lead) {
   auto feet = random_stance(request, 1.05, 1.25, 5.0, 9.0);
   const double half = request.random.uniform(0.15, 0.20) * leg_length(request.character);
   feet[lead].place.x() = half;
@@ -98,7 +98,7 @@ std::array<FootTarget, 2> fighting_stance(const PlanRequest& request, std::size_
 
 }  // namespace
 
-std::vector<PlanFrame> plan_kick(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_kick(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 0.95, 1.1, 4.0, 9.0);
   const std::vector<Kick> kicks = draw_kicks(request);
@@ -122,17 +122,17 @@ std::vector<PlanFrame> plan_kick(const PlanRequest& request) {
                              {k.land, poised},
                              {k.land + 0.7, stand}});
   }
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     hold_postures(keys, time_of(i), plan[i]);
     place_feet(feet, time_of(i), plan[i]);
   }
   return plan;
 }
 
-std::vector<PlanFrame> plan_punch(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_punch(const PlanRequest& request) {
   Random& random = request.random;
-  const std::size_t lead = random.below(2);
+  const int lead = static_cast<int>(random.below(2));
   const FeetTracks feet = standing_feet(request.character, fighting_stance(request, lead));
   const PlanFrame stand = standing_frame(request.character, feet);
   PlanFrame guard = stand;
@@ -143,7 +143,7 @@ std::vector<PlanFrame> plan_punch(const PlanRequest& request) {
   std::vector<PostureKey> keys = {{0.0, stand}, {t, stand}, {t + 0.8, guard}};
   const double end = request.seconds() - 1.1;
   t += 0.8 + random.uniform(0.05, 0.25);
-  std::size_t side = lead;
+  int side = lead;
   while (true) {
     const double out = random.uniform(0.28, 0.33), back = random.uniform(0.32, 0.40),
                  pause = random.uniform(0.10, 0.30);
@@ -159,17 +159,17 @@ std::vector<PlanFrame> plan_punch(const PlanRequest& request) {
     side = random.uniform() < 0.7 ? 1 - side : side;
   }
   keys.insert(keys.end(), {{end + 0.1, guard}, {end + 0.95, stand}});
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) hold_postures(keys, time_of(i), plan[i]);
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) hold_postures(keys, time_of(i), plan[i]);
   return plan;
 }
 
-std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_lunge(const PlanRequest& request) {
   Random& random = request.random;
   const Character& character = request.character;
   const double leg = leg_length(character);
   const auto start = random_stance(request, 1.05, 1.25, 4.0, 8.0);
-  const std::size_t front = random.below(2), rear = 1 - front;
+  const int front = static_cast<int>(random.below(2)), rear = 1 - front;
   const double length = random.uniform(0.62, 0.74) * leg;
   const double swing = random.uniform(0.52, 0.60), down = random.uniform(0.75, 0.90),
                hold = random.uniform(0.10, 0.30), up = random.uniform(0.70, 0.85),
@@ -195,9 +195,8 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
   std::vector<Knot> heel_rise = {{0.0, 0.0}}, pressure = {{0.0, feet_middle(character)}};
   for (double t = random.uniform(0.85, 0.95); t + cycle - pause < request.seconds() - 0.75; t += cycle) {
     const double land = t + swing, bottom = land + down, rise = bottom + hold, leave = rise + up;
-    const auto side = static_cast<int>(front);
-    swings.push_back({side, t, land, apart[front].place, apart[front].yaw, 0.06});
-    swings.push_back({side, leave, leave + swing, start[front].place, start[front].yaw, 0.06});
+    swings.push_back({front, t, land, apart[front].place, apart[front].yaw, 0.06});
+    swings.push_back({front, leave, leave + swing, start[front].place, start[front].yaw, 0.06});
     heel_rise.insert(heel_rise.end(),
                      {{land + 0.15, 0.0}, {land + 0.60, heel}, {leave - 0.60, heel}, {leave - 0.05, 0.0}});
     const double toes = 0.85 * forefoot_length(character), middle = feet_middle(character);
@@ -214,8 +213,8 @@ std::vector<PlanFrame> plan_lunge(const PlanRequest& request) {
   FeetTracks feet = stepping_feet(character, start, swings, 0.45);
   feet.foot[rear].heel_rise = MinJerkTrack(heel_rise);
   feet.foot[rear].pressure = MinJerkTrack(pressure);
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     hold_postures(keys, time_of(i), plan[i]);
     place_feet(feet, time_of(i), plan[i]);
   }

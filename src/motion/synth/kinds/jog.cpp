@@ -59,27 +59,27 @@ std::vector<Contact> draw_contacts(const PlanRequest& request, double step) {
 void roll_over_soles(const Character& character, const std::vector<Contact>& contacts, double begin,
                      FeetTracks& feet) {
   const double forefoot = forefoot_length(character), middle = feet_middle(character);
-  const auto standing = static_cast<std::size_t>(contacts[0].side), other = 1 - standing;
-  std::array<std::vector<Knot>, 2> knots;
+  const int standing = contacts[0].side, other = 1 - standing;
+  PerSide<std::vector<Knot>> knots;
   knots[standing] = {{begin, middle}, {contacts[0].leave, kLeaveOn * forefoot}};
   knots[other] = {{begin - kJogSettle, middle}, {begin, kLeaveOn * forefoot}};
   for (std::size_t i = 1; i < contacts.size(); ++i) {
-    std::vector<Knot>& track = knots[static_cast<std::size_t>(contacts[i].side)];
+    std::vector<Knot>& track = knots[contacts[i].side];
     const bool stays = i + 2 >= contacts.size();
     track.push_back({contacts[i].land, kLandOn * forefoot});
     track.push_back({contacts[i].land + kCarry, kCarryOn * forefoot});
     track.push_back(stays ? Knot{contacts[i].land + kJogSettle, middle}
                           : Knot{contacts[i].leave, kLeaveOn * forefoot});
   }
-  for (std::size_t side = 0; side < 2; ++side) feet.foot[side].pressure = MinJerkTrack(knots[side]);
+  for (int side = 0; side < 2; ++side) feet.foot[side].pressure = MinJerkTrack(knots[side]);
 }
 
-FeetTracks jogging_feet(const Character& character, const std::array<FootTarget, 2>& start,
+FeetTracks jogging_feet(const Character& character, const PerSide<FootTarget>& start,
                         const std::vector<Contact>& contacts, double clearance) {
   std::vector<FootSwing> swings;
   const double begin = contacts[1].land - on_frame(kFirstSwing);
   for (std::size_t i = 1; i < contacts.size(); ++i) {
-    const auto side = static_cast<std::size_t>(contacts[i].side);
+    const int side = contacts[i].side;
     const double leave = i == 1 ? begin : contacts[i - 2].leave;
     const bool walking = i == 1 || i + 1 == contacts.size();
     swings.push_back({contacts[i].side, leave, contacts[i].land,
@@ -132,7 +132,7 @@ MinJerkTrack jogging_height(const Character& character, const PlanFrame& stand,
 
 }  // namespace
 
-std::vector<PlanFrame> plan_jog(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_jog(const PlanRequest& request) {
   Random& random = request.random;
   const Character& character = request.character;
   const double half_width = rest_half_width(character) * random.uniform(0.70, 0.82);
@@ -151,15 +151,15 @@ std::vector<PlanFrame> plan_jog(const PlanRequest& request) {
                                         {contacts[1].leave, jogging},
                                         {end - 0.6, jogging},
                                         {end + 0.4, stand}};
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     hold_postures(keys, time_of(i), plan[i]);
     place_feet(feet, time_of(i), plan[i]);
   }
   const GaitStyle style = {random.uniform(20.0, 28.0) * kDegree, random.uniform(3.0, 5.0) * kDegree,
                            random.uniform(1.0, 2.0) * kDegree, random.uniform(2.0, 4.0) * kDegree};
   follow_feet(character, style, step, feet, plan);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  for (int i = 0; i < plan.count(); ++i) {
     const double t = time_of(i);
     plan[i].com_height = height.at(t);
     for (std::size_t k = 0; k + 1 < contacts.size(); ++k)

@@ -51,7 +51,7 @@ JumpPostures jump_postures(const Character& character, const PlanFrame& stand, R
   p.soft.pelvis.x() = 16.0 * kDegree;
   p.soft.trunk.x() = 14.0 * kDegree;
   p.soft.head.x() = -14.0 * kDegree;
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     p.crouch.arm[side].forward = -arms_back;
     p.leave.arm[side].forward = arms_up;
     p.land.arm[side].forward = arms_up - 10.0 * kDegree;
@@ -69,7 +69,7 @@ JumpPostures jump_postures(const Character& character, const PlanFrame& stand, R
 }
 
 /// Both feet at once: up on the toes, off, and back on the toes.
-FeetTracks jumping_feet(const Character& character, const std::array<FootTarget, 2>& start,
+FeetTracks jumping_feet(const Character& character, const PerSide<FootTarget>& start,
                         const JumpTiming& jump) {
   constexpr double kToesClear = 0.09;  // s from leaving to moving with the body
   constexpr double kStretch = 0.045;   // m by which the legs stretch after leaving
@@ -81,7 +81,7 @@ FeetTracks jumping_feet(const Character& character, const std::array<FootTarget,
     return Knot{t, jump.height_in_flight(t) - jump.leave_height - kStretch, jump.velocity_in_flight(t),
                 -kGravity};
   };
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side) {
     FootTracks& foot = feet.foot[side];
     const double x = start[side].place.x();
     foot.x = MinJerkTrack({{jump.leave + 0.02, x}, {jump.land - 0.02, x + jump.distance}});
@@ -101,7 +101,7 @@ FeetTracks jumping_feet(const Character& character, const std::array<FootTarget,
 
 }  // namespace
 
-std::vector<PlanFrame> plan_jump(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_jump(const PlanRequest& request) {
   Random& random = request.random;
   const Character& character = request.character;
   const auto start = random_stance(request, 1.0, 1.2, 4.0, 10.0);
@@ -122,8 +122,8 @@ std::vector<PlanFrame> plan_jump(const PlanRequest& request) {
   const std::vector<PostureKey> keys = {{0.0, stand},          {jump.begin, stand}, {jump.crouch, p.crouch},
                                         {jump.leave, p.leave}, {jump.land, p.land}, {jump.settle, p.soft},
                                         {jump.end, stand}};
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     const double t = time_of(i);
     hold_postures(keys, t, plan[i]);
     place_feet(feet, t, plan[i]);

@@ -1,10 +1,9 @@
-#include "motion/synth/kinds.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "motion/synth/balance.h"
+#include "motion/synth/kinds.h"
 
 namespace mimicx {
 namespace {
@@ -16,24 +15,23 @@ MinJerkTrack fade(double seconds, double ramp) {
 
 /// A slow wander within about ±1: three sines of random frequency and phase.
 struct Wander {
-  std::array<double, 3> frequency, phase;
+  Array<double, 3> frequency, phase;
   explicit Wander(Random& random) {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; ++i) {
       frequency[i] = random.uniform(0.12, 0.45);
       phase[i] = random.uniform(0.0, 2.0 * std::numbers::pi);
     }
   }
   double at(double time) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      sum += std::sin(2.0 * std::numbers::pi * frequency[i] * time + phase[i]);
+    for (int i = 0; i < 3; ++i) sum += std::sin(2.0 * std::numbers::pi * frequency[i] * time + phase[i]);
     return sum / 3.0;
   }
 };
 
 }  // namespace
 
-std::vector<PlanFrame> plan_stand(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_stand(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 0.95, 1.2, 4.0, 14.0);
   const FeetTracks feet = standing_feet(request.character, start);
@@ -41,8 +39,8 @@ std::vector<PlanFrame> plan_stand(const PlanRequest& request) {
   const MinJerkTrack part = fade(request.seconds(), 0.8);
   const Wander ahead(random), aside(random), turn(random), lean(random), look(random), arms(random);
   const double shift = random.uniform(0.02, 0.035), sway = random.uniform(0.006, 0.012);
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     const double t = time_of(i), on = part.at(t);
     PlanFrame& frame = plan[i];
     frame.pressure += on * Eigen::Vector2d(sway * ahead.at(t), shift * aside.at(t));
@@ -57,7 +55,7 @@ std::vector<PlanFrame> plan_stand(const PlanRequest& request) {
   return plan;
 }
 
-std::vector<PlanFrame> plan_squat(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_squat(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 1.35, 1.6, 14.0, 20.0);
   const FeetTracks feet = standing_feet(request.character, start);
@@ -82,20 +80,20 @@ std::vector<PlanFrame> plan_squat(const PlanRequest& request) {
         {{t, stand.com_height}, {bottom, low.com_height}, {rise, low.com_height}, {top, stand.com_height}});
   }
   const MinJerkTrack com_height(height);
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     hold_postures(keys, time_of(i), plan[i]);
     plan[i].com_height = com_height.at(time_of(i));
   }
   return plan;
 }
 
-std::vector<PlanFrame> plan_wave(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_wave(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 0.95, 1.15, 4.0, 12.0);
   const FeetTracks feet = standing_feet(request.character, start);
   const PlanFrame stand = standing_frame(request.character, feet);
-  const std::size_t side = random.below(2);
+  const int side = static_cast<int>(random.below(2));
   const double mirror = side == 0 ? 1.0 : -1.0;
   PlanFrame raised = stand;  // upper arm out, forearm up
   raised.arm[side] = {15.0 * kDegree, random.uniform(70.0, 90.0) * kDegree, 85.0 * kDegree,
@@ -114,8 +112,8 @@ std::vector<PlanFrame> plan_wave(const PlanRequest& request) {
                swing = random.uniform(16.0, 22.0) * kDegree;
   const Wander aside(random);
   const MinJerkTrack part = fade(request.seconds(), 0.8);
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) {
     const double t = time_of(i), wave = waving.at(t) * std::sin(rate * (t - begin));
     hold_postures(keys, t, plan[i]);
     plan[i].arm[side].elbow += swing * wave;
@@ -125,7 +123,7 @@ std::vector<PlanFrame> plan_wave(const PlanRequest& request) {
   return plan;
 }
 
-std::vector<PlanFrame> plan_bow(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_bow(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 0.95, 1.15, 4.0, 12.0);
   const FeetTracks feet = standing_feet(request.character, start);
@@ -145,8 +143,8 @@ std::vector<PlanFrame> plan_bow(const PlanRequest& request) {
     keys.insert(keys.end(), {{t, stand}, {down, bowed}, {up, bowed}, {end, stand}});
     t = end + random.uniform(0.20, 0.45);
   }
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames), stand);
-  for (std::size_t i = 0; i < plan.size(); ++i) hold_postures(keys, time_of(i), plan[i]);
+  PerFrame<PlanFrame> plan = request.every_frame(stand);
+  for (int i = 0; i < plan.count(); ++i) hold_postures(keys, time_of(i), plan[i]);
   return plan;
 }
 

@@ -12,16 +12,15 @@ constexpr double kRest = 0.90;       ///< standing after the last step, s
 constexpr double kClearance = 0.05;  ///< of the sole in mid-swing, m
 
 /// The frames of someone who stands, with the feet of `feet`.
-std::vector<PlanFrame> frames_on(const PlanRequest& request, const FeetTracks& feet) {
-  std::vector<PlanFrame> plan(static_cast<std::size_t>(request.frames),
-                              standing_frame(request.character, feet));
-  for (std::size_t i = 0; i < plan.size(); ++i) place_feet(feet, time_of(i), plan[i]);
+PerFrame<PlanFrame> frames_on(const PlanRequest& request, const FeetTracks& feet) {
+  PerFrame<PlanFrame> plan = request.every_frame(standing_frame(request.character, feet));
+  for (int i = 0; i < plan.count(); ++i) place_feet(feet, time_of(i), plan[i]);
   return plan;
 }
 
 /// A straight or curved walk. The turn happens over the middle steps.
 /// @param width  of the track in units of the rest pose's
-std::vector<PlanFrame> walk_along(const PlanRequest& request, double speed, double turn, double width) {
+PerFrame<PlanFrame> walk_along(const PlanRequest& request, double speed, double turn, double width) {
   Random& random = request.random;
   const double half_width = width * rest_half_width(request.character) * random.uniform(0.92, 1.08);
   const double toes_out = random.uniform(4.0, 8.0) * kDegree;
@@ -46,7 +45,7 @@ std::vector<PlanFrame> walk_along(const PlanRequest& request, double speed, doub
         {side, t, t + swing, middle + mirror * half_width * left, yaw + mirror * toes_out, kClearance});
   }
   const FeetTracks feet = stepping_feet(request.character, feet_apart(half_width, toes_out), swings, kSettle);
-  std::vector<PlanFrame> plan = frames_on(request, feet);
+  PerFrame<PlanFrame> plan = frames_on(request, feet);
   face_along_feet(plan);
   const double vigour = speed / 1.15;
   const GaitStyle style = {vigour * random.uniform(18.0, 26.0) * kDegree,
@@ -58,17 +57,17 @@ std::vector<PlanFrame> walk_along(const PlanRequest& request, double speed, doub
 
 }  // namespace
 
-std::vector<PlanFrame> plan_walk(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_walk(const PlanRequest& request) {
   return walk_along(request, request.random.uniform(0.85, 1.25), 0.0, 0.785);
 }
 
-std::vector<PlanFrame> plan_walk_turn(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_walk_turn(const PlanRequest& request) {
   const double side = request.random.below(2) == 0 ? 1.0 : -1.0;
   const double turn = side * request.random.uniform(35.0, 75.0) * kDegree;
   return walk_along(request, request.random.uniform(0.85, 1.05), turn, 1.05);
 }
 
-std::vector<PlanFrame> plan_side_step(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_side_step(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 0.95, 1.1, 4.0, 9.0);
   const int away = static_cast<int>(random.below(2));  // which side the first half goes to
@@ -84,19 +83,19 @@ std::vector<PlanFrame> plan_side_step(const PlanRequest& request) {
     const int lead = back ? 1 - away : away;
     y += (lead == 0 ? 1.0 : -1.0) * width;
     for (int side : {lead, 1 - lead}) {
-      const FootTarget& from = start[static_cast<std::size_t>(side)];
+      const FootTarget& from = start[side];
       swings.push_back({side, t, t + swing, from.place + Eigen::Vector2d(0.0, y), from.yaw, kClearance});
       t += swing + both;
     }
   }
   const FeetTracks feet = stepping_feet(request.character, start, swings, kSettle);
-  std::vector<PlanFrame> plan = frames_on(request, feet);
+  PerFrame<PlanFrame> plan = frames_on(request, feet);
   const GaitStyle style = {0.0, 0.0, random.uniform(1.5, 3.0) * kDegree, random.uniform(1.0, 3.0) * kDegree};
   follow_feet(request.character, style, width, feet, plan);
   return plan;
 }
 
-std::vector<PlanFrame> plan_turn_in_place(const PlanRequest& request) {
+PerFrame<PlanFrame> plan_turn_in_place(const PlanRequest& request) {
   Random& random = request.random;
   const auto start = random_stance(request, 1.0, 1.15, 4.0, 9.0);
   const int inner = static_cast<int>(random.below(2));  // steps first
@@ -108,13 +107,13 @@ std::vector<PlanFrame> plan_turn_in_place(const PlanRequest& request) {
   double t = begin;
   for (int k = 1; k <= pairs; ++k)
     for (int side : {inner, 1 - inner}) {
-      const FootTarget& from = start[static_cast<std::size_t>(side)];
+      const FootTarget& from = start[side];
       const Eigen::Vector2d place = Eigen::Rotation2Dd(k * turn) * from.place;
       swings.push_back({side, t, t + swing, place, from.yaw + k * turn, kClearance});
       t += swing + both;
     }
   const FeetTracks feet = stepping_feet(request.character, start, swings, kSettle);
-  std::vector<PlanFrame> plan = frames_on(request, feet);
+  PerFrame<PlanFrame> plan = frames_on(request, feet);
   face_along_feet(plan);
   const GaitStyle style = {0.0, 0.0, random.uniform(1.5, 3.0) * kDegree, random.uniform(0.5, 2.0) * kDegree};
   follow_feet(request.character, style, leg_length(request.character), feet, plan);

@@ -1,16 +1,15 @@
 /// The numbers of the standard body: proportions, masses, joints. What is made of them is in character.cpp.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "character/character.h"
+#include "character/bodies.h"
+#include "character/joint_parameters.h"
 
 namespace mimicx {
 
 inline constexpr double kStandardMass = 70.0;  ///< kg
-
-/// Whether a body is of the right side.
-bool is_right(int body);
 
 /// Standard body: joint positions relative to the parent, m, for the left side and the middle; the right
 /// side is its mirror image in x. Proportions of a 1.72 m adult after segment lengths in Winter,

@@ -1,9 +1,8 @@
-#include "character/character_tables.h"
+#include "character/standard_body.h"
 
 #include "core/units.h"
 
 namespace mimicx {
-bool is_right(int body) { return kBodyNames[static_cast<std::size_t>(body)].starts_with("right"); }
 
 Vector3d standard_offset(int body) {
   switch (body) {

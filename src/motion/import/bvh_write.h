@@ -1,0 +1,20 @@
+/// Writes a clip as BVH for other tools: y up, metres (what Blender's importer takes a unit to be), the 22
+/// SMPL joint names, the T-pose of the clip's body at rest, the clip's own frame rate.
+///
+/// The root has position channels; every joint turns by Zrotation Yrotation Xrotation, degrees. Of the angles
+/// that give the same rotation those are written that are nearest to the frame before, so curves do not jump.
+/// bvh.h reads such files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "motion/clip.h"
+
+namespace mimicx {
+
+void write_bvh(const std::filesystem::path& path, const Clip& clip);
+/// The text `write_bvh` writes.
+std::string format_bvh(const Clip& clip);
+
+}  // namespace mimicx

@@ -1,0 +1,32 @@
+#include "rl/tracking/clip.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mimicx::rl {
+
+void require_whole_steps(double physics_rate, double fps) {
+  const double substeps = physics_rate / fps;
+  if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
+    throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
+}
+
+std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
+                                                       const TrackingConfig& config) {
+  if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
+  require_whole_steps(config.simulation.rate, reference.fps);
+  auto clip = std::make_shared<TrackingClip>();
+  clip->reference = reference;
+  clip->model = make_model<float>(reference.character, config.simulation);
+  for (std::size_t t = 0; t < reference.frames.size(); ++t)
+    clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
+  Pose rest = clip->poses.back();
+  rest.frame.v_root.setZero();
+  for (auto& omega : rest.frame.omega) omega.setZero();
+  clip->poses.push_back(rest);
+  for (const Pose& pose : clip->poses) clip->joints.push_back(joint_features(pose.frame));
+  if (reference.keypoints) clip->keypoints = match_keypoints(*reference.keypoints);
+  return clip;
+}
+
+}  // namespace mimicx::rl

@@ -1,0 +1,29 @@
+/// The detected keypoints of a clip, frame by frame, as the reward compares them with the projected bodies.
+#pragma once
+
+#include "character/bodies.h"
+#include "motion/clip.h"
+
+namespace mimicx::rl {
+
+/// Detected keypoints of one frame, matched to bodies and ready to compare with a projection.
+struct KeypointFrame {
+  struct Detection {
+    int body;
+    double u, v, weight;  ///< pixels; confidence
+  };
+  std::vector<Detection> detections;       ///< of positive confidence only
+  Eigen::Matrix<double, 3, 4> projection;  ///< K [R t]: world → homogeneous pixels
+  double box_height = 0;                   ///< of the detected person, pixels
+};
+
+/// Joins the names of `keypoints` to bodies by name (22 SMPL-X joints or COCO-17; eyes, ears and nose
+/// unused). Empty frames where nothing is detected. An empty vector when there are no keypoints.
+List<KeypointFrame> match_keypoints(const Keypoints& keypoints);
+
+/// Error of Eq. 3: mean squared pixel error in units of the box height, weighted by confidence. Detections
+/// whose body is behind the camera do not count; 0 where none counts.
+/// @param p_WB  of the simulated character, m
+double projection_error(const KeypointFrame& keypoints, const PerBody<Vector3d>& p_WB);
+
+}  // namespace mimicx::rl

@@ -1,0 +1,51 @@
+#include "core/file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/archives.h"
+
+namespace mimicx {
+namespace {
+
+TEST(WriteFile, SaysWhatIsInTheWayAndLeavesNothingBehind) {
+  const auto why = [](const fs::path& path) -> std::string {
+    try {
+      write_file_atomically(path, "content");
+      return "written";
+    } catch (const DataError& error) {
+      return error.what();
+    }
+  };
+  const fs::path folder = scratch("taken.npz");
+  fs::create_directories(folder);
+  EXPECT_EQ(why(folder), folder.string() + ": expected a writable file, found Is a directory");
+  EXPECT_FALSE(fs::exists(folder.string() + ".tmp"));
+  const fs::path nowhere = scratch("nowhere") / "file";
+  EXPECT_EQ(why(nowhere), nowhere.string() + ": expected a writable file, found No such file or directory");
+}
+
+TEST(ReadFile, SaysWhatIsInTheWay) {
+  const auto why = [](const fs::path& path, std::uintmax_t most = kMaxFileBytes) -> std::string {
+    try {
+      return read_file(path, most);
+    } catch (const DataError& error) {
+      return error.what();
+    }
+  };
+  const fs::path file = scratch("file"), folder = scratch("folder");
+  std::ofstream(file) << "content";
+  fs::create_directories(folder);
+  EXPECT_EQ(why(file), "content");
+  EXPECT_EQ(why(scratch("none")), scratch("none").string() + ": expected a readable file, found none");
+  EXPECT_EQ(why(folder), folder.string() + ": expected a file, found a folder");
+  EXPECT_EQ(why("/dev/zero"), "/dev/zero: expected a regular file, found something else");
+  EXPECT_EQ(why(file, 3), file.string() + ": expected at most 3 bytes, found 7");
+  fs::permissions(file, fs::perms::none);
+  if (std::ifstream(file)) GTEST_SKIP() << "this user may read everything";
+  EXPECT_EQ(why(file), file.string() + ": expected a readable file, found Permission denied");
+}
+
+}  // namespace
+}  // namespace mimicx

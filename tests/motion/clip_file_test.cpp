@@ -1,0 +1,323 @@
+#include "motion/clip_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "motion/full_clip.h"
+#include "motion/keypoint_names.h"
+#include "motion/scratch.h"
+
+namespace mimicx {
+namespace {
+
+namespace fs = std::filesystem;
+using test::clip_with_everything;
+using test::counted;
+using test::scratch;
+
+Npz amass(std::size_t columns = 66) {
+  Npz npz;
+  npz.set("poses", counted(3, columns));
+  npz.set("trans", counted(3, 3));
+  npz.set("betas", NpyArray::from_double({16}, std::vector<double>(16).data()));
+  npz.set("mocap_framerate", NpyArray::scalar(30.0));
+  return npz;
+}
+
+Clip read(const Npz& npz) {
+  const fs::path path = scratch("clip.npz");
+  write_npz(path, npz);
+  return read_clip(path);
+}
+
+/// The message of the DataError that reading gives; it always names the file.
+std::string refusal(const Npz& npz) {
+  try {
+    read(npz);
+  } catch (const DataError& e) {
+    EXPECT_NE(std::string(e.what()).find("clip.npz"), std::string::npos) << e.what();
+    return e.what();
+  }
+  return "nothing was refused";
+}
+
+void expect_refusal(const Npz& npz, const std::string& word) {
+  const std::string message = refusal(npz);
+  EXPECT_NE(message.find(word), std::string::npos) << message;
+}
+
+NpyArray with_value(NpyArray array, std::size_t at, double value) {
+  std::vector<double> values = array.to_double();
+  values[at] = value;
+  return NpyArray::from_double(array.shape, values.data());
+}
+
+/// A member that passed through, or nullptr.
+const NpyArray* passed_on(const Clip& clip, const std::string& key) {
+  for (const auto& [name, array] : clip.passthrough)
+    if (name == key) return &array;
+  return nullptr;
+}
+
+TEST(ClipFile, RoundTripKeepsEveryBit) {
+  const Clip clip = clip_with_everything();
+  const fs::path path = scratch("round.npz");
+  write_clip(path, clip, {{"reward", NpyArray::scalar(0.5)}});
+  const Clip back = read_clip(path);
+  EXPECT_EQ(back.name, "round");
+  EXPECT_EQ(back.fps, clip.fps);
+  EXPECT_EQ(back.rotations, clip.rotations);
+  EXPECT_EQ(back.trans, clip.trans);
+  EXPECT_EQ(back.betas, clip.betas);
+  EXPECT_EQ(back.body_model, "mimicx");
+  EXPECT_EQ(back.gender, "female");
+  ASSERT_TRUE(back.keypoints);
+  EXPECT_EQ(back.keypoints->names, clip.keypoints->names);
+  EXPECT_EQ(back.keypoints->uvc, clip.keypoints->uvc);
+  EXPECT_EQ(back.keypoints->intrinsics, clip.keypoints->intrinsics);
+  EXPECT_EQ(back.keypoints->extrinsics, clip.keypoints->extrinsics);
+  ASSERT_EQ(back.passthrough.size(), 2u);
+  EXPECT_EQ(back.passthrough[0].second.bytes, clip.passthrough[0].second.bytes);
+  EXPECT_EQ(back.passthrough[1].first, "reward");
+  EXPECT_TRUE(back.warnings.empty());
+}
+
+TEST(ClipFile, WrittenFilesHaveTheDocumentedMembers) {
+  const Npz npz = to_npz(clip_with_everything(), {{"joints", NpyArray::scalar(1.0)}});
+  std::vector<std::string> keys;
+  for (const auto& [key, array] : npz.members()) keys.push_back(key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"poses", "trans", "betas", "mocap_framerate", "gender",
+                                            "joint_names", "body_model", "keypoints_2d", "keypoint_names",
+                                            "camera_intrinsics", "camera_extrinsics", "root_orient",
+                                            "pose_body", "mocap_frame_rate", "pose_hand", "joints"}));
+  EXPECT_EQ(npz.at("poses").shape, (std::vector<std::size_t>{5, 66}));
+  EXPECT_EQ(npz.at("poses").type, NpyArray::Type::kFloat64);
+  EXPECT_EQ(npz.at("joint_names").text[21], "right_wrist");
+}
+
+TEST(ClipFile, EveryLayoutGivesTheFirst66ColumnsAndKeepsTheRest) {
+  for (const auto& [columns, model] :
+       {std::pair<std::size_t, std::string>{66, "smplx"}, {72, "smpl"}, {156, "smplh"}, {165, "smplx"}}) {
+    const Clip clip = read(amass(columns));
+    EXPECT_EQ(clip.body_model, model) << columns;
+    ASSERT_EQ(clip.frames(), 3);
+    for (std::size_t t = 0; t < 3; ++t)
+      for (std::size_t c = 0; c < 66; ++c)
+        EXPECT_EQ(clip.rotations[t][c / 3][static_cast<int>(c % 3)],
+                  amass(columns).at("poses").to_double()[t * columns + c]);
+    const NpyArray* rest = passed_on(clip, "poses_rest");
+    ASSERT_EQ(rest != nullptr, columns > 66);
+    if (!rest) continue;
+    EXPECT_EQ(rest->shape, (std::vector<std::size_t>{3, columns - 66}));
+    EXPECT_EQ(rest->to_double()[columns - 66], 100.0 + 66.0 / 1000.0);
+  }
+}
+
+TEST(ClipFile, ColumnsAndBetasThatAreNotUsedComeBackWhereTheyWere) {
+  for (const std::size_t columns : {66u, 72u, 156u, 165u}) {
+    Npz npz = amass(columns);
+    npz.set("betas", counted(1, 16));
+    const Npz back = to_npz(read(npz));
+    EXPECT_EQ(back.at("poses").to_double(), npz.at("poses").to_double()) << columns;
+    EXPECT_EQ(back.at("poses").shape, npz.at("poses").shape);
+    EXPECT_EQ(back.at("betas").to_double(), npz.at("betas").to_double());
+    EXPECT_FALSE(back.has("poses_rest") || back.has("betas_rest"));
+  }
+}
+
+TEST(ClipFile, SmplxFilesComeBackWithTheArraysTheirReadersExpect) {
+  Npz npz;
+  npz.set("root_orient", counted(3, 3, 7.0));
+  npz.set("pose_body", counted(3, 63, 8.0));
+  npz.set("pose_hand", counted(3, 90, 9.0));
+  npz.set("pose_eye", counted(3, 6, 10.0));
+  npz.set("trans", counted(3, 3));
+  npz.set("mocap_frame_rate", NpyArray::scalar(120.0));
+  const Npz back = to_npz(read(npz));
+  for (const char* key : {"root_orient", "pose_body", "pose_hand", "pose_eye", "trans", "mocap_frame_rate"}) {
+    EXPECT_EQ(back.at(key).bytes, npz.at(key).bytes) << key;
+    EXPECT_EQ(back.at(key).shape, npz.at(key).shape) << key;
+  }
+}
+
+TEST(ClipFile, NamedArraysGoBeforePoses) {
+  Npz npz = amass(165);
+  npz.set("root_orient", counted(3, 3, 7.0));
+  npz.set("pose_body", counted(3, 63, 8.0));
+  npz.set("pose_hand", counted(3, 90));
+  npz.set("mocap_frame_rate", NpyArray::scalar_int(60));
+  npz.set("surface_model_type", NpyArray::scalar_text("smplx_locked_head"));
+  const Clip clip = read(npz);
+  EXPECT_EQ(clip.body_model, "smplx");
+  EXPECT_EQ(clip.rotations[1][0].x(), 107.0);
+  EXPECT_EQ(clip.rotations[2][21].z(), 200.0 + 62.0 / 1000.0 + 8.0);
+  EXPECT_TRUE(passed_on(clip, "pose_hand"));
+  EXPECT_FALSE(passed_on(clip, "poses_rest"));
+}
+
+TEST(ClipFile, BothSpellingsOfTheFrameRateAreReadAndOneIsNeeded) {
+  Npz npz;
+  for (const char* key : {"poses", "trans"}) npz.set(key, amass().at(key));
+  expect_refusal(npz, "mocap_frame_rate");
+  npz.set("mocap_frame_rate", NpyArray::scalar_int(120));
+  EXPECT_EQ(read(npz).fps, 120.0);
+  for (const double bad : {0.0, -30.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    npz.set("mocap_frame_rate", NpyArray::scalar(bad));
+    expect_refusal(npz, "frame rate");
+  }
+}
+
+TEST(ClipFile, BadDataIsRefusedWithMemberAndReason) {
+  Npz npz;
+  for (const char* key : {"poses", "mocap_framerate"}) npz.set(key, amass().at(key));
+  expect_refusal(npz, "'trans'");
+
+  npz = amass();
+  npz.set("poses", with_value(npz.at("poses"), 66 + 4, std::numeric_limits<double>::quiet_NaN()));
+  expect_refusal(npz, "row 1");
+  npz = amass();
+  npz.set("trans", with_value(npz.at("trans"), 8, std::numeric_limits<double>::infinity()));
+  expect_refusal(npz, "row 2");
+  npz.set("trans", counted(2, 3));
+  expect_refusal(npz, "3 frames");
+  npz.set("trans", NpyArray::scalar_text("none"));
+  expect_refusal(npz, "text");
+  npz = amass();
+  npz.set("poses", counted(3, 75));
+  expect_refusal(npz, "75");
+  npz.set("poses", counted(0, 66));
+  npz.set("trans", counted(0, 3));
+  expect_refusal(npz, "at least one frame");
+  npz = amass();
+  npz.set("betas", with_value(npz.at("betas"), 2, std::numeric_limits<double>::quiet_NaN()));
+  expect_refusal(npz, "betas");
+  npz = amass();
+  npz.set("body_model", NpyArray::scalar_text("ghum"));
+  expect_refusal(npz, "'ghum'");
+  npz = amass();
+  npz.set("keypoints_2d", counted(3, 4));
+  npz.set("keypoint_names", NpyArray::from_text({"nose"}));
+  npz.set("camera_intrinsics", counted(3, 3));
+  npz.set("camera_extrinsics", counted(4, 4));
+  expect_refusal(npz, "keypoints_2d");
+}
+
+TEST(ClipFile, AnotherJointOrderIsRefused) {
+  std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
+  Npz npz = amass();
+  npz.set("joint_names", NpyArray::from_text(names));
+  EXPECT_EQ(read(npz).frames(), 3);
+  std::swap(names[4], names[5]);
+  npz.set("joint_names", NpyArray::from_text(names));
+  expect_refusal(npz, "'left_knee' as joint 4");
+  names.resize(4);
+  npz.set("joint_names", NpyArray::from_text(names));
+  expect_refusal(npz, "end of the list");
+}
+
+TEST(ClipFile, ForeignBetasWarnOnceAndMeanTheStandardBody) {
+  Npz npz = amass(156);
+  EXPECT_TRUE(read(npz).warnings.empty());
+  npz.set("betas", with_value(npz.at("betas"), 1, 2.0));
+  const Clip foreign = read(npz);
+  EXPECT_EQ(foreign.warnings.size(), 1u);
+  EXPECT_EQ(foreign.betas[1], 2.0);
+  EXPECT_EQ(foreign.usable_betas(), (std::array<double, kBetas>{}));
+
+  npz.set("body_model", NpyArray::scalar_text("mimicx"));
+  const Clip own = read(npz);
+  EXPECT_TRUE(own.warnings.empty());
+  EXPECT_EQ(own.usable_betas()[1], 2.0);
+  npz.set("betas", with_value(npz.at("betas"), 1, 5.5));
+  expect_refusal(npz, "within");
+}
+
+TEST(ClipFile, KeypointsWithoutCameraAreLeftAloneWithAWarning) {
+  Npz npz = to_npz(clip_with_everything());
+  Npz without;
+  for (const auto& [key, array] : npz.members())
+    if (key != "camera_extrinsics") without.set(key, array);
+  const Clip clip = read(without);
+  EXPECT_FALSE(clip.keypoints);
+  EXPECT_EQ(clip.warnings.size(), 1u);
+  EXPECT_TRUE(std::any_of(clip.passthrough.begin(), clip.passthrough.end(),
+                          [](const auto& m) { return m.first == "keypoints_2d"; }));
+}
+
+/// A file with `count` keypoints that have no names; keypoint k is at (k, 0).
+Npz with_unnamed_keypoints(std::size_t count) {
+  Npz npz = amass();
+  std::vector<double> uvc;
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    uvc.insert(uvc.end(), {static_cast<double>(i % count), 0.0, 1.0});
+  npz.set("keypoints_2d", NpyArray::from_double({3, count, 3}, uvc.data()));
+  npz.set("camera_intrinsics", counted(3, 3));
+  npz.set("camera_extrinsics", counted(4, 4));
+  return npz;
+}
+
+TEST(ClipFile, UnnamedKeypointsOfAKnownNumberGetTheNamesOfTheirSetAndItIsSaid) {
+  for (const auto& [count, set] :
+       {std::pair<std::size_t, KeypointSet>{22, KeypointSet::kJoints22}, {17, KeypointSet::kCoco17}}) {
+    const Clip clip = read(with_unnamed_keypoints(count));
+    ASSERT_TRUE(clip.keypoints) << count;
+    EXPECT_EQ(clip.keypoints->names, keypoint_names(set));
+    EXPECT_EQ(clip.keypoints->uvc[2][13].x(), 13.0);
+    ASSERT_EQ(clip.decisions.size(), 1u) << count;
+    EXPECT_NE(clip.decisions[0].find("keypoints"), std::string::npos) << clip.decisions[0];
+    EXPECT_NE(clip.decisions[0].find(count == 22 ? "the 22 joints" : "COCO"), std::string::npos)
+        << clip.decisions[0];
+  }
+}
+
+TEST(ClipFile, KeypointNamesThatCannotBeReadAreNotGuessed) {
+  Npz npz = with_unnamed_keypoints(22);
+  npz.path = "pickled.npz";
+  npz.set_unsupported("keypoint_names", UnsupportedArray("pickled.npz", "keypoint_names", "text", "objects"));
+  EXPECT_THROW(clip_from(npz, "pickled"), UnsupportedArray);
+}
+
+TEST(ClipFile, UnnamedKeypointsOfAnotherNumberAreRefusedInOneLine) {
+  for (const std::size_t count : {1u, 16u, 25u, 133u}) {
+    const std::string message = refusal(with_unnamed_keypoints(count));
+    EXPECT_NE(message.find("keypoint_names"), std::string::npos) << message;
+    EXPECT_NE(message.find(std::to_string(count) + " keypoints"), std::string::npos) << message;
+    EXPECT_NE(message.find("22"), std::string::npos) << message;
+    EXPECT_NE(message.find("17"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  Npz flat = with_unnamed_keypoints(22);
+  flat.set("keypoints_2d", counted(3, 66));
+  expect_refusal(flat, "keypoints_2d");
+}
+
+TEST(ClipFile, UndetectedKeypointsGetConfidenceZero) {
+  Clip clip = clip_with_everything();
+  clip.keypoints->uvc[2][1].x() = std::numeric_limits<double>::quiet_NaN();
+  const fs::path path = scratch("keypoints.npz");
+  write_clip(path, clip);
+  EXPECT_EQ(read_clip(path).keypoints->uvc[2][1], Vector3d(0, 0, 0));
+}
+
+TEST(RealFiles, AreRead) {
+  const fs::path motions = fs::path(MIMICX_SHARED_DIR) / "motions";
+  if (!fs::exists(motions)) GTEST_SKIP() << "no folder of real motions here";
+  int files = 0;
+  for (const char* folder : {"video", "amass"})
+    for (const auto& entry : fs::directory_iterator(motions / folder)) {
+      if (entry.path().extension() != ".npz") continue;
+      const Clip clip = read_clip(entry.path());
+      EXPECT_GT(clip.frames(), 30) << entry.path();
+      EXPECT_EQ(clip.fps, 30.0);
+      EXPECT_EQ(clip.body_model, folder == std::string("video") ? "smpl" : "smplh");
+      EXPECT_FALSE(clip.keypoints);
+      ++files;
+    }
+  EXPECT_GT(files, 10);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,82 @@
+#include "motion/fit/projection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/fit/random_problems.h"
+
+namespace mimicx {
+namespace {
+
+using namespace test;
+using Eigen::MatrixXd;
+
+TEST(FitProjection, ErrorIsThatOfThePinholeCameraOfTheStateInHeightsOfTheBox) {
+  const FitProblem problem = random_problem(2, 2, {});
+  const FitState state = random_state(problem, 2, 0.1);
+  const Matrix3d& K = problem.intrinsics;
+  const Eigen::Matrix4d& E = problem.extrinsics[0];
+  const auto pixel = [&](const Vector3d& p_W, double tilt, double focal) {
+    const Vector3d p = E.topLeftCorner<3, 3>() * p_W + E.topRightCorner<3, 1>();
+    const double y = std::cos(tilt) * p.y() - std::sin(tilt) * p.z(),
+                 z = std::sin(tilt) * p.y() + std::cos(tilt) * p.z();
+    return Eigen::Vector2d(focal * (K(0, 0) * p.x() + K(0, 1) * y) / z + K(0, 2),
+                           focal * K(1, 1) * y / z + K(1, 2));
+  };
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);  // of the input in frame 1, by the camera of the file
+  for (const Vector3d& p : forward_kinematics(make_character(), problem.p_root[1], problem.q[1]).p_WB) {
+    low = low.cwiseMin(pixel(p, 0.0, 1.0));
+    high = high.cwiseMax(pixel(p, 0.0, 1.0));
+  }
+  const double box = std::max(high.x() - low.x(), high.y() - low.y());
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    const Vector3d p(0.1, 0.2, 0.04 * static_cast<double>(k));
+    const Eigen::Vector2d offset = state.g.segment<2>(kFirstOffset + 2 * static_cast<Eigen::Index>(k)),
+                          seen = pixel(p, state.g[kTilt], std::exp(state.g[kLogFocal]));
+    const Projection found = project_point(problem, state, 1, k, p);
+    ASSERT_TRUE(found.valid);
+    EXPECT_LT((found.error - (seen - problem.uvc[1][k].head<2>()) / box - offset).norm(), 1e-10);
+  }
+}
+
+TEST(FitProjection, DerivativesMatchFiniteDifferences) {
+  const FitProblem problem = random_problem(2, 1, {});
+  const FitState state = random_state(problem, 2, 0.1);
+  const auto errors = [&](const FitState& s) {
+    const Moved m = move(problem, s);
+    VectorXd e(2 * static_cast<Eigen::Index>(problem.points.size()));
+    for (std::size_t k = 0; k < problem.points.size(); ++k)
+      e.segment<2>(2 * static_cast<Eigen::Index>(k)) =
+          project_point(problem, s, 0, k, m.motion[0].poses.p_WB[problem.points[k].body]).error;
+    return e;
+  };
+  const MatrixXd expected = finite_differences(state, errors);
+  const Moved m = move(problem, state);
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    const int body = problem.points[k].body;
+    const Vector3d& p = m.motion[0].poses.p_WB[body];
+    const Projection seen = project_point(problem, state, 0, k, p);
+    ASSERT_TRUE(seen.valid);
+    const auto row = 2 * static_cast<Eigen::Index>(k);
+    const auto column = [&](int global) { return expected.block<2, 1>(row, kFrameUnknowns + global); };
+    EXPECT_LT((seen.by_tilt - column(kTilt)).norm(), 1e-7);
+    EXPECT_LT((seen.by_focal - column(kLogFocal)).norm(), 1e-7);
+    EXPECT_LT(
+        (seen.by_point * point_jacobian(m.motion[0], body, p) - expected.block(row, 0, 2, kFrameUnknowns))
+            .norm(),
+        1e-7);
+    EXPECT_LT(
+        (expected.block<2, 2>(row, kFrameUnknowns + kFirstOffset + row) - Eigen::Matrix2d::Identity()).norm(),
+        1e-7);
+  }
+}
+
+TEST(FitProjection, APointBehindTheCameraIsNotSeen) {
+  const FitProblem problem = random_problem(2, 1, {});
+  EXPECT_FALSE(project_point(problem, initial_state(problem), 0, 0, {0, -50, 1}).valid);
+}
+
+}  // namespace
+}  // namespace mimicx

@@ -1,0 +1,105 @@
+#include "rl/tracking/state.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "rl/tracking/tracking_fixture.h"
+
+namespace mimicx::rl {
+namespace {
+
+std::array<float, kStateSize> state_of(const Pose& reference, const Pose& simulated, double beta0 = 0.0) {
+  std::array<float, kStateSize> state{};
+  tracking_state(reference, joint_features(reference.frame), {beta0}, simulated, state.data());
+  return state;
+}
+
+TEST(TrackingState, HasExactly570NumbersAndWritesThemAll) {
+  const Character character = make_character();
+  Random random(3);
+  const Pose a = pose_of(character, random_frame(random, 0.5)),
+             b = pose_of(character, random_frame(random, 0.5));
+  Array<float, kStateSize + 1> state;
+  state.fill(std::numeric_limits<float>::quiet_NaN());
+  tracking_state(a, joint_features(a.frame), {}, b, state.data());
+  for (int k = 0; k < 570; ++k) EXPECT_TRUE(std::isfinite(state[k])) << k;
+  EXPECT_TRUE(std::isnan(state[570])) << "wrote past its end";
+}
+
+TEST(TrackingState, IgnoresWhereBothLookAndStand) {
+  const Character character = make_character();
+  Random random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Pose reference = pose_of(character, random_frame(random, 0.4));
+    const Pose simulated = pose_of(character, random_frame(random, 0.4));
+    const double angle = random.uniform(-3.0, 3.0);
+    const Eigen::Vector2d offset(random.normal(), random.normal());
+    const auto before = state_of(reference, simulated);
+    const auto after =
+        state_of(moved(character, reference, angle, offset), moved(character, simulated, angle, offset));
+    for (std::size_t k = 0; k < kStateSize; ++k) EXPECT_NEAR(before[k], after[k], 2e-5) << "entry " << k;
+  }
+}
+
+TEST(TrackingState, SeesATurnOrAShiftOfOneOfThem) {
+  const Character character = make_character();
+  Random random(5);
+  const Pose pose = pose_of(character, random_frame(random, 0.3));
+  const auto same = state_of(pose, pose);
+  for (std::size_t k = 382; k < kStateSize; ++k) EXPECT_EQ(same[k], 0.0F) << "a difference of equal poses";
+  const auto shifted = state_of(moved(character, pose, 0.0, {0.3, 0.4}), pose);
+  EXPECT_NEAR(std::hypot(shifted[568], shifted[569]), 0.5, 1e-6) << "root offset";
+  for (std::size_t k = 382; k < 568; ++k) EXPECT_NEAR(shifted[k], 0.0F, 1e-6);
+  const auto turned = state_of(moved(character, pose, 0.5, {0, 0}), pose);
+  double difference = 0.0;
+  for (std::size_t k = 383; k < 389; ++k) difference += std::abs(turned[k]);
+  EXPECT_GT(difference, 0.1) << "root rotation";
+}
+
+TEST(TrackingState, HeadingDirectionIsThatOfTheHeadingAngle) {
+  Random random(6);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Quaterniond q = random_frame(random, 0.7).q[0];
+    const double angle = heading_angle(q);
+    EXPECT_NEAR(heading_direction(q).x(), std::cos(angle), 1e-12);
+    EXPECT_NEAR(heading_direction(q).y(), std::sin(angle), 1e-12);
+  }
+}
+
+TEST(EncodedState, TurningFeaturesIsSeeingThemFromAnotherHeading) {
+  const Character character = make_character();
+  Random random(21);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Pose pose = pose_of(character, random_frame(random, 0.4));
+    const double a = random.uniform(-3, 3), b = random.uniform(-3, 3);
+    const Eigen::Vector2d from(std::cos(a), std::sin(a)), to(std::cos(b), std::sin(b));
+    std::array<float, kPoseFeatures> seen_from{}, seen_to{}, turned{};
+    pose_features(pose, joint_features(pose.frame), from, seen_from.data());
+    pose_features(pose, joint_features(pose.frame), to, seen_to.data());
+    turn_features(seen_from.data(), from, to, turned.data());
+    for (std::size_t k = 0; k < kPoseFeatures; ++k) EXPECT_NEAR(turned[k], seen_to[k], 2e-5) << k;
+  }
+}
+
+TEST(EncodedState, WithAPerfectDecoderItIsTheRawStateWithACodeForThePose) {
+  const Character character = make_character();
+  Random random(22);
+  const Pose reference = pose_of(character, random_frame(random, 0.3)),
+             simulated = pose_of(character, random_frame(random, 0.3));
+  std::array<float, kStateSize> raw{};
+  tracking_state(reference, joint_features(reference.frame), {0.5}, simulated, raw.data());
+  std::array<float, kPoseFeatures> decoded{};
+  own_pose_features(reference, decoded.data());
+  const float code[] = {1.0F, 2.0F, 3.0F};
+  std::array<float, kEncodedRest + 4> state{};
+  state.back() = -7.0F;
+  encoded_state(code, 3, decoded, reference, {0.5}, simulated, state.data());
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(state[k], code[k]);
+  for (std::size_t k = 0; k < kEncodedRest; ++k) EXPECT_NEAR(state[3 + k], raw[kPoseFeatures + k], 2e-5) << k;
+  EXPECT_EQ(state.back(), -7.0F) << "wrote past its end";
+}
+
+}  // namespace
+}  // namespace mimicx::rl
