@@ -26,7 +26,6 @@ struct UsageError : std::runtime_error {
 
 using Action = std::function<int()>;
 
-void declare_plan(CLI::App& app, Action& action);
 void declare_run(CLI::App& app, Action& action);
 void declare_plan(CLI::App& app, Action& action);
 void declare_pretrain(CLI::App& app, Action& action);
