@@ -54,11 +54,12 @@ void declare_adapt(CLI::App& app, Action& action) {
           "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
           "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the paper's "
           "method, whose training then takes minutes; the better of the two is kept")
-      ->transform(CLI::Transformer(kMethods))
+      ->transform(CLI::CheckedTransformer(kMethods))
       ->option_text("TEXT:{auto,plan,paper}");
   add_run_arguments(*command, a->config.run, a->settings);
   add_training_arguments(*command, a->config.training, "--budget-samples");
   add_fit_arguments(*command, a->config.run);
+  add_gains_argument(*command, a->config.run);
   command->add_option(
       "--options", a->options,
       "trained options: a file, or a folder with options.npz; default: those in data/options");

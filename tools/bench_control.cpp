@@ -61,7 +61,7 @@ struct Problem {
         roll_out(system, cost, plan, {}, step_lengths(), in_all_lanes<control::P>(plan.x[0]), *scratch);
     take_lane(fan, 0, plan);
     double regularisation = 0.0;
-    for (int i = 0; i < 3; ++i) improve(system, cost, {}, 1, true, models, sweep, regularisation, plan);
+    for (int i = 0; i < 3; ++i) improve(system, cost, {}, 1, true, 0.2, models, sweep, regularisation, plan);
     build_models(system, cost, plan, {}, 1, models);
   }
   static System make(bool soft) {
@@ -145,7 +145,7 @@ void register_all(Problem& hard, Problem& soft) {
     });
   });
   add("sweep", [&](benchmark::State& s) {
-    for (auto _ : s) sweep_back(hard.system, hard.cost, hard.plan, hard.models, {}, 0.0, hard.sweep);
+    for (auto _ : s) sweep_back(hard.system, hard.cost, hard.plan, hard.models, 0.0, hard.sweep);
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
   add("line search", [&](benchmark::State& s) {

@@ -29,6 +29,7 @@ void declare_plan(CLI::App& app, Action& action) {
       "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out");
   add_run_arguments(*command, a->config.run, a->settings);
   add_fit_arguments(*command, a->config.run);
+  add_gains_argument(*command, a->config.run);
   command->callback([a, &action] { action = [a] { return plan(*a); }; });
 }
 

@@ -106,6 +106,11 @@ void add_fit_arguments(CLI::App& command, RunConfig& run) {
                    "look at keypoints at all");
 }
 
+void add_gains_argument(CLI::App& command, RunConfig& run) {
+  command.add_flag("--gains", run.gains,
+                   "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
+}
+
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement) {
   command
       .add_option("--switch-penalty", arrangement.switch_penalty, "w_p of Eq. 4, in rewards; not positive")

@@ -37,6 +37,8 @@ void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::strin
 void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples);
 /// --fit, the default, and --no-fit.
 void add_fit_arguments(CLI::App& command, RunConfig& run);
+/// --gains.
+void add_gains_argument(CLI::App& command, RunConfig& run);
 /// --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement);
 

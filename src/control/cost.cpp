@@ -6,19 +6,6 @@
 namespace mimicx::control {
 namespace {
 
-BodyPoses poses_of(const System& system, const State<double>& x) {
-  BodyPoses poses;
-  poses.p_WB[0] = to_eigen(x.p_root);
-  poses.q_WB[0] = to_eigen(x.q[0]).normalized();
-  for (std::size_t i = 1; i < kBodies; ++i) {
-    const auto parent = static_cast<std::size_t>(kParents[i]);
-    const Vec3<float>& offset = system.model.joint_offset[i];
-    poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * Vector3d(offset.x, offset.y, offset.z);
-    poses.q_WB[i] = (poses.q_WB[parent] * to_eigen(x.q[i])).normalized();
-  }
-  return poses;
-}
-
 /// d p_WB / d (pose coordinates): [66][61], three rows per body.
 Eigen::MatrixXd position_jacobian(const BodyPoses& poses) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3 * kBodies, kPositions);
@@ -56,6 +43,19 @@ void check(const CostWeights& w) {
 
 }  // namespace
 
+BodyPoses poses_of(const System& system, const State<double>& x) {
+  BodyPoses poses;
+  poses.p_WB[0] = to_eigen(x.p_root);
+  poses.q_WB[0] = to_eigen(x.q[0]).normalized();
+  for (std::size_t i = 1; i < kBodies; ++i) {
+    const auto parent = static_cast<std::size_t>(kParents[i]);
+    const Vec3<float>& offset = system.model.joint_offset[i];
+    poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * Vector3d(offset.x, offset.y, offset.z);
+    poses.q_WB[i] = (poses.q_WB[parent] * to_eigen(x.q[i])).normalized();
+  }
+  return poses;
+}
+
 CostWeights::CostWeights() {
   body_rotation.fill(1.0);
   for (std::size_t i = 0; i < kBodies; ++i) body_position[i] = is_foot(i) ? 2.0 : 1.0;
@@ -89,8 +89,15 @@ Cost make_cost(const System& system, const CostWeights& weights, std::vector<Cer
   Cost cost;
   cost.weights = weights;
   cost.certainty = std::move(certainty);
-  for (const State<double>& x : system.reference) cost.p_WB.push_back(poses_of(system, x).p_WB);
-  return cost;
+  return with_goal(system, cost, system.reference);
+}
+
+Cost with_goal(const System& system, const Cost& cost, std::vector<State<double>> goal) {
+  if (goal.size() != system.reference.size())
+    throw std::invalid_argument("goal and reference must have the same number of frames");
+  Cost out{cost.weights, std::move(goal), {}, cost.certainty};
+  for (const State<double>& x : out.goal) out.p_WB.push_back(poses_of(system, x).p_WB);
+  return out;
 }
 
 LaneCost state_cost(const System& system, const Cost& cost, int frame, const State<P>& x, Data<P>& scratch) {
@@ -104,7 +111,7 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
     out.cost += P(cost.position_weight(frame, body)) * square;
     out.worst = max(out.worst, square);
   }
-  const Tangent<P> d = difference(x, in_all_lanes<P>(system.at(frame)));
+  const Tangent<P> d = difference(x, in_all_lanes<P>(cost.goal[static_cast<std::size_t>(frame)]));
   for (int k = kRootRotation; k < kTangent; ++k) {
     const P& e = d[static_cast<std::size_t>(k)];
     out.cost += P(cost.tangent_weight(frame, k)) * e * e;
@@ -143,7 +150,7 @@ StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame
   out.gradient.head(kPositions) = 2.0 * WJ.transpose() * error;
   out.position_hessian = 2.0 * J.transpose() * WJ;
   out.velocity_hessian.resize(kPositions);
-  const Tangent<double> d = difference(x, system.at(frame));
+  const Tangent<double> d = difference(x, cost.goal[static_cast<std::size_t>(frame)]);
   for (int k = kRootRotation; k < kTangent; ++k) {
     const double w = cost.tangent_weight(frame, k), e = d[static_cast<std::size_t>(k)];
     out.value += w * e * e;

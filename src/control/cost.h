@@ -3,7 +3,7 @@
 ///     J = Σ_t  Σ_i w_i c_ti ‖p_ti − p*_ti‖²  +  Σ_k d_tk (x_t ⊖ x*_t)_k²  +  w_u ‖u_t‖² + w_Δ ‖u_t −
 ///     u_{t−1}‖² + w_h ‖h_t‖²
 ///
-/// p_i are the joint centres in the world, * is the reference, u the residuals, h the help of a soft system.
+/// p_i are the joint centres in the world, * is the goal, u the residuals, h the help of a soft system.
 /// Distances in the world decide where the body is; the rotations hold what they leave open; velocities and
 /// changes of the controls make it smooth.
 #pragma once
@@ -37,10 +37,11 @@ struct CostWeights {
 /// and its joint's rotation. From detections, flags, an estimator's error model.
 using Certainty = PerBody<float>;
 
-/// The weights of one system, with the reference's joint centres.
+/// The weights of one system and what they measure from: the system's reference, or another motion near it.
 struct Cost {
   CostWeights weights;
-  std::vector<PerBody<Vector3d>> p_WB;  ///< [frames] of the reference, m
+  std::vector<State<double>> goal;      ///< [frames]
+  std::vector<PerBody<Vector3d>> p_WB;  ///< [frames] joint centres of the goal, m
   std::vector<Certainty> certainty;     ///< [frames], or empty: everything is certain
 
   double position_weight(int frame, int body) const;
@@ -48,9 +49,15 @@ struct Cost {
   double tangent_weight(int frame, int k) const;
 };
 
+/// The goal is the system's reference.
 /// @throws std::invalid_argument for weights that are negative or no numbers, a residual weight of zero, and
 ///         a certainty of another length than the reference
 Cost make_cost(const System& system, const CostWeights& weights, std::vector<Certainty> certainty = {});
+/// The same with another goal, [frames].
+Cost with_goal(const System& system, const Cost& cost, std::vector<State<double>> goal);
+
+/// World poses of all bodies in a state, in double.
+BodyPoses poses_of(const System& system, const State<double>& x);
 
 /// Cost of a pack's states at a frame and the worst distance of a body, lane by lane.
 struct LaneCost {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "core/random.h"
 
@@ -45,6 +46,31 @@ void perturb(const System& system, const FramePoint& point, int k, double step, 
     set_help(
         system, [&](int i) { return entry(kDofs + i); }, lane, bundle.help);
   }
+}
+
+/// The target at a frame with every residual moved in every lane. In the packs' own arithmetic, which differs
+/// from `set_target` by rounding.
+void move_target(const System& system, int frame, const Control& u, const P* moves, Target<P>& out) {
+  const auto entry = [&](int dof) { return P(u[static_cast<std::size_t>(dof)]) + moves[dof]; };
+  for (int body = 1; body < kBodies; ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    const int dof = first_dof(body);
+    Vec3<P> rotation;
+    if (is_hinge(body)) {
+      const Vector3d axis = hinge_axis(body);
+      rotation = entry(dof) * Vec3<P>{P(axis.x()), P(axis.y()), P(axis.z())};
+    } else {
+      rotation = {entry(dof), entry(dof + 1), entry(dof + 2)};
+    }
+    Quat<P> reference;
+    set_all_lanes(reference, system.at(frame).q[i]);
+    out.q[i] = reference * exp_map(rotation);
+  }
+}
+void move_help(const System& system, const Control& u, const P* moves, Wrench<P>& out) {
+  for (int lane = 0; lane < kLanes; ++lane)
+    set_help(
+        system, [&](int e) { return u[static_cast<std::size_t>(kDofs + e)] + moves[e][lane]; }, lane, out);
 }
 
 /// Half the difference of two packs, as rows of lanes; zero where it is no number.
@@ -123,26 +149,18 @@ FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, co
   State<P> sides[2];
   for (int first = 0; first < kRows; first += kLanes) {
     for (int side = 0; side < 2; ++side) {
+      std::vector<P> move(static_cast<std::size_t>(columns));
+      for (int k = 0; k < columns; ++k) {
+        const double step = side == 0 ? steps.of(k) : -steps.of(k);
+        for (int lane = 0; lane < kLanes; ++lane)
+          move[static_cast<std::size_t>(k)].set(lane, static_cast<float>(step) * signs(first + lane, k));
+      }
       Bundle bundle = *base;
       Tangent<P> delta;
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const auto move = [&](int k) {
-          return (side == 0 ? 1.0 : -1.0) * steps.of(k) * static_cast<double>(signs(first + lane, k));
-        };
-        const auto moved = [&](const Control& u, int column) {
-          return [&u, column, &move](int e) {
-            return static_cast<double>(u[static_cast<std::size_t>(e)]) + move(column + e);
-          };
-        };
-        for (int k = 0; k < kTangent; ++k)
-          delta[static_cast<std::size_t>(k)].set(lane, static_cast<float>(move(k)));
-        set_target(system, point.frame, moved(point.before, kTangent), lane, bundle.from);
-        set_target(system, point.frame + 1, moved(point.u, kMemory), lane, bundle.to);
-        const auto u = moved(point.u, kMemory);
-        if (system.soft)
-          set_help(
-              system, [&](int e) { return u(kDofs + e); }, lane, bundle.help);
-      }
+      std::copy_n(move.begin(), kTangent, delta.begin());
+      move_target(system, point.frame, point.before, move.data() + kTangent, bundle.from);
+      move_target(system, point.frame + 1, point.u, move.data() + kMemory, bundle.to);
+      if (system.soft) move_help(system, point.u, move.data() + kMemory + kDofs, bundle.help);
       retract(bundle.x, delta);
       advance(system, bundle.from, bundle.to, bundle.help, bundle.x, *scratch);
       sides[side] = bundle.x;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
+#include "control/shooting.h"
 #include "core/parallel.h"
 
 namespace mimicx::control {
@@ -57,26 +59,37 @@ void build_models(const System& system, const Cost& cost, const Trajectory& traj
   });
 }
 
+ValueFunction last_value(const StateQuadratic& last) {
+  ValueFunction value{Eigen::MatrixXd::Zero(kMemory, kMemory), Eigen::VectorXd::Zero(kMemory)};
+  value.V.topLeftCorner(kPositions, kPositions) = last.position_hessian;
+  value.V.diagonal().segment(kPositions, kPositions) = last.velocity_hessian;
+  value.v.head(kTangent) = last.gradient;
+  return value;
+}
+
+SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory& trajectory, int t,
+                        const FrameModel& model, double regularisation, ValueFunction& value, Feedback& law,
+                        StageCost& stage, RiccatiScratch<float>& scratch) {
+  const Eigen::VectorXd none;
+  stage_cost(system, cost, trajectory, t, model.cost, stage);
+  const Eigen::VectorXd& gap =
+      trajectory.gaps.empty() ? none : trajectory.gaps[static_cast<std::size_t>(t + 1)];
+  return riccati_step(model.F, gap, kDofs, regularisation, stage, value, law, scratch);
+}
+
 void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const std::vector<FrameModel>& models, const std::vector<Eigen::VectorXd>& gaps,
-                double regularisation, Sweep& out) {
+                const std::vector<FrameModel>& models, double regularisation, Sweep& out) {
   const int n = trajectory.size();
   out.laws.resize(static_cast<std::size_t>(n));
   out.positive = true;
   out.decrease = 0;
-  ValueFunction value{Eigen::MatrixXd::Zero(kMemory, kMemory), Eigen::VectorXd::Zero(kMemory)};
-  const StateQuadratic& last = models[static_cast<std::size_t>(n)].cost;
-  value.V.topLeftCorner(kPositions, kPositions) = last.position_hessian;
-  value.V.diagonal().segment(kPositions, kPositions) = last.velocity_hessian;
-  value.v.head(kTangent) = last.gradient;
+  ValueFunction value = last_value(models[static_cast<std::size_t>(n)].cost);
   StageCost stage;
-  RiccatiScratch scratch;
-  const Eigen::VectorXd none;
+  RiccatiScratch<float> scratch;
   for (int t = n - 1; t >= 0; --t) {
     const auto k = static_cast<std::size_t>(t);
-    stage_cost(system, cost, trajectory, t, models[k].cost, stage);
-    const SweepResult step = riccati_step(models[k].F, gaps.empty() ? none : gaps[k + 1], kDofs,
-                                          regularisation, stage, value, out.laws[k], scratch);
+    const SweepResult step = sweep_frame(system, cost, trajectory, t, models[k], regularisation, value,
+                                         out.laws[k], stage, scratch);
     if (!step.positive) {
       out.positive = false;
       return;
@@ -93,12 +106,37 @@ std::array<float, kLanes> step_lengths() {
   return out;
 }
 
+namespace {
+
+/// Takes the lane that follows longest, and of those that follow to the end the cheapest.
+void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, int& lane) {
+  const int n = trajectory.size();
+  lane = 0;
+  for (int l = 1; l < kLanes; ++l) {
+    const auto a = static_cast<std::size_t>(l), b = static_cast<std::size_t>(lane);
+    const bool longer = fan.frames_kept[a] > fan.frames_kept[b];
+    const bool cheaper = fan.frames_kept[a] == fan.frames_kept[b] && fan.cost[a] < fan.cost[b];
+    if (longer || cheaper) lane = l;
+  }
+  const int kept = fan.frames_kept[static_cast<std::size_t>(lane)];
+  if (kept == n) return take_lane(fan, lane, trajectory);
+  Trajectory spliced = trajectory;
+  take_lane(fan, lane, spliced);
+  for (std::size_t t = 1; t <= static_cast<std::size_t>(kept); ++t) {
+    trajectory.x[t] = spliced.x[t];
+    trajectory.u[t - 1] = spliced.u[t - 1];
+  }
+  trajectory.gaps = find_gaps(system, trajectory);
+}
+
+}  // namespace
+
 Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
-                  std::vector<FrameModel>& models, Sweep& sweep, double& regularisation,
+                  double trusted, std::vector<FrameModel>& models, Sweep& sweep, double& regularisation,
                   Trajectory& trajectory) {
   if (fresh) build_models(system, cost, trajectory, how, threads, models);
   const auto harder = [&] { regularisation = std::max(8.0 * regularisation, 0.05); };
-  sweep_back(system, cost, trajectory, models, {}, regularisation, sweep);
+  sweep_back(system, cost, trajectory, models, regularisation, sweep);
   Iteration result;
   if (!sweep.positive) {
     harder();
@@ -106,19 +144,27 @@ Iteration improve(const System& system, const Cost& cost, const Linearisation& h
   }
   const std::array<float, kLanes> alpha = step_lengths();
   const auto scratch = std::make_unique<Data<P>>();
-  const Fan fan =
-      roll_out(system, cost, trajectory, sweep.laws, alpha, in_all_lanes<P>(trajectory.x[0]), *scratch);
-  const auto best = std::min_element(fan.cost.begin(), fan.cost.end()) - fan.cost.begin();
-  const double now = fan.cost[static_cast<std::size_t>(best)];
-  if (!(now < trajectory.cost)) {
-    harder();
-    return result;
+  RollOptions options;
+  options.lost = trusted;
+  const Fan fan = roll_out(system, cost, trajectory, sweep.laws, alpha, in_all_lanes<P>(trajectory.x[0]),
+                           *scratch, options);
+  int lane = 0;
+  if (!trajectory.gaps.empty()) {
+    close_gaps(system, fan, trajectory, lane);
+    result.decrease = 1.0;
+  } else {
+    lane = static_cast<int>(std::min_element(fan.cost.begin(), fan.cost.end()) - fan.cost.begin());
+    const double now = fan.cost[static_cast<std::size_t>(lane)];
+    if (!(now < trajectory.cost)) {
+      harder();
+      return result;
+    }
+    result.decrease = (trajectory.cost - now) / std::max(trajectory.cost, 1e-9);
+    take_lane(fan, lane, trajectory);
   }
-  result.decrease = (trajectory.cost - now) / std::max(trajectory.cost, 1e-9);
-  result.alpha = alpha[static_cast<std::size_t>(best)];
+  result.alpha = alpha[static_cast<std::size_t>(lane)];
   if (result.alpha > 0.95f) regularisation *= 0.3;
   if (result.alpha < 0.35f) regularisation = std::max(2.0 * regularisation, 0.01);
-  take_lane(fan, static_cast<int>(best), trajectory);
   return result;
 }
 

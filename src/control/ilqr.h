@@ -27,25 +27,33 @@ struct Sweep {
   double decrease = 0;         ///< promised for a full step
 };
 
-/// @param gaps  [n + 1] of x at the frames, f(x_{t−1}) ⊖ x_t; or empty: none
+/// The value of a trajectory's last state.
+ValueFunction last_value(const StateQuadratic& last);
+
+/// One frame backwards: the law at frame t of the trajectory. @param value  of frame t + 1 in, of frame t out
+SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory& trajectory, int t,
+                        const FrameModel& model, double regularisation, ValueFunction& value, Feedback& law,
+                        StageCost& stage, RiccatiScratch<float>& scratch);
+
 /// @param regularisation  proximal weight on changes of the controls
 void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const std::vector<FrameModel>& models, const std::vector<Eigen::VectorXd>& gaps,
-                double regularisation, Sweep& out);
+                const std::vector<FrameModel>& models, double regularisation, Sweep& out);
 
 /// Step lengths in the lanes, the full one first.
 std::array<float, kLanes> step_lengths();
 
 struct Iteration {
-  double decrease = -1;  ///< relative to the cost before; < 0: none was found
+  double decrease = -1;  ///< relative to the cost before; < 0: none was found; of a trajectory with gaps: 1
   float alpha = 0;       ///< the step length taken
 };
 
-/// Improves a trajectory that is a roll-out from its first state; its cost never rises.
+/// Improves a trajectory. Of a roll-out the cost never rises. Of one with gaps, as many frames from the start
+/// as stay within `trusted` metres of the reference become a roll-out, the frames behind them keep their
+/// states; when all do, the gaps are gone.
 /// @param fresh  build the models anew; false: those of the call before are still right
 /// @param regularisation  adapted: less after a full step, more after a short or no one
 Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
-                  std::vector<FrameModel>& models, Sweep& sweep, double& regularisation,
+                  double trusted, std::vector<FrameModel>& models, Sweep& sweep, double& regularisation,
                   Trajectory& trajectory);
 
 }  // namespace mimicx::control

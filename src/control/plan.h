@@ -6,10 +6,15 @@
 /// Replaying `plan.residuals` as actions of rl::TrackingPack (residual mode, velocity feed-forward, the same
 /// reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the result
 /// does not depend on the number of threads.
+///
+/// A reference that is lost is planned again with help (system.h), and then once more without, towards what
+/// the helped body did: help that a body can do without leaves a motion that it can do. A soft system is
+/// planned with help alone; its result is no simulation.
 #pragma once
 
 #include <optional>
 
+#include "control/gains.h"
 #include "control/receding_horizon.h"
 
 namespace mimicx::control {
@@ -19,29 +24,41 @@ struct PlanConfig {
   std::vector<Certainty> certainty;  ///< [frames], or empty
   Linearisation linearisation;
   HorizonOptions horizon;
+  bool soft_to_hard = true;  ///< try again by way of help where the reference is lost
+  bool gains = false;        ///< compute the feedback gains of a plan that was followed
+  GainOptions gain_options;
 };
 
 /// Where a reference was lost and what it would have taken to follow it there.
 struct Loss {
   int frame = -1;       ///< first frame that no window reached
-  int body = -1;        ///< the body that was farthest from its reference in the last attempt
+  int body = -1;        ///< the body that was farthest from its reference in the longest try
   double distance = 0;  ///< of it, m
+  /// Largest help within half a second of that frame, of the soft plan: what something outside of the body
+  /// would have to push with. Zero where there is no soft plan that far.
+  double help_force = 0;   ///< N
+  double help_moment = 0;  ///< N·m
 };
 
 struct Plan {
   std::vector<State<double>> states;  ///< [frames planned], from frame 0; all of them unless it was lost
   std::vector<std::array<float, kDofs>> residuals;  ///< [frames planned − 1]
   std::vector<std::array<float, kHelp>> help;       ///< [frames planned − 1] of a soft system, else empty
+  std::vector<Eigen::MatrixXf> gains;               ///< [frames planned − 1] K_t (gains.h), where asked for
   Ending ending = Ending::kFollowed;
   std::optional<Loss> loss;
-  double cost = 0;            ///< of the frames planned
-  double worst_distance = 0;  ///< of any body in them, m
-  int iterations = 0;         ///< over all windows
-  int linearised = 0;         ///< frames, over all iterations
+  bool by_way_of_help = false;  ///< followed only after a plan with help had shown how
+  double cost = 0;              ///< of the frames planned
+  double worst_distance = 0;    ///< of any body in them, m
+  int iterations = 0;           ///< over all windows
+  int linearised = 0;           ///< frames, over all iterations
   int backtracks = 0;
 };
 
 /// @throws std::invalid_argument as make_cost does
 Plan make_plan(const System& system, const PlanConfig& config, const PlanControl& control = {});
+
+/// The plan as a trajectory, for feedback_gains and test_pushes.
+Trajectory trajectory_of(const Plan& plan);
 
 }  // namespace mimicx::control

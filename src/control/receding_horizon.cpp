@@ -4,24 +4,33 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+
+#include "control/shooting.h"
 
 namespace mimicx::control {
 namespace {
 
 /// A way to solve a window.
 struct Variant {
-  double steps;  ///< factor on the steps of the differences
-  int longer;    ///< frames added to the horizon
-  bool smoothed;
+  int longer;  ///< frames added to the horizon
+  std::optional<Derivatives> derivatives;
+  double steps;  ///< factor on the steps of differences
 };
-/// The usual one first; the order is that of the study, where each saved a clip that those before had lost.
-constexpr std::array<Variant, 7> kVariants = {{{1.0, 0, false},
-                                               {1.0, 0, true},
-                                               {1.0 / 3.0, 0, false},
-                                               {2.0, 5, false},
-                                               {0.5, 12, true},
-                                               {1.0, 12, false},
-                                               {3.0, 0, false}}};
+/// The usual one first.
+constexpr std::array<Variant, 5> kVariants = {{{0, std::nullopt, 1.0},
+                                               {12, std::nullopt, 1.0},
+                                               {-5, std::nullopt, 1.0},
+                                               {0, Derivatives::kSmoothed, 1.0},
+                                               {0, Derivatives::kColumns, 1.0}}};
+
+/// What stays the same from window to window.
+struct Task {
+  const System& system;
+  const Cost& cost;
+  const HorizonOptions& options;
+  int threads;
+};
 
 struct Window {
   Trajectory plan;
@@ -29,69 +38,30 @@ struct Window {
   Sweep sweep;
 };
 
-/// The window of `n` frames after the motion's last state: the rest of the window before, then the guess.
-Trajectory first_guess(const Trajectory& motion, const Trajectory& last, int n,
+/// The window of `n` frames after the motion's last state: the rest of the window before, then the goal, with
+/// gaps.
+Trajectory first_guess(const Task& task, const Trajectory& motion, const Trajectory& last, int n,
                        const std::vector<Control>& guess) {
   Trajectory window;
   window.begin = motion.begin + motion.size();
   window.before = motion.u.empty() ? motion.before : motion.u.back();
-  window.x.assign(static_cast<std::size_t>(n + 1), motion.x.back());
+  window.x.push_back(motion.x.back());
   for (int k = 0; k < n; ++k) {
     const int frame = window.begin + k, in_last = frame - last.begin;
-    if (in_last >= 0 && in_last < last.size())
-      window.u.push_back(last.u[static_cast<std::size_t>(in_last)]);
+    const auto l = static_cast<std::size_t>(in_last);
+    const bool known = in_last >= 0 && in_last < last.size();
+    if (known)
+      window.u.push_back(last.u[l]);
     else if (frame < static_cast<int>(guess.size()))
       window.u.push_back(guess[static_cast<std::size_t>(frame)]);
     else
       window.u.push_back(window.u.empty() ? Control{} : window.u.back());
+    const auto next = static_cast<std::size_t>(frame + 1);
+    window.x.push_back(known ? last.x[l + 1] : as_floats(task.cost.goal[next]));
   }
+  window.gaps = find_gaps(task.system, window);
+  window.cost = window.worst = std::numeric_limits<double>::infinity();
   return window;
-}
-
-/// Rolls the window's controls out as they are.
-void roll_plain(const System& system, const Cost& cost, Trajectory& window) {
-  const auto scratch = std::make_unique<Data<P>>();
-  const Fan fan = roll_out(system, cost, window, {}, step_lengths(), in_all_lanes<P>(window.x[0]), *scratch);
-  take_lane(fan, 0, window);
-}
-
-/// Improves the window by some iterations.
-void solve_window(const System& system, const Cost& cost, const Linearisation& how,
-                  const HorizonOptions& options, int threads, bool first, Window& window,
-                  HorizonResult& result) {
-  roll_plain(system, cost, window.plan);
-  const int n = window.plan.size();
-  const bool hard = first || !(window.plan.cost <= options.hard_cost * n);
-  const int iterations = hard ? options.hard_iterations : options.iterations;
-  double regularisation = 0.0;
-  bool fresh = true;
-  for (int i = 0; i < iterations; ++i) {
-    const Iteration done =
-        improve(system, cost, how, threads, fresh, window.models, window.sweep, regularisation, window.plan);
-    ++result.iterations;
-    if (fresh) result.linearised += n;
-    fresh = done.decrease >= 0.0;
-    if (fresh && done.decrease < options.stop) break;
-    if (!fresh && regularisation > 1e4) break;
-  }
-}
-
-Linearisation with_variant(const Linearisation& how, const Variant& variant) {
-  Linearisation out = how;
-  out.steps = how.steps.scaled(variant.steps);
-  if (variant.smoothed) out.derivatives = Derivatives::kSmoothed;
-  return out;
-}
-
-/// First frame of the trajectory at which a body is farther than `distance`; −1 for none.
-int first_far_frame(const System& system, const Cost& cost, const Trajectory& trajectory, double distance) {
-  const auto scratch = std::make_unique<Data<P>>();
-  for (int t = 1; t <= trajectory.size(); ++t) {
-    const State<P> x = in_all_lanes<P>(trajectory.x[static_cast<std::size_t>(t)]);
-    const float worst = state_cost(system, cost, trajectory.begin + t, x, *scratch).worst[0];
-    if (!(static_cast<double>(worst) <= distance * distance)) return trajectory.begin + t;
-  }
-  return -1;
 }
 
 /// Drops the last frames of a motion.
@@ -100,47 +70,134 @@ void shorten(Trajectory& motion, int size) {
   motion.x.resize(static_cast<std::size_t>(size + 1));
 }
 
+/// Frames from the start that are a roll-out.
+int frames_without_gap(const Trajectory& window) {
+  int t = 0;
+  while (t < window.size() && window.gaps[static_cast<std::size_t>(t + 1)].isZero(0.0)) ++t;
+  return t;
+}
+
+/// Whether a window needs no iteration after `done` ones.
+bool is_good(const HorizonOptions& o, const Trajectory& plan, int done, bool first) {
+  const double per_frame = plan.cost / plan.size();  // infinite as long as there are gaps
+  if (done == 0) return false;
+  if (first) return done >= o.hard_iterations;
+  if (per_frame <= o.easy_cost) return true;
+  return done >= (per_frame <= o.hard_cost ? o.iterations : o.hard_iterations);
+}
+
+/// Improves the window by some iterations, and cuts off what does not fit together after them.
+void solve_window(const Task& task, const Linearisation& how, bool first, Window& window,
+                  HorizonResult& result) {
+  Trajectory& plan = window.plan;
+  double regularisation = 0.0;
+  bool fresh = true;
+  for (int i = 0; !is_good(task.options, plan, i, first); ++i) {
+    const Iteration done = improve(task.system, task.cost, how, task.threads, fresh, task.options.trusted,
+                                   window.models, window.sweep, regularisation, plan);
+    ++result.iterations;
+    if (fresh) result.linearised += plan.size();
+    fresh = done.decrease >= 0.0;
+    if (fresh && done.decrease < task.options.stop) break;
+    if (!fresh && regularisation > 1e4) break;
+  }
+  if (plan.gaps.empty()) return;
+  shorten(plan, frames_without_gap(plan));
+  roll_plain(task.system, task.cost, plan);
+}
+
+Linearisation with_variant(const Linearisation& how, const Variant& variant) {
+  return {variant.derivatives.value_or(how.derivatives), how.steps.scaled(variant.steps)};
+}
+
+/// Notes where a window was lost: at the first frame that is too far, or behind its end where it was cut.
+void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) {
+  int t = 0, body = 0;
+  double distance = 0.0;
+  while (t < plan.size() && distance <= task.options.lost) {
+    ++t;
+    const auto frame = static_cast<std::size_t>(plan.begin + t);
+    const BodyPoses poses = poses_of(task.system, plan.x[static_cast<std::size_t>(t)]);
+    distance = 0.0;
+    for (std::size_t i = 0; i < kBodies; ++i) {
+      const double off = (poses.p_WB[i] - task.cost.p_WB[frame][i]).norm();
+      if (off <= distance) continue;
+      distance = off;
+      body = static_cast<int>(i);
+    }
+  }
+  const int frame = plan.begin + t + (distance > task.options.lost ? 0 : 1);
+  if (frame < result.lost_frame) return;
+  result.lost_frame = frame;
+  result.lost_body = body;
+  result.lost_distance = distance;
+}
+
+/// Where the search stands in the list of variants.
+struct Search {
+  std::size_t variant = 0;
+  int until = 0;       ///< frame to which the variant is used
+  Trajectory longest;  ///< motion so far
+
+  /// Goes on after a loss in the window at `begin`. @return false when nothing is left to try
+  bool next(const HorizonOptions& options, int begin, int earliest, int frames, HorizonResult& result) {
+    Trajectory& motion = result.motion;
+    const bool exhausted =
+        (begin <= until && variant + 1 >= kVariants.size()) || result.linearised > options.budget * frames;
+    if (motion.size() > longest.size()) longest = motion;
+    if (exhausted || result.backtracks >= options.backtracks) {
+      motion = longest;
+      return false;
+    }
+    ++result.backtracks;
+    variant = begin > until ? 1 : variant + 1;
+    until = std::max(until, begin + 2 * options.commit);
+    shorten(motion, std::max(earliest, motion.size() - options.back));
+    return true;
+  }
+};
+
 }  // namespace
+
+void roll_plain(const System& system, const Cost& cost, Trajectory& motion) {
+  const auto scratch = std::make_unique<Data<P>>();
+  const Fan fan = roll_out(system, cost, motion, {}, step_lengths(), in_all_lanes<P>(motion.x[0]), *scratch);
+  take_lane(fan, 0, motion);
+}
 
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
                                 const HorizonOptions& options, const PlanControl& control, Trajectory start,
                                 int end, const std::vector<Control>& guess) {
+  const Task task{system, cost, options, control.threads};
   HorizonResult result;
   result.motion = std::move(start);
   Trajectory& motion = result.motion;
   const int earliest = motion.size();  // what was given is not taken back
-  std::size_t variant = 0;
-  int variant_until = 0;  // frame to which the variant is used
+  Search search;
+  search.longest = motion;
   Window window;
-  bool first = true;
   while (motion.begin + motion.size() < end) {
     if (control.should_stop && control.should_stop()) {
       result.ending = Ending::kStopped;
-      break;
+      return result;
     }
     const int begin = motion.begin + motion.size();
-    if (begin >= variant_until) variant = 0;
-    const int n = std::min(options.horizon + kVariants[variant].longer, end - begin);
-    window.plan = first_guess(motion, window.plan, n, guess);
-    solve_window(system, cost, with_variant(how, kVariants[variant]), options, control.threads, first, window,
-                 result);
-    first = false;
-    if (!(window.plan.worst <= options.lost)) {
-      const int far = first_far_frame(system, cost, window.plan, options.lost);
-      const bool exhausted = variant + 1 >= kVariants.size() && begin <= variant_until;
-      if (result.backtracks >= options.backtracks || exhausted) {
+    if (begin >= search.until) search.variant = 0;
+    const Variant& variant = kVariants[search.variant];
+    const int n = std::min(options.horizon + variant.longer, end - begin);
+    window.plan = first_guess(task, motion, window.plan, n, guess);
+    solve_window(task, with_variant(how, variant), motion.size() == earliest, window, result);
+    const int planned = window.plan.size();
+    if (planned < std::min(n, 2 * options.commit) || !(window.plan.worst <= options.lost)) {
+      note_loss(task, window.plan, result);
+      if (!search.next(options, begin, earliest, end, result)) {
         result.ending = Ending::kLost;
-        result.lost_frame = far;
-        break;
+        return result;
       }
-      ++result.backtracks;
-      variant = begin > variant_until ? 1 : variant + 1;
-      variant_until = std::max(variant_until, begin + 2 * options.commit);
-      shorten(motion, std::max(earliest, motion.size() - options.back));
       window.plan = {};
       continue;
     }
-    const int taken = begin + n >= end ? n : std::min(options.commit, n);
+    const int taken = begin + planned >= end ? planned : std::min(options.commit, planned);
     for (int k = 0; k < taken; ++k) {
       motion.u.push_back(window.plan.u[static_cast<std::size_t>(k)]);
       motion.x.push_back(window.plan.x[static_cast<std::size_t>(k + 1)]);

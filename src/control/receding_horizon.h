@@ -17,32 +17,42 @@ namespace mimicx::control {
 struct HorizonOptions {
   int horizon = 20;         ///< frames of a window
   int commit = 5;           ///< frames that are settled by it
-  int iterations = 2;       ///< of a window that goes well
-  int hard_iterations = 8;  ///< of the first one, and of one that costs more than `hard_cost`
-  double hard_cost = 0.5;   ///< per frame
-  double stop = 0.02;       ///< relative decrease of the cost under which iterations end
+  double easy_cost = 0.02;  ///< per frame: a window that costs less after its first iteration needs no other
+  int iterations = 3;       ///< at most, of a window that costs less than `hard_cost` per frame
+  double hard_cost = 0.5;
+  int hard_iterations = 8;  ///< at most, of the first window and of one that costs more
+  double stop = 0.03;       ///< relative decrease of the cost under which iterations end
+  double trusted = 0.2;     ///< a roll-out that closes gaps is kept as far as no body is farther off, m
   double lost = 0.35;       ///< distance of a body at which a window is lost, m
   int back = 20;            ///< frames to go back then
   int backtracks = 12;      ///< of the whole motion
+  /// Of the whole motion: linearised frames, all iterations together, per frame. A followed motion takes 4
+  /// to 20.
+  double budget = 25;
 };
 
 /// How a motion ended.
 enum class Ending { kFollowed, kLost, kStopped };
 
 struct HorizonResult {
-  Trajectory motion;  ///< from the first state as far as it was followed
+  Trajectory motion;  ///< from the first state as far as it was followed; where it was lost, the longest try
   Ending ending = Ending::kFollowed;
-  int lost_frame = -1;  ///< the first frame at which the window that was given up was too far
+  int lost_frame = -1;       ///< the first frame that no window reached, of those that were ever lost
+  int lost_body = -1;        ///< the one that was farthest from the goal there
+  double lost_distance = 0;  ///< of it, m
   int iterations = 0;
   int linearised = 0;  ///< frames, all iterations together
   int backtracks = 0;
 };
 
-/// Follows the reference from the last state of `start` to frame `end`.
+/// Follows the cost's goal from the last state of `start` to frame `end`.
 /// @param start  at least one state; its controls are the history
 /// @param guess  controls to start from, [frames − 1], or empty: residuals of zero
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
                                 const HorizonOptions& options, const PlanControl& control, Trajectory start,
                                 int end, const std::vector<Control>& guess = {});
+
+/// Rolls a motion out from its first state under its controls as they are: its states, cost and distance.
+void roll_plain(const System& system, const Cost& cost, Trajectory& motion);
 
 }  // namespace mimicx::control

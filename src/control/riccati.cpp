@@ -5,55 +5,74 @@
 namespace mimicx::control {
 namespace {
 
-/// Adds ½ |F (z, u) + gap|²_V and what falls on w' = u to the cost of the frame.
-void add_value_of_next(const ValueFunction& next, const Eigen::VectorXd& gap, int memory, StageCost& Q,
-                       RiccatiScratch& s) {
-  const auto state = s.F.rows();
-  const auto z = state + memory;
+/// Adds the lower triangle of `term` to that of `sum`, column by column: Eigen's own goes entry by entry.
+template <class Real>
+void add_lower(const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& term, Eigen::MatrixXd& sum) {
+  const auto n = term.cols();
+  for (Eigen::Index j = 0; j < n; ++j)
+    sum.col(j).tail(n - j) += term.col(j).tail(n - j).template cast<double>();
+}
+
+/// Adds the value of where (z, u) leads to, ½ (x', w')ᵀ V (x', w') + …, to the cost of the frame.
+template <class Real>
+void add_value_of_next(const ValueFunction& next, const DynamicsRef& F, const Eigen::VectorXd& gap,
+                       int memory, StageCost& Q, RiccatiScratch<Real>& s) {
+  const auto state = F.rows(), z = state + memory, all = F.cols();
   Eigen::VectorXd v = next.v;
   if (gap.size() > 0) v.noalias() += next.V.leftCols(state) * gap;
-  s.VF.noalias() = next.V.leftCols(state) * s.F;  // rows of x' and of w'
-  Q.H.triangularView<Eigen::Lower>() += s.F.transpose() * s.VF.topRows(state);
-  Q.g.noalias() += s.F.transpose() * v.head(state);
+  for (Eigen::Index row = 0; row < state; ++row)
+    Q.g.noalias() += v[row] * F.row(row).transpose().cast<double>();
+  s.F = F.cast<Real>();
+  s.V = next.V.leftCols(state).cast<Real>();
+  s.VF.noalias() = s.V * s.F;  // rows of x' and of w'
+  s.FVF.setZero(all, all);
+  s.FVF.template triangularView<Eigen::Lower>() += s.F.transpose() * s.VF.topRows(state);
+  add_lower<Real>(s.FVF, Q.H);
   if (memory == 0) return;
+  // w' is u itself: its rows of VF fall onto the rows of u, and by symmetry onto the columns.
   const auto of_w = s.VF.bottomRows(memory);
-  Q.H.middleRows(z, memory) += of_w;
-  Q.H.block(z, z, Q.H.rows() - z, memory) += of_w.rightCols(Q.H.rows() - z).transpose();
+  Q.H.middleRows(z, memory) += of_w.template cast<double>();
+  Q.H.block(z, z, all - z, memory) += of_w.rightCols(all - z).transpose().template cast<double>();
   Q.H.block(z, z, memory, memory) += next.V.bottomRightCorner(memory, memory);
   Q.g.segment(z, memory) += v.tail(memory);
 }
 
 }  // namespace
 
-SweepResult riccati_step(
-    const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& F,
-    const Eigen::VectorXd& gap, int memory, double regularisation, StageCost& cost, ValueFunction& value,
-    Feedback& law, RiccatiScratch& s) {
+template <class Real>
+SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int memory, double regularisation,
+                         StageCost& cost, ValueFunction& value, Feedback& law, RiccatiScratch<Real>& s) {
+  using Matrix = typename RiccatiScratch<Real>::Matrix;
   const auto z = F.rows() + memory, controls = F.cols() - z;
-  s.F = F.cast<double>();
-  add_value_of_next(value, gap, memory, cost, s);
+  add_value_of_next(value, F, gap, memory, cost, s);
   cost.H.diagonal().tail(controls).array() += regularisation;
-  const auto Quz = cost.H.block(z, 0, controls, z);
-  const auto q_u = cost.g.tail(controls);
   const Eigen::LLT<Eigen::MatrixXd> root(cost.H.bottomRightCorner(controls, controls));
   SweepResult result;
   result.positive = root.info() == Eigen::Success;
   if (!result.positive) return result;
-  s.root = root.matrixL().solve(Quz);  // L⁻¹ Q_uz
-  s.k = root.matrixL().solve(q_u);     // L⁻¹ q_u
-  result.gradient = q_u.cwiseAbs().maxCoeff();
-  result.decrease = 0.5 * s.k.squaredNorm();
+  // With Q_uu = L Lᵀ and Y = L⁻¹ Q_uz, y = L⁻¹ q_u:  K = −L⁻ᵀ Y, k = −L⁻ᵀ y, V = Q_zz − Yᵀ Y, v = q_z − Yᵀ y.
+  const Eigen::MatrixXd inverse = root.matrixL().solve(Eigen::MatrixXd::Identity(controls, controls));
+  const Eigen::VectorXd y = inverse * cost.g.tail(controls);
+  s.root_inverse = inverse.cast<Real>();
+  const Matrix Quz = cost.H.block(z, 0, controls, z).template cast<Real>();
+  s.Y.noalias() = s.root_inverse * Quz;
+  s.K.noalias() = s.root_inverse.transpose() * s.Y;
+  law.K = -s.K.template cast<float>();
+  law.k = (-(inverse.transpose() * y)).cast<float>();
+  result.decrease = 0.5 * y.squaredNorm();
+  s.YY.setZero(z, z);
+  s.YY.template selfadjointView<Eigen::Lower>().rankUpdate(s.Y.transpose(), Real(-1));
   value.V = cost.H.topLeftCorner(z, z);
-  value.V.selfadjointView<Eigen::Lower>().rankUpdate(s.root.transpose(), -1.0);
+  add_lower<Real>(s.YY, value.V);
   value.V.triangularView<Eigen::StrictlyUpper>() = value.V.transpose();
   value.v = cost.g.head(z);
-  value.v.noalias() -= s.root.transpose() * s.k;
-  s.K = s.root;
-  root.matrixU().solveInPlace(s.K);
-  root.matrixU().solveInPlace(s.k);
-  law.K = -s.K.cast<float>();
-  law.k = -s.k.cast<float>();
+  value.v.noalias() -= s.Y.transpose().template cast<double>() * y;
   return result;
 }
+
+template SweepResult riccati_step(const DynamicsRef&, const Eigen::VectorXd&, int, double, StageCost&,
+                                  ValueFunction&, Feedback&, RiccatiScratch<float>&);
+template SweepResult riccati_step(const DynamicsRef&, const Eigen::VectorXd&, int, double, StageCost&,
+                                  ValueFunction&, Feedback&, RiccatiScratch<double>&);
 
 }  // namespace mimicx::control

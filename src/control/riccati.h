@@ -10,6 +10,9 @@
 /// textbook's regulator. Source: Tassa, Erez, Todorov, "Synthesis and Stabilization of Complex Behaviors
 /// through Online Trajectory Optimization" (2012), eqs. (5), (6); gaps: Mastalli et al., "Crocoddyl" (2020),
 /// §IV-B.
+///
+/// Nearly all time goes into products of matrices. Their scalar is `Real`; gradients, Q_uu and its root are
+/// always in double. Planning takes float, which halves the time and plans as well (docs/control.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -38,13 +41,16 @@ struct Feedback {
 struct SweepResult {
   bool positive = false;  ///< Q_uu is positive definite; without it nothing else is valid
   double decrease = 0;    ///< of the cost that k promises: −q_uᵀk − ½ kᵀQ_uu k
-  double gradient = 0;    ///< largest entry of |q_u|
 };
 
-/// Scratch that lives through a sweep.
+/// F of a frame, as the derivatives come.
+using DynamicsRef = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+/// What lives through a sweep; its contents do not matter.
+template <class Real>
 struct RiccatiScratch {
-  Eigen::MatrixXd F, VF, K, root;
-  Eigen::VectorXd k;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  Matrix F, V, VF, FVF, root_inverse, Y, YY, K;
 };
 
 /// @param F  [state][state + memory + controls]
@@ -53,9 +59,8 @@ struct RiccatiScratch {
 /// @param regularisation  added to the diagonal of Q_uu: the price of moving u away from where it is
 /// @param cost  of this frame; destroyed: becomes Q
 /// @param value  of the next state in, of this one out
-SweepResult riccati_step(
-    const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>& F,
-    const Eigen::VectorXd& gap, int memory, double regularisation, StageCost& cost, ValueFunction& value,
-    Feedback& law, RiccatiScratch& scratch);
+template <class Real>
+SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int memory, double regularisation,
+                         StageCost& cost, ValueFunction& value, Feedback& law, RiccatiScratch<Real>& scratch);
 
 }  // namespace mimicx::control

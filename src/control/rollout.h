@@ -13,11 +13,12 @@ namespace mimicx::control {
 /// A piece of a motion: states of the frames begin … begin + n and the n controls between them.
 struct Trajectory {
   int begin = 0;
-  std::vector<State<double>> x;  ///< [n + 1] in the simulator's numbers (floats)
-  std::vector<Control> u;        ///< [n]
-  Control before{};              ///< the control before u[0]; only its residuals count
-  double cost = 0;               ///< of the states 1 … n and the controls
-  double worst = 0;              ///< distance of any body from the reference in these frames, m
+  std::vector<State<double>> x;       ///< [n + 1] in the simulator's numbers (floats)
+  std::vector<Control> u;             ///< [n]
+  Control before{};                   ///< the control before u[0]; only its residuals count
+  std::vector<Eigen::VectorXd> gaps;  ///< [n + 1], or empty for a roll-out (shooting.h)
+  double cost = 0;                    ///< of the states 1 … n and the controls
+  double worst = 0;                   ///< distance of any body from the reference in these frames, m
 
   int size() const { return static_cast<int>(u.size()); }
   const Control& previous(int k) const { return k == 0 ? before : u[static_cast<std::size_t>(k - 1)]; }

@@ -21,6 +21,8 @@ System make_system(const Character& character, const SimulationConfig& config,
   return system;
 }
 
+State<double> as_floats(const State<double>& x) { return lane_of(in_all_lanes<P>(x), 0); }
+
 Target<P> target_of(const System& system, int frame, const Control& u) {
   Target<P> out{};
   set_target(

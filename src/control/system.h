@@ -51,6 +51,9 @@ struct System {
 System make_system(const Character& character, const SimulationConfig& config,
                    std::vector<State<double>> reference, double fps);
 
+/// A state in the numbers that the simulator can hold.
+State<double> as_floats(const State<double>& x);
+
 /// The PD target of one joint at frame t under a residual, in one lane.
 /// @param entry  maps a degree of freedom to its residual
 template <class Entry>

@@ -68,6 +68,9 @@ std::string loss_in_words(const Reference& reference, const control::Loss& loss)
   if (loss.body >= 0)
     text += print(": %s is %.2f m from its reference",
                   std::string(kBodyNames[static_cast<std::size_t>(loss.body)]).c_str(), loss.distance);
+  if (loss.help_force > 0.0 || loss.help_moment > 0.0)
+    text += print("; a hand that holds the pelvis would keep it there with %.0f N and %.0f N m",
+                  loss.help_force, loss.help_moment);
   if (reference.size() < 3) return text;
   const int first = std::max(loss.frame - kFramesBefore, 1),
             last = std::min(loss.frame, reference.size() - 2);

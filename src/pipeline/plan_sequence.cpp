@@ -37,27 +37,53 @@ std::optional<StoredPlan> finished_plan(const SequenceJob& job) {
   return {};
 }
 
-/// Plans. @return whether the context asked to stop
-bool make(const Reference& reference, const PlanningConfig& config, const SequenceJob& job,
-          StoredPlan& stored) {
-  const double started = steady_seconds();
-  bool interrupted = false;
+control::System system_of(const Reference& reference, const StoredPlan& stored) {
+  return control::make_system(reference.character, stored.simulation, stored.reference, stored.fps);
+}
+
+/// The job's context and seconds, for the planner.
+struct Watch {
+  const SequenceJob& job;
+  double started = steady_seconds();
+  bool interrupted = false;  ///< the context asked to stop
+
+  control::PlanControl control() {
+    control::PlanControl control;
+    control.threads = job.threads;
+    control.should_stop = [this] {
+      interrupted = interrupted || job.context.should_stop();
+      return interrupted || (job.limit_seconds > 0.0 && steady_seconds() - started > job.limit_seconds);
+    };
+    control.progress = [this](int done, int) { job.context.progress.update(done, ""); };
+    return control;
+  }
+};
+
+StoredPlan make(const Reference& reference, const PlanningConfig& config, Watch& watch) {
+  const SequenceJob& job = watch.job;
   job.context.progress.start(job.name + ": plan", 0.0, reference.size(), "frames");
-  control::PlanControl control;
-  control.threads = job.threads;
-  control.should_stop = [&] {
-    interrupted = interrupted || job.context.should_stop();
-    return interrupted || (job.limit_seconds > 0.0 && steady_seconds() - started > job.limit_seconds);
-  };
-  control.progress = [&](int done, int) { job.context.progress.update(done, ""); };
+  StoredPlan stored;
   stored.input_checksum = job.input_checksum;
   stored.fps = reference.fps;
   stored.simulation = config.simulation;
   stored.reference = states_of(reference);
-  const control::System system =
-      control::make_system(reference.character, config.simulation, stored.reference, reference.fps);
-  stored.plan = control::make_plan(system, config.plan, control);
-  return interrupted;
+  stored.plan = control::make_plan(system_of(reference, stored), config.plan, watch.control());
+  return stored;
+}
+
+/// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
+void leave_gains(const Reference& reference, const PlanningConfig& config, const StoredPlan& stored,
+                 Watch& watch) {
+  const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
+  std::filesystem::remove(file);
+  if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
+  const control::System system = system_of(reference, stored);
+  const auto gains =
+      control::feedback_gains(system, control::make_cost(system, config.plan.weights, config.plan.certainty),
+                              control::trajectory_of(stored.plan), config.plan.gain_options, watch.control());
+  if (gains.empty()) return;  // it was told to stop
+  std::filesystem::create_directories(file.parent_path());
+  write_gains(file, gains);
 }
 
 rl::TrackingRollout replay(const Reference& reference, const StoredPlan& stored, bool substeps) {
@@ -81,7 +107,8 @@ NamedValues values_of(const control::Plan& plan) {
           {"worst_distance_mm", kMm * plan.worst_distance},
           {"iterations", static_cast<double>(plan.iterations)},
           {"linearised_frames", static_cast<double>(plan.linearised)},
-          {"backtracks", static_cast<double>(plan.backtracks)}};
+          {"backtracks", static_cast<double>(plan.backtracks)},
+          {"by_way_of_help", plan.by_way_of_help ? 1.0 : 0.0}};
 }
 
 Ending ending_of(const control::Plan& plan) {
@@ -102,22 +129,26 @@ SimulatedSequence plan_sequence(const Reference& reference, const PlanningConfig
                                 const SequenceJob& job) {
   SimulatedSequence made;
   made.method = "plan";
-  const double started = steady_seconds();
-  std::optional<StoredPlan> finished = finished_plan(job);
-  StoredPlan stored = finished ? std::move(*finished) : StoredPlan{};
-  if (!finished) {
-    made.interrupted = make(reference, config, job, stored);
-    made.planning_seconds = steady_seconds() - started;
-    if (made.interrupted) return made;
-    std::filesystem::create_directories(job.folder.plan(job.name).parent_path());
-    write_plan(job.folder.plan(job.name), stored);
+  Watch watch{job};
+  std::optional<StoredPlan> stored = finished_plan(job);
+  if (!stored) {
+    stored = make(reference, config, watch);
+    if (!watch.interrupted) {
+      std::filesystem::create_directories(job.folder.plan(job.name).parent_path());
+      write_plan(job.folder.plan(job.name), *stored);
+    }
   }
-  made.ending = ending_of(stored.plan);
-  made.plan = values_of(stored.plan);
-  if (stored.plan.loss) made.reason = loss_in_words(reference, *stored.plan.loss);
+  if (!watch.interrupted) leave_gains(reference, config, *stored, watch);
+  made.planning_seconds = steady_seconds() - watch.started;
+  made.interrupted = watch.interrupted;
+  if (made.interrupted) return made;
+  const control::Plan& plan = stored->plan;
+  made.ending = ending_of(plan);
+  made.plan = values_of(plan);
+  if (plan.loss) made.reason = loss_in_words(reference, *plan.loss);
   if (made.ending == Ending::kLimitSeconds)
-    made.reason = "the plan was stopped at frame " + std::to_string(stored.plan.states.size() - 1);
-  made.after = replay(reference, stored, job.substeps);
+    made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
+  made.after = replay(reference, *stored, job.substeps);
   return made;
 }
 

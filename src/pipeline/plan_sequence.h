@@ -2,7 +2,8 @@
 /// (control/plan.h), and these are rolled out over the whole of the motion, byte for byte what was planned.
 ///
 /// The plan is left in plans/NAME.npz (plan_file.h). One that was finished for the same input is taken up
-/// again; one that was interrupted starts anew. Where a plan is lost the residuals behind its end are zero:
+/// again; one that was interrupted starts anew. Where they are wanted, the feedback gains of a plan that was
+/// followed are left in gains/NAME.npz. Where a plan is lost the residuals behind its end are zero:
 /// the body goes on, and falls.
 #pragma once
 

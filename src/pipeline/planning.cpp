@@ -39,13 +39,17 @@ void for_each_setting(Config& config, const Add& add) {
   auto& h = config.horizon;
   add("plan_horizon", h.horizon, 1, 1000);
   add("plan_commit", h.commit, 1, 1000);
+  add("plan_easy_cost", h.easy_cost, 0, 1e9);
   add("plan_iterations", h.iterations, 1, 1000);
   add("plan_hard_iterations", h.hard_iterations, 1, 1000);
   add("plan_hard_cost", h.hard_cost, 0, 1e9);
   add("plan_stop", h.stop, 0, 1);
+  add("plan_trusted", h.trusted, 0, 10);
   add("plan_lost", h.lost, 1e-3, 10);
   add("plan_back", h.back, 1, 1000);
   add("plan_backtracks", h.backtracks, 0, 1000);
+  add("plan_budget", h.budget, 0, 1e6);
+  add("plan_soft_to_hard", config.soft_to_hard, 0, 1);
 }
 
 }  // namespace

@@ -82,8 +82,11 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
   entry.name = there ? there->name : unique_name(input, taken);
   entry.seed = run.method.seed;
   entry.input_checksum = file_checksum(input);
-  const bool complete = there && std::filesystem::exists(run.folder.root / there->output) &&
-                        (!run.config.substeps || std::filesystem::exists(run.folder.substeps(entry.name)));
+  const auto has = [](const std::filesystem::path& file) { return std::filesystem::exists(file); };
+  const bool complete =
+      there && has(run.folder.root / there->output) &&
+      (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
+      (!run.config.gains || there->ending != Ending::kFollowed || has(run.folder.gains(entry.name)));
   const bool stands = complete && there->finished() && there->input_checksum == entry.input_checksum;
   if (stands) entry = *there;
   return !stands;
@@ -134,7 +137,12 @@ void judge_sequence(const Method& method, const Reference& reference, const Simu
   entry.metrics = after.values;
   entry.ok = after.success;
   entry.reason = after.reason;
-  if (!entry.ok && !made.reason.empty()) entry.reason = made.reason + "; " + after.reason;
+  if (!made.reason.empty()) {
+    if (entry.ok)
+      entry.notes.push_back(made.reason);
+    else
+      entry.reason = made.reason + "; " + after.reason;
+  }
   audit_sequence(reference, method.simulation, made.after, entry);
 }
 
@@ -169,7 +177,7 @@ bool do_sequence(RunState& run, SequenceEntry& entry, std::size_t& told) {
   told = entry.notes.size();
   entry.input_metrics = score_input(motion.input, motion.reference);
   const SimulatedSequence made = run.method.simulate(
-      motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps,
+      motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
                          run.config.threads, run.config.limit_seconds, run.context});
   Timing& timing = timing_of(run, entry.name);
   timing.planning_seconds += made.planning_seconds;

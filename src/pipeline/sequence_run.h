@@ -36,6 +36,7 @@ struct RunConfig {
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
+  bool gains = false;       ///< also write the feedback gains of plans; finished ones get theirs, too
   bool fit = false;  ///< move inputs onto their keypoints first, where they have any; Eq. 3 sees no others
   int threads = 1;
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
@@ -47,6 +48,7 @@ struct SequenceJob {
   std::string input_checksum;  ///< a checkpoint of another input is not taken up
   RunFolder folder;
   bool substeps = false;  ///< record every physics step of the result
+  bool gains = false;     ///< leave the feedback gains of a plan
   int threads = 1;
   double limit_seconds = 0.0;  ///< safety stop; 0: none
   const RunContext& context;
@@ -63,8 +65,8 @@ struct SimulatedSequence {
   rl::TrackingRollout after;                         ///< the result
   std::vector<std::array<int, 2>> arrangement = {};  ///< {first frame, option}; empty without options
   NamedValues plan = {};                             ///< what planning it took
-  std::string reason = {};                           ///< why it is no success, where the method knows
-  std::vector<std::string> notes = {};               ///< for the manifest
+  std::string reason = {};              ///< where the method knows why it is no success, or may be none
+  std::vector<std::string> notes = {};  ///< for the manifest
 };
 
 /// A way of making the humanoid follow a motion, with everything that its results depend on.

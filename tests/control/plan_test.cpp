@@ -60,21 +60,46 @@ TEST(Plan, OneAndTwoThreadsGiveTheSameBytes) {
   EXPECT_EQ(std::memcmp(one.states.data(), two.states.data(), one.states.size() * sizeof one.states[0]), 0);
 }
 
-// A reference that rises from the floor like a balloon.
-TEST(Plan, AReferenceThatNoBodyCanFollowIsReportedAndNotFought) {
-  Reference reference = synthetic_reference("stand", 501, 60);
-  System system = system_of(reference);
+/// Stands, and rises from the floor like a balloon, 2 m/s² from frame 20 on.
+System balloon() {
+  System system = system_of(synthetic_reference("stand", 501, 60));
   for (std::size_t t = 20; t < 60; ++t) {
-    system.reference[t].p_root.z += 0.05 * static_cast<double>(t - 20);
-    system.reference[t].v_root.z += 1.5;
+    const double time = static_cast<double>(t - 20) / 30.0;
+    system.reference[t].p_root.z += time * time;
+    system.reference[t].v_root.z += 2.0 * time;
   }
+  return system;
+}
+
+TEST(Plan, AReferenceThatNoBodyCanFollowIsReportedAndNotFought) {
+  const System system = balloon();
   const Plan plan = make_plan(system, {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kLost);
   ASSERT_TRUE(plan.loss);
-  EXPECT_GE(plan.loss->frame, 20);
-  EXPECT_LT(plan.loss->frame, 60);
+  EXPECT_GT(plan.loss->frame, 20);
+  EXPECT_LT(plan.loss->frame, 45);
+  EXPECT_GE(plan.loss->body, 0);
+  EXPECT_GT(plan.loss->distance, 0.05);
+  // To hang in the air takes the body's weight.
+  const double weight = 9.81 * system.mass;
+  EXPECT_GT(plan.loss->help_force, 0.8 * weight);
+  EXPECT_LT(plan.loss->help_force, 3.0 * weight);
+  EXPECT_FALSE(plan.by_way_of_help);
+  EXPECT_GT(plan.states.size(), 10u);
   EXPECT_LT(plan.states.size(), 60u);
   EXPECT_EQ(plan.residuals.size() + 1, plan.states.size());
+}
+
+// The helped plan follows it, and its help is the one of physics: the acceleration of the reference.
+TEST(Plan, ASoftPlanFollowsWhatNoBodyCan) {
+  System system = balloon();
+  system.soft = true;
+  const Plan plan = make_plan(system, {}, {.threads = 2});
+  EXPECT_EQ(plan.ending, Ending::kFollowed);
+  ASSERT_EQ(plan.help.size(), 59u);
+  EXPECT_LT(plan.worst_distance, 0.35);
+  EXPECT_NEAR(static_cast<double>(plan.help[45][2]), 11.81, 1.0);
+  EXPECT_LT(std::abs(static_cast<double>(plan.help[5][2])), 1.0);
 }
 
 TEST(Plan, StopsWhereItIsToldTo) {

@@ -20,7 +20,7 @@ Eigen::MatrixXd sweep(const Regulator& r, int steps, Eigen::MatrixXd& gain) {
   F << r.A.cast<float>(), r.B.cast<float>();
   ValueFunction value{r.Q, Eigen::VectorXd::Zero(n)};
   Feedback law;
-  RiccatiScratch scratch;
+  RiccatiScratch<double> scratch;
   for (int k = 0; k < steps; ++k) {
     StageCost cost{Eigen::MatrixXd::Zero(n + m, n + m), Eigen::VectorXd::Zero(n + m)};
     cost.H.topLeftCorner(n, n) = r.Q;
@@ -112,7 +112,7 @@ TEST(Riccati, MemoryAndGapsAreThoseOfTheWholeProblem) {
 
   ValueFunction value = last;
   Feedback law[2];
-  RiccatiScratch scratch;
+  RiccatiScratch<double> scratch;
   for (int t = 1; t >= 0; --t)
     ASSERT_TRUE(riccati_step(F[t], gap[t], w, 0.0, stage[t], value, law[t], scratch).positive);
   const Eigen::VectorXd u0 = law[0].k.cast<double>();
@@ -130,7 +130,7 @@ TEST(Riccati, SaysWhereThereIsNoMinimum) {
   cost.H(1, 1) = -1.0;
   ValueFunction value{Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Zero(1)};
   Feedback law;
-  RiccatiScratch scratch;
+  RiccatiScratch<double> scratch;
   EXPECT_FALSE(riccati_step(F, {}, 0, 0.0, cost, value, law, scratch).positive);
 }
 

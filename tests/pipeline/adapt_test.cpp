@@ -114,7 +114,7 @@ TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
 }
 
 TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
-  AdaptConfig config;
+  AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPlan;
   config.run.inputs = {(motions / "sway.npz").string()};
   config.run.out = out("run");

@@ -78,12 +78,15 @@ void for_each_number(PlanType& plan, const Add& add) {
   add("iterations", plan.iterations);
   add("linearised_frames", plan.linearised);
   add("backtracks", plan.backtracks);
+  add("by_way_of_help", plan.by_way_of_help);
 }
 template <class LossType, class Add>
 void for_each_loss_number(LossType& loss, const Add& add) {
   add("lost_frame", loss.frame);
   add("lost_body", loss.body);
   add("lost_distance", loss.distance);
+  add("help_force", loss.help_force);
+  add("help_moment", loss.help_moment);
 }
 
 std::string read_text(const Npz& npz, const std::string& name) {
@@ -120,6 +123,32 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
   add("fps", stored.fps);
   for_each_simulation_setting(stored.simulation, add);
   write_npz(path, npz);
+}
+
+void write_gains(const std::filesystem::path& path, const std::vector<Eigen::MatrixXf>& gains) {
+  using Rows = Eigen::Matrix<float, control::kDofs, control::kMemory, Eigen::RowMajor>;
+  std::vector<float> values;
+  values.reserve(gains.size() * Rows::SizeAtCompileTime);
+  for (const Eigen::MatrixXf& K : gains) {
+    const Rows rows = K;
+    values.insert(values.end(), rows.data(), rows.data() + rows.size());
+  }
+  Npz npz;
+  npz.set("gains", NpyArray::from_float({gains.size(), kDofs, control::kMemory}, values.data()));
+  write_npz(path, npz);
+}
+
+std::vector<Eigen::MatrixXf> read_gains(const std::filesystem::path& path) {
+  const Npz npz = read_npz(path);
+  const std::vector<std::size_t>& shape = npz.at("gains").shape;
+  const std::size_t count = shape.empty() ? 0 : shape[0];
+  const std::vector<double> values = read_numbers(npz, "gains", count, kDofs * control::kMemory);
+  std::vector<Eigen::MatrixXf> gains(count, Eigen::MatrixXf(kDofs, control::kMemory));
+  const double* at = values.data();
+  for (Eigen::MatrixXf& K : gains)
+    for (Eigen::Index r = 0; r < K.rows(); ++r)
+      for (Eigen::Index c = 0; c < K.cols(); ++c) K(r, c) = static_cast<float>(*at++);
+  return gains;
 }
 
 StoredPlan read_plan(const std::filesystem::path& path) {

@@ -1,4 +1,5 @@
-/// plans/NAME.npz: a plan, with everything that repeats it but the body.              docs/formats.md
+/// plans/NAME.npz: a plan, with everything that repeats it but the body; gains/NAME.npz: the feedback around
+/// it.                                                                                docs/formats.md
 ///
 /// States and residuals are the simulator's own numbers (float32), the reference is what the residuals are
 /// applied to (float64): a system made of the file and of the body of references/NAME.npz rolls the residuals
@@ -24,5 +25,10 @@ struct StoredPlan {
 void write_plan(const std::filesystem::path& path, const StoredPlan& stored);
 /// @throws DataError naming file and member that is not there, or not of its shape
 StoredPlan read_plan(const std::filesystem::path& path);
+
+/// @param gains  [frames − 1] K_t [55][177] (control/gains.h)
+void write_gains(const std::filesystem::path& path, const std::vector<Eigen::MatrixXf>& gains);
+/// @throws DataError as read_plan does
+std::vector<Eigen::MatrixXf> read_gains(const std::filesystem::path& path);
 
 }  // namespace mimicx

@@ -10,6 +10,7 @@
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
 ///     DIR/plans/NAME.npz         the plan that the motion was simulated from, where there was one
+///     DIR/gains/NAME.npz         feedback gains around it, where asked for
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
@@ -42,6 +43,7 @@ struct RunFolder {
     return root / "substeps" / (name + ".npz");
   }
   std::filesystem::path plan(const std::string& name) const { return root / "plans" / (name + ".npz"); }
+  std::filesystem::path gains(const std::string& name) const { return root / "gains" / (name + ".npz"); }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");

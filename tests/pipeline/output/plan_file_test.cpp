@@ -50,7 +50,8 @@ struct PlanFile : testing::Test {
 TEST_F(PlanFile, ComesBackToTheBit) {
   StoredPlan plan = planned(8);
   plan.plan.ending = control::Ending::kLost;
-  plan.plan.loss = control::Loss{5, kLeftFoot, 0.41};
+  plan.plan.loss = control::Loss{5, kLeftFoot, 0.41, 300.0, 40.0};
+  plan.plan.by_way_of_help = true;
   const StoredPlan back = written(plan);
   EXPECT_EQ(back.input_checksum, plan.input_checksum);
   EXPECT_EQ(back.fps, plan.fps);
@@ -68,6 +69,9 @@ TEST_F(PlanFile, ComesBackToTheBit) {
   EXPECT_EQ(back.plan.loss->frame, 5);
   EXPECT_EQ(back.plan.loss->body, kLeftFoot);
   EXPECT_EQ(back.plan.loss->distance, 0.41);
+  EXPECT_EQ(back.plan.loss->help_force, 300.0);
+  EXPECT_EQ(back.plan.loss->help_moment, 40.0);
+  EXPECT_TRUE(back.plan.by_way_of_help);
 }
 
 TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
@@ -88,6 +92,18 @@ TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
     from = to;
   }
   EXPECT_TRUE(same_bits(states, stored.plan.states));
+}
+
+TEST_F(PlanFile, GainsComeBackToTheBitAndAreRefusedInAnotherShape) {
+  std::vector<Eigen::MatrixXf> gains;
+  for (int t = 0; t < 3; ++t) gains.push_back(Eigen::MatrixXf::Random(kDofs, control::kMemory));
+  write_gains(file, gains);
+  EXPECT_EQ(read_gains(file), gains);
+  EXPECT_EQ(read_npz(file).at("gains").to_double()[control::kMemory], static_cast<double>(gains[0](1, 0)));
+  Npz npz;
+  npz.set("gains", NpyArray::scalar(1.0));
+  write_npz(file, npz);
+  EXPECT_THROW(read_gains(file), DataError);
 }
 
 TEST_F(PlanFile, OneThatIsDamagedNamesTheMember) {

@@ -1,0 +1,46 @@
+/// Feedback around a finished plan: how to correct the controls when the state is not the planned one.
+///
+///     u = ū_t + K_t (z − z̄_t),      z = (state, residual before)
+///
+/// The gains that planning itself uses are too stiff for contact: they answer to an error of a few
+/// millimetres by what is right at the very point of the plan, where the next millimetre opens or closes a
+/// contact. These are softened twice: derivatives smoothed over a neighbourhood of some centimetres and
+/// degrees (differences.h), and a high price on residuals. One sweep over the whole motion, in blocks of
+/// frames, so that memory does not grow with its length (the gains themselves aside: 39 kB per frame).
+#pragma once
+
+#include "control/ilqr.h"
+#include "control/plan_control.h"
+
+namespace mimicx::control {
+
+struct GainOptions {
+  Linearisation linearisation{Derivatives::kSmoothed, DifferenceSteps{}.scaled(6.0)};
+  double residual = 50.0;  ///< weights in place of the plan's own
+  double change = 50.0;
+  int block = 32;  ///< frames that are linearised at once
+};
+
+/// K_t [controls][kMemory] of every control of a roll-out.
+/// @return fewer, none, where it was told to stop
+std::vector<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
+                                            const GainOptions& options, const PlanControl& control);
+
+/// Pushes of the pelvis, horizontal, in random directions.
+struct PushTest {
+  double speed = 0.1;  ///< change of the pelvis' velocity by one push, m/s
+  int every = 30;      ///< frames from push to push; the first in the middle of that
+  int trials = 16;
+  double lost = 0.5;  ///< distance of a body at which a trial has failed, m
+  std::uint64_t seed = 1;
+};
+struct PushResult {
+  int followed = 0;        ///< trials that stayed within `lost` to the end
+  double frames_kept = 0;  ///< mean of the frames before that
+};
+
+/// Follows a roll-out under the gains while it is pushed; without gains (empty) open loop.
+PushResult test_pushes(const System& system, const Cost& cost, const Trajectory& motion,
+                       const std::vector<Eigen::MatrixXf>& gains, const PushTest& test);
+
+}  // namespace mimicx::control
