@@ -109,7 +109,7 @@ TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
   Snapshot snapshot = standing(stiffened(character));
   snapshot.p_root.z() += 0.5;
   const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationConfig{}, snapshot);
-  Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * 9.81}};
+  Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * kGravity}};
   const Vector3d before = to_eigen(s->state.p_root);
   // The moment about the pelvis of a centre of mass that hangs before it turns the body, so only for a
   // moment.
