@@ -1,6 +1,6 @@
 /// What the derivative of one physics step needs to know of the step itself: numbers of the nominal motion,
-/// the same for every row.                                                      docs/control_derivatives.md
-/// §3
+/// the same for every row.
+///                                                                             docs/control_derivatives.md §3
 ///
 /// Vectors and matrices are in world-parallel axes about the body's own joint centre, as in physics/data.h,
 /// unless a comment names a body frame. D is the change that an observer sees who turns with the body

@@ -2,7 +2,7 @@
 ///
 /// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion.
 /// *Paper*: trained options are arranged over the motion, and those that act are fine-tuned jointly; minutes.
-///                                                                     METHOD: docs/method.md §8, §9
+///                                                                     docs/method.md §8, §9
 /// *Auto*: the plan, and where its roll-out is no success the paper's method with its whole budget; the
 /// better of the two roll-outs is written (choice.h), and the manifest says which.
 #pragma once

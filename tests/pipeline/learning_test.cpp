@@ -1,4 +1,4 @@
-// Whole trainings with the default configuration: what the README promises. Minutes each.
+// Whole trainings with the default configuration: what docs/results.md promises. Minutes each.
 #include <gtest/gtest.h>
 
 #include <iostream>

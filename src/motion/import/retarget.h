@@ -1,5 +1,5 @@
 /// Retargeting: the motion of a foreign skeleton on the 22 bodies.                       docs/method.md,
-/// Retargeting
+/// "Retargeting"
 ///
 /// What is kept: the directions of thighs, shanks, upper arms and forearms, and of the trunk from the middle
 /// of the hips to the middle of the shoulders, in every frame; how every joint turns relative to a neutral

@@ -1,5 +1,5 @@
 /// Which options of a set act in which frames of a motion, and the clip made ready for them.
-///                                                                          METHOD: docs/method.md §8, §9
+///                                                                          docs/method.md §8, §9
 /// The options run side by side over the clip (side_by_side.h); from their rewards the selector takes the
 /// arrangement of largest value (selector.h). The options that occur in it are kept, in the order of the set,
 /// and numbered anew from 0: joint fine-tuning trains the policies that act and no others.

@@ -1,4 +1,4 @@
-/// Motions sorted into clusters of similar ones, and the file that says so.               METHOD §6
+/// Motions sorted into clusters of similar ones, and the file that says so.               docs/method.md §6
 ///
 /// Motions are points of R⁶⁸ (motion/features.h); the clusters are the leaves of hierarchical k-means
 /// (kmeans.h). One option policy is trained per cluster. Numbers run from 0, the calmer branch of every split

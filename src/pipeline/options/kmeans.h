@@ -1,4 +1,4 @@
-/// Hierarchical k-means: clusters that are no wider than asked for.                     METHOD §6
+/// Hierarchical k-means: clusters that are no wider than asked for.                     docs/method.md §6
 ///
 /// A cluster whose diameter (the largest distance between two of its members, which the paper calls its
 /// radius) exceeds the bound l_max is split by k-means with k = 2, and its parts again, until none does.

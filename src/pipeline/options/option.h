@@ -1,5 +1,5 @@
 /// An option: one policy for one kind of motion, with the encoder through which it sees its reference.
-///                                                                          METHOD: docs/method.md §7
+///                                                                          docs/method.md §7
 /// Options are trained per cluster, stored together, chosen per frame and fine-tuned jointly. All options of
 /// a set have one state size.
 #pragma once

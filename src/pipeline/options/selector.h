@@ -1,4 +1,4 @@
-/// Which option acts in which frame: the arrangement of largest total reward.           Eq. 4; METHOD §8
+/// Which option acts in which frame: the arrangement of largest total reward.        Eq. 4; docs/method.md §8
 ///
 /// Eq. 4: R(O) = Σ_t r[t][o_t] + w_p · (number of switches). What w_p multiplies is 1 − δ(o_t, o_{t+1}): it
 /// is added where the option *changes* and is zero or negative, a penalty against switching; staying adds

@@ -1,5 +1,5 @@
 /// C characters on one clip, one per option: the rewards from which the selector chooses.
-///                                                                          METHOD: docs/method.md §8
+///                                                                          docs/method.md §8
 ///
 /// All act at once, each by the mean action of its option. Where a character's reward falls under σ, or it
 /// has fallen, it takes over the state of the best character at that moment; where all of them have, all
