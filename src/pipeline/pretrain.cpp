@@ -172,7 +172,8 @@ OptionRun train_option(const PretrainConfig& config, const RunContext& context, 
 
 NamedValues settings_of(const PretrainConfig& config) {
   NamedValues values;
-  for (const auto& [name, value] : settings_json(config).items())
+  const Json settings = settings_json(config);  // items() looks into it, so it has to live that long
+  for (const auto& [name, value] : settings.items())
     values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
   return values;
 }

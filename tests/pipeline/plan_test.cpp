@@ -191,7 +191,8 @@ TEST_F(PlanMotions, RefusesAFolderOfOtherSettings) {
 TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
   const NamedValues defaults = planning_settings({});
   for (const auto& [name, value] : defaults) {
-    const double other = name == "self_contact" ? 1.0 - value : value + 1.0;
+    const bool is_switch = name == "self_contact" || name == "plan_soft_to_hard";
+    const double other = is_switch ? 1.0 - value : value + 1.0;
     PlanningConfig config;
     apply_setting(config, name, other);
     const NamedValues changed = planning_settings(config);
