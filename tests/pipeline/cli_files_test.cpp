@@ -4,6 +4,7 @@
 
 #include "core/npz.h"
 #include "motion/import/bvh.h"
+#include "motion/import/bvh_write.h"
 #include "motion/import/motion_file.h"
 #include "physics/mjcf.h"
 #include "pipeline/cli.h"

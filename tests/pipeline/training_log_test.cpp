@@ -1,8 +1,8 @@
 #include "pipeline/training_log.h"
 
-#include "core/named_values.h"
-
 #include <gtest/gtest.h>
+
+#include "core/named_values.h"
 
 namespace mimicx {
 namespace {

@@ -126,7 +126,7 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
 }
 
 void write_gains(const std::filesystem::path& path, const std::vector<Eigen::MatrixXf>& gains) {
-  using Rows = Eigen::Matrix<float, control::kDofs, control::kMemory, Eigen::RowMajor>;
+  using Rows = Eigen::Matrix<float, kDofs, control::kMemory, Eigen::RowMajor>;
   std::vector<float> values;
   values.reserve(gains.size() * Rows::SizeAtCompileTime);
   for (const Eigen::MatrixXf& K : gains) {
