@@ -102,9 +102,9 @@ TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
     const std::size_t at = help.text.find(option + " ");
     ASSERT_NE(at, std::string::npos) << command << ' ' << option;
     const std::string line = help.text.substr(at, help.text.find('\n', at) - at);
-    const std::size_t bracket = line.rfind('[');
-    ASSERT_NE(bracket, std::string::npos) << line;
-    EXPECT_EQ(std::stod(line.substr(bracket + 1)), value) << line;
+    const std::size_t before_default = line.find_last_of("=[");  // versions of CLI11 differ
+    ASSERT_NE(before_default, std::string::npos) << line;
+    EXPECT_EQ(std::stod(line.substr(before_default + 1)), value) << line;
   }
   const Call table = mimicx("config");
   EXPECT_EQ(table.status, 0);
