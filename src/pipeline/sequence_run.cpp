@@ -54,10 +54,10 @@ Manifest open_manifest(const RunConfig& config, const Method& method, const RunF
   if (!std::filesystem::exists(folder.manifest())) return manifest;
   Manifest there = read_manifest(folder.manifest());
   if (!there.same_settings(manifest))
-    throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + there.method + ", seed " +
-                                std::to_string(there.seed) + ", " + std::to_string(there.samples) +
-                                " samples, " + there.version + " for " + there.target +
-                                "): give another folder, or remove it first");
+    throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + there.method +
+                                ", seed " + std::to_string(there.seed) + ", " +
+                                std::to_string(there.samples) + " samples, " + there.version + " for " +
+                                there.target + "): give another folder, or remove it first");
   return there;
 }
 

@@ -8,7 +8,8 @@ namespace mimicx::rl {
 void require_whole_steps(double physics_rate, double fps) {
   const double substeps = physics_rate / fps;
   if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
-    throw std::invalid_argument("physics_rate: the physics rate must be a multiple of the reference's frame rate");
+    throw std::invalid_argument(
+        "physics_rate: the physics rate must be a multiple of the reference's frame rate");
 }
 
 std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
