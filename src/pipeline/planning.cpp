@@ -9,8 +9,6 @@
 namespace mimicx {
 namespace {
 
-using control::Derivatives;
-
 /// Calls add(name, field, least, most) for every number of the plan.
 template <class Config, class Add>
 void for_each_setting(Config& config, const Add& add) {
