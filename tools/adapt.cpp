@@ -8,11 +8,11 @@
 #include "commands.h"
 #include "training.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
-  AdaptConfig config = adapt_configuration();
+  pipeline::AdaptConfig config = pipeline::adapt_configuration();
   std::string options;
   std::vector<std::string> settings;
 };
@@ -32,13 +32,13 @@ std::filesystem::path shipped_options() {
 
 }  // namespace
 
-int adapt_motions(AdaptConfig config, std::filesystem::path options,
+int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
                   const std::vector<std::string>& settings) {
-  if (config.method != AdaptMethod::kPlan)
-    config.options = read_options(options.empty() ? shipped_options() : options);
+  if (config.method != pipeline::AdaptMethod::kPlan)
+    config.options = pipeline::options::read_options(options.empty() ? shipped_options() : options);
   apply_settings(settings, config);
-  return with_context([&](const RunContext& context) {
-    return run_inputs(config.run, context, [&] { return adapt(config, context); });
+  return with_context([&](const pipeline::record::RunContext& context) {
+    return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });
   });
 }
 
@@ -46,8 +46,10 @@ void declare_adapt(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand(
       "adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each");
-  static const std::map<std::string, AdaptMethod> kMethods = {
-      {"auto", AdaptMethod::kAuto}, {"plan", AdaptMethod::kPlan}, {"paper", AdaptMethod::kPaper}};
+  static const std::map<std::string, pipeline::AdaptMethod> kMethods = {
+      {"auto", pipeline::AdaptMethod::kAuto},
+      {"plan", pipeline::AdaptMethod::kPlan},
+      {"paper", pipeline::AdaptMethod::kPaper}};
   command
       ->add_option(
           "--method", a->config.method,
@@ -68,4 +70,4 @@ void declare_adapt(CLI::App& app, Action& action) {
       [a, &action] { action = [a] { return adapt_motions(a->config, a->options, a->settings); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -6,9 +6,9 @@
 
 #include "core/parallel.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 
-void add_read_arguments(CLI::App& command, ReadConfig& read) {
+void add_read_arguments(CLI::App& command, motion::import::ReadConfig& read) {
   static const std::map<std::string, char> kAxes = {{"x", 'x'},  {"y", 'y'},  {"z", 'z'},
                                                     {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}};
   command
@@ -47,7 +47,7 @@ void add_seed(CLI::App& command, std::uint64_t& seed) {
   command.add_option("--seed", seed, "root of every random number")->capture_default_str();
 }
 
-void add_cluster_arguments(CLI::App& command, ClusterConfig& clusters) {
+void add_cluster_arguments(CLI::App& command, pipeline::options::ClusterConfig& clusters) {
   auto* radius =
       command
           .add_option("--radius", clusters.radius, "no two motions of a cluster are farther apart than this")
@@ -58,4 +58,4 @@ void add_cluster_arguments(CLI::App& command, ClusterConfig& clusters) {
       ->excludes(radius);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

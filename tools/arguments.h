@@ -10,10 +10,10 @@ namespace CLI {
 class App;
 }
 
-namespace mimicx {
+namespace mimicx::tools {
 
 /// --up, --scale, --fps …: what the user knows better than the files.
-void add_read_arguments(CLI::App& command, ReadConfig& read);
+void add_read_arguments(CLI::App& command, motion::import::ReadConfig& read);
 
 /// --threads; default: all there are.
 void add_threads(CLI::App& command, int& threads);
@@ -22,6 +22,6 @@ void add_threads(CLI::App& command, int& threads);
 void add_seed(CLI::App& command, std::uint64_t& seed);
 
 /// --radius or --clusters.
-void add_cluster_arguments(CLI::App& command, ClusterConfig& clusters);
+void add_cluster_arguments(CLI::App& command, pipeline::options::ClusterConfig& clusters);
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -7,7 +7,7 @@
 #include "pipeline/audit/audit_file.h"
 #include "pipeline/preparation.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
@@ -17,14 +17,14 @@ struct Arguments {
 };
 
 int audit(const Arguments& a) {
-  std::vector<AuditedFile> files;
+  std::vector<pipeline::audit::AuditedFile> files;
   bool all_good = true;
-  std::cout << audit_table_head();
-  for (const std::string& path : expand_inputs(a.inputs)) {
+  std::cout << pipeline::audit::audit_table_head();
+  for (const std::string& path : pipeline::expand_inputs(a.inputs)) {
     try {
-      files.push_back({path, audit_file(path, a.poses_alone)});
-      for (const Audit& audit : files.back().audits) {
-        std::cout << format_audit(path, audit);
+      files.push_back({path, pipeline::audit::audit_file(path, a.poses_alone)});
+      for (const pipeline::audit::Audit& audit : files.back().audits) {
+        std::cout << pipeline::audit::format_audit(path, audit);
         all_good = all_good && audit.failures.empty();
       }
     } catch (const std::exception& error) {
@@ -32,7 +32,7 @@ int audit(const Arguments& a) {
       all_good = false;
     }
   }
-  if (!a.json.empty()) write_file_atomically(a.json, audit_json(files));
+  if (!a.json.empty()) write_file_atomically(a.json, pipeline::audit::audit_json(files));
   return all_good ? kAllGood : kSomeFailed;
 }
 
@@ -48,4 +48,4 @@ void declare_audit(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return audit(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -13,7 +13,7 @@
 #include "oracles/mujoco_audit.h"
 #include "pipeline/audit/audit_file.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 constexpr double kAgreement = 1e-8;  ///< largest difference of the engines, in parts of weight or floor push
@@ -22,10 +22,10 @@ struct Numbers {
   double force_mean = 0.0, force_max = 0.0, moment_mean = 0.0, moment_max = 0.0, torque_gap_max = 0.0;
 };
 
-Numbers numbers_of(const std::vector<AuditRow>& rows) {
+Numbers numbers_of(const std::vector<pipeline::audit::AuditRow>& rows) {
   Numbers n;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(rows.size(), 1));
-  for (const AuditRow& row : rows) {
+  for (const pipeline::audit::AuditRow& row : rows) {
     const double moment = row.root.head<3>().norm(), force = row.root.tail<3>().norm();
     n.force_mean += share * force;
     n.force_max = std::max(n.force_max, force);
@@ -42,9 +42,10 @@ void print(const std::string& name, const std::string& evidence, const char* eng
 }
 
 /// Both engines' lines. @return whether they agree
-bool compare(const std::string& name, const Audit& audit, const std::vector<AuditRow>& mujoco) {
-  const double apart = largest_difference(audit, mujoco);
-  print(name, evidence_name(audit.evidence), "mimicx", numbers_of(audit.rows));
+bool compare(const std::string& name, const pipeline::audit::Audit& audit,
+             const std::vector<pipeline::audit::AuditRow>& mujoco) {
+  const double apart = test::largest_difference(audit, mujoco);
+  print(name, pipeline::audit::evidence_name(audit.evidence), "mimicx", numbers_of(audit.rows));
   print("", "", "MuJoCo", numbers_of(mujoco));
   std::printf("%28s largest difference in a row: %.1e of its forces\n", "", apart);
   return apart <= kAgreement;
@@ -53,18 +54,23 @@ bool compare(const std::string& name, const Audit& audit, const std::vector<Audi
 bool compare_file(const std::filesystem::path& path) {
   const Npz npz = read_npz(path);
   const std::string name = path.stem().string();
-  if (holds_substeps(npz)) {
-    const SubstepMotion motion = on_hinge_axes(read_substeps(npz));
-    const bool recorded = compare(name, audit_steps(motion), mujoco_audit_steps(motion));
-    return compare(name, audit_replayed_steps(motion), mujoco_audit_replayed_steps(motion)) && recorded;
+  if (pipeline::audit::holds_substeps(npz)) {
+    const pipeline::audit::SubstepMotion motion = test::on_hinge_axes(pipeline::audit::read_substeps(npz));
+    const bool recorded =
+        compare(name, pipeline::audit::audit_steps(motion), test::mujoco_audit_steps(motion));
+    return compare(name, pipeline::audit::audit_replayed_steps(motion),
+                   test::mujoco_audit_replayed_steps(motion)) &&
+           recorded;
   }
-  const SimulatedFrames motion = on_hinge_axes(simulated_frames(read_clip(path), npz));
-  const SimulationConfig simulation;
-  return compare(name, audit_frames(motion, simulation), mujoco_audit_frames(motion, simulation));
+  const pipeline::audit::SimulatedFrames motion =
+      test::on_hinge_axes(pipeline::audit::simulated_frames(motion::read_clip(path), npz));
+  const physics::SimulationConfig simulation;
+  return compare(name, pipeline::audit::audit_frames(motion, simulation),
+                 test::mujoco_audit_frames(motion, simulation));
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') {
@@ -76,7 +82,7 @@ int main(int argc, char** argv) {
               "root moment mean, max", "torque gap");
   for (int k = 1; k < argc; ++k) {
     try {
-      all_agree = mimicx::compare_file(argv[k]) && all_agree;
+      all_agree = mimicx::tools::compare_file(argv[k]) && all_agree;
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s: left out: %s\n", argv[k], error.what());
       all_agree = false;

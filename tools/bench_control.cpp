@@ -17,7 +17,7 @@
 #include "oracles/mujoco_character.h"
 #endif
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 using namespace control;
@@ -25,15 +25,15 @@ using namespace control;
 constexpr int kFrames = 20;
 
 /// Upright with slightly bent knees, arms moving.
-State<double> swaying(int frame) {
-  State<double> x;
+physics::State<double> swaying(int frame) {
+  physics::State<double> x;
   const double knee = 0.3, phase = 0.1 * frame;
   x.q.fill({1.0, 0.0, 0.0, 0.0});
-  x.omega.fill(zero3<double>());
-  x.v_root = zero3<double>();
+  x.omega.fill(physics::zero3<double>());
+  x.v_root = physics::zero3<double>();
   x.p_root = {0.0, 0.0, 0.951 - 0.784 * (1.0 - std::cos(0.5 * knee))};
   const auto turn = [&](int body, const Vector3d& r) {
-    x.q[static_cast<std::size_t>(body)] = from_eigen(Quaterniond(mimicx::exp_map(r)));
+    x.q[static_cast<std::size_t>(body)] = physics::from_eigen(Quaterniond(exp_map(r)));
   };
   turn(kPelvis, {std::numbers::pi / 2, 0, 0});
   for (int side = 0; side < 2; ++side) {
@@ -47,27 +47,28 @@ State<double> swaying(int frame) {
 }
 
 struct Problem {
-  System system;
-  Cost cost;
-  Trajectory plan;
-  std::vector<FrameModel> models;
-  Sweep sweep;
+  control::System system;
+  control::Cost cost;
+  control::Trajectory plan;
+  std::vector<control::FrameModel> models;
+  control::Sweep sweep;
 
-  explicit Problem(bool soft) : system(make(soft)), cost(make_cost(system, {})) {
-    plan.x.assign(kFrames + 1, mimicx::lane_of(in_all_lanes<control::P>(system.at(0)), 0));
+  explicit Problem(bool soft) : system(make(soft)), cost(control::make_cost(system, {})) {
+    plan.x.assign(kFrames + 1, physics::lane_of(physics::in_all_lanes<control::P>(system.at(0)), 0));
     plan.u.resize(kFrames);
-    const auto scratch = std::make_unique<Data<control::P>>();
-    const Fan fan =
-        roll_out(system, cost, plan, {}, step_lengths(), in_all_lanes<control::P>(plan.x[0]), *scratch);
-    take_lane(fan, 0, plan);
+    const auto scratch = std::make_unique<physics::Data<control::P>>();
+    const control::Fan fan = control::roll_out(system, cost, plan, {}, control::step_lengths(),
+                                               physics::in_all_lanes<control::P>(plan.x[0]), *scratch);
+    control::take_lane(fan, 0, plan);
     double regularisation = 0.0;
-    for (int i = 0; i < 3; ++i) improve(system, cost, {}, 1, true, 0.2, models, sweep, regularisation, plan);
-    build_models(system, cost, plan, {}, 1, models);
+    for (int i = 0; i < 3; ++i)
+      control::improve(system, cost, {}, 1, true, 0.2, models, sweep, regularisation, plan);
+    control::build_models(system, cost, plan, {}, 1, models);
   }
-  static System make(bool soft) {
-    std::vector<State<double>> reference;
+  static control::System make(bool soft) {
+    std::vector<physics::State<double>> reference;
     for (int t = 0; t <= kFrames; ++t) reference.push_back(swaying(t));
-    System system = make_system(make_character(), {}, std::move(reference), 30.0);
+    control::System system = control::make_system(make_character(), {}, std::move(reference), 30.0);
     system.soft = soft;
     return system;
   }
@@ -83,11 +84,11 @@ void per_frame(benchmark::State& timer, const F& frame) {
 #ifdef MIMICX_HAVE_MUJOCO
 /// A control frame is eight physics steps: eight matrices A of one step each, whose product is not counted.
 void mujoco_derivatives(benchmark::State& timer) {
-  MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
-  const State<double> x = swaying(0);
-  mujoco.set_root(to_eigen(x.p_root), to_eigen(x.q[0]), Vector3d::Zero(), Vector3d::Zero());
+  test::MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
+  const physics::State<double> x = swaying(0);
+  mujoco.set_root(physics::to_eigen(x.p_root), physics::to_eigen(x.q[0]), Vector3d::Zero(), Vector3d::Zero());
   for (int i = 1; i < kBodies; ++i) {
-    const Quaterniond q = to_eigen(x.q[static_cast<std::size_t>(i)]);
+    const Quaterniond q = physics::to_eigen(x.q[static_cast<std::size_t>(i)]);
     mujoco.set_target(i, q);
     mujoco.set_joint(i, q, Vector3d::Zero());
   }
@@ -126,34 +127,35 @@ void register_all(Problem& hard, Problem& soft) {
   const auto add = [](const std::string& name, auto function) {
     benchmark::RegisterBenchmark(name.c_str(), function)->MinTime(0.2)->Repetitions(5);
   };
-  const auto derivatives = [&](const std::string& name, Problem& p, Linearisation how) {
+  const auto derivatives = [&](const std::string& name, Problem& p, control::Linearisation how) {
     add(name, [&p, how](benchmark::State& s) {
-      const auto scratch = std::make_unique<LinearisationScratch>();
-      per_frame(
-          s, [&](int t) { benchmark::DoNotOptimize(linearise(p.system, p.plan.point(t), how, *scratch)); });
+      const auto scratch = std::make_unique<control::LinearisationScratch>();
+      per_frame(s, [&](int t) {
+        benchmark::DoNotOptimize(control::linearise(p.system, p.plan.point(t), how, *scratch));
+      });
     });
   };
-  derivatives("analytic", hard, {Derivatives::kAnalytic, {}});
-  derivatives("analytic, soft", soft, {Derivatives::kAnalytic, {}});
-  derivatives("columns", hard, {Derivatives::kColumns, {}});
-  derivatives("columns, soft", soft, {Derivatives::kColumns, {}});
-  derivatives("smoothed", hard, {Derivatives::kSmoothed, {}});
+  derivatives("analytic", hard, {control::Derivatives::kAnalytic, {}});
+  derivatives("analytic, soft", soft, {control::Derivatives::kAnalytic, {}});
+  derivatives("columns", hard, {control::Derivatives::kColumns, {}});
+  derivatives("columns, soft", soft, {control::Derivatives::kColumns, {}});
+  derivatives("smoothed", hard, {control::Derivatives::kSmoothed, {}});
   add("cost", [&](benchmark::State& s) {
     per_frame(s, [&](int t) {
-      const State<double>& x = hard.plan.x[static_cast<std::size_t>(t)];
-      benchmark::DoNotOptimize(state_quadratic(hard.system, hard.cost, t, x));
+      const physics::State<double>& x = hard.plan.x[static_cast<std::size_t>(t)];
+      benchmark::DoNotOptimize(control::state_quadratic(hard.system, hard.cost, t, x));
     });
   });
   add("sweep", [&](benchmark::State& s) {
-    for (auto _ : s) sweep_back(hard.system, hard.cost, hard.plan, hard.models, 0.0, hard.sweep);
+    for (auto _ : s) control::sweep_back(hard.system, hard.cost, hard.plan, hard.models, 0.0, hard.sweep);
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
   add("line search", [&](benchmark::State& s) {
-    const auto scratch = std::make_unique<Data<control::P>>();
-    const auto x0 = in_all_lanes<control::P>(hard.plan.x[0]);
+    const auto scratch = std::make_unique<physics::Data<control::P>>();
+    const auto x0 = physics::in_all_lanes<control::P>(hard.plan.x[0]);
     for (auto _ : s)
-      benchmark::DoNotOptimize(
-          roll_out(hard.system, hard.cost, hard.plan, hard.sweep.laws, step_lengths(), x0, *scratch));
+      benchmark::DoNotOptimize(control::roll_out(hard.system, hard.cost, hard.plan, hard.sweep.laws,
+                                                 control::step_lengths(), x0, *scratch));
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
 #ifdef MIMICX_HAVE_MUJOCO
@@ -163,7 +165,7 @@ void register_all(Problem& hard, Problem& soft) {
 
 void print_summary(const BestReporter& r) {
   std::printf("\nms per control frame, best of the repetitions (%s, packs of %d), share of an iteration\n",
-              MIMICX_TARGET, kLanes);
+              MIMICX_TARGET, physics::kLanes);
   const double whole = r.ms("analytic") + r.ms("cost") + r.ms("sweep") + r.ms("line search");
   for (const char* name : {"analytic", "cost", "sweep", "line search"})
     std::printf("  %-16s %8.3f %6.1f %%\n", name, r.ms(name), 100.0 * r.ms(name) / whole);
@@ -175,15 +177,15 @@ void print_summary(const BestReporter& r) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  mimicx::Problem hard(false), soft(true);
-  mimicx::register_all(hard, soft);
-  mimicx::BestReporter reporter;
+  mimicx::tools::Problem hard(false), soft(true);
+  mimicx::tools::register_all(hard, soft);
+  mimicx::tools::BestReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
-  mimicx::print_summary(reporter);
+  mimicx::tools::print_summary(reporter);
   return 0;
 }

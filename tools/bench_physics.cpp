@@ -20,7 +20,7 @@
 #include "oracles/mujoco_character.h"
 #endif
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 constexpr int kStepsPerRollout = 480;
@@ -46,35 +46,35 @@ struct Start {
 
 template <class T>
 void simulate(benchmark::State& timer, bool self_contact, int passes) {
-  SimulationConfig config;
+  physics::SimulationConfig config;
   config.self_contact = self_contact;
   config.passes = passes;
-  const auto model = make_model<RealOf<T>>(make_character(), config);
-  const auto start = std::make_unique<State<T>>(), state = std::make_unique<State<T>>();
-  const auto target = std::make_unique<Target<T>>();
-  const auto data = std::make_unique<Data<T>>();
-  for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) {
+  const auto model = physics::make_model<physics::RealOf<T>>(make_character(), config);
+  const auto start = std::make_unique<physics::State<T>>(), state = std::make_unique<physics::State<T>>();
+  const auto target = std::make_unique<physics::Target<T>>();
+  const auto data = std::make_unique<physics::Data<T>>();
+  for (int lane = 0; lane < physics::ScalarTraits<T>::kSize; ++lane) {
     const Start s(static_cast<std::uint64_t>(lane));
-    set_lane(start->p_root, lane, s.p_root);
-    set_lane(start->v_root, lane, Vector3d::Zero());
+    physics::set_lane(start->p_root, lane, s.p_root);
+    physics::set_lane(start->v_root, lane, Vector3d::Zero());
     for (int i = 0; i < kBodies; ++i) {
-      set_lane(start->q[i], lane, s.q[i]);
-      set_lane(start->omega[i], lane, s.omega[i]);
-      set_lane(target->q[i], lane, s.q[i]);
-      set_lane(target->omega[i], lane, Vector3d::Zero());
+      physics::set_lane(start->q[i], lane, s.q[i]);
+      physics::set_lane(start->omega[i], lane, s.omega[i]);
+      physics::set_lane(target->q[i], lane, s.q[i]);
+      physics::set_lane(target->omega[i], lane, Vector3d::Zero());
     }
   }
   int k = 0;
   for (auto _ : timer) {
     if (k++ % kStepsPerRollout == 0) *state = *start;
-    benchmark::DoNotOptimize(step(model, *target, *state, *data));
+    benchmark::DoNotOptimize(physics::step(model, *target, *state, *data));
   }
-  timer.SetItemsProcessed(timer.iterations() * ScalarTraits<T>::kSize);
+  timer.SetItemsProcessed(timer.iterations() * physics::ScalarTraits<T>::kSize);
 }
 
 #ifdef MIMICX_HAVE_MUJOCO
 void simulate_mujoco(benchmark::State& timer) {
-  MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
+  test::MujocoCharacter mujoco(make_character(), {}, {.springs = true, .shapes = false});
   const Start start(0);
   for (int i = 1; i < kBodies; ++i) mujoco.set_target(i, start.q[i]);
   int k = 0;
@@ -111,7 +111,7 @@ void register_all() {
   const auto add = [](const std::string& name, auto function) {
     benchmark::RegisterBenchmark(name.c_str(), function)->MinTime(0.25)->Repetitions(5);
   };
-  using P = Pack<kLanes>;
+  using P = physics::Pack<physics::kLanes>;
   for (bool self_contact : {false, true})
     for (int passes : {1, 2, 3}) {
       const std::string suffix =
@@ -127,7 +127,7 @@ void register_all() {
 void print_summary(const std::map<std::string, double>& best) {
   const auto mujoco = best.find("mujoco");
   std::printf("\ncharacter-steps per second, best of the repetitions (%s, packs of %d)\n", MIMICX_TARGET,
-              kLanes);
+              physics::kLanes);
   for (const auto& [name, rate] : best) {
     std::printf("  %-34s %10.0f", name.c_str(), rate);
     if (mujoco != best.end()) std::printf("  %7.1f x mj_step", rate / mujoco->second);
@@ -136,14 +136,14 @@ void print_summary(const std::map<std::string, double>& best) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  mimicx::register_all();
-  mimicx::BestReporter reporter;
+  mimicx::tools::register_all();
+  mimicx::tools::BestReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
-  mimicx::print_summary(reporter.best());
+  mimicx::tools::print_summary(reporter.best());
   return 0;
 }

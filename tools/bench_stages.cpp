@@ -17,7 +17,7 @@
 #include "physics/contact_scenes.h"
 #include "physics/step_in_parts.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 constexpr int kSteps = 480, kRepetitions = 15;
@@ -26,22 +26,23 @@ constexpr const char* kStageNames[] = {"kinematics",   "self contact",      "flo
 
 /// Calls `mark(stage)` at the end of every stretch of a stage.
 template <class Mark>
-struct Marked : StepParts {
+struct Marked : physics::StepParts {
   Mark mark;
   explicit Marked(Mark m) : mark(m) {}
-  void finished(Stage stage) { mark(stage); }
+  void finished(physics::Stage stage) { mark(stage); }
 };
 
 template <class T>
-std::unique_ptr<Simulation<T>> falling() {
+std::unique_ptr<physics::Simulation<T>> falling() {
   const Character c = make_character();
-  auto s = std::make_unique<Simulation<T>>(c, SimulationConfig{});
-  for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane)
-    set_lane(snapshot_of(Scene::kFall, c, static_cast<std::uint64_t>(lane)), lane, s->state, s->target);
+  auto s = std::make_unique<physics::Simulation<T>>(c, physics::SimulationConfig{});
+  for (int lane = 0; lane < physics::ScalarTraits<T>::kSize; ++lane)
+    physics::set_lane(physics::snapshot_of(physics::Scene::kFall, c, static_cast<std::uint64_t>(lane)), lane,
+                      s->state, s->target);
   return s;
 }
 
-using PerStage = Array<double, kStages>;
+using PerStage = Array<double, physics::kStages>;
 
 /// Nanoseconds per step of T (all its lanes), mean over the scene.
 template <class T>
@@ -54,18 +55,18 @@ PerStage measure_stages() {
     for (PerStage& b : best) {
       PerStage spent{};
       auto last = Clock::now();
-      Marked timed([&](Stage stage) {
+      Marked timed([&](physics::Stage stage) {
         const auto now = Clock::now();
         spent[stage] += std::chrono::duration<double, std::nano>(now - last).count();
         last = Clock::now();
       });
-      step_in_parts(s->model, s->target, s->state, s->data, timed);
-      for (int i = 0; i < kStages; ++i) b[i] = std::min(b[i], spent[i]);
+      physics::step_in_parts(s->model, s->target, s->state, s->data, timed);
+      for (int i = 0; i < physics::kStages; ++i) b[i] = std::min(b[i], spent[i]);
     }
   }
   PerStage mean{};
   for (const PerStage& b : best)
-    for (int i = 0; i < kStages; ++i) mean[i] += b[i] / kSteps;
+    for (int i = 0; i < physics::kStages; ++i) mean[i] += b[i] / kSteps;
   return mean;
 }
 
@@ -75,23 +76,24 @@ PerStage count_stages() {
   PerStage mean{};
   for (int k = 0; k < kSteps; ++k) {
     long last = Counted::operations;
-    Marked counted([&](Stage stage) {
+    Marked counted([&](physics::Stage stage) {
       mean[stage] += static_cast<double>(Counted::operations - last) / kSteps;
       last = Counted::operations;
     });
-    step_in_parts(s->model, s->target, s->state, s->data, counted);
+    physics::step_in_parts(s->model, s->target, s->state, s->data, counted);
   }
   return mean;
 }
 
 /// Keeps the compiler from merging or skipping operations on x.
 void keep(double& x) { asm volatile("" : "+x"(x)); }
-void keep(Pack<kLanes>& x) { asm volatile("" : "+x"(x.v)); }
+void keep(physics::Pack<physics::kLanes>& x) { asm volatile("" : "+x"(x.v)); }
 
 /// Operations per ns of chains of fused multiply-adds that do not wait for each other.
 template <class T>
 double fma_peak() {
   using Clock = std::chrono::steady_clock;
+  using physics::fma;
   constexpr int kRounds = 20000, kChains = 10;  // more than latency times operations per cycle
   double best = 0;
   for (int repetition = 0; repetition < 200; ++repetition) {
@@ -107,7 +109,7 @@ double fma_peak() {
       advance(f), advance(g), advance(h), advance(i), advance(j);
     }
     const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-    best = std::max(best, 2.0 * kChains * kRounds * ScalarTraits<T>::kSize / ns);
+    best = std::max(best, 2.0 * kChains * kRounds * physics::ScalarTraits<T>::kSize / ns);
   }
   return best;
 }
@@ -117,16 +119,16 @@ void print_stages(const char* name, const PerStage& operations) {
   const PerStage ns = measure_stages<T>();
   const double peak = fma_peak<T>();
   double total = 0, flops = 0;
-  for (int i = 0; i < kStages; ++i) total += ns[i], flops += operations[i];
+  for (int i = 0; i < physics::kStages; ++i) total += ns[i], flops += operations[i];
   std::printf("\n%s (%s): fused multiply-adds alone reach %.1f Gflop/s\n", name, MIMICX_TARGET, peak);
   std::printf("%-18s %14s %8s %12s %10s %8s\n", "stage", "ns/character", "share", "operations", "Gflop/s",
               "of peak");
   const auto line = [&](const char* stage, double time, double count) {
-    const double rate = count * ScalarTraits<T>::kSize / time;
-    std::printf("%-18s %14.0f %6.1f %% %12.0f %10.1f %6.1f %%\n", stage, time / ScalarTraits<T>::kSize,
-                100 * time / total, count, rate, 100 * rate / peak);
+    const double rate = count * physics::ScalarTraits<T>::kSize / time;
+    std::printf("%-18s %14.0f %6.1f %% %12.0f %10.1f %6.1f %%\n", stage,
+                time / physics::ScalarTraits<T>::kSize, 100 * time / total, count, rate, 100 * rate / peak);
   };
-  for (int i = 0; i < kStages; ++i) line(kStageNames[i], ns[i], operations[i]);
+  for (int i = 0; i < physics::kStages; ++i) line(kStageNames[i], ns[i], operations[i]);
   line("step", total, flops);
 }
 
@@ -139,14 +141,14 @@ double thread_seconds() {
 
 /// Processor seconds per roll-out of a pack while `threads` of them run, best of the repetitions.
 double seconds_per_rollout(int threads) {
-  using P = Pack<kLanes>;
+  using P = physics::Pack<physics::kLanes>;
   double best = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 2 * kRepetitions; ++repetition) {
     List<double> spent(static_cast<std::size_t>(threads));
     parallel_for(threads, threads, [&](int chunk) {
       const auto s = falling<P>();
       const double start = thread_seconds();
-      for (int k = 0; k < kSteps; ++k) step(s->model, s->target, s->state, s->data);
+      for (int k = 0; k < kSteps; ++k) physics::step(s->model, s->target, s->state, s->data);
       spent[chunk] = thread_seconds() - start;
     });
     double sum = 0;
@@ -157,14 +159,14 @@ double seconds_per_rollout(int threads) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::tools
 
 int main() {
-  const mimicx::PerStage operations = mimicx::count_stages();
-  mimicx::print_stages<double>("double", operations);
-  mimicx::print_stages<mimicx::Pack<mimicx::kLanes>>("pack", operations);
-  const double one = mimicx::seconds_per_rollout(1), two = mimicx::seconds_per_rollout(2);
+  const mimicx::tools::PerStage operations = mimicx::tools::count_stages();
+  mimicx::tools::print_stages<double>("double", operations);
+  mimicx::tools::print_stages<mimicx::physics::Pack<mimicx::physics::kLanes>>("pack", operations);
+  const double one = mimicx::tools::seconds_per_rollout(1), two = mimicx::tools::seconds_per_rollout(2);
   std::printf("\ntwo cores: %.2f x one core (by processor time: %.2f and %.2f us per step of a pack)\n",
-              2 * one / two, 1e6 * one / mimicx::kSteps, 1e6 * two / mimicx::kSteps);
+              2 * one / two, 1e6 * one / mimicx::tools::kSteps, 1e6 * two / mimicx::tools::kSteps);
   return 0;
 }

@@ -13,20 +13,21 @@
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::vector<std::string> inputs;
   std::string out;
-  ClusterConfig config{pretrain_configuration("small").clusters.radius, std::nullopt, 0};
-  ReadConfig read;
+  pipeline::options::ClusterConfig config{pipeline::pretrain_configuration("small").clusters.radius,
+                                          std::nullopt, 0};
+  motion::import::ReadConfig read;
 };
 
 /// The files named, and the motions of the folders named, each once and in order of their paths.
 std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& inputs) {
   std::vector<std::filesystem::path> files;
-  for (const std::string& file : expand_inputs(inputs))
+  for (const std::string& file : pipeline::expand_inputs(inputs))
     files.push_back(std::filesystem::path(file).lexically_normal());
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
@@ -34,30 +35,31 @@ std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& 
 }
 
 int cluster(const Arguments& a) {
-  std::vector<NamedFeatures> motions;
+  std::vector<pipeline::options::NamedFeatures> motions;
   std::vector<std::string> names;
   bool all_good = true;
   for (const auto& file : motion_files(a.inputs)) {
-    names.push_back(unique_name(file, names));
+    names.push_back(pipeline::record::unique_name(file, names));
     try {
-      const Clip clip = read_motion(file, a.read);
-      tell_decisions(file.string(), clip, std::cerr);
-      motions.push_back({names.back(), motion_features(prepare_reference(clip, {}, nullptr))});
+      const motion::Clip clip = motion::import::read_motion(file, a.read);
+      pipeline::tell_decisions(file.string(), clip, std::cerr);
+      motions.push_back(
+          {names.back(), motion::motion_features(motion::prepare_reference(clip, {}, nullptr))});
     } catch (const std::exception& error) {
       std::cerr << file.string() << ": left out: " << error.what() << '\n';
       all_good = false;
     }
   }
   if (motions.empty()) throw std::runtime_error("cluster: found no motion to cluster");
-  Clusters clusters;
+  pipeline::options::Clusters clusters;
   try {
-    clusters = cluster_motions(std::move(motions), a.config);
+    clusters = pipeline::options::cluster_motions(std::move(motions), a.config);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  write_clusters(a.out, clusters);
+  pipeline::options::write_clusters(a.out, clusters);
   std::printf("%zu clusters, no two motions of one farther apart than %.2f\n\n%s", clusters.clusters.size(),
-              clusters.settings.radius, format_cluster_tree(clusters).c_str());
+              clusters.settings.radius, pipeline::options::format_cluster_tree(clusters).c_str());
   return all_good ? kAllGood : kSomeFailed;
 }
 
@@ -74,4 +76,4 @@ void declare_cluster(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return cluster(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -12,7 +12,7 @@ namespace CLI {
 class App;
 }
 
-namespace mimicx {
+namespace mimicx::tools {
 
 inline constexpr int kAllGood = 0;
 inline constexpr int kSomeFailed = 1;
@@ -41,4 +41,4 @@ void declare_export_mjcf(CLI::App& app, Action& action);
 void declare_synth(CLI::App& app, Action& action);
 void declare_config(CLI::App& app, Action& action);
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

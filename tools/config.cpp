@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "pipeline/configurations.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 
 void declare_config(CLI::App& app, Action& action) {
   const auto json = std::make_shared<bool>(false);
@@ -14,10 +14,10 @@ void declare_config(CLI::App& app, Action& action) {
   command->add_flag("--json", *json, "print JSON instead of a table");
   command->callback([json, &action] {
     action = [json] {
-      std::cout << (*json ? configurations_json() : format_configurations());
+      std::cout << (*json ? pipeline::configurations_json() : pipeline::format_configurations());
       return kAllGood;
     };
   });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

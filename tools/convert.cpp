@@ -9,27 +9,27 @@
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::filesystem::path in, out;
-  ReadConfig read;
+  motion::import::ReadConfig read;
   std::string rate = "input";
 };
 
 int convert(const Arguments& a) {
-  if (!is_written(a.out.extension().string()))
-    throw UsageError(a.out.string() + ": motions are written as " + written_suffixes() + ", not '" +
-                     a.out.extension().string() + "'");
-  Clip clip = read_motion(a.in, a.read);
-  if (a.rate == "30") clip = resampled(clip, 30.0);
-  tell_decisions(a.in.string(), clip, std::cerr);
+  if (!motion::import::is_written(a.out.extension().string()))
+    throw UsageError(a.out.string() + ": motions are written as " + motion::import::written_suffixes() +
+                     ", not '" + a.out.extension().string() + "'");
+  motion::Clip clip = motion::import::read_motion(a.in, a.read);
+  if (a.rate == "30") clip = motion::resampled(clip, 30.0);
+  pipeline::tell_decisions(a.in.string(), clip, std::cerr);
   if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
-  if (a.out.stem().extension() == ".qpos" && lower_suffix(a.out) == ".npz")
-    write_qpos(a.out, clip);
+  if (a.out.stem().extension() == ".qpos" && motion::import::lower_suffix(a.out) == ".npz")
+    pipeline::output::write_qpos(a.out, clip);
   else
-    write_motion(a.out, clip);
+    motion::import::write_motion(a.out, clip);
   return kAllGood;
 }
 
@@ -39,7 +39,9 @@ void declare_convert(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("convert", "Write a motion in another format, chosen by the suffix");
   command->add_option("IN", a->in, "motion")->required();
-  command->add_option("OUT", a->out, "where to write it: " + written_suffixes() + "; .qpos.npz: for MuJoCo")
+  command
+      ->add_option("OUT", a->out,
+                   "where to write it: " + motion::import::written_suffixes() + "; .qpos.npz: for MuJoCo")
       ->required();
   add_read_arguments(*command, a->read);
   command->add_option("--rate", a->rate, "frame rate of OUT: input or 30")
@@ -48,4 +50,4 @@ void declare_convert(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return convert(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -4,7 +4,7 @@
 
 #include "physics/spatial.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 
 /// Of comparisons; a type of its own, because clang refuses bitwise operators between calls that return bool.
 struct CountedMask {
@@ -46,16 +46,16 @@ inline Counted select(CountedMask mask, Counted a, Counted b) { return mask.set 
 inline Counted max(Counted a, Counted b) { return a.x > b.x ? a : b; }
 inline Counted min(Counted a, Counted b) { return a.x < b.x ? a : b; }
 /// The packs' polynomial of degree 11 in 2w − 1.
-inline Counted log_scale(Counted w) { return Counted::of(log_scale(w.x), 2 * 12); }
+inline Counted log_scale(Counted w) { return Counted::of(physics::log_scale(w.x), 2 * 12); }
+
+}  // namespace mimicx::tools
 
 template <>
-struct ScalarTraits<Counted> {
+struct mimicx::physics::ScalarTraits<mimicx::tools::Counted> {
   using Real = double;
-  using Mask = CountedMask;
+  using Mask = tools::CountedMask;
   static constexpr int kSize = 1;
-  static double get(Counted a, int) { return a.x; }
-  static void set(Counted& a, int, double x) { a.x = x; }
-  static bool lane(CountedMask mask, int) { return mask.set; }
+  static double get(tools::Counted a, int) { return a.x; }
+  static void set(tools::Counted& a, int, double x) { a.x = x; }
+  static bool lane(tools::CountedMask mask, int) { return mask.set; }
 };
-
-}  // namespace mimicx

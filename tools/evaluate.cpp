@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "core/npz.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
@@ -18,18 +18,18 @@ struct Arguments {
 
 int evaluate(const Arguments& a) {
   if (a.motions.size() > 1) {
-    const Comparison comparison = compare_folders(a.truth, a.motions);
-    std::cout << format_comparison(comparison);
+    const pipeline::Comparison comparison = pipeline::compare_folders(a.truth, a.motions);
+    std::cout << pipeline::format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
     const bool none = comparison.evaluations.front().motions.empty();
     if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
-    if (!a.json.empty()) write_file_atomically(a.json, comparison_json(comparison));
+    if (!a.json.empty()) write_file_atomically(a.json, pipeline::comparison_json(comparison));
     return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
-  const Evaluation evaluation = evaluate_folders(a.truth, a.motions.front());
-  std::cout << format_evaluation(evaluation);
+  const pipeline::Evaluation evaluation = pipeline::evaluate_folders(a.truth, a.motions.front());
+  std::cout << pipeline::format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
-  if (!a.json.empty()) write_file_atomically(a.json, evaluation_json(evaluation));
+  if (!a.json.empty()) write_file_atomically(a.json, pipeline::evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
   return std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; }) ? kAllGood
                                                                                        : kSomeFailed;
@@ -51,4 +51,4 @@ void declare_evaluate(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return evaluate(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

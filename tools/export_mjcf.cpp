@@ -10,13 +10,13 @@
 #include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::vector<double> betas;          ///< at most 10, the others are 0
   std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
-  ReadConfig read;
+  motion::import::ReadConfig read;
 };
 
 Character character_of_shape(const std::vector<double>& betas) {
@@ -28,10 +28,10 @@ Character character_of_shape(const std::vector<double>& betas) {
 }
 
 /// The very body that `convert` writes qpos for and `adapt` simulates: read in the same way.
-Character character_of_motion(const std::filesystem::path& motion, const ReadConfig& read) {
-  const Clip clip = read_motion(motion, read);
-  tell_decisions(motion.string(), clip, std::cerr);
-  return character_of(clip);
+Character character_of_motion(const std::filesystem::path& motion, const motion::import::ReadConfig& read) {
+  const motion::Clip clip = motion::import::read_motion(motion, read);
+  pipeline::tell_decisions(motion.string(), clip, std::cerr);
+  return motion::character_of(clip);
 }
 
 int export_mjcf(const Arguments& a) {
@@ -41,7 +41,7 @@ int export_mjcf(const Arguments& a) {
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
   if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
-  write_file_atomically(a.out, to_mjcf(character, SimulationConfig{}));
+  write_file_atomically(a.out, physics::to_mjcf(character, physics::SimulationConfig{}));
   return kAllGood;
 }
 
@@ -62,4 +62,4 @@ void declare_export_mjcf(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return export_mjcf(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

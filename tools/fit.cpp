@@ -11,17 +11,17 @@
 #include "pipeline/preparation.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
-  FitConfig config;
-  ReadConfig read;
+  motion::fit::FitConfig config;
+  motion::import::ReadConfig read;
 };
 
-void print(const std::string& name, const FitReport& r) {
+void print(const std::string& name, const motion::fit::FitReport& r) {
   std::printf("%-24s %7.2f %7.2f %8.4f %7.2f %7.2f %6d %6d %8.0f %8.0f\n", name.c_str(), r.residual_before,
               r.residual_after, r.focal_scale, r.tilt_deg, r.shape_change, r.swapped_frames, r.dropped_points,
               r.change_mean_mm, r.change_max_mm);
@@ -34,13 +34,14 @@ int fit(const Arguments& a) {
               "", "% box", "% box", "scale", "deg", "beta", "frames", "points", "mm", "mm");
   std::vector<std::string> names;
   bool all_good = true;
-  for (const std::string& file : expand_inputs(a.inputs)) {
-    names.push_back(unique_name(file, names));
+  for (const std::string& file : pipeline::expand_inputs(a.inputs)) {
+    names.push_back(pipeline::record::unique_name(file, names));
     try {
-      FitReport report;
-      const Clip clip = read_motion(file, a.read);
-      tell_decisions(file, clip, std::cerr);
-      write_clip(a.out / (names.back() + ".npz"), fit_keypoints(clip, a.config, &report));
+      motion::fit::FitReport report;
+      const motion::Clip clip = motion::import::read_motion(file, a.read);
+      pipeline::tell_decisions(file, clip, std::cerr);
+      motion::write_clip(a.out / (names.back() + ".npz"),
+                         motion::fit::fit_keypoints(clip, a.config, &report));
       print(names.back(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
@@ -70,4 +71,4 @@ void declare_fit(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return fit(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -6,18 +6,18 @@
 #include "commands.h"
 #include "training.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
-  ImitateConfig config = imitate_configuration();
+  pipeline::ImitateConfig config = pipeline::imitate_configuration();
   std::vector<std::string> settings;
 };
 
 int imitate_motions(Arguments a) {
   apply_settings(a.settings, a.config.training);
-  return with_context([&](const RunContext& context) {
-    return run_inputs(a.config.run, context, [&] { return imitate(a.config, context); });
+  return with_context([&](const pipeline::record::RunContext& context) {
+    return run_inputs(a.config.run, context, [&] { return pipeline::imitate(a.config, context); });
   });
 }
 
@@ -33,4 +33,4 @@ void declare_imitate(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return imitate_motions(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -8,12 +8,12 @@
 #include "motion/import/motion_file.h"
 #include "motion/prepare.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::filesystem::path file;
-  ReadConfig read;
+  motion::import::ReadConfig read;
 };
 
 /// How many keypoints the fit and Eq. 3 can use.
@@ -22,7 +22,7 @@ std::ptrdiff_t joints_among(const std::vector<std::string>& names) {
                        [](const std::string& name) { return body_of_name(name) >= 0; });
 }
 
-void describe_file(const Clip& clip) {
+void describe_file(const motion::Clip& clip) {
   for (const auto& decision : clip.decisions) std::printf("decided      %s\n", decision.c_str());
   std::printf("frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
   std::printf("body model   %s, gender %s\n", clip.body_model.c_str(), clip.gender.c_str());
@@ -43,7 +43,7 @@ void describe_file(const Clip& clip) {
 }
 
 /// @param told  warnings of the file, which preparation hands on
-void describe_preparation(const Reference& reference, const PreparationReport& report,
+void describe_preparation(const motion::Reference& reference, const motion::PreparationReport& report,
                           const std::vector<std::string>& told) {
   std::printf("prepared     %d frames at %g fps\n", reference.size(), reference.fps);
   std::printf("  floor      moved by %.1f mm, at most %.1f mm in a frame\n", report.floor_shift_mm,
@@ -60,12 +60,12 @@ void describe_preparation(const Reference& reference, const PreparationReport& r
 }
 
 int info(const Arguments& a) {
-  const Clip clip = read_motion(a.file, a.read);
+  const motion::Clip clip = motion::import::read_motion(a.file, a.read);
   describe_file(clip);
   for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
   if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");
-  PreparationReport report;
-  const Reference reference = prepare_reference(clip, {}, &report);
+  motion::PreparationReport report;
+  const motion::Reference reference = motion::prepare_reference(clip, {}, &report);
   describe_preparation(reference, report, clip.warnings);
   return kAllGood;
 }
@@ -81,4 +81,4 @@ void declare_info(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return info(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

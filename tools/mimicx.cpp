@@ -6,7 +6,7 @@
 
 #include "commands.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 int run(int argc, char** argv) {
@@ -30,16 +30,16 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
   try {
-    return mimicx::run(argc, argv);
-  } catch (const mimicx::UsageError& error) {
+    return mimicx::tools::run(argc, argv);
+  } catch (const mimicx::tools::UsageError& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
-    return mimicx::kWrongUsage;
+    return mimicx::tools::kWrongUsage;
   } catch (const std::exception& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
-    return mimicx::kSomeFailed;
+    return mimicx::tools::kSomeFailed;
   }
 }

@@ -6,18 +6,18 @@
 #include "commands.h"
 #include "training.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
-  PlanMotionsConfig config = plan_configuration();
+  pipeline::PlanMotionsConfig config = pipeline::plan_configuration();
   std::vector<std::string> settings;
 };
 
 int plan(Arguments a) {
   apply_settings(a.settings, a.config.planning);
-  return with_context([&](const RunContext& context) {
-    return run_inputs(a.config.run, context, [&] { return plan_motions(a.config, context); });
+  return with_context([&](const pipeline::record::RunContext& context) {
+    return run_inputs(a.config.run, context, [&] { return pipeline::plan_motions(a.config, context); });
   });
 }
 
@@ -33,4 +33,4 @@ void declare_plan(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return plan(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

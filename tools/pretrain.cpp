@@ -8,20 +8,20 @@
 #include "commands.h"
 #include "training.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
-  PretrainConfig config = pretrain_configuration("small");
+  pipeline::PretrainConfig config = pipeline::pretrain_configuration("small");
   std::string preset = "small";
   std::optional<std::int64_t> samples;  ///< of all options together; none: what the preset says
   std::vector<std::string> settings;
 };
 
 /// The configuration with the training of the preset that was asked for.
-PretrainConfig preset_of(const Arguments& a) {
-  PretrainConfig config = a.config;
-  config.training = pretrain_configuration(a.preset).training;
+pipeline::PretrainConfig preset_of(const Arguments& a) {
+  pipeline::PretrainConfig config = a.config;
+  config.training = pipeline::pretrain_configuration(a.preset).training;
   config.training.seed = a.config.training.seed;
   if (a.samples) config.training.samples = *a.samples;
   return config;
@@ -29,10 +29,11 @@ PretrainConfig preset_of(const Arguments& a) {
 
 }  // namespace
 
-int pretrain_options(PretrainConfig config, const std::vector<std::string>& settings) {
+int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings) {
   config.clusters.seed = config.training.seed;
   apply_settings(settings, config.training);
-  return with_context([&](const RunContext& context) { return pretrain(config, context); });
+  return with_context(
+      [&](const pipeline::record::RunContext& context) { return pipeline::pretrain(config, context); });
 }
 
 void declare_pretrain(CLI::App& app, Action& action) {
@@ -61,4 +62,4 @@ void declare_pretrain(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return pretrain_options(preset_of(*a), a->settings); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

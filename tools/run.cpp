@@ -7,20 +7,20 @@
 #include "commands.h"
 #include "training.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::filesystem::path in, out;
-  PretrainConfig pretrain = pretrain_configuration("small");
-  AdaptConfig adapt = adapt_configuration();
+  pipeline::PretrainConfig pretrain = pipeline::pretrain_configuration("small");
+  pipeline::AdaptConfig adapt = pipeline::adapt_configuration();
 };
 
 int run_all_stages(Arguments a) {
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
-  a.adapt.method = AdaptMethod::kPaper;  // it is the options that are to be tried
+  a.adapt.method = pipeline::AdaptMethod::kPaper;  // it is the options that are to be tried
   a.adapt.training.seed = a.pretrain.training.seed;
   a.adapt.run.threads = a.pretrain.threads;
   a.adapt.run.read = a.pretrain.read;
@@ -55,4 +55,4 @@ void declare_run(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return run_all_stages(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

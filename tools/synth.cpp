@@ -9,7 +9,7 @@
 #include "pipeline/audit/feasibility.h"
 #include "pipeline/record/progress.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 constexpr double kProgressPeriod = 2.0;  // s
@@ -18,23 +18,23 @@ struct Arguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
-  SynthSetConfig set;
+  motion::synth::SynthSetConfig set;
   bool report = false;  ///< print what each motion of the set demands of a body
 };
 
 /// @throws UsageError for a set that cannot be
-std::vector<SynthConfig> checked_clips(const SynthSetConfig& set) {
+std::vector<motion::synth::SynthConfig> checked_clips(const motion::synth::SynthSetConfig& set) {
   try {
-    return clips_of_set(set);
+    return motion::synth::clips_of_set(set);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("synth: ") + error.what());
   }
 }
 
 void write_set(const Arguments& a, std::size_t total) {
-  double next = steady_seconds() + kProgressPeriod;
-  write_synth_set(a.out, a.set, [&](std::size_t index, const Clip&) {
-    if (steady_seconds() < next) return;
+  double next = pipeline::record::steady_seconds() + kProgressPeriod;
+  motion::synth::write_synth_set(a.out, a.set, [&](std::size_t index, const motion::Clip&) {
+    if (pipeline::record::steady_seconds() < next) return;
     std::cerr << index + 1 << " of " << total << " motions\n";
     next += kProgressPeriod;
   });
@@ -42,13 +42,13 @@ void write_set(const Arguments& a, std::size_t total) {
 }
 
 /// Residuals in parts of the weight W, torques in parts of their limits.
-void print_report(const std::vector<SynthConfig>& clips) {
+void print_report(const std::vector<motion::synth::SynthConfig>& clips) {
   std::printf("%-20s %7s %18s %20s %26s %12s\n", "motion", "seconds", "root force, % W", "root moment, mm W",
               "worst torque, % of limit", "frames over");
   std::printf("%-20s %7s %9s %8s %11s %8s\n", "", "", "mean", "max", "mean", "max");
-  for (const SynthConfig& options : clips) {
-    const Clip clip = synthesize(options);
-    const Feasibility f = feasibility(clip);
+  for (const motion::synth::SynthConfig& options : clips) {
+    const motion::Clip clip = motion::synth::synthesize(options);
+    const pipeline::audit::Feasibility f = pipeline::audit::feasibility(clip);
     const std::string worst(kBodyNames[f.worst_joint]);
     std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-12s %6d\n", clip.name.c_str(),
                 (clip.frames() - 1) / clip.fps, 100.0 * f.mean_force, 100.0 * f.max_force,
@@ -60,11 +60,11 @@ void print_report(const std::vector<SynthConfig>& clips) {
 int synth(const Arguments& a) {
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
-  const std::vector<SynthConfig> clips = checked_clips(a.set);
+  const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
-    write_synthetic_data(a.data_set);
-    std::cout << a.data_set.string() << ": test and train, " << synthetic_kinds().size()
+    motion::synth::write_synthetic_data(a.data_set);
+    std::cout << a.data_set.string() << ": test and train, " << motion::synth::synthetic_kinds().size()
               << " motions each, as truth and as a noisy estimate\n";
   }
   if (a.report) print_report(clips);
@@ -77,21 +77,21 @@ void declare_synth(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command =
       app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
-  SynthSetConfig& set = a->set;
+  motion::synth::SynthSetConfig& set = a->set;
   auto* out = command->add_option("--out", a->out, "folder to write to");
   command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
       ->check(CLI::PositiveNumber);
   command->add_option("--kinds", set.kinds, "kinds to make, separated by commas; default: all")
       ->delimiter(',')
-      ->check(CLI::IsMember(synthetic_kinds()));
+      ->check(CLI::IsMember(motion::synth::synthetic_kinds()));
   command->add_option("--noise", set.noise, "what estimates it for noisy/: gvhmr, vibe, or none (exact)")
       ->check(CLI::IsMember({"gvhmr", "vibe", "none"}))
       ->capture_default_str();
   command->add_option("--camera", set.camera, "how well its camera is known: calibrated, perturbed or wild")
       ->check(CLI::IsMember({"calibrated", "perturbed", "wild"}))
       ->capture_default_str();
-  static const std::map<std::string, KeypointSet> kSets = {{"joints22", KeypointSet::kJoints22},
-                                                           {"coco17", KeypointSet::kCoco17}};
+  static const std::map<std::string, motion::KeypointSet> kSets = {
+      {"joints22", motion::KeypointSet::kJoints22}, {"coco17", motion::KeypointSet::kCoco17}};
   command->add_option("--keypoints", set.keypoints, "which points are detected: joints22 (default) or coco17")
       ->transform(CLI::CheckedTransformer(kSets));
   command
@@ -107,4 +107,4 @@ void declare_synth(CLI::App& app, Action& action) {
   command->callback([a, &action] { action = [a] { return synth(*a); }; });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "pipeline/preparation.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -24,13 +24,13 @@ void catch_interrupts() {
   std::signal(SIGTERM, handle);
 }
 
-int status_of(RunOutcome outcome) {
+int status_of(pipeline::record::RunOutcome outcome) {
   switch (outcome) {
-    case RunOutcome::kAllGood:
+    case pipeline::record::RunOutcome::kAllGood:
       return kAllGood;
-    case RunOutcome::kSomeFailed:
+    case pipeline::record::RunOutcome::kSomeFailed:
       return kSomeFailed;
-    case RunOutcome::kInterrupted:
+    case pipeline::record::RunOutcome::kInterrupted:
       return kInterrupted;
   }
   return kSomeFailed;
@@ -69,7 +69,7 @@ void for_each_setting(const std::vector<std::string>& settings,
   }
 }
 
-void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings) {
+void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<std::string>& settings) {
   command.add_option("FILE", run.inputs, "motions and folders of them")->required();
   command.add_option(
       "--out", run.out,
@@ -93,25 +93,26 @@ void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::strin
   add_settings(command, settings);
 }
 
-void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples) {
+void add_training_arguments(CLI::App& command, pipeline::TrainingConfig& training,
+                            const std::string& samples) {
   command.add_option(samples, training.samples, "training budget per motion, in character steps")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_seed(command, training.seed);
 }
 
-void add_fit_arguments(CLI::App& command, RunConfig& run) {
+void add_fit_arguments(CLI::App& command, pipeline::RunConfig& run) {
   command.add_flag("--fit,!--no-fit", run.fit,
                    "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
                    "look at keypoints at all");
 }
 
-void add_gains_argument(CLI::App& command, RunConfig& run) {
+void add_gains_argument(CLI::App& command, pipeline::RunConfig& run) {
   command.add_flag("--gains", run.gains,
                    "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
 }
 
-void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement) {
+void add_arrangement_arguments(CLI::App& command, pipeline::options::ArrangementConfig& arrangement) {
   command
       .add_option("--switch-penalty", arrangement.switch_penalty, "w_p of Eq. 4, in rewards; not positive")
       ->check(CLI::Range(-1e9, 0.0))
@@ -124,37 +125,41 @@ void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement
       ->capture_default_str();
 }
 
-int with_context(const std::function<RunOutcome(const RunContext&)>& work) {
+int with_context(
+    const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work) {
   catch_interrupts();
-  Progress progress(std::cerr, stderr_is_terminal(), steady_seconds);
+  pipeline::record::Progress progress(std::cerr, pipeline::record::stderr_is_terminal(),
+                                      pipeline::record::steady_seconds);
   try {
-    return status_of(work(RunContext{progress, std::cerr, [] { return interrupted != 0; }}));
+    return status_of(
+        work(pipeline::record::RunContext{progress, std::cerr, [] { return interrupted != 0; }}));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
 }
 
-RunOutcome run_inputs(RunConfig& run, const RunContext& context, const std::function<RunOutcome()>& once) {
-  const std::vector<std::string> files = expand_inputs(run.inputs);
+pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
+                                        const std::function<pipeline::record::RunOutcome()>& once) {
+  const std::vector<std::string> files = pipeline::expand_inputs(run.inputs);
   if (!run.out.empty()) {
     run.inputs = files;
     return once();
   }
-  RunOutcome all = RunOutcome::kAllGood;
+  pipeline::record::RunOutcome all = pipeline::record::RunOutcome::kAllGood;
   run.beside = true;
   for (const std::filesystem::path file : files) {
     run.inputs = {file.string()};
     run.out = file.parent_path() / (file.stem().string() + ".mimicx");
     try {
-      const RunOutcome outcome = once();
-      if (outcome == RunOutcome::kInterrupted) return outcome;
-      if (outcome != RunOutcome::kAllGood) all = outcome;
+      const pipeline::record::RunOutcome outcome = once();
+      if (outcome == pipeline::record::RunOutcome::kInterrupted) return outcome;
+      if (outcome != pipeline::record::RunOutcome::kAllGood) all = outcome;
     } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
       context.messages << file.string() << ": left out: " << error.what() << '\n';
-      all = RunOutcome::kSomeFailed;
+      all = pipeline::record::RunOutcome::kSomeFailed;
     }
   }
   return all;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

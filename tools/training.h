@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-namespace mimicx {
+namespace mimicx::tools {
 
 /// --set NAME=NUMBER, repeatable.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
@@ -27,36 +27,39 @@ void for_each_setting(const std::vector<std::string>& settings,
 template <class Config>
 void apply_settings(const std::vector<std::string>& settings, Config& config) {
   for_each_setting(
-      settings, [&](const std::string& name, double value) { apply_setting(config, name, value); },
-      [&] { check(config); });
+      settings, [&](const std::string& name, double value) { pipeline::apply_setting(config, name, value); },
+      [&] { pipeline::check(config); });
 }
 
 /// The arguments of every run over motions.
-void add_run_arguments(CLI::App& command, RunConfig& run, std::vector<std::string>& settings);
+void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<std::string>& settings);
 /// Those of a run that trains. @param samples  name of the argument for the budget
-void add_training_arguments(CLI::App& command, TrainingConfig& training, const std::string& samples);
+void add_training_arguments(CLI::App& command, pipeline::TrainingConfig& training,
+                            const std::string& samples);
 /// --fit, the default, and --no-fit.
-void add_fit_arguments(CLI::App& command, RunConfig& run);
+void add_fit_arguments(CLI::App& command, pipeline::RunConfig& run);
 /// --gains.
-void add_gains_argument(CLI::App& command, RunConfig& run);
+void add_gains_argument(CLI::App& command, pipeline::RunConfig& run);
 /// --switch-penalty and --rescue-reward.
-void add_arrangement_arguments(CLI::App& command, ArrangementConfig& arrangement);
+void add_arrangement_arguments(CLI::App& command, pipeline::options::ArrangementConfig& arrangement);
 
 /// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a
 /// second one ends the program. @return the exit status
 /// @throws UsageError for what the command line got wrong
-int with_context(const std::function<RunOutcome(const RunContext&)>& work);
+int with_context(
+    const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work);
 
 /// Runs all inputs in the folder that was named; without one, every input in a folder beside it
 /// (NAME.mimicx), its clean motion beside it (NAME.clean.EXT).
 /// @param run   its inputs and folder are changed from run to run
 /// @param once  does the run that `run` then describes
-RunOutcome run_inputs(RunConfig& run, const RunContext& context, const std::function<RunOutcome()>& once);
+pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
+                                        const std::function<pipeline::record::RunOutcome()>& once);
 
 /// @param options  trained options to start from: a file, or a folder with options.npz; empty: the shipped
 /// ones
-int adapt_motions(AdaptConfig config, std::filesystem::path options,
+int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
                   const std::vector<std::string>& settings);
-int pretrain_options(PretrainConfig config, const std::vector<std::string>& settings);
+int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings);
 
-}  // namespace mimicx
+}  // namespace mimicx::tools

@@ -22,7 +22,7 @@
 #include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
 
-namespace mimicx {
+namespace mimicx::tools {
 namespace {
 
 constexpr int kFrame = 30;  ///< the frame that is followed, a second into the motion; headings name it
@@ -80,10 +80,10 @@ void list_values(const NamedValues& values) {
   list(parts);
 }
 
-void tell_reference(const Reference& reference) {
+void tell_reference(const motion::Reference& reference) {
   heading("motion", "prepare_reference, 61 positions and 61 velocities per frame");
   std::printf("  %d frames at %.0f fps; frame %d:\n", reference.size(), reference.fps, kFrame);
-  const ReferenceFrame& frame = reference.frames.at(kFrame);
+  const motion::ReferenceFrame& frame = reference.frames.at(kFrame);
   std::vector<double> turns;
   for (int body = 1; body < kBodies; ++body) {
     const Vector3d turn = log_map(frame.q[body]);
@@ -96,7 +96,8 @@ void tell_reference(const Reference& reference) {
   row<double>("pelvis [3], m", {frame.p_root.data(), 3});
   row<double>("its rotation [3], rad", {root.data(), 3});
   row<double>("joint rotations [55], rad", turns);
-  const std::vector<double> velocities = velocities_member({frame}, Precision::kFloat64).to_double();
+  const std::vector<double> velocities =
+      pipeline::output::velocities_member({frame}, pipeline::output::Precision::kFloat64).to_double();
   const std::span<const double> all(velocities);
   row<double>("velocity of the pelvis [3], m/s", all.first(3));
   row<double>("its angular velocity [3], rad/s", all.subspan(3, 3));
@@ -104,30 +105,32 @@ void tell_reference(const Reference& reference) {
 }
 
 /// What every option of the set earns on the clip, and the clip as those see it that are chosen.
-ArrangedClip tell_arrangement(const std::shared_ptr<const rl::TrackingClip>& clip, const OptionSet& set,
-                              const rl::TrackingConfig& tracking, const ArrangementConfig& config) {
-  std::vector<const Option*> all;
-  for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
-  const SideBySide beside =
-      roll_out_side_by_side(encoded_for(clip, all), tracking, all, config.rescue_reward);
+pipeline::options::ArrangedClip tell_arrangement(
+    const std::shared_ptr<const rl::tracking::TrackingClip>& clip, const pipeline::options::OptionSet& set,
+    const rl::tracking::TrackingConfig& tracking, const pipeline::options::ArrangementConfig& config) {
+  std::vector<const pipeline::options::Option*> all;
+  for (const pipeline::options::TrainedOption& trained : set.options) all.push_back(&trained.option);
+  const pipeline::options::SideBySide beside = pipeline::options::roll_out_side_by_side(
+      pipeline::options::encoded_for(clip, all), tracking, all, config.rescue_reward);
   heading("pipeline/options", "rewards r[t][c] of the options side by side, and the arrangement");
   std::printf("  %zu frames x %zu options\n", beside.rewards.size(), all.size());
   row<double>("rewards at frame 30 [options]", beside.rewards.at(kFrame), all.size());
-  const ArrangedClip arranged = arrange(clip, tracking, set, config);
-  for (const auto& [first, option] : stretches_of(arranged.options))
+  const pipeline::options::ArrangedClip arranged = pipeline::options::arrange(clip, tracking, set, config);
+  for (const auto& [first, option] : pipeline::options::stretches_of(arranged.options))
     std::printf("  option %d from frame %d on\n", option, first);
   std::printf("  frames at which no option could follow: %zu\n", arranged.breaks.size());
   return arranged;
 }
 
-void tell_state(const rl::TrackingClip& clip, const rl::TrackingPack& pack, const std::vector<float>& seen) {
+void tell_state(const rl::tracking::TrackingClip& clip, const rl::tracking::TrackingPack& pack,
+                const std::vector<float>& seen) {
   heading("rl/tracking", "the state at frame 30, one frame after a start on the reference");
-  std::vector<float> state(rl::kStateSize);
+  std::vector<float> state(rl::tracking::kStateSize);
   const std::size_t next = kFrame + 1;
-  rl::tracking_state(clip.poses[next], clip.joints[next], clip.reference.character.betas, pack.pose(0),
-                     state.data());
+  rl::tracking::tracking_state(clip.poses[next], clip.joints[next], clip.reference.character.betas,
+                               pack.pose(0), state.data());
   const std::span<const float> s(state);
-  std::printf("  s_t [%d]:\n", rl::kStateSize);
+  std::printf("  s_t [%d]:\n", rl::tracking::kStateSize);
   row("0    P_31: root height, m", s.subspan(0, 1));
   row("1    root rotation [6]", s.subspan(1, 6), 6);
   row("7    root velocity [3], m/s", s.subspan(7, 3));
@@ -145,17 +148,18 @@ void tell_state(const rl::TrackingClip& clip, const rl::TrackingPack& pack, cons
 }
 
 /// One frame: reset on the reference a frame before, state, mean action, one control step, reward.
-void tell_frame(const ArrangedClip& arranged, const rl::TrackingConfig& tracking) {
-  const rl::TrackingClip& clip = *arranged.clip;
-  const rl::MeanAction policy = rl::mean_action(arranged.agents);
-  rl::TrackingPack pack(arranged.clip, tracking);
-  const auto scratch = std::make_unique<Data<rl::TrackingPack::P>>();
+void tell_frame(const pipeline::options::ArrangedClip& arranged,
+                const rl::tracking::TrackingConfig& tracking) {
+  const rl::tracking::TrackingClip& clip = *arranged.clip;
+  const rl::tracking::MeanAction policy = rl::tracking::mean_action(arranged.agents);
+  rl::tracking::TrackingPack pack(arranged.clip, tracking);
+  const auto scratch = std::make_unique<physics::Data<rl::tracking::TrackingPack::P>>();
   std::vector<float> state(static_cast<std::size_t>(clip.state_size())), action(kDofs);
-  for (int lane = 0; lane < kLanes; ++lane) pack.reset(lane, kFrame - 1);
+  for (int lane = 0; lane < physics::kLanes; ++lane) pack.reset(lane, kFrame - 1);
   const auto decide = [&] {
     pack.observe(0, state.data());
     policy(clip.option_at(pack.frame(0)), state.data(), action.data());
-    for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, action.data());
+    for (int lane = 0; lane < physics::kLanes; ++lane) pack.act(lane, action.data());
   };
   decide();
   pack.advance(*scratch);
@@ -174,13 +178,13 @@ void tell_frame(const ArrangedClip& arranged, const rl::TrackingConfig& tracking
   pack.advance(*scratch);
   std::printf("  %.0f physics steps of 1/%.0f s, %d passes each, %d characters in a pack\n",
               tracking.simulation.rate / clip.reference.fps, tracking.simulation.rate,
-              tracking.simulation.passes, kLanes);
+              tracking.simulation.passes, physics::kLanes);
   std::printf("  farthest body from its reference: %.1f mm\n", 1e3 * pack.worst_distance(0));
 
   heading("rl/tracking", "the reward of frame 31, factor by factor");
-  const rl::Reward reward = pack.reward(0);
+  const rl::tracking::Reward reward = pack.reward(0);
   for (std::size_t k = 0; k < reward.term.size(); ++k)
-    std::printf("  %-38s %.3f\n", rl::kRewardTermNames[k].data(), reward.term[k]);
+    std::printf("  %-38s %.3f\n", rl::tracking::kRewardTermNames[k].data(), reward.term[k]);
   std::printf("  %-38s %.3f\n", "their product", reward.total);
 }
 
@@ -188,10 +192,10 @@ void tell_matrix(const char* name, Eigen::Index rows, Eigen::Index columns) {
   std::printf("    %-20s [%td x %td]\n", name, rows, columns);
 }
 
-void tell_training(const ArrangedClip& arranged, const TrainingConfig& config) {
-  rl::TrackingEnvironment environment({arranged.clip}, config.tracking, config.characters, config.group_size,
-                                      config.seed);
-  rl::PpoTrainer trainer(config.ppo, course_of(config), arranged.agents, environment);
+void tell_training(const pipeline::options::ArrangedClip& arranged, const pipeline::TrainingConfig& config) {
+  rl::tracking::TrackingEnvironment environment({arranged.clip}, config.tracking, config.characters,
+                                                config.group_size, config.seed);
+  rl::PpoTrainer trainer(config.ppo, pipeline::course_of(config), arranged.agents, environment);
   const rl::IterationStats stats = trainer.iterate(1);
   const rl::RolloutBuffer& buffer = trainer.buffer();
   const rl::GroupRollout& group = buffer.groups.front();
@@ -220,19 +224,22 @@ void tell_training(const ArrangedClip& arranged, const TrainingConfig& config) {
                {"mean reward of a step", stats.mean_reward}});
 }
 
-void tell_files(const RunFolder& folder, const std::string& name) {
+void tell_files(const pipeline::record::RunFolder& folder, const std::string& name) {
   heading("pipeline", "what the run wrote");
-  const std::filesystem::path motion = folder.root / RunFolder::motion_name(name, true);
-  list_members(std::filesystem::exists(motion) ? motion : folder.root / RunFolder::motion_name(name, false));
+  const std::filesystem::path motion = folder.root / pipeline::record::RunFolder::motion_name(name, true);
+  list_members(std::filesystem::exists(motion)
+                   ? motion
+                   : folder.root / pipeline::record::RunFolder::motion_name(name, false));
   for (const std::filesystem::path& path : {folder.fit(name), folder.reference(name), folder.log(name),
                                             folder.falls(name), folder.checkpoint(name), folder.manifest()})
     list_file(path);
 }
 
-void walk(const std::filesystem::path& file, const std::filesystem::path& options, const RunFolder& folder) {
+void walk(const std::filesystem::path& file, const std::filesystem::path& options,
+          const pipeline::record::RunFolder& folder) {
   heading("the file", "what is in it");
   list_members(file);
-  const PreparedMotion motion = prepare_motion(file, {}, true);
+  const pipeline::PreparedMotion motion = pipeline::prepare_motion(file, {}, true);
   heading("motion/import", "read_motion");
   std::printf("  %d frames at %.0f fps, body model %s\n", motion.input.frames(), motion.input.fps,
               motion.input.body_model.c_str());
@@ -240,18 +247,18 @@ void walk(const std::filesystem::path& file, const std::filesystem::path& option
   list_values(motion.fit_values);
   tell_reference(motion.reference);
   list_values(motion.preparation_values);
-  const AdaptConfig adapt = adapt_configuration();
-  const TrainingConfig& config = adapt.training;
-  const auto clip = rl::make_tracking_clip(motion.reference, config.tracking);
-  const ArrangedClip arranged =
-      tell_arrangement(clip, *read_options(options), config.tracking, adapt.arrangement);
+  const pipeline::AdaptConfig adapt = pipeline::adapt_configuration();
+  const pipeline::TrainingConfig& config = adapt.training;
+  const auto clip = rl::tracking::make_tracking_clip(motion.reference, config.tracking);
+  const pipeline::options::ArrangedClip arranged =
+      tell_arrangement(clip, *pipeline::options::read_options(options), config.tracking, adapt.arrangement);
   tell_frame(arranged, config.tracking);
   tell_training(arranged, config);
   tell_files(folder, motion.reference.name);
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
   if (argc != 4) {
@@ -259,7 +266,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    mimicx::walk(argv[1], argv[2], mimicx::RunFolder{argv[3]});
+    mimicx::tools::walk(argv[1], argv[2], mimicx::pipeline::record::RunFolder{argv[3]});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "walkthrough: %s\n", error.what());
     return 1;

@@ -15,6 +15,8 @@
 
 namespace mimicx::control {
 
+using namespace physics;  // states, targets and lanes are the simulator's
+
 /// One body and its joint; what all solves of the step share.
 template <class Real>
 struct BodyTable {

@@ -68,7 +68,7 @@ PushResult test_pushes(const System& system, const Cost& cost, const Trajectory&
       for (int lane = 0; lane < kLanes; ++lane) {
         const double angle = random[static_cast<std::size_t>(lane)].uniform(0.0, 2.0 * std::numbers::pi);
         const Vector3d push = test.speed * Vector3d(std::cos(angle), std::sin(angle), 0.0);
-        set_lane(x.v_root, lane, Vector3d(mimicx::lane_of(x.v_root, lane) + push));
+        set_lane(x.v_root, lane, Vector3d(physics::lane_of(x.v_root, lane) + push));
       }
     };
     const Fan fan = roll_out(system, cost, motion, laws, {}, in_all_lanes<P>(motion.x[0]), *scratch, options);

@@ -35,8 +35,8 @@ void find_help(const System& system, const Trajectory& helped, Loss& loss) {
   const int first = std::max(0, loss.frame - around), last = std::min(helped.size(), loss.frame + around);
   for (int t = first; t < last; ++t) {
     const Wrench<P> help = help_of(system, helped.u[static_cast<std::size_t>(t)]);
-    loss.help_force = std::max(loss.help_force, mimicx::lane_of(help.f, 0).norm());
-    loss.help_moment = std::max(loss.help_moment, mimicx::lane_of(help.n, 0).norm());
+    loss.help_force = std::max(loss.help_force, lane_of(help.f, 0).norm());
+    loss.help_moment = std::max(loss.help_moment, lane_of(help.n, 0).norm());
   }
 }
 

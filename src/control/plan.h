@@ -3,7 +3,7 @@
 ///     System system = make_system(character, options, reference, fps);
 ///     Plan plan = make_plan(system, {}, {.threads = 2});
 ///
-/// Replaying `plan.residuals` as actions of rl::TrackingPack (residual mode, velocity feed-forward, the same
+/// Replaying `plan.residuals` as actions of rl::tracking::TrackingPack (residual mode, velocity feed-forward, the same
 /// reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the result
 /// does not depend on the number of threads.
 ///

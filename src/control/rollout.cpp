@@ -98,7 +98,7 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
 void take_lane(const Fan& fan, int lane, Trajectory& trajectory) {
   trajectory.x.resize(fan.x.size());
   trajectory.u.resize(fan.u.size());
-  for (std::size_t t = 0; t < fan.x.size(); ++t) trajectory.x[t] = mimicx::lane_of(fan.x[t], lane);
+  for (std::size_t t = 0; t < fan.x.size(); ++t) trajectory.x[t] = lane_of(fan.x[t], lane);
   for (std::size_t t = 0; t < fan.u.size(); ++t) trajectory.u[t] = lane_of(fan.u[t], lane);
   trajectory.gaps.clear();
   trajectory.cost = fan.cost[static_cast<std::size_t>(lane)];

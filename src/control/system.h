@@ -2,7 +2,7 @@
 ///
 /// Time goes in control frames (1/30 s). The state x_t belongs to frame t; the control u_t acts from frame t
 /// to t + 1: 55 residual rotations on the reference's joint rotations of frame t + 1, exactly the actions of
-/// rl::TrackingPack in residual mode, so that a plan can be replayed as actions, byte for byte. During the
+/// rl::tracking::TrackingPack in residual mode, so that a plan can be replayed as actions, byte for byte. During the
 /// interval the PD target moves from the old target to the new one, so the next state depends on the control
 /// before, too:
 ///     x_{t+1} = f_t(x_t, u_{t−1}, u_t).
@@ -18,6 +18,8 @@
 #include "physics/pd_target.h"
 
 namespace mimicx::control {
+
+using namespace physics;  // states, targets and lanes are the simulator's
 
 using P = Pack<kLanes>;
 

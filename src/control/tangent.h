@@ -20,6 +20,8 @@
 
 namespace mimicx::control {
 
+using namespace physics;  // states, targets and lanes are the simulator's
+
 inline constexpr int kPositions = 6 + kDofs;     ///< coordinates of the pose
 inline constexpr int kTangent = 2 * kPositions;  ///< coordinates of the state
 inline constexpr int kRootRotation = 3;          ///< first coordinate of each block

@@ -1,6 +1,6 @@
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 std::array<double, kBetas> Clip::usable_betas() const {
   return body_model == "mimicx" ? betas : std::array<double, kBetas>{};
@@ -33,7 +33,7 @@ Character character_of(const Clip& clip) {
 }
 
 Vector3d rest_pelvis(const Clip& clip) {
-  return clip.rest_joints ? (*clip.rest_joints)[0] : rest_pelvis(clip.body_model);
+  return clip.rest_joints ? (*clip.rest_joints)[0] : mimicx::rest_pelvis(clip.body_model);
 }
 
 void put_on_body_of(const Clip& other, Clip& clip) {
@@ -62,7 +62,7 @@ Clip to_clip(const std::string& name, double fps, const Character& character,
   clip.fps = fps;
   clip.betas = character.betas;
   clip.body_model = "mimicx";
-  const Vector3d pelvis = rest_pelvis(clip.body_model);
+  const Vector3d pelvis = mimicx::rest_pelvis(clip.body_model);
   clip.rotations.resize(q.size());
   for (int t = 0; t < q.count(); ++t) {
     for (int j = 0; j < kBodies; ++j) clip.rotations[t][j] = log_map(q[t][j]);
@@ -76,4 +76,4 @@ std::string foreign_betas_warning(const std::string& body_model) {
          "' have no meaning without that model: the standard body is used";
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -16,7 +16,7 @@
 #include "character/character.h"
 #include "core/npz.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// 2D detections and the pinhole camera that saw them.
 struct Keypoints {
@@ -77,4 +77,4 @@ Clip to_clip(const std::string& name, double fps, const Character& character,
 /// What to say of a shape that was set aside because its body model is not at hand.
 std::string foreign_betas_warning(const std::string& body_model);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -5,7 +5,7 @@
 
 #include "motion/keypoint_names.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr int kPoseColumns = 3 * kBodies;  ///< root and 21 joints
@@ -352,4 +352,4 @@ void write_clip(const std::filesystem::path& path, const Clip& clip,
   write_npz(path, to_npz(clip, extra));
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

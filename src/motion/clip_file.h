@@ -10,7 +10,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
 /// 165 columns); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`. Columns of `poses` past the 66th
@@ -30,4 +30,4 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
 void write_clip(const std::filesystem::path& path, const Clip& clip,
                 const std::vector<std::pair<std::string, NpyArray>>& extra = {});
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

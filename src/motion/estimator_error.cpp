@@ -2,7 +2,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 double relative_joint_error(int body) {
   switch (body) {
@@ -37,4 +37,4 @@ double relative_joint_error(int body) {
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

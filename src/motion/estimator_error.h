@@ -4,11 +4,11 @@
 /// input by them: so on synthetic noise the fit is right about the weights, which flatters it a little.
 #pragma once
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// w_j: how large the error of a body's rotation relative to its parent is beside that of a knee. The ends
 /// of limbs are estimated worse than the trunk.                     docs/method.md, "Noise model"
 /// @param body  index of the body; the root has weight 1
 double relative_joint_error(int body);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

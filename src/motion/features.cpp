@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr double kSmoothing = 0.1334;  ///< s to either side of a frame: 4 frames at 30 fps
@@ -116,4 +116,4 @@ MotionFeatures scaled_features(const MotionFeatures& features) {
   return scaled;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -24,7 +24,7 @@
 
 #include "motion/reference.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 inline constexpr int kFeatures = 2 + 3 * kBodies;
 
@@ -53,4 +53,4 @@ const MotionFeatures& feature_units();
 /// features / units, entry by entry.
 MotionFeatures scaled_features(const MotionFeatures& features);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

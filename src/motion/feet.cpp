@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "motion/surface.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr double kStandingSpeed = 0.4;    // m/s
@@ -110,4 +110,4 @@ void bend_toes(Reference& reference) {
     }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

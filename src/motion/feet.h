@@ -13,7 +13,7 @@
 
 #include "motion/reference.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// Frames in which a foot stands: ankle and ball slower than 0.4 m/s and the ankle within 6 cm of where it is
 /// lowest (10th percentile). @param ankle  kLeftAnkle or kRightAnkle
@@ -33,4 +33,4 @@ PerFrame<double> support_heights(const Reference& reference);
 /// those of `frames` and are stale afterwards.
 void bend_toes(Reference& reference);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

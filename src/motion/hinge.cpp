@@ -6,7 +6,7 @@
 
 #include "core/units.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis: such a joint stays as it is
@@ -93,4 +93,4 @@ PerFrame<PerBody<Quaterniond>> to_hinges(const Character& character,
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -7,7 +7,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// SMPL rotations → joint rotations whose knees and elbows turn about `hinge_axis` alone. The hinge's angle
 /// and the rotation of the joint above it are solved again so that both bones point where they did; the body
@@ -18,4 +18,4 @@ namespace mimicx {
 PerFrame<PerBody<Quaterniond>> to_hinges(const Character& character,
                                          const PerFrame<PerBody<Quaterniond>>& smpl);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

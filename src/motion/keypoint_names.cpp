@@ -2,7 +2,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 std::vector<std::string> keypoint_names(KeypointSet set) {
   if (set == KeypointSet::kJoints22) return {kBodyNames.begin(), kBodyNames.end()};
@@ -11,4 +11,4 @@ std::vector<std::string> keypoint_names(KeypointSet set) {
           "right_hip",      "left_knee",  "right_knee",  "left_ankle", "right_ankle"};
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr double kContactHeight = 0.005;  ///< m; a point at or under it touches the floor
@@ -250,4 +250,4 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
   return s;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -13,7 +13,7 @@
 
 #include "motion/surface.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// What the metrics look at; one entry per frame.
 struct MotionSamples {
@@ -65,4 +65,4 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
 /// Smallest distance between two line segments, m.
 double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -11,7 +11,7 @@
 #include "motion/resample.h"
 #include "motion/surface.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr double kOddFloorShift = 1.0;  ///< m
@@ -135,4 +135,4 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

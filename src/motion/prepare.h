@@ -9,7 +9,7 @@
 
 #include "motion/reference.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// What preparation did to a clip; every figure goes into the manifest.
 struct PreparationReport {
@@ -36,4 +36,4 @@ struct PreparationConfig {
 /// @throws DataError for fewer than 2 frames or non-finite values.
 Reference prepare_reference(const Clip& clip, const PreparationConfig& config, PreparationReport* report);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

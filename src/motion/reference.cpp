@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mimicx {
+namespace mimicx::motion {
 
 void differentiate(PerFrame<ReferenceFrame>& frames, double fps) {
   const int last = frames.count() - 1;
@@ -15,4 +15,4 @@ void differentiate(PerFrame<ReferenceFrame>& frames, double fps) {
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -11,7 +11,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 struct ReferenceFrame {
   Vector3d p_root = Vector3d::Zero();  ///< pelvis joint in world, m
@@ -36,4 +36,4 @@ struct Reference {
 /// p_root and q must be set. One frame alone keeps the velocities it has.
 void differentiate(PerFrame<ReferenceFrame>& frames, double fps);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

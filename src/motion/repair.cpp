@@ -5,7 +5,7 @@
 
 #include "core/quantile.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr double kMaxJointSpeed = 12.0;      ///< m/s
@@ -142,4 +142,4 @@ FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, boo
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

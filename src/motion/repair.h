@@ -6,7 +6,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// Frames of an estimator's glitches. A glitch is a stretch of at most a third of a second between two jumps;
 /// without it the motion is plausible. A jump is a step that no human makes: a joint moves at more than
@@ -33,4 +33,4 @@ struct FloorCorrection {
 /// @param known   the floor is known to be at 0: there is no static shift
 FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known = false);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

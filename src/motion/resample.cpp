@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 /// A time of the output between two frames of the input.
@@ -75,4 +75,4 @@ Clip resampled(const Clip& clip, double fps) {
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -5,7 +5,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 /// The clip at another frame rate (Hz), from its first frame on: rotations by slerp, positions, keypoints and
 /// cameras linearly. A clip of that rate comes back unchanged. A keypoint that is seen in one of two frames
@@ -14,4 +14,4 @@ namespace mimicx {
 /// @throws std::invalid_argument unless the rate is positive
 Clip resampled(const Clip& clip, double fps);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <span>
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 constexpr int kRingPoints = 8;
@@ -58,4 +58,4 @@ double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& p
   return lowest;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

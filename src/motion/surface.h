@@ -11,7 +11,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 
 struct SurfacePoint {
   int body;
@@ -26,4 +26,4 @@ std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points,
 /// Height of the lowest point over the floor z = 0, m.
 double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion

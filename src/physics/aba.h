@@ -17,7 +17,7 @@
 #include "physics/joints.h"
 #include "physics/kinematics.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// What changed in a body changes every body between it and the root.
 template <class T>
@@ -188,4 +188,4 @@ void solve(const Model<RealOf<T>>& model, Data<T>& d) {
   d.changed.fill(false);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -14,7 +14,7 @@
 
 #include "physics/data.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Law of a floor contact: fills f, W_t, W_n with the coefficients taken at v_end.  docs/physics.md §4, (8)
 template <class T>
@@ -177,4 +177,4 @@ template <class T>
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -1,6 +1,6 @@
 #include "physics/control_interval.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 template <class T>
@@ -48,4 +48,4 @@ MIMICX_INSTANTIATE(Pack<16>)
 MIMICX_INSTANTIATE(Pack<4>)
 #endif
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

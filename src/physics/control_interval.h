@@ -6,7 +6,7 @@
 
 #include "physics/step.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Called after every physics step with the states around it, what it aimed at and how it was solved.
 template <class T>
@@ -26,4 +26,4 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
                            int substeps, State<T>& state, Data<T>& d, Applied<T>* applied = nullptr,
                            const SubstepWatcher<T>& watch = {}, const Wrench<T>* help = nullptr);
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

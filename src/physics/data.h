@@ -7,7 +7,7 @@
 
 #include "physics/model.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Generalised coordinates and velocities.
 template <class T>
@@ -94,4 +94,4 @@ struct Applied {
   int steps = 0;
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

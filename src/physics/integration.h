@@ -8,7 +8,7 @@
 
 #include "physics/data.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 template <class T>
 [[gnu::flatten]] void integrate(const Model<RealOf<T>>& model, const Data<T>& d, State<T>& s) {
@@ -38,4 +38,4 @@ MaskOf<T> gone_wrong(const Model<RealOf<T>>& model, const State<T>& s) {
   return !fine;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -1,6 +1,6 @@
 #include "physics/inverse_dynamics.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 Vector6d spatial(const Vector3d& angular, const Vector3d& linear) {
@@ -83,4 +83,4 @@ RequiredForces inverse_dynamics(const Character& c, double gravity, const Motion
   return forces;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -15,7 +15,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Position, velocity and acceleration; conventions of physics/data.h.
 struct MotionState {
@@ -37,4 +37,4 @@ struct RequiredForces {
 RequiredForces inverse_dynamics(const Character& character, double gravity, const MotionState& state,
                                 const BodyWrenches& external);
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

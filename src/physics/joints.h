@@ -11,7 +11,7 @@
 
 #include "physics/data.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Torque and implicit diagonal of the anatomical range of joint i; zero inside it.
 template <class T>
@@ -114,4 +114,4 @@ template <class T>
   return again;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

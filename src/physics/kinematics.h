@@ -10,7 +10,7 @@
 
 #include "physics/data.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 template <class T>
 [[gnu::flatten]] void compute_kinematics(const Model<RealOf<T>>& model, const State<T>& state, Data<T>& d) {
@@ -56,4 +56,4 @@ template <class T>
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -6,7 +6,7 @@
 
 #include "physics/data.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 template <class T>
 void set_lane(Vec3<T>& out, int lane, const Vector3d& v) {
@@ -105,4 +105,4 @@ void copy_lane(Whole& out, int to, const Whole& in, int from) {
   for_each_member(out, in, [&](auto& a, const auto& b) { set_lane(a, to, lane_of(b, from)); });
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 std::string numbers(const Vector3d& v) {
@@ -99,4 +99,4 @@ std::string to_mjcf(const Character& character, const SimulationConfig& config, 
   return out.str();
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

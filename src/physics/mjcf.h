@@ -20,7 +20,7 @@
 
 #include "physics/model.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 struct MjcfConfig {
   bool springs = false;  ///< PD gains as the joints' stiffness and damping, pulling towards the T-pose
@@ -33,4 +33,4 @@ std::string to_mjcf(const Character& character, const SimulationConfig& config, 
 /// Bodies in the order of the file, depth first.
 PerBody<int> mjcf_order();
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 template <class Real>
@@ -88,4 +88,4 @@ Model<Real> make_model(const Character& c, const SimulationConfig& config) {
 template Model<float> make_model(const Character&, const SimulationConfig&);
 template Model<double> make_model(const Character&, const SimulationConfig&);
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

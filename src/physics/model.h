@@ -12,7 +12,7 @@
 #include "core/units.h"
 #include "physics/spatial.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 inline constexpr int kMaxContacts = 48;  ///< contact points a character may have
 
@@ -62,4 +62,4 @@ struct Model {
 template <class Real>
 Model<Real> make_model(const Character& character, const SimulationConfig& config = {});
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

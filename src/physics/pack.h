@@ -20,7 +20,7 @@
 #include <immintrin.h>
 #endif
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Lanes of the pack that training uses on this target.
 #if defined(__AVX512F__)
@@ -188,4 +188,4 @@ using RealOf = typename ScalarTraits<T>::Real;
 template <class T>
 using MaskOf = typename ScalarTraits<T>::Mask;
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

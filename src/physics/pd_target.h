@@ -9,7 +9,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// The joint's part of an action. Entries beyond ± `limit` (rad) are clamped; one that is no number is zero.
 /// @param entry  maps a degree of freedom 0 … 54 to its entry
@@ -29,4 +29,4 @@ inline Quaterniond residual_target(const Quaterniond& reference, const Vector3d&
   return reference * exp_map(rotation);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

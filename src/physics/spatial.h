@@ -8,7 +8,11 @@
 #include "core/so3.h"
 #include "physics/pack.h"
 
-namespace mimicx {
+namespace mimicx::physics {
+
+// Those of core/so3.h stay in reach beside the overloads for lanes below.
+using mimicx::exp_map;
+using mimicx::log_map;
 
 template <class T>
 struct Vec3 {
@@ -220,7 +224,7 @@ Quat<T> exp_map(const Vec3<T>& r) {
   return {cosine, s * r.x, s * r.y, s * r.z};
 }
 inline Quat<double> exp_map(const Vec3<double>& r) {
-  const Quaterniond q = mimicx::exp_map(Vector3d(r.x, r.y, r.z));
+  const Quaterniond q = exp_map(Vector3d(r.x, r.y, r.z));
   return {q.w(), q.x(), q.y(), q.z()};
 }
 
@@ -258,4 +262,4 @@ struct Inertia {
   Sym3<T> C;
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

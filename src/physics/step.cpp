@@ -3,7 +3,7 @@
 #include "physics/aba.h"
 #include "physics/integration.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 template <class T>
@@ -121,4 +121,4 @@ MIMICX_INSTANTIATE(Pack<16>)
 MIMICX_INSTANTIATE(Pack<4>)
 #endif
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

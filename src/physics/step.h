@@ -6,7 +6,7 @@
 
 #include "physics/data.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// Accelerations d.qdd, d.a_w, d.a_v under joint torques alone: no floor, no self contact, no PD, no limits,
 /// armature included. The pure algorithm, for oracles and audits.
@@ -42,4 +42,4 @@ void clear(Applied<T>& applied);
 template <class T>
 void update_kinematics(const Model<RealOf<T>>& model, const State<T>& state, Data<T>& d);
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -8,20 +8,22 @@
 #include "pipeline/plan_sequence.h"
 #include "pipeline/train_sequence.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
 
-SimulatedSequence fine_tune(const AdaptConfig& config, const Reference& reference, const SequenceJob& job) {
-  const rl::TrackingConfig& tracking = config.training.tracking;
-  const auto clip = rl::make_tracking_clip(reference, tracking);
-  const ArrangedClip arranged = arrange(clip, tracking, *config.options, config.arrangement);
+SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& reference,
+                            const SequenceJob& job) {
+  const rl::tracking::TrackingConfig& tracking = config.training.tracking;
+  const auto clip = rl::tracking::make_tracking_clip(reference, tracking);
+  const options::ArrangedClip arranged =
+      options::arrange(clip, tracking, *config.options, config.arrangement);
   SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, config.training, job);
   made.method = "paper";
-  made.arrangement = stretches_of(arranged.options);
+  made.arrangement = options::stretches_of(arranged.options);
   if (!arranged.breaks.empty())
     made.notes.push_back("no option could follow at " + std::to_string(arranged.breaks.size()) +
                          " frames, first at frame " + std::to_string(arranged.breaks.front()));
@@ -35,7 +37,7 @@ SequenceJob after_seconds(const SequenceJob& job, double seconds) {
   return rest;
 }
 
-SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const Reference& reference,
+SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion::Reference& reference,
                                     const SequenceJob& job) {
   SimulatedSequence plan = plan_sequence(reference, planning_of(config), job);
   if (plan.interrupted) return plan;
@@ -51,8 +53,8 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const Reference& 
   kept.training_seconds = trained.training_seconds;
   kept.samples = trained.samples;
   kept.plan = plan.plan;
-  for (const Ending ending : {plan.ending, trained.ending})
-    if (ending == Ending::kLimitSeconds) kept.ending = ending;
+  for (const record::Ending ending : {plan.ending, trained.ending})
+    if (ending == record::Ending::kLimitSeconds) kept.ending = ending;
   if (!keep_plan && !plan.reason.empty()) kept.notes.push_back(plan.reason);
   kept.notes.push_back("plan: " + in_words(planned) + "; policies: " + in_words(learned) +
                        "; written: " + (keep_plan ? "the plan" : "the policies"));
@@ -68,7 +70,7 @@ Method method_of(const AdaptConfig& config) {
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
   method.name = plan_first ? "auto" : "paper";
-  method.simulate = [&config, plan_first](const Reference& reference, const SequenceJob& job) {
+  method.simulate = [&config, plan_first](const motion::Reference& reference, const SequenceJob& job) {
     return plan_first ? plan_or_fine_tune(config, reference, job) : fine_tune(config, reference, job);
   };
   return method;
@@ -100,11 +102,11 @@ void check(const AdaptConfig& config) {
   if (config.method != AdaptMethod::kPlan) check(config.training);
 }
 
-RunOutcome adapt(const AdaptConfig& config, const RunContext& context) {
+record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context) {
   if (config.method == AdaptMethod::kPlan) return plan_motions({config.run, planning_of(config)}, context);
   if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
   check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

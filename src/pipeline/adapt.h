@@ -14,7 +14,7 @@
 #include "pipeline/sequence_run.h"
 #include "pipeline/training.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 enum class AdaptMethod { kAuto, kPlan, kPaper };
 
@@ -23,8 +23,8 @@ struct AdaptConfig {
   RunConfig run;
   control::PlanConfig plan;  ///< simulated as `training` says
   TrainingConfig training;   ///< of the fine-tuning; the networks are the options' own
-  ArrangementConfig arrangement;
-  std::shared_ptr<const OptionSet> options;  ///< to start from; not looked at by the plan alone
+  options::ArrangementConfig arrangement;
+  std::shared_ptr<const options::OptionSet> options;  ///< to start from; not looked at by the plan alone
 };
 
 /// The settings, as the manifest lists them.
@@ -38,6 +38,6 @@ void check(const AdaptConfig& config);
 
 /// @throws std::invalid_argument as `run_sequences`, and without options or with an arrangement that cannot
 /// be where the method may need them
-RunOutcome adapt(const AdaptConfig& config, const RunContext& context);
+record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

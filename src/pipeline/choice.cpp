@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
-Candidate candidate_of(const Reference& reference, const rl::TrackingRollout& rollout) {
+Candidate candidate_of(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   const Scores scores = score_simulated(reference, rollout);
   Candidate candidate{scores.success, static_cast<int>(rollout.poses.size()), HUGE_VAL};
   for (const auto& [name, value] : scores.values)
@@ -25,4 +25,4 @@ std::string in_words(const Candidate& candidate) {
   return text;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

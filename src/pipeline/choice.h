@@ -3,7 +3,7 @@
 
 #include "pipeline/scores.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// What the choice looks at.
 struct Candidate {
@@ -11,7 +11,7 @@ struct Candidate {
   int frames = 0;        ///< that were simulated
   double mpjpe_mm = 0;   ///< to the prepared reference
 };
-Candidate candidate_of(const Reference& reference, const rl::TrackingRollout& rollout);
+Candidate candidate_of(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
 /// Success comes first, then how many frames were simulated, then the smaller MPJPE.
 bool better(const Candidate& a, const Candidate& b);
@@ -19,4 +19,4 @@ bool better(const Candidate& a, const Candidate& b);
 /// "success, MPJPE 3.2 mm"
 std::string in_words(const Candidate& candidate);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

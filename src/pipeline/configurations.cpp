@@ -9,7 +9,7 @@
 #include "pipeline/record/json.h"
 #include "pipeline/record/table.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -107,7 +107,7 @@ Array<NamedValues, 5> columns() {
           with_budget(paper.training, settings_of(paper))};
 }
 
-std::string cell(double value) { return std::isnan(value) ? "-" : format_number(value); }
+std::string cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
 
 }  // namespace
 
@@ -182,9 +182,9 @@ std::string format_configurations() {
 }
 
 std::string configurations_json() {
-  Json json = Json::object();
+  record::Json json = record::Json::object();
   for (std::size_t column = 0; column < kConfigurationNames.size(); ++column) {
-    Json settings = Json::object();
+    record::Json settings = record::Json::object();
     for (const ConfigurationRow& row : configuration_rows())
       if (!std::isnan(row.values[column])) settings[row.name] = row.values[column];
     json[kConfigurationNames[column]] = settings;
@@ -192,4 +192,4 @@ std::string configurations_json() {
   return json.dump(1) + "\n";
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -21,7 +21,7 @@
 #include "pipeline/plan.h"
 #include "pipeline/pretrain.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 PlanMotionsConfig plan_configuration();
 ImitateConfig imitate_configuration();
@@ -44,4 +44,4 @@ std::string format_configurations();
 /// {"plan": {name: value, …}, …}, the settings in the order of the table.
 std::string configurations_json();
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -10,7 +10,7 @@
 #include "motion/clip_file.h"
 #include "pipeline/record/json.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 std::vector<std::string> npz_names(const std::filesystem::path& folder) {
@@ -22,8 +22,8 @@ std::vector<std::string> npz_names(const std::filesystem::path& folder) {
   return names;
 }
 
-MotionSamples samples_of(const Clip& clip) {
-  return sample_motion(character_of(clip), poses_of(clip), clip.fps);
+motion::MotionSamples samples_of(const motion::Clip& clip) {
+  return motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps);
 }
 
 EvaluatedMotion evaluate_file(const std::filesystem::path& truth, const std::filesystem::path& motion) {
@@ -32,9 +32,10 @@ EvaluatedMotion evaluate_file(const std::filesystem::path& truth, const std::fil
   try {
     if (!std::filesystem::exists(truth))
       throw DataError(truth.string(), "", "the truth of " + result.name, "no file");
-    const MotionSamples p = samples_of(read_clip(motion)), g = samples_of(read_clip(truth));
+    const motion::MotionSamples p = samples_of(motion::read_clip(motion)),
+                                g = samples_of(motion::read_clip(truth));
     result.frames = p.frames();
-    result.metrics = evaluate_motion(p, &g);
+    result.metrics = motion::evaluate_motion(p, &g);
     result.ok = true;
   } catch (const std::exception& error) {
     result.reason = error.what();
@@ -54,7 +55,7 @@ std::string padded(const std::string& name, std::size_t width) {
 
 std::string titles() {
   std::string text;
-  for (const auto& d : metric_definitions()) {
+  for (const auto& d : motion::metric_definitions()) {
     char title[32];
     std::snprintf(title, sizeof title, " %9s", d.name);
     text += title;
@@ -62,11 +63,11 @@ std::string titles() {
   return text;
 }
 
-Json to_json(const EvaluatedMotion& m) {
-  Json json = {
+record::Json to_json(const EvaluatedMotion& m) {
+  record::Json json = {
       {"name", m.name}, {"status", m.ok ? "ok" : "failed"}, {"reason", m.reason}, {"frames", m.frames}};
-  for (const auto& d : metric_definitions())
-    json["metrics"][d.name] = {{"value", number((m.metrics.*d.value).value)},
+  for (const auto& d : motion::metric_definitions())
+    json["metrics"][d.name] = {{"value", record::number((m.metrics.*d.value).value)},
                                {"count", (m.metrics.*d.value).count}};
   return json;
 }
@@ -84,7 +85,7 @@ Evaluation evaluate_folders(const std::filesystem::path& truth, const std::files
   return evaluation;
 }
 
-double mean_of(const Evaluation& evaluation, const MetricDefinition& metric) {
+double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& metric) {
   double sum = 0.0;
   int count = 0;
   for (const auto& m : evaluation.motions) {
@@ -119,7 +120,7 @@ std::string format_comparison(const Comparison& comparison) {
   std::string text = padded("", width) + titles();
   for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
     text += '\n' + padded(comparison.labels[k], width);
-    for (const auto& d : metric_definitions()) text += cell(mean_of(comparison.evaluations[k], d));
+    for (const auto& d : motion::metric_definitions()) text += cell(mean_of(comparison.evaluations[k], d));
   }
   text += "\nmeans over " + std::to_string(comparison.evaluations.front().motions.size()) + " motions";
   if (comparison.left_out > 0)
@@ -128,16 +129,18 @@ std::string format_comparison(const Comparison& comparison) {
 }
 
 std::string comparison_json(const Comparison& comparison) {
-  Json json = {{"rows", Json::array()}, {"motions", Json::array()}, {"left_out", comparison.left_out}};
+  record::Json json = {
+      {"rows", record::Json::array()}, {"motions", record::Json::array()}, {"left_out", comparison.left_out}};
   for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
-    Json mean = Json::object();
-    for (const auto& d : metric_definitions()) mean[d.name] = number(mean_of(comparison.evaluations[k], d));
+    record::Json mean = record::Json::object();
+    for (const auto& d : motion::metric_definitions())
+      mean[d.name] = record::number(mean_of(comparison.evaluations[k], d));
     json["rows"].push_back({{"folder", comparison.labels[k]}, {"mean", mean}});
   }
   for (const EvaluatedMotion& m : comparison.evaluations.front().motions) json["motions"].push_back(m.name);
-  for (const auto& d : metric_definitions())
+  for (const auto& d : motion::metric_definitions())
     json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
 }
 
 std::string format_evaluation(const Evaluation& evaluation) {
@@ -147,23 +150,25 @@ std::string format_evaluation(const Evaluation& evaluation) {
   for (const auto& m : evaluation.motions) {
     text += '\n' + padded(m.name, width);
     if (!m.ok) text += "  " + m.reason;
-    for (const auto& d : metric_definitions())
+    for (const auto& d : motion::metric_definitions())
       if (m.ok) text += cell((m.metrics.*d.value).value);
   }
   text += '\n' + padded("mean", width);
-  for (const auto& d : metric_definitions()) text += cell(mean_of(evaluation, d));
+  for (const auto& d : motion::metric_definitions()) text += cell(mean_of(evaluation, d));
   return text + '\n';
 }
 
 std::string evaluation_json(const Evaluation& evaluation) {
-  Json json = {{"motions", Json::array()}, {"mean", Json::object()}, {"definitions", Json::object()}};
+  record::Json json = {{"motions", record::Json::array()},
+                       {"mean", record::Json::object()},
+                       {"definitions", record::Json::object()}};
   for (const auto& m : evaluation.motions) json["motions"].push_back(to_json(m));
-  for (const auto& d : metric_definitions()) {
-    json["mean"][d.name] = number(mean_of(evaluation, d));
+  for (const auto& d : motion::metric_definitions()) {
+    json["mean"][d.name] = record::number(mean_of(evaluation, d));
     json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
   }
   json["unmatched"] = evaluation.unmatched;
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

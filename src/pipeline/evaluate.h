@@ -11,14 +11,14 @@
 
 #include "motion/metrics.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct EvaluatedMotion {
   std::string name;  ///< file name without suffix
   bool ok = false;
   std::string reason;  ///< why it could not be evaluated
   int frames = 0;
-  Metrics metrics;
+  motion::Metrics metrics;
 };
 
 struct Evaluation {
@@ -30,7 +30,7 @@ struct Evaluation {
 Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions);
 
 /// Mean over the evaluated motions; NaN where none has a value.
-double mean_of(const Evaluation& evaluation, const MetricDefinition& metric);
+double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& metric);
 
 /// Several folders of the same motions (input, fit, cleaned …), reduced to those that all of them hold.
 struct Comparison {
@@ -52,4 +52,4 @@ std::string format_evaluation(const Evaluation& evaluation);
 /// [...]}
 std::string evaluation_json(const Evaluation& evaluation);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

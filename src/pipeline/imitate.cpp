@@ -2,7 +2,7 @@
 
 #include "pipeline/train_sequence.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 Method method_of(const ImitateConfig& config) {
@@ -12,8 +12,9 @@ Method method_of(const ImitateConfig& config) {
   method.samples = config.training.samples;
   method.settings = settings_of(config);
   method.simulation = config.training.tracking.simulation;
-  method.simulate = [&training = config.training](const Reference& reference, const SequenceJob& job) {
-    const auto clip = rl::make_tracking_clip(reference, training.tracking);
+  method.simulate = [&training = config.training](const motion::Reference& reference,
+                                                  const SequenceJob& job) {
+    const auto clip = rl::tracking::make_tracking_clip(reference, training.tracking);
     SimulatedSequence made = train_sequence(clip, {untrained_agent(training)}, training, job);
     made.method = "imitate";
     return made;
@@ -29,8 +30,8 @@ NamedValues settings_of(const ImitateConfig& config) {
   return settings;
 }
 
-RunOutcome imitate(const ImitateConfig& config, const RunContext& context) {
+record::RunOutcome imitate(const ImitateConfig& config, const record::RunContext& context) {
   return run_sequences(config.run, method_of(config), context);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -4,7 +4,7 @@
 #include "pipeline/sequence_run.h"
 #include "pipeline/training.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct ImitateConfig {
   RunConfig run;
@@ -15,6 +15,6 @@ struct ImitateConfig {
 NamedValues settings_of(const ImitateConfig& config);
 
 /// @throws std::invalid_argument as `run_sequences`
-RunOutcome imitate(const ImitateConfig& config, const RunContext& context);
+record::RunOutcome imitate(const ImitateConfig& config, const record::RunContext& context);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

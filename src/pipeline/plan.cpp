@@ -2,7 +2,7 @@
 
 #include "pipeline/plan_sequence.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 NamedValues settings_of(const PlanMotionsConfig& config) {
   NamedValues settings = planning_settings(config.planning);
@@ -10,15 +10,16 @@ NamedValues settings_of(const PlanMotionsConfig& config) {
   return settings;
 }
 
-RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context) {
+record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::RunContext& context) {
   Method method;
   method.name = "plan";
   method.settings = settings_of(config);
   method.simulation = config.planning.simulation;
-  method.simulate = [&planning = config.planning](const Reference& reference, const SequenceJob& job) {
+  method.simulate = [&planning = config.planning](const motion::Reference& reference,
+                                                  const SequenceJob& job) {
     return plan_sequence(reference, planning, job);
   };
   return run_sequences(config.run, method, context);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -4,7 +4,7 @@
 #include "pipeline/planning.h"
 #include "pipeline/sequence_run.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct PlanMotionsConfig {
   RunConfig run;
@@ -15,6 +15,6 @@ struct PlanMotionsConfig {
 NamedValues settings_of(const PlanMotionsConfig& config);
 
 /// @throws std::invalid_argument as `run_sequences`
-RunOutcome plan_motions(const PlanMotionsConfig& config, const RunContext& context);
+record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::RunContext& context);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

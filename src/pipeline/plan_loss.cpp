@@ -5,7 +5,7 @@
 
 #include "pipeline/audit/audit.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 /// Frames before the loss in which its cause is looked for: what topples a body takes most of a second.
@@ -28,17 +28,18 @@ struct Need {
   double weight = 0.0;                    ///< N
 };
 
-Need need_of(const Reference& reference, int first, int last) {
+Need need_of(const motion::Reference& reference, int first, int last) {
   std::vector<Vector3d> p_root;
   std::vector<PerBody<Quaterniond>> q;
-  for (const ReferenceFrame& frame : reference.frames) {
+  for (const motion::ReferenceFrame& frame : reference.frames) {
     p_root.push_back(frame.p_root);
     q.push_back(frame.q);
   }
-  const Audit audit = audit_poses(to_clip(reference.name, reference.fps, reference.character, p_root, q));
+  const audit::Audit audit =
+      audit::audit_poses(motion::to_clip(reference.name, reference.fps, reference.character, p_root, q));
   Need need;
   need.weight = audit.weight;
-  for (const AuditRow& row : audit.rows) {
+  for (const audit::AuditRow& row : audit.rows) {
     if (row.index < first || row.index > last) continue;
     const double moment = row.root.head<3>().norm(), force = row.root.tail<3>().norm();
     if (force > need.force) need.force = force, need.force_frame = row.index;
@@ -63,7 +64,7 @@ std::string need_in_words(const Need& need, int first, int last) {
 
 }  // namespace
 
-std::string loss_in_words(const Reference& reference, const control::Loss& loss) {
+std::string loss_in_words(const motion::Reference& reference, const control::Loss& loss) {
   std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / reference.fps);
   if (loss.body >= 0)
     text += print(": %s is %.2f m from its reference",
@@ -77,4 +78,4 @@ std::string loss_in_words(const Reference& reference, const control::Loss& loss)
   return text + "; " + need_in_words(need_of(reference, first, last), first, last);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -7,29 +7,29 @@
 #include "pipeline/output/plan_file.h"
 #include "pipeline/plan_loss.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
-std::vector<State<double>> states_of(const Reference& reference) {
-  std::vector<State<double>> states;
-  for (const ReferenceFrame& frame : reference.frames) {
-    State<double>& x = states.emplace_back();
-    x.p_root = from_eigen(frame.p_root);
-    x.v_root = from_eigen(frame.v_root);
+std::vector<physics::State<double>> states_of(const motion::Reference& reference) {
+  std::vector<physics::State<double>> states;
+  for (const motion::ReferenceFrame& frame : reference.frames) {
+    physics::State<double>& x = states.emplace_back();
+    x.p_root = physics::from_eigen(frame.p_root);
+    x.v_root = physics::from_eigen(frame.v_root);
     for (std::size_t i = 0; i < kBodies; ++i) {
-      x.q[i] = from_eigen(frame.q[i]);
-      x.omega[i] = from_eigen(frame.omega[i]);
+      x.q[i] = physics::from_eigen(frame.q[i]);
+      x.omega[i] = physics::from_eigen(frame.omega[i]);
     }
   }
   return states;
 }
 
 /// The plan that an earlier run finished for this very input; none where the file is not that.
-std::optional<StoredPlan> finished_plan(const SequenceJob& job) {
+std::optional<output::StoredPlan> finished_plan(const SequenceJob& job) {
   const std::filesystem::path file = job.folder.plan(job.name);
   if (!std::filesystem::exists(file)) return {};
   try {
-    StoredPlan stored = read_plan(file);
+    output::StoredPlan stored = output::read_plan(file);
     if (stored.plan.ending != control::Ending::kStopped && stored.input_checksum == job.input_checksum)
       return stored;
   } catch (const DataError&) {  // a damaged one is made anew
@@ -37,14 +37,14 @@ std::optional<StoredPlan> finished_plan(const SequenceJob& job) {
   return {};
 }
 
-control::System system_of(const Reference& reference, const StoredPlan& stored) {
+control::System system_of(const motion::Reference& reference, const output::StoredPlan& stored) {
   return control::make_system(reference.character, stored.simulation, stored.reference, stored.fps);
 }
 
 /// The job's context and seconds, for the planner.
 struct Watch {
   const SequenceJob& job;
-  double started = steady_seconds();
+  double started = record::steady_seconds();
   bool interrupted = false;  ///< the context asked to stop
 
   control::PlanControl control() {
@@ -52,17 +52,18 @@ struct Watch {
     control.threads = job.threads;
     control.should_stop = [this] {
       interrupted = interrupted || job.context.should_stop();
-      return interrupted || (job.limit_seconds > 0.0 && steady_seconds() - started > job.limit_seconds);
+      return interrupted ||
+             (job.limit_seconds > 0.0 && record::steady_seconds() - started > job.limit_seconds);
     };
     control.progress = [this](int done, int) { job.context.progress.update(done, ""); };
     return control;
   }
 };
 
-StoredPlan make(const Reference& reference, const PlanningConfig& config, Watch& watch) {
+output::StoredPlan make(const motion::Reference& reference, const PlanningConfig& config, Watch& watch) {
   const SequenceJob& job = watch.job;
   job.context.progress.start(job.name + ": plan", 0.0, reference.size(), "frames");
-  StoredPlan stored;
+  output::StoredPlan stored;
   stored.input_checksum = job.input_checksum;
   stored.fps = reference.fps;
   stored.simulation = config.simulation;
@@ -72,8 +73,8 @@ StoredPlan make(const Reference& reference, const PlanningConfig& config, Watch&
 }
 
 /// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
-void leave_gains(const Reference& reference, const PlanningConfig& config, const StoredPlan& stored,
-                 Watch& watch) {
+void leave_gains(const motion::Reference& reference, const PlanningConfig& config,
+                 const output::StoredPlan& stored, Watch& watch) {
   const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
   std::filesystem::remove(file);
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
@@ -83,11 +84,12 @@ void leave_gains(const Reference& reference, const PlanningConfig& config, const
                               control::trajectory_of(stored.plan), config.plan.gain_options, watch.control());
   if (gains.empty()) return;  // it was told to stop
   std::filesystem::create_directories(file.parent_path());
-  write_gains(file, gains);
+  output::write_gains(file, gains);
 }
 
-rl::TrackingRollout replay(const Reference& reference, const StoredPlan& stored, bool substeps) {
-  rl::TrackingConfig tracking;
+rl::tracking::TrackingRollout replay(const motion::Reference& reference, const output::StoredPlan& stored,
+                                     bool substeps) {
+  rl::tracking::TrackingConfig tracking;
   tracking.simulation = stored.simulation;
   std::size_t t = 0;
   const auto& residuals = stored.plan.residuals;
@@ -98,7 +100,8 @@ rl::TrackingRollout replay(const Reference& reference, const StoredPlan& stored,
       std::fill(action, action + kDofs, 0.0f);
     ++t;
   };
-  return rl::roll_out(rl::make_tracking_clip(reference, tracking), tracking, planned, substeps);
+  return rl::tracking::roll_out(rl::tracking::make_tracking_clip(reference, tracking), tracking, planned,
+                                substeps);
 }
 
 NamedValues values_of(const control::Plan& plan) {
@@ -111,45 +114,45 @@ NamedValues values_of(const control::Plan& plan) {
           {"by_way_of_help", plan.by_way_of_help ? 1.0 : 0.0}};
 }
 
-Ending ending_of(const control::Plan& plan) {
+record::Ending ending_of(const control::Plan& plan) {
   switch (plan.ending) {
     case control::Ending::kFollowed:
-      return Ending::kFollowed;
+      return record::Ending::kFollowed;
     case control::Ending::kLost:
-      return Ending::kLost;
+      return record::Ending::kLost;
     case control::Ending::kStopped:
-      return Ending::kLimitSeconds;
+      return record::Ending::kLimitSeconds;
   }
-  return Ending::kNone;
+  return record::Ending::kNone;
 }
 
 }  // namespace
 
-SimulatedSequence plan_sequence(const Reference& reference, const PlanningConfig& config,
+SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                 const SequenceJob& job) {
   SimulatedSequence made;
   made.method = "plan";
   Watch watch{job};
-  std::optional<StoredPlan> stored = finished_plan(job);
+  std::optional<output::StoredPlan> stored = finished_plan(job);
   if (!stored) {
     stored = make(reference, config, watch);
     if (!watch.interrupted) {
       std::filesystem::create_directories(job.folder.plan(job.name).parent_path());
-      write_plan(job.folder.plan(job.name), *stored);
+      output::write_plan(job.folder.plan(job.name), *stored);
     }
   }
   if (!watch.interrupted) leave_gains(reference, config, *stored, watch);
-  made.planning_seconds = steady_seconds() - watch.started;
+  made.planning_seconds = record::steady_seconds() - watch.started;
   made.interrupted = watch.interrupted;
   if (made.interrupted) return made;
   const control::Plan& plan = stored->plan;
   made.ending = ending_of(plan);
   made.plan = values_of(plan);
   if (plan.loss) made.reason = loss_in_words(reference, *plan.loss);
-  if (made.ending == Ending::kLimitSeconds)
+  if (made.ending == record::Ending::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);
   return made;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

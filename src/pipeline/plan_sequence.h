@@ -10,10 +10,10 @@
 #include "pipeline/planning.h"
 #include "pipeline/sequence_run.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// The result is interrupted where the job's context stopped the plan.
-SimulatedSequence plan_sequence(const Reference& reference, const PlanningConfig& config,
+SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                 const SequenceJob& job);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -6,7 +6,7 @@
 #include "pipeline/setting.h"
 #include "rl/tracking/pack.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 /// Calls add(name, field, least, most) for every number of the plan.
@@ -62,7 +62,7 @@ NamedValues plan_settings(const control::PlanConfig& plan) {
 
 NamedValues planning_settings(const PlanningConfig& config) {
   NamedValues values = plan_settings(config.plan);
-  for_each_simulation_setting(config.simulation, [&](const char* name, const auto& field) {
+  output::for_each_simulation_setting(config.simulation, [&](const char* name, const auto& field) {
     values.emplace_back(name, number_of(field));
   });
   return values;
@@ -80,7 +80,7 @@ bool change_setting(control::PlanConfig& plan, const std::string& name, double v
 
 void apply_setting(PlanningConfig& config, const std::string& name, double value) {
   bool found = change_setting(config.plan, name, value);
-  for_each_simulation_setting(config.simulation, [&](const char* known, auto& field) {
+  output::for_each_simulation_setting(config.simulation, [&](const char* known, auto& field) {
     if (known != name) return;
     assign(field, value);
     found = true;
@@ -97,8 +97,8 @@ void check(const control::PlanConfig& plan) {
 void check(const PlanningConfig& config) {
   check(config.plan);
   // What only the task and the simulator can judge, they judge themselves.
-  rl::require_whole_steps(config.simulation.rate, Reference{}.fps);
-  make_model<double>(make_character(), config.simulation);
+  rl::tracking::require_whole_steps(config.simulation.rate, motion::Reference{}.fps);
+  physics::make_model<double>(make_character(), config.simulation);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

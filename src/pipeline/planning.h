@@ -6,12 +6,12 @@
 #include "control/plan.h"
 #include "core/named_values.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// Everything that the plan of a motion depends on.
 struct PlanningConfig {
   control::PlanConfig plan;
-  SimulationConfig simulation;
+  physics::SimulationConfig simulation;
 };
 
 /// The numbers of the plan by name, all of them beginning with "plan_". The factors of single bodies are not
@@ -30,4 +30,4 @@ void apply_setting(PlanningConfig& config, const std::string& name, double value
 void check(const control::PlanConfig& plan);
 void check(const PlanningConfig& config);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

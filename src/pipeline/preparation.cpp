@@ -6,10 +6,10 @@
 
 #include "motion/prepare.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
-NamedValues values_of(const PreparationReport& r) {
+NamedValues values_of(const motion::PreparationReport& r) {
   return {{"floor_shift_mm", r.floor_shift_mm},
           {"max_floor_shift_mm", r.max_floor_shift_mm},
           {"hinge_residual_mean_mm", r.hinge_residual_mean_mm},
@@ -20,7 +20,7 @@ NamedValues values_of(const PreparationReport& r) {
           {"flagged_frames", static_cast<double>(r.flagged_frames)}};
 }
 
-NamedValues values_of(const FitReport& r) {
+NamedValues values_of(const motion::fit::FitReport& r) {
   return {{"residual_before_percent", r.residual_before},
           {"residual_after_percent", r.residual_after},
           {"iterations", static_cast<double>(r.iterations)},
@@ -35,25 +35,26 @@ NamedValues values_of(const FitReport& r) {
 
 }  // namespace
 
-PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadConfig& read, bool fit) {
+PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
+                              bool fit) {
   PreparedMotion motion;
-  motion.input = read_motion(path, read);
+  motion.input = motion::import::read_motion(path, read);
   motion.has_fit = fit && motion.input.keypoints.has_value();
   const int fewest = motion.has_fit ? 3 : 2;
   if (motion.input.frames() < fewest)
     throw DataError(path.string(), "", "at least " + std::to_string(fewest) + " frames",
                     std::to_string(motion.input.frames()));
-  FitReport fitting, calming;
+  motion::fit::FitReport fitting, calming;
   if (motion.has_fit) {
-    motion.fitted = fit_keypoints(motion.input, {}, &fitting);
+    motion.fitted = motion::fit::fit_keypoints(motion.input, {}, &fitting);
     motion.fit_values = values_of(fitting);
   } else {
-    motion.fitted = steady(motion.input, {}, &calming);
+    motion.fitted = motion::fit::steady(motion.input, {}, &calming);
   }
-  for (const FitReport* report : {&fitting, &calming})
+  for (const motion::fit::FitReport* report : {&fitting, &calming})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
-  PreparationReport report;
-  motion.reference = prepare_reference(motion.fitted, {}, &report);
+  motion::PreparationReport report;
+  motion.reference = motion::prepare_reference(motion.fitted, {}, &report);
   if (!motion.has_fit) motion.reference.keypoints.reset();
   motion.preparation_values = values_of(report);
   motion.preparation_values.emplace_back("steadied_mean_mm", calming.change_mean_mm);
@@ -62,7 +63,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadConfi
   return motion;
 }
 
-void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out) {
+void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out) {
   for (const auto* lines : {&clip.decisions, &clip.warnings})
     for (const std::string& line : *lines) out << file << ": " << line << '\n';
 }
@@ -80,7 +81,7 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
     }
     const std::size_t before = files.size();
     for (auto at = entries; !error && at != std::filesystem::directory_iterator(); at.increment(error))
-      if (is_motion_file(at->path()) && at->path().stem().extension() != ".clean")
+      if (motion::import::is_motion_file(at->path()) && at->path().stem().extension() != ".clean")
         files.push_back(at->path().string());
     if (files.size() == before && inputs.size() == 1)
       throw DataError(input, "", "motion files in this folder", "none");
@@ -90,4 +91,4 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
   return files;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

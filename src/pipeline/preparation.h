@@ -18,13 +18,13 @@
 #include "motion/import/motion_file.h"
 #include "motion/reference.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct PreparedMotion {
-  Clip input;   ///< as it was read, with what reading decided
-  Clip fitted;  ///< moved onto its keypoints; without a fit: steadied
+  motion::Clip input;   ///< as it was read, with what reading decided
+  motion::Clip fitted;  ///< moved onto its keypoints; without a fit: steadied
   bool has_fit = false;
-  Reference reference;             ///< with keypoints, for Eq. 3, only where it was fitted onto them
+  motion::Reference reference;     ///< with keypoints, for Eq. 3, only where it was fitted onto them
   NamedValues fit_values;          ///< of the fit's report; empty without a fit
   NamedValues preparation_values;  ///< of the preparation's report
   std::vector<std::string> notes;  ///< warnings of all steps
@@ -32,10 +32,11 @@ struct PreparedMotion {
 
 /// @param fit  move the motion onto its keypoints first, where it has any
 /// @throws DataError as reading, fitting and preparing do
-PreparedMotion prepare_motion(const std::filesystem::path& path, const ReadConfig& read, bool fit);
+PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
+                              bool fit);
 
 /// Prints what reading decided and what it warns of, a line each, behind the file's name.
-void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out);
+void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);
 
 /// The motions that files and folders name: a folder stands for its motion files, sorted by name, but not for
 /// clean copies (NAME.clean.EXT) that an earlier run left there.
@@ -43,4 +44,4 @@ void tell_decisions(const std::string& file, const Clip& clip, std::ostream& out
 /// @throws DataError where the only input is a folder without motion files
 std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

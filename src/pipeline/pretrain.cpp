@@ -12,18 +12,18 @@
 #include "pipeline/record/json.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 struct Motions {
-  std::vector<Reference> references;
-  std::vector<NamedFeatures> features;
-  Json record = Json::array();  ///< of every input
+  std::vector<motion::Reference> references;
+  std::vector<options::NamedFeatures> features;
+  record::Json record = record::Json::array();  ///< of every input
   bool all_good = true;
 };
 
 Motions read_motions(const std::vector<std::string>& files, const PretrainConfig& config,
-                     const RunContext& context) {
+                     const record::RunContext& context) {
   Motions motions;
   context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -34,7 +34,8 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
       std::vector<std::string> taken;
       for (const auto& named : motions.features) taken.push_back(named.name);
-      motions.features.push_back({unique_name(files[i], taken), motion_features(motion.reference)});
+      motions.features.push_back(
+          {record::unique_name(files[i], taken), motion::motion_features(motion.reference)});
       motions.references.push_back(std::move(motion.reference));
     } catch (const std::exception& error) {
       reason = error.what();
@@ -50,8 +51,8 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
   return motions;
 }
 
-Json settings_json(const PretrainConfig& config) {
-  Json settings = Json::object();
+record::Json settings_json(const PretrainConfig& config) {
+  record::Json settings = record::Json::object();
   for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
   settings["fit"] = config.fit;
   settings["encoder"] = config.use_encoder;
@@ -65,12 +66,12 @@ Json settings_json(const PretrainConfig& config) {
 }
 
 /// What the results depend on; a folder holds one run of one such record.
-Json run_record(const PretrainConfig& config, const std::vector<std::string>& files) {
-  Json inputs = Json::array();
+record::Json run_record(const PretrainConfig& config, const std::vector<std::string>& files) {
+  record::Json inputs = record::Json::array();
   for (const std::string& file : files) {
     std::string checksum;
     try {
-      checksum = file_checksum(file);
+      checksum = record::file_checksum(file);
     } catch (const DataError&) {  // told when the motion is read
     }
     inputs.push_back({{"input", file}, {"checksum", checksum}});
@@ -86,30 +87,31 @@ Json run_record(const PretrainConfig& config, const std::vector<std::string>& fi
 
 /// How the run in the folder ended, where it is this one and its options are there to the last byte.
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs
-std::optional<RunOutcome> finished_outcome(const RunFolder& folder, const Json& record) {
+std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
+                                                   const record::Json& record) {
   if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
-  const Json there = Json::parse(read_file(folder.manifest()), nullptr, false);
-  if (!there.is_object() || there.value("run", Json()) != record)
+  const record::Json there = record::Json::parse(read_file(folder.manifest()), nullptr, false);
+  if (!there.is_object() || there.value("run", record::Json()) != record)
     throw std::invalid_argument(folder.root.string() +
                                 " holds a pre-training of other settings or inputs: give another folder, or "
                                 "remove it first");
   const std::filesystem::path options = folder.root / "options.npz";
-  if (!std::filesystem::exists(options) || there.value("checksum", "") != file_checksum(options))
+  if (!std::filesystem::exists(options) || there.value("checksum", "") != record::file_checksum(options))
     return std::nullopt;
-  for (const Json& input : there.at("inputs"))
-    if (input.at("status") != "ok") return RunOutcome::kSomeFailed;
-  return RunOutcome::kAllGood;
+  for (const record::Json& input : there.at("inputs"))
+    if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
+  return record::RunOutcome::kAllGood;
 }
 
-nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
+nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::tracking::TrackingClip>>& clips,
                              const nn::AutoEncoderConfig& config, std::uint64_t seed,
                              nn::AutoEncoderStats& stats, const std::function<void(int)>& progress) {
   Eigen::Index rows = 0;
   for (const auto& clip : clips) rows += static_cast<Eigen::Index>(clip->poses.size());
-  nn::Matrix<float> samples(rows, rl::kPoseFeatures);
+  nn::Matrix<float> samples(rows, rl::tracking::kPoseFeatures);
   Eigen::Index next = 0;
   for (const auto& clip : clips) {
-    const nn::Matrix<float> inputs = encoder_inputs(*clip);
+    const nn::Matrix<float> inputs = options::encoder_inputs(*clip);
     samples.middleRows(next, inputs.rows()) = inputs;
     next += inputs.rows();
   }
@@ -117,37 +119,38 @@ nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::Trackin
 }
 
 struct OptionRun {
-  TrainedOption trained;
-  Json record;
+  options::TrainedOption trained;
+  record::Json record;
   bool interrupted = false;
 };
 
 /// Encoder and policy of one cluster.
-OptionRun train_option(const PretrainConfig& config, const RunContext& context, const Clusters& clusters,
-                       int index, std::int64_t samples, const Motions& motions) {
-  const MotionCluster& cluster = clusters.clusters[index];
+OptionRun train_option(const PretrainConfig& config, const record::RunContext& context,
+                       const options::Clusters& clusters, int index, std::int64_t samples,
+                       const Motions& motions) {
+  const options::MotionCluster& cluster = clusters.clusters[index];
   const std::string name = "option" + std::to_string(index);
   TrainingConfig training = config.training;
   training.seed += static_cast<std::uint64_t>(index);
   training.samples = samples;
-  std::vector<std::shared_ptr<const rl::TrackingClip>> clips;
+  std::vector<std::shared_ptr<const rl::tracking::TrackingClip>> clips;
   for (const std::string& member : cluster.members)
     for (std::size_t i = 0; i < motions.features.size(); ++i)
       if (motions.features[i].name == member)
-        clips.push_back(rl::make_tracking_clip(motions.references[i], training.tracking));
+        clips.push_back(rl::tracking::make_tracking_clip(motions.references[i], training.tracking));
 
   OptionRun run;
-  Option option;
+  options::Option option;
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
     context.progress.start(name + ", encoder", 0.0, config.encoder.steps, "steps");
     option.encoder = make_encoder(clips, config.encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
   }
-  for (auto& clip : clips) clip = encoded_for(clip, {&option});
+  for (auto& clip : clips) clip = options::encoded_for(clip, {&option});
   const rl::Agent start = untrained_agent(training, clips.front()->state_size());
 
-  const RunFolder folder{config.out};
+  const record::RunFolder folder{config.out};
   const TrainingFiles files = {folder.checkpoint(name), folder.log(name), folder.falls(name), name};
   TrainingControl control;
   control.threads = config.threads;
@@ -172,7 +175,7 @@ OptionRun train_option(const PretrainConfig& config, const RunContext& context, 
 
 NamedValues settings_of(const PretrainConfig& config) {
   NamedValues values;
-  const Json settings = settings_json(config);  // items() looks into it, so it has to live that long
+  const record::Json settings = settings_json(config);  // items() looks into it, so it has to live that long
   for (const auto& [name, value] : settings.items())
     values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
   return values;
@@ -187,47 +190,48 @@ std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<
   return shares;
 }
 
-RunOutcome pretrain(const PretrainConfig& config, const RunContext& context) {
+record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context) {
   const std::vector<std::string> files = expand_inputs(config.inputs);
-  const RunFolder folder{config.out};
-  const Json record = run_record(config, files);
+  const record::RunFolder folder{config.out};
+  const record::Json record = run_record(config, files);
   if (const auto outcome = finished_outcome(folder, record)) {
     context.messages << folder.root.string() << ": these options are trained already\n";
     return *outcome;
   }
   folder.create();
-  write_file_atomically(folder.manifest(), Json({{"run", record}}).dump(1) + "\n");
+  write_file_atomically(folder.manifest(), record::Json({{"run", record}}).dump(1) + "\n");
 
   const Motions motions = read_motions(files, config, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
-  const Clusters clusters = cluster_motions(motions.features, config.clusters);
-  write_clusters(config.out / "clusters.json", clusters);
-  context.messages << format_cluster_tree(clusters);
+  const options::Clusters clusters = options::cluster_motions(motions.features, config.clusters);
+  options::write_clusters(config.out / "clusters.json", clusters);
+  context.messages << options::format_cluster_tree(clusters);
 
   std::vector<int> sizes;
-  for (const MotionCluster& cluster : clusters.clusters)
+  for (const options::MotionCluster& cluster : clusters.clusters)
     sizes.push_back(static_cast<int>(cluster.members.size()));
   const List<std::int64_t> samples = share_samples(config.training.samples, sizes);
-  OptionSet set;
-  Json trained = Json::array();
+  options::OptionSet set;
+  record::Json trained = record::Json::array();
   for (int index = 0; index < clusters.clusters.count(); ++index) {
     OptionRun run = train_option(config, context, clusters, index, samples[index], motions);
     if (run.interrupted) {
       context.progress.finish("interrupted; the same command continues");
-      return RunOutcome::kInterrupted;
+      return record::RunOutcome::kInterrupted;
     }
     context.progress.finish(run.record["name"].get<std::string>() + ": done, " + run.trained.description);
     set.options.push_back(std::move(run.trained));
     trained.push_back(run.record);
   }
-  write_options(config.out / "options.npz", set);
-  write_file_atomically(folder.manifest(), Json({{"run", record},
-                                                 {"inputs", motions.record},
-                                                 {"options", trained},
-                                                 {"checksum", file_checksum(config.out / "options.npz")}})
-                                                   .dump(1) +
-                                               "\n");
-  return motions.all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
+  options::write_options(config.out / "options.npz", set);
+  write_file_atomically(folder.manifest(),
+                        record::Json({{"run", record},
+                                      {"inputs", motions.record},
+                                      {"options", trained},
+                                      {"checksum", record::file_checksum(config.out / "options.npz")}})
+                                .dump(1) +
+                            "\n");
+  return motions.all_good ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

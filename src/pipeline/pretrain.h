@@ -21,17 +21,17 @@
 #include "pipeline/record/run_context.h"
 #include "pipeline/training.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct PretrainConfig {
   std::vector<std::string> inputs;  ///< files and folders
   std::filesystem::path out;
   TrainingConfig training;  ///< its samples are of all options together
-  ClusterConfig clusters;
+  options::ClusterConfig clusters;
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
   bool fit = false;         ///< move motions onto their keypoints first, where they have any
-  ReadConfig read;
+  motion::import::ReadConfig read;
   int threads = 1;
 };
 
@@ -42,6 +42,6 @@ NamedValues settings_of(const PretrainConfig& config);
 /// policy learns on one motion helps it on the next. @param motions  of every option, ≥ 1
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions);
 
-RunOutcome pretrain(const PretrainConfig& config, const RunContext& context);
+record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

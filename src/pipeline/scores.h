@@ -8,10 +8,10 @@
 #include "motion/reference.h"
 #include "rl/tracking/rollout.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// By name, in the order of the tables.
-NamedValues named_values(const Metrics& metrics);
+NamedValues named_values(const motion::Metrics& metrics);
 
 struct Scores {
   NamedValues values;
@@ -20,10 +20,10 @@ struct Scores {
 };
 
 /// A simulated motion against the reference it was asked to follow. Success as docs/metrics.md defines it.
-Scores score_simulated(const Reference& reference, const rl::TrackingRollout& rollout);
+Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
 /// The input as it came (free joints, its own height) against what preparation made of it; NaN where the
 /// frames do not correspond because the input was resampled.
-NamedValues score_input(const Clip& input, const Reference& reference);
+NamedValues score_input(const motion::Clip& input, const motion::Reference& reference);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

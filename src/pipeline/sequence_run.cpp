@@ -18,7 +18,7 @@
 #include "pipeline/report/run_report.h"
 #include "pipeline/scores.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 constexpr double kReportSeconds = 30.0;  ///< between reports while a run goes on
@@ -26,14 +26,14 @@ constexpr double kReportSeconds = 30.0;  ///< between reports while a run goes o
 struct RunState {
   const RunConfig& config;
   const Method& method;
-  const RunContext& context;
-  RunFolder folder;
-  Manifest manifest;
-  std::vector<Timing> timings;
+  const record::RunContext& context;
+  record::RunFolder folder;
+  record::Manifest manifest;
+  std::vector<record::Timing> timings;
 };
 
-Manifest manifest_of(const RunConfig& config, const Method& method) {
-  Manifest manifest;
+record::Manifest manifest_of(const RunConfig& config, const Method& method) {
+  record::Manifest manifest;
   manifest.version = MIMICX_VERSION;
   manifest.target = MIMICX_TARGET;
   manifest.seed = method.seed;
@@ -46,13 +46,14 @@ Manifest manifest_of(const RunConfig& config, const Method& method) {
 }
 
 /// The folder's own manifest where it is one of this run's settings; a new one where there is none.
-Manifest open_manifest(const RunConfig& config, const Method& method, const RunFolder& folder) {
+record::Manifest open_manifest(const RunConfig& config, const Method& method,
+                               const record::RunFolder& folder) {
   for (const std::string& input : config.inputs)
     if (std::count(config.inputs.begin(), config.inputs.end(), input) > 1)
       throw std::invalid_argument(input + " is given twice");
-  Manifest manifest = manifest_of(config, method);
+  record::Manifest manifest = manifest_of(config, method);
   if (!std::filesystem::exists(folder.manifest())) return manifest;
-  Manifest there = read_manifest(folder.manifest());
+  record::Manifest there = record::read_manifest(folder.manifest());
   if (!there.same_settings(manifest))
     throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + there.method +
                                 ", seed " + std::to_string(there.seed) + ", " +
@@ -62,11 +63,11 @@ Manifest open_manifest(const RunConfig& config, const Method& method, const RunF
 }
 
 void write_records(const RunState& run) {
-  write_file_atomically(run.folder.manifest(), format_manifest(run.manifest));
-  write_file_atomically(run.folder.timing(), format_timing(run.timings, run.manifest.sequences));
+  write_file_atomically(run.folder.manifest(), record::format_manifest(run.manifest));
+  write_file_atomically(run.folder.timing(), record::format_timing(run.timings, run.manifest.sequences));
 }
 
-Timing& timing_of(RunState& run, const std::string& name) {
+record::Timing& timing_of(RunState& run, const std::string& name) {
   for (auto& t : run.timings)
     if (t.name == name) return t;
   run.timings.push_back({name});
@@ -74,19 +75,19 @@ Timing& timing_of(RunState& run, const std::string& name) {
 }
 
 /// Fills what is known of an input before any work. @return false where its earlier result still stands
-bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& entry) {
-  const SequenceEntry* there = run.manifest.find(input);
+bool begin_entry(const RunState& run, const std::string& input, record::SequenceEntry& entry) {
+  const record::SequenceEntry* there = run.manifest.find(input);
   std::vector<std::string> taken;
   for (const auto& e : run.manifest.sequences) taken.push_back(e.name);
   entry.input = input;
-  entry.name = there ? there->name : unique_name(input, taken);
+  entry.name = there ? there->name : record::unique_name(input, taken);
   entry.seed = run.method.seed;
-  entry.input_checksum = file_checksum(input);
+  entry.input_checksum = record::file_checksum(input);
   const auto has = [](const std::filesystem::path& file) { return std::filesystem::exists(file); };
   const bool complete =
       there && has(run.folder.root / there->output) &&
       (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
-      (!run.config.gains || there->ending != Ending::kFollowed || has(run.folder.gains(entry.name)));
+      (!run.config.gains || there->ending != record::Ending::kFollowed || has(run.folder.gains(entry.name)));
   const bool stands = complete && there->finished() && there->input_checksum == entry.input_checksum;
   if (stands) entry = *there;
   return !stands;
@@ -94,7 +95,7 @@ bool begin_entry(const RunState& run, const std::string& input, SequenceEntry& e
 
 /// Reads, fits and prepares the input, and tells at once what was decided: a wrong axis shows before the
 /// training, not after it.
-PreparedMotion prepare_sequence(const RunState& run, SequenceEntry& entry) {
+PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
   const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
@@ -108,18 +109,18 @@ PreparedMotion prepare_sequence(const RunState& run, SequenceEntry& entry) {
 }
 
 /// Whether the recorded forces explain the motion, into the entry.
-void audit_sequence(const Reference& reference, const SimulationConfig& simulation,
-                    const rl::TrackingRollout& rollout, SequenceEntry& entry) {
-  SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
+void audit_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+                    const rl::tracking::TrackingRollout& rollout, record::SequenceEntry& entry) {
+  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
   for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
-  const Audit audit = audit_frames(motion, simulation);
-  entry.audit = summary_of(audit);
+  const audit::Audit audit = audit::audit_frames(motion, simulation);
+  entry.audit = audit::summary_of(audit);
   for (const std::string& failure : audit.failures) entry.notes.push_back("audit: " + failure);
 }
 
 /// Scores and audit of what the method made, into the entry.
-void judge_sequence(const Method& method, const Reference& reference, const SimulatedSequence& made,
-                    SequenceEntry& entry) {
+void judge_sequence(const Method& method, const motion::Reference& reference, const SimulatedSequence& made,
+                    record::SequenceEntry& entry) {
   entry.method = made.method;
   entry.plan = made.plan;
   entry.samples = made.samples;
@@ -153,17 +154,17 @@ std::filesystem::path with_parents(const std::filesystem::path& file) {
 
 /// Fit, reference, simulated motion and, where wanted, its physics steps.
 void write_sequence(const RunState& run, const PreparedMotion& motion, const SimulatedSequence& made,
-                    SequenceEntry& entry) {
-  const RunFolder& folder = run.folder;
-  if (motion.has_fit) write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
-  write_reference(folder.reference(entry.name), motion.input, motion.reference);
-  const std::string output = RunFolder::motion_name(entry.name, entry.ok);
-  std::filesystem::remove(folder.root / RunFolder::motion_name(entry.name, !entry.ok));
-  write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after,
-                  entry.notes);
+                    record::SequenceEntry& entry) {
+  const record::RunFolder& folder = run.folder;
+  if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
+  output::write_reference(folder.reference(entry.name), motion.input, motion.reference);
+  const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
+  std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
+  output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after,
+                          entry.notes);
   std::filesystem::remove(folder.substeps(entry.name));
   if (run.config.substeps)
-    write_substeps(
+    audit::write_substeps(
         with_parents(folder.substeps(entry.name)),
         {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
   entry.output = output;
@@ -171,15 +172,15 @@ void write_sequence(const RunState& run, const PreparedMotion& motion, const Sim
 
 /// Prepare → simulate → judge and write. @param told  notes of the entry that were said already
 /// @return whether the sequence was interrupted
-bool do_sequence(RunState& run, SequenceEntry& entry, std::size_t& told) {
-  const double started = steady_seconds();
+bool do_sequence(RunState& run, record::SequenceEntry& entry, std::size_t& told) {
+  const double started = record::steady_seconds();
   const PreparedMotion motion = prepare_sequence(run, entry);
   told = entry.notes.size();
   entry.input_metrics = score_input(motion.input, motion.reference);
   const SimulatedSequence made = run.method.simulate(
       motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
                          run.config.threads, run.config.limit_seconds, run.context});
-  Timing& timing = timing_of(run, entry.name);
+  record::Timing& timing = timing_of(run, entry.name);
   timing.planning_seconds += made.planning_seconds;
   timing.training_seconds += made.training_seconds;
   timing.threads = run.config.threads;
@@ -187,11 +188,11 @@ bool do_sequence(RunState& run, SequenceEntry& entry, std::size_t& told) {
     judge_sequence(run.method, motion.reference, made, entry);
     write_sequence(run, motion, made, entry);
   }
-  timing.seconds += steady_seconds() - started;
+  timing.seconds += record::steady_seconds() - started;
   return made.interrupted;
 }
 
-std::string summary_of(const SequenceEntry& entry) {
+std::string summary_of(const record::SequenceEntry& entry) {
   char text[64];
   std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
   if (!entry.reason.empty()) line += ", " + entry.reason;
@@ -210,9 +211,9 @@ std::string summary_of(const SequenceEntry& entry) {
 
 /// Writes a success in its input's own format, where the clean set does not have that format already. Where
 /// the sequence failed, a copy of that name from an earlier run is removed.
-void copy_clean(const RunState& run, const SequenceEntry& entry) {
+void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
   const std::filesystem::path input(entry.input);
-  const std::string suffix = clean_suffix(input);
+  const std::string suffix = output::clean_suffix(input);
   if (suffix == ".npz" && !run.config.beside && !run.config.input_rate) return;
   const std::filesystem::path copy = run.config.beside
                                          ? input.parent_path() / (input.stem().string() + ".clean" + suffix)
@@ -221,13 +222,14 @@ void copy_clean(const RunState& run, const SequenceEntry& entry) {
     std::filesystem::remove(copy);
     return;
   }
-  write_clean_copy(run.folder.root / entry.output, input, run.config.read, run.config.input_rate, copy);
+  output::write_clean_copy(run.folder.root / entry.output, input, run.config.read, run.config.input_rate,
+                           copy);
   if (run.config.beside) run.context.messages << "  clean motion: " << copy.string() << '\n';
 }
 
 /// Does `copy_clean` and tells what went wrong. The motion itself is written already; the same command tries
 /// the copy again. @return whether nothing went wrong
-bool copied_clean(const RunState& run, const SequenceEntry& entry) {
+bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
   try {
     copy_clean(run, entry);
     return true;
@@ -244,28 +246,33 @@ NamedValues settings_of(const RunConfig& config) {
   return {{"fit", fit}, {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
 }
 
-RunOutcome run_sequences(const RunConfig& config, const Method& method, const RunContext& context) {
-  const RunFolder folder{config.out};
-  RunState run{
-      config, method, context, folder, open_manifest(config, method, folder), read_timing(folder.timing())};
+record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
+                                 const record::RunContext& context) {
+  const record::RunFolder folder{config.out};
+  RunState run{config,
+               method,
+               context,
+               folder,
+               open_manifest(config, method, folder),
+               record::read_timing(folder.timing())};
   folder.create();
   write_records(run);
   bool all_good = true;
-  double reported = steady_seconds();
+  double reported = record::steady_seconds();
   const auto report = [&] {
-    write_report(folder, run.manifest);
-    reported = steady_seconds();
+    report::write_report(folder, run.manifest);
+    reported = record::steady_seconds();
   };
   const auto interrupted = [&](const std::string& name) {
     write_records(run);
     if (!run.manifest.sequences.empty()) report();
     context.progress.finish(name + ": interrupted; the same command continues");
-    return RunOutcome::kInterrupted;
+    return record::RunOutcome::kInterrupted;
   };
   for (std::size_t i = 0; i < config.inputs.size(); ++i) {
     const std::string& input = config.inputs[i];
     if (i > 0 && context.should_stop()) return interrupted(input);
-    SequenceEntry entry;
+    record::SequenceEntry entry;
     std::size_t told = 0;
     try {
       if (begin_entry(run, input, entry) && do_sequence(run, entry, told)) return interrupted(entry.name);
@@ -276,14 +283,14 @@ RunOutcome run_sequences(const RunConfig& config, const Method& method, const Ru
     }
     run.manifest.put(entry);
     write_records(run);
-    if (i + 1 == config.inputs.size() || steady_seconds() - reported > kReportSeconds) report();
+    if (i + 1 == config.inputs.size() || record::steady_seconds() - reported > kReportSeconds) report();
     context.progress.finish(summary_of(entry));
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';
     const bool copied = copied_clean(run, entry);
     all_good = all_good && entry.ok && copied;
   }
-  return all_good ? RunOutcome::kAllGood : RunOutcome::kSomeFailed;
+  return all_good ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

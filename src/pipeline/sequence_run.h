@@ -26,13 +26,13 @@
 #include "pipeline/record/run_folder.h"
 #include "rl/tracking/rollout.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// What a run is told whatever its method.
 struct RunConfig {
   std::vector<std::string> inputs;  ///< as given; recorded as such
   std::filesystem::path out;
-  ReadConfig read;
+  motion::import::ReadConfig read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
@@ -46,12 +46,12 @@ struct RunConfig {
 struct SequenceJob {
   std::string name;            ///< key of the sequence's files in the folder
   std::string input_checksum;  ///< a checkpoint of another input is not taken up
-  RunFolder folder;
+  record::RunFolder folder;
   bool substeps = false;  ///< record every physics step of the result
   bool gains = false;     ///< leave the feedback gains of a plan
   int threads = 1;
   double limit_seconds = 0.0;  ///< safety stop; 0: none
-  const RunContext& context;
+  const record::RunContext& context;
 };
 
 /// What a method made of one motion.
@@ -59,12 +59,12 @@ struct SimulatedSequence {
   bool interrupted = false;  ///< the job's context said so: a checkpoint is there, and nothing below
   std::string method;        ///< what made the result: imitate, plan or paper
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
-  Ending ending = Ending::kNone;
+  record::Ending ending = record::Ending::kNone;
   std::int64_t samples = 0;
-  std::optional<rl::TrackingRollout> before;         ///< what the method started from, where that moves
-  rl::TrackingRollout after;                         ///< the result
-  std::vector<std::array<int, 2>> arrangement = {};  ///< {first frame, option}; empty without options
-  NamedValues plan = {};                             ///< what planning it took
+  std::optional<rl::tracking::TrackingRollout> before;  ///< what the method started from, where that moves
+  rl::tracking::TrackingRollout after;                  ///< the result
+  std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option}; empty without options
+  NamedValues plan = {};                                ///< what planning it took
   std::string reason = {};              ///< where the method knows why it is no success, or may be none
   std::vector<std::string> notes = {};  ///< for the manifest
 };
@@ -73,17 +73,18 @@ struct SimulatedSequence {
 struct Method {
   std::string name;  ///< imitate, plan, paper or auto
   std::uint64_t seed = 0;
-  std::int64_t samples = 0;     ///< budget per motion
-  NamedValues settings;         ///< as the manifest lists them, those of the RunConfig among them
-  std::string options;          ///< checksum of the trained options; empty without
-  SimulationConfig simulation;  ///< under which it simulates, for the audit
-  std::function<SimulatedSequence(const Reference&, const SequenceJob&)> simulate;
+  std::int64_t samples = 0;              ///< budget per motion
+  NamedValues settings;                  ///< as the manifest lists them, those of the RunConfig among them
+  std::string options;                   ///< checksum of the trained options; empty without
+  physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
+  std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;
 };
 
 /// The settings of a run on which its results depend, whatever the method.
 NamedValues settings_of(const RunConfig& config);
 
 /// @throws std::invalid_argument when an input is given twice, or the folder holds a run of other settings
-RunOutcome run_sequences(const RunConfig& config, const Method& method, const RunContext& context);
+record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
+                                 const record::RunContext& context);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

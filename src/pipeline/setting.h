@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// The number of a field: an integer, a floating-point number, a bool or an enumerator.
 template <class T>
@@ -31,4 +31,4 @@ inline void require_range(const std::string& name, double value, double least, d
   throw std::invalid_argument(text);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

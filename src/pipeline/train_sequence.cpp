@@ -2,9 +2,9 @@
 
 #include "rl/tracking/rollout.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
-SimulatedSequence train_sequence(const std::shared_ptr<const rl::TrackingClip>& clip,
+SimulatedSequence train_sequence(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                                  const std::vector<rl::Agent>& agents, const TrainingConfig& config,
                                  const SequenceJob& job) {
   const TrainingFiles files = {job.folder.checkpoint(job.name), job.folder.log(job.name),
@@ -21,9 +21,10 @@ SimulatedSequence train_sequence(const std::shared_ptr<const rl::TrackingClip>& 
   if (made.interrupted) return made;
   made.ending = training.ending;
   made.samples = training.samples;
-  made.before = rl::roll_out(clip, config.tracking, rl::mean_action(agents));
-  made.after = rl::roll_out(clip, config.tracking, rl::mean_action(training.agents), job.substeps);
+  made.before = rl::tracking::roll_out(clip, config.tracking, rl::tracking::mean_action(agents));
+  made.after =
+      rl::tracking::roll_out(clip, config.tracking, rl::tracking::mean_action(training.agents), job.substeps);
   return made;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

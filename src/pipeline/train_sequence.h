@@ -8,12 +8,12 @@
 #include "pipeline/sequence_run.h"
 #include "pipeline/training.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// The result is interrupted where the training was.
 /// @param agents  to start from, one per option of the clip's arrangement
-SimulatedSequence train_sequence(const std::shared_ptr<const rl::TrackingClip>& clip,
+SimulatedSequence train_sequence(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                                  const std::vector<rl::Agent>& agents, const TrainingConfig& config,
                                  const SequenceJob& job);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -11,10 +11,10 @@
 #include "rl/tracking/rollout.h"
 #include "rl/trainer.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
-using Trainer = rl::PpoTrainer<rl::TrackingEnvironment>;
+using Trainer = rl::PpoTrainer<rl::tracking::TrackingEnvironment>;
 
 constexpr const char* kChecksumKey = "input_checksum";
 constexpr const char* kTrainerPrefix = "trainer.";
@@ -25,7 +25,7 @@ constexpr const char* kEndingKey = "ending";
 constexpr double kBetter = 0.99;  ///< a score under this share of the best one starts the stall anew
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-using Clips = List<std::shared_ptr<const rl::TrackingClip>>;
+using Clips = List<std::shared_ptr<const rl::tracking::TrackingClip>>;
 
 /// The agents whose mean actions followed the clips best so far. The roll-out decides, not the last
 /// iteration: exploration noise hides how good a mean action is, and late updates may unlearn a hard moment.
@@ -45,18 +45,19 @@ struct Evaluation {
 constexpr double kLost = 0.5;  ///< a body farther than this from its reference is no success, m
 
 /// Mean position error, m; a body that strayed beyond the limit of success (docs/metrics.md) outweighs it.
-double score_of(const rl::TrackingRollout& rollout) {
+double score_of(const rl::tracking::TrackingRollout& rollout) {
   constexpr double kFarthest = 3.0;
   if (rollout.broken) return kFarthest;
   return std::min(kFarthest, rollout.mean_position_error +
                                  (rollout.worst_distance > kLost ? rollout.worst_distance : 0.0));
 }
 
-Evaluation evaluate(const Clips& clips, const rl::TrackingConfig& config,
+Evaluation evaluate(const Clips& clips, const rl::tracking::TrackingConfig& config,
                     const std::vector<rl::Agent>& agents, int threads) {
   List<Evaluation> each(clips.size());
   parallel_for(clips.count(), threads, [&](int k) {
-    const rl::TrackingRollout rollout = rl::roll_out(clips[k], config, rl::mean_action(agents));
+    const rl::tracking::TrackingRollout rollout =
+        rl::tracking::roll_out(clips[k], config, rl::tracking::mean_action(agents));
     each[k] = {score_of(rollout), rollout.mean_reward, rollout.mean_position_error};
   });
   Evaluation mean;
@@ -78,18 +79,19 @@ void consider(Best& best, const Trainer& trainer, double score) {
 }
 
 void write_falls(const std::filesystem::path& path, const std::vector<double>& rates, int bin_frames) {
-  Table table{{"frame", "fall_rate"}, {}};
+  record::Table table{{"frame", "fall_rate"}, {}};
   for (std::size_t b = 0; b < rates.size(); ++b)
     table.rows.push_back({static_cast<double>(static_cast<int>(b) * bin_frames), rates[b]});
-  write_file_atomically(path, format_csv(table));
+  write_file_atomically(path, record::format_csv(table));
 }
 
 /// Writes the log first: a checkpoint never stands beside a log that lacks its rows.
-void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, const TrainingConfig& config,
-          const TrainingFiles& files, const Best& best, Ending ending, const Table& log) {
+void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& environment,
+          const TrainingConfig& config, const TrainingFiles& files, const Best& best, record::Ending ending,
+          const record::Table& log) {
   for (const auto* file : {&files.log, &files.falls, &files.checkpoint})
     std::filesystem::create_directories(file->parent_path());
-  write_file_atomically(files.log, format_csv(log));
+  write_file_atomically(files.log, record::format_csv(log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;
   archive.set(kChecksumKey, NpyArray::scalar_text(files.input_checksum));
@@ -105,19 +107,20 @@ void save(const Trainer& trainer, const rl::TrackingEnvironment& environment, co
 /// Continues from the checkpoint, if there is one of this input, and drops the rows of the log that are
 /// newer.
 /// @return how that training had ended; kNone where it goes on
-Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, Table& log) {
-  if (!std::filesystem::exists(files.checkpoint)) return Ending::kNone;
+record::Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, record::Table& log) {
+  if (!std::filesystem::exists(files.checkpoint)) return record::Ending::kNone;
   const Npz archive = read_npz(files.checkpoint);
-  if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum}) return Ending::kNone;
+  if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum})
+    return record::Ending::kNone;
   trainer.load(archive, kTrainerPrefix);
   for (std::size_t k = 0; k < best.agents.size(); ++k)
     best.agents[k] = rl::load_agent(archive, kBestPrefix + std::to_string(k) + ".");
   best.score = number_at(archive, kBestScoreKey);
   best.age = static_cast<int>(whole_number_at(archive, kBestAgeKey));
-  log.rows = read_csv(files.log).rows;
+  log.rows = record::read_csv(files.log).rows;
   const auto iterations = static_cast<std::size_t>(trainer.iterations());
   if (log.rows.size() > iterations) log.rows.resize(iterations);
-  return static_cast<Ending>(static_cast<int>(whole_number_at(archive, kEndingKey)));
+  return static_cast<record::Ending>(static_cast<int>(whole_number_at(archive, kEndingKey)));
 }
 
 std::string detail_of(const rl::IterationStats& s) {
@@ -129,7 +132,7 @@ std::string detail_of(const rl::IterationStats& s) {
 
 }  // namespace
 
-std::function<void(std::int64_t, const std::string&)> progress_of_training(Progress& progress,
+std::function<void(std::int64_t, const std::string&)> progress_of_training(record::Progress& progress,
                                                                            const std::string& label,
                                                                            std::int64_t samples) {
   return [&progress, label, samples, started = false](std::int64_t done, const std::string& detail) mutable {
@@ -156,41 +159,41 @@ rl::Agent untrained_agent(const TrainingConfig& config, int state_size) {
   return rl::make_agent(shape, config.seed);
 }
 
-TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
+TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::TrackingClip>>& clips,
                      std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
                      const TrainingControl& control) {
-  rl::TrackingEnvironment environment(clips, config.tracking, config.characters, config.group_size,
-                                      config.seed);
+  rl::tracking::TrackingEnvironment environment(clips, config.tracking, config.characters, config.group_size,
+                                                config.seed);
   Best best{agents};
   Trainer trainer(config.ppo, course_of(config), std::move(agents), environment);
-  Table log = empty_training_log();
-  Ending ending = resume(trainer, files, best, log);
+  record::Table log = empty_training_log();
+  record::Ending ending = resume(trainer, files, best, log);
   control.progress(trainer.samples(), "");
 
-  const double started = steady_seconds();
+  const double started = record::steady_seconds();
   double saved = started;
   TrainingResult result;
   if (trainer.samples() == 0)  // the agents to start from compete, too
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
-  if (config.samples == 0) ending = Ending::kBudget;
-  while (ending == Ending::kNone) {
+  if (config.samples == 0) ending = record::Ending::kBudget;
+  while (ending == record::Ending::kNone) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
-    if (stats.samples >= config.samples) ending = Ending::kBudget;
+    if (stats.samples >= config.samples) ending = record::Ending::kBudget;
     TrainingLogRow row = {stats, environment.statistics(), environment.sharpness(), kNan, kNan};
-    if (ending == Ending::kBudget || stats.iteration % config.evaluate_iterations == 0) {
+    if (ending == record::Ending::kBudget || stats.iteration % config.evaluate_iterations == 0) {
       const Evaluation rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
       consider(best, trainer, rollout.score);
       row.rollout_reward = rollout.reward;
       row.rollout_position_error = rollout.position_error;
       if (config.stop_reward > 0.0 && rollout.reward >= config.stop_reward)
-        ending = Ending::kThreshold;
+        ending = record::Ending::kThreshold;
       else if (config.stall_evaluations > 0 && best.age >= config.stall_evaluations)
-        ending = Ending::kStall;
+        ending = record::Ending::kStall;
     }
     append(log, row);
     control.progress(stats.samples, detail_of(stats));
-    if (ending != Ending::kNone) break;
-    const double now = steady_seconds();
+    if (ending != record::Ending::kNone) break;
+    const double now = record::steady_seconds();
     if (now - saved >= control.checkpoint_seconds) {
       save(trainer, environment, config, files, best, ending, log);
       saved = now;
@@ -200,16 +203,16 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>&
       break;
     }
     if (control.limit_seconds > 0.0 && now - started >= control.limit_seconds) {
-      result.ending = Ending::kLimitSeconds;
+      result.ending = record::Ending::kLimitSeconds;
       break;
     }
   }
   save(trainer, environment, config, files, best, ending, log);
-  if (ending != Ending::kNone) result.ending = ending;
+  if (ending != record::Ending::kNone) result.ending = ending;
   result.agents = best.agents;
   result.samples = trainer.samples();
-  result.seconds = steady_seconds() - started;
+  result.seconds = record::steady_seconds() - started;
   return result;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

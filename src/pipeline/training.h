@@ -22,7 +22,7 @@
 #include "rl/tracking/clip.h"
 #include "rl/trainer.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct TrainingFiles {
   std::filesystem::path checkpoint;  ///< complete state
@@ -44,19 +44,19 @@ struct TrainingControl {
 struct TrainingResult {
   std::vector<rl::Agent> agents;  ///< the best of those that were rolled out during the training
   std::int64_t samples = 0;
-  Ending ending = Ending::kBudget;
+  record::Ending ending = record::Ending::kBudget;
   bool interrupted = false;  ///< `should_stop` was true: the state is in the checkpoint
   double seconds = 0.0;      ///< of this call
 };
 
 /// @param clips   of one state size; options act in each as its arrangement says
 /// @param agents  what to start from, one per option of the arrangements
-TrainingResult train(const std::vector<std::shared_ptr<const rl::TrackingClip>>& clips,
+TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::TrackingClip>>& clips,
                      std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
                      const TrainingControl& control);
 
 /// A callback for TrainingControl::progress that shows a training of so many samples under this label.
-std::function<void(std::int64_t, const std::string&)> progress_of_training(Progress& progress,
+std::function<void(std::int64_t, const std::string&)> progress_of_training(record::Progress& progress,
                                                                            const std::string& label,
                                                                            std::int64_t samples);
 
@@ -70,6 +70,6 @@ int stall_age(int age, double score, double best_score);
 rl::Course course_of(const TrainingConfig& config);
 
 /// An agent before its first sample.
-rl::Agent untrained_agent(const TrainingConfig& config, int state_size = rl::kStateSize);
+rl::Agent untrained_agent(const TrainingConfig& config, int state_size = rl::tracking::kStateSize);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

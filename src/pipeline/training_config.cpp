@@ -6,7 +6,7 @@
 #include "pipeline/setting.h"
 #include "rl/tracking/environment.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 namespace {
 
@@ -27,7 +27,7 @@ void for_each_tracking_setting(Config& t, const Visit& visit) {
   visit("terminate_distance", t.terminate_distance);
   visit("bin_frames", t.bin_frames);
   visit("uniform_starts", t.uniform_starts);
-  for_each_simulation_setting(t.simulation, visit);
+  output::for_each_simulation_setting(t.simulation, visit);
 }
 
 /// Calls visit(name, field) for every number of the configuration but samples and seed.
@@ -115,9 +115,9 @@ void check(const TrainingConfig& config) {
     require_range(name, value, least, most);
   }
   // What only the environment, the task and the simulator can judge, they judge themselves.
-  rl::require_whole_groups(config.characters, config.group_size);
-  rl::require_whole_steps(config.tracking.simulation.rate, Reference{}.fps);
-  make_model<double>(make_character(), config.tracking.simulation);
+  rl::tracking::require_whole_groups(config.characters, config.group_size);
+  rl::tracking::require_whole_steps(config.tracking.simulation.rate, motion::Reference{}.fps);
+  physics::make_model<double>(make_character(), config.tracking.simulation);
 }
 
 NamedValues settings_of(const TrainingConfig& config) {
@@ -128,7 +128,7 @@ NamedValues settings_of(const TrainingConfig& config) {
   return values;
 }
 
-NamedValues settings_of(const rl::TrackingConfig& config) {
+NamedValues settings_of(const rl::tracking::TrackingConfig& config) {
   NamedValues values;
   for_each_tracking_setting(config, [&](const std::string& name, const auto& field) {
     values.emplace_back(name, number_of(field));
@@ -146,4 +146,4 @@ void apply_setting(TrainingConfig& config, const std::string& name, double value
   if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

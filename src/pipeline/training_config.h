@@ -13,7 +13,7 @@
 #include "rl/ppo_config.h"
 #include "rl/tracking/config.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct TrainingConfig {
   std::int64_t samples = 0;     ///< budget: character steps
@@ -28,13 +28,13 @@ struct TrainingConfig {
   /// better than the best one before; 0: it does not end so.
   int stall_evaluations = 0;
   rl::PpoConfig ppo{};
-  rl::TrackingConfig tracking;
+  rl::tracking::TrackingConfig tracking;
 };
 
 /// Every number of the configuration but samples and seed, by the name it has in the manifest.
 NamedValues settings_of(const TrainingConfig& config);
 /// Those of the task alone.
-NamedValues settings_of(const rl::TrackingConfig& config);
+NamedValues settings_of(const rl::tracking::TrackingConfig& config);
 
 /// Changes one of them.
 /// @throws std::invalid_argument for an unknown name or a fraction where a whole number is expected
@@ -43,4 +43,4 @@ void apply_setting(TrainingConfig& config, const std::string& name, double value
 /// @throws std::invalid_argument naming a setting that no training can have
 void check(const TrainingConfig& config);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

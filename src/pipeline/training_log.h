@@ -5,20 +5,20 @@
 #include "rl/ppo.h"
 #include "rl/tracking/environment.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// What is known after one iteration.
 struct TrainingLogRow {
   rl::IterationStats iteration;
-  rl::TrackingStatistics tracking;
+  rl::tracking::TrackingStatistics tracking;
   double sharpness = 1.0;
   double rollout_reward = 0.0;          ///< of the mean actions; NaN where they were not rolled out
   double rollout_position_error = 0.0;  ///< m; NaN likewise
 };
 
 /// The columns and no row.
-Table empty_training_log();
+record::Table empty_training_log();
 /// Adds a row. @param log  as `empty_training_log` began it
-void append(Table& log, const TrainingLogRow& row);
+void append(record::Table& log, const TrainingLogRow& row);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -118,15 +118,15 @@ void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::
   nn::Tape<float>& tape = slot.actor_tape;
   const float share = 1.0F / static_cast<float>(batch_rows), deviation = static_cast<float>(sigma);
   tape.reset();
-  const auto parameters = parameters_on_tape(tape, agent.actor);
-  const nn::Var means = forward(tape, agent.actor, parameters, tape.refer(slot.observations));
+  const auto parameters = nn::parameters_on_tape(tape, agent.actor);
+  const nn::Var means = nn::forward(tape, agent.actor, parameters, tape.refer(slot.observations));
   const nn::Var density = log_density(tape, means, tape.refer(slot.actions), deviation);
   const nn::Var surrogate = surrogate_loss(tape, density, tape.refer(slot.old_log_density),
                                            tape.refer(slot.advantages), static_cast<float>(config.clip));
-  nn::Var loss = scale(tape, surrogate, share);
+  nn::Var loss = nn::scale(tape, surrogate, share);
   if (config.bound_weight > 0.0) {
     const nn::Var excess = bound_loss(tape, means, static_cast<float>(config.mean_bound));
-    loss = add(tape, loss, scale(tape, excess, static_cast<float>(config.bound_weight) * share));
+    loss = nn::add(tape, loss, nn::scale(tape, excess, static_cast<float>(config.bound_weight) * share));
   }
   if (config.penalty_weight > 0.0) {
     // The rows are shuffled: the first ones are a random sample, and stand for all rows of the pass.
@@ -139,7 +139,8 @@ void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::
         gradient_penalty(tape, agent.actor, parameters, tape.refer(slot.penalty_observations),
                          tape.refer(slot.penalty_actions), deviation);
     const double weight = double(n) / double(sample);
-    loss = add(tape, loss, scale(tape, penalty, static_cast<float>(config.penalty_weight * weight) * share));
+    loss = nn::add(tape, loss,
+                   nn::scale(tape, penalty, static_cast<float>(config.penalty_weight * weight) * share));
     slot.sums.penalty += weight * double{tape.scalar(penalty)};
   }
   slot.sums.policy_loss += tape.scalar(surrogate);
@@ -150,10 +151,10 @@ void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::
 void critic_pass(const Agent& agent, std::size_t batch_rows, GradientSlot& slot) {
   nn::Tape<float>& tape = slot.critic_tape;
   tape.reset();
-  const auto parameters = parameters_on_tape(tape, agent.critic);
-  const nn::Var values = forward(tape, agent.critic, parameters, tape.refer(slot.observations));
+  const auto parameters = nn::parameters_on_tape(tape, agent.critic);
+  const nn::Var values = nn::forward(tape, agent.critic, parameters, tape.refer(slot.observations));
   const nn::Var error = value_loss(tape, values, tape.refer(slot.targets));
-  const nn::Var loss = scale(tape, error, 1.0F / static_cast<float>(batch_rows));
+  const nn::Var loss = nn::scale(tape, error, 1.0F / static_cast<float>(batch_rows));
   slot.sums.value_loss += tape.scalar(error);
   accumulate(tape, nn::gradient(tape, loss, parameters), slot.critic_gradient);
 }

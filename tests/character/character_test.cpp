@@ -297,7 +297,7 @@ TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) 
 /// Rest joints of a character, its pelvis at the model's.
 RestJoints rest_joints(const Character& c) {
   RestJoints joints;
-  joints[0] = rest_pelvis("mimicx");
+  joints[0] = mimicx::rest_pelvis("mimicx");
   for (int i = 1; i < kBodies; ++i) joints[i] = joints[kParents[i]] + c.joint_offset[i];
   return joints;
 }
@@ -345,9 +345,9 @@ TEST(ForwardKinematics, EqualsTheProductOfHomogeneousMatrices) {
 }
 
 TEST(RestPelvis, KnowsTheModelsAndRefusesOthers) {
-  EXPECT_LT((rest_pelvis("smpl") - Vector3d(-0.002, -0.223, 0.028)).norm(), 1e-12);
-  EXPECT_EQ(rest_pelvis("mimicx"), rest_pelvis("smplx"));
-  EXPECT_THROW(rest_pelvis("ghum"), std::invalid_argument);
+  EXPECT_LT((mimicx::rest_pelvis("smpl") - Vector3d(-0.002, -0.223, 0.028)).norm(), 1e-12);
+  EXPECT_EQ(mimicx::rest_pelvis("mimicx"), mimicx::rest_pelvis("smplx"));
+  EXPECT_THROW(mimicx::rest_pelvis("ghum"), std::invalid_argument);
 }
 
 }  // namespace

@@ -7,13 +7,12 @@
 #include "physics/lanes.h"
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::control {
 namespace {
 
 /// Residuals of the next target that change the pelvis' velocity by `wish` (m/s) at the end of the frame: the
 /// smallest that do so to first order, Bᵀ (B Bᵀ)⁻¹ wish, B = d v / d u.
-Eigen::VectorXd residuals_for(const Model<double>& model, const control::ControlFrame& frame,
-                              const Vector3d& wish) {
+Eigen::VectorXd residuals_for(const Model<double>& model, const ControlFrame& frame, const Vector3d& wish) {
   using namespace control;
   const auto scratch = std::make_unique<FrameScratch<Pack<kLanes>>>();
   FrameDerivative<Pack<kLanes>> derivative;
@@ -27,13 +26,13 @@ TEST(AnalyticExample, TheResidualsFoundGiveThePelvisTheVelocityAskedFor) {
   const Model<double> model = make_model<double>(character);
   Snapshot s = standing(character);
   s.p_root.z() -= 0.001;
-  control::ControlFrame frame;
+  ControlFrame frame;
   set_lane(s, 0, frame.start, frame.from);
   frame.to = frame.from;
-  const auto velocity = [&](const control::ControlFrame& f) {
-    const auto scratch = std::make_unique<control::FrameScratch<double>>();
-    control::FrameDerivative<double> derivative;
-    control::differentiate_frame(model, f, false, *scratch, derivative);
+  const auto velocity = [&](const ControlFrame& f) {
+    const auto scratch = std::make_unique<FrameScratch<double>>();
+    FrameDerivative<double> derivative;
+    differentiate_frame(model, f, false, *scratch, derivative);
     return to_eigen(derivative.end.v_root);
   };
   const Vector3d before = velocity(frame), wish(0.0, -0.005, 0.01);
@@ -44,4 +43,4 @@ TEST(AnalyticExample, TheResidualsFoundGiveThePelvisTheVelocityAskedFor) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::control

@@ -297,17 +297,16 @@ TEST(RotationDerivatives, AgreeWithDifferencesOfExpAndLog) {
   for (const double size : {1e-5, 0.05, 0.2, 1.5, 3.0}) {
     const Vector3d r = size * random_vector(random).normalized();
     const ExpAndJacobian exp = exp_and_jacobian(r);
-    EXPECT_LT((exp.rotation - mimicx::exp_map(r).toRotationMatrix()).norm(), 1e-14) << size;
+    EXPECT_LT((exp.rotation - exp_map(r).toRotationMatrix()).norm(), 1e-14) << size;
     const double h = 1e-6;
     Matrix3d J, J_inv;
     for (int k = 0; k < 3; ++k) {
       const Vector3d e = h * Vector3d::Unit(k);
-      const Quaterniond q = mimicx::exp_map(r);
-      J.col(k) = (log_map(q.conjugate() * mimicx::exp_map(Vector3d(r + e))) -
-                  log_map(q.conjugate() * mimicx::exp_map(Vector3d(r - e)))) /
+      const Quaterniond q = exp_map(r);
+      J.col(k) = (log_map(q.conjugate() * exp_map(Vector3d(r + e))) -
+                  log_map(q.conjugate() * exp_map(Vector3d(r - e)))) /
                  (2.0 * h);
-      J_inv.col(k) =
-          (log_map(q * mimicx::exp_map(e)) - log_map(q * mimicx::exp_map(Vector3d(-e)))) / (2.0 * h);
+      J_inv.col(k) = (log_map(q * exp_map(e)) - log_map(q * exp_map(Vector3d(-e)))) / (2.0 * h);
     }
     EXPECT_LT((exp.jacobian - J).norm(), 1e-8) << size;
     EXPECT_LT((inverse_right_jacobian(r) - J_inv).norm(), 1e-7) << size;

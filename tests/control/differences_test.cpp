@@ -70,7 +70,7 @@ double median_error(const FrameMatrix& F, const Eigen::MatrixXd& exact, int firs
 }
 
 struct Scene {
-  Reference reference = synthetic_reference("squat", 501, 40);
+  motion::Reference reference = synthetic_reference("squat", 501, 40);
   System system = system_of(reference);
   FramePoint point{20, system.at(20), {}, {}};
 

@@ -11,7 +11,7 @@
 
 namespace mimicx::control {
 
-inline State<double> to_state(const ReferenceFrame& frame) {
+inline State<double> to_state(const motion::ReferenceFrame& frame) {
   State<double> x;
   x.p_root = from_eigen(frame.p_root);
   x.v_root = from_eigen(frame.v_root);
@@ -23,11 +23,12 @@ inline State<double> to_state(const ReferenceFrame& frame) {
 }
 
 /// A synthetic motion, cut to its first frames (0: all of it).
-inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed, std::size_t frames = 0) {
-  SynthConfig options;
+inline motion::Reference synthetic_reference(const std::string& kind, std::uint64_t seed,
+                                             std::size_t frames = 0) {
+  motion::synth::SynthConfig options;
   options.kind = kind;
   options.seed = seed;
-  Reference reference = prepare_reference(synthesize(options), {}, nullptr);
+  motion::Reference reference = motion::prepare_reference(motion::synth::synthesize(options), {}, nullptr);
   if (frames > 0 && frames < reference.frames.size()) {
     reference.frames.resize(frames);
     reference.poses.resize(frames);
@@ -36,9 +37,9 @@ inline Reference synthetic_reference(const std::string& kind, std::uint64_t seed
   return reference;
 }
 
-inline System system_of(const Reference& reference, const SimulationConfig& config = {}) {
+inline System system_of(const motion::Reference& reference, const SimulationConfig& config = {}) {
   std::vector<State<double>> states;
-  for (const ReferenceFrame& frame : reference.frames) states.push_back(to_state(frame));
+  for (const motion::ReferenceFrame& frame : reference.frames) states.push_back(to_state(frame));
   return make_system(reference.character, config, std::move(states), reference.fps);
 }
 

@@ -124,16 +124,16 @@ State<double> simulate_frame(const Model<double>& model, const ControlFrame& fra
 
 Eigen::MatrixXd exact_derivative(const Model<double>& model, const ControlFrame& frame) {
   Eigen::MatrixXd F(kTangent, kFrameColumnsWithHelp);
-  const auto slope = [](const Vec3<Dual>& v) { return Vec3<double>{v.x.d, v.y.d, v.z.d}; };
+  const auto slope = [](const Vec3<test::Dual>& v) { return Vec3<double>{v.x.d, v.y.d, v.z.d}; };
   for (int column = 0; column < F.cols(); ++column) {
-    const State<Dual> end = simulate(model, frame, column, Dual(0.0, 1.0));
+    const State<test::Dual> end = simulate(model, frame, column, test::Dual(0.0, 1.0));
     const auto put = [&](int row, const Vec3<double>& root, const auto& joint_part) {
       for (int k = 0; k < kPositions; ++k)
         F(row + k, column) =
             k < 3 ? dot(kUnit[k], root) : dot(joint_of(k).axis, joint_part(joint_of(k).body));
     };
     put(0, slope(end.p_root), [&](int i) {
-      const Quat<Dual>& q = end.q[i];  // a change dq of q is the turn 2 vec(q⁻¹ dq)
+      const Quat<test::Dual>& q = end.q[i];  // a change dq of q is the turn 2 vec(q⁻¹ dq)
       const Quat<double> x =
           conjugate(Quat<double>{q.w.x, q.x.x, q.y.x, q.z.x}) * Quat<double>{q.w.d, q.x.d, q.y.d, q.z.d};
       return Vec3<double>{2.0 * x.x, 2.0 * x.y, 2.0 * x.z};

@@ -12,7 +12,7 @@ namespace mimicx::control {
 namespace {
 
 /// Mean distance of all joints in the world, frames 1 …, m.
-double mean_distance(const Reference& reference, const rl::TrackingRollout& rollout) {
+double mean_distance(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   double sum = 0.0;
   for (std::size_t t = 1; t < rollout.poses.size(); ++t)
     for (std::size_t i = 0; i < kBodies; ++i)
@@ -20,25 +20,25 @@ double mean_distance(const Reference& reference, const rl::TrackingRollout& roll
   return sum / static_cast<double>(kBodies * (rollout.poses.size() - 1));
 }
 
-rl::TrackingRollout replay(const Reference& reference, const Plan& plan) {
-  const rl::TrackingConfig config;
+rl::tracking::TrackingRollout replay(const motion::Reference& reference, const Plan& plan) {
+  const rl::tracking::TrackingConfig config;
   std::size_t t = 0;
-  return rl::roll_out(rl::make_tracking_clip(reference, config), config,
-                      [&](int, const float*, float* action) {
-                        std::copy(plan.residuals[t].begin(), plan.residuals[t].end(), action);
-                        ++t;
-                      });
+  return rl::tracking::roll_out(rl::tracking::make_tracking_clip(reference, config), config,
+                                [&](int, const float*, float* action) {
+                                  std::copy(plan.residuals[t].begin(), plan.residuals[t].end(), action);
+                                  ++t;
+                                });
 }
 
 class Followed : public testing::TestWithParam<const char*> {};
 
 TEST_P(Followed, WithinTwoMillimetresAndReplayedByTheSimulatorToTheByte) {
-  const Reference reference = synthetic_reference(GetParam(), 501, 75);
+  const motion::Reference reference = synthetic_reference(GetParam(), 501, 75);
   const Plan plan = make_plan(system_of(reference), {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kFollowed);
   EXPECT_FALSE(plan.loss);
   ASSERT_EQ(plan.states.size(), 75u);
-  const rl::TrackingRollout rollout = replay(reference, plan);
+  const rl::tracking::TrackingRollout rollout = replay(reference, plan);
   ASSERT_EQ(rollout.poses.size(), 75u);
   EXPECT_LT(mean_distance(reference, rollout), 0.002);
   for (std::size_t t = 1; t < 75; ++t) {

@@ -44,7 +44,7 @@ TEST(Shooting, GapsAreWhatIsMissingToTheNextState) {
     for (int k = 0; k < kTangent; ++k)
       gap[static_cast<std::size_t>(k)] = p.plan.gaps[static_cast<std::size_t>(t + 1)][k];
     retract(reached, gap);
-    const Tangent<double> left = difference(reached, mimicx::lane_of(x, 0));
+    const Tangent<double> left = difference(reached, lane_of(x, 0));
     for (double x_k : left) EXPECT_NEAR(x_k, 0.0, 2e-6);
   }
 }

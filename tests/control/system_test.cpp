@@ -23,10 +23,10 @@ TEST(System, RefusesTooFewFramesAndRatesThatDoNotFit) {
 
 // Some frames under random controls, once here and once as actions.
 TEST(System, ControlsHaveTheBytesOfTheTrackingTasksActions) {
-  const Reference walk = synthetic_reference("walk", 501, 20);
+  const motion::Reference walk = synthetic_reference("walk", 501, 20);
   const System system = system_of(walk);
-  rl::TrackingConfig config;
-  rl::TrackingPack pack(rl::make_tracking_clip(walk, config), config);
+  rl::tracking::TrackingConfig config;
+  rl::tracking::TrackingPack pack(rl::tracking::make_tracking_clip(walk, config), config);
   const auto scratch = std::make_unique<Data<P>>();
   Random random(43);
   State<P> x = in_all_lanes<P>(system.at(0));
@@ -40,7 +40,7 @@ TEST(System, ControlsHaveTheBytesOfTheTrackingTasksActions) {
     for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, u.data());
     pack.advance(*scratch);
     const State<double> here = lane_of(x, 0);
-    const ReferenceFrame& there = pack.pose(0).frame;
+    const motion::ReferenceFrame& there = pack.pose(0).frame;
     ASSERT_EQ(to_eigen(here.p_root), there.p_root) << "frame " << t + 1;
     ASSERT_EQ(to_eigen(here.v_root), there.v_root);
     for (std::size_t i = 0; i < kBodies; ++i) {

@@ -9,7 +9,7 @@ namespace mimicx::control {
 namespace {
 
 TEST(Tangent, AddingAndTakingAwayAreInverse) {
-  const Reference walk = synthetic_reference("walk", 501, 30);
+  const motion::Reference walk = synthetic_reference("walk", 501, 30);
   Random random(41);
   for (int trial = 0; trial < 20; ++trial) {
     const State<double> y = to_state(walk.frames[static_cast<std::size_t>(trial)]);
@@ -55,7 +55,7 @@ TEST(Tangent, CoordinatesAreWhatTheHeaderSays) {
 }
 
 TEST(Tangent, PacksAgreeWithDouble) {
-  const Reference walk = synthetic_reference("walk", 501, 30);
+  const motion::Reference walk = synthetic_reference("walk", 501, 30);
   Random random(42);
   State<P> a = in_all_lanes<P>(to_state(walk.frames[3]));
   const State<P> b = in_all_lanes<P>(to_state(walk.frames[7]));

@@ -9,8 +9,8 @@ namespace mimicx::fuzz {
 namespace {
 
 /// A small clip of the 22 bodies: exercises names, calibration and solving, too.
-Clip small_clip() {
-  Clip clip;
+motion::Clip small_clip() {
+  motion::Clip clip;
   for (int t = 0; t < 3; ++t) {
     auto& rotations = clip.rotations.emplace_back();
     rotations.fill(Vector3d::Zero());
@@ -31,15 +31,15 @@ std::vector<std::string> seeds() {
       "Site\n\t\t{\n"
       "\t\t\tOFFSET 0 1 0\n\t\t}\n\t}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n1 2 3 4 5 6 7 8 9\n9 8 7 6 5 4 "
       "3 2 1\n";
-  std::string foreign = format_bvh(small_clip());
+  std::string foreign = motion::import::format_bvh(small_clip());
   for (std::size_t at = 0; (at = foreign.find("OFFSET 0.0", at)) != std::string::npos; at += 8)
     foreign.replace(at, 10, "OFFSET 0.1");  // not this program's own skeleton any more
-  return {small, format_bvh(small_clip()), foreign};
+  return {small, motion::import::format_bvh(small_clip()), foreign};
 }
 
 void feed(const std::string& bytes) {
   try {
-    retarget(parse_bvh(bytes, "fuzz.bvh"));
+    motion::import::retarget(motion::import::parse_bvh(bytes, "fuzz.bvh"));
   } catch (const DataError&) {
   }
 }

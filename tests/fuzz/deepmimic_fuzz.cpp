@@ -19,7 +19,7 @@ std::vector<std::string> seeds() {
 
 void feed(const std::string& bytes) {
   try {
-    retarget(parse_deepmimic(bytes, "fuzz.txt"));
+    motion::import::retarget(motion::import::parse_deepmimic(bytes, "fuzz.txt"));
   } catch (const DataError&) {
   }
 }

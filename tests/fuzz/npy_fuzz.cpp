@@ -8,17 +8,17 @@
 namespace mimicx::fuzz {
 
 std::vector<std::string> seeds() {
-  Clip clip = test::random_clip(1, 3, 0.3);
+  motion::Clip clip = test::random_clip(1, 3, 0.3);
   clip.body_model = "smplx";
-  const Eigen::MatrixXf floats = to_matrix(to_motionx(clip)).cast<float>();
-  return {format_npy(to_motionx(clip)), format_npy(to_npz(clip).at("poses")),
-          format_npy(to_npz(clip).at("betas")), format_npy(to_npz(clip).at("joint_names")),
+  const Eigen::MatrixXf floats = to_matrix(motion::import::to_motionx(clip)).cast<float>();
+  return {format_npy(motion::import::to_motionx(clip)), format_npy(motion::to_npz(clip).at("poses")),
+          format_npy(motion::to_npz(clip).at("betas")), format_npy(motion::to_npz(clip).at("joint_names")),
           format_npy(NpyArray::from_float({3, 322}, floats.data()))};
 }
 
 void feed(const std::string& bytes) {
   try {
-    motion_from(bytes, "fuzz.npy");
+    motion::import::motion_from(bytes, "fuzz.npy");
   } catch (const DataError&) {
   }
   try {
@@ -26,10 +26,10 @@ void feed(const std::string& bytes) {
         parse_npy(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), "fuzz.npy", "");
     for (const char* member : {"poses", "trans", "betas", "mocap_framerate", "joint_names", "body_model",
                                "keypoints_2d", "rest_joints", "gender"}) {
-      Npz npz = to_npz(test::random_clip(1, 3, 0.3));
+      Npz npz = motion::to_npz(test::random_clip(1, 3, 0.3));
       npz.set(member, array);
       try {
-        to_npz(clip_from(npz, "fuzz"));
+        motion::to_npz(motion::clip_from(npz, "fuzz"));
       } catch (const DataError&) {
       }
     }

@@ -7,21 +7,21 @@
 namespace mimicx::fuzz {
 
 std::vector<std::string> seeds() {
-  Clip clip = test::random_clip(1, 3, 0.3);
-  const std::string plain = format_npz(to_npz(clip));
-  Keypoints k;
+  motion::Clip clip = test::random_clip(1, 3, 0.3);
+  const std::string plain = format_npz(motion::to_npz(clip));
+  motion::Keypoints k;
   k.names = {"left_hip", "nose"};
   k.uvc.assign(3, {Vector3d(1, 2, 0.5), Vector3d(3, 4, 0)});
   k.extrinsics.assign(1, Eigen::Matrix4d::Identity());
   clip.keypoints = k;
   clip.body_model = "smplx";
   clip.passthrough.emplace_back("pose_hand", from_matrix(Eigen::MatrixXd::Zero(3, 90)));
-  return {plain, format_npz(to_npz(clip)), format_npz(Npz{})};
+  return {plain, format_npz(motion::to_npz(clip)), format_npz(Npz{})};
 }
 
 void feed(const std::string& bytes) {
   try {
-    motion_from(bytes, "fuzz.npz");
+    motion::import::motion_from(bytes, "fuzz.npz");
   } catch (const DataError&) {
   }
 }

@@ -10,7 +10,7 @@
 #include "motion/keypoint_names.h"
 #include "motion/scratch.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,15 +20,15 @@ using test::scratch;
 
 Npz amass(std::size_t columns = 66) {
   Npz npz;
-  npz.set("poses", counted(3, columns));
-  npz.set("trans", counted(3, 3));
+  npz.set("poses", test::counted(3, columns));
+  npz.set("trans", test::counted(3, 3));
   npz.set("betas", NpyArray::from_double({16}, std::vector<double>(16).data()));
   npz.set("mocap_framerate", NpyArray::scalar(30.0));
   return npz;
 }
 
 Clip read(const Npz& npz) {
-  const fs::path path = scratch("clip.npz");
+  const fs::path path = test::scratch("clip.npz");
   write_npz(path, npz);
   return read_clip(path);
 }
@@ -63,8 +63,8 @@ const NpyArray* passed_on(const Clip& clip, const std::string& key) {
 }
 
 TEST(ClipFile, RoundTripKeepsEveryBit) {
-  const Clip clip = clip_with_everything();
-  const fs::path path = scratch("round.npz");
+  const Clip clip = test::clip_with_everything();
+  const fs::path path = test::scratch("round.npz");
   write_clip(path, clip, {{"reward", NpyArray::scalar(0.5)}});
   const Clip back = read_clip(path);
   EXPECT_EQ(back.name, "round");
@@ -86,7 +86,7 @@ TEST(ClipFile, RoundTripKeepsEveryBit) {
 }
 
 TEST(ClipFile, WrittenFilesHaveTheDocumentedMembers) {
-  const Npz npz = to_npz(clip_with_everything(), {{"joints", NpyArray::scalar(1.0)}});
+  const Npz npz = to_npz(test::clip_with_everything(), {{"joints", NpyArray::scalar(1.0)}});
   std::vector<std::string> keys;
   for (const auto& [key, array] : npz.members()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"poses", "trans", "betas", "mocap_framerate", "gender",
@@ -119,7 +119,7 @@ TEST(ClipFile, EveryLayoutGivesTheFirst66ColumnsAndKeepsTheRest) {
 TEST(ClipFile, ColumnsAndBetasThatAreNotUsedComeBackWhereTheyWere) {
   for (const std::size_t columns : {66u, 72u, 156u, 165u}) {
     Npz npz = amass(columns);
-    npz.set("betas", counted(1, 16));
+    npz.set("betas", test::counted(1, 16));
     const Npz back = to_npz(read(npz));
     EXPECT_EQ(back.at("poses").to_double(), npz.at("poses").to_double()) << columns;
     EXPECT_EQ(back.at("poses").shape, npz.at("poses").shape);
@@ -130,11 +130,11 @@ TEST(ClipFile, ColumnsAndBetasThatAreNotUsedComeBackWhereTheyWere) {
 
 TEST(ClipFile, SmplxFilesComeBackWithTheArraysTheirReadersExpect) {
   Npz npz;
-  npz.set("root_orient", counted(3, 3, 7.0));
-  npz.set("pose_body", counted(3, 63, 8.0));
-  npz.set("pose_hand", counted(3, 90, 9.0));
-  npz.set("pose_eye", counted(3, 6, 10.0));
-  npz.set("trans", counted(3, 3));
+  npz.set("root_orient", test::counted(3, 3, 7.0));
+  npz.set("pose_body", test::counted(3, 63, 8.0));
+  npz.set("pose_hand", test::counted(3, 90, 9.0));
+  npz.set("pose_eye", test::counted(3, 6, 10.0));
+  npz.set("trans", test::counted(3, 3));
   npz.set("mocap_frame_rate", NpyArray::scalar(120.0));
   const Npz back = to_npz(read(npz));
   for (const char* key : {"root_orient", "pose_body", "pose_hand", "pose_eye", "trans", "mocap_frame_rate"}) {
@@ -145,9 +145,9 @@ TEST(ClipFile, SmplxFilesComeBackWithTheArraysTheirReadersExpect) {
 
 TEST(ClipFile, NamedArraysGoBeforePoses) {
   Npz npz = amass(165);
-  npz.set("root_orient", counted(3, 3, 7.0));
-  npz.set("pose_body", counted(3, 63, 8.0));
-  npz.set("pose_hand", counted(3, 90));
+  npz.set("root_orient", test::counted(3, 3, 7.0));
+  npz.set("pose_body", test::counted(3, 63, 8.0));
+  npz.set("pose_hand", test::counted(3, 90));
   npz.set("mocap_frame_rate", NpyArray::scalar_int(60));
   npz.set("surface_model_type", NpyArray::scalar_text("smplx_locked_head"));
   const Clip clip = read(npz);
@@ -181,15 +181,15 @@ TEST(ClipFile, BadDataIsRefusedWithMemberAndReason) {
   npz = amass();
   npz.set("trans", with_value(npz.at("trans"), 8, std::numeric_limits<double>::infinity()));
   expect_refusal(npz, "row 2");
-  npz.set("trans", counted(2, 3));
+  npz.set("trans", test::counted(2, 3));
   expect_refusal(npz, "3 frames");
   npz.set("trans", NpyArray::scalar_text("none"));
   expect_refusal(npz, "text");
   npz = amass();
-  npz.set("poses", counted(3, 75));
+  npz.set("poses", test::counted(3, 75));
   expect_refusal(npz, "75");
-  npz.set("poses", counted(0, 66));
-  npz.set("trans", counted(0, 3));
+  npz.set("poses", test::counted(0, 66));
+  npz.set("trans", test::counted(0, 3));
   expect_refusal(npz, "at least one frame");
   npz = amass();
   npz.set("betas", with_value(npz.at("betas"), 2, std::numeric_limits<double>::quiet_NaN()));
@@ -198,10 +198,10 @@ TEST(ClipFile, BadDataIsRefusedWithMemberAndReason) {
   npz.set("body_model", NpyArray::scalar_text("ghum"));
   expect_refusal(npz, "'ghum'");
   npz = amass();
-  npz.set("keypoints_2d", counted(3, 4));
+  npz.set("keypoints_2d", test::counted(3, 4));
   npz.set("keypoint_names", NpyArray::from_text({"nose"}));
-  npz.set("camera_intrinsics", counted(3, 3));
-  npz.set("camera_extrinsics", counted(4, 4));
+  npz.set("camera_intrinsics", test::counted(3, 3));
+  npz.set("camera_extrinsics", test::counted(4, 4));
   expect_refusal(npz, "keypoints_2d");
 }
 
@@ -236,7 +236,7 @@ TEST(ClipFile, ForeignBetasWarnOnceAndMeanTheStandardBody) {
 }
 
 TEST(ClipFile, KeypointsWithoutCameraAreLeftAloneWithAWarning) {
-  Npz npz = to_npz(clip_with_everything());
+  Npz npz = to_npz(test::clip_with_everything());
   Npz without;
   for (const auto& [key, array] : npz.members())
     if (key != "camera_extrinsics") without.set(key, array);
@@ -254,8 +254,8 @@ Npz with_unnamed_keypoints(std::size_t count) {
   for (std::size_t i = 0; i < 3 * count; ++i)
     uvc.insert(uvc.end(), {static_cast<double>(i % count), 0.0, 1.0});
   npz.set("keypoints_2d", NpyArray::from_double({3, count, 3}, uvc.data()));
-  npz.set("camera_intrinsics", counted(3, 3));
-  npz.set("camera_extrinsics", counted(4, 4));
+  npz.set("camera_intrinsics", test::counted(3, 3));
+  npz.set("camera_extrinsics", test::counted(4, 4));
   return npz;
 }
 
@@ -290,14 +290,14 @@ TEST(ClipFile, UnnamedKeypointsOfAnotherNumberAreRefusedInOneLine) {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
   Npz flat = with_unnamed_keypoints(22);
-  flat.set("keypoints_2d", counted(3, 66));
+  flat.set("keypoints_2d", test::counted(3, 66));
   expect_refusal(flat, "keypoints_2d");
 }
 
 TEST(ClipFile, UndetectedKeypointsGetConfidenceZero) {
-  Clip clip = clip_with_everything();
+  Clip clip = test::clip_with_everything();
   clip.keypoints->uvc[2][1].x() = std::numeric_limits<double>::quiet_NaN();
-  const fs::path path = scratch("keypoints.npz");
+  const fs::path path = test::scratch("keypoints.npz");
   write_clip(path, clip);
   EXPECT_EQ(read_clip(path).keypoints->uvc[2][1], Vector3d(0, 0, 0));
 }
@@ -320,4 +320,4 @@ TEST(RealFiles, AreRead) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -4,14 +4,15 @@
 
 #include "motion/made_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 TEST(Clip, PelvisIsTransPlusTheModelsRestPelvis) {
   Clip clip = test::random_clip(4, 5, 0.5);
   for (const char* model : {"mimicx", "smpl", "smplh", "smplx"}) {
     clip.body_model = model;
-    EXPECT_LT((poses_of(clip)[1].p_WB[0] - (clip.trans[1] + rest_pelvis(model))).norm(), 1e-12) << model;
+    EXPECT_LT((poses_of(clip)[1].p_WB[0] - (clip.trans[1] + mimicx::rest_pelvis(model))).norm(), 1e-12)
+        << model;
   }
 }
 
@@ -38,4 +39,4 @@ TEST(Clip, OfAPlayedMotionHasItsPoses) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

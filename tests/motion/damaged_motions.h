@@ -18,7 +18,7 @@ inline PerFrame<double> jump_heights(int frames, double take_off_speed) {
 }
 
 /// A pose thrown in for the frames [from, to).
-inline Clip with_glitch(Clip clip, std::size_t from, std::size_t to, double size) {
+inline motion::Clip with_glitch(motion::Clip clip, std::size_t from, std::size_t to, double size) {
   for (std::size_t t = from; t < to; ++t) clip.rotations[t][kLeftShoulder] += Vector3d(0, size, 0);
   return clip;
 }

@@ -10,7 +10,7 @@
 #include "motion/made_motions.h"
 #include "motion/prepare.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 using test::kPi;
@@ -159,4 +159,4 @@ TEST(Features, ScaledIsEveryFeatureInItsUnit) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -6,7 +6,7 @@
 #include "motion/prepare.h"
 #include "motion/synth/synth.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 /// The motion with both feet turned by a constant rotation, as an estimator's error would.
@@ -18,18 +18,18 @@ Clip with_turned_feet(Clip clip, const Vector3d& rotation) {
 }
 
 Clip walk() {
-  SynthConfig config;
+  synth::SynthConfig config;
   config.kind = "walk";
   config.seed = 3;
-  return synthesize(config);
+  return synth::synthesize(config);
 }
 
 TEST(Feet, ExactMotionsAreLeftAlone) {
-  for (const std::string& kind : synthetic_kinds()) {
-    SynthConfig config;
+  for (const std::string& kind : synth::synthetic_kinds()) {
+    synth::SynthConfig config;
     config.kind = kind;
     PreparationReport report;
-    prepare_reference(synthesize(config), {}, &report);
+    prepare_reference(synth::synthesize(config), {}, &report);
     EXPECT_EQ(report.foot_level_deg, 0.0) << kind;
     EXPECT_LT(report.change_max_mm, 0.5) << kind;
   }
@@ -95,4 +95,4 @@ TEST(Feet, ToesBelowTheFloorAreBentUntilTheyLieOnIt) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

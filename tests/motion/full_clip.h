@@ -14,12 +14,12 @@ inline NpyArray counted(std::size_t rows, std::size_t columns, double offset = 0
   return NpyArray::from_double({rows, columns}, values.data());
 }
 
-inline Clip clip_with_everything() {
-  Clip clip = random_clip(4, 5, 0.5);
+inline motion::Clip clip_with_everything() {
+  motion::Clip clip = random_clip(4, 5, 0.5);
   clip.fps = 29.97;
   clip.betas = {0.5, -1.25, 0, 0, 0, 0, 0, 0, 0, 3};
   clip.gender = "female";
-  Keypoints k;
+  motion::Keypoints k;
   k.names = {"nose", "left_ankle"};
   k.uvc.assign(5, {Vector3d(10.5, 20.25, 0.9), Vector3d(-1, 2, 0)});
   k.intrinsics << 800, 0, 320, 0, 810, 240, 0, 0, 1;

@@ -8,7 +8,7 @@
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 using test::Rotations;
@@ -21,7 +21,7 @@ constexpr Limb kLimbs[] = {{kLeftHip, kLeftKnee, kLeftAnkle},
                            {kLeftShoulder, kLeftElbow, kLeftWrist},
                            {kRightShoulder, kRightElbow, kRightWrist}};
 
-BodyPoses pose_of(const Character& c, const Rotations& q) {
+BodyPoses pose_of(const Character& c, const test::Rotations& q) {
   return forward_kinematics(c, Vector3d(0, 0, 1), q);
 }
 
@@ -32,8 +32,8 @@ double bend_of(const BodyPoses& p, const Limb& limb) {
   return angle(p.p_WB[limb.hinge] - p.p_WB[limb.upper], p.p_WB[limb.end] - p.p_WB[limb.hinge]);
 }
 
-Rotations random_rotations(Random& random, double amplitude) {
-  Rotations q;
+test::Rotations random_rotations(Random& random, double amplitude) {
+  test::Rotations q;
   for (Quaterniond& r : q) r = exp_map(amplitude * test::random_vector(random));
   return q;
 }
@@ -43,7 +43,7 @@ TEST(Hinges, BentLimbsKeepBothBonesExactlyAndTheEndItsOrientation) {
   const Character c = make_character({1, 0, -1, 0, 1, 0, 0, 0, 0, 0.5});
   int bent = 0;
   for (int n = 0; n < 200; ++n) {
-    const Rotations smpl = random_rotations(random, 0.7);
+    const test::Rotations smpl = random_rotations(random, 0.7);
     const BodyPoses before = pose_of(c, smpl), after = pose_of(c, to_hinges(c, {smpl})[0]);
     for (const Limb& limb : kLimbs) {
       EXPECT_LT(before.q_WB[limb.end].angularDistance(after.q_WB[limb.end]), 1e-7);
@@ -60,7 +60,7 @@ TEST(Hinges, TurnAboutTheirAxisOnlyTowardsTheFlexingSide) {
   Random random(1, {2});
   const Character c = make_character();
   for (int n = 0; n < 200; ++n) {
-    const Rotations q = to_hinges(c, {random_rotations(random, 0.7)})[0];
+    const test::Rotations q = to_hinges(c, {random_rotations(random, 0.7)})[0];
     for (const Limb& limb : kLimbs) {
       const Vector3d axis = hinge_axis(limb.hinge), r = log_map(q[limb.hinge]);
       EXPECT_LT(r.cross(axis).norm(), 1e-12);
@@ -71,7 +71,7 @@ TEST(Hinges, TurnAboutTheirAxisOnlyTowardsTheFlexingSide) {
 
 TEST(Hinges, OtherJointsAreUntouched) {
   Random random(1, {3});
-  const Rotations smpl = random_rotations(random, 0.6), q = to_hinges(make_character(), {smpl})[0];
+  const test::Rotations smpl = random_rotations(random, 0.6), q = to_hinges(make_character(), {smpl})[0];
   for (const int body : {kPelvis, kSpine1, kSpine3, kLeftFoot, kHead, kLeftCollar})
     EXPECT_EQ(q[body].coeffs(), smpl[body].coeffs()) << kBodyNames[body];
 }
@@ -79,12 +79,12 @@ TEST(Hinges, OtherJointsAreUntouched) {
 TEST(Hinges, MotionsThatAreHingedAlreadyStayAsTheyAre) {
   Random random(1, {4});
   for (int n = 0; n < 100; ++n) {
-    Rotations q = random_rotations(random, 0.6);
+    test::Rotations q = random_rotations(random, 0.6);
     for (const Limb& limb : kLimbs)
       q[limb.hinge] = exp_map(random.uniform(-0.15, 2.6) * hinge_axis(limb.hinge));
-    const Rotations out = to_hinges(make_character(), {q})[0];
+    const test::Rotations out = to_hinges(make_character(), {q})[0];
     for (int i = 0; i < kBodies; ++i) EXPECT_LT(q[i].angularDistance(out[i]), 1e-7) << kBodyNames[i];
-    const Rotations twice = to_hinges(make_character(), {out})[0];
+    const test::Rotations twice = to_hinges(make_character(), {out})[0];
     for (int i = 0; i < kBodies; ++i) EXPECT_LT(out[i].angularDistance(twice[i]), 1e-7);
   }
 }
@@ -93,12 +93,12 @@ TEST(Hinges, NearlyHingedMotionsHardlyChange) {
   Random random(1, {5});
   const Character c = make_character();
   for (int n = 0; n < 100; ++n) {
-    Rotations q = random_rotations(random, 0.6);
+    test::Rotations q = random_rotations(random, 0.6);
     for (const Limb& limb : kLimbs) {
       const Vector3d off = 1e-3 * test::random_vector(random);
       q[limb.hinge] = exp_map(off) * exp_map(random.uniform(0.1, 2.6) * hinge_axis(limb.hinge));
     }
-    const Rotations out = to_hinges(c, {q})[0];
+    const test::Rotations out = to_hinges(c, {q})[0];
     for (const Limb& limb : kLimbs)
       EXPECT_LT(q[limb.upper].angularDistance(out[limb.upper]), 0.05) << kBodyNames[limb.hinge];
   }
@@ -114,14 +114,14 @@ TEST(Hinges, EndsStayInPlaceAndTheMotionIsContinuousThroughStraightLimbs) {
       const Vector3d axis = hinge_axis(limb.hinge);
       const Vector3d across =
           limb.end == kLeftAnkle || limb.end == kRightAnkle ? Vector3d::UnitZ() : Vector3d::UnitX();
-      PerFrame<Rotations> smpl(kFrames);
+      PerFrame<test::Rotations> smpl(kFrames);
       for (int t = 0; t < kFrames; ++t) {
-        Rotations& q = smpl[t];
+        test::Rotations& q = smpl[t];
         q.fill(Quaterniond::Identity());
         const double flexion = 0.3 + 0.5 * std::cos(2 * test::kPi * t / kFrames);  // 46° … -11°
         q[limb.hinge] = exp_map(tilt * across) * exp_map(flexion * axis);
       }
-      const PerFrame<Rotations> q = to_hinges(c, smpl);
+      const PerFrame<test::Rotations> q = to_hinges(c, smpl);
       for (std::size_t t = 0; t < kFrames; ++t) {
         const BodyPoses before = pose_of(c, smpl[t]), after = pose_of(c, q[t]);
         // A limb cannot be straighter than its rest bones allow: 2 mm of reach at most.
@@ -160,4 +160,4 @@ TEST(Hinges, ResidualOfRealMotionsIsUnderFiveMillimetresOnAverage) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -19,15 +19,15 @@ inline Vector3d random_vector(Random& random) { return {random.normal(), random.
 inline Quaterniond upright() { return exp_map(kPi / 2 * Vector3d::UnitX()); }
 
 /// Upright in the rest pose, pelvis at `height` (m) in every frame.
-inline Clip standing_clip(int frames, double height, double fps = 30.0) {
-  Clip clip;
+inline motion::Clip standing_clip(int frames, double height, double fps = 30.0) {
+  motion::Clip clip;
   clip.name = "standing";
   clip.fps = fps;
   PerBody<Vector3d> rest;
   rest.fill(Vector3d::Zero());
   rest[0] = log_map(upright());
   clip.rotations.assign(static_cast<std::size_t>(frames), rest);
-  clip.trans.assign(static_cast<std::size_t>(frames), Vector3d(0, 0, height) - rest_pelvis("mimicx"));
+  clip.trans.assign(static_cast<std::size_t>(frames), Vector3d(0, 0, height) - mimicx::rest_pelvis("mimicx"));
   return clip;
 }
 
@@ -39,9 +39,9 @@ inline double standing_height() {
 }
 
 /// Every joint swings smoothly about zero by about `amplitude` rad, slower than 1 Hz.
-inline Clip random_clip(std::uint64_t seed, int frames, double amplitude, double fps = 30.0) {
+inline motion::Clip random_clip(std::uint64_t seed, int frames, double amplitude, double fps = 30.0) {
   Random random(seed, {0x6d6f74});
-  Clip clip = standing_clip(frames, standing_height(), fps);
+  motion::Clip clip = standing_clip(frames, standing_height(), fps);
   clip.name = "random";
   for (std::size_t j = 0; j < kBodies; ++j) {
     const Vector3d a = amplitude * random_vector(random), b = amplitude * random_vector(random);

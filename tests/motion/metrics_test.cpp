@@ -9,7 +9,7 @@
 
 #include "motion/made_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 using test::kPi;
@@ -378,4 +378,4 @@ TEST(Success, NeedsTheWholeLengthTheDistanceAndTheError) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

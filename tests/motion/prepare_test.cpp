@@ -10,7 +10,7 @@
 #include "motion/damaged_motions.h"
 #include "motion/metrics.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 using test::jump_heights;
@@ -45,7 +45,7 @@ TEST(Prepare, LiftedAndSunkMotionsStandOnTheFloor) {
 }
 
 TEST(Prepare, KeepsABallisticJump) {
-  const std::vector<double> jump = jump_heights(90, 2.5);
+  const std::vector<double> jump = test::jump_heights(90, 2.5);
   std::vector<double> height = jump;
   for (double& z : height) z += 0.06;  // floating, as video estimates do
   const Reference r =
@@ -80,7 +80,7 @@ TEST(Prepare, ResamplesTo30FpsOnTheCharacterOfTheClip) {
 }
 
 TEST(Prepare, FlaggedFramesAreBridgedAndReported) {
-  const Clip clip = with_glitch(test::random_clip(6, 90, 0.3), 40, 43, 2.0);
+  const Clip clip = test::with_glitch(test::random_clip(6, 90, 0.3), 40, 43, 2.0);
   PreparationReport report;
   const Reference r = prepare_reference(clip, {}, &report);
   EXPECT_EQ(report.flagged_frames, 3);
@@ -135,4 +135,4 @@ TEST(Prepare, RealClipsComeOutOnTheFloorAndLittleChanged) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

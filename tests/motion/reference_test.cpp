@@ -5,7 +5,7 @@
 #include "motion/made_motions.h"
 #include "motion/prepare.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 TEST(Differentiate, ConstantRatesAreExact) {
@@ -63,4 +63,4 @@ TEST(Differentiate, IntegratesBackToTheMotion) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -6,7 +6,7 @@
 
 #include "motion/damaged_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 using test::jump_heights;
@@ -23,15 +23,15 @@ TEST(FloorCorrection, StaticShiftPutsTheSupportOnTheFloor) {
 
 TEST(FloorCorrection, JumpsKeepTheirHeight) {
   for (const double speed : {1.5, 2.5, 3.5}) {
-    const std::vector<double> z = jump_heights(90, speed);
+    const std::vector<double> z = test::jump_heights(90, speed);
     for (const double h : floor_correction(z, 30.0).height) EXPECT_NEAR(h, 0.0, 0.002) << speed;
   }
 }
 
 TEST(FloorCorrection, SlowDriftOfTheSupportIsRemovedUnderAJumpAsWell) {
-  std::vector<double> z = jump_heights(150, 2.5), drift;
+  std::vector<double> z = test::jump_heights(150, 2.5), drift;
   for (std::size_t t = 0; t < z.size(); ++t) {
-    drift.push_back(0.07 + 0.04 * std::sin(2 * kPi * static_cast<double>(t) / 150.0));
+    drift.push_back(0.07 + 0.04 * std::sin(2 * test::kPi * static_cast<double>(t) / 150.0));
     z[t] += drift[t];
   }
   const FloorCorrection f = floor_correction(z, 30.0);
@@ -63,7 +63,7 @@ TEST(Glitches, ShortSpikesAreFlaggedAndNothingElse) {
   const auto none = find_glitches(clean);
   EXPECT_EQ(std::count(none.begin(), none.end(), true), 0);
   for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>{40, 41}, {40, 45}, {0, 2}, {88, 90}}) {
-    const auto flagged = find_glitches(with_glitch(clean, from, to, 2.0));
+    const auto flagged = find_glitches(test::with_glitch(clean, from, to, 2.0));
     for (std::size_t t = 0; t < 90; ++t) EXPECT_EQ(flagged[t], t >= from && t < to) << t << " of " << from;
   }
 }
@@ -80,7 +80,8 @@ TEST(Glitches, FastMotionsAndLastingChangesAreNotFlagged) {
   Clip kick =
       test::standing_clip(60, 1.0);  // the whole leg swings up to 30 rad/s and back in 0.4 s, smoothly
   for (std::size_t t = 20; t < 32; ++t)
-    kick.rotations[t][kLeftHip].x() = -2.3 * std::pow(std::sin(kPi * static_cast<double>(t - 20) / 12.0), 2);
+    kick.rotations[t][kLeftHip].x() =
+        -2.3 * std::pow(std::sin(test::kPi * static_cast<double>(t - 20) / 12.0), 2);
   const auto flagged = find_glitches(kick);
   EXPECT_EQ(std::count(flagged.begin(), flagged.end(), true), 0);
   Clip cut = test::random_clip(6, 90, 0.3);  // a cut in the video: jumps and stays
@@ -91,14 +92,14 @@ TEST(Glitches, FastMotionsAndLastingChangesAreNotFlagged) {
 
 TEST(Glitches, BridgingRestoresASmoothMotion) {
   const Clip clean = test::random_clip(6, 90, 0.3);
-  Clip clip = with_glitch(clean, 40, 43, 2.0);
+  Clip clip = test::with_glitch(clean, 40, 43, 2.0);
   bridge_glitches(clip, find_glitches(clip));
   for (std::size_t t = 0; t < 90; ++t)
     for (std::size_t j = 0; j < kBodies; ++j) {
       const double off = exp_map(clip.rotations[t][j]).angularDistance(exp_map(clean.rotations[t][j]));
       EXPECT_LT(off, t >= 40 && t < 43 ? 0.1 : 1e-7) << t;
     }
-  Clip ends = with_glitch(clean, 0, 2, 2.0);
+  Clip ends = test::with_glitch(clean, 0, 2, 2.0);
   bridge_glitches(ends, find_glitches(ends));
   EXPECT_EQ(ends.rotations[0], ends.rotations[1]);
   EXPECT_LT(exp_map(ends.rotations[0][5]).angularDistance(exp_map(clean.rotations[2][5])), 1e-7);
@@ -108,4 +109,4 @@ TEST(Glitches, BridgingRestoresASmoothMotion) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

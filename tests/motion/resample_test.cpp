@@ -4,7 +4,7 @@
 
 #include "motion/full_clip.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 using test::clip_with_everything;
@@ -28,7 +28,7 @@ TEST(Resample, ConstantRotationAndTranslationStayOnTheirCurve) {
 }
 
 TEST(Resample, SameRateChangesNothing) {
-  const Clip clip = clip_with_everything();
+  const Clip clip = test::clip_with_everything();
   const Clip out = resampled(clip, clip.fps);
   EXPECT_EQ(out.rotations, clip.rotations);
   EXPECT_EQ(out.passthrough.size(), clip.passthrough.size());
@@ -36,7 +36,7 @@ TEST(Resample, SameRateChangesNothing) {
 }
 
 TEST(Resample, KeypointsAndMovingCamerasFollowAndPerFrameMembersAreNamedInAWarning) {
-  Clip clip = clip_with_everything();
+  Clip clip = test::clip_with_everything();
   clip.fps = 60.0;
   clip.keypoints->uvc[1][0] = {11.5, 22.25, 0.7};
   const Clip half = resampled(clip, 30.0), third = resampled(clip, 40.0);
@@ -54,4 +54,4 @@ TEST(Resample, KeypointsAndMovingCamerasFollowAndPerFrameMembersAreNamedInAWarni
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -4,7 +4,7 @@
 
 #include "motion/made_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion {
 namespace {
 
 double distance_to_axis(const Capsule& c, const Vector3d& p) {
@@ -62,4 +62,4 @@ TEST(Surface, MissesTheLowestPointOfACapsuleByLessThanAnEighthOfItsRadius) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion

@@ -1,6 +1,6 @@
 #include "oracles/book_dynamics.h"
 
-namespace mimicx {
+namespace mimicx::test {
 namespace {
 
 /// A force given in world axes about the joint centre, in body coordinates.
@@ -108,4 +108,4 @@ Eigen::VectorXd book_forward_dynamics_aba(const BookModel& model, const BookPosi
   return qdd;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::test

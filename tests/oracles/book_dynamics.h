@@ -6,7 +6,7 @@
 
 #include "oracles/book_model.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
 /// Recursive Newton–Euler: the generalised forces that produce qdd. Entries 0..5 are the spatial force that
 /// would have to act on the pelvis. Armature included.                       RBDA table 5.1 with eq. 5.20
@@ -27,4 +27,4 @@ Eigen::VectorXd book_forward_dynamics_aba(const BookModel& model, const BookPosi
                                           const Eigen::VectorXd& qd, const Eigen::VectorXd& tau,
                                           const BookForces& external);
 
-}  // namespace mimicx
+}  // namespace mimicx::test

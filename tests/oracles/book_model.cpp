@@ -1,6 +1,6 @@
 #include "oracles/book_model.h"
 
-namespace mimicx {
+namespace mimicx::test {
 namespace {
 
 /// Motion transform into a frame whose origin is at r and whose axes are the columns of R, both given in
@@ -85,4 +85,4 @@ BookKinematics book_kinematics(const BookModel& model, const BookPosition& q, co
   return k;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::test

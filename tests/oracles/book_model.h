@@ -15,7 +15,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
 inline constexpr int kBookDofs = 6 + kDofs;
 
@@ -65,4 +65,4 @@ BookKinematics book_kinematics(const BookModel& model, const BookPosition& q, co
 Matrix6d cross_motion(const Vector6d& v);
 Matrix6d cross_force(const Vector6d& v);
 
-}  // namespace mimicx
+}  // namespace mimicx::test

@@ -8,7 +8,7 @@
 #include "physics/pack.h"
 #include "physics/spatial.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
 struct Dual {
   double x, d;
@@ -40,15 +40,15 @@ inline Dual min(Dual a, Dual b) { return a.x < b.x ? a : b; }
 
 /// L(w) = 2 acos(w) / √(1 − w²) has the derivative (w L − 2) / (1 − w²), a series near w = 1.
 inline Dual log_scale(Dual w) {
-  const double L = log_scale(w.x), s = 1.0 - w.x * w.x;
+  const double L = physics::log_scale(w.x), s = 1.0 - w.x * w.x;
   const double slope =
       s < 1e-4 ? -2.0 * w.x * (1.0 / 3.0 + s * (0.3 + s * 15.0 / 56.0)) : (w.x * L - 2.0) / s;
   return {L, slope * w.d};
 }
 
 /// exp(r) = (c, s r) with c = cos(θ/2), s = sin(θ/2)/θ; by x = θ²: dc/dx = −s/4, ds/dx = (c/2 − s)/2x.
-inline Quat<Dual> exp_map(const Vec3<Dual>& r) {
-  const Dual square = dot(r, r);
+inline physics::Quat<Dual> exp_map(const physics::Vec3<Dual>& r) {
+  const Dual square = physics::dot(r, r);
   const double x = square.x, angle = std::sqrt(x);
   const double c = std::cos(0.5 * angle), s = x < 1e-6 ? 0.5 - x / 48.0 : std::sin(0.5 * angle) / angle;
   const Dual scale(
@@ -56,14 +56,14 @@ inline Quat<Dual> exp_map(const Vec3<Dual>& r) {
   return {Dual(c, -0.25 * s * square.d), scale * r.x, scale * r.y, scale * r.z};
 }
 
+}  // namespace mimicx::test
+
 template <>
-struct ScalarTraits<Dual> {
+struct mimicx::physics::ScalarTraits<mimicx::test::Dual> {
   using Real = double;
   using Mask = bool;
   static constexpr int kSize = 1;
-  static double get(Dual a, int) { return a.x; }
-  static void set(Dual& a, int, double x) { a = x; }
+  static double get(test::Dual a, int) { return a.x; }
+  static void set(test::Dual& a, int, double x) { a = x; }
   static bool lane(bool mask, int) { return mask; }
 };
-
-}  // namespace mimicx

@@ -5,16 +5,16 @@
 
 #include "oracles/mujoco_inverse.h"
 
-namespace mimicx {
+namespace mimicx::test {
 namespace {
 
-BodyWrenches external_of(const rl::ActingForces& forces) {
-  BodyWrenches sum;
+physics::BodyWrenches external_of(const rl::tracking::ActingForces& forces) {
+  physics::BodyWrenches sum;
   for (int i = 0; i < kBodies; ++i) sum[i] = forces.ground[i] + forces.self_contact[i];
   return sum;
 }
 
-double torque_gap(const RequiredForces& required, const rl::ActingForces& forces) {
+double torque_gap(const physics::RequiredForces& required, const rl::tracking::ActingForces& forces) {
   double largest = 0.0;
   for (int i = 1; i < kBodies; ++i) {
     Vector3d gap = required.joint[i] - forces.joint_torque[i];
@@ -31,14 +31,14 @@ Vector6d about(const Vector3d& to, Vector6d wrench, const Vector3d& from) {
   return wrench;
 }
 
-MotionState still(const ReferenceFrame& frame) {
-  MotionState s{frame.p_root, frame.v_root, Vector3d::Zero(), frame.q, frame.omega, {}};
+physics::MotionState still(const motion::ReferenceFrame& frame) {
+  physics::MotionState s{frame.p_root, frame.v_root, Vector3d::Zero(), frame.q, frame.omega, {}};
   for (auto& q : s.q) q.normalize();
   s.omega_d.fill(Vector3d::Zero());
   return s;
 }
 
-void put_hinges_on_their_axes(ReferenceFrame& frame) {
+void put_hinges_on_their_axes(motion::ReferenceFrame& frame) {
   for (int body = 1; body < kBodies; ++body) {
     if (!is_hinge(body)) continue;
     const Vector3d axis = hinge_axis(body);
@@ -47,16 +47,18 @@ void put_hinges_on_their_axes(ReferenceFrame& frame) {
   }
 }
 
-std::vector<AuditRow> step_rows(const SubstepMotion& motion, const std::vector<rl::Substep>& steps,
-                                const std::vector<ReferenceFrame>& next) {
+std::vector<pipeline::audit::AuditRow> step_rows(const pipeline::audit::SubstepMotion& motion,
+                                                 const std::vector<rl::tracking::Substep>& steps,
+                                                 const std::vector<motion::ReferenceFrame>& next) {
   MujocoCharacter mujoco(motion.character, motion.simulation);
   const double rate = motion.simulation.rate;
-  std::vector<AuditRow> rows(steps.size());
+  std::vector<pipeline::audit::AuditRow> rows(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    MotionState state = still(steps[k].state);
+    physics::MotionState state = still(steps[k].state);
     state.a_root = rate * (next[k].v_root - state.v_root);
     for (int i = 0; i < kBodies; ++i) state.omega_d[i] = rate * (next[k].omega[i] - state.omega[i]);
-    const RequiredForces required = mujoco_inverse_dynamics(mujoco, state, external_of(steps[k].forces));
+    const physics::RequiredForces required =
+        mujoco_inverse_dynamics(mujoco, state, external_of(steps[k].forces));
     rows[k].index = static_cast<int>(k);
     rows[k].root = about(mujoco_momentum(mujoco, state).center, required.root, state.p_root);
     rows[k].torque_gap = torque_gap(required, steps[k].forces);
@@ -66,39 +68,41 @@ std::vector<AuditRow> step_rows(const SubstepMotion& motion, const std::vector<r
 
 }  // namespace
 
-SubstepMotion on_hinge_axes(SubstepMotion motion) {
-  for (rl::Substep& step : motion.steps) put_hinges_on_their_axes(step.state);
+pipeline::audit::SubstepMotion on_hinge_axes(pipeline::audit::SubstepMotion motion) {
+  for (rl::tracking::Substep& step : motion.steps) put_hinges_on_their_axes(step.state);
   put_hinges_on_their_axes(motion.last);
   return motion;
 }
 
-SimulatedFrames on_hinge_axes(SimulatedFrames motion) {
-  for (ReferenceFrame& frame : motion.frames) put_hinges_on_their_axes(frame);
+pipeline::audit::SimulatedFrames on_hinge_axes(pipeline::audit::SimulatedFrames motion) {
+  for (motion::ReferenceFrame& frame : motion.frames) put_hinges_on_their_axes(frame);
   return motion;
 }
 
-std::vector<AuditRow> mujoco_audit_steps(const SubstepMotion& motion) {
-  std::vector<ReferenceFrame> next;
+std::vector<pipeline::audit::AuditRow> mujoco_audit_steps(const pipeline::audit::SubstepMotion& motion) {
+  std::vector<motion::ReferenceFrame> next;
   for (std::size_t k = 1; k < motion.steps.size(); ++k) next.push_back(motion.steps[k].state);
   next.push_back(motion.last);
   return step_rows(motion, motion.steps, next);
 }
 
-std::vector<AuditRow> mujoco_audit_replayed_steps(const SubstepMotion& motion) {
-  const Replay replay = replay_in_double(motion);
+std::vector<pipeline::audit::AuditRow> mujoco_audit_replayed_steps(
+    const pipeline::audit::SubstepMotion& motion) {
+  const pipeline::audit::Replay replay = pipeline::audit::replay_in_double(motion);
   return step_rows(motion, replay.steps, replay.next);
 }
 
-std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation) {
+std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit::SimulatedFrames& motion,
+                                                           const physics::SimulationConfig& simulation) {
   MujocoCharacter mujoco(motion.character, simulation);
   const double weight = simulation.gravity * motion.character.total_mass();
-  std::vector<AuditRow> rows;
+  std::vector<pipeline::audit::AuditRow> rows;
   for (std::size_t t = 1; t < motion.frames.size(); ++t) {
-    const MotionState a = still(motion.frames[t - 1]), b = still(motion.frames[t]);
+    const physics::MotionState a = still(motion.frames[t - 1]), b = still(motion.frames[t]);
     const MujocoMomentum before = mujoco_momentum(mujoco, a), after = mujoco_momentum(mujoco, b);
     const Vector3d point = 0.5 * (before.center + after.center);
-    const BodyWrenches external = external_of(motion.forces[t]);
-    AuditRow row;
+    const physics::BodyWrenches external = external_of(motion.forces[t]);
+    pipeline::audit::AuditRow row;
     row.index = static_cast<int>(t);
     row.root = motion.fps * (about(point, after.about_center, after.center) -
                              about(point, before.about_center, before.center));
@@ -108,7 +112,7 @@ std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const S
     for (int i = 0; i < kBodies; ++i)
       row.root -= about(point, external[i], 0.5 * (from.p_WB[i] + to.p_WB[i]));
 
-    MotionState middle = a;
+    physics::MotionState middle = a;
     middle.p_root = 0.5 * (a.p_root + b.p_root);
     middle.v_root = 0.5 * (a.v_root + b.v_root);
     middle.a_root = motion.fps * (b.v_root - a.v_root);
@@ -123,11 +127,12 @@ std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const S
   return rows;
 }
 
-double largest_difference(const Audit& audit, const std::vector<AuditRow>& rows) {
+double largest_difference(const pipeline::audit::Audit& audit,
+                          const std::vector<pipeline::audit::AuditRow>& rows) {
   if (rows.size() != audit.rows.size()) throw std::invalid_argument("audits of different lengths");
   double largest = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const AuditRow& ours = audit.rows[k];
+    const pipeline::audit::AuditRow& ours = audit.rows[k];
     const double scale = std::max(audit.weight, ours.normal);
     for (const double difference : {(ours.root - rows[k].root).norm() / scale,
                                     std::abs(ours.torque_gap - rows[k].torque_gap) / scale}) {
@@ -138,4 +143,4 @@ double largest_difference(const Audit& audit, const std::vector<AuditRow>& rows)
   return largest;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::test

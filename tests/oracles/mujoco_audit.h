@@ -6,21 +6,24 @@
 
 #include "pipeline/audit/audit.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
 /// The same motion with its hinges exactly on their axes. In float32 they turn off them by some 1e-6 rad,
 /// which MuJoCo's cannot follow: 1e-6 of the forces would be the difference between the engines.
-SubstepMotion on_hinge_axes(SubstepMotion motion);
-SimulatedFrames on_hinge_axes(SimulatedFrames motion);
+pipeline::audit::SubstepMotion on_hinge_axes(pipeline::audit::SubstepMotion motion);
+pipeline::audit::SimulatedFrames on_hinge_axes(pipeline::audit::SimulatedFrames motion);
 
 /// As recorded, and replayed in double.
-std::vector<AuditRow> mujoco_audit_steps(const SubstepMotion& motion);
-std::vector<AuditRow> mujoco_audit_replayed_steps(const SubstepMotion& motion);
+std::vector<pipeline::audit::AuditRow> mujoco_audit_steps(const pipeline::audit::SubstepMotion& motion);
+std::vector<pipeline::audit::AuditRow> mujoco_audit_replayed_steps(
+    const pipeline::audit::SubstepMotion& motion);
 /// Momentum at the frames against the mean forces between them, (10).
-std::vector<AuditRow> mujoco_audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation);
+std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit::SimulatedFrames& motion,
+                                                           const physics::SimulationConfig& simulation);
 
 /// The largest difference between the two engines in a row's numbers, in N and N·m, in parts of the larger of
 /// the weight and the floor's push.
-double largest_difference(const Audit& audit, const std::vector<AuditRow>& rows);
+double largest_difference(const pipeline::audit::Audit& audit,
+                          const std::vector<pipeline::audit::AuditRow>& rows);
 
-}  // namespace mimicx
+}  // namespace mimicx::test

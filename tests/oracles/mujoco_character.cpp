@@ -5,11 +5,11 @@
 
 #include "physics/mjcf.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
-MujocoCharacter::MujocoCharacter(const Character& character, const SimulationConfig& config,
-                                 const MjcfConfig& what) {
-  const std::string text = to_mjcf(character, config, what);
+MujocoCharacter::MujocoCharacter(const Character& character, const physics::SimulationConfig& config,
+                                 const physics::MjcfConfig& what) {
+  const std::string text = physics::to_mjcf(character, config, what);
   const auto files = std::make_unique<mjVFS>();  // an in-memory file system: megabytes, not for the stack
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), "character.xml", static_cast<int>(text.size()));
@@ -57,4 +57,4 @@ void MujocoCharacter::set_target(int body, const Quaterniond& q) {
   write_rotation(body, q, model_->qpos_spring + qpos(body));
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::test

@@ -10,12 +10,13 @@
 
 #include "physics/mjcf.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
 class MujocoCharacter {
  public:
   /// @throws std::runtime_error with the compiler's message if MuJoCo refuses the model or warns.
-  MujocoCharacter(const Character& character, const SimulationConfig& config, const MjcfConfig& what = {});
+  MujocoCharacter(const Character& character, const physics::SimulationConfig& config,
+                  const physics::MjcfConfig& what = {});
 
   mjModel& model() { return *model_; }
   const mjModel& model() const { return *model_; }
@@ -38,4 +39,4 @@ class MujocoCharacter {
   PerBody<int> qpos_{}, dof_{};
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::test

@@ -1,13 +1,13 @@
 #include "oracles/mujoco_inverse.h"
 
-namespace mimicx {
+namespace mimicx::test {
 namespace {
 
 int body_id(const MujocoCharacter& mujoco, int body) {
   return mj_name2id(&mujoco.model(), mjOBJ_BODY, std::string(kBodyNames[body]).c_str());
 }
 
-void set_state(MujocoCharacter& mujoco, const MotionState& state) {
+void set_state(MujocoCharacter& mujoco, const physics::MotionState& state) {
   mujoco.model().opt.disableflags |= mjDSBL_CONTACT;
   mujoco.set_root(state.p_root, state.q[0], state.v_root, state.omega[0]);
   for (int i = 1; i < kBodies; ++i) mujoco.set_joint(i, state.q[i], state.omega[i]);
@@ -15,8 +15,8 @@ void set_state(MujocoCharacter& mujoco, const MotionState& state) {
 
 }  // namespace
 
-RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const MotionState& state,
-                                       const BodyWrenches& wrenches) {
+physics::RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const physics::MotionState& state,
+                                                const physics::BodyWrenches& wrenches) {
   mjModel& m = mujoco.model();
   mjData& d = mujoco.data();
   set_state(mujoco, state);
@@ -38,7 +38,7 @@ RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const MotionStat
     mj_applyFT(&m, &d, force.data(), moment.data(), d.xpos + 3 * id, id, generalised.data());
     forces -= generalised;
   }
-  RequiredForces required;
+  physics::RequiredForces required;
   const Vector3d moment_B = forces.segment<3>(3);
   required.root.head<3>() = state.q[0] * moment_B;
   required.root.tail<3>() = forces.segment<3>(0);
@@ -51,7 +51,7 @@ RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const MotionStat
   return required;
 }
 
-MujocoMomentum mujoco_momentum(MujocoCharacter& mujoco, const MotionState& state) {
+MujocoMomentum mujoco_momentum(MujocoCharacter& mujoco, const physics::MotionState& state) {
   const mjModel& m = mujoco.model();
   mjData& d = mujoco.data();
   set_state(mujoco, state);
@@ -67,4 +67,4 @@ MujocoMomentum mujoco_momentum(MujocoCharacter& mujoco, const MotionState& state
   return momentum;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::test

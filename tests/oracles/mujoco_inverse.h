@@ -7,12 +7,12 @@
 #include "oracles/mujoco_character.h"
 #include "physics/inverse_dynamics.h"
 
-namespace mimicx {
+namespace mimicx::test {
 
 /// What mj_inverse says the joints and the root must supply for the motion under these wrenches. Contacts of
 /// MuJoCo's own are switched off: what the floor does stands in the wrenches.
-RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const MotionState& state,
-                                       const BodyWrenches& wrenches);
+physics::RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const physics::MotionState& state,
+                                                const physics::BodyWrenches& wrenches);
 
 /// Of the whole: centre of mass, m, and momentum (angular about it; linear) in the world.
 struct MujocoMomentum {
@@ -20,6 +20,6 @@ struct MujocoMomentum {
   Vector6d about_center;
 };
 /// Of the state's position and velocity.
-MujocoMomentum mujoco_momentum(MujocoCharacter& mujoco, const MotionState& state);
+MujocoMomentum mujoco_momentum(MujocoCharacter& mujoco, const physics::MotionState& state);
 
-}  // namespace mimicx
+}  // namespace mimicx::test

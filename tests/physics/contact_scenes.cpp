@@ -2,7 +2,7 @@
 
 #include <memory>
 
-namespace mimicx {
+namespace mimicx::physics {
 
 Snapshot snapshot_of(Scene scene, const Character& c, std::uint64_t lane) {
   Random r(71, {lane});
@@ -80,4 +80,4 @@ SceneReport run_scene(Scene scene, double rate, int passes, const SceneStep& adv
   return report;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -9,7 +9,7 @@
 
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 enum class Scene { kStand, kFall, kDrop, kThrow };  ///< at rest; pushed over; from 1 m; 3 m/s and 3 rad/s
 inline constexpr const char* kSceneNames[] = {"stand", "fall", "drop", "throw"};
@@ -34,4 +34,4 @@ SceneReport run_scene(
     Scene scene, double rate, int passes,
     const SceneStep& advance = [](ScenePack& s) { return any(s.advance()); });
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -9,7 +9,7 @@
 #include "physics/contact.h"
 #include "physics/contact_scenes.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 constexpr double kBlockMass = 60.0;
@@ -219,4 +219,4 @@ TEST(SelfContact, ClosestPointsMatchBruteForce) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

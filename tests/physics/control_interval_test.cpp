@@ -10,7 +10,7 @@
 #include "physics/pd_target.h"
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 using P = Pack<kLanes>;
@@ -134,4 +134,4 @@ TEST(PdTarget, ActionsAreClampedAndWhatIsNoNumberIsZero) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

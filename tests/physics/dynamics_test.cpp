@@ -3,7 +3,7 @@
 
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 constexpr int kTrials = 60;
@@ -38,10 +38,10 @@ struct Trial {
 TEST(Aba, AccelerationsSatisfyRneaOnRandomShapesAndStates) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const BookModel book = make_book_model(t.character, t.config.gravity);
+    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
     const Eigen::VectorXd tau =
-        book_inverse_dynamics(book, book_position(t.snapshot), book_velocity(t.snapshot),
-                              book_acceleration(t.snapshot, t.data), no_forces());
+        test::book_inverse_dynamics(book, book_position(t.snapshot), book_velocity(t.snapshot),
+                                    book_acceleration(t.snapshot, t.data), test::no_forces());
     EXPECT_LT(relative_difference(tau, book_torque(t.tau)), 1e-9) << "trial " << n;
   }
 }
@@ -49,9 +49,9 @@ TEST(Aba, AccelerationsSatisfyRneaOnRandomShapesAndStates) {
 TEST(Aba, AgreesWithCompositeInertiasAndCholesky) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const BookModel book = make_book_model(t.character, t.config.gravity);
-    const Eigen::VectorXd qdd = book_forward_dynamics_dense(
-        book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), no_forces());
+    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
+    const Eigen::VectorXd qdd = test::book_forward_dynamics_dense(
+        book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), test::no_forces());
     EXPECT_LT(relative_difference(book_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
   }
 }
@@ -59,9 +59,9 @@ TEST(Aba, AgreesWithCompositeInertiasAndCholesky) {
 TEST(Aba, AgreesWithTheLiteralDenseAlgorithm) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const BookModel book = make_book_model(t.character, t.config.gravity);
-    const Eigen::VectorXd qdd = book_forward_dynamics_aba(
-        book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), no_forces());
+    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
+    const Eigen::VectorXd qdd = test::book_forward_dynamics_aba(
+        book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), test::no_forces());
     EXPECT_LT(relative_difference(book_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
   }
 }
@@ -72,10 +72,10 @@ TEST(BookOracle, KineticEnergyIsThatOfTheBodiesMovedByDifferences) {
   Random random(8);
   const Character character = make_character(random_betas(random));
   const Snapshot s = random_snapshot(random, 2.5, 3.0, 1.0);
-  BookModel book = make_book_model(character, kGravity);
-  for (BookBody& body : book.body) body.armature = 0.0;
+  test::BookModel book = test::make_book_model(character, kGravity);
+  for (test::BookBody& body : book.body) body.armature = 0.0;
   const Eigen::VectorXd qd = book_velocity(s);
-  const double energy = 0.5 * qd.dot(book_mass_matrix(book, book_position(s)) * qd);
+  const double energy = 0.5 * qd.dot(test::book_mass_matrix(book, book_position(s)) * qd);
 
   const double h = 1e-5;
   const auto moved = [&](double t) {
@@ -173,4 +173,4 @@ TEST(Aba, ReproducesTheTwoBodyExampleWorkedByHand) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

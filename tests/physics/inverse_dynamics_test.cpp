@@ -7,7 +7,7 @@
 
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 /// In the coordinates of the oracle.
@@ -37,8 +37,8 @@ TEST(InverseDynamics, EqualsTheDenseOracleOnRandomShapesStatesAndWrenches) {
     const Quaterniond to_pelvis = s.q[0].conjugate();
     const Eigen::VectorXd qdd =
         book_vector(m.omega_d[0], to_pelvis * m.a_root - s.omega[0].cross(to_pelvis * s.v_root), m.omega_d);
-    const Eigen::VectorXd expected = book_inverse_dynamics(make_book_model(c, kGravity), book_position(s),
-                                                           book_velocity(s), qdd, wrenches);
+    const Eigen::VectorXd expected = test::book_inverse_dynamics(
+        test::make_book_model(c, kGravity), book_position(s), book_velocity(s), qdd, wrenches);
     const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, kGravity, m, wrenches));
     EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
   }
@@ -112,8 +112,8 @@ Vector3d moved_point(const Character& c, const Snapshot& s, const ContactPoint& 
 /// Jacobian of a contact point, 3 × 61, by differences.
 Eigen::Matrix3Xd point_jacobian(const Character& c, const Snapshot& s, const ContactPoint& point) {
   constexpr double h = 1e-6;
-  Eigen::Matrix3Xd J(3, kBookDofs);
-  for (int dof = 0; dof < kBookDofs; ++dof)
+  Eigen::Matrix3Xd J(3, test::kBookDofs);
+  for (int dof = 0; dof < test::kBookDofs; ++dof)
     J.col(dof) = (moved_point(c, s, point, dof, h) - moved_point(c, s, point, dof, -h)) / (2.0 * h);
   return J;
 }
@@ -169,4 +169,4 @@ TEST(InverseDynamics, OfRestIsTheWeightAtTheCentreOfMass) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

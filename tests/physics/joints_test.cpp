@@ -9,7 +9,7 @@
 #include "physics/joints.h"
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 constexpr int kKnee = kLeftKnee;
@@ -298,4 +298,4 @@ TEST(JointRange, HoldsForEveryShapeAtEveryRate) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -8,7 +8,7 @@
 #include "physics/step_in_parts.h"
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 /// Lanes in violent motion: falling from where they touch, spinning, PD targets far away.
@@ -188,4 +188,4 @@ TEST(Aba, PackAccelerationsAgreeWithDoubleOnRandomStates) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

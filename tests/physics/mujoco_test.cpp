@@ -4,12 +4,12 @@
 #include "oracles/mujoco_inverse.h"
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 /// The oracle's velocity coordinates as a linear function of MuJoCo's: qd_book = P qd_mujoco.
-Eigen::MatrixXd coordinates(const MujocoCharacter& mujoco, const Snapshot& s) {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(kBookDofs, kBookDofs);
+Eigen::MatrixXd coordinates(const test::MujocoCharacter& mujoco, const Snapshot& s) {
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(test::kBookDofs, test::kBookDofs);
   P.block<3, 3>(0, 3).setIdentity();
   P.block<3, 3>(3, 0) = s.q[0].toRotationMatrix().transpose();
   int dof = 6;
@@ -22,13 +22,13 @@ struct MujocoTrial {
   Character character;
   SimulationConfig config;
   Snapshot snapshot;
-  std::unique_ptr<MujocoCharacter> mujoco;
+  std::unique_ptr<test::MujocoCharacter> mujoco;
 
   explicit MujocoTrial(std::uint64_t number) {
     Random random(51, {number});
     character = make_character(random_betas(random));
     snapshot = random_snapshot(random, 2.5, 5.0, 50.0);
-    mujoco = std::make_unique<MujocoCharacter>(character, config);
+    mujoco = std::make_unique<test::MujocoCharacter>(character, config);
     mujoco->set_root(snapshot.p_root, snapshot.q[0], snapshot.v_root, snapshot.omega[0]);
     for (int i = 1; i < kBodies; ++i) mujoco->set_joint(i, snapshot.q[i], snapshot.omega[i]);
   }
@@ -44,19 +44,20 @@ TEST(Mujoco, MassMatrixAndBiasForcesAgreeWithTheOracle) {
     mjModel& m = t.mujoco->model();
     mjData& d = t.mujoco->data();
     mj_forward(&m, &d);
-    Eigen::Matrix<double, -1, -1, Eigen::RowMajor> M(kBookDofs, kBookDofs);
+    Eigen::Matrix<double, -1, -1, Eigen::RowMajor> M(test::kBookDofs, test::kBookDofs);
     mj_fullM(&m, M.data(), d.qM);
     const Eigen::MatrixXd P = coordinates(*t.mujoco, t.snapshot);
-    const BookModel book = make_book_model(t.character, t.config.gravity);
-    const BookPosition q = book_position(t.snapshot);
-    EXPECT_LT(relative_difference(P.transpose() * book_mass_matrix(book, q) * P, M), 1e-8);
+    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
+    const test::BookPosition q = book_position(t.snapshot);
+    EXPECT_LT(relative_difference(P.transpose() * test::book_mass_matrix(book, q) * P, M), 1e-8);
 
     // At zero acceleration in MuJoCo's coordinates the pelvis' spatial acceleration is −ω × v.
     const Eigen::VectorXd qd = book_velocity(t.snapshot);
-    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(kBookDofs);
+    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(test::kBookDofs);
     qdd.segment<3>(3) = -qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
-    const Eigen::VectorXd bias = P.transpose() * book_inverse_dynamics(book, q, qd, qdd, no_forces());
-    EXPECT_LT(relative_difference(bias, Eigen::Map<Eigen::VectorXd>(d.qfrc_bias, kBookDofs)), 1e-8);
+    const Eigen::VectorXd bias =
+        P.transpose() * test::book_inverse_dynamics(book, q, qd, qdd, test::no_forces());
+    EXPECT_LT(relative_difference(bias, Eigen::Map<Eigen::VectorXd>(d.qfrc_bias, test::kBookDofs)), 1e-8);
   }
 }
 
@@ -72,7 +73,7 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     }
     const Eigen::MatrixXd P = coordinates(*t.mujoco, t.snapshot);
     mjData& d = t.mujoco->data();
-    Eigen::Map<Eigen::VectorXd>(d.qfrc_applied, kBookDofs) = P.transpose() * book_torque(tau);
+    Eigen::Map<Eigen::VectorXd>(d.qfrc_applied, test::kBookDofs) = P.transpose() * book_torque(tau);
     mj_forward(&t.mujoco->model(), &d);
 
     Simulation<double> s(t.character, t.config, t.snapshot);
@@ -80,7 +81,7 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     Eigen::VectorXd ours = book_acceleration(t.snapshot, s.data);
     const Eigen::VectorXd qd = book_velocity(t.snapshot);
     ours.segment<3>(3) += qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
-    const Eigen::VectorXd theirs = P * Eigen::Map<Eigen::VectorXd>(d.qacc, kBookDofs);
+    const Eigen::VectorXd theirs = P * Eigen::Map<Eigen::VectorXd>(d.qacc, test::kBookDofs);
     EXPECT_LT(relative_difference(ours, theirs), 1e-8) << "trial " << n;
   }
 }
@@ -94,10 +95,10 @@ TEST(Mjcf, OpensWithoutWarningsForEveryShape) {
     std::array<double, kBetas> betas = random_betas(random);
     if (n < 20)
       for (double& b : betas) b = b < 0.0 ? -3.0 : 3.0;
-    MujocoCharacter mujoco(make_character(betas), {});  // throws where MuJoCo has anything to say
+    test::MujocoCharacter mujoco(make_character(betas), {});  // throws where MuJoCo has anything to say
     mj_forward(&mujoco.model(), &mujoco.data());
     EXPECT_EQ(mujoco.model().nq, 7 + 17 * 4 + 4);
-    EXPECT_EQ(mujoco.model().nv, kBookDofs);
+    EXPECT_EQ(mujoco.model().nv, test::kBookDofs);
     for (int k = 0; k < 20; ++k) mj_step(&mujoco.model(), &mujoco.data());
     for (int kind = 0; kind < mjNWARNING; ++kind) EXPECT_EQ(mujoco.data().warning[kind].number, 0);
   }
@@ -108,7 +109,7 @@ TEST(Mjcf, OpensWithoutWarningsForEveryShape) {
 TEST(Mjcf, TheFileSaysWhereEveryJointStandsInMujocosCoordinates) {
   const Character character = make_character();
   const std::string text = to_mjcf(character, {});
-  MujocoCharacter mujoco(character, {});
+  test::MujocoCharacter mujoco(character, {});
   for (int body = 0; body < kBodies; ++body) {
     const std::string line = std::string(kBodyNames[body]) + ": " + std::to_string(mujoco.qpos(body)) +
                              (body == 0        ? " (7), "
@@ -150,7 +151,7 @@ TEST(Mujoco, InverseDynamicsAgreesWithTheAudits) {
     const MotionState state = random_motion(t.snapshot, random);
     const BodyWrenches wrenches = random_wrenches(random);
     const RequiredForces required = inverse_dynamics(t.character, t.config.gravity, state, wrenches);
-    const RequiredForces theirs = mujoco_inverse_dynamics(*t.mujoco, state, wrenches);
+    const RequiredForces theirs = test::mujoco_inverse_dynamics(*t.mujoco, state, wrenches);
     EXPECT_LT(relative_difference(all_of(required), all_of(theirs)), 1e-8) << "trial " << n;
   }
 }
@@ -161,10 +162,10 @@ TEST(Mujoco, MomentumAgreesWithTheSumOverTheBodies) {
     Random random(56, {n});
     const MotionState state = random_motion(t.snapshot, random);
     // The first six rows of H q̇ are the momentum of the whole about the pelvis, in its axes.
-    const BookModel book = make_book_model(t.character, t.config.gravity);
-    const Eigen::MatrixXd H = book_mass_matrix(book, book_position(t.snapshot));
+    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
+    const Eigen::MatrixXd H = test::book_mass_matrix(book, book_position(t.snapshot));
     const Eigen::VectorXd h = H * book_velocity(t.snapshot);
-    const MujocoMomentum theirs = mujoco_momentum(*t.mujoco, state);
+    const test::MujocoMomentum theirs = test::mujoco_momentum(*t.mujoco, state);
     const Vector3d linear_B = h.segment<3>(3), angular_B = h.segment<3>(0);
     const Vector3d linear = t.snapshot.q[0] * linear_B;
     const Vector3d angular = t.snapshot.q[0] * angular_B + (t.snapshot.p_root - theirs.center).cross(linear);
@@ -180,7 +181,7 @@ TEST(Mujoco, FindsEveryStepOfAViolentRollOutExplained) {
     Random random(55, {n});
     const Character character = make_character(random_betas(random));
     Simulation<double> s(character, {}, random_snapshot(random, 1.2, 3.0, 0.9));
-    MujocoCharacter mujoco(character, {});
+    test::MujocoCharacter mujoco(character, {});
     double hardest = 0.0;
     for (int k = 0; k < 240; ++k) {
       Snapshot before, after;
@@ -202,7 +203,7 @@ TEST(Mujoco, FindsEveryStepOfAViolentRollOutExplained) {
       }
       hardest = std::max(hardest, scale);
       const Eigen::VectorXd unexplained =
-          all_of(mujoco_inverse_dynamics(mujoco, state, wrenches)) - all_of(acted);
+          all_of(test::mujoco_inverse_dynamics(mujoco, state, wrenches)) - all_of(acted);
       ASSERT_LT(unexplained.cwiseAbs().maxCoeff(), 1e-8 * scale) << "trial " << n << " step " << k;
     }
     EXPECT_GT(hardest, 1000.0) << "no impact";
@@ -210,4 +211,4 @@ TEST(Mujoco, FindsEveryStepOfAViolentRollOutExplained) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
@@ -149,4 +149,4 @@ RestReport rest(RestPose pose, double rate, int passes) {
   return report;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -7,7 +7,7 @@
 
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 enum class RestPose { kBothSoles, kOneSole, kToeBalls, kKneeling, kAllFours, kSupine, kProne };
 inline constexpr std::array kRestPoses = {RestPose::kBothSoles, RestPose::kOneSole,  RestPose::kToeBalls,
@@ -32,4 +32,4 @@ struct RestReport {
 };
 RestReport rest(RestPose pose, double rate, int passes);
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

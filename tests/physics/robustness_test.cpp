@@ -10,7 +10,7 @@
 #include "physics/integration.h"
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 using P = Pack<kLanes>;
@@ -168,4 +168,4 @@ TEST(Robustness, AJointThatTurnsByHalfACircleWithinAStepHasRunAway) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

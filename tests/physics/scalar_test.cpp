@@ -6,7 +6,7 @@
 
 #include "physics/test_states.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 template <class P>
@@ -132,4 +132,4 @@ TEST(Spatial, RenormalisationRemovesDriftToSecondOrder) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

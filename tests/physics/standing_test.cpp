@@ -5,7 +5,7 @@
 
 #include "physics/rest_poses.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 std::vector<Vector3d> contact_positions(const Character& c, const Simulation<double>& s) {
@@ -154,4 +154,4 @@ TEST(Rest, OnTheToeBallsTheHeelsCarryNothing) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -6,7 +6,7 @@
 #include "physics/aba.h"
 #include "physics/integration.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// What a step spends its time on.
 enum Stage {
@@ -98,4 +98,4 @@ void step_in_parts(const Model<RealOf<T>>& model, const Target<T>& target, State
   parts.finished(kIntegration);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -7,7 +7,7 @@
 #include "physics/contact_scenes.h"
 #include "physics/step_in_parts.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 namespace {
 
 /// Counts the solves of a step.
@@ -71,4 +71,4 @@ TEST(StepInParts, GivesTheFiguresOfAScene) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::physics

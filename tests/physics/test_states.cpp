@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace mimicx {
+namespace mimicx::physics {
 
 Vector3d random_vector(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -139,8 +139,8 @@ BodyWrenches random_wrenches(Random& random) {
   return wrenches;
 }
 
-BookPosition book_position(const Snapshot& s) {
-  BookPosition position;
+test::BookPosition book_position(const Snapshot& s) {
+  test::BookPosition position;
   position.p_root = s.p_root;
   for (int i = 0; i < kBodies; ++i) position.R[i] = s.q[i].toRotationMatrix();
   return position;
@@ -148,7 +148,7 @@ BookPosition book_position(const Snapshot& s) {
 
 Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
                             const PerBody<Vector3d>& joints) {
-  Eigen::VectorXd out(kBookDofs);
+  Eigen::VectorXd out(test::kBookDofs);
   out.segment<3>(0) = angular;
   out.segment<3>(3) = linear;
   int dof = 6;
@@ -184,4 +184,4 @@ Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau) {
   return book_vector(Vector3d::Zero(), Vector3d::Zero(), joints);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

@@ -10,7 +10,7 @@
 #include "physics/lanes.h"
 #include "physics/step.h"
 
-namespace mimicx {
+namespace mimicx::physics {
 
 /// One character's state and PD target in doubles; conventions of physics/data.h.
 struct Snapshot {
@@ -42,7 +42,7 @@ BodyWrenches random_wrenches(Random& random);
 /// Height of the lowest contact point (its sphere's lowest point), m.
 double lowest_point(const Character& character, const Snapshot& s);
 
-BookPosition book_position(const Snapshot& s);
+test::BookPosition book_position(const Snapshot& s);
 /// The oracle's coordinates of six numbers of the root and one vector per joint (entry 0 unused), child's
 /// frame.
 Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear, const PerBody<Vector3d>& joints);
@@ -96,4 +96,4 @@ struct Simulation {
   }
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::physics

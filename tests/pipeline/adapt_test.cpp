@@ -9,7 +9,7 @@
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 using Adapt = PretrainedOptions;
@@ -17,12 +17,12 @@ using Adapt = PretrainedOptions;
 TEST_F(Adapt, RecordsArrangementEndingAndWhatTheOptionsDidBefore) {
   run(pretraining("options"));
   run(adapting("run", "options"));
-  const Manifest manifest = read_manifest(out("run") / "manifest.json");
-  EXPECT_EQ(manifest.options, read_options(out("options"))->checksum);
-  const SequenceEntry& entry = manifest.sequences.at(0);
+  const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
+  EXPECT_EQ(manifest.options, options::read_options(out("options"))->checksum);
+  const record::SequenceEntry& entry = manifest.sequences.at(0);
   ASSERT_FALSE(entry.arrangement.empty());
   EXPECT_EQ(entry.arrangement.front()[0], 0);
-  EXPECT_EQ(entry.ending, Ending::kBudget);
+  EXPECT_EQ(entry.ending, record::Ending::kBudget);
   EXPECT_FALSE(entry.metrics_before.empty());
   EXPECT_TRUE(entry.fit.empty()) << "no keypoints, no fit";
 }
@@ -32,7 +32,7 @@ TEST_F(Adapt, WithoutABudgetIsTheOptionsThemselves) {
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
   run(config);
-  const SequenceEntry entry = read_manifest(out("run") / "manifest.json").sequences.at(0);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(entry.samples, 0);
   EXPECT_EQ(entry.reward_before, entry.reward_after);
   EXPECT_EQ(entry.output, "motions/sway.npz");
@@ -44,7 +44,7 @@ TEST_F(Adapt, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   run(config);
   config.run.out = out("two");
   config.run.threads = 2;
-  EXPECT_EQ(run(config, 3), RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 3), record::RunOutcome::kInterrupted);
   run(config);
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
@@ -54,12 +54,14 @@ TEST_F(Adapt, EndingsAreToldApart) {
   AdaptConfig config = adapting("good", "options");
   config.training.stop_reward = 1e-9;  // whatever it does is good enough
   run(config);
-  EXPECT_EQ(read_manifest(out("good") / "manifest.json").sequences.at(0).ending, Ending::kThreshold);
+  EXPECT_EQ(record::read_manifest(out("good") / "manifest.json").sequences.at(0).ending,
+            record::Ending::kThreshold);
   config = adapting("stalled", "options");
   config.training.stall_evaluations = 1;
   config.training.ppo.step_size = config.training.ppo.step_max = config.training.ppo.step_min = 1e-30;
   run(config);
-  EXPECT_EQ(read_manifest(out("stalled") / "manifest.json").sequences.at(0).ending, Ending::kStall);
+  EXPECT_EQ(record::read_manifest(out("stalled") / "manifest.json").sequences.at(0).ending,
+            record::Ending::kStall);
 }
 
 TEST_F(Adapt, NothingChangesWhereTheTruthIsDeleted) {
@@ -82,10 +84,10 @@ TEST_F(Adapt, NothingChangesWhereTheTruthIsDeleted) {
 TEST_F(Adapt, NothingDependsOnKeypointsThatAreNotWanted) {
   const std::filesystem::path noisy =
       std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
-  Clip clip = read_clip(noisy);
+  motion::Clip clip = motion::read_clip(noisy);
   clip.keypoints.reset();
   std::filesystem::create_directories(out("blind"));
-  write_clip(out("blind") / "stand_1.npz", clip);
+  motion::write_clip(out("blind") / "stand_1.npz", clip);
   run(pretraining("options"));
   const auto log_of = [&](const std::string& folder, const std::filesystem::path& input, bool fit) {
     AdaptConfig config = adapting(folder, "options");
@@ -101,9 +103,10 @@ TEST_F(Adapt, NothingDependsOnKeypointsThatAreNotWanted) {
 
 TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
   run(pretraining("options"));
-  for (const ArrangementConfig& wrong :
-       {ArrangementConfig{0.1, 0.1}, ArrangementConfig{std::nan(""), 0.1}, ArrangementConfig{-1.0, -0.1},
-        ArrangementConfig{-1.0, 1.1}, ArrangementConfig{-1.0, std::nan("")}}) {
+  for (const options::ArrangementConfig& wrong :
+       {options::ArrangementConfig{0.1, 0.1}, options::ArrangementConfig{std::nan(""), 0.1},
+        options::ArrangementConfig{-1.0, -0.1}, options::ArrangementConfig{-1.0, 1.1},
+        options::ArrangementConfig{-1.0, std::nan("")}}) {
     AdaptConfig config = adapting("run", "options");
     config.arrangement = wrong;
     EXPECT_THROW(run(config), std::invalid_argument) << wrong.switch_penalty << ' ' << wrong.rescue_reward;
@@ -118,10 +121,10 @@ TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
   config.method = AdaptMethod::kPlan;
   config.run.inputs = {(motions / "sway.npz").string()};
   config.run.out = out("run");
-  EXPECT_EQ(run(config), RunOutcome::kAllGood);
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
   PlanMotionsConfig planning{config.run, {config.plan, config.training.tracking.simulation}};
   planning.run.out = out("plan");
-  run_in_context([&](const RunContext& context) { return plan_motions(planning, context); });
+  run_in_context([&](const record::RunContext& context) { return plan_motions(planning, context); });
   EXPECT_EQ(results_of(out("run")), results_of(out("plan")));
 }
 
@@ -129,10 +132,10 @@ TEST_F(Adapt, ByItselfTakesThePlanWhereItSucceedsAndTrainsNothing) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.method = AdaptMethod::kAuto;
-  EXPECT_EQ(run(config), RunOutcome::kAllGood);
-  const SequenceEntry entry = read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(entry.method, "plan");
-  EXPECT_EQ(entry.ending, Ending::kFollowed);
+  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
   EXPECT_EQ(entry.samples, 0);
   EXPECT_TRUE(entry.arrangement.empty());
   EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
@@ -158,15 +161,16 @@ TEST_F(Adapt, WhereThePlanFailsTrainsAndWritesTheBetterOfTheTwo) {
   config.method = AdaptMethod::kPlan;
   run(config);
   const auto entry_of = [&](const std::string& name) {
-    return read_manifest(out(name) / "manifest.json").sequences.at(0);
+    return record::read_manifest(out(name) / "manifest.json").sequences.at(0);
   };
-  const SequenceEntry chosen = entry_of("auto"), trained = entry_of("paper"), planned = entry_of("plan");
+  const record::SequenceEntry chosen = entry_of("auto"), trained = entry_of("paper"),
+                              planned = entry_of("plan");
   ASSERT_FALSE(planned.ok);
   EXPECT_EQ(chosen.samples, config.training.samples);
   const bool plan_is_nearer =
       !trained.ok && value_of(planned.metrics, "MPJPE") < value_of(trained.metrics, "MPJPE");
   EXPECT_EQ(chosen.method, plan_is_nearer ? "plan" : "paper");
-  const SequenceEntry& expected = plan_is_nearer ? planned : trained;
+  const record::SequenceEntry& expected = plan_is_nearer ? planned : trained;
   EXPECT_EQ(chosen.ok, expected.ok);
   EXPECT_EQ(chosen.metrics, expected.metrics);
   EXPECT_EQ(chosen.ending, expected.ending);
@@ -182,11 +186,11 @@ TEST_F(Adapt, ATrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
   run(config);
   config.run.out = out("halves");
   config.run.threads = 2;
-  EXPECT_EQ(run(config, 4), RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 4), record::RunOutcome::kInterrupted);
   EXPECT_TRUE(std::filesystem::exists(out("halves") / "checkpoints" / "walk.npz")) << "not in the training";
   run(config);
   EXPECT_EQ(results_of(out("whole")), results_of(out("halves")));
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 TEST(Choice, SuccessCountsMoreThanAnything) {
@@ -22,4 +22,4 @@ TEST(Choice, OfEqualOnesTheNearerIsBetterAndNoneIsBetterThanItself) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -11,7 +11,7 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct Call {
   int status;
@@ -38,14 +38,14 @@ struct Cli : testing::Test {
 };
 
 /// A standing motion as another program wrote it: SMPL-X, y up, at `fps`.
-inline Clip foreign_clip(double fps) {
-  Clip clip = standing_clip(40);
+inline motion::Clip foreign_clip(double fps) {
+  motion::Clip clip = standing_clip(40);
   clip.body_model = "smplx";
   clip.fps = fps;
-  rotate_world(rotation_to_z_up('y').conjugate(), clip);
+  motion::import::rotate_world(motion::import::rotation_to_z_up('y').conjugate(), clip);
   std::vector<double> hands(40 * 90, 0.25);
   clip.passthrough.emplace_back("pose_hand", NpyArray::from_double({40, 90}, hands.data()));
   return clip;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -9,13 +9,13 @@
 #include "physics/mjcf.h"
 #include "pipeline/cli.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 TEST_F(Cli, EvaluateSaysWhatItCouldNotScore) {
   for (const char* part : {"truth", "a", "b", "c", "d"}) std::filesystem::create_directories(path(part));
   for (const char* file : {"truth/x.npz", "a/x.npz", "b/x.npz", "a/y.npz", "d/y.npz"})
-    write_clip(path(file), standing_clip(20));
+    motion::write_clip(path(file), standing_clip(20));
   std::ofstream(path("c/x.npz")) << "no archive";
   const std::string truth = "evaluate --truth " + path("truth") + " --motions ";
   EXPECT_EQ(mimicx(truth + path("b")).status, 0);
@@ -32,7 +32,7 @@ TEST_F(Cli, EvaluateSaysWhatItCouldNotScore) {
 }
 
 TEST_F(Cli, InfoSaysWhatTheFileHolds) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   const Call call = mimicx("info " + path("a.npz"));
   EXPECT_EQ(call.status, 0);
   EXPECT_TRUE(says(call, "20 at 30 fps")) << call.text;
@@ -40,12 +40,12 @@ TEST_F(Cli, InfoSaysWhatTheFileHolds) {
 }
 
 TEST_F(Cli, InfoOfOneFrameSaysWhatItHoldsAndThatItIsTooShort) {
-  Clip clip = standing_clip(1);
+  motion::Clip clip = standing_clip(1);
   clip.keypoints.emplace();
   clip.keypoints->names = {"nose", "left_hip", "right_hip"};
   clip.keypoints->uvc.assign(1, std::vector<Vector3d>(3, Vector3d::Ones()));
   clip.keypoints->extrinsics = {Eigen::Matrix4d::Identity()};
-  write_clip(path("one.npz"), clip);
+  motion::write_clip(path("one.npz"), clip);
   const Call call = mimicx("info " + path("one.npz"));
   EXPECT_EQ(call.status, 1);
   EXPECT_TRUE(says(call, "3 per frame, 2 of them joints of the body, static camera")) << call.text;
@@ -54,16 +54,16 @@ TEST_F(Cli, InfoOfOneFrameSaysWhatItHoldsAndThatItIsTooShort) {
 }
 
 TEST_F(Cli, ConvertKeepsTheMotion) {
-  const Clip clip = standing_clip(20);
-  write_clip(path("a.npz"), clip);
+  const motion::Clip clip = standing_clip(20);
+  motion::write_clip(path("a.npz"), clip);
   EXPECT_EQ(mimicx("convert " + path("a.npz") + " " + path("new/b.npz")).status, 0);
-  const Clip back = read_clip(path("new/b.npz"));
+  const motion::Clip back = motion::read_clip(path("new/b.npz"));
   EXPECT_EQ(back.rotations, clip.rotations);
   EXPECT_EQ(back.trans, clip.trans);
 }
 
 TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndSaysWhatItDecided) {
-  write_clip(path("a.npz"), foreign_clip(60.0));
+  motion::write_clip(path("a.npz"), foreign_clip(60.0));
   const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");
   EXPECT_EQ(call.status, 0) << call.text;
   EXPECT_TRUE(says(call, "a.npz: up axis: y, turned to z")) << call.text;
@@ -73,9 +73,9 @@ TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndSaysWhatItDecided) {
 }
 
 TEST_F(Cli, AuditFailsLoudlyDoesTheRestAndWritesJson) {
-  Clip clip = standing_clip(20);
+  motion::Clip clip = standing_clip(20);
   for (Vector3d& p : clip.trans) p.z() += 0.2;  // hovers
-  write_clip(path("hover.npz"), clip);
+  motion::write_clip(path("hover.npz"), clip);
   std::ofstream(path("bad.npz")) << "PK nonsense";
   const Call call =
       mimicx("audit " + path("bad.npz") + " " + path("hover.npz") + " --json " + path("audit.json"));
@@ -91,48 +91,49 @@ TEST_F(Cli, AuditFailsLoudlyDoesTheRestAndWritesJson) {
 }
 
 TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
-  Clip clip = standing_clip(20);
+  motion::Clip clip = standing_clip(20);
   clip.betas[0] = 2.0;
   clip.betas[3] = -1.5;
-  write_clip(path("a.npz"), clip);
+  motion::write_clip(path("a.npz"), clip);
   EXPECT_EQ(mimicx("export-mjcf --betas 2,0,0,-1.5 " + path("b.xml")).status, 0);
   EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("m.xml")).status, 0);
   EXPECT_EQ(mimicx("export-mjcf " + path("new/standard.xml")).status, 0);
-  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(make_character(clip.betas), {}));
+  EXPECT_EQ(read_file(path("b.xml")), physics::to_mjcf(make_character(clip.betas), {}));
   EXPECT_EQ(read_file(path("m.xml")), read_file(path("b.xml")));
-  EXPECT_EQ(read_file(path("new/standard.xml")), to_mjcf(make_character(), {}));
+  EXPECT_EQ(read_file(path("new/standard.xml")), physics::to_mjcf(make_character(), {}));
 }
 
 TEST_F(Cli, ExportMjcfTakesTheBodyThatConvertWritesQposFor) {
   // A body of known joints, as a licensed model gives it, and one that is fitted to a skeleton.
-  Clip clip = standing_clip(20);
+  motion::Clip clip = standing_clip(20);
   clip.body_model = "smplx";
   clip.rest_joints.emplace();
   const Character standard = make_character();
   for (std::size_t b = 0; b < kBodies; ++b)
     (*clip.rest_joints)[b] =
-        b == 0 ? rest_pelvis("smplx")
+        b == 0 ? mimicx::rest_pelvis("smplx")
                : Vector3d((*clip.rest_joints)[kParents[b]] + 1.1 * standard.joint_offset[b]);
-  write_clip(path("a.npz"), clip);
+  motion::write_clip(path("a.npz"), clip);
   EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("a.xml")).status, 0);
-  EXPECT_EQ(read_file(path("a.xml")), to_mjcf(character_of(clip), {}));
-  EXPECT_NE(read_file(path("a.xml")), to_mjcf(standard, {}));
+  EXPECT_EQ(read_file(path("a.xml")), physics::to_mjcf(motion::character_of(clip), {}));
+  EXPECT_NE(read_file(path("a.xml")), physics::to_mjcf(standard, {}));
 
-  Clip shaped = standing_clip(20);
+  motion::Clip shaped = standing_clip(20);
   shaped.betas[0] = 1.5;
-  write_bvh(path("b.bvh"), shaped);
+  motion::import::write_bvh(path("b.bvh"), shaped);
   const std::string export_b = "export-mjcf --motion " + path("b.bvh") + " " + path("b.xml");
   EXPECT_EQ(mimicx(export_b).status, 0);
-  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(character_of(read_motion(path("b.bvh"))), {}));
+  EXPECT_EQ(read_file(path("b.xml")),
+            physics::to_mjcf(motion::character_of(motion::import::read_motion(path("b.bvh"))), {}));
   EXPECT_EQ(mimicx(export_b + " --body standard").status, 0);
-  EXPECT_EQ(read_file(path("b.xml")), to_mjcf(standard, {}));
+  EXPECT_EQ(read_file(path("b.xml")), physics::to_mjcf(standard, {}));
 }
 
 TEST_F(Cli, ClusterTakesFilesAndFoldersInAnyOrderAndLeavesOutWhatFails) {
   std::filesystem::create_directory(path("more"));
-  write_clip(path("a.npz"), standing_clip(20));
-  write_clip(path("more/a.npz"), standing_clip(40));
-  write_clip(path("more/b.npz"), standing_clip(60));
+  motion::write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("more/a.npz"), standing_clip(40));
+  motion::write_clip(path("more/b.npz"), standing_clip(60));
   std::ofstream(path("more/bad.npz")) << "PK nonsense";
   const std::string end = " --clusters 2 --out ";
   const Call call = mimicx("cluster " + path("a.npz") + " " + path("more") + end + path("c.json"));
@@ -148,4 +149,4 @@ TEST_F(Cli, ClusterTakesFilesAndFoldersInAnyOrderAndLeavesOutWhatFails) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

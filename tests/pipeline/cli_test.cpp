@@ -11,7 +11,7 @@
 #include "motion/import/motion_file.h"
 #include "pipeline/results.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 TEST_F(Cli, HelpIsEverywhere) {
@@ -32,7 +32,7 @@ TEST_F(Cli, VersionNamesTheInstructionSet) {
 }
 
 TEST_F(Cli, WrongUsageIsStatusTwo) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   const std::string a = path("a.npz"), out = " --out " + path("out");
   for (const std::string& arguments : {std::string(),
                                        std::string("dance"),
@@ -112,7 +112,7 @@ TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
 }
 
 TEST_F(Cli, TheSelectorsNumbersAreRecorded) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   mimicx("adapt " + path("a.npz") +
          " --budget-samples 0 --threads 1 --switch-penalty -0.5 --rescue-reward 0.25" + " --out " +
          path("out"));
@@ -133,7 +133,7 @@ TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
 }
 
 TEST_F(Cli, AnInterruptLeavesACheckpointAndTheSameCommandEndsWithTheSameBytes) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   const std::string settings =
       " --samples 40960 --set characters=64 --set group_size=16 --set horizon=8"
       " --set minibatch=256 --set hidden_1=16 --set hidden_2=16 --out ";
@@ -150,7 +150,7 @@ TEST_F(Cli, AnInterruptLeavesACheckpointAndTheSameCommandEndsWithTheSameBytes) {
 }
 
 TEST_F(Cli, APlanIsInterruptedBetweenWindowsAndTheSameCommandEndsWithTheSameBytes) {
-  write_clip(path("a.npz"), standing_clip(90));
+  motion::write_clip(path("a.npz"), standing_clip(90));
   const std::string command = "plan " + path("a.npz") + " --out ";
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);
   const Call interrupted =
@@ -164,7 +164,7 @@ TEST_F(Cli, APlanIsInterruptedBetweenWindowsAndTheSameCommandEndsWithTheSameByte
 }
 
 TEST_F(Cli, AdaptPlansAndTrainsNothingWhereThePlanSucceeds) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   const Call call = mimicx("adapt " + path("a.npz"));
   EXPECT_EQ(call.status, 0) << call.text;
   const auto manifest = nlohmann::json::parse(read_file(path("a.mimicx/manifest.json")));
@@ -178,7 +178,7 @@ TEST_F(Cli, AdaptPlansAndTrainsNothingWhereThePlanSucceeds) {
 }
 
 TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
-  write_clip(path("a.npz"), foreign_clip(60.0));
+  motion::write_clip(path("a.npz"), foreign_clip(60.0));
   // Untrained, the standing policy may fail; what is tested is where things go.
   const std::string command = "imitate " + path("a.npz") + " --samples 1 --threads 1 --rate input";
   const Call call = mimicx(command);
@@ -188,7 +188,7 @@ TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
   EXPECT_NE(entry["decisions"].dump().find("up axis: y"), std::string::npos) << entry["decisions"];
   ASSERT_EQ(std::filesystem::exists(path("a.clean.npz")), entry["status"] == "ok") << call.text;
   if (entry["status"] != "ok") GTEST_SKIP() << "the untrained policy fell";
-  const Clip input = read_clip(path("a.npz")), clean = read_clip(path("a.clean.npz"));
+  const motion::Clip input = motion::read_clip(path("a.npz")), clean = motion::read_clip(path("a.clean.npz"));
   EXPECT_EQ(clean.body_model, "smplx");
   EXPECT_EQ(clean.fps, 60.0);
   EXPECT_EQ(clean.frames(), input.frames());
@@ -200,27 +200,28 @@ TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
 }
 
 TEST_F(Cli, ABvhComesBackAsACleanBvh) {
-  write_bvh(path("clip.bvh"), standing_clip(40));
+  motion::import::write_bvh(path("clip.bvh"), standing_clip(40));
   const Call call = mimicx("imitate " + path("clip.bvh") + " --samples 1 --threads 1");
   ASSERT_TRUE(std::filesystem::exists(path("clip.mimicx/motions/clip.npz"))) << call.text;
   EXPECT_EQ(call.status, 0);
-  const Clip clean = read_motion(path("clip.clean.bvh"));
+  const motion::Clip clean = motion::import::read_motion(path("clip.clean.bvh"));
   EXPECT_EQ(clean.frames(), 40);
   EXPECT_EQ(clean.fps, 30.0);
-  const auto simulated = poses_of(read_clip(path("clip.mimicx/motions/clip.npz"))), back = poses_of(clean);
+  const auto simulated = motion::poses_of(motion::read_clip(path("clip.mimicx/motions/clip.npz"))),
+             back = motion::poses_of(clean);
   for (std::size_t j = 0; j < kBodies; ++j)
     EXPECT_LT((simulated[20].p_WB[j] - back[20].p_WB[j]).norm(), 1e-6) << j;
 }
 
 TEST_F(Cli, ARunOfOtherReadingIsRefused) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   const std::string command = "imitate " + path("a.npz") + " --samples 0 --threads 1 --out " + path("out");
   mimicx(command);
   EXPECT_EQ(mimicx(command + " --fps 25").status, 2);
 }
 
 TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
-  write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
   const std::string command =
       "imitate " + path("none.npz") + " " + path("a.npz") + " --samples 1 --threads 1 --out " + path("out");
   const Call call = mimicx(command);
@@ -234,8 +235,8 @@ TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
 }
 
 TEST_F(Cli, WhatCannotBeLookedAtDoesNotStopTheOthers) {
-  write_clip(path("a.npz"), standing_clip(20));
-  write_clip(path("one.npz"), standing_clip(1));
+  motion::write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("one.npz"), standing_clip(1));
   std::filesystem::create_symlink(path("loop.npz"), path("loop.npz"));
   std::filesystem::create_directory(path("empty"));
   std::filesystem::create_directory(path("locked"));
@@ -252,8 +253,8 @@ TEST_F(Cli, WhatCannotBeLookedAtDoesNotStopTheOthers) {
 }
 
 TEST_F(Cli, AFolderThatCannotBeMadeDoesNotStopTheOthers) {
-  write_clip(path("a.npz"), standing_clip(20));
-  write_clip(path("b.npz"), standing_clip(20));
+  motion::write_clip(path("a.npz"), standing_clip(20));
+  motion::write_clip(path("b.npz"), standing_clip(20));
   std::ofstream(path("a.mimicx")) << "in the way";
   const Call call = mimicx("imitate " + path("a.npz") + " " + path("b.npz") + " --samples 1 --threads 1");
   EXPECT_EQ(call.status, 1) << call.text;
@@ -262,4 +263,4 @@ TEST_F(Cli, AFolderThatCannotBeMadeDoesNotStopTheOthers) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

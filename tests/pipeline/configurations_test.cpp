@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 /// Of all configurations that train.
@@ -31,7 +31,7 @@ TEST(Configurations, AllAreCompleteAndCanBeDone) {
 
 TEST(Configurations, TheTaskIsOneForAll) {
   for (const TrainingConfig& training : trainings())
-    EXPECT_EQ(settings_of(training.tracking), settings_of(rl::TrackingConfig{}));
+    EXPECT_EQ(settings_of(training.tracking), settings_of(rl::tracking::TrackingConfig{}));
 }
 
 TEST(Configurations, NoSettingIsNamedTwice) {
@@ -92,4 +92,4 @@ TEST(Configurations, TextAndJsonSayTheSame) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -11,7 +11,7 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 struct Evaluate : testing::Test {
@@ -21,13 +21,13 @@ struct Evaluate : testing::Test {
   }
   /// A truth and a motion that is the truth moved by `metres` to the side.
   void add_pair(const std::string& name, double metres) const {
-    Clip clip = standing_clip(20);
-    write_clip(truth / (name + ".npz"), clip);
+    motion::Clip clip = standing_clip(20);
+    motion::write_clip(truth / (name + ".npz"), clip);
     for (auto& t : clip.trans) t.x() += metres;
-    write_clip(motions / (name + ".npz"), clip);
+    motion::write_clip(motions / (name + ".npz"), clip);
   }
   double metric(const EvaluatedMotion& m, const std::string& name) const {
-    for (const auto& d : metric_definitions())
+    for (const auto& d : motion::metric_definitions())
       if (name == d.name) return (m.metrics.*d.value).value;
     throw std::invalid_argument(name);
   }
@@ -53,13 +53,13 @@ TEST_F(Evaluate, TheMeanIsOverTheFilesThatHaveAValue) {
   const Evaluation e = evaluate_folders(truth, motions);
   ASSERT_EQ(e.motions.size(), 3u);
   EXPECT_FALSE(e.motions[2].ok);
-  EXPECT_NEAR(mean_of(e, metric_definitions().front()), 20.0, 1e-6);
+  EXPECT_NEAR(mean_of(e, motion::metric_definitions().front()), 20.0, 1e-6);
 }
 
 TEST_F(Evaluate, WhatHasNoPartnerIsSaid) {
   add_pair("a", 0.0);
-  write_clip(truth / "only_truth.npz", standing_clip(20));
-  write_clip(motions / "only_motion.npz", standing_clip(20));
+  motion::write_clip(truth / "only_truth.npz", standing_clip(20));
+  motion::write_clip(motions / "only_motion.npz", standing_clip(20));
   const Evaluation e = evaluate_folders(truth, motions);
   EXPECT_EQ(e.unmatched, std::vector<std::string>{"only_truth"});
   ASSERT_EQ(e.motions.size(), 2u);
@@ -70,7 +70,7 @@ TEST_F(Evaluate, WhatHasNoPartnerIsSaid) {
 TEST_F(Evaluate, LengthsThatDifferAreAFailureOfThatFileAlone) {
   add_pair("a", 0.0);
   add_pair("b", 0.0);
-  write_clip(motions / "a.npz", standing_clip(15));
+  motion::write_clip(motions / "a.npz", standing_clip(15));
   const Evaluation e = evaluate_folders(truth, motions);
   EXPECT_FALSE(e.motions[0].ok);
   EXPECT_TRUE(e.motions[1].ok);
@@ -87,8 +87,8 @@ TEST_F(Evaluate, SeveralFoldersAreComparedOverTheMotionsTheyShare) {
   const Comparison comparison = compare_folders(truth, {motions.string(), fewer.string()});
   EXPECT_EQ(comparison.left_out, 1);
   ASSERT_EQ(comparison.evaluations.size(), 2u);
-  EXPECT_NEAR(mean_of(comparison.evaluations[0], metric_definitions().front()), 20.0, 1e-6);
-  EXPECT_NEAR(mean_of(comparison.evaluations[1], metric_definitions().front()), 0.0, 1e-6);
+  EXPECT_NEAR(mean_of(comparison.evaluations[0], motion::metric_definitions().front()), 20.0, 1e-6);
+  EXPECT_NEAR(mean_of(comparison.evaluations[1], motion::metric_definitions().front()), 0.0, 1e-6);
   EXPECT_NE(format_comparison(comparison).find("means over 2 motions"), std::string::npos);
   const auto json = nlohmann::json::parse(comparison_json(comparison));
   EXPECT_EQ(json.at("motions").size(), 2u);
@@ -103,8 +103,8 @@ TEST_F(Evaluate, FoldersWithoutMotionsAreRefused) {
 TEST_F(Evaluate, JsonHasEveryMetricWithItsDefinition) {
   add_pair("a", 0.010);
   const auto json = nlohmann::json::parse(evaluation_json(evaluate_folders(truth, motions)));
-  EXPECT_EQ(json["definitions"].size(), metric_definitions().size());
-  for (const auto& d : metric_definitions()) {
+  EXPECT_EQ(json["definitions"].size(), motion::metric_definitions().size());
+  for (const auto& d : motion::metric_definitions()) {
     EXPECT_FALSE(json["definitions"][d.name]["definition"].get<std::string>().empty());
     EXPECT_TRUE(json["motions"][0]["metrics"].contains(d.name));
     EXPECT_TRUE(json["mean"].contains(d.name));
@@ -113,4 +113,4 @@ TEST_F(Evaluate, JsonHasEveryMetricWithItsDefinition) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

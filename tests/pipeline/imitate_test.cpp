@@ -13,7 +13,7 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 ImitateConfig small_run(const std::filesystem::path& out, const std::vector<std::string>& inputs) {
@@ -26,13 +26,14 @@ ImitateConfig small_run(const std::filesystem::path& out, const std::vector<std:
 
 /// @param iterations  asks to stop after that many; negative: never
 Outcome run(const ImitateConfig& config, int iterations = -1) {
-  return run_in_context([&](const RunContext& context) { return imitate(config, context); }, iterations);
+  return run_in_context([&](const record::RunContext& context) { return imitate(config, context); },
+                        iterations);
 }
 
 struct Imitate : testing::Test {
   void SetUp() override {
-    write_clip(folder.path / "stand.npz", standing_clip(20));
-    write_clip(folder.path / "other.npz", standing_clip(25));
+    motion::write_clip(folder.path / "stand.npz", standing_clip(20));
+    motion::write_clip(folder.path / "other.npz", standing_clip(25));
     stand = (folder.path / "stand.npz").string();
     other = (folder.path / "other.npz").string();
   }
@@ -50,7 +51,7 @@ TEST_F(Imitate, LeavesEveryFileTheDocumentationNames) {
     EXPECT_TRUE(files.contains(name)) << name;
   EXPECT_EQ(files.size(), 7u);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "timing.json"));
-  const Table log = read_csv(out("run") / "training" / "stand.csv");
+  const record::Table log = record::read_csv(out("run") / "training" / "stand.csv");
   EXPECT_EQ(log.rows.size(), 6u);
   EXPECT_EQ(log.rows.back()[log.column("samples")], 6 * 64 * 8);
 }
@@ -98,8 +99,8 @@ TEST_F(Imitate, IsTheSameBytesAfterInterruptions) {
   ImitateConfig config = small_run(out("whole"), {stand, other});
   run(config);
   config.run.out = out("interrupted");
-  EXPECT_EQ(run(config, 2).value, RunOutcome::kInterrupted);
-  EXPECT_EQ(run(config, 7).value, RunOutcome::kInterrupted);  // in the second clip
+  EXPECT_EQ(run(config, 2).value, record::RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 7).value, record::RunOutcome::kInterrupted);  // in the second clip
   run(config);
   EXPECT_EQ(results_of(out("whole")), results_of(out("interrupted")));
 }
@@ -108,12 +109,12 @@ TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
   ImitateConfig config = small_run(out("whole"), {stand});
   run(config);
   config.run.out = out("killed");
-  EXPECT_EQ(run(config, 2).value, RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 2).value, record::RunOutcome::kInterrupted);
   // The log is written before the checkpoint: a kill between the two leaves rows too many.
-  Table log = read_csv(out("killed") / "training" / "stand.csv");
+  record::Table log = record::read_csv(out("killed") / "training" / "stand.csv");
   ASSERT_EQ(log.rows.size(), 2u);
   log.rows.push_back(log.rows.back());
-  std::ofstream(out("killed") / "training" / "stand.csv") << format_csv(log);
+  std::ofstream(out("killed") / "training" / "stand.csv") << record::format_csv(log);
   run(config);
   EXPECT_EQ(results_of(out("whole")), results_of(out("killed")));
 }
@@ -145,7 +146,7 @@ TEST_F(Imitate, AFinishedMotionGetsItsStepsWithoutTrainingAgain) {
 
 TEST_F(Imitate, TheManifestSaysWhatTheForcesLeaveUnexplained) {
   run(small_run(out("run"), {stand}));
-  const NamedValues audit = read_manifest(out("run") / "manifest.json").sequences.at(0).audit;
+  const NamedValues audit = record::read_manifest(out("run") / "manifest.json").sequences.at(0).audit;
   const double weight = 9.81 * make_character().total_mass();
   int found = 0;
   for (const auto& [name, value] : audit)
@@ -162,7 +163,7 @@ TEST_F(Imitate, Eq3SeesTheKeypointsOnlyWhereTheMotionWasFittedOntoThem) {
     ImitateConfig config = small_run(out(fit ? "fitted" : "unfitted"), {noisy});
     config.run.fit = fit;
     run(config);
-    const Table log = read_csv(config.run.out / "training" / "stand_1.csv");
+    const record::Table log = record::read_csv(config.run.out / "training" / "stand_1.csv");
     double lowest = 1.0;
     for (const auto& row : log.rows) lowest = std::min(lowest, row[log.column("reward_term:projection")]);
     return lowest;
@@ -174,7 +175,7 @@ TEST_F(Imitate, Eq3SeesTheKeypointsOnlyWhereTheMotionWasFittedOntoThem) {
 TEST_F(Imitate, StartsOverWhenTheInputChanged) {
   const ImitateConfig config = small_run(out("run"), {stand});
   run(config);
-  write_clip(stand, standing_clip(25));
+  motion::write_clip(stand, standing_clip(25));
   run(config);
   EXPECT_EQ(read_npz(out("run") / "motions" / "stand.npz").at("poses").shape.at(0), 25u);
 }
@@ -184,8 +185,8 @@ TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
                     none = (folder.path / "none.npz").string();
   std::ofstream(broken) << "not an archive";
   const Outcome outcome = run(small_run(out("run"), {broken, none, stand}));
-  EXPECT_EQ(outcome.value, RunOutcome::kSomeFailed);
-  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  EXPECT_EQ(outcome.value, record::RunOutcome::kSomeFailed);
+  const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   ASSERT_EQ(manifest.sequences.size(), 3u);
   EXPECT_FALSE(manifest.sequences[0].ok);
   EXPECT_NE(manifest.sequences[0].reason.find("broken.npz"), std::string::npos);
@@ -195,13 +196,13 @@ TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
 }
 
 TEST_F(Imitate, AMotionThatCannotBeFollowedStandsApartFromTheCleanOnes) {
-  Clip leaning = standing_clip(60);  // by 45° to the side, for two seconds: it falls
+  motion::Clip leaning = standing_clip(60);  // by 45° to the side, for two seconds: it falls
   for (auto& frame : leaning.rotations)
     frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
   const std::string lean = (folder.path / "lean.npz").string();
-  write_clip(lean, leaning);
-  EXPECT_EQ(run(small_run(out("run"), {lean, stand})).value, RunOutcome::kSomeFailed);
-  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  motion::write_clip(lean, leaning);
+  EXPECT_EQ(run(small_run(out("run"), {lean, stand})).value, record::RunOutcome::kSomeFailed);
+  const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   EXPECT_FALSE(manifest.sequences.at(0).ok);
   EXPECT_EQ(manifest.sequences.at(0).output, "rejected/lean.npz");
   EXPECT_TRUE(std::filesystem::exists(out("run") / "rejected" / "lean.npz"));
@@ -212,10 +213,10 @@ TEST_F(Imitate, AMotionThatCannotBeFollowedStandsApartFromTheCleanOnes) {
 TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
   const std::string late = (folder.path / "late.npz").string();
   const ImitateConfig config = small_run(out("run"), {late});
-  EXPECT_EQ(run(config).value, RunOutcome::kSomeFailed);
-  write_clip(late, standing_clip(20));
+  EXPECT_EQ(run(config).value, record::RunOutcome::kSomeFailed);
+  motion::write_clip(late, standing_clip(20));
   run(config);
-  EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
+  EXPECT_EQ(record::read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
 }
 
 TEST_F(Imitate, AResultThatIsGoneIsMadeAgainAndTheOthersGoOn) {
@@ -224,7 +225,7 @@ TEST_F(Imitate, AResultThatIsGoneIsMadeAgainAndTheOthersGoOn) {
   const auto before = results_of(out("run"));
   std::filesystem::remove(out("run") / "motions" / "stand.npz");
   std::filesystem::remove(out("run") / "motions" / "other.npz");
-  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
   EXPECT_EQ(results_of(out("run")), before);
 }
 
@@ -232,13 +233,13 @@ TEST_F(Imitate, WhatCannotBeWrittenIsTriedAgain) {
   const ImitateConfig config = small_run(out("run"), {stand, other});
   const std::filesystem::path in_the_way = out("run") / "references" / "stand.npz";
   std::filesystem::create_directories(in_the_way / "folder");
-  EXPECT_EQ(run(config).value, RunOutcome::kSomeFailed);
-  const Manifest failed = read_manifest(out("run") / "manifest.json");
+  EXPECT_EQ(run(config).value, record::RunOutcome::kSomeFailed);
+  const record::Manifest failed = record::read_manifest(out("run") / "manifest.json");
   ASSERT_EQ(failed.sequences.size(), 2u);
   EXPECT_FALSE(failed.sequences[0].finished()) << failed.sequences[0].reason;
   EXPECT_TRUE(failed.sequences[1].ok) << failed.sequences[1].reason;
   std::filesystem::remove_all(in_the_way);
-  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
 }
 
@@ -247,19 +248,19 @@ TEST_F(Imitate, ACopyThatCannotBeWrittenCostsNoMotion) {
   config.run.input_rate = true;
   std::filesystem::create_directories(out("run"));
   std::ofstream(out("run") / "clean") << "in the way of a folder";
-  EXPECT_EQ(run(config).value, RunOutcome::kSomeFailed);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kSomeFailed);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
   std::filesystem::remove(out("run") / "clean");
-  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "clean" / "stand.npz"));
 }
 
 TEST_F(Imitate, StopsBetweenInputsThatNeedNoTraining) {
   ImitateConfig config = small_run(out("run"), {stand, other});
   config.training.samples = 0;
-  EXPECT_EQ(run(config, 1).value, RunOutcome::kInterrupted);
-  EXPECT_EQ(read_manifest(out("run") / "manifest.json").sequences.size(), 1u);
-  EXPECT_EQ(run(config).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(config, 1).value, record::RunOutcome::kInterrupted);
+  EXPECT_EQ(record::read_manifest(out("run") / "manifest.json").sequences.size(), 1u);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
 }
 
 TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
@@ -278,14 +279,14 @@ TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
   ImitateConfig config = small_run(out("run"), {stand});
   config.run.limit_seconds = 1e-9;
   run(config);
-  const SequenceEntry stopped = read_manifest(out("run") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(stopped.ending, Ending::kLimitSeconds);
+  const record::SequenceEntry stopped = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(stopped.ending, record::Ending::kLimitSeconds);
   EXPECT_EQ(stopped.samples, 64 * 8);
   EXPECT_EQ(stopped.output, "motions/stand.npz");
   config.run.limit_seconds = 0.0;
   run(config);
-  const SequenceEntry done = read_manifest(out("run") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(done.ending, Ending::kBudget);
+  const record::SequenceEntry done = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(done.ending, record::Ending::kBudget);
   EXPECT_EQ(done.samples, 6 * 64 * 8);
 }
 
@@ -299,4 +300,4 @@ TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

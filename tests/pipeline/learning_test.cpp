@@ -9,21 +9,21 @@
 #include "pipeline/configurations.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
-SequenceEntry imitate_one(const std::filesystem::path& input) {
+record::SequenceEntry imitate_one(const std::filesystem::path& input) {
   const TemporaryFolder folder;
   ImitateConfig config = imitate_configuration();
   config.run.inputs = {input.string()};
   config.run.out = folder.path / "run";
   config.run.threads = available_threads();
-  Progress progress(std::cout, false, steady_seconds);
+  record::Progress progress(std::cout, false, record::steady_seconds);
   imitate(config, {progress, std::cout, [] { return false; }});
-  return read_manifest(config.run.out / "manifest.json").sequences.at(0);
+  return record::read_manifest(config.run.out / "manifest.json").sequences.at(0);
 }
 
-double metric(const SequenceEntry& entry, const std::string& name) {
+double metric(const record::SequenceEntry& entry, const std::string& name) {
   for (const auto& [known, value] : entry.metrics)
     if (known == name) return value;
   throw std::invalid_argument(name);
@@ -37,10 +37,10 @@ struct FollowsSynthetic : testing::TestWithParam<SyntheticLimit> {};
 
 TEST_P(FollowsSynthetic, WithinItsGlobalPositionError) {
   const TemporaryFolder folder;
-  SynthConfig options;
+  motion::synth::SynthConfig options;
   options.kind = GetParam().kind;
-  write_clip(folder.path / "clip.npz", synthesize(options));
-  const SequenceEntry entry = imitate_one(folder.path / "clip.npz");
+  motion::write_clip(folder.path / "clip.npz", motion::synth::synthesize(options));
+  const record::SequenceEntry entry = imitate_one(folder.path / "clip.npz");
   EXPECT_TRUE(entry.ok) << entry.reason;
   EXPECT_LE(metric(entry, "gMPJPE"), GetParam().millimetres);
 }
@@ -53,7 +53,7 @@ struct FollowsReal : testing::TestWithParam<std::pair<const char*, const char*>>
 TEST_P(FollowsReal, ToItsEnd) {
   const std::filesystem::path clip = std::filesystem::path(MIMICX_SHARED_DIR) / "motions" / GetParam().second;
   if (!std::filesystem::exists(clip)) GTEST_SKIP() << "no real motions beside the source tree";
-  const SequenceEntry entry = imitate_one(clip);
+  const record::SequenceEntry entry = imitate_one(clip);
   EXPECT_TRUE(entry.ok) << entry.reason;
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -64,4 +64,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.first); });
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

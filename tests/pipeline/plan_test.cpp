@@ -13,18 +13,18 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 struct PlanMotions : testing::Test {
   void SetUp() override {
-    write_clip(stand, standing_clip(20));
-    write_clip(other, standing_clip(30));
-    write_clip(third, standing_clip(35));
-    Clip leaning = standing_clip(45);  // by 45° to the side, as nobody can stand
+    motion::write_clip(stand, standing_clip(20));
+    motion::write_clip(other, standing_clip(30));
+    motion::write_clip(third, standing_clip(35));
+    motion::Clip leaning = standing_clip(45);  // by 45° to the side, as nobody can stand
     for (auto& frame : leaning.rotations)
       frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
-    write_clip(lean, leaning);
+    motion::write_clip(lean, leaning);
   }
   PlanMotionsConfig planning(const std::string& name, const std::vector<std::string>& inputs) const {
     PlanMotionsConfig config = plan_configuration();
@@ -34,10 +34,11 @@ struct PlanMotions : testing::Test {
     return config;
   }
   static Outcome run(const PlanMotionsConfig& config, int asked = -1) {
-    return run_in_context([&](const RunContext& context) { return plan_motions(config, context); }, asked);
+    return run_in_context([&](const record::RunContext& context) { return plan_motions(config, context); },
+                          asked);
   }
-  SequenceEntry entry(const std::string& name, std::size_t k = 0) const {
-    return read_manifest(out(name) / "manifest.json").sequences.at(k);
+  record::SequenceEntry entry(const std::string& name, std::size_t k = 0) const {
+    return record::read_manifest(out(name) / "manifest.json").sequences.at(k);
   }
   std::filesystem::path out(const std::string& name) const { return folder.path / name; }
 
@@ -47,7 +48,7 @@ struct PlanMotions : testing::Test {
 };
 
 TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
-  EXPECT_EQ(run(planning("run", {stand})).value, RunOutcome::kAllGood);
+  EXPECT_EQ(run(planning("run", {stand})).value, record::RunOutcome::kAllGood);
   const auto files = results_of(out("run"));
   for (const char* name :
        {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz", "plans/stand.npz"})
@@ -61,15 +62,15 @@ TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
 
 TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
   run(planning("run", {stand}));
-  const Manifest manifest = read_manifest(out("run") / "manifest.json");
+  const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   EXPECT_EQ(manifest.method, "plan");
   EXPECT_EQ(manifest.samples, 0);
   EXPECT_EQ(value_of(manifest.settings, "plan_horizon"), control::HorizonOptions{}.horizon);
-  EXPECT_EQ(value_of(manifest.settings, "physics_rate"), SimulationConfig{}.rate);
-  const SequenceEntry& entry = manifest.sequences.at(0);
+  EXPECT_EQ(value_of(manifest.settings, "physics_rate"), physics::SimulationConfig{}.rate);
+  const record::SequenceEntry& entry = manifest.sequences.at(0);
   EXPECT_TRUE(entry.ok) << entry.reason;
   EXPECT_EQ(entry.method, "plan");
-  EXPECT_EQ(entry.ending, Ending::kFollowed);
+  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
   EXPECT_EQ(value_of(entry.plan, "frames"), 20);
   EXPECT_GT(value_of(entry.plan, "iterations"), 0);
   EXPECT_LT(value_of(entry.metrics, "gMPJPE"), 5.0);
@@ -87,15 +88,15 @@ TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
 
 TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {
   run(planning("run", {stand}));
-  const StoredPlan stored = read_plan(out("run") / "plans" / "stand.npz");
+  const output::StoredPlan stored = output::read_plan(out("run") / "plans" / "stand.npz");
   const auto velocities = read_npz(out("run") / "motions" / "stand.npz").at("velocities").to_double();
   ASSERT_EQ(stored.plan.states.size(), 20u);
   for (std::size_t t = 1; t < 20; ++t) {
-    const State<double>& x = stored.plan.states[t];
+    const physics::State<double>& x = stored.plan.states[t];
     const double* row = velocities.data() + t * (6 + kDofs);
-    EXPECT_EQ(to_eigen(x.v_root), Vector3d(row[0], row[1], row[2])) << t;
-    EXPECT_EQ(to_eigen(x.omega[kPelvis]), Vector3d(row[3], row[4], row[5])) << t;
-    EXPECT_EQ(to_eigen(x.omega[1]), Vector3d(row[6], row[7], row[8])) << t;
+    EXPECT_EQ(physics::to_eigen(x.v_root), Vector3d(row[0], row[1], row[2])) << t;
+    EXPECT_EQ(physics::to_eigen(x.omega[kPelvis]), Vector3d(row[3], row[4], row[5])) << t;
+    EXPECT_EQ(physics::to_eigen(x.omega[1]), Vector3d(row[6], row[7], row[8])) << t;
   }
 }
 
@@ -105,7 +106,7 @@ TEST_F(PlanMotions, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   config.run.out = out("two");
   config.run.threads = 2;
   int in_first = 0, in_second = 0;
-  for (int asked = 2; run(config, asked).value == RunOutcome::kInterrupted; asked += 2)
+  for (int asked = 2; run(config, asked).value == record::RunOutcome::kInterrupted; asked += 2)
     ++(std::filesystem::exists(out("two") / "motions" / "other.npz") ? in_second : in_first);
   EXPECT_GT(in_first, 0);
   EXPECT_GT(in_second, 0);
@@ -138,7 +139,7 @@ TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
   const std::string gains = after.at("gains/stand.npz");
   after.erase("gains/stand.npz");
   EXPECT_EQ(after, before);
-  const std::vector<Eigen::MatrixXf> K = read_gains(out("run") / "gains" / "stand.npz");
+  const std::vector<Eigen::MatrixXf> K = output::read_gains(out("run") / "gains" / "stand.npz");
   ASSERT_EQ(K.size(), 19u);
   for (const Eigen::MatrixXf& one : K) EXPECT_GT(one.norm(), 0.0f);
   config.run.out = out("at once");
@@ -149,17 +150,17 @@ TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
 
 TEST_F(PlanMotions, APlanOfAnotherInputIsNotTakenUp) {
   run(planning("run", {stand}));
-  write_clip(stand, standing_clip(25));
+  motion::write_clip(stand, standing_clip(25));
   run(planning("run", {stand}));
-  EXPECT_EQ(read_plan(out("run") / "plans" / "stand.npz").plan.states.size(), 25u);
+  EXPECT_EQ(output::read_plan(out("run") / "plans" / "stand.npz").plan.states.size(), 25u);
   EXPECT_EQ(entry("run").frames, 25);
 }
 
 TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
-  EXPECT_EQ(run(planning("run", {lean, stand})).value, RunOutcome::kSomeFailed);
-  const SequenceEntry lost = entry("run", 0), done = entry("run", 1);
+  EXPECT_EQ(run(planning("run", {lean, stand})).value, record::RunOutcome::kSomeFailed);
+  const record::SequenceEntry lost = entry("run", 0), done = entry("run", 1);
   EXPECT_FALSE(lost.ok);
-  EXPECT_EQ(lost.ending, Ending::kLost);
+  EXPECT_EQ(lost.ending, record::Ending::kLost);
   EXPECT_EQ(lost.output, "rejected/lean.npz");
   EXPECT_LT(value_of(lost.plan, "frames"), 45);
   for (const char* words : {"the plan is lost at frame ", " is 0.", " m from its reference",
@@ -173,11 +174,11 @@ TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
   PlanMotionsConfig config = planning("run", {other});
   config.run.limit_seconds = 1e-9;
   run(config);
-  EXPECT_EQ(entry("run").ending, Ending::kLimitSeconds);
+  EXPECT_EQ(entry("run").ending, record::Ending::kLimitSeconds);
   EXPECT_EQ(value_of(entry("run").plan, "frames"), 1);
   config.run.limit_seconds = 0.0;
   run(config);
-  EXPECT_EQ(entry("run").ending, Ending::kFollowed);
+  EXPECT_EQ(entry("run").ending, record::Ending::kFollowed);
   EXPECT_TRUE(entry("run").ok) << entry("run").reason;
 }
 
@@ -224,4 +225,4 @@ TEST(PlanningSettings, WhatNoPlanCanHaveIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 const std::filesystem::path kNoisy =
@@ -16,4 +16,4 @@ TEST(Preparation, ReferencesHaveKeypointsOnlyWhereTheyWereFittedOntoThem) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

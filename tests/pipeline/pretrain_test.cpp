@@ -7,7 +7,7 @@
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 using Pretrain = PretrainedOptions;
@@ -18,15 +18,15 @@ TEST(ShareSamples, GoBySquareRootsAndSpendTheBudget) {
 }
 
 TEST_F(Pretrain, LeavesEveryFileTheDocumentationNames) {
-  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
   const auto files = results_of(out("run"));
   for (const char* name : {"options.npz", "clusters.json", "manifest.json", "training/option0.csv",
                            "training/option1.csv", "checkpoints/option0.npz", "checkpoints/option1.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
-  const auto set = read_options(out("run"));
+  const auto set = options::read_options(out("run"));
   ASSERT_EQ(set->options.size(), 2u);
   int motions_in_all = 0;
-  for (const TrainedOption& option : set->options) {
+  for (const options::TrainedOption& option : set->options) {
     motions_in_all += option.motions;
     ASSERT_TRUE(option.option.encoder.has_value());
     EXPECT_EQ(option.option.encoder->code_size(), 8);
@@ -41,27 +41,27 @@ TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   run(config);
   config.out = out("two");
   config.threads = 2;
-  EXPECT_EQ(run(config, 2), RunOutcome::kInterrupted);
-  EXPECT_EQ(run(config, 2), RunOutcome::kInterrupted);  // in the second option
-  EXPECT_EQ(run(config), RunOutcome::kAllGood);
+  EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);  // in the second option
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
 TEST_F(Pretrain, AFinishedOneIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
-  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
   const auto before = results_of(out("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "clusters.json");
-  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "clusters.json"), written);
   std::filesystem::remove(out("run") / "options.npz");
-  EXPECT_EQ(run(pretraining("run")), RunOutcome::kAllGood);
+  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
   EXPECT_EQ(results_of(out("run")), before);
 }
 
 TEST_F(Pretrain, NamesWhatItCannotReadAndGoesOn) {
   std::ofstream(motions / "broken.npz") << "no archive";
-  EXPECT_EQ(run(pretraining("run")), RunOutcome::kSomeFailed);
-  EXPECT_EQ(read_options(out("run"))->options.size(), 2u);
+  EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kSomeFailed);
+  EXPECT_EQ(options::read_options(out("run"))->options.size(), 2u);
   EXPECT_NE(results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
 }
 
@@ -69,14 +69,14 @@ TEST_F(Pretrain, WithoutAFitNothingDependsOnKeypoints) {
   const std::filesystem::path noisy = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy";
   std::filesystem::remove_all(motions);
   std::filesystem::create_directories(motions);
-  Clip clip = read_clip(noisy / "stand_1.npz");
-  write_clip(motions / "stand_1.npz", clip);
+  motion::Clip clip = motion::read_clip(noisy / "stand_1.npz");
+  motion::write_clip(motions / "stand_1.npz", clip);
   PretrainConfig config = pretraining("seen");
   config.clusters.clusters = 1;
   config.fit = false;
   run(config);
   clip.keypoints.reset();
-  write_clip(motions / "stand_1.npz", clip);
+  motion::write_clip(motions / "stand_1.npz", clip);
   config.out = out("blind");
   run(config);
   EXPECT_EQ(read_file(out("seen") / "training" / "option0.csv"),
@@ -99,4 +99,4 @@ TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

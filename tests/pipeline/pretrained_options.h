@@ -11,17 +11,17 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// Two kinds of motion that cluster apart, as a folder of files.
 struct PretrainedOptions : testing::Test {
   void SetUp() override {
     std::filesystem::create_directories(motions);
-    write_clip(motions / "stand.npz", standing_clip(20));
-    write_clip(motions / "sway.npz", standing_clip(25));
-    SynthConfig walk;
+    motion::write_clip(motions / "stand.npz", standing_clip(20));
+    motion::write_clip(motions / "sway.npz", standing_clip(25));
+    motion::synth::SynthConfig walk;
     walk.kind = "walk";
-    write_clip(motions / "walk.npz", synthesize(walk));
+    motion::write_clip(motions / "walk.npz", motion::synth::synthesize(walk));
   }
   PretrainConfig pretraining(const std::string& out) const {
     PretrainConfig config = pretrain_configuration("small");
@@ -35,8 +35,9 @@ struct PretrainedOptions : testing::Test {
     config.encoder.code = 8;
     return config;
   }
-  static RunOutcome run(const PretrainConfig& config, int iterations = -1) {
-    return run_in_context([&](const RunContext& context) { return pretrain(config, context); }, iterations)
+  static record::RunOutcome run(const PretrainConfig& config, int iterations = -1) {
+    return run_in_context([&](const record::RunContext& context) { return pretrain(config, context); },
+                          iterations)
         .value;
   }
   AdaptConfig adapting(const std::string& out, const std::string& options) const {
@@ -47,11 +48,12 @@ struct PretrainedOptions : testing::Test {
     config.training = small_training();
     config.training.evaluate_iterations = 2;
     config.arrangement.switch_penalty = -0.01;
-    config.options = read_options(folder.path / options);
+    config.options = options::read_options(folder.path / options);
     return config;
   }
-  static RunOutcome run(const AdaptConfig& config, int iterations = -1) {
-    return run_in_context([&](const RunContext& context) { return adapt(config, context); }, iterations)
+  static record::RunOutcome run(const AdaptConfig& config, int iterations = -1) {
+    return run_in_context([&](const record::RunContext& context) { return adapt(config, context); },
+                          iterations)
         .value;
   }
   std::filesystem::path out(const std::string& name) const { return folder.path / name; }
@@ -60,4 +62,4 @@ struct PretrainedOptions : testing::Test {
   std::filesystem::path motions = folder.path / "motions";
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -7,7 +7,7 @@
 
 #include "core/file.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// Bytes of every file of a run but its times, by relative path.
 inline std::map<std::string, std::string> results_of(const std::filesystem::path& folder) {
@@ -18,4 +18,4 @@ inline std::map<std::string, std::string> results_of(const std::filesystem::path
   return files;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -8,7 +8,7 @@
 #include "pipeline/options/clusters.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 const std::filesystem::path kOptions = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
@@ -18,47 +18,48 @@ const std::filesystem::path kTestSplit =
 /// What a run over one motion of the test split records.
 /// @param work  runs `config` in a context
 template <class Config, class Work>
-SequenceEntry entry_of(Config& config, const std::string& name, const Work& work) {
+record::SequenceEntry entry_of(Config& config, const std::string& name, const Work& work) {
   const TemporaryFolder folder;
   config.run.inputs = {(kTestSplit / (name + ".npz")).string()};
   config.run.out = folder.path / "run";
   config.run.fit = true;
   config.training.samples = 0;  // the start alone
   std::ostringstream messages;
-  Progress progress(messages, false, steady_seconds);
-  work(RunContext{progress, messages, [] { return false; }});
-  return read_manifest(config.run.out / "manifest.json").sequences.at(0);
+  record::Progress progress(messages, false, record::steady_seconds);
+  work(record::RunContext{progress, messages, [] { return false; }});
+  return record::read_manifest(config.run.out / "manifest.json").sequences.at(0);
 }
 
-SequenceEntry adapted(const std::string& name, const std::shared_ptr<const OptionSet>& options) {
+record::SequenceEntry adapted(const std::string& name,
+                              const std::shared_ptr<const options::OptionSet>& options) {
   AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPaper;
   config.options = options;
-  return entry_of(config, name, [&](const RunContext& context) { adapt(config, context); });
+  return entry_of(config, name, [&](const record::RunContext& context) { adapt(config, context); });
 }
 
-SequenceEntry untrained(const std::string& name) {
+record::SequenceEntry untrained(const std::string& name) {
   ImitateConfig config = imitate_configuration();
-  return entry_of(config, name, [&](const RunContext& context) { imitate(config, context); });
+  return entry_of(config, name, [&](const record::RunContext& context) { imitate(config, context); });
 }
 
 TEST(ShippedOptions, AreTheFileThatTheirPageRecordsAndSmall) {
   const std::string page = read_file(kOptions / "README.md");
-  EXPECT_NE(page.find(file_checksum(kOptions / "options.npz")), std::string::npos);
+  EXPECT_NE(page.find(record::file_checksum(kOptions / "options.npz")), std::string::npos);
   EXPECT_LE(std::filesystem::file_size(kOptions / "options.npz"), 8'000'000u);
 }
 
 TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
-  const Clusters clusters = read_clusters(kOptions / "clusters.json");
-  for (const MotionCluster& cluster : clusters.clusters)
+  const options::Clusters clusters = options::read_clusters(kOptions / "clusters.json");
+  for (const options::MotionCluster& cluster : clusters.clusters)
     for (const std::string& member : cluster.members)
-      EXPECT_GE(std::stoull(member.substr(member.rfind('_') + 1)), kTrainingSeed) << member;
+      EXPECT_GE(std::stoull(member.substr(member.rfind('_') + 1)), motion::synth::kTrainingSeed) << member;
 }
 
 TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
-  const auto options = read_options(kOptions);
+  const auto options = options::read_options(kOptions);
   for (const char* name : {"squat_1", "wave_1", "turn_in_place_1"}) {
-    const SequenceEntry with = adapted(name, options), without = untrained(name);
+    const record::SequenceEntry with = adapted(name, options), without = untrained(name);
     EXPECT_TRUE(with.ok) << name << ": " << with.reason;
     EXPECT_FALSE(without.ok) << name << ": a zero residual falls";
     EXPECT_GT(with.reward_after, 2.0 * without.reward_after) << name;
@@ -66,4 +67,4 @@ TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -6,7 +6,7 @@
 
 #include "pipeline/configurations.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 /// Several iterations, groups and checkpoints.
 inline TrainingConfig small_training() {
@@ -22,7 +22,7 @@ inline TrainingConfig small_training() {
 }
 
 struct Outcome {
-  RunOutcome value;
+  record::RunOutcome value;
   std::string messages;
 };
 
@@ -31,10 +31,11 @@ struct Outcome {
 template <class Work>
 Outcome run_in_context(const Work& work, int iterations = -1) {
   std::ostringstream messages;
-  Progress progress(messages, false, steady_seconds);
+  record::Progress progress(messages, false, record::steady_seconds);
   int asked = 0;
-  const RunOutcome value = work(RunContext{progress, messages, [&] { return ++asked == iterations; }});
+  const record::RunOutcome value =
+      work(record::RunContext{progress, messages, [&] { return ++asked == iterations; }});
   return {value, messages.str()};
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

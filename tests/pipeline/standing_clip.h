@@ -9,9 +9,9 @@
 #include "motion/clip_file.h"
 #include "motion/reference.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
-inline Clip standing_clip(int frames) {
+inline motion::Clip standing_clip(int frames) {
   const Character character = make_character();
   std::vector<Vector3d> p_root;
   std::vector<PerBody<Quaterniond>> q;
@@ -25,7 +25,7 @@ inline Clip standing_clip(int frames) {
     p_root.emplace_back(0.0, 0.0, 0.95);
     q.push_back(pose);
   }
-  return to_clip("standing", 30.0, character, p_root, q);
+  return motion::to_clip("standing", 30.0, character, p_root, q);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

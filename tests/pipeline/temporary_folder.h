@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 
 struct TemporaryFolder {
   TemporaryFolder() {
@@ -22,4 +22,4 @@ struct TemporaryFolder {
   std::filesystem::path path;
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

@@ -6,7 +6,7 @@
 
 #include "pipeline/configurations.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
@@ -55,4 +55,4 @@ TEST(TrainingSettings, NameEveryParameterOnce) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

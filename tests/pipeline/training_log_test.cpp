@@ -4,7 +4,7 @@
 
 #include "core/named_values.h"
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 TEST(TrainingLog, EveryValueStandsUnderItsName) {
@@ -25,12 +25,13 @@ TEST(TrainingLog, EveryValueStandsUnderItsName) {
   row.iteration.penalty = 0.10;
   row.iteration.saturation = 0.11;
   row.tracking.steps = 10;
-  for (std::size_t k = 0; k < rl::kRewardTerms; ++k) row.tracking.reward_terms[k] = static_cast<double>(k);
+  for (std::size_t k = 0; k < rl::tracking::kRewardTerms; ++k)
+    row.tracking.reward_terms[k] = static_cast<double>(k);
   row.tracking.saturated_joints = 2.0 * 10 * kJoints;
   row.sharpness = 0.12;
   row.rollout_reward = 0.13;
   row.rollout_position_error = 0.014;
-  Table log = empty_training_log();
+  record::Table log = empty_training_log();
   append(log, row);
   ASSERT_EQ(log.rows.size(), 1u);
   ASSERT_EQ(log.rows[0].size(), log.columns.size());
@@ -67,4 +68,4 @@ TEST(TrainingLog, EveryValueStandsUnderItsName) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

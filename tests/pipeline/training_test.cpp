@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mimicx {
+namespace mimicx::pipeline {
 namespace {
 
 TEST(Stall, CountsRollOutsThatFollowAndAreNoBetter) {
@@ -14,4 +14,4 @@ TEST(Stall, CountsRollOutsThatFollowAndAreNoBetter) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline

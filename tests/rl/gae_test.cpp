@@ -12,23 +12,25 @@ namespace {
 using nn::Matrix;
 
 struct Arrays {
-  Matrix<float> rewards, values, last_values, final_values;
+  nn::Matrix<float> rewards, values, last_values, final_values;
   FlagMatrix terminated, truncated;
 
   AdvantageInput input() const { return {rewards, values, last_values, terminated, truncated, final_values}; }
 };
 
 Arrays constant_arrays(int steps, int characters, float reward, float value) {
-  return {
-      Matrix<float>::Constant(steps, characters, reward), Matrix<float>::Constant(steps, characters, value),
-      Matrix<float>::Constant(1, characters, value),      Matrix<float>::Zero(steps, characters),
-      FlagMatrix::Constant(steps, characters, false),     FlagMatrix::Constant(steps, characters, false)};
+  return {nn::Matrix<float>::Constant(steps, characters, reward),
+          nn::Matrix<float>::Constant(steps, characters, value),
+          nn::Matrix<float>::Constant(1, characters, value),
+          nn::Matrix<float>::Zero(steps, characters),
+          FlagMatrix::Constant(steps, characters, false),
+          FlagMatrix::Constant(steps, characters, false)};
 }
 
 Arrays random_arrays(int steps, int characters, std::uint64_t seed) {
   Random random(seed);
   Arrays a = constant_arrays(steps, characters, 0, 0);
-  for (Matrix<float>* m : {&a.rewards, &a.values, &a.last_values, &a.final_values})
+  for (nn::Matrix<float>* m : {&a.rewards, &a.values, &a.last_values, &a.final_values})
     for (Eigen::Index k = 0; k < m->size(); ++k) m->data()[k] = static_cast<float>(random.normal());
   for (Eigen::Index k = 0; k < a.terminated.size(); ++k) {
     a.terminated.data()[k] = random.uniform() < 0.1;
@@ -37,8 +39,8 @@ Arrays random_arrays(int steps, int characters, std::uint64_t seed) {
   return a;
 }
 
-Matrix<float> advantages(const Arrays& a, double gamma, double lambda) {
-  Matrix<float> result(a.rewards.rows(), a.rewards.cols());
+nn::Matrix<float> advantages(const Arrays& a, double gamma, double lambda) {
+  nn::Matrix<float> result(a.rewards.rows(), a.rewards.cols());
   estimate_advantages(a.input(), gamma, lambda, result);
   return result;
 }
@@ -53,7 +55,7 @@ double successor(const Arrays& a, Eigen::Index t, Eigen::Index i) {
 TEST(Gae, EqualsTheBruteForceSumOfDiscountedErrors) {
   const double gamma = 0.93, lambda = 0.8;
   const Arrays a = random_arrays(40, 25, 3);
-  const Matrix<float> result = advantages(a, gamma, lambda);
+  const nn::Matrix<float> result = advantages(a, gamma, lambda);
   for (Eigen::Index i = 0; i < 25; ++i)
     for (Eigen::Index t = 0; t < 40; ++t) {
       double expected = 0.0;
@@ -68,7 +70,7 @@ TEST(Gae, EqualsTheBruteForceSumOfDiscountedErrors) {
 
 TEST(Gae, ConstantRewardWithoutValuesIsAGeometricSeries) {
   const double gamma = 0.97, lambda = 0.95, q = gamma * lambda;
-  const Matrix<float> result = advantages(constant_arrays(32, 1, 1.0F, 0.0F), gamma, lambda);
+  const nn::Matrix<float> result = advantages(constant_arrays(32, 1, 1.0F, 0.0F), gamma, lambda);
   for (int t = 0; t < 32; ++t) EXPECT_NEAR(result(t, 0), (1.0 - std::pow(q, 32 - t)) / (1.0 - q), 1e-5);
 }
 
@@ -83,7 +85,7 @@ TEST(Gae, ExactValuesLeaveNoAdvantage) {
 TEST(Gae, LambdaOneIsTheDiscountedReturnMinusTheValue) {
   const double gamma = 0.9;
   const Arrays a = random_arrays(30, 10, 5);
-  const Matrix<float> result = advantages(a, gamma, 1.0);
+  const nn::Matrix<float> result = advantages(a, gamma, 1.0);
   for (Eigen::Index i = 0; i < 10; ++i) {
     double expected = -a.values(0, i), discount = 1.0;
     for (Eigen::Index t = 0; t < 30; ++t) {
@@ -106,7 +108,7 @@ TEST(Gae, TruncationDiffersFromTerminationByTheDiscountedFinalValue) {
   Arrays cut = ended;
   ended.terminated(6, 0) = true;
   cut.truncated(6, 0) = true;
-  const Matrix<float> difference = advantages(cut, gamma, lambda) - advantages(ended, gamma, lambda);
+  const nn::Matrix<float> difference = advantages(cut, gamma, lambda) - advantages(ended, gamma, lambda);
   for (int t = 0; t <= 6; ++t)
     EXPECT_NEAR(difference(t, 0), std::pow(gamma * lambda, 6 - t) * gamma * cut.final_values(6, 0), 1e-5);
   for (int t = 7; t < 10; ++t) EXPECT_EQ(difference(t, 0), 0.0F);

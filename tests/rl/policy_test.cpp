@@ -11,9 +11,9 @@ namespace {
 
 using nn::Matrix;
 
-Matrix<float> normal_matrix(Eigen::Index rows, Eigen::Index cols, std::uint64_t seed) {
+nn::Matrix<float> normal_matrix(Eigen::Index rows, Eigen::Index cols, std::uint64_t seed) {
   Random random(seed);
-  Matrix<float> m(rows, cols);
+  nn::Matrix<float> m(rows, cols);
   for (Eigen::Index k = 0; k < m.size(); ++k) m.data()[k] = static_cast<float>(random.normal());
   return m;
 }
@@ -26,9 +26,9 @@ Agent small_agent() {
   return make_agent(shape, 4);
 }
 
-Matrix<float> values(const Agent& agent, const Matrix<float>& observations) {
+nn::Matrix<float> values(const Agent& agent, const nn::Matrix<float>& observations) {
   nn::Workspace<float> workspace;
-  Matrix<float> result;
+  nn::Matrix<float> result;
   nn::evaluate(agent.critic, observations, workspace, result);
   unscale_values(agent.returns, result);
   return result;
@@ -37,8 +37,8 @@ Matrix<float> values(const Agent& agent, const Matrix<float>& observations) {
 TEST(Policy, ActionsScatterAroundTheMeanWithSigma) {
   const int n = 20000;
   const double sigma = 0.3;
-  const Matrix<float> means = Matrix<float>::Constant(n, 2, 1.5F);
-  Matrix<float> actions;
+  const nn::Matrix<float> means = nn::Matrix<float>::Constant(n, 2, 1.5F);
+  nn::Matrix<float> actions;
   Eigen::VectorXf density(n);
   Random random(11);
   sample_actions(means, sigma, random, actions, density);
@@ -51,9 +51,9 @@ TEST(Policy, ActionsScatterAroundTheMeanWithSigma) {
 }
 
 TEST(Policy, DensityIsThatOfTheSampledActions) {
-  const Matrix<float> means = normal_matrix(50, 4, 1);
+  const nn::Matrix<float> means = normal_matrix(50, 4, 1);
   const double sigma = 0.2;
-  Matrix<float> actions;
+  nn::Matrix<float> actions;
   Eigen::VectorXf density(50);
   Random random(2);
   sample_actions(means, sigma, random, actions, density);
@@ -66,7 +66,7 @@ TEST(Policy, DensityIsThatOfTheSampledActions) {
 TEST(Policy, UntrainedPolicyActsNearZero) {
   const Agent agent = small_agent();
   nn::Workspace<float> workspace;
-  Matrix<float> means;
+  nn::Matrix<float> means;
   nn::evaluate(agent.actor, normal_matrix(200, 6, 5), workspace, means);
   EXPECT_LT(means.cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_GT(means.cwiseAbs().maxCoeff(), 0.0F);
@@ -97,8 +97,8 @@ TEST(Policy, SavedAgentIsTheSameAgent) {
   Npz archive;
   save(archive, "a.", agent);
   const Agent loaded = load_agent(archive, "a.");
-  const Matrix<float> raw = normal_matrix(20, 6, 9);
-  Matrix<float> x, y;
+  const nn::Matrix<float> raw = normal_matrix(20, 6, 9);
+  nn::Matrix<float> x, y;
   nn::normalise(agent.observations, raw, x);
   nn::normalise(loaded.observations, raw, y);
   EXPECT_TRUE(x == y);

@@ -12,7 +12,7 @@ namespace {
 using nn::Matrix;
 using nn::Tape;
 using nn::Var;
-using M = Matrix<double>;
+using M = nn::Matrix<double>;
 
 M normal_matrix(Eigen::Index rows, Eigen::Index cols, Random& random) {
   M m(rows, cols);
@@ -30,21 +30,21 @@ TEST(PpoLoss, SurrogateIsTheClippedRatioTimesTheAdvantage) {
   const double gains[] = {2.2, 2.4, 1.0, -2.2, -3.0, -1.6};
   const double slopes[] = {2.2, 0.0, 1.0, -2.2, -3.0, 0.0};  // d gain / d log ratio
   for (int k = 0; k < 6; ++k) {
-    Tape<double> tape;
-    const Var density = tape.constant(1, 1, std::log(ratios[k]));
-    const Var old = tape.constant(1, 1, 0.0), advantage = tape.constant(1, 1, advantages[k]);
-    const Var loss = surrogate_loss(tape, density, old, advantage, 0.2);
+    nn::Tape<double> tape;
+    const nn::Var density = tape.constant(1, 1, std::log(ratios[k]));
+    const nn::Var old = tape.constant(1, 1, 0.0), advantage = tape.constant(1, 1, advantages[k]);
+    const nn::Var loss = surrogate_loss(tape, density, old, advantage, 0.2);
     EXPECT_NEAR(tape.scalar(loss), -gains[k], 1e-12);
-    const Var wrt[] = {density};
+    const nn::Var wrt[] = {density};
     EXPECT_NEAR(tape.scalar(nn::gradient(tape, loss, wrt).front()), -slopes[k], 1e-12);
   }
 }
 
 TEST(PpoLoss, RatioOfAnyTwoDensitiesStaysFinite) {
-  Tape<float> tape;
-  const Var density = tape.constant(1, 1, 5000.0F), old = tape.constant(1, 1, -5000.0F);
-  const Var loss = surrogate_loss(tape, density, old, tape.constant(1, 1, -1.0F), 0.2F);
-  const Var wrt[] = {density};
+  nn::Tape<float> tape;
+  const nn::Var density = tape.constant(1, 1, 5000.0F), old = tape.constant(1, 1, -5000.0F);
+  const nn::Var loss = surrogate_loss(tape, density, old, tape.constant(1, 1, -1.0F), 0.2F);
+  const nn::Var wrt[] = {density};
   EXPECT_TRUE(std::isfinite(tape.scalar(loss)));
   EXPECT_TRUE(std::isfinite(tape.scalar(nn::gradient(tape, loss, wrt).front())));
 }
@@ -55,12 +55,12 @@ TEST(PpoLoss, FirstGradientIsThePolicyGradient) {
   const M means = normal_matrix(7, 3, random), actions = normal_matrix(7, 3, random);
   const M advantages = normal_matrix(7, 1, random);
   const double sigma = 0.4;
-  Tape<double> tape;
-  const Var mean = tape.constant(means);
-  const Var density = log_density(tape, mean, tape.constant(actions), sigma);
+  nn::Tape<double> tape;
+  const nn::Var mean = tape.constant(means);
+  const nn::Var density = log_density(tape, mean, tape.constant(actions), sigma);
   const M old = tape.value(density);
-  const Var wrt[] = {mean};
-  const Var loss = surrogate_loss(tape, density, tape.constant(old), tape.constant(advantages), 0.2);
+  const nn::Var wrt[] = {mean};
+  const nn::Var loss = surrogate_loss(tape, density, tape.constant(old), tape.constant(advantages), 0.2);
   const M gradient = tape.value(nn::gradient(tape, loss, wrt).front());
   for (int i = 0; i < 7; ++i) {
     EXPECT_NEAR(old(i), -(actions.row(i) - means.row(i)).squaredNorm() / (2 * sigma * sigma), 1e-12);
@@ -70,7 +70,7 @@ TEST(PpoLoss, FirstGradientIsThePolicyGradient) {
 }
 
 TEST(PpoLoss, BoundAndValueLossesAreSumsOfSquares) {
-  Tape<double> tape;
+  nn::Tape<double> tape;
   M means(2, 2), targets(2, 1), values(2, 1);
   means << 0.5, 1.5, -3.0, 1.0;
   values << 1, 2;
@@ -96,10 +96,10 @@ double jacobian_norm(const nn::Mlp<double>& actor, const M& observation) {
 }
 
 double penalty(const nn::Mlp<double>& actor, const M& observations, const M& actions, double sigma) {
-  Tape<double> tape;
-  const auto parameters = parameters_on_tape(tape, actor);
-  const Var value = gradient_penalty<double>(tape, actor, parameters, tape.constant(observations),
-                                             tape.constant(actions), sigma);
+  nn::Tape<double> tape;
+  const auto parameters = nn::parameters_on_tape(tape, actor);
+  const nn::Var value = gradient_penalty<double>(tape, actor, parameters, tape.constant(observations),
+                                                 tape.constant(actions), sigma);
   return tape.scalar(value);
 }
 
@@ -125,13 +125,13 @@ TEST(GradientPenalty, ItsGradientMatchesFiniteDifferences) {
   nn::Mlp<double> actor = small_actor(random);
   const M observations = normal_matrix(6, 5, random), actions = normal_matrix(6, 3, random);
   const double sigma = 0.5, h = 1e-5;
-  Tape<double> tape;
-  const auto vars = parameters_on_tape(tape, actor);
-  const Var value =
+  nn::Tape<double> tape;
+  const auto vars = nn::parameters_on_tape(tape, actor);
+  const nn::Var value =
       gradient_penalty<double>(tape, actor, vars, tape.constant(observations), tape.constant(actions), sigma);
   const auto gradient = nn::gradient(tape, value, vars);
   std::vector<M> analytic;
-  for (const Var v : gradient) analytic.push_back(tape.value(v));
+  for (const nn::Var v : gradient) analytic.push_back(tape.value(v));
   const auto parameters = nn::parameters(actor);
   for (std::size_t p = 0; p < parameters.size(); ++p)
     for (Eigen::Index k = 0; k < parameters[p]->size(); ++k) {

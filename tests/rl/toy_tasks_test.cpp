@@ -35,7 +35,7 @@ PpoConfig toy_config() {
 /// Gain K of u = −K·x that minimises Σ γᵗ(xᵀQx + R u²): the discounted Riccati equation, iterated. Noise that
 /// is added to u does not change it.
 Eigen::RowVector2d riccati_gain(double gamma) {
-  using Task = DoubleIntegrator;
+  using Task = toy::DoubleIntegrator;
   const Eigen::Matrix2d a = (Eigen::Matrix2d() << 1.0, Task::kDt, 0.0, 1.0).finished();
   const Eigen::Vector2d b(0.0, Task::kDt);
   const Eigen::Matrix2d q = Eigen::Vector2d(Task::kPositionCost, Task::kVelocityCost).asDiagonal();
@@ -59,14 +59,14 @@ Eigen::RowVector3d linear_law(const Agent& agent) {
 }
 
 TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
-  ToyEnvironment<DoubleIntegrator> world(4, 64, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> world(4, 64, 1);
   PpoConfig config = toy_config();
   config.minibatch = 2048;
   config.sigma_start = config.sigma_end = 0.4;
   Agent agent = agent_for(2, 1, 1);
   Random random(1);
   agent.actor = nn::make_mlp<float>({2, 1}, nn::Activation::kLinear, 0.02F, random);
-  PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, kCourse, {agent}, world);
+  PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kCourse, {agent}, world);
   Eigen::RowVector3d law = Eigen::RowVector3d::Zero();
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
   for (int k = 0; k < 50; ++k) {  // it goes on trembling about the optimum: take the mean
@@ -81,29 +81,29 @@ TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
 
 /// Mean undiscounted return of the mean policy over one episode of 64 characters.
 double pendulum_return(const Agent& agent) {
-  nn::Matrix<float> raw(64, Pendulum::kObservation), x, means;
+  nn::Matrix<float> raw(64, toy::Pendulum::kObservation), x, means;
   nn::Workspace<float> workspace;
   Random random(77);
-  List<Pendulum::State> states;
-  for (int i = 0; i < 64; ++i) states.push_back(Pendulum::reset(random));
+  List<toy::Pendulum::State> states;
+  for (int i = 0; i < 64; ++i) states.push_back(toy::Pendulum::reset(random));
   double total = 0.0;
-  for (int t = 0; t < Pendulum::kLimit; ++t) {
-    for (int i = 0; i < 64; ++i) Pendulum::observe(states[i], raw.row(i).data());
+  for (int t = 0; t < toy::Pendulum::kLimit; ++t) {
+    for (int i = 0; i < 64; ++i) toy::Pendulum::observe(states[i], raw.row(i).data());
     nn::normalise(agent.observations, raw, x);
     nn::evaluate(agent.actor, x, workspace, means);
-    for (int i = 0; i < 64; ++i) total += Pendulum::step(states[i], means.row(i).data(), random).reward;
+    for (int i = 0; i < 64; ++i) total += toy::Pendulum::step(states[i], means.row(i).data(), random).reward;
   }
   return total / 64.0;
 }
 
 TEST(ToyTasks, PendulumSwingsUp) {
-  ToyEnvironment<Pendulum> world(4, 32, 2);
+  toy::ToyEnvironment<toy::Pendulum> world(4, 32, 2);
   PpoConfig config = toy_config();
   config.sigma_start = 0.6;
   config.sigma_end = 0.15;
   const Agent untrained = agent_for(3, 1, 3);
-  PpoTrainer<ToyEnvironment<Pendulum>> trainer(config, {.seed = 1, .falling_samples = 600'000}, {untrained},
-                                               world);
+  PpoTrainer<toy::ToyEnvironment<toy::Pendulum>> trainer(config, {.seed = 1, .falling_samples = 600'000},
+                                                         {untrained}, world);
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
   EXPECT_LT(pendulum_return(untrained), -800.0);
   EXPECT_GT(pendulum_return(trainer.learner().agent), -250.0);
@@ -111,8 +111,8 @@ TEST(ToyTasks, PendulumSwingsUp) {
 
 template <class Task>
 double learned_value(const PpoConfig& config) {
-  ToyEnvironment<Task> world(2, 32, 4);
-  PpoTrainer<ToyEnvironment<Task>> trainer(config, kCourse, {agent_for(2, 1, 4)}, world);
+  toy::ToyEnvironment<Task> world(2, 32, 4);
+  PpoTrainer<toy::ToyEnvironment<Task>> trainer(config, kCourse, {agent_for(2, 1, 4)}, world);
   for (int k = 0; k < 150; ++k) trainer.iterate(kThreads);
   double sum = 0.0;
   for (const GroupRollout& group : trainer.buffer().groups) sum += group.values.cast<double>().sum();
@@ -123,24 +123,25 @@ TEST(ToyTasks, TimeLimitsDoNotBiasTheValue) {
   PpoConfig config = toy_config();
   config.gamma = 0.9;
   // Ten steps of reward 1 would be worth at most 6.5 to a critic that took the limit for an end.
-  EXPECT_NEAR(learned_value<ConstantReward>(config), 1.0 / (1.0 - config.gamma), 0.2);
+  EXPECT_NEAR(learned_value<toy::ConstantReward>(config), 1.0 / (1.0 - config.gamma), 0.2);
 }
 
 TEST(ToyTasks, TerminationsEndTheValue) {
   PpoConfig config = toy_config();
   config.gamma = 0.9;
-  const double expected = 1.0 / (1.0 - config.gamma * (1.0 - MortalReward::kDeath));
-  EXPECT_NEAR(learned_value<MortalReward>(config), expected, 0.1);
+  const double expected = 1.0 / (1.0 - config.gamma * (1.0 - toy::MortalReward::kDeath));
+  EXPECT_NEAR(learned_value<toy::MortalReward>(config), expected, 0.1);
 }
 
 TEST(ToyTasks, StepSizeFindsTheTargetKlFromFarBelowAndAbove) {
   for (const double start : {1e-6, 0.1}) {
-    ToyEnvironment<DoubleIntegrator> world(4, 32, 5);
+    toy::ToyEnvironment<toy::DoubleIntegrator> world(4, 32, 5);
     PpoConfig config = toy_config();
     config.sigma_start = config.sigma_end = 0.1;
     config.step_size = start;
     config.step_max = 1.0;
-    PpoTrainer<ToyEnvironment<DoubleIntegrator>> trainer(config, kCourse, {agent_for(2, 1, 5)}, world);
+    PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kCourse, {agent_for(2, 1, 5)},
+                                                                   world);
     for (int k = 0; k < 40; ++k) trainer.iterate(kThreads);
     double kl = 0.0;
     for (int k = 0; k < 20; ++k) kl += trainer.iterate(kThreads).kl / 20.0;

@@ -10,7 +10,7 @@ namespace {
 
 using toy::DoubleIntegrator;
 using toy::ToyEnvironment;
-using Trainer = PpoTrainer<ToyEnvironment<DoubleIntegrator>>;
+using Trainer = PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>>;
 
 constexpr Course kCourse = {.seed = 1, .falling_samples = 2'000'000};
 
@@ -21,7 +21,7 @@ Npz state_of(const Trainer& trainer) {
 }
 
 TEST(Trainer, IsBitIdenticalForOneAndTwoThreads) {
-  ToyEnvironment<DoubleIntegrator> one(5, 12, 1), two(5, 12, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> one(5, 12, 1), two(5, 12, 1);
   Trainer first(small_config(), kCourse, {small_agent()}, one),
       second(small_config(), kCourse, {small_agent()}, two);
   for (int k = 0; k < 6; ++k) {
@@ -34,7 +34,8 @@ TEST(Trainer, IsBitIdenticalForOneAndTwoThreads) {
 }
 
 TEST(Trainer, ResumingGivesTheBytesOfNeverHavingStopped) {
-  ToyEnvironment<DoubleIntegrator> whole_world(4, 16, 2), first_world(4, 16, 2), second_world(4, 16, 99);
+  toy::ToyEnvironment<toy::DoubleIntegrator> whole_world(4, 16, 2), first_world(4, 16, 2),
+      second_world(4, 16, 99);
   Trainer whole(small_config(), kCourse, {small_agent()}, whole_world);
   Trainer first(small_config(), kCourse, {small_agent()}, first_world);
   for (int k = 0; k < 3; ++k) {
@@ -45,7 +46,7 @@ TEST(Trainer, ResumingGivesTheBytesOfNeverHavingStopped) {
   other.step_size *= 7.0;  // the step size comes from the checkpoint
   Trainer resumed(other, kCourse, {small_agent()}, second_world);
   // The world's own random numbers are keyed by its seed, which is configuration.
-  second_world = ToyEnvironment<DoubleIntegrator>(4, 16, 2);
+  second_world = toy::ToyEnvironment<toy::DoubleIntegrator>(4, 16, 2);
   resumed.load(state_of(first), "t.");
   for (int k = 0; k < 4; ++k) {
     const IterationStats expected = whole.iterate(2), found = resumed.iterate(2);
@@ -57,14 +58,14 @@ TEST(Trainer, ResumingGivesTheBytesOfNeverHavingStopped) {
 }
 
 TEST(Trainer, LoadRefusesAnotherNumberOfCharacters) {
-  ToyEnvironment<DoubleIntegrator> small(2, 8, 1), large(3, 8, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> small(2, 8, 1), large(3, 8, 1);
   Trainer a(small_config(), kCourse, {small_agent()}, small),
       b(small_config(), kCourse, {small_agent()}, large);
   EXPECT_THROW(b.load(state_of(a), "t."), DataError);
 }
 
 TEST(Trainer, RefusesAnotherNumberOfAgentsThanAct) {
-  ToyEnvironment<DoubleIntegrator> world(2, 8, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1);
   EXPECT_THROW(Trainer(small_config(), kCourse, {}, world), std::invalid_argument);
   EXPECT_THROW(Trainer(small_config(), kCourse, {small_agent(), small_agent()}, world),
                std::invalid_argument);
@@ -86,7 +87,7 @@ Npz damaged(const Npz& whole, const std::string& key, bool emptied) {
 }
 
 TEST(Trainer, ACheckpointThatLacksAnythingIsADataError) {
-  ToyEnvironment<DoubleIntegrator> world(2, 8, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1);
   Trainer trainer(small_config(), kCourse, {small_agent()}, world);
   for (int k = 0; k < 2; ++k) trainer.iterate(1);
   const Npz whole = state_of(trainer);
@@ -97,8 +98,8 @@ TEST(Trainer, ACheckpointThatLacksAnythingIsADataError) {
 }
 
 /// Every episode ends at its third step. Between two roll-outs all characters are put into new episodes.
-struct ThreeSteps : ToyEnvironment<DoubleIntegrator> {
-  using ToyEnvironment<DoubleIntegrator>::ToyEnvironment;
+struct ThreeSteps : toy::ToyEnvironment<toy::DoubleIntegrator> {
+  using toy::ToyEnvironment<toy::DoubleIntegrator>::ToyEnvironment;
   std::vector<int> ages = std::vector<int>(8, 0);
 
   void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result) {
@@ -131,7 +132,7 @@ TEST(Trainer, NoiseNeverRepeatsBetweenGroupsIterationsAndSeeds) {
     const GroupRollout& g = trainer.buffer().groups[group];
     return nn::Matrix<float>(g.actions - g.means);
   };
-  ToyEnvironment<DoubleIntegrator> world(2, 8, 1), other_world(2, 8, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1), other_world(2, 8, 1);
   Course other_course = kCourse;
   ++other_course.seed;
   Trainer trainer(small_config(), kCourse, {small_agent()}, world),
@@ -145,7 +146,7 @@ TEST(Trainer, NoiseNeverRepeatsBetweenGroupsIterationsAndSeeds) {
 }
 
 TEST(Trainer, RollOutLeavesTheScaleOfItsObservationsBehind) {
-  ToyEnvironment<DoubleIntegrator> world(2, 8, 1);
+  toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1);
   Trainer trainer(small_config(), kCourse, {small_agent()}, world);
   for (int k = 0; k < 3; ++k) trainer.iterate(2);
   EXPECT_EQ(trainer.learner().agent.observations.moments.count, 3 * trainer.buffer().rows());

@@ -3,7 +3,7 @@
 /// Every σ is that of one term of the cost in docs/method.md, "Keypoint fit".
 #pragma once
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 struct FitConfig {
   int iterations = 12;  ///< of Gauss-Newton, at most; contacts and labels are found anew in each
@@ -42,4 +42,4 @@ struct FitConfig {
   double penetration_sigma = 0.003;   ///< m, of a foot point below the floor
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

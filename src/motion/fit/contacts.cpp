@@ -5,7 +5,7 @@
 
 #include "core/quantile.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 constexpr double kSpeed = 0.3;                             ///< m/s over five frames at 30 fps
@@ -44,4 +44,4 @@ Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool set
   return contacts;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

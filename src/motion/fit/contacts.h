@@ -3,7 +3,7 @@
 
 #include "motion/fit/kinematics.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 /// Which foot points stand in which frame: [frames][kFootPoints].
 using Contacts = PerFrame<Array<bool, kFootPoints>>;
@@ -13,4 +13,4 @@ using Contacts = PerFrame<Array<bool, kFootPoints>>;
 ///                 the floor of its own foot, a low percentile of that foot's heights
 Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool settled);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -10,7 +10,7 @@
 #include "motion/fit/projection.h"
 #include "motion/fit/terms.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 constexpr double kPercent = 100.0;
@@ -212,4 +212,4 @@ Clip steady(const Clip& clip, const FitConfig& config, FitReport* report) {
   return calm;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

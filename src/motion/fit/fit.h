@@ -19,7 +19,7 @@
 #include "motion/clip.h"
 #include "motion/fit/config.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 /// What the fit did; every figure goes into the manifest.
 struct FitReport {
@@ -47,4 +47,4 @@ Clip fit_keypoints(const Clip& clip, const FitConfig& config, FitReport* report)
 Clip steady(const Clip& clip, const FitConfig& config, FitReport* report);
 inline constexpr double kTremor = 0.3;  ///< degrees per axis of a knee, the white part of its rotation
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 Matrix3d cross_matrix(const Vector3d& v) {
@@ -69,4 +69,4 @@ PointJacobian point_jacobian(const FrameKinematics& k, int body, const Vector3d&
   return J;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -7,7 +7,7 @@
 
 #include "motion/fit/problem.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 using PointJacobian = Eigen::Matrix<double, 3, kFrameUnknowns>;
 using FootPositions = Array<Vector3d, kFootPoints>;  ///< of the points of the soles, world, m
@@ -28,4 +28,4 @@ FootPositions foot_positions(const Character& character, const FrameKinematics& 
 /// Derivative of a point p (world, m) fixed to a body.
 PointJacobian point_jacobian(const FrameKinematics& k, int body, const Vector3d& p);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 constexpr double kFar = 0.15;        ///< heights of the box: farther detections count no more than this
@@ -69,4 +69,4 @@ int order_labels(const PerFrame<std::vector<Vector3d>>& detected,
   return frames;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -5,7 +5,7 @@
 
 #include "motion/fit/problem.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 /// Fills `FitProblem::uvc` with the detections; in frames in which the prediction strongly prefers it, left
 /// and right of the arms or of the legs change places.
@@ -15,4 +15,4 @@ namespace mimicx {
 int order_labels(const PerFrame<std::vector<Vector3d>>& detected,
                  const PerFrame<std::vector<Eigen::Vector2d>>& predicted, FitProblem& problem);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -7,7 +7,7 @@
 #include "motion/estimator_error.h"
 #include "motion/hinge.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 constexpr double kMedianToSigma = 1.4826;  ///< of a normal distribution
@@ -159,4 +159,4 @@ PerBody<Quaterniond> rotations_of(const FitProblem& problem, const FitState& sta
   return q;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -8,7 +8,7 @@
 #include "motion/clip.h"
 #include "motion/fit/config.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 /// Unknowns of a frame: root position (world, m), root rotation, joints as in `first_dof`.
 inline constexpr int kRootRotation = 3, kFirstJoint = 6, kFrameUnknowns = kFirstJoint + kDofs;
@@ -74,4 +74,4 @@ Character character_of(const FitProblem& problem, const FitState& state);
 /// Joint rotations of a frame, corrected.  docs/method.md, "Keypoint fit", (4)
 PerBody<Quaterniond> rotations_of(const FitProblem& problem, const FitState& state, int t);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 Matrix3d turn_of(double tilt) { return Eigen::AngleAxisd(tilt, Vector3d::UnitX()).toRotationMatrix(); }
@@ -31,4 +31,4 @@ Projection project_point(const FitProblem& problem, const FitState& state, int t
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

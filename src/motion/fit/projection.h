@@ -3,7 +3,7 @@
 
 #include "motion/fit/problem.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 /// Error of a keypoint, in heights of the box, and its derivatives.
 struct Projection {
@@ -18,4 +18,4 @@ struct Projection {
 Projection project_point(const FitProblem& problem, const FitState& state, int t, std::size_t k,
                          const Vector3d& p_W);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using Eigen::MatrixXd;
@@ -78,4 +78,4 @@ BandSolution solve(BorderedBand& s) {
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -12,7 +12,7 @@
 
 #include "core/containers.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 struct BorderedBand {
   using MatrixXd = Eigen::MatrixXd;
@@ -40,4 +40,4 @@ struct BandSolution {
 /// @throws std::domain_error when it is not positive definite
 BandSolution solve(BorderedBand& system);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -7,7 +7,7 @@
 #include "motion/estimator_error.h"
 #include "motion/fit/projection.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 constexpr double kFps = 30.0;          ///< frame rate at which the settings' rates are meant
@@ -229,4 +229,4 @@ BorderedBand linearise(const FitProblem& problem, const FitState& state,
   return system;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

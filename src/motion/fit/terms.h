@@ -5,7 +5,7 @@
 #include "motion/fit/kinematics.h"
 #include "motion/fit/solver.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 
 /// Normal equations of all terms at a state, robust weights and contacts held fixed.
 /// @param motion, feet  kinematics and foot points of the state, [frames]
@@ -14,4 +14,4 @@ BorderedBand linearise(const FitProblem& problem, const FitState& state,
                        const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,
                        const Contacts& contacts);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

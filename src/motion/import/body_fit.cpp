@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 using Betas = Array<double, kBetas>;
@@ -92,4 +92,4 @@ std::array<double, kBetas> fit_betas(const PerBody<Vector3d>& offsets, double& e
   return betas;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

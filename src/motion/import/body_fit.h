@@ -8,7 +8,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// Lengths that say something of the shape, m; left and right are averaged. 0: not known.
 enum Length : int {
@@ -33,4 +33,4 @@ std::array<double, kBetas> fit_betas(const BodyLengths& lengths);
 /// The β whose rest offsets are nearest to the given ones. @param error  largest difference that is left, m
 std::array<double, kBetas> fit_betas(const PerBody<Vector3d>& offsets, double& error);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -4,7 +4,7 @@
 
 #include "core/npz.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 using Eigen::Index;
@@ -72,4 +72,4 @@ BodyModel read_body_model(const std::filesystem::path& path) {
   return model;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

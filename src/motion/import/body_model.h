@@ -12,7 +12,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// Rest joints of the first 22 bodies, affine in β.
 struct BodyModel {
@@ -25,4 +25,4 @@ struct BodyModel {
 /// @throws DataError naming file and member
 BodyModel read_body_model(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "motion/import/text_input.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 constexpr std::size_t kMaxJoints = 4096;
@@ -178,4 +178,4 @@ SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& pat
 
 SkeletonMotion read_bvh(const std::filesystem::path& path) { return parse_bvh(read_text(path), path); }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

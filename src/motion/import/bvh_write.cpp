@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 std::string number(double value) {
@@ -92,4 +92,4 @@ void write_bvh(const std::filesystem::path& path, const Clip& clip) {
   write_file_atomically(path, format_bvh(clip));
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -11,10 +11,10 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 void write_bvh(const std::filesystem::path& path, const Clip& clip);
 /// The text `write_bvh` writes.
 std::string format_bvh(const Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -6,7 +6,7 @@
 
 #include "motion/import/text_input.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 constexpr int kColumns = 44;
@@ -175,4 +175,4 @@ SkeletonMotion read_deepmimic(const std::filesystem::path& path) {
   return parse_deepmimic(read_text(path), path);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

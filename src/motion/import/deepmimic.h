@@ -17,11 +17,11 @@
 
 #include "motion/import/skeleton.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// @throws DataError naming file and line
 SkeletonMotion read_deepmimic(const std::filesystem::path& path);
 /// The same from text in memory. @param path  for messages; its stem is the motion's name
 SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

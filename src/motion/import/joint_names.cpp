@@ -8,7 +8,7 @@
 
 #include "motion/import/text_input.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 enum Side { kMiddle, kLeft, kRight };
@@ -241,4 +241,4 @@ JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& u
   return map;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -20,7 +20,7 @@
 #include "character/character.h"
 #include "motion/import/skeleton.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// Index of the joint that stands for each body, -1 where there is none. Hips, knees, ankles, shoulders,
 /// elbows and wrists, pelvis and chest (spine3) are always there. A wrist or foot may be an end site.
@@ -30,4 +30,4 @@ using JointMap = PerBody<int>;
 /// @throws DataError when a body that must be there is not, or hangs on the wrong joint
 JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map = {});
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -6,7 +6,7 @@
 #include "core/quantile.h"
 #include "motion/import/world.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 constexpr std::array<std::array<int, 3>, 2> kLegs = {
@@ -137,4 +137,4 @@ std::optional<Unit> unit_of(double length) {
   return best;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

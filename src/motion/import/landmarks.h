@@ -9,7 +9,7 @@
 #include "motion/import/joint_names.h"
 #include "motion/import/skeleton.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// The joints of one pose by body. A body without a joint of its own is where, and turns as, its parent.
 struct Landmarks {
@@ -56,4 +56,4 @@ struct Unit {
 /// @return none where no known unit does
 std::optional<Unit> unit_of(double length);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -18,7 +18,7 @@
 #include "motion/import/retarget.h"
 #include "motion/import/world.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
@@ -292,4 +292,4 @@ void write_motion(const std::filesystem::path& path, const Clip& clip) {
                                 suffix + "'");
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

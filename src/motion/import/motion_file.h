@@ -14,7 +14,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// What the user knows better than the file.
 struct ReadConfig {
@@ -53,4 +53,4 @@ std::string written_suffixes();
 /// (Motion-X) or .bvh. @throws std::invalid_argument for another suffix
 void write_motion(const std::filesystem::path& path, const Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -6,7 +6,7 @@
 #include "motion/import/plausibility.h"
 #include "motion/import/world.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 using Eigen::Index;
@@ -109,4 +109,4 @@ void write_motionx(const std::filesystem::path& path, const Clip& clip) {
   write_file_atomically(path, format_npy(to_motionx(clip)));
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

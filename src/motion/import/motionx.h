@@ -9,7 +9,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 inline constexpr std::size_t kMotionxColumns = 322;
 
@@ -23,4 +23,4 @@ Clip motionx_from(const NpyArray& array, const std::string& name, const std::str
 NpyArray to_motionx(const Clip& clip);
 void write_motionx(const std::filesystem::path& path, const Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -13,7 +13,7 @@
 #include "motion/import/world.h"
 #include "motion/surface.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 // Unit of length.
@@ -226,4 +226,4 @@ std::vector<std::string> implausible_speeds(const Clip& clip) {
   return said;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

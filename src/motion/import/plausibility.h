@@ -13,7 +13,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// A number with three significant digits, for sentences.
 std::string short_number(double value);
@@ -53,4 +53,4 @@ double detect_floor(const Clip& clip);
 /// Speeds that no human has, in words; empty where all is well.
 std::vector<std::string> implausible_speeds(const Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

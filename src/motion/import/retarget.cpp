@@ -12,7 +12,7 @@
 #include "motion/import/retarget_solve.h"
 #include "motion/import/world.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 template <class... Values>
@@ -170,7 +170,7 @@ void solve(const Character& character, const Calibration& calibration, const Per
     rotations[0] = log_map(q[0]);
     for (int b = 1; b < kBodies; ++b) rotations[b] = log_map(q[kParents[b]].conjugate() * q[b]);
     clip.trans.push_back(leg_ratio * pose.between(kLeftHip, kRightHip) - q[0] * hips -
-                         rest_pelvis(clip.body_model));
+                         mimicx::rest_pelvis(clip.body_model));
   }
 }
 
@@ -235,7 +235,7 @@ bool take_own_skeleton(const SkeletonMotion& motion, Clip& clip) {
     auto& rotations = clip.rotations.emplace_back();
     for (int b = 0; b < kBodies; ++b) rotations[b] = log_map(motion.rotation[t][joint[b]]);
     rotations[0] = log_map(up * motion.rotation[t][0]);
-    clip.trans.push_back(up * motion.translation[t][0] - rest_pelvis(clip.body_model));
+    clip.trans.push_back(up * motion.translation[t][0] - mimicx::rest_pelvis(clip.body_model));
   }
   clip.decisions.emplace_back("the skeleton is this program's own: taken over as it is, y up, metres");
   return true;
@@ -303,4 +303,4 @@ Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config, Retarg
   return clip;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -22,7 +22,7 @@
 #include "motion/clip.h"
 #include "motion/import/skeleton.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 struct RetargetConfig {
   bool standard_body = false;  ///< β = 0 instead of the fitted one
@@ -47,4 +47,4 @@ struct RetargetReport {
 Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config = {},
               RetargetReport* report = nullptr);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -10,7 +10,7 @@
 #include "motion/feet.h"
 #include "motion/surface.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 constexpr std::size_t kEnough = 10;  ///< standing frames
@@ -93,4 +93,4 @@ double put_on_floor(Clip& clip) {
   return lift;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -4,7 +4,7 @@
 #include "motion/clip.h"
 #include "motion/import/retarget_solve.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// Removes the constant error of the calibration from the soles. While a foot stands its sole is level, so
 /// the median direction of "up" in the foot's frame shows the error. The third of its standing frames with
@@ -21,4 +21,4 @@ void level_soles(bool neutral_stands, Calibration& calibration, Clip& clip);
 /// @return by how much, m
 double put_on_floor(Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

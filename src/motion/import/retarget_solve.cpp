@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 using JointRotations = PerBody<Quaterniond>;
@@ -176,4 +176,4 @@ JointRotations body_rotations(const Character& character, const Calibration& cal
   return q;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

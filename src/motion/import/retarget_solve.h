@@ -10,7 +10,7 @@
 
 #include "motion/import/landmarks.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// Bones whose direction is kept: the body and the joint at its other end.
 struct Bone {
@@ -54,4 +54,4 @@ Twists measure_twists(const Character& character, const Calibration& calibration
 PerBody<Quaterniond> body_rotations(const Character& character, const Calibration& calibration,
                                     const Landmarks& pose);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 double whole_rate(double fps) {
   const double whole = std::round(fps);
@@ -31,4 +31,4 @@ SkeletonPose rest_pose(const SkeletonMotion& motion) {
   return pose;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

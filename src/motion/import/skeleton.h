@@ -14,7 +14,7 @@
 #include "core/containers.h"
 #include "core/so3.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// One value per joint of a skeleton, in the order of `SkeletonMotion::joints`.
 template <class T>
@@ -59,4 +59,4 @@ SkeletonPose pose_of(const SkeletonMotion& motion, int frame);
 /// Every rotation the identity, every translation the offset.
 SkeletonPose rest_pose(const SkeletonMotion& motion);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -7,7 +7,7 @@
 
 #include "core/file.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 std::string in_quotes(std::string_view word) { return std::string(1, '\'').append(word).append(1, '\''); }
@@ -131,4 +131,4 @@ void TextInput::fail_with(const std::string& expected, const std::string& found)
   throw DataError(path_, "line " + std::to_string(line_), expected, found);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

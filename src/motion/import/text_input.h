@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 30;
 
@@ -61,4 +61,4 @@ class TextInput {
 /// A word as a finite number. @return false when it is none
 bool parse_number(std::string_view word, double& value);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

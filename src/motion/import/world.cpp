@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 /// Puts the pelvis elsewhere: @param place  Vector3d(Vector3d) of the pelvis' position
@@ -78,4 +78,4 @@ std::string axis_name(char axis) {
   return name;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

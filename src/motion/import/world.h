@@ -10,7 +10,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 
 /// p → R p for every point of the world.
 void rotate_world(const Quaterniond& R, Clip& clip);
@@ -29,4 +29,4 @@ char axis_letter(const Vector3d& direction);
 /// "y", "-y", …
 std::string axis_name(char axis);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

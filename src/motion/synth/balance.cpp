@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 // A pelvis that moves by 1 moves the centre of mass by 0.6 (legs planted) to 1 (in flight). With this gain
@@ -243,4 +243,4 @@ PerFrame<SynthPose> solve_plan(const Character& character, PerFrame<PlanFrame> p
   return motion;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -16,7 +16,7 @@
 #include "core/units.h"
 #include "motion/synth/plan.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 /// Pose in the plan frame, in the simulator's coordinates.
 struct SynthPose {
@@ -39,4 +39,4 @@ double com_height_for_knee(const Character& character, const PlanFrame& frame, c
 /// @throws std::invalid_argument when a leg is too short for its place all the same
 PerFrame<SynthPose> solve_plan(const Character& character, PerFrame<PlanFrame> plan, double fps);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

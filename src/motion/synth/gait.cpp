@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 void follow_feet(const Character& character, const GaitStyle& style, double stride, const FeetTracks& feet,
                  PerFrame<PlanFrame>& plan) {
@@ -44,4 +44,4 @@ void face_along_feet(PerFrame<PlanFrame>& plan) {
   for (int i = 0; i < plan.count(); ++i) plan[i].heading = heading[i];
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

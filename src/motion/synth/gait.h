@@ -5,7 +5,7 @@
 
 #include "motion/synth/plan.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 /// How a gait looks, beyond where the feet go.
 struct GaitStyle {
@@ -21,4 +21,4 @@ void follow_feet(const Character& character, const GaitStyle& style, double stri
 /// The pelvis faces where the feet point on average, without their steps. @param plan  feet set
 void face_along_feet(PerFrame<PlanFrame>& plan);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

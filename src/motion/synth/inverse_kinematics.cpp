@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 constexpr double kToesFollow =
@@ -78,4 +78,4 @@ LegPose solve_leg(const Character& c, int side, const Vector3d& p_pelvis, const 
   return pose;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

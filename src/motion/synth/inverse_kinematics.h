@@ -7,7 +7,7 @@
 
 #include "character/character.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 /// Model axes (x left, y up, z forward) → plan axes (x forward, y left, z up): a cyclic permutation.
 inline const Quaterniond kModelToPlan{0.5, 0.5, 0.5, 0.5};
@@ -43,4 +43,4 @@ struct LegPose {
 LegPose solve_leg(const Character& character, int side, const Vector3d& p_pelvis, const Quaterniond& q_pelvis,
                   const FootPose& foot, const Vector3d& knee_axis);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -2,7 +2,7 @@
 
 #include "motion/synth/balance.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 const std::vector<SynthKind>& synth_kinds() {
   static const std::vector<SynthKind> kinds = {{"stand", 4.4, 5.4, plan_stand},
@@ -37,4 +37,4 @@ PlanFrame standing_frame(const Character& character, const FeetTracks& feet) {
   return frame;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -13,7 +13,7 @@
 #include "core/units.h"
 #include "motion/synth/plan.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 /// What a plan is made for.
 struct PlanRequest {
@@ -65,4 +65,4 @@ PerFrame<PlanFrame> plan_kick(const PlanRequest& request);
 PerFrame<PlanFrame> plan_punch(const PlanRequest& request);
 PerFrame<PlanFrame> plan_lunge(const PlanRequest& request);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

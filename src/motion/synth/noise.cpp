@@ -10,7 +10,7 @@
 #include "motion/surface.h"
 #include "motion/synth/track.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 /// still·N + slow·S + jitter·J, each from the stream, in this order.
@@ -214,7 +214,7 @@ Clip add_noise(const Clip& truth, const NoiseConfig& config) {
   if (truth.body_model != "mimicx") throw std::invalid_argument("add_noise: the body model must be 'mimicx'");
   const NoisePreset& preset = config.preset;
   const std::uint64_t seed = config.seed;
-  const Vector3d rest = rest_pelvis(truth.body_model);
+  const Vector3d rest = mimicx::rest_pelvis(truth.body_model);
   const Character character = make_character(truth.betas);
   const std::vector<SurfacePoint> surface = surface_points(character);
   MotionRotations q(truth.rotations.size());
@@ -253,4 +253,4 @@ Clip add_noise(const Clip& truth, const NoiseConfig& config) {
   return noisy;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -15,7 +15,7 @@
 
 #include "motion/synth/noise_keypoints.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 /// Amplitudes of the error terms. Angles in degrees, lengths in metres, times in seconds.
 struct NoisePreset {
@@ -67,4 +67,4 @@ PerFrame<double> smooth_noise(Random& random, int count, double frames);
 /// Bursts of a clip, in the order of their beginnings.
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 constexpr double kWidth = 1920.0, kHeight = 1080.0;  ///< picture, px
@@ -206,4 +206,4 @@ Keypoints detect_keypoints(const PerFrame<BodyPoses>& truth, const Camera& camer
   return keypoints;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

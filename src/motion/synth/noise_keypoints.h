@@ -8,7 +8,7 @@
 #include "motion/keypoint_names.h"
 #include "motion/synth/noise_streams.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 /// A pinhole camera: world → camera (x right, y down, z forward), intrinsics in pixels.
 struct Camera {
@@ -27,4 +27,4 @@ Camera place_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed);
 Keypoints detect_keypoints(const PerFrame<BodyPoses>& truth, const Camera& camera, KeypointSet set,
                            const std::vector<Burst>& bursts, std::uint64_t seed, double fps);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

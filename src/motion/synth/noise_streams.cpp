@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 std::vector<Interval> poisson_intervals(Random& random, double rate, double shortest, double longest,
                                         int frames, double fps) {
@@ -20,4 +20,4 @@ std::vector<Interval> poisson_intervals(Random& random, double rate, double shor
   return intervals;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "core/so3.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 enum NoiseStream : std::uint64_t {
   kJointStream = 0x4E4F4901,
@@ -45,4 +45,4 @@ struct Interval {
 std::vector<Interval> poisson_intervals(Random& random, double rate, double shortest, double longest,
                                         int frames, double fps);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

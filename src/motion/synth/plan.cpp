@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 // Where the load acts in a foot, as a share of the way from the ankle to the toe points.
@@ -208,4 +208,4 @@ void hold_postures(const std::vector<PostureKey>& keys, double time, PlanFrame& 
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -11,7 +11,7 @@
 #include "motion/synth/inverse_kinematics.h"
 #include "motion/synth/track.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 inline constexpr double kSynthFps = 30.0;  ///< frames per second of every plan
 /// Time of a frame, s.
@@ -106,4 +106,4 @@ struct PostureKey {
 /// @param keys  in order of time
 void hold_postures(const std::vector<PostureKey>& keys, double time, PlanFrame& frame);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -6,7 +6,7 @@
 
 #include "motion/clip_file.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 constexpr std::uint64_t kSetNoiseStream = 0x53594E04;
@@ -105,4 +105,4 @@ void write_synthetic_data(const std::filesystem::path& directory) {
   write_synth_set(directory / "train", config);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -16,7 +16,7 @@
 #include "motion/synth/noise.h"
 #include "motion/synth/synth.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 inline constexpr std::uint64_t kTestSeed = 1, kTrainingSeed = 101;  ///< first seeds of the two splits
 
@@ -50,4 +50,4 @@ void write_synth_set(const std::filesystem::path& directory, const SynthSetConfi
 /// split, gvhmr noise, perturbed camera.
 void write_synthetic_data(const std::filesystem::path& directory);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -7,7 +7,7 @@
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 // Purposes of the random streams.
@@ -58,4 +58,4 @@ Clip synthesize(const SynthConfig& config) {
   return to_clip(config.kind + "_" + std::to_string(config.seed), kSynthFps, character, p_root, q);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

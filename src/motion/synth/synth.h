@@ -19,7 +19,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 struct SynthConfig {
   std::string kind = "stand";          ///< one of `synthetic_kinds()`
@@ -36,4 +36,4 @@ std::vector<std::string> synthetic_kinds();
 /// @throws std::invalid_argument for an unknown kind, a length outside 4 to 60 s, or a shape with |β_k| > 5.
 Clip synthesize(const SynthConfig& config);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

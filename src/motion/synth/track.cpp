@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 MinJerkTrack::MinJerkTrack(std::vector<Knot> knots) : knots_(std::move(knots)) {
   if (knots_.empty()) throw std::invalid_argument("MinJerkTrack: at least one knot is needed");
@@ -49,4 +49,4 @@ PerFrame<double> smoothed(const PerFrame<double>& values, double sigma) {
   return out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -9,7 +9,7 @@
 
 #include "core/containers.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 
 struct Knot {
   double time;  ///< s
@@ -33,4 +33,4 @@ class MinJerkTrack {
 /// `values` filtered by a Gaussian of `sigma` frames; the ends are continued by their last value.
 PerFrame<double> smoothed(const PerFrame<double>& values, double sigma);
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -8,7 +8,7 @@
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/feasibility.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
 constexpr double kAir = 0.02;        ///< a body whose lowest contact point is higher stands on nothing, m
@@ -21,7 +21,7 @@ struct Kinematics {
   Vector3d center;  ///< of mass
 };
 
-Kinematics kinematics_of(const Character& c, const ReferenceFrame& s) {
+Kinematics kinematics_of(const Character& c, const motion::ReferenceFrame& s) {
   Kinematics k;
   k.poses = forward_kinematics(c, s.p_root, s.q);
   PerBody<Vector3d> v;
@@ -94,8 +94,8 @@ void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& 
 
 /// Torques against their bounds and against what is required, and their power.
 /// @param speed  of the joints, child's frame, rad/s
-void judge_joints(const Character& c, const rl::ActingForces& forces, const PerBody<Vector3d>& required,
-                  const PerBody<Vector3d>& speed, AuditRow& row) {
+void judge_joints(const Character& c, const rl::tracking::ActingForces& forces,
+                  const PerBody<Vector3d>& required, const PerBody<Vector3d>& speed, AuditRow& row) {
   for (std::size_t i = 1; i < kBodies; ++i) {
     const int body = static_cast<int>(i);
     const auto along = [&](const Vector3d& v) {  // the part that a joint can feel
@@ -111,21 +111,22 @@ void judge_joints(const Character& c, const rl::ActingForces& forces, const PerB
   }
 }
 
-BodyWrenches external_of(const rl::ActingForces& forces) {
-  BodyWrenches wrenches;
+physics::BodyWrenches external_of(const rl::tracking::ActingForces& forces) {
+  physics::BodyWrenches wrenches;
   for (std::size_t i = 0; i < kBodies; ++i) wrenches[i] = forces.ground[i] + forces.self_contact[i];
   return wrenches;
 }
 
-Vector3d ground_force(const rl::ActingForces& forces) {
+Vector3d ground_force(const rl::tracking::ActingForces& forces) {
   Vector3d sum = Vector3d::Zero();
   for (const Vector6d& wrench : forces.ground) sum += wrench.tail<3>();
   return sum;
 }
 
 /// The state between two, and the mean acceleration.
-MotionState between(const ReferenceFrame& a, const ReferenceFrame& b, double rate, double share) {
-  MotionState s;
+physics::MotionState between(const motion::ReferenceFrame& a, const motion::ReferenceFrame& b, double rate,
+                             double share) {
+  physics::MotionState s;
   s.p_root = (1.0 - share) * a.p_root + share * b.p_root;
   s.v_root = (1.0 - share) * a.v_root + share * b.v_root;
   s.a_root = rate * (b.v_root - a.v_root);
@@ -140,7 +141,7 @@ MotionState between(const ReferenceFrame& a, const ReferenceFrame& b, double rat
 /// docs/physics.md §9, (10): change of momentum = weight and mean wrenches, about the middle of the centre of
 /// mass' way.
 Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kinematics& before,
-                      const Kinematics& after, const BodyWrenches& external) {
+                      const Kinematics& after, const physics::BodyWrenches& external) {
   const Vector3d point = 0.5 * (before.center + after.center);
   Vector6d gap = rate * (momentum_of(c, after, point) - momentum_of(c, before, point));
   gap[5] += c.total_mass() * gravity;
@@ -150,13 +151,14 @@ Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kin
 }
 
 /// One physics step: velocities change by dt·a with a taken at the state before.
-AuditRow step_row(const Character& c, const SimulationConfig& o, const rl::Substep& step,
-                  ReferenceFrame next) {
-  rl::Substep s = step;
+AuditRow step_row(const Character& c, const physics::SimulationConfig& o, const rl::tracking::Substep& step,
+                  motion::ReferenceFrame next) {
+  rl::tracking::Substep s = step;
   for (auto& q : s.state.q) q.normalize();
   for (auto& q : next.q) q.normalize();
-  const MotionState state = between(s.state, next, o.rate, 0.0);
-  const RequiredForces required = inverse_dynamics(c, o.gravity, state, external_of(s.forces));
+  const physics::MotionState state = between(s.state, next, o.rate, 0.0);
+  const physics::RequiredForces required =
+      physics::inverse_dynamics(c, o.gravity, state, external_of(s.forces));
   const Kinematics before = kinematics_of(c, s.state);
   AuditRow row;
   row.root = shifted(required.root, s.state.p_root, before.center);
@@ -167,7 +169,7 @@ AuditRow step_row(const Character& c, const SimulationConfig& o, const rl::Subst
 
 }  // namespace
 
-Audit audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation) {
+Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfig& simulation) {
   const Character& c = motion.character;
   Audit audit;
   audit.evidence = Evidence::kFrames;
@@ -175,14 +177,14 @@ Audit audit_frames(const SimulatedFrames& motion, const SimulationConfig& simula
   audit.weight = simulation.gravity * c.total_mass();
   Kinematics before = motion.frames.empty() ? Kinematics{} : kinematics_of(c, motion.frames[0]);
   for (std::size_t t = 1; t < motion.frames.size(); ++t) {
-    const ReferenceFrame &a = motion.frames[t - 1], &b = motion.frames[t];
+    const motion::ReferenceFrame &a = motion.frames[t - 1], &b = motion.frames[t];
     const Kinematics after = kinematics_of(c, b);
-    const BodyWrenches external = external_of(motion.forces[t]);
+    const physics::BodyWrenches external = external_of(motion.forces[t]);
     AuditRow row;
     row.index = static_cast<int>(t);
     row.root = momentum_gap(c, simulation.gravity, motion.fps, before, after, external);
-    const RequiredForces required =
-        inverse_dynamics(c, simulation.gravity, between(a, b, motion.fps, 0.5), external);
+    const physics::RequiredForces required =
+        physics::inverse_dynamics(c, simulation.gravity, between(a, b, motion.fps, 0.5), external);
     PerBody<Vector3d> speed;
     for (std::size_t i = 0; i < kBodies; ++i) speed[i] = motion.fps * log_map(a.q[i].conjugate() * b.q[i]);
     judge_joints(c, motion.forces[t], required.joint, speed, row);
@@ -205,7 +207,8 @@ Audit audit_steps(const SubstepMotion& motion) {
   audit.rate = motion.simulation.rate;
   audit.weight = motion.simulation.gravity * motion.character.total_mass();
   for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-    const ReferenceFrame& next = k + 1 < motion.steps.size() ? motion.steps[k + 1].state : motion.last;
+    const motion::ReferenceFrame& next =
+        k + 1 < motion.steps.size() ? motion.steps[k + 1].state : motion.last;
     audit.rows.push_back(step_row(motion.character, motion.simulation, motion.steps[k], next));
     audit.rows.back().index = static_cast<int>(k);
   }
@@ -229,15 +232,15 @@ Audit audit_replayed_steps(const SubstepMotion& motion) {
   return audit;
 }
 
-Audit audit_poses(const Clip& clip) {
-  Clip ours = resampled(clip, kPosesRate);
+Audit audit_poses(const motion::Clip& clip) {
+  motion::Clip ours = motion::resampled(clip, kPosesRate);
   ours.betas = clip.usable_betas();
-  for (Vector3d& p : ours.trans) p += rest_pelvis(clip.body_model) - rest_pelvis("mimicx");
+  for (Vector3d& p : ours.trans) p += rest_pelvis(clip.body_model) - mimicx::rest_pelvis("mimicx");
   ours.body_model = "mimicx";
   Audit audit;
   const Character character = make_character(ours.betas);
-  const auto poses = poses_of(ours);
-  audit.weight = SimulationConfig{}.gravity * character.total_mass();
+  const auto poses = motion::poses_of(ours);
+  audit.weight = physics::SimulationConfig{}.gravity * character.total_mass();
   int frame = 0;
   for (const FrameDemand& demand : motion_demands(ours, {kFloorReach, kFloorReach, true})) {
     AuditRow row;
@@ -251,4 +254,4 @@ Audit audit_poses(const Clip& clip) {
   return audit;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

@@ -20,21 +20,21 @@
 #include "pipeline/audit/evidence.h"
 #include "pipeline/audit/substeps.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 
 /// A simulated motion's frames with what acted between them; quaternions unit.
 struct SimulatedFrames {
   Character character;
   double fps = 30.0;
-  std::vector<ReferenceFrame> frames;
-  std::vector<rl::ActingForces> forces;  ///< means over the interval that ends at the frame
+  std::vector<motion::ReferenceFrame> frames;
+  std::vector<rl::tracking::ActingForces> forces;  ///< means over the interval that ends at the frame
 };
 
-Audit audit_frames(const SimulatedFrames& motion, const SimulationConfig& simulation);
+Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfig& simulation);
 /// As recorded, and replayed in double precision.
 Audit audit_steps(const SubstepMotion& motion);
 Audit audit_replayed_steps(const SubstepMotion& motion);
 /// The floor's best case, at 30 fps. A foreign body model is looked at on the standard body.
-Audit audit_poses(const Clip& clip);
+Audit audit_poses(const motion::Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

@@ -9,22 +9,24 @@
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/record/json.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
-Json to_json(const Audit& audit) {
-  Json summary = Json::object();
-  for (const auto& [name, value] : summary_of(audit)) summary[name] = number(value);
-  Json rows = {{"index", Json::array()},          {"root_force_N", Json::array()},
-               {"root_moment_Nm", Json::array()}, {"torque_gap_Nm", Json::array()},
-               {"torque_share", Json::array()},   {"power_W", Json::array()}};
+record::Json to_json(const Audit& audit) {
+  record::Json summary = record::Json::object();
+  for (const auto& [name, value] : summary_of(audit)) summary[name] = record::number(value);
+  record::Json rows = {{"index", record::Json::array()},          {"root_force_N", record::Json::array()},
+                       {"root_moment_Nm", record::Json::array()}, {"torque_gap_Nm", record::Json::array()},
+                       {"torque_share", record::Json::array()},   {"power_W", record::Json::array()}};
   for (const AuditRow& row : audit.rows) {
     rows["index"].push_back(row.index);
-    rows["root_moment_Nm"].push_back({number(row.root[0]), number(row.root[1]), number(row.root[2])});
-    rows["root_force_N"].push_back({number(row.root[3]), number(row.root[4]), number(row.root[5])});
-    rows["torque_gap_Nm"].push_back(number(row.torque_gap));
-    rows["torque_share"].push_back(number(row.torque_share));
-    rows["power_W"].push_back(number(row.power));
+    rows["root_moment_Nm"].push_back(
+        {record::number(row.root[0]), record::number(row.root[1]), record::number(row.root[2])});
+    rows["root_force_N"].push_back(
+        {record::number(row.root[3]), record::number(row.root[4]), record::number(row.root[5])});
+    rows["torque_gap_Nm"].push_back(record::number(row.torque_gap));
+    rows["torque_share"].push_back(record::number(row.torque_share));
+    rows["power_W"].push_back(record::number(row.power));
   }
   return {{"evidence", evidence_name(audit.evidence)},
           {"passed", audit.failures.empty()},
@@ -37,25 +39,25 @@ Json to_json(const Audit& audit) {
 
 }  // namespace
 
-SimulatedFrames simulated_frames(const Clip& clip, const Npz& npz) {
+SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
   if (clip.body_model != "mimicx")
     throw DataError(npz.path, "body_model", "'mimicx' beside joint_torques", "'" + clip.body_model + "'");
   SimulatedFrames motion;
   motion.character = make_character(clip.betas);
   motion.fps = clip.fps;
-  const auto rotations = joint_rotations(clip);
+  const auto rotations = motion::joint_rotations(clip);
   const std::size_t rows = rotations.size();
   for (std::size_t t = 0; t < rows; ++t) {
-    ReferenceFrame frame;
+    motion::ReferenceFrame frame;
     frame.p_root = clip.trans[t] + rest_pelvis(clip.body_model);
     frame.q = rotations[t];
     motion.frames.push_back(frame);
   }
-  read_velocities(npz, "velocities", motion.frames);
-  const VectorRows torques = read_joints(npz, "joint_torques", rows),
-                   ranges = read_joints(npz, "range_torques", rows);
-  const WrenchRows ground = read_wrenches(npz, "ground_wrenches", rows),
-                   self = read_wrenches(npz, "self_contact_wrenches", rows);
+  output::read_velocities(npz, "velocities", motion.frames);
+  const output::VectorRows torques = output::read_joints(npz, "joint_torques", rows),
+                           ranges = output::read_joints(npz, "range_torques", rows);
+  const output::WrenchRows ground = output::read_wrenches(npz, "ground_wrenches", rows),
+                           self = output::read_wrenches(npz, "self_contact_wrenches", rows);
   for (std::size_t t = 0; t < rows; ++t) motion.forces.push_back({torques[t], ranges[t], ground[t], self[t]});
   return motion;
 }
@@ -66,9 +68,9 @@ std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alon
     const SubstepMotion motion = read_substeps(npz);
     return {audit_steps(motion), audit_replayed_steps(motion)};
   }
-  const Clip clip = read_clip(path);
+  const motion::Clip clip = motion::read_clip(path);
   if (npz.has("joint_torques") && !poses_alone)
-    return {audit_frames(simulated_frames(clip, npz), SimulationConfig{})};
+    return {audit_frames(simulated_frames(clip, npz), physics::SimulationConfig{})};
   if (clip.frames() < 3) throw DataError(npz.path, "", "at least 3 frames", std::to_string(clip.frames()));
   return {audit_poses(clip)};
 }
@@ -110,13 +112,13 @@ std::string format_audit(const std::string& path, const Audit& audit) {
 }
 
 std::string audit_json(const std::vector<AuditedFile>& files) {
-  Json list = Json::array();
+  record::Json list = record::Json::array();
   for (const AuditedFile& file : files) {
-    Json audits = Json::array();
+    record::Json audits = record::Json::array();
     for (const Audit& audit : file.audits) audits.push_back(to_json(audit));
     list.push_back({{"file", file.path}, {"audits", audits}});
   }
-  return Json({{"files", list}}).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return record::Json({{"files", list}}).dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

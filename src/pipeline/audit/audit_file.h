@@ -7,7 +7,7 @@
 
 #include "pipeline/audit/audit.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 
 /// Physics steps: as recorded and replayed. A motion with forces: its frames. Any other: its poses alone.
 /// @param poses_alone  look at nothing but the poses, whatever a motion holds besides
@@ -17,7 +17,7 @@ std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alon
 /// A motion that has its forces beside it.
 /// @param npz  the archive that the clip was read from
 /// @throws DataError naming file and member
-SimulatedFrames simulated_frames(const Clip& clip, const Npz& npz);
+SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz);
 
 struct AuditedFile {
   std::string path;
@@ -32,4 +32,4 @@ std::string format_audit(const std::string& path, const Audit& audit);
 /// {"files": [{file, audits: [{evidence, passed, failures, weight_N, rate, summary, rows: {…}}]}]}
 std::string audit_json(const std::vector<AuditedFile>& files);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

@@ -6,7 +6,7 @@
 
 #include "core/units.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
 /// The most that an audit lets pass; forces in parts of the weight, moments in metres (N·m per N of weight).
@@ -161,4 +161,4 @@ NamedValues summary_of(const Audit& audit) {
   return values;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

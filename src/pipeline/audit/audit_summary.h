@@ -7,7 +7,7 @@
 #include "core/named_values.h"
 #include "pipeline/audit/evidence.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 
 /// Why an audit fails, a line each: more unexplained than its evidence allows, exported torques that are not
 /// the required ones, torques over their bounds, floor forces that no floor gives, velocities that do not fit
@@ -17,4 +17,4 @@ std::vector<std::string> failures_of(const Audit& audit);
 /// Means, largest values, counts, work, by name; units are in the names.
 NamedValues summary_of(const Audit& audit);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

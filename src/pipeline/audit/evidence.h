@@ -6,7 +6,7 @@
 
 #include "core/so3.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 
 /// Over and under the floor within which a pose's points touch it, m.
 inline constexpr double kFloorReach = 0.01;
@@ -38,4 +38,4 @@ struct Audit {
   std::vector<std::string> failures;  ///< why it fails, a line each; empty: it passes
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

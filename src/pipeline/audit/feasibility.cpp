@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
 constexpr double kFriction = 1.0;
@@ -159,12 +159,12 @@ FrameDemand demand_of(const Character& c, const std::vector<BodyPoses>& poses, s
 
 }  // namespace
 
-std::vector<FrameDemand> motion_demands(const Clip& clip, const Touching& touching) {
+std::vector<FrameDemand> motion_demands(const motion::Clip& clip, const Touching& touching) {
   if (clip.frames() < 3) throw std::invalid_argument("motion_demands: at least 3 frames are needed");
   if (clip.body_model != "mimicx")
     throw std::invalid_argument("motion_demands: the body model must be 'mimicx'");
   const Character character = make_character(clip.betas);
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const std::vector<BodyPoses> poses = motion::poses_of(clip);
   std::vector<FrameDemand> demands;
   for (std::size_t t = 1; t + 1 < poses.size(); ++t)
     demands.push_back(demand_of(character, poses, t, clip.fps, touching));
@@ -181,10 +181,10 @@ PerBody<double> torque_ratios(const Character& character, const BodyPoses& poses
   return ratios;
 }
 
-Feasibility feasibility(const Clip& clip) {
+Feasibility feasibility(const motion::Clip& clip) {
   const std::vector<FrameDemand> demands = motion_demands(clip);
   const Character character = make_character(clip.betas);
-  const std::vector<BodyPoses> poses = poses_of(clip);
+  const std::vector<BodyPoses> poses = motion::poses_of(clip);
   const double weight = kGravity * character.total_mass(), n = static_cast<double>(demands.size());
   Feasibility summary;
   for (std::size_t i = 0; i < demands.size(); ++i) {
@@ -204,4 +204,4 @@ Feasibility feasibility(const Clip& clip) {
   return summary;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

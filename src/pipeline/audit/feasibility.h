@@ -16,7 +16,7 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 
 /// Demands of one frame.
 struct FrameDemand {
@@ -34,7 +34,7 @@ struct Touching {
 
 /// Demands of the frames 1 … n − 2 of an exact motion on the character of its β.
 /// @throws std::invalid_argument for fewer than 3 frames or another body model
-std::vector<FrameDemand> motion_demands(const Clip& clip, const Touching& touching = {});
+std::vector<FrameDemand> motion_demands(const motion::Clip& clip, const Touching& touching = {});
 
 /// |τ| over the limit of the joint; for a hinge the part about its axis. Entry 0 is 0.
 /// @param poses  of the frame
@@ -48,6 +48,6 @@ struct Feasibility {
   int worst_joint = 0;                         ///< index of the body
   int frames_over_limit = 0;                   ///< with at least one torque over its limit
 };
-Feasibility feasibility(const Clip& clip);
+Feasibility feasibility(const motion::Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

@@ -8,16 +8,16 @@
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/output/simulation_settings.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
 constexpr std::size_t kPositions = 3 + 4 * kBodies;
 constexpr std::size_t kVelocities = 3 + 3 * kBodies;
-constexpr Precision kExact = Precision::kFloat32;  // the simulator's own
+constexpr output::Precision kExact = output::Precision::kFloat32;  // the simulator's own
 
 template <class Item>
 void append_all(const PerBody<Item>& row, std::vector<double>& values) {
-  for (const Item& item : row) append(item, values);
+  for (const Item& item : row) output::append(item, values);
 }
 
 void take(const double*& at, Vector3d& v) {
@@ -35,50 +35,50 @@ void take(const double*& at, PerBody<Item>& row) {
 
 void add_states(const SubstepMotion& motion, Npz& npz) {
   std::vector<double> q, v;
-  const auto add = [&](const ReferenceFrame& state) {
-    append(state.p_root, q);
+  const auto add = [&](const motion::ReferenceFrame& state) {
+    output::append(state.p_root, q);
     append_all(state.q, q);
-    append(state.v_root, v);
+    output::append(state.v_root, v);
     append_all(state.omega, v);
   };
-  for (const rl::Substep& step : motion.steps) add(step.state);
+  for (const rl::tracking::Substep& step : motion.steps) add(step.state);
   add(motion.last);
-  npz.set("q", numbers_member({motion.steps.size() + 1, kPositions}, q, kExact));
-  npz.set("v", numbers_member({motion.steps.size() + 1, kVelocities}, v, kExact));
+  npz.set("q", output::numbers_member({motion.steps.size() + 1, kPositions}, q, kExact));
+  npz.set("v", output::numbers_member({motion.steps.size() + 1, kVelocities}, v, kExact));
 }
 
 void add_targets(const SubstepMotion& motion, Npz& npz) {
   std::vector<double> q, omega;
-  for (const rl::Substep& step : motion.steps) {
+  for (const rl::tracking::Substep& step : motion.steps) {
     append_all(step.target_q, q);
     append_all(step.target_omega, omega);
   }
-  npz.set("target_q", numbers_member({motion.steps.size(), kBodies, 4}, q, kExact));
-  npz.set("target_omega", numbers_member({motion.steps.size(), kBodies, 3}, omega, kExact));
+  npz.set("target_q", output::numbers_member({motion.steps.size(), kBodies, 4}, q, kExact));
+  npz.set("target_omega", output::numbers_member({motion.steps.size(), kBodies, 3}, omega, kExact));
 }
 
 void add_forces(const SubstepMotion& motion, Npz& npz) {
-  VectorRows torques, ranges;
-  WrenchRows ground, self;
-  for (const rl::Substep& step : motion.steps) {
+  output::VectorRows torques, ranges;
+  output::WrenchRows ground, self;
+  for (const rl::tracking::Substep& step : motion.steps) {
     torques.push_back(step.forces.joint_torque);
     ranges.push_back(step.forces.range_torque);
     ground.push_back(step.forces.ground);
     self.push_back(step.forces.self_contact);
   }
-  npz.set("joint_torques", joints_member(torques, kExact));
-  npz.set("range_torques", joints_member(ranges, kExact));
-  npz.set("ground_wrenches", wrenches_member(ground, kExact));
-  npz.set("self_contact_wrenches", wrenches_member(self, kExact));
+  npz.set("joint_torques", output::joints_member(torques, kExact));
+  npz.set("range_torques", output::joints_member(ranges, kExact));
+  npz.set("ground_wrenches", output::wrenches_member(ground, kExact));
+  npz.set("self_contact_wrenches", output::wrenches_member(self, kExact));
 }
 
 /// All states, the one after the last step included.
-std::vector<ReferenceFrame> read_states(const Npz& npz, std::size_t count) {
-  const std::vector<double> q = read_numbers(npz, "q", count, kPositions);
-  const std::vector<double> v = read_numbers(npz, "v", count, kVelocities);
-  std::vector<ReferenceFrame> states(count);
+std::vector<motion::ReferenceFrame> read_states(const Npz& npz, std::size_t count) {
+  const std::vector<double> q = output::read_numbers(npz, "q", count, kPositions);
+  const std::vector<double> v = output::read_numbers(npz, "v", count, kVelocities);
+  std::vector<motion::ReferenceFrame> states(count);
   const double *q_at = q.data(), *v_at = v.data();
-  for (ReferenceFrame& state : states) {
+  for (motion::ReferenceFrame& state : states) {
     take(q_at, state.p_root);
     take(q_at, state.q);
     take(v_at, state.v_root);
@@ -87,11 +87,11 @@ std::vector<ReferenceFrame> read_states(const Npz& npz, std::size_t count) {
   return states;
 }
 
-void read_targets(const Npz& npz, std::vector<rl::Substep>& steps) {
-  const std::vector<double> q = read_numbers(npz, "target_q", steps.size(), 4 * kBodies);
-  const std::vector<double> omega = read_numbers(npz, "target_omega", steps.size(), 3 * kBodies);
+void read_targets(const Npz& npz, std::vector<rl::tracking::Substep>& steps) {
+  const std::vector<double> q = output::read_numbers(npz, "target_q", steps.size(), 4 * kBodies);
+  const std::vector<double> omega = output::read_numbers(npz, "target_omega", steps.size(), 3 * kBodies);
   const double *q_at = q.data(), *omega_at = omega.data();
-  for (rl::Substep& step : steps) {
+  for (rl::tracking::Substep& step : steps) {
     take(q_at, step.target_q);
     take(omega_at, step.target_omega);
   }
@@ -99,35 +99,35 @@ void read_targets(const Npz& npz, std::vector<rl::Substep>& steps) {
 
 template <class T>
 void read_setting(const Npz& npz, const std::string& name, T& field) {
-  field = static_cast<T>(read_numbers(npz, name, 1, 1)[0]);
+  field = static_cast<T>(output::read_numbers(npz, name, 1, 1)[0]);
 }
 
-Quat<double> to_simulator(const Quaterniond& q) { return from_eigen(q.normalized()); }
-Vector6d to_eigen(const Wrench<double>& w) {
+physics::Quat<double> to_simulator(const Quaterniond& q) { return physics::from_eigen(q.normalized()); }
+Vector6d to_eigen(const physics::Wrench<double>& w) {
   Vector6d out;
-  out.head<3>() = to_eigen(w.n);
-  out.tail<3>() = to_eigen(w.f);
+  out.head<3>() = physics::to_eigen(w.n);
+  out.tail<3>() = physics::to_eigen(w.f);
   return out;
 }
 
-rl::ActingForces to_eigen(const Applied<double>& applied) {
-  rl::ActingForces forces;
+rl::tracking::ActingForces to_eigen(const physics::Applied<double>& applied) {
+  rl::tracking::ActingForces forces;
   for (std::size_t i = 0; i < kBodies; ++i) {
-    forces.joint_torque[i] = to_eigen(applied.joint_torque[i]);
-    forces.range_torque[i] = to_eigen(applied.range_torque[i]);
+    forces.joint_torque[i] = physics::to_eigen(applied.joint_torque[i]);
+    forces.range_torque[i] = physics::to_eigen(applied.range_torque[i]);
     forces.ground[i] = to_eigen(applied.ground[i]);
     forces.self_contact[i] = to_eigen(applied.self[i]);
   }
   return forces;
 }
 
-ReferenceFrame to_eigen(const State<double>& state) {
-  ReferenceFrame frame;
-  frame.p_root = to_eigen(state.p_root);
-  frame.v_root = to_eigen(state.v_root);
+motion::ReferenceFrame to_eigen(const physics::State<double>& state) {
+  motion::ReferenceFrame frame;
+  frame.p_root = physics::to_eigen(state.p_root);
+  frame.v_root = physics::to_eigen(state.v_root);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    frame.q[i] = to_eigen(state.q[i]);
-    frame.omega[i] = to_eigen(state.omega[i]);
+    frame.q[i] = physics::to_eigen(state.q[i]);
+    frame.omega[i] = physics::to_eigen(state.omega[i]);
   }
   return frame;
 }
@@ -142,7 +142,7 @@ void write_substeps(const std::filesystem::path& path, const SubstepMotion& moti
   npz.set("betas", NpyArray::from_double({kBetas}, motion.character.betas.data()));
   npz.set("body_model", NpyArray::scalar_text("mimicx"));
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
-  for_each_simulation_setting(motion.simulation, [&](const std::string& name, const auto& field) {
+  output::for_each_simulation_setting(motion.simulation, [&](const std::string& name, const auto& field) {
     const double value = static_cast<double>(field);
     npz.set(name, NpyArray::from_double({1}, &value));
   });
@@ -153,23 +153,23 @@ bool holds_substeps(const Npz& npz) { return npz.has("target_q") && npz.has("phy
 
 SubstepMotion read_substeps(const Npz& npz) {
   SubstepMotion motion;
-  const std::vector<double> betas = read_numbers(npz, "betas", kBetas, 1);
+  const std::vector<double> betas = output::read_numbers(npz, "betas", kBetas, 1);
   std::array<double, kBetas> shape{};
   std::copy(betas.begin(), betas.end(), shape.begin());
   motion.character = make_character(shape);
-  for_each_simulation_setting(motion.simulation,
-                              [&](const std::string& name, auto& field) { read_setting(npz, name, field); });
+  output::for_each_simulation_setting(
+      motion.simulation, [&](const std::string& name, auto& field) { read_setting(npz, name, field); });
   const NpyArray& q = npz.at("q");
   if (q.shape.empty() || q.shape[0] < 2) throw DataError(npz.path, "q", "at least two states", "fewer");
-  std::vector<ReferenceFrame> states = read_states(npz, q.shape[0]);
+  std::vector<motion::ReferenceFrame> states = read_states(npz, q.shape[0]);
   motion.last = states.back();
   states.pop_back();
   motion.steps.resize(states.size());
   read_targets(npz, motion.steps);
-  const VectorRows torques = read_joints(npz, "joint_torques", states.size()),
-                   ranges = read_joints(npz, "range_torques", states.size());
-  const WrenchRows ground = read_wrenches(npz, "ground_wrenches", states.size()),
-                   self = read_wrenches(npz, "self_contact_wrenches", states.size());
+  const output::VectorRows torques = output::read_joints(npz, "joint_torques", states.size()),
+                           ranges = output::read_joints(npz, "range_torques", states.size());
+  const output::WrenchRows ground = output::read_wrenches(npz, "ground_wrenches", states.size()),
+                           self = output::read_wrenches(npz, "self_contact_wrenches", states.size());
   for (std::size_t k = 0; k < states.size(); ++k) {
     motion.steps[k].state = states[k];
     motion.steps[k].forces = {torques[k], ranges[k], ground[k], self[k]};
@@ -178,25 +178,25 @@ SubstepMotion read_substeps(const Npz& npz) {
 }
 
 Replay replay_in_double(const SubstepMotion& motion) {
-  const Model<double> model = make_model<double>(motion.character, motion.simulation);
-  const auto data = std::make_unique<Data<double>>();
-  State<double> state;
-  Target<double> target;
-  Applied<double> applied;
+  const physics::Model<double> model = physics::make_model<double>(motion.character, motion.simulation);
+  const auto data = std::make_unique<physics::Data<double>>();
+  physics::State<double> state;
+  physics::Target<double> target;
+  physics::Applied<double> applied;
   Replay replay;
-  for (const rl::Substep& recorded : motion.steps) {
-    state.p_root = from_eigen(recorded.state.p_root);
-    state.v_root = from_eigen(recorded.state.v_root);
+  for (const rl::tracking::Substep& recorded : motion.steps) {
+    state.p_root = physics::from_eigen(recorded.state.p_root);
+    state.v_root = physics::from_eigen(recorded.state.v_root);
     for (std::size_t i = 0; i < kBodies; ++i) {
       state.q[i] = to_simulator(recorded.state.q[i]);
-      state.omega[i] = from_eigen(recorded.state.omega[i]);
+      state.omega[i] = physics::from_eigen(recorded.state.omega[i]);
       target.q[i] = to_simulator(recorded.target_q[i]);
-      target.omega[i] = from_eigen(recorded.target_omega[i]);
+      target.omega[i] = physics::from_eigen(recorded.target_omega[i]);
     }
-    rl::Substep step = recorded;
+    rl::tracking::Substep step = recorded;
     step.state = to_eigen(state);
-    clear(applied);
-    mimicx::step(model, target, state, *data, &applied);
+    physics::clear(applied);
+    physics::step(model, target, state, *data, &applied);
     step.forces = to_eigen(applied);
     replay.steps.push_back(step);
     replay.next.push_back(to_eigen(state));
@@ -204,4 +204,4 @@ Replay replay_in_double(const SubstepMotion& motion) {
   return replay;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

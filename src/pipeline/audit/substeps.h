@@ -10,13 +10,13 @@
 #include "physics/model.h"
 #include "rl/tracking/rollout.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 
 struct SubstepMotion {
   Character character;
-  SimulationConfig simulation;
-  std::vector<rl::Substep> steps;
-  ReferenceFrame last;  ///< state after the last step
+  physics::SimulationConfig simulation;
+  std::vector<rl::tracking::Substep> steps;
+  motion::ReferenceFrame last;  ///< state after the last step
 };
 
 void write_substeps(const std::filesystem::path& path, const SubstepMotion& motion);
@@ -28,9 +28,9 @@ SubstepMotion read_substeps(const Npz& npz);
 /// The motion as double precision makes it: each step solved anew from the recorded state before it, towards
 /// the recorded target. `next` are the states after the steps; forces are those of the solve.
 struct Replay {
-  std::vector<rl::Substep> steps;
-  std::vector<ReferenceFrame> next;
+  std::vector<rl::tracking::Substep> steps;
+  std::vector<motion::ReferenceFrame> next;
 };
 Replay replay_in_double(const SubstepMotion& motion);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

@@ -7,7 +7,7 @@
 #include "pipeline/options/selector.h"
 #include "pipeline/options/side_by_side.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 /// The numbers that occur, ascending, each once.
@@ -26,8 +26,9 @@ void check(const ArrangementConfig& config) {
     throw std::invalid_argument("the rescue reward must be 0 to 1, as rewards are");
 }
 
-ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
-                     const OptionSet& set, const ArrangementConfig& config) {
+ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                     const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
+                     const ArrangementConfig& config) {
   check(config);
   List<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
@@ -49,7 +50,7 @@ ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const 
     kept.push_back(all[option]);
     arranged.agents.push_back(kept.back()->agent);
   }
-  auto seen = std::make_shared<rl::TrackingClip>(*encoded_for(clip, kept));
+  auto seen = std::make_shared<rl::tracking::TrackingClip>(*encoded_for(clip, kept));
   for (const int option : arranged.options) {
     const auto place = std::lower_bound(arranged.kept.begin(), arranged.kept.end(), option);
     seen->arrangement.push_back(static_cast<int>(place - arranged.kept.begin()));
@@ -68,4 +69,4 @@ std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options) {
   return stretches;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -11,7 +11,7 @@
 
 #include "pipeline/options/option_set.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 struct ArrangementConfig {
   double switch_penalty = 0.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
@@ -22,19 +22,21 @@ struct ArrangementConfig {
 void check(const ArrangementConfig& config);
 
 struct ArrangedClip {
-  List<int> options;                             ///< [frames] the option that acts, its number in the set
-  List<int> breaks;                              ///< frames at which no option of the set could follow
-  List<int> kept;                                ///< numbers in the set of the options that occur, ascending
-  List<rl::Agent> agents;                        ///< of the kept options
-  std::shared_ptr<const rl::TrackingClip> clip;  ///< as the kept options see it, with their arrangement
+  List<int> options;       ///< [frames] the option that acts, its number in the set
+  List<int> breaks;        ///< frames at which no option of the set could follow
+  List<int> kept;          ///< numbers in the set of the options that occur, ascending
+  List<rl::Agent> agents;  ///< of the kept options
+  std::shared_ptr<const rl::tracking::TrackingClip>
+      clip;  ///< as the kept options see it, with their arrangement
 };
 
 /// @param clip  as `make_tracking_clip` gives it: not encoded, without an arrangement
 /// @throws std::invalid_argument as `check`
-ArrangedClip arrange(const std::shared_ptr<const rl::TrackingClip>& clip, const rl::TrackingConfig& tracking,
-                     const OptionSet& set, const ArrangementConfig& config);
+ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                     const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
+                     const ArrangementConfig& config);
 
 /// {first frame, option} of every stretch of frames in which one option acts.
 std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

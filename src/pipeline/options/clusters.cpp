@@ -11,7 +11,7 @@
 #include "pipeline/record/json.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 /// By features and name, so that the order of the input decides nothing.
@@ -31,11 +31,11 @@ void make_canonical(std::vector<NamedFeatures>& motions) {
 
 /// Rows: scaled features.
 Points points_of(const std::vector<NamedFeatures>& motions) {
-  Points points(static_cast<Eigen::Index>(motions.size()), kFeatures);
+  Points points(static_cast<Eigen::Index>(motions.size()), motion::kFeatures);
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    const MotionFeatures scaled = scaled_features(motions[i].features);
+    const motion::MotionFeatures scaled = motion::scaled_features(motions[i].features);
     points.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::Matrix<double, 1, kFeatures>>(scaled.data());
+        Eigen::Map<const Eigen::Matrix<double, 1, motion::kFeatures>>(scaled.data());
   }
   return points;
 }
@@ -43,25 +43,25 @@ Points points_of(const std::vector<NamedFeatures>& motions) {
 MotionCluster cluster_of(const ClusterNode& leaf, const List<NamedFeatures>& motions) {
   MotionCluster cluster;
   for (int member : leaf.members) cluster.members.push_back(motions[member].name);
-  for (std::size_t k = 0; k < kFeatures; ++k)
-    cluster.centre[k] = feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < motion::kFeatures; ++k)
+    cluster.centre[k] = motion::feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
   cluster.diameter = leaf.diameter;
   return cluster;
 }
 
-Json named(const MotionFeatures& values) {
-  Json json = Json::object();
-  for (std::size_t k = 0; k < kFeatures; ++k) json[feature_names()[k]] = values[k];
+record::Json named(const motion::MotionFeatures& values) {
+  record::Json json = record::Json::object();
+  for (std::size_t k = 0; k < motion::kFeatures; ++k) json[motion::feature_names()[k]] = values[k];
   return json;
 }
 
-MotionFeatures unnamed(const Json& json) {
-  MotionFeatures values;
-  for (std::size_t k = 0; k < kFeatures; ++k) values[k] = json.at(feature_names()[k]);
+motion::MotionFeatures unnamed(const record::Json& json) {
+  motion::MotionFeatures values;
+  for (std::size_t k = 0; k < motion::kFeatures; ++k) values[k] = json.at(motion::feature_names()[k]);
   return values;
 }
 
-ClusterBranch branch_of(const Json& json) {
+ClusterBranch branch_of(const record::Json& json) {
   ClusterBranch branch;
   branch.parent = json.at("parent");
   if (!json.at("cluster").is_null()) branch.cluster = json.at("cluster");
@@ -70,7 +70,7 @@ ClusterBranch branch_of(const Json& json) {
   return branch;
 }
 
-MotionCluster cluster_of(const Json& json) {
+MotionCluster cluster_of(const record::Json& json) {
   MotionCluster cluster;
   cluster.description = json.at("description");
   cluster.members = json.at("members").get<std::vector<std::string>>();
@@ -95,20 +95,21 @@ Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& setti
     }
     out.tree.push_back(branch);
   }
-  List<MotionFeatures> centres;
+  List<motion::MotionFeatures> centres;
   for (const MotionCluster& cluster : out.clusters) centres.push_back(cluster.centre);
   for (int c = 0; c < centres.count(); ++c) out.clusters[c].description = describe_cluster(centres, c);
   return out;
 }
 
-int nearest_cluster(const Clusters& clusters, const MotionFeatures& features) {
-  const MotionFeatures point = scaled_features(features);
+int nearest_cluster(const Clusters& clusters, const motion::MotionFeatures& features) {
+  const motion::MotionFeatures point = motion::scaled_features(features);
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < clusters.clusters.size(); ++c) {
-    const MotionFeatures centre = scaled_features(clusters.clusters[c].centre);
+    const motion::MotionFeatures centre = motion::scaled_features(clusters.clusters[c].centre);
     double squared = 0.0;
-    for (std::size_t k = 0; k < kFeatures; ++k) squared += (point[k] - centre[k]) * (point[k] - centre[k]);
+    for (std::size_t k = 0; k < motion::kFeatures; ++k)
+      squared += (point[k] - centre[k]) * (point[k] - centre[k]);
     if (squared < least) nearest = static_cast<int>(c), least = squared;
   }
   return nearest;
@@ -135,16 +136,16 @@ std::string format_cluster_tree(const Clusters& clusters) {
 
 std::string format_clusters(const Clusters& clusters) {
   const ClusterConfig& s = clusters.settings;
-  Json json = {{"settings",
-                {{"radius", s.radius},
-                 {"clusters", s.clusters ? Json(*s.clusters) : Json(nullptr)},
-                 {"seed", s.seed}}},
-               {"units", named(feature_units())},
-               {"tree", Json::array()},
-               {"clusters", Json::array()}};
+  record::Json json = {{"settings",
+                        {{"radius", s.radius},
+                         {"clusters", s.clusters ? record::Json(*s.clusters) : record::Json(nullptr)},
+                         {"seed", s.seed}}},
+                       {"units", named(motion::feature_units())},
+                       {"tree", record::Json::array()},
+                       {"clusters", record::Json::array()}};
   for (const ClusterBranch& b : clusters.tree)
     json["tree"].push_back({{"parent", b.parent},
-                            {"cluster", b.cluster < 0 ? Json(nullptr) : Json(b.cluster)},
+                            {"cluster", b.cluster < 0 ? record::Json(nullptr) : record::Json(b.cluster)},
                             {"motions", b.motions},
                             {"diameter", b.diameter}});
   for (std::size_t c = 0; c < clusters.clusters.size(); ++c) {
@@ -155,7 +156,7 @@ std::string format_clusters(const Clusters& clusters) {
                                 {"members", cluster.members},
                                 {"centre", named(cluster.centre)}});
   }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
 }
 
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters) {
@@ -165,11 +166,11 @@ void write_clusters(const std::filesystem::path& path, const Clusters& clusters)
 Clusters read_clusters(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   try {
-    const Json json = Json::parse(text);
-    if (unnamed(json.at("units")) != feature_units())
+    const record::Json json = record::Json::parse(text);
+    if (unnamed(json.at("units")) != motion::feature_units())
       throw DataError(path.string(), "units", "the units of this program's features", "others");
     Clusters out;
-    const Json& settings = json.at("settings");
+    const record::Json& settings = json.at("settings");
     out.settings.radius = settings.at("radius");
     if (!settings.at("clusters").is_null()) out.settings.clusters = settings.at("clusters").get<int>();
     out.settings.seed = settings.at("seed");
@@ -182,4 +183,4 @@ Clusters read_clusters(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

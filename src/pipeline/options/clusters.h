@@ -18,11 +18,11 @@
 #include "core/containers.h"
 #include "motion/features.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 struct NamedFeatures {
   std::string name;  ///< of the motion
-  MotionFeatures features;
+  motion::MotionFeatures features;
 };
 
 struct ClusterConfig {
@@ -34,7 +34,7 @@ struct ClusterConfig {
 struct MotionCluster {
   std::string description;           ///< what its motions are like, in words
   std::vector<std::string> members;  ///< names, sorted
-  MotionFeatures centre{};           ///< mean of their features, SI units
+  motion::MotionFeatures centre{};   ///< mean of their features, SI units
   double diameter = 0.0;             ///< largest distance between two of them
 };
 
@@ -56,7 +56,7 @@ struct Clusters {
 Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& settings);
 
 /// Number of the cluster whose centre is nearest; of equally near ones the first.
-int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
+int nearest_cluster(const Clusters& clusters, const motion::MotionFeatures& features);
 
 /// The tree with its members, indented, for people.
 std::string format_cluster_tree(const Clusters& clusters);
@@ -67,4 +67,4 @@ void write_clusters(const std::filesystem::path& path, const Clusters& clusters)
 /// @throws DataError for a file that holds no clusters, or clusters of other features or units
 Clusters read_clusters(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -10,7 +10,7 @@
 
 #include "core/random.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 using Index = Eigen::Index;
@@ -279,4 +279,4 @@ std::vector<int> leaves_of(const ClusterTree& tree) {
   return leaves;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

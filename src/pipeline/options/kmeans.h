@@ -23,7 +23,7 @@
 
 #include "core/containers.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 /// Points are rows: [N][D].
 using Points = Eigen::MatrixXd;
@@ -73,4 +73,4 @@ double radius_for_clusters(const ClusterTree& tree, int clusters);
 /// Indices of the leaves, in order.
 std::vector<int> leaves_of(const ClusterTree& tree);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -10,7 +10,7 @@
 #include "rl/policy.h"
 #include "rl/tracking/pack.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 struct Option {
   rl::Agent agent;
@@ -19,18 +19,19 @@ struct Option {
 
 /// Pose features of a clip's frames in their own heading frames: what encoders are trained on and applied to.
 /// [frames + 1 × 186]
-nn::Matrix<float> encoder_inputs(const rl::TrackingClip& clip);
+nn::Matrix<float> encoder_inputs(const rl::tracking::TrackingClip& clip);
 
 /// z and D(z) of every frame.
-rl::EncodedReference encode_reference(const nn::AutoEncoder& encoder, const rl::TrackingClip& clip);
+rl::tracking::EncodedReference encode_reference(const nn::AutoEncoder& encoder,
+                                                const rl::tracking::TrackingClip& clip);
 
 /// The clip as these options see it; the clip itself where they have no encoders.
 /// @throws std::invalid_argument when some options have an encoder and others have none
-std::shared_ptr<const rl::TrackingClip> encoded_for(const std::shared_ptr<const rl::TrackingClip>& clip,
-                                                    const std::vector<const Option*>& options);
+std::shared_ptr<const rl::tracking::TrackingClip> encoded_for(
+    const std::shared_ptr<const rl::tracking::TrackingClip>& clip, const std::vector<const Option*>& options);
 
 void save(Npz& archive, const std::string& prefix, const Option& option);
 /// @throws DataError naming archive and key
 Option load_option(const Npz& archive, const std::string& prefix);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

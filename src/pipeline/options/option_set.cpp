@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 constexpr const char* kCount = "options.count";
@@ -12,7 +12,8 @@ std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
 /// @throws DataError where actor and state or action do not fit
 void check_shape(const Npz& archive, const std::string& prefix, const Option& option) {
-  const int state = option.encoder ? rl::kEncodedRest + option.encoder->code_size() : rl::kStateSize;
+  const int state =
+      option.encoder ? rl::tracking::kEncodedRest + option.encoder->code_size() : rl::tracking::kStateSize;
   const nn::Mlp<float>& actor = option.agent.actor;
   if (actor.inputs() != state || actor.outputs() != kDofs)
     throw DataError(archive.path, prefix + "agent",
@@ -60,8 +61,8 @@ std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path)
     trained.samples = static_cast<std::int64_t>(number("samples"));
     set->options.push_back(std::move(trained));
   }
-  set->checksum = file_checksum(file);
+  set->checksum = record::file_checksum(file);
   return set;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

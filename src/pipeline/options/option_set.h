@@ -14,13 +14,13 @@
 #include "motion/features.h"
 #include "pipeline/options/option.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 struct TrainedOption {
   Option option;
-  std::string description;  ///< what its motions are like
-  MotionFeatures centre{};  ///< of its cluster
-  int motions = 0;          ///< number of motions it was trained on
+  std::string description;          ///< what its motions are like
+  motion::MotionFeatures centre{};  ///< of its cluster
+  int motions = 0;                  ///< number of motions it was trained on
   std::int64_t samples = 0;
 };
 
@@ -35,4 +35,4 @@ void write_options(const std::filesystem::path& path, const OptionSet& set);
 /// actions
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

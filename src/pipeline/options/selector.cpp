@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 /// Refuses what has no optimum: rows of different lengths, values that are not finite, a premium on
@@ -54,4 +54,4 @@ Arrangement select_options(const OptionRewards& reward, double switch_penalty) {
   return arrangement;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -18,7 +18,7 @@
 
 #include "core/containers.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 /// [frame][option]
 using OptionRewards = List<List<double>>;
@@ -34,4 +34,4 @@ struct Arrangement {
 /// @throws std::invalid_argument for w_p > 0, for rows of different or no length, for values not finite
 Arrangement select_options(const OptionRewards& reward, double switch_penalty);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

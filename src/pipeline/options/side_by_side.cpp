@@ -4,14 +4,14 @@
 
 #include "rl/tracking/rollout.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 /// Characters 0 … C − 1, kLanes to a pack.
 struct Characters {
-  List<rl::TrackingPack> packs;
-  rl::TrackingPack& pack(int c) { return packs[c / kLanes]; }
-  static int lane(int c) { return c % kLanes; }
+  List<rl::tracking::TrackingPack> packs;
+  rl::tracking::TrackingPack& pack(int c) { return packs[c / physics::kLanes]; }
+  static int lane(int c) { return c % physics::kLanes; }
 };
 
 /// Hands the best character's state to those that failed. @return false where all failed
@@ -26,31 +26,32 @@ bool rescue(Characters& characters, const List<double>& rewards, double threshol
 
 }  // namespace
 
-SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& clip,
-                                 const rl::TrackingConfig& config, const std::vector<const Option*>& options,
-                                 double threshold) {
+SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                                 const rl::tracking::TrackingConfig& config,
+                                 const std::vector<const Option*>& options, double threshold) {
   std::vector<rl::Agent> agents;
   for (const Option* option : options) agents.push_back(option->agent);
-  const rl::MeanAction policy = rl::mean_action(agents);
+  const rl::tracking::MeanAction policy = rl::tracking::mean_action(agents);
   const int count = static_cast<int>(options.size());
   Characters characters;
-  characters.packs.assign((options.size() + kLanes - 1) / kLanes, rl::TrackingPack(clip, config));
-  Data<rl::TrackingPack::P> scratch;
+  characters.packs.assign((options.size() + physics::kLanes - 1) / physics::kLanes,
+                          rl::tracking::TrackingPack(clip, config));
+  physics::Data<rl::tracking::TrackingPack::P> scratch;
   List<float> state(static_cast<std::size_t>(clip->state_size()));
   Array<float, kDofs> action{};
   SideBySide result;
   result.rewards.emplace_back(options.size(), 1.0);
   for (int t = 1; t < clip->size(); ++t) {
     for (int c = 0; c < count; ++c) {
-      rl::TrackingPack& pack = characters.pack(c);
+      rl::tracking::TrackingPack& pack = characters.pack(c);
       pack.observe(Characters::lane(c), c, state.data());
       policy(c, state.data(), action.data());
       pack.act(Characters::lane(c), action.data());
     }
-    for (rl::TrackingPack& pack : characters.packs) pack.advance(scratch);
+    for (rl::tracking::TrackingPack& pack : characters.packs) pack.advance(scratch);
     List<double> rewards(options.size());
     for (int c = 0; c < count; ++c) {
-      const rl::TrackingPack& pack = characters.pack(c);
+      const rl::tracking::TrackingPack& pack = characters.pack(c);
       const bool fell = !(pack.worst_distance(Characters::lane(c)) <= config.terminate_distance);
       rewards[c] = fell ? 0.0 : pack.reward(Characters::lane(c)).total;
     }
@@ -62,4 +63,4 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& 
   return result;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -9,7 +9,7 @@
 #include "pipeline/options/option.h"
 #include "pipeline/options/selector.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 struct SideBySide {
   /// [frame][option] of the pose reached at the frame, before any reset; frame 0 is the start, with reward 1.
@@ -19,8 +19,8 @@ struct SideBySide {
 
 /// @param clip       encoded for these options
 /// @param threshold  σ
-SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::TrackingClip>& clip,
-                                 const rl::TrackingConfig& config, const std::vector<const Option*>& options,
-                                 double threshold);
+SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                                 const rl::tracking::TrackingConfig& config,
+                                 const std::vector<const Option*>& options, double threshold);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

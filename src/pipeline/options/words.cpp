@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 /// What the features of the joints say of the body, as root mean squares.
@@ -20,18 +20,21 @@ struct Impression {
   double effort = 0;   ///< acceleration of the joints, m/s²
 };
 
-Impression impression_of(const MotionFeatures& f) {
-  const auto squared_speed = [&](std::size_t j) { return f[kPlanarVelocity + j] + f[kVerticalVelocity + j]; };
+Impression impression_of(const motion::MotionFeatures& f) {
+  const auto squared_speed = [&](std::size_t j) {
+    return f[motion::kPlanarVelocity + j] + f[motion::kVerticalVelocity + j];
+  };
   Impression i;
-  i.hips = f[kRootHeight];
-  i.travel = std::sqrt(f[kPlanarVelocity]);
-  i.turning = std::sqrt(f[kRootTurning]) * 180.0 / std::numbers::pi;
-  i.bounce = std::sqrt(f[kVerticalVelocity]);
-  i.feet = std::sqrt(0.5 * (f[kVerticalVelocity + kLeftFoot] + f[kVerticalVelocity + kRightFoot]));
+  i.hips = f[motion::kRootHeight];
+  i.travel = std::sqrt(f[motion::kPlanarVelocity]);
+  i.turning = std::sqrt(f[motion::kRootTurning]) * 180.0 / std::numbers::pi;
+  i.bounce = std::sqrt(f[motion::kVerticalVelocity]);
+  i.feet =
+      std::sqrt(0.5 * (f[motion::kVerticalVelocity + kLeftFoot] + f[motion::kVerticalVelocity + kRightFoot]));
   const double wrists = 0.5 * (squared_speed(kLeftWrist) + squared_speed(kRightWrist));
   i.arms = std::sqrt(std::max(0.0, wrists - squared_speed(kPelvis)));
   double acceleration = 0.0;
-  for (std::size_t j = 0; j < kBodies; ++j) acceleration += f[kAcceleration + j] / kBodies;
+  for (std::size_t j = 0; j < kBodies; ++j) acceleration += f[motion::kAcceleration + j] / kBodies;
   i.effort = std::sqrt(acceleration);
   return i;
 }
@@ -66,7 +69,7 @@ constexpr double kStandsOut = 1.2;  ///< the largest value is named where it is 
 
 }  // namespace
 
-std::string describe_motion(const MotionFeatures& features) {
+std::string describe_motion(const motion::MotionFeatures& features) {
   const Impression i = impression_of(features);
   std::vector<std::string> words;
   words.push_back(i.effort < 1.5 ? "calm" : i.effort < 6.0 ? "lively" : "vigorous");
@@ -82,7 +85,7 @@ std::string describe_motion(const MotionFeatures& features) {
   return join(words);
 }
 
-std::string describe_cluster(const List<MotionFeatures>& centres, int cluster) {
+std::string describe_cluster(const List<motion::MotionFeatures>& centres, int cluster) {
   const Impression mine = impression_of(centres[cluster]);
   std::vector<std::string> words;
   for (const Superlative& s : kSuperlatives) {
@@ -95,4 +98,4 @@ std::string describe_cluster(const List<MotionFeatures>& centres, int cluster) {
   return describe_motion(centres[cluster]) + standing_out;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

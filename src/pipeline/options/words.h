@@ -9,14 +9,14 @@
 #include "core/containers.h"
 #include "motion/features.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 /// What a motion of these features is like: how it travels, turns, how high it is, what arms and legs do, how
 /// vigorous it is. The thresholds are absolute: no other motion matters.
-std::string describe_motion(const MotionFeatures& features);
+std::string describe_motion(const motion::MotionFeatures& features);
 
 /// `describe_motion` of one centre, and in what it exceeds all others by a fifth.
 /// @param centres  of all clusters @param cluster  which of them to describe
-std::string describe_cluster(const List<MotionFeatures>& centres, int cluster);
+std::string describe_cluster(const List<motion::MotionFeatures>& centres, int cluster);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -11,16 +11,17 @@
 
 #include "motion/import/motion_file.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 /// Suffix of the copy: the input's own where motions are written so, else .npz.
 std::string clean_suffix(const std::filesystem::path& input);
 
 /// A motion at another rate with exactly the frames of `like`; the last frame is held where it ends sooner.
-Clip at_rate_of(const Clip& motion, const Clip& like);
+motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like);
 
 /// @param motion  file of the simulated motion @param input  the file it was made from, read with `read`
 void write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
-                      const ReadConfig& read, bool input_rate, const std::filesystem::path& copy);
+                      const motion::import::ReadConfig& read, bool input_rate,
+                      const std::filesystem::path& copy);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

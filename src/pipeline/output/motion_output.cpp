@@ -6,7 +6,7 @@
 #include "motion/clip_file.h"
 #include "pipeline/output/simulated_members.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 namespace {
 
 constexpr Precision kPrecision = Precision::kFloat64;  // as every member of a motion
@@ -20,7 +20,7 @@ NpyArray positions_member(const std::vector<PerBody<Vector3d>>& frames) {
   return NpyArray::from_double({frames.size(), kBodies, 3}, values.data());
 }
 
-NpyArray rewards_member(const std::vector<rl::Reward>& rewards) {
+NpyArray rewards_member(const std::vector<rl::tracking::Reward>& rewards) {
   std::vector<double> values;
   for (const auto& r : rewards) values.push_back(r.total);
   return NpyArray::from_double({values.size()}, values.data());
@@ -34,11 +34,12 @@ bool fits(const NpyArray& array, std::size_t input_frames, std::size_t frames) {
 
 }  // namespace
 
-void write_simulated(const std::filesystem::path& path, const Clip& input, const Reference& reference,
-                     const rl::TrackingRollout& rollout, std::vector<std::string>& notes) {
+void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
+                     std::vector<std::string>& notes) {
   std::vector<Vector3d> p_root;
   std::vector<PerBody<Quaterniond>> q;
-  std::vector<ReferenceFrame> states;
+  std::vector<motion::ReferenceFrame> states;
   VectorRows joints, torques, ranges;
   WrenchRows ground, self;
   for (const auto& pose : rollout.poses) {
@@ -53,8 +54,8 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
     ground.push_back(forces.ground);
     self.push_back(forces.self_contact);
   }
-  Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
-  if (input.rest_joints) put_on_body_of(input, clip);
+  motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) motion::put_on_body_of(input, clip);
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   for (const auto& member : input.passthrough) {
@@ -70,10 +71,11 @@ void write_simulated(const std::filesystem::path& path, const Clip& input, const
                          {"ground_wrenches", wrenches_member(ground, kPrecision)},
                          {"self_contact_wrenches", wrenches_member(self, kPrecision)},
                          {"reward", rewards_member(rollout.rewards)}};
-  write_clip(path, clip, extra);
+  motion::write_clip(path, clip, extra);
 }
 
-void write_reference(const std::filesystem::path& path, const Clip& input, const Reference& reference) {
+void write_reference(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference) {
   std::vector<Vector3d> p_root;
   std::vector<PerBody<Quaterniond>> q;
   std::vector<PerBody<Vector3d>> joints;
@@ -82,10 +84,10 @@ void write_reference(const std::filesystem::path& path, const Clip& input, const
     q.push_back(reference.frames[t].q);
     joints.push_back(reference.poses[t].p_WB);
   }
-  Clip clip = to_clip(reference.name, reference.fps, reference.character, p_root, q);
-  if (input.rest_joints) put_on_body_of(input, clip);
+  motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) motion::put_on_body_of(input, clip);
   clip.keypoints = reference.keypoints;
-  write_clip(path, clip, {{"joints", positions_member(joints)}});
+  motion::write_clip(path, clip, {{"joints", positions_member(joints)}});
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

@@ -8,15 +8,17 @@
 #include "motion/reference.h"
 #include "rl/tracking/rollout.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 /// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards;
 /// members of the input that the program does not use pass through where their frames still match.
 /// @param notes  gets a line for every member that could not pass through
-void write_simulated(const std::filesystem::path& path, const Clip& input, const Reference& reference,
-                     const rl::TrackingRollout& rollout, std::vector<std::string>& notes);
+void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
+                     std::vector<std::string>& notes);
 
 /// The prepared reference of an input.
-void write_reference(const std::filesystem::path& path, const Clip& input, const Reference& reference);
+void write_reference(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

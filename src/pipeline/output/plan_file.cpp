@@ -7,7 +7,7 @@
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/output/simulation_settings.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 namespace {
 
 constexpr std::size_t kPositionNumbers = 3 + 4 * kBodies;
@@ -28,10 +28,10 @@ void for_each_velocity(StateType& x, const Visit& visit) {
     for (auto* p : {&w.x, &w.y, &w.z}) visit(*p);
 }
 
-void add_states(const std::string& prefix, const std::vector<State<double>>& states, Precision precision,
-                Npz& npz) {
+void add_states(const std::string& prefix, const std::vector<physics::State<double>>& states,
+                Precision precision, Npz& npz) {
   std::vector<double> q, v;
-  for (const State<double>& x : states) {
+  for (const physics::State<double>& x : states) {
     for_each_position(x, [&](double number) { q.push_back(number); });
     for_each_velocity(x, [&](double number) { v.push_back(number); });
   }
@@ -39,14 +39,14 @@ void add_states(const std::string& prefix, const std::vector<State<double>>& sta
   npz.set(prefix + "v", numbers_member({states.size(), kVelocityNumbers}, v, precision));
 }
 
-std::vector<State<double>> read_states(const Npz& npz, const std::string& prefix) {
+std::vector<physics::State<double>> read_states(const Npz& npz, const std::string& prefix) {
   const NpyArray& member = npz.at(prefix + "q");
   const std::size_t count = member.shape.empty() ? 0 : member.shape[0];
   const std::vector<double> q = read_numbers(npz, prefix + "q", count, kPositionNumbers);
   const std::vector<double> v = read_numbers(npz, prefix + "v", count, kVelocityNumbers);
-  std::vector<State<double>> states(count);
+  std::vector<physics::State<double>> states(count);
   const double *q_at = q.data(), *v_at = v.data();
-  for (State<double>& x : states) {
+  for (physics::State<double>& x : states) {
     for_each_position(x, [&](double& number) { number = *q_at++; });
     for_each_velocity(x, [&](double& number) { number = *v_at++; });
   }
@@ -170,4 +170,4 @@ StoredPlan read_plan(const std::filesystem::path& path) {
   return stored;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

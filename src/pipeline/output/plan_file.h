@@ -12,13 +12,13 @@
 
 #include "control/plan.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 struct StoredPlan {
   std::string input_checksum;  ///< of the input it was made for
   double fps = 30.0;
-  SimulationConfig simulation;
-  std::vector<State<double>> reference;  ///< [frames]
+  physics::SimulationConfig simulation;
+  std::vector<physics::State<double>> reference;  ///< [frames]
   control::Plan plan;
 };
 
@@ -31,4 +31,4 @@ void write_gains(const std::filesystem::path& path, const std::vector<Eigen::Mat
 /// @throws DataError as read_plan does
 std::vector<Eigen::MatrixXf> read_gains(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

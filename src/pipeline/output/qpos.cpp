@@ -4,12 +4,12 @@
 #include "physics/mjcf.h"
 #include "pipeline/output/rows.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
-void write_qpos(const std::filesystem::path& path, const Clip& clip) {
-  const auto q = to_hinges(character_of(clip), joint_rotations(clip));
+void write_qpos(const std::filesystem::path& path, const motion::Clip& clip) {
+  const auto q = motion::to_hinges(motion::character_of(clip), motion::joint_rotations(clip));
   const Vector3d pelvis = rest_pelvis(clip);
-  const PerBody<int> order = mjcf_order();
+  const PerBody<int> order = physics::mjcf_order();
   std::vector<double> qpos;
   for (std::size_t t = 0; t < q.size(); ++t) {
     append(Vector3d(clip.trans[t] + pelvis), qpos);
@@ -33,4 +33,4 @@ void write_qpos(const std::filesystem::path& path, const Clip& clip) {
   write_npz(path, npz);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

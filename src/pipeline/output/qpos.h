@@ -15,10 +15,10 @@
 
 #include "motion/clip.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 inline constexpr std::size_t kQpos = 7 + 17 * 4 + 4;
 
-void write_qpos(const std::filesystem::path& path, const Clip& clip);
+void write_qpos(const std::filesystem::path& path, const motion::Clip& clip);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

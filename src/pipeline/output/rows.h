@@ -5,7 +5,7 @@
 
 #include "core/so3.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 inline void append(const Vector3d& v, std::vector<double>& row) {
   row.insert(row.end(), v.data(), v.data() + 3);
@@ -15,4 +15,4 @@ inline void append(const Quaterniond& q, std::vector<double>& row) {
   row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

@@ -5,7 +5,7 @@
 
 #include "pipeline/output/rows.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 namespace {
 
 constexpr std::size_t kRowVelocities = 6 + kDofs;
@@ -56,9 +56,9 @@ NpyArray wrenches_member(const WrenchRows& rows, Precision precision) {
   return numbers_member({rows.size(), kBodies, 6}, values, precision);
 }
 
-NpyArray velocities_member(const std::vector<ReferenceFrame>& frames, Precision precision) {
+NpyArray velocities_member(const std::vector<motion::ReferenceFrame>& frames, Precision precision) {
   std::vector<double> values;
-  for (const ReferenceFrame& frame : frames) {
+  for (const motion::ReferenceFrame& frame : frames) {
     append(frame.v_root, values);
     append(frame.omega[0], values);
     append_joints(frame.omega, values);
@@ -98,7 +98,7 @@ WrenchRows read_wrenches(const Npz& npz, const std::string& key, std::size_t row
   return out;
 }
 
-void read_velocities(const Npz& npz, const std::string& key, std::vector<ReferenceFrame>& frames) {
+void read_velocities(const Npz& npz, const std::string& key, std::vector<motion::ReferenceFrame>& frames) {
   const std::vector<double> values = read_numbers(npz, key, frames.size(), kRowVelocities);
   for (std::size_t t = 0; t < frames.size(); ++t) {
     const double* row = values.data() + t * kRowVelocities;
@@ -108,4 +108,4 @@ void read_velocities(const Npz& npz, const std::string& key, std::vector<Referen
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

@@ -12,7 +12,7 @@
 #include "core/npz.h"
 #include "motion/reference.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 enum class Precision { kFloat32, kFloat64 };
 
@@ -25,7 +25,7 @@ NpyArray joints_member(const VectorRows& rows, Precision precision);
 NpyArray wrenches_member(const WrenchRows& rows, Precision precision);
 /// (rows, 61): pelvis linear velocity in the world, pelvis angular velocity in its own frame, then as
 /// `joints_member`.
-NpyArray velocities_member(const std::vector<ReferenceFrame>& frames, Precision precision);
+NpyArray velocities_member(const std::vector<motion::ReferenceFrame>& frames, Precision precision);
 /// Numbers of any shape.
 NpyArray numbers_member(std::vector<std::size_t> shape, const std::vector<double>& values,
                         Precision precision);
@@ -35,9 +35,9 @@ NpyArray numbers_member(std::vector<std::size_t> shape, const std::vector<double
 VectorRows read_joints(const Npz& npz, const std::string& key, std::size_t rows);
 WrenchRows read_wrenches(const Npz& npz, const std::string& key, std::size_t rows);
 /// Fills v_root and omega of the frames.
-void read_velocities(const Npz& npz, const std::string& key, std::vector<ReferenceFrame>& frames);
+void read_velocities(const Npz& npz, const std::string& key, std::vector<motion::ReferenceFrame>& frames);
 /// (rows, columns) of finite numbers.
 std::vector<double> read_numbers(const Npz& npz, const std::string& key, std::size_t rows,
                                  std::size_t columns);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

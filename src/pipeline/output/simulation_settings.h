@@ -3,7 +3,7 @@
 
 #include "physics/model.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 
 /// Calls add(name, field) for every one of them.
 template <class Config, class Add>
@@ -25,4 +25,4 @@ void for_each_simulation_setting(Config& s, const Add& add) {
   add("max_joint_speed", s.max_joint_speed);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

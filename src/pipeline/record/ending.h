@@ -1,7 +1,7 @@
 /// How the work on a motion ended.
 #pragma once
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 enum class Ending {
   kNone,          ///< there was none: the input could not be used
@@ -13,4 +13,4 @@ enum class Ending {
   kLost,          ///< a plan that does not
 };
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 using Json = nlohmann::ordered_json;
 
 /// JSON has no NaN and no infinity: null.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

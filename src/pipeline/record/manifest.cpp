@@ -9,7 +9,7 @@
 #include "pipeline/record/json.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
@@ -157,4 +157,4 @@ Manifest read_manifest(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

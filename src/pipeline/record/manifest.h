@@ -15,7 +15,7 @@
 #include "core/named_values.h"
 #include "pipeline/record/ending.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 struct SequenceEntry {
   std::string name;            ///< key of the sequence's files in the folder
@@ -73,4 +73,4 @@ std::string format_manifest(const Manifest& manifest);
 /// @throws DataError when the file is not a manifest.
 Manifest read_manifest(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 constexpr double kLivePeriod = 0.2;    // s
@@ -79,4 +79,4 @@ std::string format_duration(double seconds) {
   return print("%lld h %02lld min", s / 3600, s / 60 % 60);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

@@ -8,7 +8,7 @@
 #include <ostream>
 #include <string>
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 class Progress {
  public:
@@ -44,4 +44,4 @@ std::string format_count(double count);
 /// 5 → "5 s", 151 → "2 min 31 s", 4000 → "1 h 06 min".
 std::string format_duration(double seconds);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

@@ -6,7 +6,7 @@
 
 #include "pipeline/record/progress.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 struct RunContext {
   Progress& progress;
@@ -16,4 +16,4 @@ struct RunContext {
 
 enum class RunOutcome { kAllGood, kSomeFailed, kInterrupted };
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

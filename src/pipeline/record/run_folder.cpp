@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 void RunFolder::create() const {
   for (const char* part : {"motions", "references"}) {
@@ -35,4 +35,4 @@ std::string file_checksum(const std::filesystem::path& path) {
   return text;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

@@ -24,7 +24,7 @@
 
 #include "core/file.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 struct RunFolder {
   std::filesystem::path root;
@@ -70,4 +70,4 @@ std::string unique_name(const std::filesystem::path& input, const std::vector<st
 /// @throws DataError when the file cannot be read.
 std::string file_checksum(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

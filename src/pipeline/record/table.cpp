@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 std::vector<std::string> split(const std::string& line) {
@@ -78,4 +78,4 @@ Table read_csv(const std::filesystem::path& path) {
   return table;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

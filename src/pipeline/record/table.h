@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 struct Table {
   std::vector<std::string> columns;
@@ -26,4 +26,4 @@ std::string format_csv(const Table& table);
 /// @throws DataError naming the file and the line of a row that is too short, too long or not a number.
 Table read_csv(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

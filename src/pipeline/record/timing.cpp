@@ -3,7 +3,7 @@
 #include "core/file.h"
 #include "pipeline/record/json.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences) {
   Json list = Json::array();
@@ -38,4 +38,4 @@ std::vector<Timing> read_timing(const std::filesystem::path& path) {
   return timings;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

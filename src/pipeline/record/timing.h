@@ -8,7 +8,7 @@
 
 #include "pipeline/record/manifest.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 
 /// Wall-clock record of one sequence, summed over interruptions.
 struct Timing {
@@ -22,4 +22,4 @@ std::string format_timing(const std::vector<Timing>& timings, const std::vector<
 /// Empty when there is no such file or it is unreadable: times are a convenience.
 std::vector<Timing> read_timing(const std::filesystem::path& path);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

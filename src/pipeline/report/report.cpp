@@ -8,7 +8,7 @@
 #include "pipeline/record/json.h"
 #include "pipeline/report/report_page.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::report {
 namespace {
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -26,7 +26,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// Five digits are more than a curve shows.
-Json rounded_number(double value) {
+record::Json rounded_number(double value) {
   if (!std::isfinite(value)) return nullptr;
   if (value == 0.0) return 0.0;
   const double scale = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
@@ -34,35 +34,37 @@ Json rounded_number(double value) {
   return std::isfinite(rounded) ? rounded : value;
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
+record::Json numbers(const std::vector<double>& values) {
+  record::Json list = record::Json::array();
   for (double v : values) list.push_back(rounded_number(v));
   return list;
 }
 
-Json to_json(const ReportSequence& s) {
-  Json metrics = {{"columns", s.metric_columns}, {"rows", Json::array()}};
+record::Json to_json(const ReportSequence& s) {
+  record::Json metrics = {{"columns", s.metric_columns}, {"rows", record::Json::array()}};
   for (const auto& m : s.metrics)
     metrics["rows"].push_back({{"name", m.name}, {"values", numbers(m.values)}});
-  Json series = Json::array();
+  record::Json series = record::Json::array();
   for (const auto& c : s.series)
     series.push_back({{"title", c.title}, {"step", c.step}, {"values", numbers(c.values)}});
-  Json rows = Json::array();
+  record::Json rows = record::Json::array();
   for (const auto& row : s.log.rows) rows.push_back(numbers(row));
   std::vector<double> radii;
   for (const auto& c : s.character.capsule) radii.push_back(c.radius);
-  Json json = {{"name", s.name},
-               {"status", s.status},
-               {"reason", s.reason},
-               {"fps", s.fps},
-               {"frames", std::max(s.reference.size(), s.simulated.size())},
-               {"radii", numbers(radii)},
-               {"metrics", metrics},
-               {"notes", s.notes},
-               {"series", series},
-               {"log", {{"columns", s.log.columns}, {"rows", rows}}}};
-  json["reference"] = s.reference.empty() ? Json(nullptr) : Json(encode_capsules(s.character, s.reference));
-  json["simulated"] = s.simulated.empty() ? Json(nullptr) : Json(encode_capsules(s.character, s.simulated));
+  record::Json json = {{"name", s.name},
+                       {"status", s.status},
+                       {"reason", s.reason},
+                       {"fps", s.fps},
+                       {"frames", std::max(s.reference.size(), s.simulated.size())},
+                       {"radii", numbers(radii)},
+                       {"metrics", metrics},
+                       {"notes", s.notes},
+                       {"series", series},
+                       {"log", {{"columns", s.log.columns}, {"rows", rows}}}};
+  json["reference"] =
+      s.reference.empty() ? record::Json(nullptr) : record::Json(encode_capsules(s.character, s.reference));
+  json["simulated"] =
+      s.simulated.empty() ? record::Json(nullptr) : record::Json(encode_capsules(s.character, s.simulated));
   return json;
 }
 
@@ -89,13 +91,13 @@ std::string encode_capsules(const Character& character, const std::vector<BodyPo
 }
 
 std::string format_report(const std::vector<ReportSequence>& sequences) {
-  Json data = {{"sequences", Json::array()}};
+  record::Json data = {{"sequences", record::Json::array()}};
   for (const auto& s : sequences) data["sequences"].push_back(to_json(s));
   // A "</script>" in a file name must not end the element that holds the data.
-  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = data.dump(-1, ' ', false, record::Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
     text.replace(at, 2, "<\\/");
   return std::string(kReportPageBefore) + text + std::string(kReportPageAfter);
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::report

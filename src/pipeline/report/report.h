@@ -13,7 +13,7 @@
 #include "character/character.h"
 #include "pipeline/record/table.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::report {
 
 /// A row of the metrics table: one value per column.
 struct ReportMetric {
@@ -42,7 +42,7 @@ struct ReportSequence {
   std::vector<ReportSeries> series;
   /// A column per quantity, a row per iteration, with a column "samples". Columns named "title:part" share
   /// one chart.
-  Table log;
+  record::Table log;
 };
 
 std::string format_report(const std::vector<ReportSequence>& sequences);
@@ -50,4 +50,4 @@ std::string format_report(const std::vector<ReportSequence>& sequences);
 /// Ends of every capsule in mm, [frame][body][2][3] little-endian int16, in base64. Exposed for its test.
 std::string encode_capsules(const Character& character, const std::vector<BodyPoses>& poses);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::report

@@ -12,13 +12,13 @@
 #include "pipeline/record/table.h"
 #include "pipeline/report/report.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::report {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string with_unit(const std::string& metric) {
-  for (const auto& d : metric_definitions())
+  for (const auto& d : motion::metric_definitions())
     if (metric == d.name) return metric + ", " + d.unit;
   return metric;
 }
@@ -52,7 +52,7 @@ std::vector<ReportMetric> rows_of(const std::vector<NamedValues>& columns) {
   return rows;
 }
 
-std::vector<std::string> notes_of(const SequenceEntry& entry) {
+std::vector<std::string> notes_of(const record::SequenceEntry& entry) {
   std::vector<std::string> notes = entry.notes;
   if (!entry.arrangement.empty()) notes.push_back(arrangement_note(entry.arrangement));
   for (const auto& value : entry.plan) notes.push_back(note_of("plan", value));
@@ -63,7 +63,7 @@ std::vector<std::string> notes_of(const SequenceEntry& entry) {
   return notes;
 }
 
-std::vector<double> column_of(const Table& table, const std::string& name) {
+std::vector<double> column_of(const record::Table& table, const std::string& name) {
   std::vector<double> values;
   const std::size_t at = table.column(name);
   for (const auto& row : table.rows) values.push_back(row[at]);
@@ -80,18 +80,18 @@ std::vector<double> distances(const std::vector<BodyPoses>& a, const std::vector
 }
 
 /// Whether policies were trained for the motion, be it that a plan was written in the end.
-bool was_trained(const SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
+bool was_trained(const record::SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
 
-void add_training(const RunFolder& folder, const SequenceEntry& entry, ReportSequence& s) {
-  const Table falls = read_csv(folder.falls(entry.name));
+void add_training(const record::RunFolder& folder, const record::SequenceEntry& entry, ReportSequence& s) {
+  const record::Table falls = record::read_csv(folder.falls(entry.name));
   const std::vector<double> frames = column_of(falls, "frame");
   const double bin = frames.size() > 1 ? frames[1] - frames[0] : 1.0;
   s.series.push_back(
       {"share of falls over the clip, in training", bin / entry.fps, column_of(falls, "fall_rate")});
-  s.log = read_csv(folder.log(entry.name));
+  s.log = record::read_csv(folder.log(entry.name));
 }
 
-ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) {
+ReportSequence sequence_of(const record::RunFolder& folder, const record::SequenceEntry& entry) {
   ReportSequence s;
   s.name = entry.name;
   s.status = entry.ok ? "ok" : "failed";
@@ -99,11 +99,11 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
   s.notes = notes_of(entry);
   s.character = make_character();
   if (entry.output.empty()) return s;
-  const Clip simulated = read_clip(folder.root / entry.output);
+  const motion::Clip simulated = motion::read_clip(folder.root / entry.output);
   s.fps = entry.fps;
-  s.character = character_of(simulated);
-  s.simulated = poses_of(simulated);
-  s.reference = poses_of(read_clip(folder.reference(entry.name)));
+  s.character = motion::character_of(simulated);
+  s.simulated = motion::poses_of(simulated);
+  s.reference = motion::poses_of(motion::read_clip(folder.reference(entry.name)));
   if (entry.metrics_before.empty()) {
     s.metric_columns = {"input", "simulated"};
     s.metrics = rows_of({entry.input_metrics, entry.metrics});
@@ -120,11 +120,11 @@ ReportSequence sequence_of(const RunFolder& folder, const SequenceEntry& entry) 
 }
 
 /// The sequence with its motions; where its files cannot be read, without them and with the reason.
-ReportSequence sequence_or_reason(const RunFolder& folder, const SequenceEntry& entry) {
+ReportSequence sequence_or_reason(const record::RunFolder& folder, const record::SequenceEntry& entry) {
   try {
     return sequence_of(folder, entry);
   } catch (const std::exception& error) {
-    SequenceEntry unseen = entry;
+    record::SequenceEntry unseen = entry;
     unseen.output.clear();
     unseen.notes.push_back(std::string("cannot be shown: ") + error.what());
     return sequence_of(folder, unseen);
@@ -133,10 +133,10 @@ ReportSequence sequence_or_reason(const RunFolder& folder, const SequenceEntry& 
 
 }  // namespace
 
-void write_report(const RunFolder& folder, const Manifest& manifest) {
+void write_report(const record::RunFolder& folder, const record::Manifest& manifest) {
   std::vector<ReportSequence> sequences;
   for (const auto& entry : manifest.sequences) sequences.push_back(sequence_or_reason(folder, entry));
   write_file_atomically(folder.report(), format_report(sequences));
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::report

@@ -4,9 +4,9 @@
 #include "pipeline/record/manifest.h"
 #include "pipeline/record/run_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::report {
 
 /// Writes DIR/report.html. Sequences without output appear with their reason alone.
-void write_report(const RunFolder& folder, const Manifest& manifest);
+void write_report(const record::RunFolder& folder, const record::Manifest& manifest);
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::report

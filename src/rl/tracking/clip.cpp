@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 void require_whole_steps(double physics_rate, double fps) {
   const double substeps = physics_rate / fps;
@@ -12,13 +12,13 @@ void require_whole_steps(double physics_rate, double fps) {
         "physics_rate: the physics rate must be a multiple of the reference's frame rate");
 }
 
-std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
+std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& reference,
                                                        const TrackingConfig& config) {
   if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
   require_whole_steps(config.simulation.rate, reference.fps);
   auto clip = std::make_shared<TrackingClip>();
   clip->reference = reference;
-  clip->model = make_model<float>(reference.character, config.simulation);
+  clip->model = physics::make_model<float>(reference.character, config.simulation);
   for (std::size_t t = 0; t < reference.frames.size(); ++t)
     clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
   Pose rest = clip->poses.back();
@@ -30,4 +30,4 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& referenc
   return clip;
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

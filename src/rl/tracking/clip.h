@@ -9,7 +9,7 @@
 #include "rl/tracking/config.h"
 #include "rl/tracking/state.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// What an option's encoder makes of a clip's poses.
 struct EncodedReference {
@@ -20,8 +20,8 @@ struct EncodedReference {
 
 /// A reference made ready for the simulator: immutable, shared by packs and threads.
 struct TrackingClip {
-  Reference reference;
-  Model<float> model;
+  motion::Reference reference;
+  physics::Model<float> model;
   List<Pose> poses;                                ///< [frames + 1]: the last one repeated, at rest
   List<std::array<float, kJointFeatures>> joints;  ///< [frames + 1]
   List<KeypointFrame> keypoints;                   ///< [frames], or empty
@@ -37,7 +37,7 @@ struct TrackingClip {
 void require_whole_steps(double physics_rate, double fps);
 
 /// @throws std::invalid_argument for a reference of less than 2 frames, and as `require_whole_steps`
-std::shared_ptr<const TrackingClip> make_tracking_clip(const Reference& reference,
+std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& reference,
                                                        const TrackingConfig& config);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

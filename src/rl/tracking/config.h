@@ -4,7 +4,7 @@
 #include "physics/model.h"
 #include "rl/tracking/reward.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// What an action a_t ∈ R⁵⁵ means: a target pose as rotation vectors (angles for hinges).   docs/method.md §4
 enum class ActionMode {
@@ -18,7 +18,7 @@ struct TrackingConfig {
   bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity, not towards 0
   double max_action = 2.5;            ///< each entry of an action is clamped to ± this, rad
   RewardWeights reward;
-  SimulationConfig simulation;
+  physics::SimulationConfig simulation;
   double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m
   int bin_frames = 10;              ///< starts and failures are counted in bins of this many frames
   double uniform_starts = 0.4;      ///< share of the starts drawn uniformly; the rest where it fails
@@ -26,4 +26,4 @@ struct TrackingConfig {
   double softest_reward = 0.1;      ///< least exponent of the softened reward
 };
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

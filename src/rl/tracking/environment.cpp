@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/random.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 constexpr std::uint64_t kStartStream = 0x7374617274;  // "start"
@@ -22,10 +22,10 @@ int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
 }  // namespace
 
 void require_whole_groups(int characters, int group_size) {
-  if (group_size < kLanes || group_size % kLanes != 0 || characters < group_size ||
+  if (group_size < physics::kLanes || group_size % physics::kLanes != 0 || characters < group_size ||
       characters % group_size != 0)
     throw std::invalid_argument("characters must be a multiple of group_size, and that of " +
-                                std::to_string(kLanes) + ", the lanes of this build");
+                                std::to_string(physics::kLanes) + ", the lanes of this build");
 }
 
 TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const TrackingClip>> clips,
@@ -44,11 +44,11 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
   groups_.resize(static_cast<std::size_t>(characters / group_size));
   for (int g = 0; g < groups_.count(); ++g) {
     Group& group = groups_[g];
-    const auto packs = static_cast<std::size_t>(group_size / kLanes);
+    const auto packs = static_cast<std::size_t>(group_size / physics::kLanes);
     group.clips.assign(packs, 0);
     group.packs.assign(packs, TrackingPack(clips_.front(), config_));
     group.episodes.assign(static_cast<std::size_t>(group_size), 0);
-    group.scratch = std::make_unique<Data<TrackingPack::P>>();
+    group.scratch = std::make_unique<physics::Data<TrackingPack::P>>();
     group.statistics = last_;
     for (int p = 0; p < group.packs.count(); ++p) follow_next_clip(g, p);
   }
@@ -66,7 +66,7 @@ void TrackingEnvironment::follow_next_clip(int g, int p) {
   Group& group = groups_[g];
   group.clips[p] = next_clip_;
   group.packs[p] = TrackingPack(clips_[next_clip_], config_);
-  for (int lane = 0; lane < kLanes; ++lane) restart(g, p * kLanes + lane);
+  for (int lane = 0; lane < physics::kLanes; ++lane) restart(g, p * physics::kLanes + lane);
   next_clip_ = (next_clip_ + 1) % clips_.count();
 }
 
@@ -80,7 +80,7 @@ std::vector<CharacterPlace> TrackingEnvironment::move_on() {
       const int turn = g * per_group + p;
       if ((iteration_ + turn) % kClipIterations != 0) continue;
       follow_next_clip(g, p);
-      for (int lane = 0; lane < kLanes; ++lane) moved.push_back({g, p * kLanes + lane});
+      for (int lane = 0; lane < physics::kLanes; ++lane) moved.push_back({g, p * physics::kLanes + lane});
     }
   return moved;
 }
@@ -100,31 +100,32 @@ int TrackingEnvironment::draw_start(int clip, int group, int character, std::int
 void TrackingEnvironment::restart(int g, int character) {
   Group& group = groups_[g];
   const std::int64_t episode = group.episodes[character]++;
-  const int pack = character / kLanes;
-  group.packs[pack].reset(character % kLanes, draw_start(group.clips[pack], g, character, episode));
+  const int pack = character / physics::kLanes;
+  group.packs[pack].reset(character % physics::kLanes, draw_start(group.clips[pack], g, character, episode));
 }
 
 int TrackingEnvironment::actor(int g, int character) const {
-  const TrackingPack& pack = groups_[g].packs[character / kLanes];
-  return pack.clip().option_at(pack.frame(character % kLanes));
+  const TrackingPack& pack = groups_[g].packs[character / physics::kLanes];
+  return pack.clip().option_at(pack.frame(character % physics::kLanes));
 }
 
 void TrackingEnvironment::observe(int g, Eigen::Ref<nn::Matrix<float>> observations) const {
   const Group& group = groups_[g];
   for (int n = 0; n < group_size_; ++n)
-    group.packs[n / kLanes].observe(n % kLanes, observations.row(n).data());
+    group.packs[n / physics::kLanes].observe(n % physics::kLanes, observations.row(n).data());
 }
 
 void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>& actions,
                                StepResult& result) {
   Group& group = groups_[g];
   TrackingStatistics& statistics = group.statistics;
-  for (int n = 0; n < group_size_; ++n) group.packs[n / kLanes].act(n % kLanes, actions.row(n).data());
+  for (int n = 0; n < group_size_; ++n)
+    group.packs[n / physics::kLanes].act(n % physics::kLanes, actions.row(n).data());
   for (TrackingPack& pack : group.packs) pack.advance(*group.scratch);
   for (int n = 0; n < group_size_; ++n) {
-    const int p = n / kLanes;
+    const int p = n / physics::kLanes;
     TrackingPack& pack = group.packs[p];
-    const int lane = n % kLanes, frame = pack.frame(lane);
+    const int lane = n % physics::kLanes, frame = pack.frame(lane);
     const Reward reward = pack.reward(lane);
     const bool fell = !(pack.worst_distance(lane) <= config_.terminate_distance);
     const bool ended = frame >= pack.clip().size() - 1;
@@ -229,4 +230,4 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   }
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

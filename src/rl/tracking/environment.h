@@ -23,7 +23,7 @@
 #include "rl/tracking/pack.h"
 #include "rl/tracking/statistics.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// @throws std::invalid_argument unless the characters fill whole groups, and a group whole packs of lanes
 void require_whole_groups(int characters, int group_size);
@@ -65,7 +65,7 @@ class TrackingEnvironment {
     List<int> clips;  ///< [pack] which clip it follows
     List<TrackingPack> packs;
     List<std::int64_t> episodes;  ///< [group_size] episodes begun
-    std::unique_ptr<Data<TrackingPack::P>> scratch;
+    std::unique_ptr<physics::Data<TrackingPack::P>> scratch;
     TrackingStatistics statistics;
   };
   int draw_start(int clip, int group, int character, std::int64_t episode) const;
@@ -85,4 +85,4 @@ class TrackingEnvironment {
   TrackingStatistics last_;
 };
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

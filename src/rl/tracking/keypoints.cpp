@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
-List<KeypointFrame> match_keypoints(const Keypoints& keypoints) {
+List<KeypointFrame> match_keypoints(const motion::Keypoints& keypoints) {
   List<KeypointFrame> frames(keypoints.uvc.size());
   for (std::size_t t = 0; t < frames.size(); ++t) {
     KeypointFrame& frame = frames[t];
@@ -38,4 +38,4 @@ double projection_error(const KeypointFrame& keypoints, const PerBody<Vector3d>&
   return weights > 0.0 ? sum / (weights * keypoints.box_height * keypoints.box_height) : 0.0;
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

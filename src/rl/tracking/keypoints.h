@@ -4,7 +4,7 @@
 #include "character/bodies.h"
 #include "motion/clip.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// Detected keypoints of one frame, matched to bodies and ready to compare with a projection.
 struct KeypointFrame {
@@ -19,11 +19,11 @@ struct KeypointFrame {
 
 /// Joins the names of `keypoints` to bodies by name (22 SMPL-X joints or COCO-17; eyes, ears and nose
 /// unused). Empty frames where nothing is detected. An empty vector when there are no keypoints.
-List<KeypointFrame> match_keypoints(const Keypoints& keypoints);
+List<KeypointFrame> match_keypoints(const motion::Keypoints& keypoints);
 
 /// Error of Eq. 3: mean squared pixel error in units of the box height, weighted by confidence. Detections
 /// whose body is behind the camera do not count; 0 where none counts.
 /// @param p_WB  of the simulated character, m
 double projection_error(const KeypointFrame& keypoints, const PerBody<Vector3d>& p_WB);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -8,19 +8,19 @@
 #include "physics/lanes.h"
 #include "physics/pd_target.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 using P = TrackingPack::P;
 
 template <class F>
-void for_each_value(State<P>& state, Target<P>& target, F&& f) {
-  const auto vec = [&](Vec3<P>& v) {
+void for_each_value(physics::State<P>& state, physics::Target<P>& target, F&& f) {
+  const auto vec = [&](physics::Vec3<P>& v) {
     f(v.x);
     f(v.y);
     f(v.z);
   };
-  const auto quat = [&](Quat<P>& q) {
+  const auto quat = [&](physics::Quat<P>& q) {
     f(q.w);
     f(q.x);
     f(q.y);
@@ -38,7 +38,7 @@ void for_each_value(State<P>& state, Target<P>& target, F&& f) {
 
 TrackingPack::TrackingPack(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config)
     : clip_(std::move(clip)), config_(config) {
-  for (int lane = 0; lane < kLanes; ++lane) reset(lane, 0);
+  for (int lane = 0; lane < physics::kLanes; ++lane) reset(lane, 0);
 }
 
 void TrackingPack::reset(int lane, int frame) {
@@ -47,22 +47,24 @@ void TrackingPack::reset(int lane, int frame) {
   broken_[lane] = false;
   fresh_[lane] = true;
   poses_[lane] = start;
-  set_lane(state_.p_root, lane, start.frame.p_root);
-  set_lane(state_.v_root, lane, start.frame.v_root);
+  physics::set_lane(state_.p_root, lane, start.frame.p_root);
+  physics::set_lane(state_.v_root, lane, start.frame.v_root);
   for (int i = 0; i < kBodies; ++i) {
-    set_lane(state_.q[i], lane, start.frame.q[i]);
-    set_lane(state_.omega[i], lane, start.frame.omega[i]);
-    set_lane(to_.q[i], lane, start.frame.q[i]);
-    set_lane(to_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
-    set_lane(from_.q[i], lane, start.frame.q[i]);
-    set_lane(from_.omega[i], lane, config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    physics::set_lane(state_.q[i], lane, start.frame.q[i]);
+    physics::set_lane(state_.omega[i], lane, start.frame.omega[i]);
+    physics::set_lane(to_.q[i], lane, start.frame.q[i]);
+    physics::set_lane(to_.omega[i], lane,
+                      config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
+    physics::set_lane(from_.q[i], lane, start.frame.q[i]);
+    physics::set_lane(from_.omega[i], lane,
+                      config_.velocity_feed_forward ? start.frame.omega[i] : Vector3d::Zero());
   }
 }
 
 void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
-  mimicx::copy_lane(state_, lane, other.state_, from);
-  mimicx::copy_lane(to_, lane, other.to_, from);
-  mimicx::copy_lane(from_, lane, other.from_, from);
+  physics::copy_lane(state_, lane, other.state_, from);
+  physics::copy_lane(to_, lane, other.to_, from);
+  physics::copy_lane(from_, lane, other.from_, from);
   frames_[lane] = other.frames_[from];
   poses_[lane] = other.poses_[from];
   broken_[lane] = other.broken_[from];
@@ -83,43 +85,47 @@ void TrackingPack::observe(int lane, int option, float* out) const {
 }
 
 void TrackingPack::act(int lane, const float* action) {
-  const ReferenceFrame& next = clip_->poses[frame(lane) + 1].frame;
+  const motion::ReferenceFrame& next = clip_->poses[frame(lane) + 1].frame;
   const bool residual = config_.action_mode == ActionMode::kResidual;
   for (int body = 1; body < kBodies; ++body) {
-    const Vector3d rotation = action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
-    set_lane(to_.q[body], lane, residual ? residual_target(next.q[body], rotation) : exp_map(rotation));
-    set_lane(to_.omega[body], lane, config_.velocity_feed_forward ? next.omega[body] : Vector3d::Zero());
+    const Vector3d rotation =
+        physics::action_rotation(body, config_.max_action, [&](int dof) { return action[dof]; });
+    physics::set_lane(to_.q[body], lane,
+                      residual ? physics::residual_target(next.q[body], rotation) : exp_map(rotation));
+    physics::set_lane(to_.omega[body], lane,
+                      config_.velocity_feed_forward ? next.omega[body] : Vector3d::Zero());
   }
 }
 
-void TrackingPack::advance(Data<P>& scratch, Applied<P>* applied, const SubstepWatcher& watch) {
+void TrackingPack::advance(physics::Data<P>& scratch, physics::Applied<P>* applied,
+                           const SubstepWatcher& watch) {
   const int substeps = static_cast<int>(std::lround(config_.simulation.rate / clip_->reference.fps));
-  const MaskOf<P> wrong =
-      advance_interval(clip_->model, from_, to_, substeps, state_, scratch, applied, watch);
-  for (int lane = 0; lane < kLanes; ++lane)
+  const physics::MaskOf<P> wrong =
+      physics::advance_interval(clip_->model, from_, to_, substeps, state_, scratch, applied, watch);
+  for (int lane = 0; lane < physics::kLanes; ++lane)
     if (wrong[lane] != 0) broken_[lane] = true;
   saturated_.fill(0);
   for (int i = 1; i < kBodies; ++i)
-    for (int lane = 0; lane < kLanes; ++lane)
+    for (int lane = 0; lane < physics::kLanes; ++lane)
       if (scratch.saturated[i][lane] != 0) ++saturated_[lane];
-  update_kinematics(clip_->model, state_, scratch);
+  physics::update_kinematics(clip_->model, state_, scratch);
   from_ = to_;
   fresh_.fill(false);
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < physics::kLanes; ++lane) {
     auto& frame = frames_[lane];
     frame = std::min(frame + 1, clip_->size() - 1);
     read_pose(scratch, lane);
   }
 }
 
-void TrackingPack::read_pose(const Data<P>& d, int lane) {
+void TrackingPack::read_pose(const physics::Data<P>& d, int lane) {
   Pose& pose = poses_[lane];
-  pose.frame.p_root = lane_of(state_.p_root, lane);
-  pose.frame.v_root = lane_of(state_.v_root, lane);
+  pose.frame.p_root = physics::lane_of(state_.p_root, lane);
+  pose.frame.v_root = physics::lane_of(state_.v_root, lane);
   for (int i = 0; i < kBodies; ++i) {
-    pose.frame.q[i] = lane_of(state_.q[i], lane).normalized();
-    pose.frame.omega[i] = lane_of(state_.omega[i], lane);
-    pose.p_WB[i] = lane_of(d.p_WB[i], lane);
+    pose.frame.q[i] = physics::lane_of(state_.q[i], lane).normalized();
+    pose.frame.omega[i] = physics::lane_of(state_.omega[i], lane);
+    pose.p_WB[i] = physics::lane_of(d.p_WB[i], lane);
   }
 }
 
@@ -140,12 +146,12 @@ double TrackingPack::worst_distance(int lane) const {
 
 std::vector<float> TrackingPack::save() const {
   std::vector<float> values;
-  State<P> state = state_;
-  Target<P> target = to_;
+  physics::State<P> state = state_;
+  physics::Target<P> target = to_;
   for_each_value(state, target, [&](P& x) {
-    for (int lane = 0; lane < kLanes; ++lane) values.push_back(x[lane]);
+    for (int lane = 0; lane < physics::kLanes; ++lane) values.push_back(x[lane]);
   });
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < physics::kLanes; ++lane) {
     values.push_back(static_cast<float>(frames_[lane]));
     values.push_back(fresh_[lane] ? 1.0f : 0.0f);
   }
@@ -156,13 +162,13 @@ void TrackingPack::load(const std::vector<float>& values) {
   if (values.size() != save().size()) throw std::invalid_argument("a saved pack has another size");
   std::size_t k = 0;
   for_each_value(state_, to_, [&](P& x) {
-    for (int lane = 0; lane < kLanes; ++lane) x.set(lane, values[k++]);
+    for (int lane = 0; lane < physics::kLanes; ++lane) x.set(lane, values[k++]);
   });
   from_ = to_;
   broken_.fill(false);
-  Data<P> d;
-  update_kinematics(clip_->model, state_, d);
-  for (int lane = 0; lane < kLanes; ++lane) {
+  physics::Data<P> d;
+  physics::update_kinematics(clip_->model, state_, d);
+  for (int lane = 0; lane < physics::kLanes; ++lane) {
     frames_[lane] = static_cast<int>(values[k++]);
     fresh_[lane] = values[k++] != 0.0f;
     if (fresh_[lane])
@@ -172,4 +178,4 @@ void TrackingPack::load(const std::vector<float>& values) {
   }
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -11,12 +11,12 @@
 #include "physics/control_interval.h"
 #include "rl/tracking/clip.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 class TrackingPack {
  public:
-  using P = Pack<kLanes>;
-  using SubstepWatcher = mimicx::SubstepWatcher<P>;
+  using P = physics::Pack<physics::kLanes>;
+  using SubstepWatcher = physics::SubstepWatcher<P>;
 
   TrackingPack(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config);
 
@@ -34,7 +34,8 @@ class TrackingPack {
   void act(int lane, const float* action);
   /// One control step of every lane; frames advance by one. @param applied  sums of what acted, or null
   /// @param watch  sees every physics step and changes none; empty: nobody watches
-  void advance(Data<P>& scratch, Applied<P>* applied = nullptr, const SubstepWatcher& watch = {});
+  void advance(physics::Data<P>& scratch, physics::Applied<P>* applied = nullptr,
+               const SubstepWatcher& watch = {});
 
   /// After `advance`: reward of the lane's pose against the frame it has reached.
   Reward reward(int lane) const;
@@ -52,17 +53,17 @@ class TrackingPack {
   void load(const std::vector<float>& values);
 
  private:
-  void read_pose(const Data<P>& d, int lane);
+  void read_pose(const physics::Data<P>& d, int lane);
 
   std::shared_ptr<const TrackingClip> clip_;
   TrackingConfig config_;
-  State<P> state_;
-  Target<P> from_, to_;  ///< targets at the start and the end of the control step
-  Array<int, kLanes> frames_{};
-  Array<Pose, kLanes> poses_;
-  Array<bool, kLanes> broken_{};  ///< the simulation went wrong since the last reset
-  Array<bool, kLanes> fresh_{};   ///< reset and not advanced yet: the pose is the reference's own
-  Array<int, kLanes> saturated_{};
+  physics::State<P> state_;
+  physics::Target<P> from_, to_;  ///< targets at the start and the end of the control step
+  Array<int, physics::kLanes> frames_{};
+  Array<Pose, physics::kLanes> poses_;
+  Array<bool, physics::kLanes> broken_{};  ///< the simulation went wrong since the last reset
+  Array<bool, physics::kLanes> fresh_{};   ///< reset and not advanced yet: the pose is the reference's own
+  Array<int, physics::kLanes> saturated_{};
 };
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 double squared_angle(const Quaterniond& a, const Quaterniond& b) {
@@ -13,7 +13,7 @@ double squared_angle(const Quaterniond& a, const Quaterniond& b) {
 
 Reward tracking_reward(const RewardWeights& weights, const Pose& reference, const Pose& simulated,
                        const KeypointFrame* keypoints) {
-  const ReferenceFrame &r = reference.frame, &s = simulated.frame;
+  const motion::ReferenceFrame &r = reference.frame, &s = simulated.frame;
   double pose = 0.0, velocity = 0.0, end_effector = 0.0;
   for (int i = 1; i < kBodies; ++i) {
     pose += squared_angle(s.q[i], r.q[i]);
@@ -35,4 +35,4 @@ Reward tracking_reward(const RewardWeights& weights, const Pose& reference, cons
   return reward;
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -11,7 +11,7 @@
 #include "rl/tracking/keypoints.h"
 #include "rl/tracking/state.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// Defaults: docs/method.md §12 and docs/experiments.md.
 struct RewardWeights {
@@ -37,4 +37,4 @@ struct Reward {
 Reward tracking_reward(const RewardWeights& weights, const Pose& reference, const Pose& simulated,
                        const KeypointFrame* keypoints);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -5,13 +5,13 @@
 
 #include "physics/lanes.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 using P = TrackingPack::P;
 
-Vector3d first_lane(const Vec3<P>& v, double scale) { return scale * lane_of(v, 0); }
-Vector6d first_lane(const Wrench<P>& w, double scale) {
+Vector3d first_lane(const physics::Vec3<P>& v, double scale) { return scale * physics::lane_of(v, 0); }
+Vector6d first_lane(const physics::Wrench<P>& w, double scale) {
   Vector6d out;
   out.head<3>() = first_lane(w.n, scale);
   out.tail<3>() = first_lane(w.f, scale);
@@ -19,7 +19,7 @@ Vector6d first_lane(const Wrench<P>& w, double scale) {
 }
 
 /// Mean of what acted in the steps that are summed up.
-ActingForces forces_of(const Applied<P>& applied) {
+ActingForces forces_of(const physics::Applied<P>& applied) {
   const double scale = applied.steps > 0 ? 1.0 / applied.steps : 0.0;
   ActingForces forces;
   for (int i = 0; i < kBodies; ++i) {
@@ -31,26 +31,28 @@ ActingForces forces_of(const Applied<P>& applied) {
   return forces;
 }
 
-ReferenceFrame first_lane(const State<P>& state) {
-  ReferenceFrame frame;
-  frame.p_root = lane_of(state.p_root, 0);
-  frame.v_root = lane_of(state.v_root, 0);
+motion::ReferenceFrame first_lane(const physics::State<P>& state) {
+  motion::ReferenceFrame frame;
+  frame.p_root = physics::lane_of(state.p_root, 0);
+  frame.v_root = physics::lane_of(state.v_root, 0);
   for (int i = 0; i < kBodies; ++i) {
-    frame.q[i] = lane_of(state.q[i], 0);
-    frame.omega[i] = lane_of(state.omega[i], 0);
+    frame.q[i] = physics::lane_of(state.q[i], 0);
+    frame.omega[i] = physics::lane_of(state.omega[i], 0);
   }
   return frame;
 }
 
 /// Appends every step to `out`. @param scratch  for one step's forces
-TrackingPack::SubstepWatcher recorder(const Model<float>& model, Applied<P>& scratch, TrackingRollout& out) {
-  return [&](const State<P>& before, const Target<P>& target, const Data<P>& solved, const State<P>& after) {
-    clear(scratch);
-    record_applied(model, solved, scratch);
+TrackingPack::SubstepWatcher recorder(const physics::Model<float>& model, physics::Applied<P>& scratch,
+                                      TrackingRollout& out) {
+  return [&](const physics::State<P>& before, const physics::Target<P>& target,
+             const physics::Data<P>& solved, const physics::State<P>& after) {
+    physics::clear(scratch);
+    physics::record_applied(model, solved, scratch);
     Substep step{first_lane(before), {}, {}, forces_of(scratch)};
     for (int i = 0; i < kBodies; ++i) {
-      step.target_q[i] = i == 0 ? Quaterniond::Identity() : lane_of(target.q[i], 0);
-      step.target_omega[i] = lane_of(target.omega[i], 0);
+      step.target_q[i] = i == 0 ? Quaterniond::Identity() : physics::lane_of(target.q[i], 0);
+      step.target_omega[i] = physics::lane_of(target.omega[i], 0);
     }
     out.substeps.push_back(step);
     out.last_state = first_lane(after);
@@ -85,11 +87,11 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
                          const MeanAction& policy, bool substeps) {
   TrackingRollout out;
   TrackingPack pack(clip, config);  // every lane starts on frame 0; lane 0 is the one that is recorded
-  Data<P> scratch;
-  Applied<P> applied, of_step;
+  physics::Data<P> scratch;
+  physics::Applied<P> applied, of_step;
   const TrackingPack::SubstepWatcher watch =
       substeps ? recorder(clip->model, of_step, out) : TrackingPack::SubstepWatcher{};
-  clear(applied);
+  physics::clear(applied);
   out.poses.push_back(pack.pose(0));
   out.rewards.push_back(pack.reward(0));
   out.forces.push_back(forces_of(applied));
@@ -98,8 +100,8 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
   for (int t = 1; t < clip->size(); ++t) {
     pack.observe(0, state.data());
     policy(clip->option_at(pack.frame(0)), state.data(), action.data());
-    for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, action.data());
-    clear(applied);
+    for (int lane = 0; lane < physics::kLanes; ++lane) pack.act(lane, action.data());
+    physics::clear(applied);
     pack.advance(scratch, &applied, watch);
     const double distance = pack.worst_distance(0);
     out.worst_distance = std::max(out.worst_distance, distance);
@@ -119,4 +121,4 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
   return out;
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

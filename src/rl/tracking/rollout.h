@@ -8,7 +8,7 @@
 #include "rl/policy.h"
 #include "rl/tracking/pack.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// Mean action of a policy: s_t [state_size of the clip] → a_t [55].
 using MeanAction = std::function<void(int option, const float* state, float* action)>;
@@ -26,7 +26,7 @@ struct ActingForces {
 /// One physics step: the state at its start, in the very numbers of the simulator (quaternions are unit to
 /// float rounding), what the PD controllers aimed at, and what acted.
 struct Substep {
-  ReferenceFrame state;
+  motion::ReferenceFrame state;
   PerBody<Quaterniond> target_q;   ///< entry 0 unused
   PerBody<Vector3d> target_omega;  ///< child's frame, rad/s; entry 0 unused
   ActingForces forces;
@@ -35,15 +35,15 @@ struct Substep {
 /// One simulated motion; index 0 is the start on the reference's first frame. Forces are means over the
 /// control interval that ends at the frame (zero at frame 0).
 struct TrackingRollout {
-  std::vector<Pose> poses;           ///< [frames]
-  std::vector<Reward> rewards;       ///< [frames]
-  std::vector<ActingForces> forces;  ///< [frames]
-  std::vector<Substep> substeps;     ///< [physics steps], where asked for
-  ReferenceFrame last_state;         ///< after the last of them
-  double worst_distance = 0;         ///< of any body from its reference, m
-  double mean_reward = 0;            ///< over frames 1 …
-  double mean_position_error = 0;    ///< all joints, world, frames 1 …, m
-  bool broken = false;               ///< the simulation went wrong; frames end there
+  std::vector<Pose> poses;            ///< [frames]
+  std::vector<Reward> rewards;        ///< [frames]
+  std::vector<ActingForces> forces;   ///< [frames]
+  std::vector<Substep> substeps;      ///< [physics steps], where asked for
+  motion::ReferenceFrame last_state;  ///< after the last of them
+  double worst_distance = 0;          ///< of any body from its reference, m
+  double mean_reward = 0;             ///< over frames 1 …
+  double mean_position_error = 0;     ///< all joints, world, frames 1 …, m
+  bool broken = false;                ///< the simulation went wrong; frames end there
 };
 
 /// Follows the clip from its first frame to its last under the clip's arrangement, falls included: nothing
@@ -52,4 +52,4 @@ struct TrackingRollout {
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy, bool substeps = false);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

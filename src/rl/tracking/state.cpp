@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 /// Writes v turned back by the heading.
@@ -30,7 +30,7 @@ Eigen::Vector2d heading_direction(const Quaterniond& q_WB) {
   return forward.head<2>().normalized();
 }
 
-std::array<float, kJointFeatures> joint_features(const ReferenceFrame& frame) {
+std::array<float, kJointFeatures> joint_features(const motion::ReferenceFrame& frame) {
   std::array<float, kJointFeatures> features{};
   float* rotation = features.data();
   float* velocity = features.data() + 106;
@@ -50,7 +50,7 @@ std::array<float, kJointFeatures> joint_features(const ReferenceFrame& frame) {
 
 void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& joints,
                    const Eigen::Vector2d& heading, float* out) {
-  const ReferenceFrame& f = pose.frame;
+  const motion::ReferenceFrame& f = pose.frame;
   *out++ = static_cast<float>(f.p_root.z());
   const Vector6d root = rotation_6d(f.q[0]);
   out = put(root.head<3>(), heading, out);
@@ -110,4 +110,4 @@ void tracking_state(const Pose& reference, const std::array<float, kJointFeature
   put_root_offset(reference, simulated, heading, offset);
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -19,7 +19,7 @@
 
 #include "motion/reference.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 inline constexpr int kPoseFeatures = 186;
 inline constexpr int kJointFeatures = 106 + 55;  ///< x^a and ẋ^a: they do not depend on the heading
@@ -28,7 +28,7 @@ static_assert(kStateSize == 570);
 
 /// A pose with the world positions of its bodies, simulated or of a reference.
 struct Pose {
-  ReferenceFrame frame;
+  motion::ReferenceFrame frame;
   PerBody<Vector3d> p_WB;  ///< m
 };
 
@@ -36,7 +36,7 @@ struct Pose {
 Eigen::Vector2d heading_direction(const Quaterniond& q_WB);
 
 /// x^a (6D per spherical joint, angle per hinge) and ẋ^a (3 or 1), bodies in order.
-std::array<float, kJointFeatures> joint_features(const ReferenceFrame& frame);
+std::array<float, kJointFeatures> joint_features(const motion::ReferenceFrame& frame);
 
 /// How many entries of an encoded state are not its code.
 inline constexpr int kEncodedRest = kStateSize - kPoseFeatures;
@@ -62,4 +62,4 @@ void encoded_state(const float* code, int code_size, const std::array<float, kPo
 void tracking_state(const Pose& reference, const std::array<float, kJointFeatures>& reference_joints,
                     const std::array<double, kBetas>& betas, const Pose& simulated, float* out);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 List<double> start_weights(const List<double>& fall_rates, double uniform) {
   const int n = fall_rates.count();
@@ -38,4 +38,4 @@ void TrackingStatistics::add(const TrackingStatistics& other) {
     }
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

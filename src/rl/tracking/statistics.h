@@ -6,7 +6,7 @@
 #include "core/containers.h"
 #include "rl/tracking/reward.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
 /// What happened on the clips during one roll-out.
 struct TrackingStatistics {
@@ -26,4 +26,4 @@ struct TrackingStatistics {
 /// @param fall_rates  [bin] share of the visits that end in a fall
 List<double> start_weights(const List<double>& fall_rates, double uniform_share);
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 TEST(FitContacts, APlantedFootStandsAndASwingingOneDoesNot) {
@@ -23,4 +23,4 @@ TEST(FitContacts, APlantedFootStandsAndASwingingOneDoesNot) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -11,17 +11,17 @@
 #include "motion/synth/noise.h"
 #include "motion/synth/synth.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
 
 /// Three seconds of a synthetic motion.
 Clip truth_of(const std::string& kind) {
-  SynthConfig config;
+  synth::SynthConfig config;
   config.kind = kind;
   config.seed = 5;
-  Clip clip = synthesize(config);
+  Clip clip = synth::synthesize(config);
   clip.rotations.resize(90);
   clip.trans.resize(90);
   return clip;
@@ -30,7 +30,7 @@ Clip truth_of(const std::string& kind) {
 /// Detections that are where they should be.
 Keypoints exact_keypoints(const Clip& truth) {
   const PerFrame<BodyPoses> poses = poses_of(truth);
-  const Camera camera = place_camera(poses, 1);
+  const synth::Camera camera = synth::place_camera(poses, 1);
   Keypoints k;
   k.names = keypoint_names(KeypointSet::kJoints22);
   k.intrinsics = camera.intrinsics;
@@ -38,7 +38,7 @@ Keypoints exact_keypoints(const Clip& truth) {
   for (const BodyPoses& pose : poses) {
     k.uvc.emplace_back();
     for (const Vector3d& p : pose.p_WB) {
-      const Vector3d seen = project(camera, p);
+      const Vector3d seen = synth::project(camera, p);
       k.uvc.back().push_back({seen.x(), seen.y(), 1.0});
     }
   }
@@ -51,7 +51,7 @@ Clip disturbed(const Clip& truth, std::uint64_t seed) {
   Clip clip = truth;
   clip.keypoints = exact_keypoints(truth);
   for (std::size_t j = 0; j < kBodies; ++j) {
-    const Vector3d still = 0.05 * random_vector(random), slow = 0.02 * random_vector(random);
+    const Vector3d still = 0.05 * test::random_vector(random), slow = 0.02 * test::random_vector(random);
     for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
       const Vector3d error = still + slow * std::sin(0.05 * static_cast<double>(t));
       clip.rotations[t][j] = log_map(exp_map(clip.rotations[t][j]) * exp_map(error));
@@ -76,11 +76,11 @@ Metrics against(const Clip& truth, const Clip& motion) {
 }
 
 Clip noisy_of(const Clip& truth, const char* preset, KeypointSet set, std::uint64_t seed) {
-  NoiseConfig config;
-  config.preset = noise_preset(preset);
+  synth::NoiseConfig config;
+  config.preset = synth::noise_preset(preset);
   config.keypoints = set;
   config.seed = seed;
-  return add_noise(truth, config);
+  return synth::add_noise(truth, config);
 }
 
 bool same(const Clip& a, const Clip& b) {
@@ -182,7 +182,7 @@ TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {
 TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
   const Clip truth = truth_of("walk");
   Clip input = disturbed(truth, 6);
-  const double told = 0.6 * kPi / 180.0;
+  const double told = 0.6 * test::kPi / 180.0;
   Eigen::Matrix4d& E = input.keypoints->extrinsics[0];
   E.topRows<3>() = (Eigen::AngleAxisd(told, Vector3d::UnitX()).toRotationMatrix() * E.topRows<3>()).eval();
   FitConfig config;
@@ -281,4 +281,4 @@ TEST(Fit, NumbersThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -4,24 +4,24 @@
 
 #include "motion/fit/random_problems.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
 using Eigen::MatrixXd;
 
 TEST(FitKinematics, PointDerivativesMatchFiniteDifferences) {
-  const FitProblem problem = random_problem(1, 1, {});
-  const FitState state = random_state(problem, 1, 0.2);
-  const Moved m = move(problem, state);
-  const MatrixXd joints = finite_differences(state, [&](const FitState& s) {
+  const FitProblem problem = test::random_problem(1, 1, {});
+  const FitState state = test::random_state(problem, 1, 0.2);
+  const test::Moved m = test::move(problem, state);
+  const MatrixXd joints = test::finite_differences(state, [&](const FitState& s) {
     VectorXd p(3 * kBodies);
-    for (int b = 0; b < kBodies; ++b) p.segment<3>(3 * b) = move(problem, s).motion[0].poses.p_WB[b];
+    for (int b = 0; b < kBodies; ++b) p.segment<3>(3 * b) = test::move(problem, s).motion[0].poses.p_WB[b];
     return p;
   });
-  const MatrixXd feet = finite_differences(state, [&](const FitState& s) {
+  const MatrixXd feet = test::finite_differences(state, [&](const FitState& s) {
     VectorXd p(3 * kFootPoints);
-    for (int i = 0; i < kFootPoints; ++i) p.segment<3>(3 * i) = move(problem, s).feet[0][i];
+    for (int i = 0; i < kFootPoints; ++i) p.segment<3>(3 * i) = test::move(problem, s).feet[0][i];
     return p;
   });
   for (int b = 0; b < kBodies; ++b) {
@@ -44,8 +44,8 @@ TEST(FitKinematics, PointDerivativesMatchFiniteDifferences) {
 }
 
 TEST(FitKinematics, FootPointsAreTheSurfacePointsOfTheSoles) {
-  const FitProblem problem = random_problem(4, 1, {});
-  const FitState state = random_state(problem, 4, 0.2);
+  const FitProblem problem = test::random_problem(4, 1, {});
+  const FitState state = test::random_state(problem, 4, 0.2);
   const Character character = character_of(problem, state);
   const FrameKinematics k = kinematics(problem, state, character, 0);
   const std::vector<Vector3d> surface = surface_positions(surface_points(character), k.poses);
@@ -55,4 +55,4 @@ TEST(FitKinematics, FootPointsAreTheSurfacePointsOfTheSoles) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -5,14 +5,14 @@
 #include "motion/estimator_error.h"
 #include "motion/fit/random_problems.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
 
 TEST(FitProblem, CorrectionsTurnJointsInTheirOwnFrames) {
-  const FitProblem problem = random_problem(5, 2, {});
-  const FitState state = random_state(problem, 5, 0.3);
+  const FitProblem problem = test::random_problem(5, 2, {});
+  const FitState state = test::random_state(problem, 5, 0.3);
   const PerBody<Quaterniond> q = rotations_of(problem, state, 1);
   const FrameVector& c = state.c[1];
   for (int b = 0; b < kBodies; ++b) {
@@ -32,7 +32,7 @@ TEST(FitProblem, CorrectionsTurnJointsInTheirOwnFrames) {
 }
 
 TEST(FitProblem, WithoutCorrectionItIsTheInputWithHinges) {
-  const Clip clip = random_clip(6, 3, 0.3);
+  const Clip clip = test::random_clip(6, 3, 0.3);
   const FitProblem problem = make_problem(clip, {});
   const PerBody<Quaterniond> q = rotations_of(problem, initial_state(problem), 2);
   for (int b = 0; b < kBodies; ++b) EXPECT_LT(q[b].angularDistance(problem.q[2][b]), 1e-12) << kBodyNames[b];
@@ -42,22 +42,22 @@ TEST(FitProblem, WithoutCorrectionItIsTheInputWithHinges) {
 TEST(FitProblem, JitterIsTheWhitePartOfTheInput) {
   for (const double size : {0.005, 0.03}) {
     Random random(8, {1});
-    Clip clip = random_clip(8, 900, 0.15);
+    Clip clip = test::random_clip(8, 900, 0.15);
     for (int t = 0; t < clip.frames(); ++t) {
       for (int b = 1; b < kBodies; ++b) {
-        const Vector3d error = size * relative_joint_error(b) * random_vector(random);
+        const Vector3d error = size * relative_joint_error(b) * test::random_vector(random);
         clip.rotations[t][b] = log_map(exp_map(clip.rotations[t][b]) * exp_map(error));
       }
-      clip.trans[t] += size * random_vector(random);
+      clip.trans[t] += size * test::random_vector(random);
     }
     const FitProblem problem = make_problem(clip, {});
     EXPECT_NEAR(problem.rotation_jitter, size, 0.05 * size);
     EXPECT_NEAR(problem.position_jitter, size, 0.1 * size);
   }
-  const FitProblem smooth = make_problem(random_clip(8, 900, 0.15), {});
+  const FitProblem smooth = make_problem(test::random_clip(8, 900, 0.15), {});
   EXPECT_LT(smooth.rotation_jitter, 0.0005);
   EXPECT_LT(smooth.position_jitter, 0.0005);
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -7,15 +7,15 @@
 
 #include "motion/fit/random_problems.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
 using Eigen::MatrixXd;
 
 TEST(FitProjection, ErrorIsThatOfThePinholeCameraOfTheStateInHeightsOfTheBox) {
-  const FitProblem problem = random_problem(2, 2, {});
-  const FitState state = random_state(problem, 2, 0.1);
+  const FitProblem problem = test::random_problem(2, 2, {});
+  const FitState state = test::random_state(problem, 2, 0.1);
   const Matrix3d& K = problem.intrinsics;
   const Eigen::Matrix4d& E = problem.extrinsics[0];
   const auto pixel = [&](const Vector3d& p_W, double tilt, double focal) {
@@ -42,18 +42,18 @@ TEST(FitProjection, ErrorIsThatOfThePinholeCameraOfTheStateInHeightsOfTheBox) {
 }
 
 TEST(FitProjection, DerivativesMatchFiniteDifferences) {
-  const FitProblem problem = random_problem(2, 1, {});
-  const FitState state = random_state(problem, 2, 0.1);
+  const FitProblem problem = test::random_problem(2, 1, {});
+  const FitState state = test::random_state(problem, 2, 0.1);
   const auto errors = [&](const FitState& s) {
-    const Moved m = move(problem, s);
+    const test::Moved m = test::move(problem, s);
     VectorXd e(2 * static_cast<Eigen::Index>(problem.points.size()));
     for (std::size_t k = 0; k < problem.points.size(); ++k)
       e.segment<2>(2 * static_cast<Eigen::Index>(k)) =
           project_point(problem, s, 0, k, m.motion[0].poses.p_WB[problem.points[k].body]).error;
     return e;
   };
-  const MatrixXd expected = finite_differences(state, errors);
-  const Moved m = move(problem, state);
+  const MatrixXd expected = test::finite_differences(state, errors);
+  const test::Moved m = test::move(problem, state);
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const int body = problem.points[k].body;
     const Vector3d& p = m.motion[0].poses.p_WB[body];
@@ -74,9 +74,9 @@ TEST(FitProjection, DerivativesMatchFiniteDifferences) {
 }
 
 TEST(FitProjection, APointBehindTheCameraIsNotSeen) {
-  const FitProblem problem = random_problem(2, 1, {});
+  const FitProblem problem = test::random_problem(2, 1, {});
   EXPECT_FALSE(project_point(problem, initial_state(problem), 0, 0, {0, -50, 1}).valid);
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

@@ -12,60 +12,64 @@
 namespace mimicx::test {
 
 /// A few frames of random motion with detections by a camera in front of it.
-inline FitProblem random_problem(std::uint64_t seed, int frames, const FitConfig& config) {
-  Clip clip = random_clip(seed, frames, 0.15);
-  Camera camera;
+inline motion::fit::FitProblem random_problem(std::uint64_t seed, int frames,
+                                              const motion::fit::FitConfig& config) {
+  motion::Clip clip = random_clip(seed, frames, 0.15);
+  motion::synth::Camera camera;
   camera.intrinsics << 900, 2, 640, 0, 950, 360, 0, 0, 1;
   camera.extrinsics.block<3, 3>(0, 0) << 1, 0, 0, 0, 0.1, -std::sqrt(0.99), 0, std::sqrt(0.99), 0.1;
   camera.extrinsics.block<3, 1>(0, 3) = Vector3d(0.1, 1.2, 4.5);
-  clip.keypoints = detect_keypoints(poses_of(clip), camera, KeypointSet::kJoints22, {}, seed, clip.fps);
-  return make_problem(clip, config);
+  clip.keypoints = motion::synth::detect_keypoints(motion::poses_of(clip), camera,
+                                                   motion::KeypointSet::kJoints22, {}, seed, clip.fps);
+  return motion::fit::make_problem(clip, config);
 }
 
-inline FitState random_state(const FitProblem& problem, std::uint64_t seed, double size) {
+inline motion::fit::FitState random_state(const motion::fit::FitProblem& problem, std::uint64_t seed,
+                                          double size) {
   Random random(seed, {7});
-  FitState state = initial_state(problem);
-  for (FrameVector& c : state.c)
+  motion::fit::FitState state = motion::fit::initial_state(problem);
+  for (motion::fit::FrameVector& c : state.c)
     for (double& x : c) x = size * random.normal();
   for (double& x : state.g) x = 0.02 * random.normal();
   return state;
 }
 
 struct Moved {
-  PerFrame<FrameKinematics> motion;
-  PerFrame<FootPositions> feet;
+  PerFrame<motion::fit::FrameKinematics> motion;
+  PerFrame<motion::fit::FootPositions> feet;
 };
 
-inline Moved move(const FitProblem& problem, const FitState& state) {
+inline Moved move(const motion::fit::FitProblem& problem, const motion::fit::FitState& state) {
   const Character character = character_of(problem, state);
   Moved m;
   for (int t = 0; t < problem.frames(); ++t) {
-    m.motion.push_back(kinematics(problem, state, character, t));
-    FootPositions& feet = m.feet.emplace_back();
-    const std::vector<Vector3d> surface = surface_positions(surface_points(character), m.motion.back().poses);
+    m.motion.push_back(motion::fit::kinematics(problem, state, character, t));
+    motion::fit::FootPositions& feet = m.feet.emplace_back();
+    const std::vector<Vector3d> surface =
+        motion::surface_positions(motion::surface_points(character), m.motion.back().poses);
     std::copy_n(surface.begin(), kFootPoints, feet.begin());
   }
   return m;
 }
 
 /// Every unknown of a state in one row: frames first, then the clip's.
-inline double& unknown(FitState& state, Eigen::Index i) {
+inline double& unknown(motion::fit::FitState& state, Eigen::Index i) {
   const auto frames = static_cast<Eigen::Index>(state.c.size());
-  if (i >= frames * kFrameUnknowns) return state.g[i - frames * kFrameUnknowns];
-  return state.c[i / kFrameUnknowns][i % kFrameUnknowns];
+  if (i >= frames * motion::fit::kFrameUnknowns) return state.g[i - frames * motion::fit::kFrameUnknowns];
+  return state.c[i / motion::fit::kFrameUnknowns][i % motion::fit::kFrameUnknowns];
 }
 
 /// Derivative of a vector function of the state by central differences.
 template <class Function>
-Eigen::MatrixXd finite_differences(const FitState& at, Function function) {
-  const auto size = static_cast<Eigen::Index>(at.c.size()) * kFrameUnknowns + at.g.size();
+Eigen::MatrixXd finite_differences(const motion::fit::FitState& at, Function function) {
+  const auto size = static_cast<Eigen::Index>(at.c.size()) * motion::fit::kFrameUnknowns + at.g.size();
   constexpr double kStep = 1e-6;
   Eigen::MatrixXd J;
   for (Eigen::Index i = 0; i < size; ++i) {
-    FitState up = at, down = at;
+    motion::fit::FitState up = at, down = at;
     unknown(up, i) += kStep;
     unknown(down, i) -= kStep;
-    const VectorXd column = (function(up) - function(down)) / (2.0 * kStep);
+    const Eigen::VectorXd column = (function(up) - function(down)) / (2.0 * kStep);
     if (i == 0) J.resize(column.size(), size);
     J.col(i) = column;
   }

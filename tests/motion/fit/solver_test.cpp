@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using Eigen::MatrixXd;
@@ -75,4 +75,4 @@ TEST(BorderedBand, AnIndefiniteSystemIsRefused) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

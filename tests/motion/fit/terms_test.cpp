@@ -6,7 +6,7 @@
 #include "motion/fit/projection.h"
 #include "motion/fit/random_problems.h"
 
-namespace mimicx {
+namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState& weights_at,
                    const Contacts& contacts) {
   const FitConfig& o = problem.config;
-  const Moved m = move(problem, s), frozen = move(problem, weights_at);
-  const double degree = kPi / 180.0;
+  const test::Moved m = test::move(problem, s), frozen = test::move(problem, weights_at);
+  const double degree = test::kPi / 180.0;
   std::vector<double> r;
   const auto add = [&](const auto& values, double scale) {
     for (double x : values) r.push_back(scale * x);
@@ -64,7 +64,7 @@ VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState&
                 o.slip_sigma);
     }
     for (std::size_t b = 0; b < kBodies && t + 2 < frames; ++b) {
-      const auto bent = [&](const Moved& at) {
+      const auto bent = [&](const test::Moved& at) {
         return Vector3d(at.motion[t].poses.p_WB[b] - 2 * at.motion[t + 1].poses.p_WB[b] +
                         at.motion[t + 2].poses.p_WB[b]);
       };
@@ -109,17 +109,17 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
 }
 
 TEST(FitTerms, NormalEquationsMatchADenseAssemblyByFiniteDifferences) {
-  FitProblem problem = random_problem(3, 4, {});
+  FitProblem problem = test::random_problem(3, 4, {});
   for (Vector3d& p : problem.p_root) p.z() -= 0.02;  // some foot points below the floor, some above
-  const FitState state = random_state(problem, 3, 0.01);
-  const Moved m = move(problem, state);
+  const FitState state = test::random_state(problem, 3, 0.01);
+  const test::Moved m = test::move(problem, state);
   Contacts contacts(4);
   for (std::size_t t = 0; t < 4; ++t)
     for (std::size_t i = 0; i < kFootPoints; ++i) contacts[t][i] = (t + i) % 3 != 0;
   const auto compare = [&](bool with_globals) {
     const Dense found = dense_of(linearise(problem, state, m.motion, m.feet, contacts));
     const auto at = [&](const FitState& s) { return residuals(problem, s, state, contacts); };
-    const MatrixXd J = finite_differences(state, at);
+    const MatrixXd J = test::finite_differences(state, at);
     const MatrixXd H = J.transpose() * J;
     const VectorXd rhs = -J.transpose() * at(state);
     const Eigen::Index size = with_globals ? H.rows() : 4 * kFrameUnknowns;
@@ -133,4 +133,4 @@ TEST(FitTerms, NormalEquationsMatchADenseAssemblyByFiniteDifferences) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::fit

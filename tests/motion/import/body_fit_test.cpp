@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 std::array<double, kBetas> random_betas(std::uint64_t seed, double size) {
@@ -56,4 +56,4 @@ TEST(BodyFit, OffsetsGiveTheirShapeBack) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -10,7 +10,7 @@
 #include "motion/import/bvh_write.h"
 #include "motion/made_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 namespace fs = std::filesystem;
@@ -247,14 +247,14 @@ double round_trip_error(const Clip& clip) {
 
 TEST(BvhWrite, RoundTripKeepsEveryPosition) {
   for (const double fps : {30.0, 29.97, 59.94, 120.0, 100.0 / 3.0}) {
-    Clip clip = random_clip(7, 40, 1.5, fps);
+    Clip clip = test::random_clip(7, 40, 1.5, fps);
     clip.betas = {1.0, -0.5, 2.0, -1.0, 0.5, 0.3, -2.0, 1.5, 0.7, -0.4};
     EXPECT_LT(round_trip_error(clip), 1e-6) << fps;
   }
 }
 
 TEST(BvhWrite, RoundTripHoldsAtGimbalLock) {
-  Clip clip = random_clip(8, 30, 1.0);
+  Clip clip = test::random_clip(8, 30, 1.0);
   for (std::size_t t = 0; t < clip.rotations.size(); ++t)
     for (std::size_t j = 1; j < kBodies; ++j) {
       const double a = 0.1 * static_cast<double>(t * j), side = j % 2 == 0 ? 1.0 : -1.0;
@@ -267,7 +267,7 @@ TEST(BvhWrite, RoundTripHoldsAtGimbalLock) {
 }
 
 TEST(BvhWrite, CurvesDoNotJump) {
-  Clip clip = random_clip(9, 90, 0.0);
+  Clip clip = test::random_clip(9, 90, 0.0);
   for (std::size_t t = 0; t < clip.rotations.size();
        ++t)  // 4° per frame about an oblique axis, more than a full turn
     for (std::size_t j = 0; j < kBodies; ++j)
@@ -290,7 +290,7 @@ TEST(BvhWrite, CurvesDoNotJump) {
 }
 
 TEST(BvhWrite, RestPoseIsTheTPoseInMetres) {
-  Clip clip = random_clip(10, 2, 1.0);
+  Clip clip = test::random_clip(10, 2, 1.0);
   clip.betas[0] = 2.0;
   const SkeletonMotion motion = parse_bvh(format_bvh(clip), "a.bvh");
   const SkeletonPose rest = rest_pose(motion);
@@ -305,4 +305,4 @@ TEST(BvhWrite, RestPoseIsTheTPoseInMetres) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 /// A row with every rotation the identity and every hinge straight.
@@ -137,4 +137,4 @@ TEST(DeepMimic, EveryTruncationIsRefused) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "motion/import/skeletons.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 using Names = PerBody<std::string>;
@@ -183,4 +183,4 @@ TEST(JointNames, MistakesInAMapAreSaidWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -17,7 +17,7 @@
 #include "motion/scratch.h"
 #include "motion/synth/synth.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,10 +25,10 @@ using test::scratch;
 
 /// A synthetic motion as a file of somebody else: body model smplx, so that nothing in it is believed.
 Clip foreign(const std::string& kind) {
-  SynthConfig config;
+  synth::SynthConfig config;
   config.kind = kind;
   config.seed = 3;
-  Clip clip = synthesize(config);
+  Clip clip = synth::synthesize(config);
   clip.betas = {};
   clip.body_model = "smplx";
   clip.keypoints.reset();
@@ -37,7 +37,7 @@ Clip foreign(const std::string& kind) {
 }
 
 Clip reread(const Clip& clip, const ReadConfig& config = {}) {
-  const fs::path path = scratch(clip.name + ".npz");
+  const fs::path path = test::scratch(clip.name + ".npz");
   write_clip(path, clip);
   return read_motion(path, config);
 }
@@ -57,7 +57,7 @@ double distance(const Clip& a, const Clip& b) {
 }
 
 TEST(ReadMotion, LeavesASoundFileAsItIs) {
-  for (const std::string& kind : synthetic_kinds()) {
+  for (const std::string& kind : synth::synthetic_kinds()) {
     const Clip clip = foreign(kind), back = reread(clip);
     EXPECT_EQ(back.rotations, clip.rotations) << kind;
     EXPECT_EQ(back.trans, clip.trans) << kind;
@@ -212,7 +212,7 @@ TEST(Motionx, RoundTripIsExactAndKeepsWhatIsNotUsed) {
   EXPECT_LT((back - values).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_EQ(back.middleCols(66, 243), values.middleCols(66, 243)) << "hands, jaw and face to the bit";
   // y up in the file: the pelvis of frame 0, turned by hand.
-  const Vector3d pelvis = values.row(0).segment<3>(309).transpose() + rest_pelvis("smplx");
+  const Vector3d pelvis = values.row(0).segment<3>(309).transpose() + mimicx::rest_pelvis("smplx");
   EXPECT_LT((poses_of(clip)[0].p_WB[0] - Vector3d(pelvis.x(), -pelvis.z(), pelvis.y())).norm(), 1e-12);
 }
 
@@ -229,7 +229,7 @@ TEST(Motionx, TheAistScaleIsUndone) {
 
 TEST(Motionx, UpIsAnAxisOfTheFile) {
   const Clip walk = foreign("walk");
-  const fs::path path = scratch("walk.npy");
+  const fs::path path = test::scratch("walk.npy");
   write_motion(path, walk);
   ReadConfig asked;
   asked.up = 'y';
@@ -259,7 +259,7 @@ TEST(Motionx, OtherShapesAreRefused) {
 
 TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
   const Clip clip = foreign("walk");
-  const fs::path npz = scratch("a.npy"), npy = scratch("b.npz");
+  const fs::path npz = test::scratch("a.npy"), npy = test::scratch("b.npz");
   write_file_atomically(npz, format_npz(to_npz(clip)));
   write_file_atomically(npy, format_npy(to_motionx(clip)));
   EXPECT_LT(distance(read_motion(npz), clip), 1e-9);
@@ -269,21 +269,22 @@ TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
 TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
   const Clip clip = foreign("walk");
   for (const char* name : {"WALK.BVH", "walk.Npz", "walk.NPY"}) {
-    write_motion(scratch(name), clip);
-    EXPECT_TRUE(is_motion_file(scratch(name))) << name;
-    EXPECT_LT(distance(read_motion(scratch(name)), clip), 1e-6) << name;
+    write_motion(test::scratch(name), clip);
+    EXPECT_TRUE(is_motion_file(test::scratch(name))) << name;
+    EXPECT_LT(distance(read_motion(test::scratch(name)), clip), 1e-6) << name;
   }
 }
 
 TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
-  const fs::path folder = scratch("folder.npz"), empty = scratch("empty.npz"), text = scratch("text.npy"),
-                 cut = scratch("cut.npz"), locked = scratch("locked.npz");
+  const fs::path folder = test::scratch("folder.npz"), empty = test::scratch("empty.npz"),
+                 text = test::scratch("text.npy"), cut = test::scratch("cut.npz"),
+                 locked = test::scratch("locked.npz");
   fs::create_directories(folder);
   write_file_atomically(empty, "");
   write_file_atomically(text, "once upon a time");
   const std::string whole = format_npz(to_npz(foreign("wave")));
   write_file_atomically(cut, whole.substr(0, whole.size() / 2));
-  for (const fs::path& path : {folder, empty, text, cut, scratch("none.npz"), fs::path("/dev/zero")}) {
+  for (const fs::path& path : {folder, empty, text, cut, test::scratch("none.npz"), fs::path("/dev/zero")}) {
     try {
       read_motion(path);
       ADD_FAILURE() << path;
@@ -296,7 +297,7 @@ TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
 }
 
 TEST(ReadMotion, AFolderWithAPipeInItIsLookedThroughWithoutWaiting) {
-  const fs::path pipe = scratch("pipe.txt");
+  const fs::path pipe = test::scratch("pipe.txt");
   fs::remove(pipe);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_FALSE(is_motion_file(pipe));
@@ -330,8 +331,8 @@ TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
           << file.path();
       EXPECT_EQ(clip.fps, 30.0) << file.path();
       for (const char* suffix : {"back.npz", "back.npy", "back.bvh"}) {
-        write_motion(scratch(suffix), clip);
-        EXPECT_LT(distance(read_motion(scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
+        write_motion(test::scratch(suffix), clip);
+        EXPECT_LT(distance(read_motion(test::scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
       }
       ++files;
     }
@@ -348,8 +349,8 @@ TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
       EXPECT_TRUE(is_motion_file(file.path())) << file.path();
       EXPECT_TRUE(says(clip, "format: ")) << file.path();
       for (const char* suffix : {"back.bvh", "back.npz"}) {
-        write_motion(scratch(suffix), clip);
-        EXPECT_LT(distance(read_motion(scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
+        write_motion(test::scratch(suffix), clip);
+        EXPECT_LT(distance(read_motion(test::scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
       }
       ++files;
     }
@@ -359,9 +360,9 @@ TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
 
 TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
   const Clip clip = foreign("walk");
-  const fs::path path = scratch("walk.npz");  // a BVH by another name
-  write_motion(scratch("walk.bvh"), clip);
-  fs::copy_file(scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
+  const fs::path path = test::scratch("walk.npz");  // a BVH by another name
+  write_motion(test::scratch("walk.bvh"), clip);
+  fs::copy_file(test::scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
   EXPECT_LT(distance(read_motion(path), clip), 1e-6);
   ReadConfig asked;
   asked.fps = 25.0;
@@ -373,4 +374,4 @@ TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

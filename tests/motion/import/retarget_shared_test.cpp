@@ -12,7 +12,7 @@
 #include "motion/import/retarget.h"
 #include "motion/resample.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ TEST(RetargetShared, AgreesWithAnIndependentConversion) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

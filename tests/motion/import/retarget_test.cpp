@@ -14,25 +14,25 @@
 #include "motion/made_motions.h"
 #include "motion/synth/synth.h"
 
-namespace mimicx {
+namespace mimicx::motion::import {
 namespace {
 
 using test::Disguise;
 using test::disguised;
 
 Clip synthetic(const std::string& kind, std::array<double, kBetas> betas = {}) {
-  SynthConfig config;
+  synth::SynthConfig config;
   config.kind = kind;
   config.seed = 3;
   config.betas = betas;
-  return synthesize(config);
+  return synth::synthesize(config);
 }
 
 Quaterniond about_z(double degrees) { return exp_map(degrees * test::kPi / 180.0 * Vector3d::UnitZ()); }
 
 /// A T-pose skeleton in the manner of Mixamo: y up, centimetres.
-Disguise t_pose() {
-  Disguise disguise;
+test::Disguise t_pose() {
+  test::Disguise disguise;
   disguise.unit = 100.0;
   disguise.axes = rotation_to_z_up('y').conjugate();
   disguise.names = test::mixamo_names();
@@ -40,16 +40,16 @@ Disguise t_pose() {
 }
 
 /// Arms hang 50° under the horizontal at rest.
-Disguise a_pose() {
-  Disguise disguise = t_pose();
+test::Disguise a_pose() {
+  test::Disguise disguise = t_pose();
   for (const int body : {kLeftShoulder, kLeftElbow, kLeftWrist}) disguise.rest[body] = about_z(50);
   for (const int body : {kRightShoulder, kRightElbow, kRightWrist}) disguise.rest[body] = about_z(-50);
   return disguise;
 }
 
 /// Every bone along x at rest, as in Bandai's and LAFAN1's files.
-Disguise along_x() {
-  Disguise disguise = t_pose();
+test::Disguise along_x() {
+  test::Disguise disguise = t_pose();
   const Character character = make_character();
   for (int b = 0; b < kBodies; ++b)
     for (int child = b + 1; child < kBodies; ++child)
@@ -97,31 +97,31 @@ bool says(const std::vector<std::string>& sentences, const std::string& words) {
 
 TEST(Retarget, LimbDirectionsAreKeptExactly) {
   for (const std::string kind : {"walk", "squat", "kick", "dance"})
-    for (const Disguise& disguise : {t_pose(), a_pose(), along_x()}) {
+    for (const test::Disguise& disguise : {t_pose(), a_pose(), along_x()}) {
       const Clip original = synthetic(kind);
-      EXPECT_LT(worst_direction(retarget(disguised(original, disguise)), original), 1e-5) << kind;
+      EXPECT_LT(worst_direction(retarget(test::disguised(original, disguise)), original), 1e-5) << kind;
     }
 }
 
 TEST(Retarget, BodiesTurnAsInTheOriginalFromAnyRestPose) {
   for (const std::string kind : {"walk", "squat", "wave", "dance"}) {
     const Clip original = synthetic(kind);
-    EXPECT_LT(worst_turn(retarget(disguised(original, t_pose())), original), 0.5) << kind;
-    EXPECT_LT(worst_turn(retarget(disguised(original, a_pose())), original), 1.5) << kind;
-    EXPECT_LT(worst_turn(retarget(disguised(original, along_x())), original), 4.0) << kind;
+    EXPECT_LT(worst_turn(retarget(test::disguised(original, t_pose())), original), 0.5) << kind;
+    EXPECT_LT(worst_turn(retarget(test::disguised(original, a_pose())), original), 1.5) << kind;
+    EXPECT_LT(worst_turn(retarget(test::disguised(original, along_x())), original), 4.0) << kind;
   }
 }
 
 /// A rest pose may hide a twist of straight limbs: palms up, knees turned out.
 TEST(Retarget, TwistsOfTheRestPoseAreFoundWhereLimbsBend) {
-  Disguise disguise = t_pose();
+  test::Disguise disguise = t_pose();
   const Quaterniond arm = exp_map(0.7 * Vector3d::UnitX()), leg = exp_map(0.4 * Vector3d::UnitY());
   for (const int body : {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})
     disguise.rest[body] = arm;
   for (const int body : {kLeftHip, kRightHip, kLeftKnee, kRightKnee}) disguise.rest[body] = leg;
   for (const std::string kind : {"jog", "punch"}) {
     const Clip original = synthetic(kind);
-    EXPECT_LT(worst_turn(retarget(disguised(original, disguise)), original), 5.0) << kind;
+    EXPECT_LT(worst_turn(retarget(test::disguised(original, disguise)), original), 5.0) << kind;
   }
 }
 
@@ -129,7 +129,7 @@ TEST(Retarget, JointsAreWhereTheyWereOnABodyOfAnyShape) {
   const std::array<double, kBetas> shape = {1.5, 0, -1, 1, 0.5, -1, 1, 0.5, 0, 1};
   RetargetReport report;
   const Clip original = synthetic("walk", shape);
-  const Clip clip = retarget(disguised(original, t_pose()), {}, &report);
+  const Clip clip = retarget(test::disguised(original, t_pose()), {}, &report);
   for (const int body : {kLeftHip, kLeftKnee, kLeftAnkle, kLeftShoulder, kLeftElbow, kLeftWrist, kRightHip,
                          kRightKnee, kRightAnkle, kRightShoulder, kRightElbow, kRightWrist})
     EXPECT_LT(report.residual_mm[body], 8.0) << kBodyNames[body];
@@ -141,7 +141,7 @@ TEST(Retarget, JointsAreWhereTheyWereOnABodyOfAnyShape) {
 
 TEST(Retarget, UnitAndAxesChangeNothing) {
   const Clip original = synthetic("walk");
-  const Clip expected = retarget(disguised(original, t_pose()));
+  const Clip expected = retarget(test::disguised(original, t_pose()));
   const auto places = poses_of(expected);
   const std::vector<std::pair<double, const char*>> units = {{1.0, "metres"},
                                                              {100.0, "centimetres"},
@@ -150,11 +150,11 @@ TEST(Retarget, UnitAndAxesChangeNothing) {
                                                              {0.45 / 0.0254, "inches / 0.45"}};
   const std::string axes = "xXyYzZ";
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    Disguise disguise = t_pose();
+    test::Disguise disguise = t_pose();
     disguise.unit = units[i % units.size()].first;
     disguise.axes = rotation_to_z_up(axes[i]).conjugate();
     RetargetReport report;
-    const Clip clip = retarget(disguised(original, disguise), {}, &report);
+    const Clip clip = retarget(test::disguised(original, disguise), {}, &report);
     EXPECT_EQ(report.up, axes[i]);
     EXPECT_TRUE(says(clip.decisions, units[i % units.size()].second)) << report.scale;
     const auto found = poses_of(clip);
@@ -165,28 +165,28 @@ TEST(Retarget, UnitAndAxesChangeNothing) {
 }
 
 TEST(Retarget, AnUnknownUnitIsScaledToABodyAndSaid) {
-  Disguise disguise = t_pose();
+  test::Disguise disguise = t_pose();
   disguise.unit = 7.0;
   RetargetReport report;
-  const Clip clip = retarget(disguised(synthetic("stand"), disguise), {}, &report);
+  const Clip clip = retarget(test::disguised(synthetic("stand"), disguise), {}, &report);
   EXPECT_NEAR(report.scale, 1.0 / 7.0, 1e-3);
   EXPECT_TRUE(says(clip.warnings, "no known unit"));
 }
 
 TEST(Retarget, OptionsOverrideWhatIsFound) {
-  Disguise disguise = t_pose();
+  test::Disguise disguise = t_pose();
   disguise.unit = 80.0;
   RetargetConfig config;
   config.scale = 1.0 / 80.0;
   config.up = 'z';
   config.standard_body = true;
   RetargetReport report;
-  const Clip clip = retarget(disguised(synthetic("stand"), disguise), config, &report);
+  const Clip clip = retarget(test::disguised(synthetic("stand"), disguise), config, &report);
   EXPECT_EQ(report.scale, config.scale);
   EXPECT_EQ(report.up, 'z');
   EXPECT_EQ(clip.betas, (std::array<double, kBetas>{}));
   config.scale = -1.0;
-  EXPECT_THROW(retarget(disguised(synthetic("stand"), disguise), config), std::invalid_argument);
+  EXPECT_THROW(retarget(test::disguised(synthetic("stand"), disguise), config), std::invalid_argument);
 }
 
 TEST(Retarget, PlantedFeetStayPlantedOnABodyOfOtherSize) {
@@ -194,7 +194,7 @@ TEST(Retarget, PlantedFeetStayPlantedOnABodyOfOtherSize) {
   RetargetConfig config;
   config.standard_body = true;
   RetargetReport report;
-  const Clip clip = retarget(disguised(original, t_pose()), config, &report);
+  const Clip clip = retarget(test::disguised(original, t_pose()), config, &report);
   EXPECT_LT(report.leg_ratio, 0.9);
   const auto a = poses_of(clip), b = poses_of(original);
   int planted = 0;
@@ -211,7 +211,7 @@ TEST(Retarget, StandsOnTheFloor) {
   for (const double height : {0.0, 0.5, -3.0}) {
     Clip original = synthetic("squat");
     for (Vector3d& trans : original.trans) trans.z() += height;
-    const auto poses = poses_of(retarget(disguised(original, t_pose())));
+    const auto poses = poses_of(retarget(test::disguised(original, t_pose())));
     const Character character = make_character();
     for (std::size_t t = 0; t < poses.size(); t += 10)
       EXPECT_NEAR(lowest_contact(character, poses[t]), 0.0, 0.02) << height << ' ' << t;
@@ -220,16 +220,16 @@ TEST(Retarget, StandsOnTheFloor) {
 
 TEST(Retarget, ATPoseFrameInFrontIsLeftOut) {
   const Clip original = synthetic("walk");
-  for (const Disguise& disguise : {t_pose(), along_x()}) {
+  for (const test::Disguise& disguise : {t_pose(), along_x()}) {
     Clip with = original;
     Clip rest = test::standing_clip(1, test::standing_height());
     with.rotations.insert(with.rotations.begin(), rest.rotations[0]);
     with.trans.insert(with.trans.begin(), rest.trans[0]);
-    const Clip clip = retarget(disguised(with, disguise));
+    const Clip clip = retarget(test::disguised(with, disguise));
     EXPECT_EQ(clip.frames(), original.frames());
     EXPECT_TRUE(says(clip.decisions, "the first frame is a T-pose"));
     EXPECT_LT(worst_turn(clip, original), 1.0);
-    EXPECT_EQ(retarget(disguised(original, disguise)).frames(), original.frames());
+    EXPECT_EQ(retarget(test::disguised(original, disguise)).frames(), original.frames());
   }
 }
 
@@ -247,7 +247,7 @@ TEST(Retarget, OwnFilesComeBackAsTheyWere) {
 }
 
 TEST(Retarget, WhatHasNoJointIsSaidAndFollowsItsParent) {
-  SkeletonMotion motion = disguised(synthetic("walk"), t_pose());
+  SkeletonMotion motion = test::disguised(synthetic("walk"), t_pose());
   motion.joints[kHead].name = "Thing";
   motion.joints[kLeftFoot].name = motion.joints[kRightFoot].name = "Other";
   RetargetReport report;
@@ -260,7 +260,7 @@ TEST(Retarget, WhatHasNoJointIsSaidAndFollowsItsParent) {
 
 TEST(Retarget, TheResidualOfEveryComparedJointIsSaid) {
   RetargetReport report;
-  const Clip clip = retarget(disguised(synthetic("walk"), along_x()), {}, &report);
+  const Clip clip = retarget(test::disguised(synthetic("walk"), along_x()), {}, &report);
   const auto said = std::find_if(clip.decisions.begin(), clip.decisions.end(), [](const std::string& line) {
     return line.starts_with("residuals in mm: ");
   });
@@ -279,22 +279,23 @@ TEST(Retarget, TheResidualOfEveryComparedJointIsSaid) {
 }
 
 TEST(Retarget, ExchangedSidesAreNoticed) {
-  Disguise disguise = t_pose();
+  test::Disguise disguise = t_pose();
   for (const int body :
        {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist})
     std::swap(disguise.names[body], disguise.names[body + 1]);
-  EXPECT_TRUE(says(retarget(disguised(synthetic("walk"), disguise)).warnings, "left and right exchanged"));
+  EXPECT_TRUE(
+      says(retarget(test::disguised(synthetic("walk"), disguise)).warnings, "left and right exchanged"));
 }
 
 TEST(Retarget, ASkeletonWithoutExtentIsRefused) {
-  SkeletonMotion motion = disguised(synthetic("stand"), t_pose());
+  SkeletonMotion motion = test::disguised(synthetic("stand"), t_pose());
   for (auto& frame : motion.translation)
     for (std::size_t j = 1; j < frame.size(); ++j) frame[j].setZero();
   EXPECT_THROW(retarget(motion), DataError);
 }
 
 TEST(Retarget, OneFrameIsEnough) {
-  SkeletonMotion motion = disguised(synthetic("walk"), along_x());
+  SkeletonMotion motion = test::disguised(synthetic("walk"), along_x());
   motion.translation.resize(1);
   motion.rotation.resize(1);
   EXPECT_EQ(retarget(motion).frames(), 1);
@@ -311,4 +312,4 @@ TEST(Landmarks, UnitsAreToldByTheLegs) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::import

@@ -31,9 +31,9 @@ struct Disguise {
 
 /// The clip as a skeleton of another make would have it: joints with the same places, frames as the disguise
 /// says.
-inline SkeletonMotion disguised(const Clip& clip, const Disguise& disguise) {
+inline motion::import::SkeletonMotion disguised(const motion::Clip& clip, const Disguise& disguise) {
   const Character character = make_character(clip.usable_betas());
-  SkeletonMotion motion;
+  motion::import::SkeletonMotion motion;
   motion.name = clip.name;
   motion.path = "made";
   motion.fps = clip.fps;
@@ -44,7 +44,7 @@ inline SkeletonMotion disguised(const Clip& clip, const Disguise& disguise) {
                : Vector3d(disguise.unit * (disguise.rest[parent].conjugate() * character.joint_offset[b]));
     motion.joints.push_back({disguise.names[b], kParents[b], offset, false});
   }
-  for (const BodyPoses& pose : poses_of(clip)) {
+  for (const BodyPoses& pose : motion::poses_of(clip)) {
     auto& translation = motion.translation.emplace_back();
     auto& rotation = motion.rotation.emplace_back();
     for (int b = 0; b < kBodies; ++b) {

@@ -6,7 +6,7 @@
 #include "motion/synth/inverse_kinematics.h"
 #include "motion/synth/track.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 std::array<double, kBetas> random_betas(Random& random) {
@@ -167,4 +167,4 @@ TEST(Smoothed, KeepsConstantsAndSpreadsAnImpulseLikeAGaussian) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -5,7 +5,7 @@
 
 #include "motion/synth/synth_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 using namespace test;
@@ -13,12 +13,12 @@ using namespace test;
 /// @param clear  soles higher than this are surely off the floor, m
 /// @param frames  in flight, at least
 void expect_parabolas(const std::string& kind, double clear, int frames) {
-  for (const Motion& m : motions(kind)) {
+  for (const test::Motion& m : test::motions(kind)) {
     int flying = 0;
     for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
       if (m.lowest(t) < clear) continue;
-      const Vector3d a = (m.com(t + 1) - 2.0 * m.com(t) + m.com(t - 1)) / (kDt * kDt);
-      EXPECT_LT((a + kG * Vector3d::UnitZ()).norm(), 1e-6) << m.clip.name << ", frame " << t;
+      const Vector3d a = (m.com(t + 1) - 2.0 * m.com(t) + m.com(t - 1)) / (test::kDt * test::kDt);
+      EXPECT_LT((a + test::kG * Vector3d::UnitZ()).norm(), 1e-6) << m.clip.name << ", frame " << t;
       ++flying;
     }
     EXPECT_GE(flying, frames) << m.clip.name;
@@ -32,13 +32,13 @@ TEST(Jog, FliesOnAParabolaBetweenItsSteps) { expect_parabolas("jog", 0.008, 10);
 
 /// The metrics call up to 5 mm contact: 8 mm is clear of it.
 TEST(Jog, IsClearOfTheFloorInEveryFrameOfAFlight) {
-  for (const Motion& m : motions("jog"))
+  for (const test::Motion& m : test::motions("jog"))
     for (std::size_t t = 0; t < m.frames(); ++t)
       EXPECT_TRUE(m.lowest(t) < 1e-4 || m.lowest(t) > 0.008) << m.clip.name << ", frame " << t;
 }
 
 TEST(Jump, RisesAndLandsOnItsFeet) {
-  for (const Motion& m : motions("jump")) {
+  for (const test::Motion& m : test::motions("jump")) {
     double highest = 0.0, clearance = 0.0;
     for (std::size_t t = 0; t < m.frames(); ++t) {
       highest = std::max(highest, m.com(t).z());
@@ -50,11 +50,11 @@ TEST(Jump, RisesAndLandsOnItsFeet) {
 }
 
 TEST(Walk, GoesAtWalkingSpeedAlongItsHeading) {
-  for (const Motion& m : motions("walk")) {
+  for (const test::Motion& m : test::motions("walk")) {
     const double leg = (m.character.joint_offset[kLeftKnee] + m.character.joint_offset[kLeftAnkle]).norm();
     const std::size_t from = m.frames() / 2 - 16, to = m.frames() / 2 + 16;  // two steps, about
     const Vector3d travelled = m.com(to) - m.com(from);
-    const double speed = travelled.head<2>().norm() / (32 * kDt);
+    const double speed = travelled.head<2>().norm() / (32 * test::kDt);
     EXPECT_GT(speed, 0.75 * leg / 0.79);
     EXPECT_LT(speed, 1.4);
     const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[0])) * Vector3d::UnitX();
@@ -63,7 +63,7 @@ TEST(Walk, GoesAtWalkingSpeedAlongItsHeading) {
 }
 
 TEST(Walk, NeverFliesStandsOnBothFeetBetweenStepsAndLiftsTheSwingingFoot) {
-  for (const Motion& m : motions("walk")) {
+  for (const test::Motion& m : test::motions("walk")) {
     int both = 0, steps = 0;
     double highest = 0.0;
     const std::size_t begin = 15, end = m.frames() - 20;
@@ -89,7 +89,7 @@ TEST(Walk, NeverFliesStandsOnBothFeetBetweenStepsAndLiftsTheSwingingFoot) {
 }
 
 TEST(Walk, SwingsTheArmsAgainstTheLegs) {
-  for (const Motion& m : motions("walk")) {
+  for (const test::Motion& m : test::motions("walk")) {
     const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[0])) * Vector3d::UnitX();
     double product = 0.0, legs_squared = 0.0, arms_squared = 0.0;
     for (std::size_t t = 0; t < m.frames(); ++t) {
@@ -105,7 +105,7 @@ TEST(Walk, SwingsTheArmsAgainstTheLegs) {
 }
 
 TEST(Squat, GoesDeepTwiceWithItsHeelsOnTheFloor) {
-  for (const Motion& m : motions("squat")) {
+  for (const test::Motion& m : test::motions("squat")) {
     int descents = 0;
     for (std::size_t t = 1; t < m.frames(); ++t) {
       const auto knee = [&](std::size_t i) { return m.clip.rotations[i][kLeftKnee].x(); };
@@ -117,7 +117,7 @@ TEST(Squat, GoesDeepTwiceWithItsHeelsOnTheFloor) {
 }
 
 TEST(Wave, RaisesOneHandOverTheHeadAndMovesItSideways) {
-  for (const Motion& m : motions("wave")) {
+  for (const test::Motion& m : test::motions("wave")) {
     int raised[2] = {0, 0}, turns = 0;
     const Vector3d left = m.poses[0].q_WB[0] * Vector3d::UnitX();
     for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
@@ -134,7 +134,7 @@ TEST(Wave, RaisesOneHandOverTheHeadAndMovesItSideways) {
 }
 
 TEST(Stand, SwaysWithoutLeavingItsPlace) {
-  for (const Motion& m : motions("stand")) {
+  for (const test::Motion& m : test::motions("stand")) {
     Vector3d low = m.com(0), high = low;
     for (std::size_t t = 0; t < m.frames(); ++t) {
       low = low.cwiseMin(m.com(t));
@@ -146,14 +146,14 @@ TEST(Stand, SwaysWithoutLeavingItsPlace) {
 }
 
 /// Heading of the pelvis at the end, seen from the start, rad.
-double turned(const Motion& m) {
+double turned(const test::Motion& m) {
   const double angle =
       heading_angle(m.poses.back().q_WB[kPelvis]) - heading_angle(m.poses.front().q_WB[kPelvis]);
   return std::remainder(angle, 2.0 * M_PI);
 }
 
 TEST(WalkTurn, WalksAroundACorner) {
-  for (const Motion& m : motions("walk_turn")) {
+  for (const test::Motion& m : test::motions("walk_turn")) {
     EXPECT_GT(std::abs(turned(m)), 0.5);
     EXPECT_LT(std::abs(turned(m)), 1.5);
     EXPECT_GT((m.com(m.frames() - 1) - m.com(0)).norm(), 2.0);
@@ -161,7 +161,7 @@ TEST(WalkTurn, WalksAroundACorner) {
 }
 
 TEST(TurnInPlace, TurnsFarAndStaysWhereItIs) {
-  for (const Motion& m : motions("turn_in_place")) {
+  for (const test::Motion& m : test::motions("turn_in_place")) {
     double path = 0.0;
     for (std::size_t t = 1; t < m.frames(); ++t)
       path += std::abs(std::remainder(
@@ -172,7 +172,7 @@ TEST(TurnInPlace, TurnsFarAndStaysWhereItIs) {
 }
 
 TEST(SideStep, GoesAsideAndFacesAhead) {
-  for (const Motion& m : motions("side_step")) {
+  for (const test::Motion& m : test::motions("side_step")) {
     const Vector3d left = m.poses[0].q_WB[kPelvis] * Vector3d::UnitX();
     double farthest = 0.0;
     for (std::size_t t = 0; t < m.frames(); ++t) {
@@ -186,7 +186,7 @@ TEST(SideStep, GoesAsideAndFacesAhead) {
 }
 
 TEST(Kick, BringsOneFootUpAndFarAhead) {
-  for (const Motion& m : motions("kick")) {
+  for (const test::Motion& m : test::motions("kick")) {
     const Vector3d forward = rotation_z(heading_angle(m.poses[0].q_WB[kPelvis])) * Vector3d::UnitX();
     double reach = 0.0;
     for (std::size_t t = 0; t < m.frames(); ++t)
@@ -199,7 +199,7 @@ TEST(Kick, BringsOneFootUpAndFarAhead) {
 }
 
 TEST(Punch, StretchesBothArmsOutAtShoulderHeight) {
-  for (const Motion& m : motions("punch")) {
+  for (const test::Motion& m : test::motions("punch")) {
     Array<int, 2> reached{};
     for (std::size_t t = 0; t < m.frames(); ++t)
       for (int side : {0, 1}) {
@@ -211,7 +211,7 @@ TEST(Punch, StretchesBothArmsOutAtShoulderHeight) {
 }
 
 TEST(Lunge, BendsTheFrontKneeOverALongStep) {
-  for (const Motion& m : motions("lunge")) {
+  for (const test::Motion& m : test::motions("lunge")) {
     double deepest = 0.0;
     for (std::size_t t = 0; t < m.frames(); ++t) {
       const double apart = (m.joint(t, kLeftAnkle) - m.joint(t, kRightAnkle)).norm();
@@ -223,7 +223,7 @@ TEST(Lunge, BendsTheFrontKneeOverALongStep) {
 }
 
 TEST(Bow, LowersTheHeadByHalfTheTrunk) {
-  for (const Motion& m : motions("bow")) {
+  for (const test::Motion& m : test::motions("bow")) {
     double lowest = 1e9;
     for (std::size_t t = 0; t < m.frames(); ++t) lowest = std::min(lowest, m.joint(t, kHead).z());
     const double trunk = m.joint(0, kHead).z() - m.joint(0, kPelvis).z();
@@ -232,7 +232,7 @@ TEST(Bow, LowersTheHeadByHalfTheTrunk) {
 }
 
 TEST(Dance, StepsAndMovesItsArms) {
-  for (const Motion& m : motions("dance")) {
+  for (const test::Motion& m : test::motions("dance")) {
     double raised = 0.0, travelled = 0.0;
     for (std::size_t t = 1; t < m.frames(); ++t) {
       for (int side : {0, 1})
@@ -245,11 +245,11 @@ TEST(Dance, StepsAndMovesItsArms) {
 }
 
 TEST(Jog, IsFasterThanAWalk) {
-  for (const Motion& m : motions("jog")) {
+  for (const test::Motion& m : test::motions("jog")) {
     const std::size_t middle = m.frames() / 2;
-    EXPECT_GT((m.com(middle + 12) - m.com(middle - 12)).norm() / (24 * kDt), 1.25);
+    EXPECT_GT((m.com(middle + 12) - m.com(middle - 12)).norm() / (24 * test::kDt), 1.25);
   }
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

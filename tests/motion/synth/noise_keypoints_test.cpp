@@ -5,7 +5,7 @@
 
 #include "motion/synth/noise_fixtures.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 using namespace test;
@@ -24,14 +24,14 @@ TEST(Project, IsThePinholeCamera) {
 TEST(PlaceCamera, SeesTheWholeMotionFromAPersonsHeight) {
   for (const std::string& kind : synthetic_kinds())
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const PerFrame<BodyPoses> poses = poses_of_clip(truth_of(kind));
+      const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of(kind));
       const Camera camera = place_camera(poses, seed);
       Keypoints k;
       k.extrinsics = {camera.extrinsics};
       EXPECT_TRUE((camera.extrinsics.block<3, 3>(0, 0).isUnitary(1e-12)));
       EXPECT_NEAR(camera.extrinsics(0, 2), 0.0, 1e-12);  // the horizon is level
       EXPECT_GT(-camera.extrinsics(1, 2), 0.8);          // and up is up
-      const Vector3d eye = camera_position(k);
+      const Vector3d eye = test::camera_position(k);
       EXPECT_TRUE(eye.z() >= 1.2 && eye.z() <= 1.8);
       const double distance = (eye - poses[poses.size() / 2].p_WB[0]).head<2>().norm();
       EXPECT_TRUE(distance > 3.0 && distance < 9.0) << kind << " " << distance;
@@ -44,24 +44,24 @@ TEST(PlaceCamera, SeesTheWholeMotionFromAPersonsHeight) {
 }
 
 TEST(AddNoise, TellsTheCameraAndTheShapeWithTheirErrors) {
-  const Clip& truth = still_truth();
+  const Clip& truth = test::still_truth();
   const std::map<std::string, std::array<double, 3>> sigmas = {
       {"calibrated", {0.0, 0.0, 0.0}}, {"perturbed", {0.01, 0.3, 0.15}}, {"wild", {0.05, 0.7, 0.3}}};
   for (const auto& [name, sigma] : sigmas) {
-    Spread focal, tilt, beta;
+    test::Spread focal, tilt, beta;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
-      NoiseConfig config = silent(seed);
+      NoiseConfig config = test::silent(seed);
       const Keypoints exact = *add_noise(truth, config).keypoints;
       config.camera = camera_error(name);
       const Clip noisy = add_noise(truth, config);
       const Keypoints& told = *noisy.keypoints;
       EXPECT_TRUE(told.uvc == exact.uvc);  // what is seen does not depend on what is told
-      EXPECT_LT((camera_position(told) - camera_position(exact)).norm(), 1e-9);
+      EXPECT_LT((test::camera_position(told) - test::camera_position(exact)).norm(), 1e-9);
       focal.add(told.intrinsics(0, 0) / exact.intrinsics(0, 0) - 1.0);
       const Matrix3d turn =
           told.extrinsics[0].block<3, 3>(0, 0) * exact.extrinsics[0].block<3, 3>(0, 0).transpose();
       EXPECT_NEAR(turn(0, 0), 1.0, 1e-12);
-      tilt.add(std::atan2(turn(2, 1), turn(1, 1)) / kDegree);
+      tilt.add(std::atan2(turn(2, 1), turn(1, 1)) / test::kDegree);
       for (std::size_t k = 0; k < kBetas; ++k) beta.add(noisy.betas[k] - truth.betas[k]);
     }
     EXPECT_NEAR(focal.rms(), sigma[0], 0.12 * sigma[0] + 1e-12) << name;
@@ -96,8 +96,8 @@ PerFrame<PerBody<Detection>> detections(const PerFrame<BodyPoses>& poses, std::u
 }
 
 TEST(DetectKeypoints, HasABiasPerClipSmallNoiseAndDropouts) {
-  const PerFrame<BodyPoses> poses = poses_of_clip(still_truth());
-  Spread bias, quick, quick_wrist, confidence;
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(test::still_truth());
+  test::Spread bias, quick, quick_wrist, confidence;
   int dropped = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     const auto errors = detections(poses, seed, {});
@@ -122,9 +122,9 @@ TEST(DetectKeypoints, HasABiasPerClipSmallNoiseAndDropouts) {
 }
 
 TEST(DetectKeypoints, IsUnsureOfWhatABurstHides) {
-  const PerFrame<BodyPoses> poses = poses_of_clip(truth_of("stand"));
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("stand"));
   const std::vector<Burst> bursts = {{kLeftShoulder, 20, 30, Vector3d::Zero()}};
-  Spread hidden;
+  test::Spread hidden;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const auto clear = detections(poses, seed, {}), burst = detections(poses, seed, bursts);
     for (std::size_t t = 0; t < poses.size(); ++t)
@@ -148,7 +148,7 @@ TEST(DetectKeypoints, IsUnsureOfWhatABurstHides) {
 TEST(DetectKeypoints, MixesUpLeftAndRightNowAndThen) {
   // A line-up of the sides would hide swaps; frames where the left wrist is nearer to the right one's place
   // than to its own count.
-  const PerFrame<BodyPoses> poses = poses_of_clip(truth_of("squat"));
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("squat"));
   int swapped_arms = 0, frames = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Camera camera = place_camera(poses, seed);
@@ -179,7 +179,7 @@ TEST(DetectKeypoints, NamesTheCoco17PointsAndPutsThemOnTheSameJoints) {
       "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip",
       "right_hip",      "left_knee",  "right_knee",  "left_ankle", "right_ankle"};
   EXPECT_EQ(names, coco);
-  const PerFrame<BodyPoses> poses = poses_of_clip(truth_of("wave"));
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("wave"));
   const Camera camera = place_camera(poses, 7);
   const Keypoints k = detect_keypoints(poses, camera, KeypointSet::kCoco17, {}, 7, 30.0);
   EXPECT_EQ(k.names, coco);
@@ -192,4 +192,4 @@ TEST(DetectKeypoints, NamesTheCoco17PointsAndPutsThemOnTheSameJoints) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -7,7 +7,7 @@
 #include "motion/metrics.h"
 #include "motion/synth/noise_fixtures.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 using namespace test;
@@ -38,8 +38,8 @@ TEST(SmoothNoise, HasUnitVarianceAndAGaussianAutocorrelation) {
 }
 
 TEST(AddNoise, WithoutErrorsReturnsTheTruth) {
-  const Clip& truth = truth_of("walk");
-  const Clip clip = add_noise(truth, silent());
+  const Clip& truth = test::truth_of("walk");
+  const Clip clip = add_noise(truth, test::silent());
   EXPECT_EQ(clip.betas, truth.betas);
   for (std::size_t t = 0; t < truth.rotations.size(); ++t) {
     EXPECT_LT((clip.trans[t] - truth.trans[t]).norm(), 1e-12);
@@ -51,11 +51,11 @@ TEST(AddNoise, WithoutErrorsReturnsTheTruth) {
 TEST(AddNoise, GivesEqualBytesForEqualSeedsAndOthersForOtherSeeds) {
   NoiseConfig config;
   config.seed = 4;
-  const Clip a = add_noise(truth_of("wave"), config), b = add_noise(truth_of("wave"), config);
+  const Clip a = add_noise(test::truth_of("wave"), config), b = add_noise(test::truth_of("wave"), config);
   EXPECT_TRUE(a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas);
   EXPECT_TRUE(a.keypoints->uvc == b.keypoints->uvc && a.keypoints->extrinsics == b.keypoints->extrinsics);
   config.seed = 5;
-  const Clip c = add_noise(truth_of("wave"), config);
+  const Clip c = add_noise(test::truth_of("wave"), config);
   EXPECT_TRUE(a.rotations != c.rotations && a.keypoints->uvc != c.keypoints->uvc);
 }
 
@@ -63,7 +63,7 @@ TEST(AddNoise, DrawsEveryTermFromAStreamOfItsOwn) {
   NoiseConfig config, without;
   config.preset.snap = without.preset.snap = 0.0;  // the height would follow the joints
   without.preset.joint_static = without.preset.joint_slow = without.preset.joint_jitter = 0.0;
-  const Clip a = add_noise(truth_of("wave"), config), b = add_noise(truth_of("wave"), without);
+  const Clip a = add_noise(test::truth_of("wave"), config), b = add_noise(test::truth_of("wave"), without);
   EXPECT_TRUE(a.trans == b.trans);
   EXPECT_TRUE(a.keypoints->uvc == b.keypoints->uvc);
   EXPECT_TRUE(a.rotations != b.rotations);
@@ -73,19 +73,19 @@ TEST(AddNoise, DrawsEveryTermFromAStreamOfItsOwn) {
 /// Errors of one joint (in its own axes) or of the root (in the world's), degrees.
 Vector3d rotation_error(const Clip& truth, const Clip& noisy, int t, int body) {
   const Quaterniond q = exp_map(truth.rotations[t][body]), n = exp_map(noisy.rotations[t][body]);
-  return log_map(body == 0 ? n * q.conjugate() : q.conjugate() * n) / kDegree;
+  return log_map(body == 0 ? n * q.conjugate() : q.conjugate() * n) / test::kDegree;
 }
 
 TEST(AddNoise, GivesJointErrorsTheAmplitudeOfEachTermTimesTheJointsWeight) {
-  const Clip& truth = still_truth();
+  const Clip& truth = test::still_truth();
   const std::map<int, double> weights = {{kLeftHip, 0.9},      {kSpine2, 0.45},   {kRightKnee, 1.0},
                                          {kRightAnkle, 1.3},   {kLeftFoot, 0.6},  {kHead, 0.8},
                                          {kLeftShoulder, 1.2}, {kRightWrist, 1.4}};
   for (double NoisePreset::*term :
        {&NoisePreset::joint_static, &NoisePreset::joint_slow, &NoisePreset::joint_jitter}) {
-    std::map<int, Spread> spread;
+    std::map<int, test::Spread> spread;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
-      NoiseConfig config = silent(seed);
+      NoiseConfig config = test::silent(seed);
       config.preset.*term = 2.0;
       const Clip noisy = add_noise(truth, config);
       for (const auto& [body, weight] : weights)
@@ -97,11 +97,11 @@ TEST(AddNoise, GivesJointErrorsTheAmplitudeOfEachTermTimesTheJointsWeight) {
 }
 
 TEST(AddNoise, KeepsTheStaticErrorAndChangesTheOthersAtTheirOwnPace) {
-  const Clip& truth = still_truth();
+  const Clip& truth = test::still_truth();
   const auto change = [&](double NoisePreset::*term, int frames) {
-    Spread spread;
+    test::Spread spread;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-      NoiseConfig config = silent(seed);
+      NoiseConfig config = test::silent(seed);
       config.preset.*term = 2.0;
       const Clip noisy = add_noise(truth, config);
       const auto error = [&](int t) { return rotation_error(truth, noisy, t, kLeftKnee); };
@@ -117,21 +117,21 @@ TEST(AddNoise, KeepsTheStaticErrorAndChangesTheOthersAtTheirOwnPace) {
 }
 
 TEST(AddNoise, TurnsTheRootAboutWorldAxesAndLetsTheHeadingWalk) {
-  const Clip& truth = still_truth();
+  const Clip& truth = test::still_truth();
   for (double NoisePreset::*term :
        {&NoisePreset::root_static, &NoisePreset::root_slow, &NoisePreset::root_jitter}) {
-    Spread spread;
+    test::Spread spread;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
-      NoiseConfig config = silent(seed);
+      NoiseConfig config = test::silent(seed);
       config.preset.*term = 2.0;
       const Vector3d error = rotation_error(truth, add_noise(truth, config), 20, 0);
       for (int axis = 0; axis < 3; ++axis) spread.add(error[axis]);
     }
     EXPECT_NEAR(spread.rms(), 2.0, 0.25);
   }
-  Spread walk, tilt;
+  test::Spread walk, tilt;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    NoiseConfig config = silent(seed);
+    NoiseConfig config = test::silent(seed);
     config.preset.heading_walk = 1.0;
     const Vector3d error = rotation_error(truth, add_noise(truth, config), 40, 0);
     walk.add(error.z());
@@ -142,16 +142,16 @@ TEST(AddNoise, TurnsTheRootAboutWorldAxesAndLetsTheHeadingWalk) {
 }
 
 TEST(AddNoise, ShiftsTheRootAlongAndAcrossTheCamerasView) {
-  const Clip& truth = still_truth();
+  const Clip& truth = test::still_truth();
   for (double NoisePreset::*term :
        {&NoisePreset::depth_static, &NoisePreset::depth_slow, &NoisePreset::depth_jitter}) {
-    Spread along, across, up;
+    test::Spread along, across, up;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-      NoiseConfig config = silent(seed);
+      NoiseConfig config = test::silent(seed);
       config.preset.*term = 0.2;
       config.preset.lateral = 0.3;
       const Clip noisy = add_noise(truth, config);
-      Vector3d depth = viewing_direction(*noisy.keypoints);
+      Vector3d depth = test::viewing_direction(*noisy.keypoints);
       depth.z() = 0.0;
       depth.normalize();
       const Vector3d error = noisy.trans[20] - truth.trans[20];
@@ -166,25 +166,25 @@ TEST(AddNoise, ShiftsTheRootAlongAndAcrossTheCamerasView) {
 }
 
 TEST(AddNoise, LetsTheRootDriftWithASmoothVelocity) {
-  const Clip& truth = still_truth();
-  Spread speed;
+  const Clip& truth = test::still_truth();
+  test::Spread speed;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    NoiseConfig config = silent(seed);
+    NoiseConfig config = test::silent(seed);
     config.preset.drift = 0.05;
     const Clip noisy = add_noise(truth, config);
     const auto offset = [&](std::size_t t) { return Vector3d(noisy.trans[t] - truth.trans[t]); };
     EXPECT_LT(offset(0).norm(), 1e-12);
-    const Vector3d view = viewing_direction(*noisy.keypoints);
+    const Vector3d view = test::viewing_direction(*noisy.keypoints);
     speed.add((offset(31) - offset(30)).dot(Vector3d(view.x(), view.y(), 0.0).normalized()) * 30.0);
   }
   EXPECT_NEAR(speed.rms(), 0.05, 0.006);
 }
 
 TEST(AddNoise, ScalesAndTurnsThePathAboutItsStart) {
-  const Clip& truth = truth_of("walk");
-  Spread scale, turn;
+  const Clip& truth = test::truth_of("walk");
+  test::Spread scale, turn;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    NoiseConfig config = silent(seed);
+    NoiseConfig config = test::silent(seed);
     config.preset.speed_error = 0.03;
     config.preset.heading_error = 2.0;
     const Clip noisy = add_noise(truth, config);
@@ -192,22 +192,23 @@ TEST(AddNoise, ScalesAndTurnsThePathAboutItsStart) {
                           seen = (noisy.trans.back() - noisy.trans.front()).head<2>();
     EXPECT_LT((noisy.trans[0] - truth.trans[0]).norm(), 1e-12);
     scale.add(seen.norm() / path.norm() - 1.0);
-    turn.add(std::asin((path.x() * seen.y() - path.y() * seen.x()) / (path.norm() * seen.norm())) / kDegree);
+    turn.add(std::asin((path.x() * seen.y() - path.y() * seen.x()) / (path.norm() * seen.norm())) /
+             test::kDegree);
   }
   EXPECT_NEAR(scale.rms(), 0.03, 0.004);
   EXPECT_NEAR(turn.rms(), 2.0, 0.25);
 }
 
 TEST(AddNoise, SnapsTheSupportToItsTrueHeight) {
-  const Clip& truth = truth_of("squat");
-  NoiseConfig config = silent(3);
+  const Clip& truth = test::truth_of("squat");
+  NoiseConfig config = test::silent(3);
   config.preset.joint_static = config.preset.joint_slow = 4.0;
   const Character character = make_character();
   const std::vector<SurfacePoint> surface = surface_points(character);
   const auto worst = [&](double snap) {
     config.preset.snap = snap;
     double largest = 0.0;
-    for (const BodyPoses& poses : poses_of_clip(add_noise(truth, config)))
+    for (const BodyPoses& poses : test::poses_of_clip(add_noise(truth, config)))
       largest = std::max(largest, std::abs(lowest_height(surface, poses)));  // the true support is at 0
     return largest;
   };
@@ -217,10 +218,10 @@ TEST(AddNoise, SnapsTheSupportToItsTrueHeight) {
 }
 
 TEST(AddNoise, OffsetsTheHeight) {
-  const Clip& truth = still_truth();
-  Spread height;
+  const Clip& truth = test::still_truth();
+  test::Spread height;
   for (std::uint64_t seed = 0; seed < 600; ++seed) {
-    NoiseConfig config = silent(seed);
+    NoiseConfig config = test::silent(seed);
     config.preset.height_offset = 0.06;
     config.preset.height_static = 0.04;
     config.preset.height_slow = 0.03;
@@ -233,14 +234,14 @@ TEST(AddNoise, OffsetsTheHeight) {
 
 TEST(DrawBursts, IsAPoissonProcessWithTheLengthsAndSizesOfThePreset) {
   const NoisePreset preset = noise_preset("vibe-like");
-  Spread count;
+  test::Spread count;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     const std::vector<Burst> bursts = draw_bursts(preset, seed, 600, 30.0);
     count.add(static_cast<double>(bursts.size()));
     for (const Burst& burst : bursts) {
       EXPECT_TRUE(burst.first >= 0 && burst.first + burst.length <= 600);
       EXPECT_TRUE(burst.length <= 8 && (burst.length >= 3 || burst.first + burst.length == 600));
-      EXPECT_TRUE(burst.peak.norm() >= 30.0 * kDegree && burst.peak.norm() <= 70.0 * kDegree);
+      EXPECT_TRUE(burst.peak.norm() >= 30.0 * test::kDegree && burst.peak.norm() <= 70.0 * test::kDegree);
     }
   }
   EXPECT_NEAR(count.mean(), 2.0, 0.12);  // 0.1 /s over 20 s; variance of a Poisson count = its mean
@@ -248,8 +249,8 @@ TEST(DrawBursts, IsAPoissonProcessWithTheLengthsAndSizesOfThePreset) {
 }
 
 TEST(AddNoise, OpensAndClosesABurstWithAHannWindow) {
-  const Clip& truth = truth_of("stand");
-  NoiseConfig config = silent(1);
+  const Clip& truth = test::truth_of("stand");
+  NoiseConfig config = test::silent(1);
   config.preset = noise_preset("gvhmr-like");
   config.preset.burst_rate = 1.0;
   config.preset.joint_static = config.preset.joint_slow = config.preset.joint_jitter = 0.0;
@@ -268,7 +269,7 @@ TEST(AddNoise, OpensAndClosesABurstWithAHannWindow) {
     for (int k = 0; k < burst.length; ++k) {
       const double window = std::pow(std::sin(M_PI * (k + 0.5) / burst.length), 2);
       const Vector3d error = rotation_error(truth, noisy, burst.first + k, burst.joint);
-      EXPECT_LT((error * kDegree - window * burst.peak).norm(), 1e-9);
+      EXPECT_LT((error * test::kDegree - window * burst.peak).norm(), 1e-9);
     }
   }
   EXPECT_GT(lonely, 0);
@@ -277,7 +278,7 @@ TEST(AddNoise, OpensAndClosesABurstWithAHannWindow) {
 TEST(AddNoise, RefusesWhatItCannotUnderstand) {
   EXPECT_THROW(noise_preset("mystery"), std::invalid_argument);
   EXPECT_THROW(camera_error("mystery"), std::invalid_argument);
-  Clip clip = truth_of("stand");
+  Clip clip = test::truth_of("stand");
   clip.body_model = "smplx";
   EXPECT_THROW(add_noise(clip, {}), std::invalid_argument);
   Clip single;
@@ -293,8 +294,9 @@ std::map<std::string, double> mean_metrics(const std::string& preset) {
   std::map<std::string, double> mean;
   std::uint64_t seed = 0;
   for (const std::string& kind : synthetic_kinds()) {
-    const Clip& truth = truth_of(kind);
-    const MotionSamples exact = sample_motion(make_character(truth.betas), poses_of_clip(truth), truth.fps);
+    const Clip& truth = test::truth_of(kind);
+    const MotionSamples exact =
+        sample_motion(make_character(truth.betas), test::poses_of_clip(truth), truth.fps);
     for (int trial = 0; trial < kTrials; ++trial) {
       NoiseConfig config;
       config.preset = noise_preset(preset);
@@ -302,7 +304,7 @@ std::map<std::string, double> mean_metrics(const std::string& preset) {
       config.seed = ++seed;
       const Clip noisy = add_noise(truth, config);
       const Metrics metrics = evaluate_motion(
-          sample_motion(make_character(noisy.betas), poses_of_clip(noisy), noisy.fps), &exact);
+          sample_motion(make_character(noisy.betas), test::poses_of_clip(noisy), noisy.fps), &exact);
       for (const MetricDefinition& definition : metric_definitions())
         mean[definition.name] += (metrics.*definition.value).value / clips;
     }
@@ -330,4 +332,4 @@ TEST(AddNoise, LandsNearThePublishedErrorsOfVideoEstimators) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

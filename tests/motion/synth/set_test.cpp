@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 std::string file_bytes(const std::filesystem::path& path) {
@@ -169,4 +169,4 @@ TEST(SyntheticData, KeepsTheTruthOutOfTheNoisyFilesAndTheSplitsApart) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -17,7 +17,7 @@ inline constexpr double kG = 9.81, kDt = 1.0 / 30.0;
 /// A clip as the tests look at it: everything from its own rotations by forward kinematics.
 struct Motion {
   std::string kind;
-  Clip clip;
+  motion::Clip clip;
   Character character;
   PerFrame<BodyPoses> poses;
   std::vector<std::array<Vector3d, 12>> sole;  ///< heel, ball and toe of both feet
@@ -48,13 +48,13 @@ struct Motion {
   }
 };
 
-inline Motion make_motion(const SynthConfig& config) {
-  Motion m{config.kind, synthesize(config), {}, {}, {}};
+inline Motion make_motion(const motion::synth::SynthConfig& config) {
+  Motion m{config.kind, motion::synth::synthesize(config), {}, {}, {}};
   m.character = make_character(m.clip.betas);
   for (std::size_t t = 0; t < m.clip.rotations.size(); ++t) {
     PerBody<Quaterniond> q;
     for (std::size_t b = 0; b < kBodies; ++b) q[b] = exp_map(m.clip.rotations[t][b]);
-    m.add(m.clip.trans[t] + rest_pelvis("mimicx"), q);
+    m.add(m.clip.trans[t] + mimicx::rest_pelvis("mimicx"), q);
   }
   return m;
 }
@@ -65,7 +65,7 @@ inline const std::vector<Motion>& motions(const std::string& kind) {
   std::vector<Motion>& list = cache[kind];
   if (list.empty())
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
-      SynthConfig config;
+      motion::synth::SynthConfig config;
       config.kind = kind;
       config.seed = seed;
       config.betas_from_seed = seed >= 3;
@@ -75,7 +75,7 @@ inline const std::vector<Motion>& motions(const std::string& kind) {
 }
 template <class Check>
 void for_all(const Check& check) {
-  for (const std::string& kind : synthetic_kinds())
+  for (const std::string& kind : motion::synth::synthetic_kinds())
     for (const Motion& motion : motions(kind)) {
       SCOPED_TRACE(motion.clip.name);
       check(motion);

@@ -11,7 +11,7 @@
 #include "motion/synth/kinds.h"
 #include "motion/synth/synth_motions.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 using namespace test;
@@ -20,19 +20,20 @@ using namespace test;
 struct Wrench {
   Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
 };
-Wrench required_wrench(const Motion& m, std::size_t t) {
+Wrench required_wrench(const test::Motion& m, std::size_t t) {
   Wrench wrench;
   for (std::size_t b = 0; b < kBodies; ++b) {
     const Vector3d p = m.mass_center(t, b);
-    const Vector3d a = (m.mass_center(t + 1, b) - 2.0 * p + m.mass_center(t - 1, b)) / (kDt * kDt);
-    const Vector3d f = m.character.mass[b] * (a + kG * Vector3d::UnitZ());
+    const Vector3d a =
+        (m.mass_center(t + 1, b) - 2.0 * p + m.mass_center(t - 1, b)) / (test::kDt * test::kDt);
+    const Vector3d f = m.character.mass[b] * (a + test::kG * Vector3d::UnitZ());
     const auto spin = [&](std::size_t i, std::size_t j) {  // angular momentum about the body's own centre
       const Quaterniond &q_i = m.poses[i].q_WB[b], &q_j = m.poses[j].q_WB[b];
-      const Vector3d omega_B = log_map(q_i.conjugate() * q_j) / kDt;
+      const Vector3d omega_B = log_map(q_i.conjugate() * q_j) / test::kDt;
       return Vector3d(q_i.slerp(0.5, q_j) * (m.character.inertia_B[b] * omega_B));
     };
     wrench.force += f;
-    wrench.moment += p.cross(f) + (spin(t, t + 1) - spin(t - 1, t)) / kDt;
+    wrench.moment += p.cross(f) + (spin(t, t + 1) - spin(t - 1, t)) / test::kDt;
   }
   return wrench;
 }
@@ -50,7 +51,7 @@ double outside(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& poi
 }
 
 /// How far the centre of pressure a frame needs lies outside the points that touch the floor, m.
-double pressure_outside(const Motion& m, std::size_t t, const Wrench& wrench) {
+double pressure_outside(const test::Motion& m, std::size_t t, const Wrench& wrench) {
   const Eigen::Vector2d pressure(-wrench.moment.y() / wrench.force.z(), wrench.moment.x() / wrench.force.z());
   std::vector<Eigen::Vector2d> support;
   for (const Vector3d& point : m.sole[t])
@@ -59,7 +60,7 @@ double pressure_outside(const Motion& m, std::size_t t, const Wrench& wrench) {
 }
 
 TEST(Synthesize, TurnsKneesAndElbowsAboutTheirHingesOnly) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     for (const auto& rotations : m.clip.rotations)
       for (int body : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow}) {
         const Vector3d& r = rotations[body];
@@ -71,7 +72,7 @@ TEST(Synthesize, TurnsKneesAndElbowsAboutTheirHingesOnly) {
 }
 
 TEST(Synthesize, LetsPlantedFeetNeitherSlideNorSink) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     for (std::size_t t = 0; t < m.frames(); ++t)
       for (std::size_t i = 0; i < 12; ++i) {
         ASSERT_GT(m.sole[t][i].z(), -0.0001);
@@ -82,7 +83,7 @@ TEST(Synthesize, LetsPlantedFeetNeitherSlideNorSink) {
 }
 
 TEST(Synthesize, KeepsTheBodyClearOfItself) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     for (std::size_t t = 0; t < m.frames(); ++t)
       for (const auto& [i, j] : m.character.self_pairs) {
         const auto ends = [&](int body) {
@@ -100,7 +101,7 @@ TEST(Synthesize, KeepsTheBodyClearOfItself) {
 }
 
 TEST(Synthesize, StaysWithinTheRangesOfTheJoints) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     for (const auto& rotations : m.clip.rotations)
       for (int body = 1; body < kBodies; ++body) {
         const JointParameters& joint = m.character.joint[body];
@@ -120,8 +121,8 @@ bool stands_in_place(const std::string& kind) {
 }
 
 TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
-  for_all([](const Motion& m) {
-    const double weight = m.character.total_mass() * kG;
+  test::for_all([](const test::Motion& m) {
+    const double weight = m.character.total_mass() * test::kG;
     const double tolerance = stands_in_place(m.kind) ? 0.0 : 0.03;  // ℓ is a fixed point not quite reached
     for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
       const Wrench wrench = required_wrench(m, t);
@@ -137,8 +138,8 @@ TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
 
 TEST(Flights, NothingTurnsABodyThatTouchesNothing) {
   for (const char* kind : {"jump", "jog"})
-    for (const Motion& m : motions(kind)) {
-      const double weight = m.character.total_mass() * kG;
+    for (const test::Motion& m : test::motions(kind)) {
+      const double weight = m.character.total_mass() * test::kG;
       for (std::size_t t = 1; t + 1 < m.frames(); ++t) {
         if (m.lowest(t) < 0.001) continue;
         const Wrench wrench = required_wrench(m, t);
@@ -158,7 +159,7 @@ TEST(SolvePlan, PutsTheCentreOfPressureWhereThePlanHasIt) {
   for (const SynthKind& kind : synth_kinds()) {
     if (!tolerances.contains(kind.name)) continue;  // a jump has no centre of pressure in flight
     Random random(9);
-    Motion m;
+    test::Motion m;
     m.character = make_character();
     const PerFrame<PlanFrame> plan = kind.plan({m.character, random, 150});
     for (const SynthPose& pose : solve_plan(m.character, plan, kSynthFps)) m.add(pose.p_root, pose.q);
@@ -173,23 +174,23 @@ TEST(SolvePlan, PutsTheCentreOfPressureWhereThePlanHasIt) {
 }
 
 TEST(Synthesize, AcceleratesSmoothly) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     const double bound = m.kind == "jump" ? 150.0 : 90.0;  // m/s²: feet leave and land
     for (std::size_t t = 1; t + 1 < m.frames(); ++t)
       for (int body = 0; body < kBodies; ++body) {
         const Vector3d a =
-            (m.joint(t + 1, body) - 2.0 * m.joint(t, body) + m.joint(t - 1, body)) / (kDt * kDt);
+            (m.joint(t + 1, body) - 2.0 * m.joint(t, body) + m.joint(t - 1, body)) / (test::kDt * test::kDt);
         ASSERT_LT(a.norm(), bound) << kBodyNames[body] << ", frame " << t;
       }
   });
 }
 
 TEST(Synthesize, TurnsNoJointFasterThanAPersonCan) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     for (std::size_t t = 1; t < m.frames(); ++t)
       for (std::size_t b = 1; b < kBodies; ++b) {
         const auto at = [&](std::size_t i) { return exp_map(m.clip.rotations[i][b]); };
-        ASSERT_LT(log_map(at(t - 1).conjugate() * at(t)).norm() / kDt, 15.0)
+        ASSERT_LT(log_map(at(t - 1).conjugate() * at(t)).norm() / test::kDt, 15.0)
             << kBodyNames[b] << ", frame " << t;
       }
   });
@@ -197,7 +198,7 @@ TEST(Synthesize, TurnsNoJointFasterThanAPersonCan) {
 
 /// Grazing feet are what a simulated character stumbles over; long stands on one leg are what it falls from.
 TEST(Synthesize, LiftsEveryFootClearAndStandsOnOneLegForAMomentOnly) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     std::array<double, 2> highest{};
     int alone = 0;
     for (std::size_t t = 0; t < m.frames(); ++t) {
@@ -220,11 +221,11 @@ TEST(Synthesize, LiftsEveryFootClearAndStandsOnOneLegForAMomentOnly) {
 }
 
 TEST(Synthesize, BeginsAndEndsStandingStill) {
-  for_all([](const Motion& m) {
+  test::for_all([](const test::Motion& m) {
     const std::size_t last = m.frames() - 1;
     for (std::size_t t : {std::size_t{0}, last - 1})
       for (int body = 0; body < kBodies; ++body)
-        ASSERT_LT((m.joint(t + 1, body) - m.joint(t, body)).norm() / kDt, 0.10);
+        ASSERT_LT((m.joint(t + 1, body) - m.joint(t, body)).norm() / test::kDt, 0.10);
     for (std::size_t t : {std::size_t{0}, last}) {
       for (const Vector3d& point : m.sole[t]) ASSERT_LT(std::abs(point.z()), 1e-6);
       ASSERT_GT(m.joint(t, kHead).z(), 1.55 * m.joint(t, kPelvis).z());
@@ -238,7 +239,7 @@ TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
     config.kind = kind;
     config.seed = 1;
     const Clip again = synthesize(config);
-    const Clip &same = motions(kind)[1].clip, &other = motions(kind)[2].clip;
+    const Clip &same = test::motions(kind)[1].clip, &other = test::motions(kind)[2].clip;
     EXPECT_TRUE(same.rotations == again.rotations && same.trans == again.trans);
     EXPECT_GT((same.rotations[30][kPelvis] - other.rotations[30][kPelvis]).norm(), 1e-3);
   }
@@ -270,7 +271,7 @@ TEST(Synthesize, ServesExtremeShapes) {
       SynthConfig config;
       config.kind = kind;
       for (double& beta : config.betas) beta = random.uniform(-3.0, 3.0);
-      const Motion m = make_motion(config);
+      const test::Motion m = test::make_motion(config);
       for (std::size_t t = 0; t < m.frames(); ++t) ASSERT_GT(m.lowest(t), -0.0005) << kind;
     }
 }
@@ -287,4 +288,4 @@ TEST(Synthesize, RefusesUnknownKindsAndLengths) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -14,7 +14,7 @@
 #include "pipeline/temporary_folder.h"
 #include "pipeline/thrown.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
 double value(const Audit& audit, const std::string& name) {
@@ -36,7 +36,7 @@ std::string all_failures(const Audit& audit) {
   return text;
 }
 
-bool same(const ReferenceFrame& a, const ReferenceFrame& b) {
+bool same(const motion::ReferenceFrame& a, const motion::ReferenceFrame& b) {
   bool equal = a.p_root == b.p_root && a.v_root == b.v_root;
   for (std::size_t i = 0; i < kBodies; ++i)
     equal = equal && a.q[i].coeffs() == b.q[i].coeffs() && a.omega[i] == b.omega[i];
@@ -50,7 +50,7 @@ TEST(Substeps, TheFileKeepsTheSimulatorsOwnBits) {
   EXPECT_EQ(back.simulation.rate, 240.0);
   EXPECT_TRUE(same(back.last, motion.last));
   for (std::size_t k = 0; k < motion.steps.size(); ++k) {
-    const rl::Substep &a = motion.steps[k], &b = back.steps[k];
+    const rl::tracking::Substep &a = motion.steps[k], &b = back.steps[k];
     EXPECT_TRUE(same(a.state, b.state)) << k;
     EXPECT_EQ(a.forces.ground, b.forces.ground) << k;
     EXPECT_EQ(a.forces.self_contact, b.forces.self_contact) << k;
@@ -60,15 +60,17 @@ TEST(Substeps, TheFileKeepsTheSimulatorsOwnBits) {
 
 // The first state and the targets alone give back every recorded state, bit by bit, in float32.
 TEST(Substeps, AFileReplaysToTheSameBits) {
-  using P = rl::TrackingPack::P;
+  using P = rl::tracking::TrackingPack::P;
   const SubstepMotion motion = written_and_read(Thrown().steps());
-  const Model<float> model = make_model<float>(motion.character, motion.simulation);
-  const auto state = std::make_unique<State<P>>();
-  const auto target = std::make_unique<Target<P>>();
-  const auto data = std::make_unique<Data<P>>();
-  const auto vec = [](const Vector3d& v) { return Vec3<P>{P(v.x()), P(v.y()), P(v.z())}; };
-  const auto quat = [](const Quaterniond& q) { return Quat<P>{P(q.w()), P(q.x()), P(q.y()), P(q.z())}; };
-  const ReferenceFrame& start = motion.steps.front().state;
+  const physics::Model<float> model = physics::make_model<float>(motion.character, motion.simulation);
+  const auto state = std::make_unique<physics::State<P>>();
+  const auto target = std::make_unique<physics::Target<P>>();
+  const auto data = std::make_unique<physics::Data<P>>();
+  const auto vec = [](const Vector3d& v) { return physics::Vec3<P>{P(v.x()), P(v.y()), P(v.z())}; };
+  const auto quat = [](const Quaterniond& q) {
+    return physics::Quat<P>{P(q.w()), P(q.x()), P(q.y()), P(q.z())};
+  };
+  const motion::ReferenceFrame& start = motion.steps.front().state;
   state->p_root = vec(start.p_root);
   state->v_root = vec(start.v_root);
   for (std::size_t i = 0; i < kBodies; ++i) {
@@ -80,8 +82,9 @@ TEST(Substeps, AFileReplaysToTheSameBits) {
       target->q[i] = quat(motion.steps[k].target_q[i]);
       target->omega[i] = vec(motion.steps[k].target_omega[i]);
     }
-    step(model, *target, *state, *data);
-    const ReferenceFrame& next = k + 1 < motion.steps.size() ? motion.steps[k + 1].state : motion.last;
+    physics::step(model, *target, *state, *data);
+    const motion::ReferenceFrame& next =
+        k + 1 < motion.steps.size() ? motion.steps[k + 1].state : motion.last;
     for (std::size_t i = 0; i < kBodies; ++i) {
       ASSERT_EQ(static_cast<double>(state->q[i].w[0]), next.q[i].w()) << "step " << k << " body " << i;
       ASSERT_EQ(static_cast<double>(state->omega[i].x[0]), next.omega[i].x()) << "step " << k;
@@ -92,10 +95,10 @@ TEST(Substeps, AFileReplaysToTheSameBits) {
 
 TEST(Substeps, RecordingThemChangesNothingElse) {
   const Thrown thrown;
-  const auto clip = rl::make_tracking_clip(thrown.reference, thrown.config);
+  const auto clip = rl::tracking::make_tracking_clip(thrown.reference, thrown.config);
   const auto still = [](int, const float*, float* action) { std::fill(action, action + kDofs, 0.1F); };
-  const auto with = rl::roll_out(clip, thrown.config, still, true),
-             without = rl::roll_out(clip, thrown.config, still, false);
+  const auto with = rl::tracking::roll_out(clip, thrown.config, still, true),
+             without = rl::tracking::roll_out(clip, thrown.config, still, false);
   EXPECT_TRUE(without.substeps.empty());
   ASSERT_EQ(with.poses.size(), without.poses.size());
   for (std::size_t t = 0; t < with.poses.size(); ++t) {
@@ -154,8 +157,8 @@ TEST(Audit, WhatFramesLeaveUnexplainedIsOfFirstOrderInThePhysicsStep) {
   for (std::size_t k = 0; k < force.size(); ++k) {
     Thrown thrown(240.0 * static_cast<double>(1 << (2 * k)), 0.0);
     for (auto& f : thrown.reference.frames) f.p_root.z() += 5.0;  // in the air: the same motion at every rate
-    const auto clip = rl::make_tracking_clip(thrown.reference, thrown.config);
-    thrown.rollout = rl::roll_out(clip, thrown.config, [](int, const float*, float* action) {
+    const auto clip = rl::tracking::make_tracking_clip(thrown.reference, thrown.config);
+    thrown.rollout = rl::tracking::roll_out(clip, thrown.config, [](int, const float*, float* action) {
       for (int n = 0; n < kDofs; ++n) action[n] = 0.5F * static_cast<float>(n % 3 - 1);
     });
     thrown.rollout.poses.resize(20);
@@ -208,7 +211,7 @@ TEST(Audit, EveryKindOfLieIsNamed) {
 TEST(Audit, StepsWithTorquesThatAreOffByAFewPercentAreNamed) {
   SubstepMotion motion = Thrown().steps();
   EXPECT_EQ(all_failures(audit_steps(motion)), "");
-  for (rl::Substep& step : motion.steps)
+  for (rl::tracking::Substep& step : motion.steps)
     for (Vector3d& torque : step.forces.joint_torque) torque *= 1.03;
   EXPECT_TRUE(fails_with(audit_steps(motion), "mean gap between required and exported torques"));
 }
@@ -218,13 +221,13 @@ TEST(Audit, WorkIsTorqueTimesTheAngleTurned) {
   SimulatedFrames motion;
   motion.character = make_character();
   for (int t = 0; t < 11; ++t) {
-    ReferenceFrame f;
+    motion::ReferenceFrame f;
     f.p_root = f.v_root = Vector3d::Zero();
     f.q.fill(Quaterniond::Identity());
     f.omega.fill(Vector3d::Zero());
     f.q[kSpine1] = exp_map(Vector3d(0.1 * t, 0, 0));
     motion.frames.push_back(f);
-    rl::ActingForces forces;
+    rl::tracking::ActingForces forces;
     forces.joint_torque.fill(Vector3d::Zero());
     forces.range_torque.fill(Vector3d::Zero());
     forces.ground.fill(Vector6d::Zero());
@@ -255,11 +258,11 @@ TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
   run.out = folder.path / "run";
   run.fit = run.substeps = true;
   config.training.samples = 0;
-  config.options = read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options");
+  config.options = options::read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options");
   std::ostringstream messages;
-  Progress progress(messages, false, steady_seconds);
+  record::Progress progress(messages, false, record::steady_seconds);
   adapt(config, {progress, messages, [] { return false; }});
-  for (const SequenceEntry& entry : read_manifest(run.out / "manifest.json").sequences) {
+  for (const record::SequenceEntry& entry : record::read_manifest(run.out / "manifest.json").sequences) {
     ASSERT_TRUE(entry.ok) << entry.name;
     const Audit clean = audit_file(run.out / entry.output, false).at(0);
     EXPECT_EQ(clean.evidence, Evidence::kFrames);
@@ -294,7 +297,7 @@ TEST_F(CleanedAndRaw, ForcesWithoutWhatBelongsToThemAreRefusedByName) {
   const TemporaryFolder folder;
   Npz npz = read_npz(split("truth", "stand_1"));
   const std::size_t rows = npz.at("poses").shape[0];
-  npz.set("joint_torques", joints_member(VectorRows(rows), Precision::kFloat64));
+  npz.set("joint_torques", output::joints_member(output::VectorRows(rows), output::Precision::kFloat64));
   write_npz(folder.path / "half.npz", npz);
   try {
     audit_file(folder.path / "half.npz", false);
@@ -305,4 +308,4 @@ TEST_F(CleanedAndRaw, ForcesWithoutWhatBelongsToThemAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

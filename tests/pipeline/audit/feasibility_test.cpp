@@ -7,14 +7,14 @@
 #include "motion/reference.h"
 #include "motion/synth/synth.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::audit {
 namespace {
 
 constexpr double kG = 9.81;
 
 /// The T-pose, upright, its soles at `height(t)` of frame t.
 template <class Height>
-Clip t_pose(const Height& height) {
+motion::Clip t_pose(const Height& height) {
   const Character c = make_character();
   PerBody<Quaterniond> pose;
   pose.fill(Quaterniond::Identity());
@@ -25,7 +25,7 @@ Clip t_pose(const Height& height) {
   const double sole = (at_origin.p_WB[b] + at_origin.q_WB[b] * heel.p_B).z();
   std::vector<Vector3d> p_root;
   for (int t = 0; t < 7; ++t) p_root.emplace_back(0.2, -0.1, height(t) - sole);
-  return to_clip("t_pose", 30.0, c, p_root, std::vector<PerBody<Quaterniond>>(p_root.size(), pose));
+  return motion::to_clip("t_pose", 30.0, c, p_root, std::vector<PerBody<Quaterniond>>(p_root.size(), pose));
 }
 
 TEST(Feasibility, StandingStillNeedsNoHand) {
@@ -37,7 +37,7 @@ TEST(Feasibility, StandingStillNeedsNoHand) {
 }
 
 TEST(Feasibility, FreeFallNeedsNothing) {
-  const Clip clip = t_pose([](int t) { return 1.0 - 0.5 * kG * t * t / 900.0; });
+  const motion::Clip clip = t_pose([](int t) { return 1.0 - 0.5 * kG * t * t / 900.0; });
   const Feasibility f = feasibility(clip);
   EXPECT_LT(f.max_force, 1e-9);
   EXPECT_LT(f.max_moment, 1e-9);
@@ -53,15 +53,15 @@ TEST(Feasibility, HoveringNeedsAHandThatCarriesTheWeight) {
 
 /// A floor can push but not pull.
 TEST(Feasibility, AFallFasterThanGravityIsNotPulledByTheFloor) {
-  const Clip clip = t_pose([](int t) { return -0.5 * 1.5 * kG * (t - 3) * (t - 3) / 900.0 - 0.01; });
+  const motion::Clip clip = t_pose([](int t) { return -0.5 * 1.5 * kG * (t - 3) * (t - 3) / 900.0 - 0.01; });
   const Feasibility f = feasibility(clip);
   EXPECT_NEAR(f.mean_force, 0.5, 1e-6);
 }
 
 TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
-  const Clip clip = t_pose([](int) { return 0.0; });
+  const motion::Clip clip = t_pose([](int) { return 0.0; });
   const Character c = make_character();
-  const BodyPoses poses = poses_of(clip)[3];
+  const BodyPoses poses = motion::poses_of(clip)[3];
   const FrameDemand demand = motion_demands(clip)[2];
   Vector3d expected = Vector3d::Zero();
   for (std::size_t b : {kLeftShoulder, kLeftElbow, kLeftWrist})
@@ -74,24 +74,24 @@ TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
 }
 
 TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
-  SynthConfig options;
+  motion::synth::SynthConfig options;
   options.kind = "squat";
-  const Clip clip = synthesize(options);
+  const motion::Clip clip = motion::synth::synthesize(options);
   const Character c = make_character(clip.betas);
   const std::vector<FrameDemand> demands = motion_demands(clip);
   for (std::size_t i = 0; i < demands.size(); i += 20) {
-    const PerBody<double> ratios = torque_ratios(c, poses_of(clip)[i + 1], demands[i]);
+    const PerBody<double> ratios = torque_ratios(c, motion::poses_of(clip)[i + 1], demands[i]);
     EXPECT_NEAR(ratios[kLeftKnee], ratios[kRightKnee], 0.02);
   }
 }
 
 TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
-  for (const std::string& kind : synthetic_kinds()) {
-    SynthConfig options;
+  for (const std::string& kind : motion::synth::synthetic_kinds()) {
+    motion::synth::SynthConfig options;
     options.kind = kind;
     options.seed = 1;
     options.betas_from_seed = true;
-    const Feasibility f = feasibility(synthesize(options));
+    const Feasibility f = feasibility(motion::synth::synthesize(options));
     EXPECT_LT(f.mean_force, 0.001) << kind;
     EXPECT_LT(f.mean_moment, 0.001) << kind;
     EXPECT_LT(f.max_force, 0.02) << kind;
@@ -101,7 +101,7 @@ TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
 }
 
 TEST(Feasibility, RefusesClipsItCannotDifferentiate) {
-  Clip clip = t_pose([](int) { return 0.0; });
+  motion::Clip clip = t_pose([](int) { return 0.0; });
   clip.body_model = "smplh";
   EXPECT_THROW(feasibility(clip), std::invalid_argument);
   clip = t_pose([](int) { return 0.0; });
@@ -111,4 +111,4 @@ TEST(Feasibility, RefusesClipsItCannotDifferentiate) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::audit

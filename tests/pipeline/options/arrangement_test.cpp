@@ -8,7 +8,7 @@
 #include "pipeline/options/side_by_side.h"
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 constexpr double kRescue = 0.3;
@@ -18,7 +18,7 @@ OptionSet set_of(const std::vector<float>& actions) {
   OptionSet set;
   for (const float action : actions) {
     TrainedOption trained;
-    trained.option = constant_option(rl::kStateSize, action);
+    trained.option = constant_option(rl::tracking::kStateSize, action);
     set.options.push_back(trained);
   }
   return set;
@@ -36,7 +36,7 @@ double value_of(const OptionRewards& rewards, const List<int>& options, double s
 
 TEST(Arrangement, IsTheBestOfAllThatThereAre) {
   constexpr int kFrames = 8, kActing = kFrames - 1;
-  const auto clip = rl::make_tracking_clip(rl::swaying_reference(kFrames), {});
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(kFrames), {});
   const OptionSet set = set_of({0.02F, -0.02F});
   const Option &first = set.options[0].option, &second = set.options[1].option;
   const SideBySide rolled = roll_out_side_by_side(clip, {}, {&first, &second}, kRescue);
@@ -58,7 +58,7 @@ TEST(Arrangement, IsTheBestOfAllThatThereAre) {
 }
 
 TEST(Arrangement, KeepsTheOptionsThatActAndNumbersThemAnew) {
-  const auto clip = rl::make_tracking_clip(rl::swaying_reference(30), {});
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({1.5F, 0.02F, 1.5F, -0.02F});  // 0 and 2 make the character fall
   const ArrangedClip arranged = arrange(clip, {}, set, {0.0, kRescue});
   EXPECT_EQ(arranged.kept, (std::vector<int>{1, 3}));
@@ -73,11 +73,11 @@ TEST(Arrangement, KeepsTheOptionsThatActAndNumbersThemAnew) {
 }
 
 TEST(Arrangement, TheClipIsEncodedByTheKeptOptionsInTheirOrder) {
-  const auto clip = rl::make_tracking_clip(rl::swaying_reference(20), {});
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(20), {});
   OptionSet set;
   for (int k = 0; k < 2; ++k) {
     TrainedOption trained;
-    trained.option = constant_option(rl::kEncodedRest + 8, k == 0 ? 1.5F : 0.0F);
+    trained.option = constant_option(rl::tracking::kEncodedRest + 8, k == 0 ? 1.5F : 0.0F);
     trained.option.encoder = some_encoder(*clip, static_cast<std::uint64_t>(k));
     set.options.push_back(trained);
   }
@@ -88,7 +88,7 @@ TEST(Arrangement, TheClipIsEncodedByTheKeptOptionsInTheirOrder) {
 }
 
 TEST(Arrangement, NamesTheFramesThatNoOptionCouldFollow) {
-  const auto clip = rl::make_tracking_clip(rl::swaying_reference(30), {});
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   EXPECT_TRUE(arrange(clip, {}, set_of({0.0F}), {0.0, kRescue}).breaks.empty());
   const OptionSet bad = set_of({1.5F, 1.5F});
   const Option& option = bad.options[0].option;
@@ -98,7 +98,7 @@ TEST(Arrangement, NamesTheFramesThatNoOptionCouldFollow) {
 }
 
 TEST(Arrangement, ARescueAtAHigherRewardIsAnotherRollOut) {
-  const auto clip = rl::make_tracking_clip(rl::swaying_reference(30), {});
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({0.3F});
   EXPECT_NE(arrange(clip, {}, set, {0.0, 1e-9}).breaks, arrange(clip, {}, set, {0.0, 0.9999}).breaks);
 }
@@ -111,4 +111,4 @@ TEST(Stretches, SayWhereEachOptionBegins) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -4,10 +4,10 @@
 #include "pipeline/options/option.h"
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 
 /// An encoder that a few steps on one clip have made: not a good one, but no identity either.
-inline nn::AutoEncoder some_encoder(const rl::TrackingClip& clip, std::uint64_t seed = 1) {
+inline nn::AutoEncoder some_encoder(const rl::tracking::TrackingClip& clip, std::uint64_t seed = 1) {
   nn::AutoEncoderConfig config;
   config.hidden = 16;
   config.code = 8;
@@ -18,7 +18,7 @@ inline nn::AutoEncoder some_encoder(const rl::TrackingClip& clip, std::uint64_t 
 
 /// An option whose mean action is `action` in every degree of freedom, whatever it sees.
 inline Option constant_option(int state_size, float action) {
-  return {rl::agent_that_does(action, state_size), std::nullopt};
+  return {rl::tracking::agent_that_does(action, state_size), std::nullopt};
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

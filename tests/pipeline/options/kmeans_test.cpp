@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 constexpr double kRounding = 1e-12;  ///< relative: two orders of the same sum
@@ -215,4 +215,4 @@ TEST(ClusterTree, EqualPointsAreOneCluster) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

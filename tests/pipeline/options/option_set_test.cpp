@@ -11,16 +11,16 @@
 #include "pipeline/temporary_folder.h"
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 /// Two options with encoders, and everything that is recorded of them.
 OptionSet some_set() {
-  const auto clip = rl::make_tracking_clip(rl::swaying_reference(10), {});
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(10), {});
   OptionSet set;
   for (int k = 0; k < 2; ++k) {
     TrainedOption trained;
-    trained.option = constant_option(rl::kEncodedRest + 8, 0.1F * static_cast<float>(k + 1));
+    trained.option = constant_option(rl::tracking::kEncodedRest + 8, 0.1F * static_cast<float>(k + 1));
     trained.option.encoder = some_encoder(*clip, static_cast<std::uint64_t>(k));
     trained.description = k == 0 ? "calm" : "lively, and \"steps\"";
     trained.centre.fill(0.1 + k);
@@ -51,7 +51,7 @@ TEST(OptionSet, IsReadBackToTheBit) {
 
 TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
   const TemporaryFolder folder;
-  write_clip(folder.path / "clip.npz", standing_clip(20));
+  motion::write_clip(folder.path / "clip.npz", standing_clip(20));
   EXPECT_THROW(read_options(folder.path / "clip.npz"), DataError);
   OptionSet wrong = some_set();
   wrong.options[1].option.encoder.reset();  // its policy is made for an encoded state
@@ -60,4 +60,4 @@ TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::options {
 namespace {
 
 using Rewards = OptionRewards;
@@ -132,4 +132,4 @@ TEST(Selector, RefusesWhatHasNoOptimum) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::options

@@ -8,11 +8,11 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 namespace {
 
-double distance(const Clip& a, const Clip& b) {
-  const auto p = poses_of(a), q = poses_of(b);
+double distance(const motion::Clip& a, const motion::Clip& b) {
+  const auto p = motion::poses_of(a), q = motion::poses_of(b);
   EXPECT_EQ(p.size(), q.size());
   double most = 0.0;
   for (std::size_t t = 0; t < std::min(p.size(), q.size()); ++t)
@@ -26,16 +26,16 @@ struct CleanCopy : testing::Test {
 };
 
 TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
-  const Clip simulated = standing_clip(40);
-  write_clip(path("simulated.npz"), simulated, {{"reward", NpyArray::scalar(1.0)}});
+  const motion::Clip simulated = standing_clip(40);
+  motion::write_clip(path("simulated.npz"), simulated, {{"reward", NpyArray::scalar(1.0)}});
   for (const char* model : {"smpl", "smplh", "smplx"}) {
-    Clip input = simulated;
+    motion::Clip input = simulated;
     input.body_model = model;
     input.betas[1] = 0.7;
     input.gender = "female";
-    write_clip(path("input.npz"), input);
+    motion::write_clip(path("input.npz"), input);
     write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
-    const Clip copy = read_clip(path("copy.npz"));
+    const motion::Clip copy = motion::read_clip(path("copy.npz"));
     EXPECT_EQ(copy.body_model, model);
     EXPECT_EQ(copy.betas, input.betas);
     EXPECT_EQ(copy.gender, "female");
@@ -45,11 +45,11 @@ TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
 }
 
 TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndItsHands) {
-  Clip input = standing_clip(101);
+  motion::Clip input = standing_clip(101);
   input.fps = 50.0;
   input.passthrough.emplace_back("pose_hand", from_matrix(Eigen::MatrixXd::Random(101, 90)));
-  const Clip simulated = resampled(input, 30.0);
-  const Clip copy = at_rate_of(simulated, input);
+  const motion::Clip simulated = motion::resampled(input, 30.0);
+  const motion::Clip copy = at_rate_of(simulated, input);
   ASSERT_EQ(copy.frames(), 101);
   EXPECT_EQ(copy.fps, 50.0);
   EXPECT_EQ(copy.passthrough[0].second.bytes, input.passthrough[0].second.bytes);
@@ -60,16 +60,16 @@ TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndItsHands) {
 }
 
 TEST_F(CleanCopy, ComesInTheFormatOfItsInput) {
-  const Clip simulated = standing_clip(40);
-  write_clip(path("simulated.npz"), simulated);
-  Clip input = simulated;
+  const motion::Clip simulated = standing_clip(40);
+  motion::write_clip(path("simulated.npz"), simulated);
+  motion::Clip input = simulated;
   input.body_model = "smplx";
-  write_motion(path("input.npy"), input);
+  motion::import::write_motion(path("input.npy"), input);
   write_clean_copy(path("simulated.npz"), path("input.npy"), {}, false, path("new/copy.npy"));
-  EXPECT_LT(distance(read_motion(path("new/copy.npy")), simulated), 1e-9);
+  EXPECT_LT(distance(motion::import::read_motion(path("new/copy.npy")), simulated), 1e-9);
   EXPECT_EQ(clean_suffix("a/walk.npy"), ".npy");
   EXPECT_EQ(clean_suffix("a/walk.txt"), ".npz");
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

@@ -10,20 +10,20 @@
 #include "core/npz.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 namespace {
 
-bool same_bits(const std::vector<State<double>>& a, const std::vector<State<double>>& b) {
+bool same_bits(const std::vector<physics::State<double>>& a, const std::vector<physics::State<double>>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
 /// Upright, arms down, the head turned by an angle that no float is.
-State<double> standing() {
-  State<double> x{};
-  x.p_root = from_eigen(Vector3d(0.1, -0.2, 0.95));
-  x.q.fill(from_eigen(Quaterniond::Identity()));
-  x.q[kPelvis] = from_eigen(exp_map(Vector3d(std::numbers::pi / 2, 0.0, 0.0)));
-  x.q[kHead] = from_eigen(exp_map(Vector3d(0.0, 1.0 / 3.0, 0.0)));
+physics::State<double> standing() {
+  physics::State<double> x{};
+  x.p_root = physics::from_eigen(Vector3d(0.1, -0.2, 0.95));
+  x.q.fill(physics::from_eigen(Quaterniond::Identity()));
+  x.q[kPelvis] = physics::from_eigen(exp_map(Vector3d(std::numbers::pi / 2, 0.0, 0.0)));
+  x.q[kHead] = physics::from_eigen(exp_map(Vector3d(0.0, 1.0 / 3.0, 0.0)));
   return x;
 }
 
@@ -79,16 +79,16 @@ TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
   EXPECT_FALSE(stored.plan.loss);
   const control::System system =
       control::make_system(make_character(), stored.simulation, stored.reference, stored.fps);
-  const auto scratch = std::make_unique<Data<control::P>>();
-  State<control::P> x = in_all_lanes<control::P>(stored.plan.states.at(0));
-  Target<control::P> from = control::target_of(system, 0, {});
-  std::vector<State<double>> states = {stored.plan.states[0]};
+  const auto scratch = std::make_unique<physics::Data<control::P>>();
+  physics::State<control::P> x = physics::in_all_lanes<control::P>(stored.plan.states.at(0));
+  physics::Target<control::P> from = control::target_of(system, 0, {});
+  std::vector<physics::State<double>> states = {stored.plan.states[0]};
   for (std::size_t t = 0; t < stored.plan.residuals.size(); ++t) {
     control::Control u{};
     std::copy(stored.plan.residuals[t].begin(), stored.plan.residuals[t].end(), u.begin());
-    const Target<control::P> to = control::target_of(system, static_cast<int>(t) + 1, u);
+    const physics::Target<control::P> to = control::target_of(system, static_cast<int>(t) + 1, u);
     control::advance(system, from, to, control::help_of(system, {}), x, *scratch);
-    states.push_back(lane_of(x, 0));
+    states.push_back(physics::lane_of(x, 0));
     from = to;
   }
   EXPECT_TRUE(same_bits(states, stored.plan.states));
@@ -125,4 +125,4 @@ TEST_F(PlanFile, OneThatIsDamagedNamesTheMember) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

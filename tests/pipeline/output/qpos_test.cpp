@@ -5,7 +5,7 @@
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::output {
 namespace {
 
 TEST(Qpos, JointsFollowTheLimbsOneAfterTheOther) {
@@ -21,7 +21,7 @@ TEST(Qpos, JointsFollowTheLimbsOneAfterTheOther) {
 
 TEST(Qpos, ForwardKinematicsOfItIsTheMotion) {
   TemporaryFolder folder;
-  Clip clip = standing_clip(9);
+  motion::Clip clip = standing_clip(9);
   for (std::size_t t = 0; t < 9; ++t) {
     clip.rotations[t][kLeftKnee] = 0.1 * static_cast<double>(t) * hinge_axis(kLeftKnee);
     clip.rotations[t][kRightElbow] = 0.7 * hinge_axis(kRightElbow);
@@ -29,8 +29,8 @@ TEST(Qpos, ForwardKinematicsOfItIsTheMotion) {
   write_qpos(folder.path / "a.npz", clip);
   const Eigen::MatrixXd qpos = to_matrix(read_npz(folder.path / "a.npz").at("qpos"));
   ASSERT_EQ(qpos.cols(), 79);
-  const Character character = character_of(clip);
-  const auto poses = poses_of(clip);
+  const Character character = motion::character_of(clip);
+  const auto poses = motion::poses_of(clip);
   for (Eigen::Index t = 0; t < qpos.rows(); ++t) {
     // Read as MuJoCo reads it, by a walk of our own.
     Eigen::Index at = 0;
@@ -52,4 +52,4 @@ TEST(Qpos, ForwardKinematicsOfItIsTheMotion) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::output

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 Manifest example() {
@@ -103,4 +103,4 @@ TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 TEST(Progress, SaysRateAndTimeLeftOfThisRunAlone) {
@@ -58,4 +58,4 @@ TEST(Progress, CountsAndDurationsReadAsPeopleWriteThem) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

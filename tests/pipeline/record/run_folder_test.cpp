@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 TEST(RunFolder, InputsOfOneFileNameGetNamesOfTheirOwn) {
@@ -28,4 +28,4 @@ TEST(RunFolder, TheChecksumIsFnv1aAndSeesOneChangedBit) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

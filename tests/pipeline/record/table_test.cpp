@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 TEST(Table, NumbersReadBackAsTheSameBits) {
@@ -54,4 +54,4 @@ TEST(Table, AnUnknownColumnIsAnError) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

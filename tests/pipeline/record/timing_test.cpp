@@ -7,7 +7,7 @@
 #include "core/file.h"
 #include "pipeline/temporary_folder.h"
 
-namespace mimicx {
+namespace mimicx::pipeline::record {
 namespace {
 
 TEST(Timing, ReadsBackAndForgivesAFileThatIsNone) {
@@ -27,4 +27,4 @@ TEST(Timing, ReadsBackAndForgivesAFileThatIsNone) {
 }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::record

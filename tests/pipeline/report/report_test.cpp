@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-namespace mimicx {
+namespace mimicx::pipeline::report {
 namespace {
 
 /// Independent of the encoder: a table look-up per digit.
@@ -103,4 +103,4 @@ TEST(Report, IsTheSameBytesForTheSameRun) {
 TEST(Report, OfNothingIsStillAPage) { EXPECT_TRUE(data_of(format_report({}))["sequences"].empty()); }
 
 }  // namespace
-}  // namespace mimicx
+}  // namespace mimicx::pipeline::report

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 /// Steps an environment with fixed actions; returns every reward.
@@ -33,20 +33,20 @@ std::vector<float> drive(TrackingEnvironment& environment, int steps, int thread
 TEST(TrackingEnvironment, IsBitIdenticalForOneAndTwoThreads) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
-  TrackingEnvironment one({clip}, config, 4 * kLanes, 2 * kLanes, 11),
-      two({clip}, config, 4 * kLanes, 2 * kLanes, 11);
+  TrackingEnvironment one({clip}, config, 4 * physics::kLanes, 2 * physics::kLanes, 11),
+      two({clip}, config, 4 * physics::kLanes, 2 * physics::kLanes, 11);
   EXPECT_EQ(drive(one, 48, 1), drive(two, 48, 2));
 }
 
 TEST(TrackingEnvironment, GoesOnBitIdenticallyAfterSaveAndLoad) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
-  TrackingEnvironment first({clip}, config, 2 * kLanes, kLanes, 12),
-      second({clip}, config, 2 * kLanes, kLanes, 13);
+  TrackingEnvironment first({clip}, config, 2 * physics::kLanes, physics::kLanes, 12),
+      second({clip}, config, 2 * physics::kLanes, physics::kLanes, 13);
   drive(first, 32, 1);
   Npz archive;
   first.save(archive, "e.");
-  second = TrackingEnvironment({clip}, config, 2 * kLanes, kLanes, 12);
+  second = TrackingEnvironment({clip}, config, 2 * physics::kLanes, physics::kLanes, 12);
   second.load(archive, "e.");
   EXPECT_EQ(drive(first, 32, 1, 32), drive(second, 32, 1, 32));
 }
@@ -55,12 +55,12 @@ TEST(TrackingEnvironment, RefusesTheStateOfOtherClipsOrCharacters) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
   const auto longer = make_tracking_clip(swaying_reference(120), config);
-  TrackingEnvironment saved({clip}, config, 2 * kLanes, kLanes, 12);
+  TrackingEnvironment saved({clip}, config, 2 * physics::kLanes, physics::kLanes, 12);
   Npz archive;
   saved.save(archive, "e.");
-  TrackingEnvironment of_more_frames({longer}, config, 2 * kLanes, kLanes, 12),
-      in_one_group({clip}, config, 2 * kLanes, 2 * kLanes, 12),
-      of_more({clip}, config, 3 * kLanes, kLanes, 12);
+  TrackingEnvironment of_more_frames({longer}, config, 2 * physics::kLanes, physics::kLanes, 12),
+      in_one_group({clip}, config, 2 * physics::kLanes, 2 * physics::kLanes, 12),
+      of_more({clip}, config, 3 * physics::kLanes, physics::kLanes, 12);
   for (TrackingEnvironment* other : {&of_more_frames, &in_one_group, &of_more})
     EXPECT_THROW(other->load(archive, "e."), DataError);
   archive.set("e.next_clip", NpyArray::scalar_int(7));
@@ -70,19 +70,19 @@ TEST(TrackingEnvironment, RefusesTheStateOfOtherClipsOrCharacters) {
 TEST(TrackingEnvironment, EndsEpisodesAtFallsAndAtTheClipsEnd) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(12), config);
-  TrackingEnvironment environment({clip}, config, kLanes, kLanes, 14);
-  StepResult result(kLanes, kStateSize);
+  TrackingEnvironment environment({clip}, config, physics::kLanes, physics::kLanes, 14);
+  StepResult result(physics::kLanes, kStateSize);
   bool truncated = false;
   for (int t = 0; t < 12; ++t) {
-    environment.step(0, nn::Matrix<float>::Zero(kLanes, kDofs), result);
+    environment.step(0, nn::Matrix<float>::Zero(physics::kLanes, kDofs), result);
     EXPECT_FALSE(result.terminated.any()) << "standing on the reference for 0.4 s is no fall";
     truncated = truncated || result.truncated.any();
   }
   EXPECT_TRUE(truncated);
 
   config.terminate_distance = 0.02;
-  TrackingEnvironment strict({clip}, config, kLanes, kLanes, 14);
-  strict.step(0, nn::Matrix<float>::Constant(kLanes, kDofs, 2.0F), result);
+  TrackingEnvironment strict({clip}, config, physics::kLanes, physics::kLanes, 14);
+  strict.step(0, nn::Matrix<float>::Constant(physics::kLanes, kDofs, 2.0F), result);
   EXPECT_TRUE(result.terminated.all());
   EXPECT_FALSE(result.truncated.any());
 }
@@ -95,12 +95,13 @@ TEST(TrackingEnvironment, ACharacterWhoseSimulationGoesWrongIsTerminatedAlone) {
   config.simulation.max_speed = 1.0;
   config.simulation.max_joint_speed = 6.0;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
-  TrackingEnvironment healthy({clip}, config, kLanes, kLanes, 16), ill({clip}, config, kLanes, kLanes, 16);
-  StepResult fine(kLanes, kStateSize), wrong(kLanes, kStateSize);
-  nn::Matrix<float> fine_states(kLanes, kStateSize), wrong_states(kLanes, kStateSize);
+  TrackingEnvironment healthy({clip}, config, physics::kLanes, physics::kLanes, 16),
+      ill({clip}, config, physics::kLanes, physics::kLanes, 16);
+  StepResult fine(physics::kLanes, kStateSize), wrong(physics::kLanes, kStateSize);
+  nn::Matrix<float> fine_states(physics::kLanes, kStateSize), wrong_states(physics::kLanes, kStateSize);
   const int victim = 2;
   for (int t = 0; t < 12; ++t) {
-    nn::Matrix<float> actions = nn::Matrix<float>::Constant(kLanes, kDofs, 0.02F);
+    nn::Matrix<float> actions = nn::Matrix<float>::Constant(physics::kLanes, kDofs, 0.02F);
     healthy.step(0, actions, fine);
     actions.row(victim).setConstant(2.0F);
     ill.step(0, actions, wrong);
@@ -111,7 +112,7 @@ TEST(TrackingEnvironment, ACharacterWhoseSimulationGoesWrongIsTerminatedAlone) {
     healthy.observe(0, fine_states);
     ill.observe(0, wrong_states);
     EXPECT_TRUE(wrong_states.allFinite()) << "the next episode starts from the reference";
-    for (int n = 0; n < kLanes; ++n) {
+    for (int n = 0; n < physics::kLanes; ++n) {
       if (n == victim) continue;
       EXPECT_EQ(wrong.reward[n], fine.reward[n]) << t << " " << n;
       EXPECT_FALSE(wrong.terminated[n]) << t << " " << n;
@@ -174,7 +175,7 @@ TEST(TrackingEnvironment, LearnsWhereItFalls) {
   TrackingConfig config;
   config.terminate_distance = 0.02;  // holds for a few steps only, wherever the character starts
   const auto clip = make_tracking_clip(swaying_reference(100), config);
-  TrackingEnvironment environment({clip}, config, 2 * kLanes, kLanes, 15);
+  TrackingEnvironment environment({clip}, config, 2 * physics::kLanes, physics::kLanes, 15);
   drive(environment, 32, 1);
   double fall_rate = 0.0;
   for (double rate : environment.fall_rates()[0]) fall_rate += rate;
@@ -182,7 +183,7 @@ TEST(TrackingEnvironment, LearnsWhereItFalls) {
   std::int64_t visits = 0;
   for (std::int64_t bin : environment.statistics().visits[0]) visits += bin;
   EXPECT_EQ(visits, environment.statistics().steps);
-  EXPECT_EQ(environment.statistics().steps, 16 * 2 * kLanes);
+  EXPECT_EQ(environment.statistics().steps, 16 * 2 * physics::kLanes);
 }
 
 /// Episodes that each character has begun. [group][character]
@@ -199,7 +200,7 @@ TEST(TrackingEnvironment, NamesTheCharactersThatMoveOnToAnotherClip) {
   TrackingConfig config;
   std::vector<std::shared_ptr<const TrackingClip>> clips;
   for (int k = 0; k < 5; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
-  TrackingEnvironment environment(clips, config, 4 * kLanes, 2 * kLanes, 3);
+  TrackingEnvironment environment(clips, config, 4 * physics::kLanes, 2 * physics::kLanes, 3);
   std::size_t moved = 0;
   for (int iteration = 0; iteration < 32; ++iteration) {
     auto expected = episodes_begun(environment);
@@ -209,12 +210,12 @@ TEST(TrackingEnvironment, NamesTheCharactersThatMoveOnToAnotherClip) {
     EXPECT_EQ(episodes_begun(environment), expected) << iteration;
     moved += named.size();
   }
-  EXPECT_EQ(moved, 2U * 4U * kLanes) << "every pack has its turn once in 16 iterations";
+  EXPECT_EQ(moved, 2U * 4U * physics::kLanes) << "every pack has its turn once in 16 iterations";
 }
 
 TEST(TrackingEnvironment, AStateThatLacksAnythingIsADataError) {
   const auto clip = make_tracking_clip(swaying_reference(30), {});
-  TrackingEnvironment environment({clip}, {}, kLanes, kLanes, 12);
+  TrackingEnvironment environment({clip}, {}, physics::kLanes, physics::kLanes, 12);
   Npz whole;
   environment.save(whole, "e.");
   for (const auto& [key, array] : whole.members()) {
@@ -229,50 +230,52 @@ TEST(TrackingEnvironment, AStateThatLacksAnythingIsADataError) {
 
 TEST(TrackingEnvironment, HasAsManyAgentsAsTheArrangementNames) {
   auto clip = std::make_shared<TrackingClip>(*make_tracking_clip(swaying_reference(24), {}));
-  EXPECT_EQ(TrackingEnvironment({clip}, {}, kLanes, kLanes, 5).agents(), 1);
+  EXPECT_EQ(TrackingEnvironment({clip}, {}, physics::kLanes, physics::kLanes, 5).agents(), 1);
   clip->arrangement.assign(24, 0);
   clip->arrangement.back() = 2;
-  EXPECT_EQ(TrackingEnvironment({clip}, {}, kLanes, kLanes, 5).agents(), 3);
+  EXPECT_EQ(TrackingEnvironment({clip}, {}, physics::kLanes, physics::kLanes, 5).agents(), 3);
 }
 
 TEST(TrackingEnvironment, EveryClipHasItsTurnWhereThereAreMoreThanPacks) {
   TrackingConfig config;
   std::vector<std::shared_ptr<const TrackingClip>> clips;
   for (int k = 0; k < 5; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
-  TrackingEnvironment environment(clips, config, 2 * kLanes, kLanes, 3);
+  TrackingEnvironment environment(clips, config, 2 * physics::kLanes, physics::kLanes, 3);
   List<std::int64_t> visits(5, 0);
-  StepResult result(kLanes, kStateSize);
+  StepResult result(physics::kLanes, kStateSize);
   for (int iteration = 0; iteration < 64; ++iteration) {
-    for (int g = 0; g < 2; ++g) environment.step(g, nn::Matrix<float>::Zero(kLanes, kDofs), result);
+    for (int g = 0; g < 2; ++g) environment.step(g, nn::Matrix<float>::Zero(physics::kLanes, kDofs), result);
     environment.end_iteration();
     for (int c = 0; c < 5; ++c)
       for (const std::int64_t n : environment.statistics().visits[c]) visits[c] += n;
   }
-  for (int c = 0; c < 5; ++c) EXPECT_GE(visits[c], 16 * kLanes) << "clip " << c;
+  for (int c = 0; c < 5; ++c) EXPECT_GE(visits[c], 16 * physics::kLanes) << "clip " << c;
 }
 
 TEST(TrackingEnvironment, SoftensTheRewardOfAHardMotionAndSharpensItAgain) {
   TrackingConfig config;
   config.reward_target = 0.999;  // nothing is good enough
-  TrackingEnvironment hard({make_tracking_clip(swaying_reference(24), config)}, config, kLanes, kLanes, 5);
-  StepResult result(kLanes, kStateSize);
+  TrackingEnvironment hard({make_tracking_clip(swaying_reference(24), config)}, config, physics::kLanes,
+                           physics::kLanes, 5);
+  StepResult result(physics::kLanes, kStateSize);
   for (int k = 0; k < 20; ++k) {
-    hard.step(0, nn::Matrix<float>::Constant(kLanes, kDofs, 0.05F), result);
+    hard.step(0, nn::Matrix<float>::Constant(physics::kLanes, kDofs, 0.05F), result);
     hard.end_iteration();
   }
   EXPECT_NEAR(hard.sharpness(), std::pow(1.01, -20), 1e-12);
   EXPECT_GT(hard.statistics().learned_reward, hard.statistics().reward);
   config.reward_target = 0.01;  // everything is
-  TrackingEnvironment easy({make_tracking_clip(swaying_reference(24), config)}, config, kLanes, kLanes, 5);
+  TrackingEnvironment easy({make_tracking_clip(swaying_reference(24), config)}, config, physics::kLanes,
+                           physics::kLanes, 5);
   Npz archive;
   hard.save(archive, "e.");
   easy.load(archive, "e.");
   for (int k = 0; k < 30; ++k) {
-    easy.step(0, nn::Matrix<float>::Zero(kLanes, kDofs), result);
+    easy.step(0, nn::Matrix<float>::Zero(physics::kLanes, kDofs), result);
     easy.end_iteration();
   }
   EXPECT_EQ(easy.sharpness(), 1.0);
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -6,7 +6,7 @@
 #include "rl/tracking/tracking_fixture.h"
 #include "rl/trainer.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 constexpr Course kCourse = {.seed = 1, .falling_samples = 2'000'000};
@@ -19,7 +19,7 @@ std::shared_ptr<const TrackingClip> halved_clip(int frames) {
 }
 
 TEST(JointTraining, EveryFrameIsValuedByTheCriticOfTheOptionThatActsThere) {
-  TrackingEnvironment environment({halved_clip(24)}, {}, 2 * kLanes, kLanes, 5);
+  TrackingEnvironment environment({halved_clip(24)}, {}, 2 * physics::kLanes, physics::kLanes, 5);
   List<Agent> agents(2, agent_that_does(0.0F));
   const float value[] = {3.0F, 11.0F};
   for (int k = 0; k < 2; ++k) {
@@ -54,7 +54,7 @@ TEST(JointTraining, AnOptionLearnsFromItsOwnFramesAlone) {
   // Everything belongs to option 1; option 0 is there and never acts.
   auto clip = std::make_shared<TrackingClip>(*make_tracking_clip(swaying_reference(24), {}));
   clip->arrangement.assign(24, 1);
-  TrackingEnvironment environment({clip}, {}, 2 * kLanes, kLanes, 5);
+  TrackingEnvironment environment({clip}, {}, 2 * physics::kLanes, physics::kLanes, 5);
   const Agent start = agent_that_does(0.0F);
   PpoConfig config = ppo_for_tests();
   config.horizon = 16;
@@ -73,7 +73,7 @@ TEST(JointTraining, IsBitIdenticalForOneAndTwoThreadsAndAfterSaveAndLoad) {
   config.minibatch = 128;
   const Agent start = agent_that_does(0.0F);
   const auto make_environment = [] {
-    return TrackingEnvironment({halved_clip(24)}, {}, 2 * kLanes, kLanes, 5);
+    return TrackingEnvironment({halved_clip(24)}, {}, 2 * physics::kLanes, physics::kLanes, 5);
   };
   TrackingEnvironment one = make_environment(), two = make_environment(), later = make_environment();
   PpoTrainer<TrackingEnvironment> first(config, kCourse, {start, start}, one),
@@ -97,4 +97,4 @@ TEST(JointTraining, IsBitIdenticalForOneAndTwoThreadsAndAfterSaveAndLoad) {
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -6,7 +6,7 @@
 
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 TEST(TrackingPack, ActionHas55EntriesAndZeroResidualAimsAtTheReference) {
@@ -14,8 +14,8 @@ TEST(TrackingPack, ActionHas55EntriesAndZeroResidualAimsAtTheReference) {
   const auto clip = make_tracking_clip(swaying_reference(30), config);
   const std::array<float, 55> zero{};
   TrackingPack pack(clip, config);
-  Data<TrackingPack::P> scratch;
-  for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, zero.data());
+  physics::Data<TrackingPack::P> scratch;
+  for (int lane = 0; lane < physics::kLanes; ++lane) pack.act(lane, zero.data());
   pack.advance(scratch);
   EXPECT_EQ(pack.frame(0), 1);
   EXPECT_LT(pack.worst_distance(0), 0.01) << "one step of PD control towards the reference stays beside it";
@@ -27,11 +27,11 @@ TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
   absolute.action_mode = ActionMode::kAbsolute;
   const auto clip = make_tracking_clip(swaying_reference(30), residual);
   TrackingPack a(clip, absolute), r(clip, residual);
-  Data<TrackingPack::P> scratch;
+  physics::Data<TrackingPack::P> scratch;
   const std::array<float, kDofs> zero{};
   for (int t = 0; t < 5; ++t) {
     Array<float, kDofs> target{};
-    const ReferenceFrame& next = clip->poses[t + 1].frame;
+    const motion::ReferenceFrame& next = clip->poses[t + 1].frame;
     for (int body = 1; body < kBodies; ++body) {
       const Vector3d v = log_map(next.q[body]);
       const int dof = first_dof(body);
@@ -40,7 +40,7 @@ TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
       else
         for (int k = 0; k < 3; ++k) target[dof + k] = static_cast<float>(v[k]);
     }
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < physics::kLanes; ++lane) {
       a.act(lane, target.data());
       r.act(lane, zero.data());
     }
@@ -59,8 +59,8 @@ TEST(TrackingPack, NumbersThatAreNoneInAnActionCountAsZero) {
   none.fill(std::numeric_limits<float>::quiet_NaN());
   none[3] = std::numeric_limits<float>::infinity();
   TrackingPack with(clip, config), without(clip, config);
-  Data<TrackingPack::P> scratch;
-  for (int lane = 0; lane < kLanes; ++lane) {
+  physics::Data<TrackingPack::P> scratch;
+  for (int lane = 0; lane < physics::kLanes; ++lane) {
     with.act(lane, none.data());
     without.act(lane, zero.data());
   }
@@ -76,10 +76,10 @@ TEST(TrackingPack, LanesOnDifferentFramesDoNotDisturbEachOther) {
   std::array<float, kDofs> violent;
   violent.fill(2.0F);
   TrackingPack alone(clip, config), mixed(clip, config);
-  Data<TrackingPack::P> scratch;
-  for (int lane = 1; lane < kLanes; ++lane) mixed.reset(lane, lane);
+  physics::Data<TrackingPack::P> scratch;
+  for (int lane = 1; lane < physics::kLanes; ++lane) mixed.reset(lane, lane);
   for (int t = 0; t < 10; ++t) {
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < physics::kLanes; ++lane) {
       alone.act(lane, zero.data());
       mixed.act(lane, lane == 0 ? zero.data() : violent.data());
     }
@@ -92,4 +92,4 @@ TEST(TrackingPack, LanesOnDifferentFramesDoNotDisturbEachOther) {
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -8,7 +8,7 @@
 #include "motion/synth/noise.h"
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 TEST(TrackingReward, IsOneOnTheReference) {
@@ -29,18 +29,18 @@ TEST(TrackingReward, TermsFollowTheirClosedForms) {
   EXPECT_NEAR(shifted.term[0], std::exp(-w.root_position * 0.0025), 1e-9);
   EXPECT_NEAR(shifted.total, shifted.term[0], 1e-9) << "a shift must not touch any other term";
 
-  ReferenceFrame bent = pose.frame;
+  motion::ReferenceFrame bent = pose.frame;
   bent.q[kHead] = bent.q[kHead] * exp_map(Vector3d(0.2, 0, 0));  // moves no end effector
   const Reward nod = tracking_reward(w, pose, pose_of(character, bent), nullptr);
   EXPECT_NEAR(nod.term[2], std::exp(-w.pose * 0.04 / 21.0), 1e-9);
   EXPECT_NEAR(nod.total, nod.term[2], 1e-9);
 
-  ReferenceFrame faster = pose.frame;
+  motion::ReferenceFrame faster = pose.frame;
   faster.omega[kNeck] += Vector3d(3, 0, 4);
   const Reward fast = tracking_reward(w, pose, pose_of(character, faster), nullptr);
   EXPECT_NEAR(fast.term[3], std::exp(-w.velocity * 25.0 / 21.0), 1e-9);
 
-  ReferenceFrame turned = pose.frame;
+  motion::ReferenceFrame turned = pose.frame;
   turned.q[0] = rotation_z(0.3) * turned.q[0];
   EXPECT_NEAR(tracking_reward(w, pose, pose_of(character, turned), nullptr).term[1],
               std::exp(-w.root_rotation * 0.09), 1e-9);
@@ -51,8 +51,8 @@ TEST(TrackingReward, TermsFollowTheirClosedForms) {
               1e-9);
 }
 
-Keypoints camera_and_points(const Pose& pose) {
-  Keypoints k;
+motion::Keypoints camera_and_points(const Pose& pose) {
+  motion::Keypoints k;
   k.intrinsics << 1000, 0, 500, 0, 1000, 500, 0, 0, 1;
   Eigen::Matrix4d e = Eigen::Matrix4d::Identity();  // looks along world +y from y = −5
   e.topLeftCorner<3, 3>() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -78,9 +78,9 @@ TEST(TrackingReward, ProjectionTermIsExactlyOneWithoutKeypointsAndOnThem) {
 TEST(TrackingReward, ProjectionErrorIsMeasuredInBoxHeights) {
   const Character character = make_character();
   const Pose pose = pose_of(character, swaying_reference(2).frames[0]);
-  Keypoints keypoints = camera_and_points(pose);
+  motion::Keypoints keypoints = camera_and_points(pose);
   for (double zoom : {1.0, 3.0}) {  // the image's resolution must not matter
-    Keypoints scaled = keypoints;
+    motion::Keypoints scaled = keypoints;
     scaled.intrinsics.topRows<2>() *= zoom;
     double box = match_keypoints(keypoints)[0].box_height;
     for (auto& uvc : scaled.uvc[0]) uvc.head<2>() = zoom * (uvc.head<2>() + Eigen::Vector2d(0.02 * box, 0.0));
@@ -93,16 +93,16 @@ TEST(TrackingReward, ProjectionErrorIsMeasuredInBoxHeights) {
 TEST(TrackingReward, KeypointsWithoutConfidenceDoNotCount) {
   const Character character = make_character();
   const Pose pose = pose_of(character, swaying_reference(2).frames[0]);
-  Keypoints keypoints = camera_and_points(pose);
+  motion::Keypoints keypoints = camera_and_points(pose);
   keypoints.uvc[0][kLeftWrist] = {1e6, -1e6, 0.0};
   const auto frames = match_keypoints(keypoints);
   EXPECT_NEAR(tracking_reward({}, pose, pose, &frames[0]).term[5], 1.0, 1e-12);
 }
 
 /// What a detector of COCO-17 reports of `points`: its own order, and a face that no body of ours stands for.
-Keypoints as_coco17(const Keypoints& points) {
-  Keypoints coco = points;
-  coco.names = keypoint_names(KeypointSet::kCoco17);
+motion::Keypoints as_coco17(const motion::Keypoints& points) {
+  motion::Keypoints coco = points;
+  coco.names = motion::keypoint_names(motion::KeypointSet::kCoco17);
   coco.uvc.assign(points.uvc.size(), {});
   for (std::size_t t = 0; t < points.uvc.size(); ++t)
     for (const std::string& name : coco.names) {
@@ -116,14 +116,14 @@ Keypoints as_coco17(const Keypoints& points) {
 TEST(TrackingReward, Coco17IsComparedJointByJointWithoutTheFace) {
   const Character character = make_character();
   const Pose pose = pose_of(character, swaying_reference(2).frames[0]);
-  const Keypoints coco = as_coco17(camera_and_points(pose));
+  const motion::Keypoints coco = as_coco17(camera_and_points(pose));
   ASSERT_EQ(coco.names.size(), 17u);
   const auto frames = match_keypoints(coco);
   ASSERT_EQ(frames[0].detections.size(), 12u);
   const RewardWeights w;
   EXPECT_NEAR(tracking_reward(w, pose, pose, &frames[0]).term[5], 1.0, 1e-12);
   for (std::size_t k = 5; k < 17; ++k) {  // one joint a tenth of the box off counts for a twelfth
-    Keypoints off = coco;
+    motion::Keypoints off = coco;
     off.uvc[0][k].x() += 0.1 * frames[0].box_height;
     const auto moved_frames = match_keypoints(off);
     EXPECT_NEAR(tracking_reward(w, pose, pose, &moved_frames[0]).term[5],
@@ -133,4 +133,4 @@ TEST(TrackingReward, Coco17IsComparedJointByJointWithoutTheFace) {
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

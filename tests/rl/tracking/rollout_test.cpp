@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 TEST(TrackingRollout, FollowsAStandingReferenceAndReportsTheForcesThatCarryIt) {
@@ -26,4 +26,4 @@ TEST(TrackingRollout, FollowsAStandingReferenceAndReportsTheForcesThatCarryIt) {
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -7,7 +7,7 @@
 
 #include "rl/tracking/tracking_fixture.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 std::array<float, kStateSize> state_of(const Pose& reference, const Pose& simulated, double beta0 = 0.0) {
@@ -102,4 +102,4 @@ TEST(EncodedState, WithAPerfectDecoderItIsTheRawStateWithACodeForThePose) {
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

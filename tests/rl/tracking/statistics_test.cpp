@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 namespace {
 
 TEST(StartWeights, AreAProbabilityThatFavoursWhatLeadsToFalls) {
@@ -20,4 +20,4 @@ TEST(StartWeights, AreAProbabilityThatFavoursWhatLeadsToFalls) {
 }
 
 }  // namespace
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -8,10 +8,10 @@
 #include "rl/policy.h"
 #include "rl/tracking/pack.h"
 
-namespace mimicx::rl {
+namespace mimicx::rl::tracking {
 
-inline ReferenceFrame random_frame(Random& random, double size) {
-  ReferenceFrame f;
+inline motion::ReferenceFrame random_frame(Random& random, double size) {
+  motion::ReferenceFrame f;
   const auto vec = [&](double scale) {
     return Vector3d(scale * random.normal(), scale * random.normal(), scale * random.normal());
   };
@@ -30,13 +30,13 @@ inline ReferenceFrame random_frame(Random& random, double size) {
   return f;
 }
 
-inline Pose pose_of(const Character& character, const ReferenceFrame& frame) {
+inline Pose pose_of(const Character& character, const motion::ReferenceFrame& frame) {
   return {frame, forward_kinematics(character, frame.p_root, frame.q).p_WB};
 }
 
 /// The same pose, turned by `angle` about the vertical and moved by `offset` on the floor.
 inline Pose moved(const Character& character, const Pose& pose, double angle, const Eigen::Vector2d& offset) {
-  ReferenceFrame f = pose.frame;
+  motion::ReferenceFrame f = pose.frame;
   const Quaterniond turn = rotation_z(angle);
   f.p_root = turn * f.p_root + Vector3d(offset.x(), offset.y(), 0.0);
   f.v_root = turn * f.v_root;
@@ -45,13 +45,13 @@ inline Pose moved(const Character& character, const Pose& pose, double angle, co
 }
 
 /// Stands with bent knees and arms down, swaying; `frames` at 30 fps.
-inline Reference swaying_reference(int frames) {
-  Reference reference;
+inline motion::Reference swaying_reference(int frames) {
+  motion::Reference reference;
   reference.name = "sway";
   reference.character = make_character();
   const double knee = 0.3;
   for (int t = 0; t < frames; ++t) {
-    ReferenceFrame f;
+    motion::ReferenceFrame f;
     const double phase = 2.0 * 3.14159265358979 * t / 60.0;
     for (auto& q : f.q) q = Quaterniond::Identity();
     f.q[0] = exp_map(Vector3d(std::acos(0.0), 0, 0));
@@ -65,7 +65,7 @@ inline Reference swaying_reference(int frames) {
     f.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.2 - 0.3 * std::sin(phase)));
     reference.frames.push_back(f);
   }
-  differentiate(reference.frames, reference.fps);
+  motion::differentiate(reference.frames, reference.fps);
   for (const auto& f : reference.frames)
     reference.poses.push_back(forward_kinematics(reference.character, f.p_root, f.q));
   reference.flagged.assign(static_cast<std::size_t>(frames), false);
@@ -84,4 +84,4 @@ inline Agent agent_that_does(float action, int state_size = kStateSize) {
   return agent;
 }
 
-}  // namespace mimicx::rl
+}  // namespace mimicx::rl::tracking

@@ -5,7 +5,7 @@
 #include "motion/synth/gait.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 constexpr int kBeats = 4;  ///< of a figure
@@ -151,4 +151,4 @@ PerFrame<PlanFrame> plan_dance(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

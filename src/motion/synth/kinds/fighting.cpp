@@ -4,7 +4,7 @@
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 /// Height with the straighter knee at `knee_degrees`, the centre of mass over the centre of pressure.
@@ -221,4 +221,4 @@ PerFrame<PlanFrame> plan_lunge(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

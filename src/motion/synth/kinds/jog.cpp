@@ -5,7 +5,7 @@
 #include "motion/synth/gait.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 /// One foot on the floor. Times fall on frames: the discrete motion is then exactly ballistic in flight.
@@ -169,4 +169,4 @@ PerFrame<PlanFrame> plan_jog(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

@@ -4,7 +4,7 @@
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 /// A jump in numbers: times in s, heights of the centre of mass in m.
@@ -133,4 +133,4 @@ PerFrame<PlanFrame> plan_jump(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

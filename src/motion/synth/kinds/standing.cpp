@@ -5,7 +5,7 @@
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 /// Rises from 0 to 1 over the first and falls back over the last `ramp` seconds.
@@ -148,4 +148,4 @@ PerFrame<PlanFrame> plan_bow(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth

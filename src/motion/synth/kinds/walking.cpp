@@ -4,7 +4,7 @@
 #include "motion/synth/gait.h"
 #include "motion/synth/kinds.h"
 
-namespace mimicx {
+namespace mimicx::motion::synth {
 namespace {
 
 constexpr double kSettle = 0.55;     ///< from standing to the first step and back, s
@@ -120,4 +120,4 @@ PerFrame<PlanFrame> plan_turn_in_place(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace mimicx
+}  // namespace mimicx::motion::synth
