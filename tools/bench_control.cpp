@@ -33,7 +33,7 @@ physics::State<double> swaying(int frame) {
   x.v_root = physics::zero3<double>();
   x.p_root = {0.0, 0.0, 0.951 - 0.784 * (1.0 - std::cos(0.5 * knee))};
   const auto turn = [&](int body, const Vector3d& r) {
-    x.q[static_cast<std::size_t>(body)] = physics::from_eigen(Quaterniond(exp_map(r)));
+    x.q[body] = physics::from_eigen(Quaterniond(exp_map(r)));
   };
   turn(kPelvis, {std::numbers::pi / 2, 0, 0});
   for (int side = 0; side < 2; ++side) {
@@ -88,7 +88,7 @@ void mujoco_derivatives(benchmark::State& timer) {
   const physics::State<double> x = swaying(0);
   mujoco.set_root(physics::to_eigen(x.p_root), physics::to_eigen(x.q[0]), Vector3d::Zero(), Vector3d::Zero());
   for (int i = 1; i < kBodies; ++i) {
-    const Quaterniond q = physics::to_eigen(x.q[static_cast<std::size_t>(i)]);
+    const Quaterniond q = physics::to_eigen(x.q[i]);
     mujoco.set_target(i, q);
     mujoco.set_joint(i, q, Vector3d::Zero());
   }
@@ -142,7 +142,7 @@ void register_all(Problem& hard, Problem& soft) {
   derivatives("smoothed", hard, {control::Derivatives::kSmoothed, {}});
   add("cost", [&](benchmark::State& s) {
     per_frame(s, [&](int t) {
-      const physics::State<double>& x = hard.plan.x[static_cast<std::size_t>(t)];
+      const physics::State<double>& x = hard.plan.x[t];
       benchmark::DoNotOptimize(control::state_quadratic(hard.system, hard.cost, t, x));
     });
   });

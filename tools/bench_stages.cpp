@@ -144,7 +144,7 @@ double seconds_per_rollout(int threads) {
   using P = physics::Pack<physics::kLanes>;
   double best = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 2 * kRepetitions; ++repetition) {
-    List<double> spent(static_cast<std::size_t>(threads));
+    List<double> spent(threads);
     parallel_for(threads, threads, [&](int chunk) {
       const auto s = falling<P>();
       const double start = thread_seconds();

@@ -170,7 +170,7 @@ void tell_frame(const pipeline::options::ArrangedClip& arranged,
   row<float>("a_t [55], rad: left hip, right hip", action, 6);
   const int knee = first_dof(kLeftKnee);
   const double angle = log_map(clip.poses[kFrame + 1].frame.q[kLeftKnee]).dot(hinge_axis(kLeftKnee));
-  const double residual = action[static_cast<std::size_t>(knee)];
+  const double residual = action[knee];
   std::printf("  target of the left knee: reference %.3f + action[%d] %.3f = %.3f rad\n", angle, knee,
               residual, angle + residual);
 

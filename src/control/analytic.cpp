@@ -55,17 +55,16 @@ Target<double> target_at(const End& from, const End& to, double s, TargetDerivat
 /// The nominal motion, and the tables of its steps.
 template <class Real>
 void roll_out(const Model<double>& model, const ControlFrame& frame, Data<double>& data,
-              std::vector<SubstepTable<Real>>& tables, State<double>& state, bool& wrong) {
+              List<SubstepTable<Real>>& tables, State<double>& state, bool& wrong) {
   const End from = end_of(frame.from, frame.from_residual), to = end_of(frame.to, frame.to_residual);
   TargetDerivative turns;
   state = frame.start;
   wrong = false;
-  tables.resize(static_cast<std::size_t>(frame.substeps));
+  tables.resize(frame.substeps);
   for (int k = 1; k <= frame.substeps; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(frame.substeps);
     const Target<double> target = target_at(from, to, share, turns);
-    if (tabulate_step(model, target, turns, frame.help, state, data, tables[static_cast<std::size_t>(k - 1)]))
-      wrong = true;
+    if (tabulate_step(model, target, turns, frame.help, state, data, tables[k - 1])) wrong = true;
   }
 }
 
@@ -85,7 +84,7 @@ void seed(int row, int lane, StateAdjoint<T>& x) {
   const auto half = [&](int k, Vec3<T>& root, PerBody<Vec3<T>>& joints) {
     if (k < 3) return set_lane(root, lane, Vector3d::Unit(k));
     if (k < 6) return set_lane(joints[0], lane, Vector3d::Unit(k - 3));
-    const Dof& joint = dofs()[static_cast<std::size_t>(k - 6)];
+    const Dof& joint = dofs()[k - 6];
     set_lane(joints[joint.body], lane, joint.axis);
   };
   if (row < kPositions)

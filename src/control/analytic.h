@@ -49,7 +49,7 @@ struct FrameDerivative {
 template <class T>
 struct FrameScratch {
   Data<double> data;
-  std::vector<SubstepTable<RealOf<T>>> substeps;
+  List<SubstepTable<RealOf<T>>> substeps;
   AdjointData<T> adjoint;
 };
 

@@ -51,9 +51,10 @@ Vector3d against_free_fall(const Model<double>& model, const Vec3<double>& a) {
 
 /// D of the wrench of one contact, docs/physics.md §4, (8), added to the rows of `wrench`.
 void add_contact(const Model<double>& model, const Data<double>& d, const GroundContact<double>& c,
-                 const Vector3d& v_lin, const Accelerations* before, Eigen::Matrix<double, 6, 16>& wrench) {
+                 const Vector3d& velocity_used, const Accelerations* before,
+                 Eigen::Matrix<double, 6, 16>& wrench) {
   const SimulationConfig& o = model.config;
-  const ContactPoint& contact = model.contacts[static_cast<std::size_t>(c.index)];
+  const ContactPoint& contact = model.contacts[c.index];
   const int i = contact.body;
   const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;
   const Vector3d arm = to_eigen(c.arm);
@@ -72,12 +73,13 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
     at.middleCols<3>(kAlpha) = -dt * skew(arm);
     at.middleCols<3>(kAcceleration) = dt * Matrix3d::Identity();
   }
-  const double slip_2 = v_lin.head<2>().squaredNorm() + o.slip_speed * o.slip_speed;
-  const double f_end = o.ground_stiffness * c.depth - damping * v_lin.z();
+  const double slip_2 = velocity_used.head<2>().squaredNorm() + o.slip_speed * o.slip_speed;
+  const double f_end = o.ground_stiffness * c.depth - damping * velocity_used.z();
   const double c_t = o.friction * f_end / std::sqrt(slip_2);
   const Row df_end = o.ground_stiffness * depth - damping * at.row(2);
   // docs/control_derivatives.md §3, (7)
-  const Row dc_t = (c_t / f_end) * df_end - (c_t / slip_2) * (v_lin.x() * at.row(0) + v_lin.y() * at.row(1));
+  const Row dc_t = (c_t / f_end) * df_end -
+                   (c_t / slip_2) * (velocity_used.x() * at.row(0) + velocity_used.y() * at.row(1));
 
   const Vector3d v_end = to_eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
   Rows force;
@@ -95,19 +97,19 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
 }  // namespace
 
 void velocities_at_start(const Data<double>& d, ContactVelocities& out) {
-  for (int k = 0; k < d.ground_count; ++k) out[k] = d.ground[static_cast<std::size_t>(k)].velocity;
+  for (int k = 0; k < d.ground_count; ++k) out[k] = d.ground[k].velocity;
 }
 
 void predicted_velocities(const Model<double>& model, const Data<double>& d, ContactVelocities& out) {
   for (int k = 0; k < d.ground_count; ++k) {
-    const GroundContact<double>& c = d.ground[static_cast<std::size_t>(k)];
+    const GroundContact<double>& c = d.ground[k];
     out[k] = add_scaled(c.velocity, model.dt, point_acceleration(model, c, d));
   }
 }
 
 template <class Real>
 void tabulate_floor(const Model<double>& model, const Data<double>& d, const ContactVelocities& linearised,
-                    const Accelerations* before, std::vector<FloorTable<Real>>& out) {
+                    const Accelerations* before, List<FloorTable<Real>>& out) {
   out.clear();
   Eigen::Matrix<double, 6, 16> wrench;
   const auto finish = [&](int body) {
@@ -118,9 +120,9 @@ void tabulate_floor(const Model<double>& model, const Data<double>& d, const Con
   };
   int body = -1;  // contacts are sorted by body
   for (int k = 0; k < d.ground_count; ++k) {
-    const GroundContact<double>& c = d.ground[static_cast<std::size_t>(k)];
+    const GroundContact<double>& c = d.ground[k];
     if (!(c.W_n > 0.0)) continue;  // does not push
-    const int on = model.contacts[static_cast<std::size_t>(c.index)].body;
+    const int on = model.contacts[c.index].body;
     if (on != body) {
       if (body >= 0) finish(body);
       wrench.setZero();
@@ -132,8 +134,8 @@ void tabulate_floor(const Model<double>& model, const Data<double>& d, const Con
 }
 
 template void tabulate_floor(const Model<double>&, const Data<double>&, const ContactVelocities&,
-                             const Accelerations*, std::vector<FloorTable<float>>&);
+                             const Accelerations*, List<FloorTable<float>>&);
 template void tabulate_floor(const Model<double>&, const Data<double>&, const ContactVelocities&,
-                             const Accelerations*, std::vector<FloorTable<double>>&);
+                             const Accelerations*, List<FloorTable<double>>&);
 
 }  // namespace mimicx::control

@@ -1,8 +1,6 @@
 /// How the forces of floor contacts change, for one solve of a step.     docs/control_derivatives.md §3
 #pragma once
 
-#include <vector>
-
 #include "control/analytic_tables.h"
 
 namespace mimicx::control {
@@ -25,6 +23,6 @@ struct Accelerations {
 /// @param before  accelerations at which the contacts were linearised; null in the first solve
 template <class Real>
 void tabulate_floor(const Model<double>& model, const Data<double>& d, const ContactVelocities& linearised,
-                    const Accelerations* before, std::vector<FloorTable<Real>>& out);
+                    const Accelerations* before, List<FloorTable<Real>>& out);
 
 }  // namespace mimicx::control

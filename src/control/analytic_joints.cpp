@@ -71,7 +71,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
 
 template <class Real>
 void tabulate_saturated(const Model<double>& model, const Data<double>& d, const PerBody<bool>& kept,
-                        std::vector<SaturatedTable<Real>>& out) {
+                        List<SaturatedTable<Real>>& out) {
   out.clear();
   for (int i = 1; i < kBodies; ++i) {
     if (!d.saturated[i]) continue;
@@ -100,7 +100,7 @@ void tabulate_integration(const Model<double>& model, const State<double>& state
   template void tabulate_joints(const Model<double>&, const State<double>&, const Target<double>&,  \
                                 const TargetDerivative&, const Data<double>&, SubstepTable<Real>&); \
   template void tabulate_saturated(const Model<double>&, const Data<double>&, const PerBody<bool>&, \
-                                   std::vector<SaturatedTable<Real>>&);                             \
+                                   List<SaturatedTable<Real>>&);                                    \
   template void tabulate_integration(const Model<double>&, const State<double>&, SubstepTable<Real>&);
 
 MIMICX_INSTANTIATE(float)

@@ -15,7 +15,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
 /// others have just been given one along the law at the accelerations in `d`.
 template <class Real>
 void tabulate_saturated(const Model<double>& model, const Data<double>& d, const PerBody<bool>& kept,
-                        std::vector<SaturatedTable<Real>>& out);
+                        List<SaturatedTable<Real>>& out);
 
 /// Rotations after the step. @param state  after the step
 template <class Real>

@@ -20,7 +20,7 @@ Axis axis_of(const Model<double>& model, const Data<double>& d, int body) {
 /// `closest_on_segments` line by line. The lengths of u and w do not change.
 struct Closest {
   double s, t;
-  std::array<double, 3> ds{}, dt{};
+  Array<double, 3> ds{}, dt{};
 };
 Closest closest(const Vector3d& u, const Vector3d& w, const Vector3d& r) {
   constexpr double kTiny = 1e-9;
@@ -89,28 +89,30 @@ bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i
   if (!(push > 0.0)) return false;
   const Vector3d f = push * n;
 
-  const Mover mi(0, w_i), mj(12, w_j);
-  const Rows du = cross(mi.theta, a.along), dw = cross(mj.theta, b.along);
-  const Rows dr = mi.p + cross(mi.theta, a.start) - mj.p - cross(mj.theta, b.start);
+  const Mover move_i(0, w_i), move_j(12, w_j);
+  const Rows du = cross(move_i.theta, a.along), dw = cross(move_j.theta, b.along);
+  const Rows dr = move_i.p + cross(move_i.theta, a.start) - move_j.p - cross(move_j.theta, b.start);
   const Row u_w = b.along.transpose() * du + a.along.transpose() * dw;
   const Row w_r = apart.transpose() * dw + b.along.transpose() * dr;
   const Row u_r = apart.transpose() * du + a.along.transpose() * dr;
   const Row ds = c.ds[0] * u_w + c.ds[1] * w_r + c.ds[2] * u_r,
             dt = c.dt[0] * u_w + c.dt[1] * w_r + c.dt[2] * u_r;
-  const Rows don_i = mi.p + cross(mi.theta, on_i) + a.along * ds;
-  const Rows don_j = mj.p + cross(mj.theta, on_j) + b.along * dt;
+  const Rows don_i = move_i.p + cross(move_i.theta, on_i) + a.along * ds;
+  const Rows don_j = move_j.p + cross(move_j.theta, on_j) + b.along * dt;
   const Row ddistance = n.transpose() * (don_i - don_j);
   const Rows dn = (don_i - don_j - n * ddistance) / distance;
   const Rows dpoint = don_j + reach * dn + 0.5 * n * ddistance;
-  const Rows darm_i = dpoint - mi.p, darm_j = dpoint - mj.p;
-  const Rows dv =
-      (mi.v + cross(mi.w, arm_i) + cross(w_i, darm_i)) - (mj.v + cross(mj.w, arm_j) + cross(w_j, darm_j));
+  const Rows darm_i = dpoint - move_i.p, darm_j = dpoint - move_j.p;
+  const Rows dv = (move_i.v + cross(move_i.w, arm_i) + cross(w_i, darm_i)) -
+                  (move_j.v + cross(move_j.w, arm_j) + cross(w_j, darm_j));
   const Row dpush = -k * ddistance - damping * (n.transpose() * dv + v.transpose() * dn);
   const Rows df = n * dpush + push * dn;
-  wrench.middleRows<3>(0) = cross(darm_i, f) + cross(arm_i, df) - cross(mi.theta, Vector3d(arm_i.cross(f)));
-  wrench.middleRows<3>(3) = df - cross(mi.theta, f);
-  wrench.middleRows<3>(6) = cross(mj.theta, Vector3d(arm_j.cross(f))) - cross(darm_j, f) - cross(arm_j, df);
-  wrench.middleRows<3>(9) = cross(mj.theta, f) - df;
+  wrench.middleRows<3>(0) =
+      cross(darm_i, f) + cross(arm_i, df) - cross(move_i.theta, Vector3d(arm_i.cross(f)));
+  wrench.middleRows<3>(3) = df - cross(move_i.theta, f);
+  wrench.middleRows<3>(6) =
+      cross(move_j.theta, Vector3d(arm_j.cross(f))) - cross(darm_j, f) - cross(arm_j, df);
+  wrench.middleRows<3>(9) = cross(move_j.theta, f) - df;
   return true;
 }
 
@@ -118,7 +120,7 @@ bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i
 
 template <class Real>
 void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
-                           std::vector<SelfPairTable<Real>>& out) {
+                           List<SelfPairTable<Real>>& out) {
   out.clear();
   if (!model.config.self_contact) return;
   for (const auto& pair : model.self_pairs) {
@@ -138,9 +140,7 @@ void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
   }
 }
 
-template void tabulate_self_contact(const Model<double>&, const Data<double>&,
-                                    std::vector<SelfPairTable<float>>&);
-template void tabulate_self_contact(const Model<double>&, const Data<double>&,
-                                    std::vector<SelfPairTable<double>>&);
+template void tabulate_self_contact(const Model<double>&, const Data<double>&, List<SelfPairTable<float>>&);
+template void tabulate_self_contact(const Model<double>&, const Data<double>&, List<SelfPairTable<double>>&);
 
 }  // namespace mimicx::control

@@ -110,7 +110,7 @@ struct Solves {
     tabulate_floor(model, d, linearised, first ? nullptr : &before, table.floor);
     table.wanted.fill(true);
     if (first) return;
-    auto& wanted = out.solves[static_cast<std::size_t>(out.solve_count - 2)].wanted;
+    auto& wanted = out.solves[out.solve_count - 2].wanted;
     wanted.fill(false);
     for (const FloorTable<Real>& floor : table.floor) mark(floor.body, wanted);
     for (const SaturatedTable<Real>& joint : table.saturated)
@@ -119,7 +119,7 @@ struct Solves {
 
   /// The table that the next solve will fill.
   SolveTable<Real>& next() {
-    const auto k = static_cast<std::size_t>(out.solve_count);
+    const int k = out.solve_count;
     if (k == out.solves.size()) out.solves.emplace_back();
     return out.solves[k];
   }

@@ -8,8 +8,7 @@
 /// computed in double (analytic_step.h) and kept as Real, the scalar of the rows' lanes.
 #pragma once
 
-#include <vector>
-
+#include "core/containers.h"
 #include "core/so3.h"
 #include "physics/data.h"
 
@@ -86,8 +85,8 @@ struct SolveTable {
   PerBody<SolveBodyTable<Real>> body;
   Sym3<Real> root_C_inv, root_A_inv;  ///< of the root: C⁻¹; Schur complement's inverse
   Mat3<Real> root_M;                  ///< C⁻¹ Bᵀ
-  std::vector<FloorTable<Real>> floor;
-  std::vector<SaturatedTable<Real>> saturated;
+  List<FloorTable<Real>> floor;
+  List<SaturatedTable<Real>> saturated;
   PerBody<bool> wanted;  ///< bodies whose accelerations the next solve or the step asks for
 };
 
@@ -97,13 +96,13 @@ struct SubstepTable {
   Real dt;
   PerBody<BodyTable<Real>> body;
   Array<Vec3<Real>, kDofs> drive_from, drive_to;  ///< torque by residual of the old and the new target
-  std::vector<LawTable<Real>> law;
-  std::vector<SelfPairTable<Real>> pairs;
+  List<LawTable<Real>> law;
+  List<SelfPairTable<Real>> pairs;
   Vec3<Real> help_n, help_f;  ///< external wrench on the pelvis
-  std::vector<SolveTable<Real>> solves;
+  List<SolveTable<Real>> solves;
   int solve_count;  ///< entries of `solves` in use; the others keep their memory
 
-  const SolveTable<Real>& solve(int k) const { return solves[static_cast<std::size_t>(k)]; }
+  const SolveTable<Real>& solve(int k) const { return solves[k]; }
 };
 
 /// How a target of one step turns, in the child's frame, with the residual rotations of the frame's old and

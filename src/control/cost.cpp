@@ -11,10 +11,9 @@ Eigen::MatrixXd position_jacobian(const BodyPoses& poses) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3 * kBodies, kPositions);
   for (int i = 0; i < kBodies; ++i) {
     J.block<3, 3>(3 * i, 0).setIdentity();
-    for (int j = kParents[static_cast<std::size_t>(i)]; j >= 0; j = kParents[static_cast<std::size_t>(j)]) {
-      const auto n = static_cast<std::size_t>(j);
-      const Vector3d arm = poses.p_WB[static_cast<std::size_t>(i)] - poses.p_WB[n];
-      const Matrix3d R = poses.q_WB[n].toRotationMatrix();
+    for (int j = kParents[i]; j >= 0; j = kParents[j]) {
+      const Vector3d arm = poses.p_WB[i] - poses.p_WB[j];
+      const Matrix3d R = poses.q_WB[j].toRotationMatrix();
       if (is_hinge(j)) {
         J.block<3, 1>(3 * i, kJointRotation + first_dof(j)) = (R * hinge_axis(j)).cross(arm);
         continue;
@@ -48,7 +47,7 @@ BodyPoses poses_of(const System& system, const State<double>& x) {
   poses.p_WB[0] = to_eigen(x.p_root);
   poses.q_WB[0] = to_eigen(x.q[0]).normalized();
   for (std::size_t i = 1; i < kBodies; ++i) {
-    const auto parent = static_cast<std::size_t>(kParents[i]);
+    const int parent = kParents[i];
     const Vec3<float>& offset = system.model.joint_offset[i];
     poses.p_WB[i] = poses.p_WB[parent] + poses.q_WB[parent] * Vector3d(offset.x, offset.y, offset.z);
     poses.q_WB[i] = (poses.q_WB[parent] * to_eigen(x.q[i])).normalized();
@@ -62,27 +61,23 @@ CostWeights::CostWeights() {
 }
 
 double Cost::position_weight(int frame, int body) const {
-  const auto i = static_cast<std::size_t>(body);
-  const double sure =
-      certainty.empty() ? 1.0 : static_cast<double>(certainty[static_cast<std::size_t>(frame)][i]);
-  return sure * weights.position * weights.body_position[i];
+  const double sure = certainty.empty() ? 1.0 : static_cast<double>(certainty[frame][body]);
+  return sure * weights.position * weights.body_position[body];
 }
 
 double Cost::tangent_weight(int frame, int k) const {
   if (k < kRootRotation) return 0.0;
   if (k < kRootVelocity) {
-    const int body = k < kJointRotation ? 0 : dofs()[static_cast<std::size_t>(k - kJointRotation)].body;
-    const auto i = static_cast<std::size_t>(body);
-    const double sure =
-        certainty.empty() ? 1.0 : static_cast<double>(certainty[static_cast<std::size_t>(frame)][i]);
-    return sure * weights.body_rotation[i] * (body == 0 ? weights.root_rotation : weights.joint_rotation);
+    const int body = k < kJointRotation ? 0 : dofs()[k - kJointRotation].body;
+    const double sure = certainty.empty() ? 1.0 : static_cast<double>(certainty[frame][body]);
+    return sure * weights.body_rotation[body] * (body == 0 ? weights.root_rotation : weights.joint_rotation);
   }
   return k < kRootSpin        ? weights.root_velocity
          : k < kJointVelocity ? weights.root_spin
                               : weights.joint_velocity;
 }
 
-Cost make_cost(const System& system, const CostWeights& weights, std::vector<Certainty> certainty) {
+Cost make_cost(const System& system, const CostWeights& weights, List<Certainty> certainty) {
   check(weights);
   if (!certainty.empty() && certainty.size() != system.reference.size())
     throw std::invalid_argument("certainty and reference must have the same number of frames");
@@ -92,7 +87,7 @@ Cost make_cost(const System& system, const CostWeights& weights, std::vector<Cer
   return with_goal(system, cost, system.reference);
 }
 
-Cost with_goal(const System& system, const Cost& cost, std::vector<State<double>> goal) {
+Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal) {
   if (goal.size() != system.reference.size())
     throw std::invalid_argument("goal and reference must have the same number of frames");
   Cost out{cost.weights, std::move(goal), {}, cost.certainty};
@@ -103,17 +98,17 @@ Cost with_goal(const System& system, const Cost& cost, std::vector<State<double>
 LaneCost state_cost(const System& system, const Cost& cost, int frame, const State<P>& x, Data<P>& scratch) {
   update_kinematics(system.model, x, scratch);
   LaneCost out{P(0.0), P(0.0)};
-  const auto& p_WB = cost.p_WB[static_cast<std::size_t>(frame)];
+  const auto& p_WB = cost.p_WB[frame];
   for (int body = 0; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    const Vec3<P> error = scratch.p_WB[i] - Vec3<P>{P(p_WB[i].x()), P(p_WB[i].y()), P(p_WB[i].z())};
+    const Vec3<P> error =
+        scratch.p_WB[body] - Vec3<P>{P(p_WB[body].x()), P(p_WB[body].y()), P(p_WB[body].z())};
     const P square = dot(error, error);
     out.cost += P(cost.position_weight(frame, body)) * square;
     out.worst = max(out.worst, square);
   }
-  const Tangent<P> d = difference(x, in_all_lanes<P>(cost.goal[static_cast<std::size_t>(frame)]));
+  const Tangent<P> d = difference(x, in_all_lanes<P>(cost.goal[frame]));
   for (int k = kRootRotation; k < kTangent; ++k) {
-    const P& e = d[static_cast<std::size_t>(k)];
+    const P& e = d[k];
     out.cost += P(cost.tangent_weight(frame, k)) * e * e;
   }
   return out;
@@ -139,20 +134,19 @@ StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame
   const Eigen::MatrixXd J = position_jacobian(poses);
   Eigen::VectorXd error(3 * kBodies), weight(3 * kBodies);
   for (int i = 0; i < kBodies; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    error.segment<3>(3 * i) = poses.p_WB[n] - cost.p_WB[static_cast<std::size_t>(frame)][n];
+    error.segment<3>(3 * i) = poses.p_WB[i] - cost.p_WB[frame][i];
     weight.segment<3>(3 * i).setConstant(cost.position_weight(frame, i));
   }
-  const Eigen::MatrixXd WJ = weight.asDiagonal() * J;
+  const Eigen::MatrixXd weighted = weight.asDiagonal() * J;
   StateQuadratic out;
   out.value = error.dot(weight.cwiseProduct(error));
   out.gradient = Eigen::VectorXd::Zero(kTangent);
-  out.gradient.head(kPositions) = 2.0 * WJ.transpose() * error;
-  out.position_hessian = 2.0 * J.transpose() * WJ;
+  out.gradient.head(kPositions) = 2.0 * weighted.transpose() * error;
+  out.position_hessian = 2.0 * J.transpose() * weighted;
   out.velocity_hessian.resize(kPositions);
-  const Tangent<double> d = difference(x, cost.goal[static_cast<std::size_t>(frame)]);
+  const Tangent<double> d = difference(x, cost.goal[frame]);
   for (int k = kRootRotation; k < kTangent; ++k) {
-    const double w = cost.tangent_weight(frame, k), e = d[static_cast<std::size_t>(k)];
+    const double w = cost.tangent_weight(frame, k), e = d[k];
     out.value += w * e * e;
     out.gradient[k] += 2.0 * w * e;
     if (k < kPositions)

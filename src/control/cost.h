@@ -40,9 +40,9 @@ using Certainty = PerBody<float>;
 /// The weights of one system and what they measure from: the system's reference, or another motion near it.
 struct Cost {
   CostWeights weights;
-  std::vector<State<double>> goal;      ///< [frames]
-  std::vector<PerBody<Vector3d>> p_WB;  ///< [frames] joint centres of the goal, m
-  std::vector<Certainty> certainty;     ///< [frames], or empty: everything is certain
+  List<State<double>> goal;      ///< [frames]
+  List<PerBody<Vector3d>> p_WB;  ///< [frames] joint centres of the goal, m
+  List<Certainty> certainty;     ///< [frames], or empty: everything is certain
 
   double position_weight(int frame, int body) const;
   /// d_tk, k ≥ 3.
@@ -52,9 +52,9 @@ struct Cost {
 /// The goal is the system's reference.
 /// @throws std::invalid_argument for weights that are negative or no numbers, a residual weight of zero, and
 ///         a certainty of another length than the reference
-Cost make_cost(const System& system, const CostWeights& weights, std::vector<Certainty> certainty = {});
+Cost make_cost(const System& system, const CostWeights& weights, List<Certainty> certainty = {});
 /// The same with another goal, [frames].
-Cost with_goal(const System& system, const Cost& cost, std::vector<State<double>> goal);
+Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal);
 
 /// World poses of all bodies in a state, in double.
 BodyPoses poses_of(const System& system, const State<double>& x);

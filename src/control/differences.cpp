@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "core/random.h"
 
@@ -29,17 +28,17 @@ void perturb(const System& system, const FramePoint& point, int k, double step, 
              Bundle& bundle) {
   const auto moved = [&](const Control& u, int moved_entry) {
     return [&u, moved_entry, step](int entry) {
-      const double value = static_cast<double>(u[static_cast<std::size_t>(entry)]);
+      const double value = static_cast<double>(u[entry]);
       return entry == moved_entry ? value + step : value;
     };
   };
   if (k < kTangent) {
-    delta[static_cast<std::size_t>(k)].set(lane, static_cast<float>(step));
+    delta[k].set(lane, static_cast<float>(step));
   } else if (k < kMemory) {
-    const int dof = k - kTangent, body = dofs()[static_cast<std::size_t>(dof)].body;
+    const int dof = k - kTangent, body = dofs()[dof].body;
     set_joint_target(system, point.frame, body, moved(point.before, dof), lane, bundle.from);
   } else if (k < kMemory + kDofs) {
-    const int dof = k - kMemory, body = dofs()[static_cast<std::size_t>(dof)].body;
+    const int dof = k - kMemory, body = dofs()[dof].body;
     set_joint_target(system, point.frame + 1, body, moved(point.u, dof), lane, bundle.to);
   } else {
     const auto entry = moved(point.u, k - kMemory);
@@ -51,9 +50,8 @@ void perturb(const System& system, const FramePoint& point, int k, double step, 
 /// The target at a frame with every residual moved in every lane. In the packs' own arithmetic, which differs
 /// from `set_target` by rounding.
 void move_target(const System& system, int frame, const Control& u, const P* moves, Target<P>& out) {
-  const auto entry = [&](int dof) { return P(u[static_cast<std::size_t>(dof)]) + moves[dof]; };
+  const auto entry = [&](int dof) { return P(u[dof]) + moves[dof]; };
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
     const int dof = first_dof(body);
     Vec3<P> rotation;
     if (is_hinge(body)) {
@@ -63,14 +61,14 @@ void move_target(const System& system, int frame, const Control& u, const P* mov
       rotation = {entry(dof), entry(dof + 1), entry(dof + 2)};
     }
     Quat<P> reference;
-    set_all_lanes(reference, system.at(frame).q[i]);
-    out.q[i] = reference * exp_map(rotation);
+    set_all_lanes(reference, system.at(frame).q[body]);
+    out.q[body] = reference * exp_map(rotation);
   }
 }
 void move_help(const System& system, const Control& u, const P* moves, Wrench<P>& out) {
   for (int lane = 0; lane < kLanes; ++lane)
     set_help(
-        system, [&](int e) { return u[static_cast<std::size_t>(kDofs + e)] + moves[e][lane]; }, lane, out);
+        system, [&](int e) { return u[kDofs + e] + moves[e][lane]; }, lane, out);
 }
 
 /// Half the difference of two packs, as rows of lanes; zero where it is no number.
@@ -79,7 +77,7 @@ void half_difference(const State<P>& plus, const State<P>& minus, int lanes, int
   const Tangent<P> d = difference(plus, minus);
   for (int row = 0; row < kTangent; ++row)
     for (int lane = 0; lane < lanes; ++lane) {
-      const float value = d[static_cast<std::size_t>(row)][lane];
+      const float value = d[row][lane];
       out(row, column + lane) = std::isfinite(value) ? 0.5f * value : 0.0f;
     }
 }
@@ -149,11 +147,11 @@ FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, co
   State<P> sides[2];
   for (int first = 0; first < kRows; first += kLanes) {
     for (int side = 0; side < 2; ++side) {
-      std::vector<P> move(static_cast<std::size_t>(columns));
+      List<P> move(columns);
       for (int k = 0; k < columns; ++k) {
         const double step = side == 0 ? steps.of(k) : -steps.of(k);
         for (int lane = 0; lane < kLanes; ++lane)
-          move[static_cast<std::size_t>(k)].set(lane, static_cast<float>(step) * signs(first + lane, k));
+          move[k].set(lane, static_cast<float>(step) * signs(first + lane, k));
       }
       Bundle bundle = *base;
       Tangent<P> delta;

@@ -22,58 +22,57 @@ Trajectory piece(const Trajectory& motion, int first, int last) {
 
 }  // namespace
 
-std::vector<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
-                                            const GainOptions& options, const PlanControl& control) {
+List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
+                                     const GainConfig& config, const PlanControl& control) {
   Cost soft = cost;
-  soft.weights.residual = options.residual;
-  soft.weights.change = options.change;
+  soft.weights.residual = config.residual;
+  soft.weights.change = config.change;
   const int n = motion.size();
-  std::vector<Eigen::MatrixXf> gains(static_cast<std::size_t>(n));
-  std::vector<FrameModel> models;
+  List<Eigen::MatrixXf> gains(n);
+  List<FrameModel> models;
   StageCost stage;
   RiccatiScratch<float> scratch;
   Feedback law;
   ValueFunction value;
-  for (int last = n; last > 0; last -= options.block) {
+  for (int last = n; last > 0; last -= config.block) {
     if (control.should_stop && control.should_stop()) return {};
-    const int first = std::max(0, last - options.block);
+    const int first = std::max(0, last - config.block);
     const Trajectory block = piece(motion, first, last);
-    build_models(system, soft, block, options.linearisation, control.threads, models);
+    build_models(system, soft, block, config.linearisation, control.threads, models);
     if (last == n) value = last_value(models.back().cost);
     for (int t = last - 1; t >= first; --t) {
-      const auto k = static_cast<std::size_t>(t);
-      const FrameModel& model = models[static_cast<std::size_t>(t - first)];
+      const FrameModel& model = models[t - first];
       const SweepResult step = sweep_frame(system, soft, motion, t, model, 0.0, value, law, stage, scratch);
-      gains[k] = step.positive ? law.K : Eigen::MatrixXf::Zero(system.controls(), kMemory);
+      gains[t] = step.positive ? law.K : Eigen::MatrixXf::Zero(system.controls(), kMemory);
     }
   }
   return gains;
 }
 
 PushResult test_pushes(const System& system, const Cost& cost, const Trajectory& motion,
-                       const std::vector<Eigen::MatrixXf>& gains, const PushTest& test) {
-  std::vector<Feedback> laws;
+                       const List<Eigen::MatrixXf>& gains, const PushTest& test) {
+  List<Feedback> laws;
   for (const Eigen::MatrixXf& K : gains) laws.push_back({K, Eigen::VectorXf::Zero(K.rows())});
   const auto scratch = std::make_unique<Data<P>>();
   PushResult result;
   for (int done = 0; done < test.trials; done += kLanes) {
-    std::vector<Random> random;
+    List<Random> random;
     for (int lane = 0; lane < kLanes; ++lane)
       random.emplace_back(test.seed,
                           std::initializer_list<std::uint64_t>{static_cast<std::uint64_t>(done + lane)});
-    RollOptions options;
-    options.lost = test.lost;
-    options.disturbance = [&](int frame, State<P>& x) {
+    RollConfig config;
+    config.lost = test.lost;
+    config.disturbance = [&](int frame, State<P>& x) {
       if (frame % test.every != test.every / 2) return;
       for (int lane = 0; lane < kLanes; ++lane) {
-        const double angle = random[static_cast<std::size_t>(lane)].uniform(0.0, 2.0 * std::numbers::pi);
+        const double angle = random[lane].uniform(0.0, 2.0 * std::numbers::pi);
         const Vector3d push = test.speed * Vector3d(std::cos(angle), std::sin(angle), 0.0);
         set_lane(x.v_root, lane, Vector3d(physics::lane_of(x.v_root, lane) + push));
       }
     };
-    const Fan fan = roll_out(system, cost, motion, laws, {}, in_all_lanes<P>(motion.x[0]), *scratch, options);
+    const Fan fan = roll_out(system, cost, motion, laws, {}, in_all_lanes<P>(motion.x[0]), *scratch, config);
     for (int lane = 0; lane < std::min(kLanes, test.trials - done); ++lane) {
-      const int kept = fan.frames_kept[static_cast<std::size_t>(lane)];
+      const int kept = fan.frames_kept[lane];
       result.followed += kept == motion.size() ? 1 : 0;
       result.frames_kept += static_cast<double>(kept) / test.trials;
     }

@@ -14,7 +14,7 @@
 
 namespace mimicx::control {
 
-struct GainOptions {
+struct GainConfig {
   Linearisation linearisation{Derivatives::kSmoothed, DifferenceSteps{}.scaled(6.0)};
   double residual = 50.0;  ///< weights in place of the plan's own
   double change = 50.0;
@@ -23,8 +23,8 @@ struct GainOptions {
 
 /// K_t [controls][kMemory] of every control of a roll-out.
 /// @return fewer, none, where it was told to stop
-std::vector<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
-                                            const GainOptions& options, const PlanControl& control);
+List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
+                                     const GainConfig& config, const PlanControl& control);
 
 /// Pushes of the pelvis, horizontal, in random directions.
 struct PushTest {
@@ -41,6 +41,6 @@ struct PushResult {
 
 /// Follows a roll-out under the gains while it is pushed; without gains (empty) open loop.
 PushResult test_pushes(const System& system, const Cost& cost, const Trajectory& motion,
-                       const std::vector<Eigen::MatrixXf>& gains, const PushTest& test);
+                       const List<Eigen::MatrixXf>& gains, const PushTest& test);
 
 }  // namespace mimicx::control

@@ -23,11 +23,10 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
     out.H.topLeftCorner(kPositions, kPositions) = state.position_hessian;
     out.H.diagonal().segment(kPositions, kPositions) = state.velocity_hessian;
   }
-  const Control& now = trajectory.u[static_cast<std::size_t>(t)];
+  const Control& now = trajectory.u[t];
   const Control& before = trajectory.previous(t);
   for (int k = 0; k < kDofs; ++k) {
-    const auto n = static_cast<std::size_t>(k);
-    const double value = static_cast<double>(now[n]), change = value - static_cast<double>(before[n]);
+    const double value = static_cast<double>(now[k]), change = value - static_cast<double>(before[k]);
     out.g[u + k] = 2.0 * (weights.residual * value + weights.change * change);
     out.g[w + k] = -2.0 * weights.change * change;
     out.H(u + k, u + k) = 2.0 * (weights.residual + weights.change);
@@ -36,7 +35,7 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
   }
   for (int k = kDofs; k < controls; ++k) {
     const double weight = k < kDofs + 3 ? weights.help : weights.help_spin;
-    out.g[u + k] = 2.0 * weight * static_cast<double>(now[static_cast<std::size_t>(k)]);
+    out.g[u + k] = 2.0 * weight * static_cast<double>(now[k]);
     out.H(u + k, u + k) = 2.0 * weight;
   }
 }
@@ -44,17 +43,16 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
 }  // namespace
 
 void build_models(const System& system, const Cost& cost, const Trajectory& trajectory,
-                  const Linearisation& how, int threads, std::vector<FrameModel>& models) {
+                  const Linearisation& how, int threads, List<FrameModel>& models) {
   const int n = trajectory.size();
-  models.resize(static_cast<std::size_t>(n + 1));
+  models.resize(n + 1);
   // As many chunks whatever the threads; each keeps its scratch and takes every kChunks-th frame.
   constexpr int kChunks = 8;
   parallel_for(kChunks, threads, [&](int chunk) {
     const auto scratch = std::make_unique<LinearisationScratch>();
     for (int t = chunk; t <= n; t += kChunks) {
-      const auto k = static_cast<std::size_t>(t);
-      models[k].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[k]);
-      if (t < n) models[k].F = linearise(system, trajectory.point(t), how, *scratch);
+      models[t].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[t]);
+      if (t < n) models[t].F = linearise(system, trajectory.point(t), how, *scratch);
     }
   });
 }
@@ -72,24 +70,22 @@ SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory
                         StageCost& stage, RiccatiScratch<float>& scratch) {
   const Eigen::VectorXd none;
   stage_cost(system, cost, trajectory, t, model.cost, stage);
-  const Eigen::VectorXd& gap =
-      trajectory.gaps.empty() ? none : trajectory.gaps[static_cast<std::size_t>(t + 1)];
+  const Eigen::VectorXd& gap = trajectory.gaps.empty() ? none : trajectory.gaps[t + 1];
   return riccati_step(model.F, gap, kDofs, regularisation, stage, value, law, scratch);
 }
 
 void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const std::vector<FrameModel>& models, double regularisation, Sweep& out) {
+                const List<FrameModel>& models, double regularisation, Sweep& out) {
   const int n = trajectory.size();
-  out.laws.resize(static_cast<std::size_t>(n));
+  out.laws.resize(n);
   out.positive = true;
   out.decrease = 0;
-  ValueFunction value = last_value(models[static_cast<std::size_t>(n)].cost);
+  ValueFunction value = last_value(models[n].cost);
   StageCost stage;
   RiccatiScratch<float> scratch;
   for (int t = n - 1; t >= 0; --t) {
-    const auto k = static_cast<std::size_t>(t);
-    const SweepResult step = sweep_frame(system, cost, trajectory, t, models[k], regularisation, value,
-                                         out.laws[k], stage, scratch);
+    const SweepResult step = sweep_frame(system, cost, trajectory, t, models[t], regularisation, value,
+                                         out.laws[t], stage, scratch);
     if (!step.positive) {
       out.positive = false;
       return;
@@ -98,10 +94,10 @@ void sweep_back(const System& system, const Cost& cost, const Trajectory& trajec
   }
 }
 
-std::array<float, kLanes> step_lengths() {
-  constexpr std::array<float, 16> kLengths = {1.0f,  0.9f,  0.8f,  0.7f,  0.6f,  0.5f,  0.4f,   0.32f,
-                                              0.25f, 0.18f, 0.12f, 0.08f, 0.05f, 0.03f, 0.015f, 0.007f};
-  std::array<float, kLanes> out;
+Array<float, kLanes> step_lengths() {
+  constexpr Array<float, 16> kLengths = {1.0f,  0.9f,  0.8f,  0.7f,  0.6f,  0.5f,  0.4f,   0.32f,
+                                         0.25f, 0.18f, 0.12f, 0.08f, 0.05f, 0.03f, 0.015f, 0.007f};
+  Array<float, kLanes> out;
   for (std::size_t lane = 0; lane < kLanes; ++lane) out[lane] = kLengths[lane * kLengths.size() / kLanes];
   return out;
 }
@@ -112,17 +108,16 @@ namespace {
 void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, int& lane) {
   const int n = trajectory.size();
   lane = 0;
-  for (int l = 1; l < kLanes; ++l) {
-    const auto a = static_cast<std::size_t>(l), b = static_cast<std::size_t>(lane);
-    const bool longer = fan.frames_kept[a] > fan.frames_kept[b];
-    const bool cheaper = fan.frames_kept[a] == fan.frames_kept[b] && fan.cost[a] < fan.cost[b];
-    if (longer || cheaper) lane = l;
+  for (int other = 1; other < kLanes; ++other) {
+    const bool longer = fan.frames_kept[other] > fan.frames_kept[lane];
+    const bool cheaper = fan.frames_kept[other] == fan.frames_kept[lane] && fan.cost[other] < fan.cost[lane];
+    if (longer || cheaper) lane = other;
   }
-  const int kept = fan.frames_kept[static_cast<std::size_t>(lane)];
+  const int kept = fan.frames_kept[lane];
   if (kept == n) return take_lane(fan, lane, trajectory);
   Trajectory spliced = trajectory;
   take_lane(fan, lane, spliced);
-  for (std::size_t t = 1; t <= static_cast<std::size_t>(kept); ++t) {
+  for (int t = 1; t <= kept; ++t) {
     trajectory.x[t] = spliced.x[t];
     trajectory.u[t - 1] = spliced.u[t - 1];
   }
@@ -132,7 +127,7 @@ void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, in
 }  // namespace
 
 Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
-                  double trusted, std::vector<FrameModel>& models, Sweep& sweep, double& regularisation,
+                  double trusted, List<FrameModel>& models, Sweep& sweep, double& regularisation,
                   Trajectory& trajectory) {
   if (fresh) build_models(system, cost, trajectory, how, threads, models);
   const auto harder = [&] { regularisation = std::max(8.0 * regularisation, 0.05); };
@@ -142,19 +137,19 @@ Iteration improve(const System& system, const Cost& cost, const Linearisation& h
     harder();
     return result;
   }
-  const std::array<float, kLanes> alpha = step_lengths();
+  const Array<float, kLanes> alpha = step_lengths();
   const auto scratch = std::make_unique<Data<P>>();
-  RollOptions options;
-  options.lost = trusted;
+  RollConfig config;
+  config.lost = trusted;
   const Fan fan = roll_out(system, cost, trajectory, sweep.laws, alpha, in_all_lanes<P>(trajectory.x[0]),
-                           *scratch, options);
+                           *scratch, config);
   int lane = 0;
   if (!trajectory.gaps.empty()) {
     close_gaps(system, fan, trajectory, lane);
     result.decrease = 1.0;
   } else {
     lane = static_cast<int>(std::min_element(fan.cost.begin(), fan.cost.end()) - fan.cost.begin());
-    const double now = fan.cost[static_cast<std::size_t>(lane)];
+    const double now = fan.cost[lane];
     if (!(now < trajectory.cost)) {
       harder();
       return result;
@@ -162,7 +157,7 @@ Iteration improve(const System& system, const Cost& cost, const Linearisation& h
     result.decrease = (trajectory.cost - now) / std::max(trajectory.cost, 1e-9);
     take_lane(fan, lane, trajectory);
   }
-  result.alpha = alpha[static_cast<std::size_t>(lane)];
+  result.alpha = alpha[lane];
   if (result.alpha > 0.95f) regularisation *= 0.3;
   if (result.alpha < 0.35f) regularisation = std::max(2.0 * regularisation, 0.01);
   return result;

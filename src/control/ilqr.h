@@ -19,12 +19,12 @@ struct FrameModel {
 /// Models of frames first … n of a trajectory: F of all but the last, costs of all. Frames in parallel, same
 /// bytes for any number of threads.
 void build_models(const System& system, const Cost& cost, const Trajectory& trajectory,
-                  const Linearisation& how, int threads, std::vector<FrameModel>& models);
+                  const Linearisation& how, int threads, List<FrameModel>& models);
 
 struct Sweep {
-  std::vector<Feedback> laws;  ///< [n]
-  bool positive = false;       ///< Q_uu was positive definite everywhere
-  double decrease = 0;         ///< promised for a full step
+  List<Feedback> laws;    ///< [n]
+  bool positive = false;  ///< Q_uu was positive definite everywhere
+  double decrease = 0;    ///< promised for a full step
 };
 
 /// The value of a trajectory's last state.
@@ -37,10 +37,10 @@ SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory
 
 /// @param regularisation  proximal weight on changes of the controls
 void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const std::vector<FrameModel>& models, double regularisation, Sweep& out);
+                const List<FrameModel>& models, double regularisation, Sweep& out);
 
 /// Step lengths in the lanes, the full one first.
-std::array<float, kLanes> step_lengths();
+Array<float, kLanes> step_lengths();
 
 struct Iteration {
   double decrease = -1;  ///< relative to the cost before; < 0: none was found; of a trajectory with gaps: 1
@@ -53,7 +53,7 @@ struct Iteration {
 /// @param fresh  build the models anew; false: those of the call before are still right
 /// @param regularisation  adapted: less after a full step, more after a short or no one
 Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
-                  double trusted, std::vector<FrameModel>& models, Sweep& sweep, double& regularisation,
+                  double trusted, List<FrameModel>& models, Sweep& sweep, double& regularisation,
                   Trajectory& trajectory);
 
 }  // namespace mimicx::control

@@ -15,12 +15,12 @@ struct Attempt {
   Plan& plan;  ///< counts what it took
 
   /// @param backtracks  at most so many, where the configuration allows more
-  HorizonResult run(const Cost& cost, int backtracks, const std::vector<Control>& guess = {}) const {
+  HorizonResult run(const Cost& cost, int backtracks, const List<Control>& guess = {}) const {
     Trajectory start;
     start.x = {as_floats(system.at(0))};
-    HorizonOptions options = config.horizon;
-    options.backtracks = std::min(options.backtracks, backtracks);
-    HorizonResult found = follow_in_windows(system, cost, config.linearisation, options, control,
+    HorizonConfig horizon = config.horizon;
+    horizon.backtracks = std::min(horizon.backtracks, backtracks);
+    HorizonResult found = follow_in_windows(system, cost, config.linearisation, horizon, control,
                                             std::move(start), system.frames() - 1, guess);
     plan.iterations += found.iterations;
     plan.linearised += found.linearised;
@@ -34,7 +34,7 @@ void find_help(const System& system, const Trajectory& helped, Loss& loss) {
   const int around = static_cast<int>(std::lround(0.5 * system.fps));
   const int first = std::max(0, loss.frame - around), last = std::min(helped.size(), loss.frame + around);
   for (int t = first; t < last; ++t) {
-    const Wrench<P> help = help_of(system, helped.u[static_cast<std::size_t>(t)]);
+    const Wrench<P> help = help_of(system, helped.u[t]);
     loss.help_force = std::max(loss.help_force, lane_of(help.f, 0).norm());
     loss.help_moment = std::max(loss.help_moment, lane_of(help.n, 0).norm());
   }
@@ -58,7 +58,7 @@ HorizonResult plan_soft_then_hard(const Attempt& hard, const Cost& cost, Horizon
   const HorizonResult soft = plan_softly({soft_system, hard.config, hard.control, hard.plan}, cost);
   find_help(soft_system, soft.motion, loss);
   if (soft.ending != Ending::kFollowed) return lost;
-  std::vector<Control> guess = soft.motion.u;
+  List<Control> guess = soft.motion.u;
   for (Control& u : guess) std::fill(u.begin() + kDofs, u.end(), 0.0f);
   HorizonResult again = hard.run(with_goal(hard.system, cost, soft.motion.x), 4, guess);
   hard.plan.by_way_of_help = again.ending == Ending::kFollowed;
@@ -97,7 +97,7 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   roll_plain(system, cost, found.motion);  // its cost and distances from the reference
   fill(system, found.motion, plan);
   if (config.gains && plan.ending == Ending::kFollowed)
-    plan.gains = feedback_gains(system, cost, found.motion, config.gain_options, control);
+    plan.gains = feedback_gains(system, cost, found.motion, config.gain_config, control);
   return plan;
 }
 

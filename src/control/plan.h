@@ -3,9 +3,9 @@
 ///     System system = make_system(character, options, reference, fps);
 ///     Plan plan = make_plan(system, {}, {.threads = 2});
 ///
-/// Replaying `plan.residuals` as actions of rl::tracking::TrackingPack (residual mode, velocity feed-forward, the same
-/// reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the result
-/// does not depend on the number of threads.
+/// Replaying `plan.residuals` as actions of rl::tracking::TrackingPack (residual mode, velocity feed-forward,
+/// the same reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the
+/// result does not depend on the number of threads.
 ///
 /// A reference that is lost is planned again with help (system.h), and then once more without, towards what
 /// the helped body did: help that a body can do without leaves a motion that it can do. A soft system is
@@ -21,12 +21,12 @@ namespace mimicx::control {
 
 struct PlanConfig {
   CostWeights weights;
-  std::vector<Certainty> certainty;  ///< [frames], or empty
+  List<Certainty> certainty;  ///< [frames], or empty
   Linearisation linearisation;
-  HorizonOptions horizon;
+  HorizonConfig horizon;
   bool soft_to_hard = true;  ///< try again by way of help where the reference is lost
   bool gains = false;        ///< compute the feedback gains of a plan that was followed
-  GainOptions gain_options;
+  GainConfig gain_config;
 };
 
 /// Where a reference was lost and what it would have taken to follow it there.
@@ -41,10 +41,10 @@ struct Loss {
 };
 
 struct Plan {
-  std::vector<State<double>> states;  ///< [frames planned], from frame 0; all of them unless it was lost
-  std::vector<std::array<float, kDofs>> residuals;  ///< [frames planned − 1]
-  std::vector<std::array<float, kHelp>> help;       ///< [frames planned − 1] of a soft system, else empty
-  std::vector<Eigen::MatrixXf> gains;               ///< [frames planned − 1] K_t (gains.h), where asked for
+  List<State<double>> states;           ///< [frames planned], from frame 0; all of them unless it was lost
+  List<Array<float, kDofs>> residuals;  ///< [frames planned − 1]
+  List<Array<float, kHelp>> help;       ///< [frames planned − 1] of a soft system, else empty
+  List<Eigen::MatrixXf> gains;          ///< [frames planned − 1] K_t (gains.h), where asked for
   Ending ending = Ending::kFollowed;
   std::optional<Loss> loss;
   bool by_way_of_help = false;  ///< followed only after a plan with help had shown how

@@ -18,46 +18,45 @@ struct Variant {
   double steps;  ///< factor on the steps of differences
 };
 /// The usual one first.
-constexpr std::array<Variant, 5> kVariants = {{{0, std::nullopt, 1.0},
-                                               {12, std::nullopt, 1.0},
-                                               {-5, std::nullopt, 1.0},
-                                               {0, Derivatives::kSmoothed, 1.0},
-                                               {0, Derivatives::kColumns, 1.0}}};
+constexpr Array<Variant, 5> kVariants = {{{0, std::nullopt, 1.0},
+                                          {12, std::nullopt, 1.0},
+                                          {-5, std::nullopt, 1.0},
+                                          {0, Derivatives::kSmoothed, 1.0},
+                                          {0, Derivatives::kColumns, 1.0}}};
 
 /// What stays the same from window to window.
 struct Task {
   const System& system;
   const Cost& cost;
-  const HorizonOptions& options;
+  const HorizonConfig& config;
   int threads;
 };
 
 struct Window {
   Trajectory plan;
-  std::vector<FrameModel> models;
+  List<FrameModel> models;
   Sweep sweep;
 };
 
 /// The window of `n` frames after the motion's last state: the rest of the window before, then the goal, with
 /// gaps.
 Trajectory first_guess(const Task& task, const Trajectory& motion, const Trajectory& last, int n,
-                       const std::vector<Control>& guess) {
+                       const List<Control>& guess) {
   Trajectory window;
   window.begin = motion.begin + motion.size();
   window.before = motion.u.empty() ? motion.before : motion.u.back();
   window.x.push_back(motion.x.back());
   for (int k = 0; k < n; ++k) {
     const int frame = window.begin + k, in_last = frame - last.begin;
-    const auto l = static_cast<std::size_t>(in_last);
     const bool known = in_last >= 0 && in_last < last.size();
     if (known)
-      window.u.push_back(last.u[l]);
+      window.u.push_back(last.u[in_last]);
     else if (frame < static_cast<int>(guess.size()))
-      window.u.push_back(guess[static_cast<std::size_t>(frame)]);
+      window.u.push_back(guess[frame]);
     else
       window.u.push_back(window.u.empty() ? Control{} : window.u.back());
-    const auto next = static_cast<std::size_t>(frame + 1);
-    window.x.push_back(known ? last.x[l + 1] : as_floats(task.cost.goal[next]));
+    const int next = frame + 1;
+    window.x.push_back(known ? last.x[in_last + 1] : as_floats(task.cost.goal[next]));
   }
   window.gaps = find_gaps(task.system, window);
   window.cost = window.worst = std::numeric_limits<double>::infinity();
@@ -66,19 +65,19 @@ Trajectory first_guess(const Task& task, const Trajectory& motion, const Traject
 
 /// Drops the last frames of a motion.
 void shorten(Trajectory& motion, int size) {
-  motion.u.resize(static_cast<std::size_t>(size));
-  motion.x.resize(static_cast<std::size_t>(size + 1));
+  motion.u.resize(size);
+  motion.x.resize(size + 1);
 }
 
 /// Frames from the start that are a roll-out.
 int frames_without_gap(const Trajectory& window) {
   int t = 0;
-  while (t < window.size() && window.gaps[static_cast<std::size_t>(t + 1)].isZero(0.0)) ++t;
+  while (t < window.size() && window.gaps[t + 1].isZero(0.0)) ++t;
   return t;
 }
 
 /// Whether a window needs no iteration after `done` ones.
-bool is_good(const HorizonOptions& o, const Trajectory& plan, int done, bool first) {
+bool is_good(const HorizonConfig& o, const Trajectory& plan, int done, bool first) {
   const double per_frame = plan.cost / plan.size();  // infinite as long as there are gaps
   if (done == 0) return false;
   if (first) return done >= o.hard_iterations;
@@ -92,13 +91,13 @@ void solve_window(const Task& task, const Linearisation& how, bool first, Window
   Trajectory& plan = window.plan;
   double regularisation = 0.0;
   bool fresh = true;
-  for (int i = 0; !is_good(task.options, plan, i, first); ++i) {
-    const Iteration done = improve(task.system, task.cost, how, task.threads, fresh, task.options.trusted,
+  for (int i = 0; !is_good(task.config, plan, i, first); ++i) {
+    const Iteration done = improve(task.system, task.cost, how, task.threads, fresh, task.config.trusted,
                                    window.models, window.sweep, regularisation, plan);
     ++result.iterations;
     if (fresh) result.linearised += plan.size();
     fresh = done.decrease >= 0.0;
-    if (fresh && done.decrease < task.options.stop) break;
+    if (fresh && done.decrease < task.config.stop) break;
     if (!fresh && regularisation > 1e4) break;
   }
   if (plan.gaps.empty()) return;
@@ -114,10 +113,10 @@ Linearisation with_variant(const Linearisation& how, const Variant& variant) {
 void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) {
   int t = 0, body = 0;
   double distance = 0.0;
-  while (t < plan.size() && distance <= task.options.lost) {
+  while (t < plan.size() && distance <= task.config.lost) {
     ++t;
-    const auto frame = static_cast<std::size_t>(plan.begin + t);
-    const BodyPoses poses = poses_of(task.system, plan.x[static_cast<std::size_t>(t)]);
+    const int frame = plan.begin + t;
+    const BodyPoses poses = poses_of(task.system, plan.x[t]);
     distance = 0.0;
     for (std::size_t i = 0; i < kBodies; ++i) {
       const double off = (poses.p_WB[i] - task.cost.p_WB[frame][i]).norm();
@@ -126,7 +125,7 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
       body = static_cast<int>(i);
     }
   }
-  const int frame = plan.begin + t + (distance > task.options.lost ? 0 : 1);
+  const int frame = plan.begin + t + (distance > task.config.lost ? 0 : 1);
   if (frame < result.lost_frame) return;
   result.lost_frame = frame;
   result.lost_body = body;
@@ -140,19 +139,19 @@ struct Search {
   Trajectory longest;  ///< motion so far
 
   /// Goes on after a loss in the window at `begin`. @return false when nothing is left to try
-  bool next(const HorizonOptions& options, int begin, int earliest, int frames, HorizonResult& result) {
+  bool next(const HorizonConfig& config, int begin, int earliest, int frames, HorizonResult& result) {
     Trajectory& motion = result.motion;
     const bool exhausted =
-        (begin <= until && variant + 1 >= kVariants.size()) || result.linearised > options.budget * frames;
+        (begin <= until && variant + 1 >= kVariants.size()) || result.linearised > config.budget * frames;
     if (motion.size() > longest.size()) longest = motion;
-    if (exhausted || result.backtracks >= options.backtracks) {
+    if (exhausted || result.backtracks >= config.backtracks) {
       motion = longest;
       return false;
     }
     ++result.backtracks;
     variant = begin > until ? 1 : variant + 1;
-    until = std::max(until, begin + 2 * options.commit);
-    shorten(motion, std::max(earliest, motion.size() - options.back));
+    until = std::max(until, begin + 2 * config.commit);
+    shorten(motion, std::max(earliest, motion.size() - config.back));
     return true;
   }
 };
@@ -166,9 +165,9 @@ void roll_plain(const System& system, const Cost& cost, Trajectory& motion) {
 }
 
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
-                                const HorizonOptions& options, const PlanControl& control, Trajectory start,
-                                int end, const std::vector<Control>& guess) {
-  const Task task{system, cost, options, control.threads};
+                                const HorizonConfig& config, const PlanControl& control, Trajectory start,
+                                int end, const List<Control>& guess) {
+  const Task task{system, cost, config, control.threads};
   HorizonResult result;
   result.motion = std::move(start);
   Trajectory& motion = result.motion;
@@ -184,23 +183,23 @@ HorizonResult follow_in_windows(const System& system, const Cost& cost, const Li
     const int begin = motion.begin + motion.size();
     if (begin >= search.until) search.variant = 0;
     const Variant& variant = kVariants[search.variant];
-    const int n = std::min(options.horizon + variant.longer, end - begin);
+    const int n = std::min(config.horizon + variant.longer, end - begin);
     window.plan = first_guess(task, motion, window.plan, n, guess);
     solve_window(task, with_variant(how, variant), motion.size() == earliest, window, result);
     const int planned = window.plan.size();
-    if (planned < std::min(n, 2 * options.commit) || !(window.plan.worst <= options.lost)) {
+    if (planned < std::min(n, 2 * config.commit) || !(window.plan.worst <= config.lost)) {
       note_loss(task, window.plan, result);
-      if (!search.next(options, begin, earliest, end, result)) {
+      if (!search.next(config, begin, earliest, end, result)) {
         result.ending = Ending::kLost;
         return result;
       }
       window.plan = {};
       continue;
     }
-    const int taken = begin + planned >= end ? planned : std::min(options.commit, planned);
+    const int taken = begin + planned >= end ? planned : std::min(config.commit, planned);
     for (int k = 0; k < taken; ++k) {
-      motion.u.push_back(window.plan.u[static_cast<std::size_t>(k)]);
-      motion.x.push_back(window.plan.x[static_cast<std::size_t>(k + 1)]);
+      motion.u.push_back(window.plan.u[k]);
+      motion.x.push_back(window.plan.x[k + 1]);
     }
     if (control.progress) control.progress(begin + taken, system.frames());
   }

@@ -14,7 +14,7 @@
 
 namespace mimicx::control {
 
-struct HorizonOptions {
+struct HorizonConfig {
   int horizon = 20;         ///< frames of a window
   int commit = 5;           ///< frames that are settled by it
   double easy_cost = 0.02;  ///< per frame: a window that costs less after its first iteration needs no other
@@ -49,8 +49,8 @@ struct HorizonResult {
 /// @param start  at least one state; its controls are the history
 /// @param guess  controls to start from, [frames − 1], or empty: residuals of zero
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
-                                const HorizonOptions& options, const PlanControl& control, Trajectory start,
-                                int end, const std::vector<Control>& guess = {});
+                                const HorizonConfig& config, const PlanControl& control, Trajectory start,
+                                int end, const List<Control>& guess = {});
 
 /// Rolls a motion out from its first state under its controls as they are: its states, cost and distance.
 void roll_plain(const System& system, const Cost& cost, Trajectory& motion);

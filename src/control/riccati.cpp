@@ -60,10 +60,10 @@ SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int m
   law.K = -s.K.template cast<float>();
   law.k = (-(inverse.transpose() * y)).cast<float>();
   result.decrease = 0.5 * y.squaredNorm();
-  s.YY.setZero(z, z);
-  s.YY.template selfadjointView<Eigen::Lower>().rankUpdate(s.Y.transpose(), Real(-1));
+  s.YtY.setZero(z, z);
+  s.YtY.template selfadjointView<Eigen::Lower>().rankUpdate(s.Y.transpose(), Real(-1));
   value.V = cost.H.topLeftCorner(z, z);
-  add_lower<Real>(s.YY, value.V);
+  add_lower<Real>(s.YtY, value.V);
   value.V.triangularView<Eigen::StrictlyUpper>() = value.V.transpose();
   value.v = cost.g.head(z);
   value.v.noalias() -= s.Y.transpose().template cast<double>() * y;

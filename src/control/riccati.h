@@ -50,7 +50,7 @@ using DynamicsRef = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, Eigen:
 template <class Real>
 struct RiccatiScratch {
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  Matrix F, V, VF, FVF, root_inverse, Y, YY, K;
+  Matrix F, V, VF, FVF, root_inverse, Y, YtY, K;
 };
 
 /// @param F  [state][state + memory + controls]

@@ -13,19 +13,16 @@ namespace mimicx::control {
 /// A piece of a motion: states of the frames begin … begin + n and the n controls between them.
 struct Trajectory {
   int begin = 0;
-  std::vector<State<double>> x;       ///< [n + 1] in the simulator's numbers (floats)
-  std::vector<Control> u;             ///< [n]
-  Control before{};                   ///< the control before u[0]; only its residuals count
-  std::vector<Eigen::VectorXd> gaps;  ///< [n + 1], or empty for a roll-out (shooting.h)
-  double cost = 0;                    ///< of the states 1 … n and the controls
-  double worst = 0;                   ///< distance of any body from the reference in these frames, m
+  List<State<double>> x;       ///< [n + 1] in the simulator's numbers (floats)
+  List<Control> u;             ///< [n]
+  Control before{};            ///< the control before u[0]; only its residuals count
+  List<Eigen::VectorXd> gaps;  ///< [n + 1], or empty for a roll-out (shooting.h)
+  double cost = 0;             ///< of the states 1 … n and the controls
+  double worst = 0;            ///< distance of any body from the reference in these frames, m
 
   int size() const { return static_cast<int>(u.size()); }
-  const Control& previous(int k) const { return k == 0 ? before : u[static_cast<std::size_t>(k - 1)]; }
-  FramePoint point(int k) const {
-    const auto n = static_cast<std::size_t>(k);
-    return {begin + k, x[n], previous(k), u[n]};
-  }
+  const Control& previous(int k) const { return k == 0 ? before : u[k - 1]; }
+  FramePoint point(int k) const { return {begin + k, x[k], previous(k), u[k]}; }
 };
 
 /// Controls of all lanes.
@@ -33,17 +30,17 @@ using LaneControls = Eigen::Matrix<float, kMaxControls, kLanes, Eigen::RowMajor>
 
 /// kLanes roll-outs side by side.
 struct Fan {
-  std::vector<State<P>> x;                ///< [n + 1]
-  std::vector<LaneControls> u;            ///< [n]
-  std::array<double, kLanes> cost{};      ///< infinite where the simulation went wrong
-  std::array<double, kLanes> worst{};     ///< m; infinite likewise
-  std::array<int, kLanes> frames_kept{};  ///< frames before a body is farther than `lost` from its reference
+  List<State<P>> x;                  ///< [n + 1]
+  List<LaneControls> u;              ///< [n]
+  Array<double, kLanes> cost{};      ///< infinite where the simulation went wrong
+  Array<double, kLanes> worst{};     ///< m; infinite likewise
+  Array<int, kLanes> frames_kept{};  ///< frames before a body is farther than `lost` from its reference
 };
 
 /// May change the lanes' states before the step that starts at a frame: pushes.
 using Disturbance = std::function<void(int frame, State<P>& x)>;
 
-struct RollOptions {
+struct RollConfig {
   double lost = 0.5;  ///< m; beyond it a lane's `frames_kept` ends
   Disturbance disturbance;
 };
@@ -52,8 +49,8 @@ struct RollOptions {
 ///     u = ū + α k + K (z − z̄).
 /// @param laws  [n] or empty: u = ū
 Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
-             std::span<const Feedback> laws, const std::array<float, kLanes>& alpha, const State<P>& x0,
-             Data<P>& scratch, const RollOptions& options = {});
+             std::span<const Feedback> laws, const Array<float, kLanes>& alpha, const State<P>& x0,
+             Data<P>& scratch, const RollConfig& config = {});
 
 /// One lane of a fan in place of the trajectory's states and controls.
 void take_lane(const Fan& fan, int lane, Trajectory& trajectory);

@@ -6,9 +6,9 @@
 
 namespace mimicx::control {
 
-std::vector<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajectory) {
+List<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajectory) {
   const int n = trajectory.size();
-  std::vector<Eigen::VectorXd> gaps(static_cast<std::size_t>(n + 1), Eigen::VectorXd::Zero(kTangent));
+  List<Eigen::VectorXd> gaps(n + 1, Eigen::VectorXd::Zero(kTangent));
   const auto scratch = std::make_unique<Data<P>>();
   State<P> x, expected;
   Target<P> from{}, to{};
@@ -16,21 +16,20 @@ std::vector<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& t
   for (int first = 0; first < n; first += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const int t = std::min(first + lane, n - 1), frame = trajectory.begin + t;
-      const auto k = static_cast<std::size_t>(t);
       const auto entries = [](const Control& u, int offset) {
-        return [&u, offset](int i) { return u[static_cast<std::size_t>(offset + i)]; };
+        return [&u, offset](int i) { return u[offset + i]; };
       };
-      set_lane(x, lane, trajectory.x[k]);
-      set_lane(expected, lane, trajectory.x[k + 1]);
+      set_lane(x, lane, trajectory.x[t]);
+      set_lane(expected, lane, trajectory.x[t + 1]);
       set_target(system, frame, entries(trajectory.previous(t), 0), lane, from);
-      set_target(system, frame + 1, entries(trajectory.u[k], 0), lane, to);
-      if (system.soft) set_help(system, entries(trajectory.u[k], kDofs), lane, help);
+      set_target(system, frame + 1, entries(trajectory.u[t], 0), lane, to);
+      if (system.soft) set_help(system, entries(trajectory.u[t], kDofs), lane, help);
     }
     advance(system, from, to, help, x, *scratch);
     const Tangent<P> d = difference(x, expected);
     for (int lane = 0; lane < std::min(kLanes, n - first); ++lane) {
-      Eigen::VectorXd& gap = gaps[static_cast<std::size_t>(first + lane + 1)];
-      for (int k = 0; k < kTangent; ++k) gap[k] = static_cast<double>(d[static_cast<std::size_t>(k)][lane]);
+      Eigen::VectorXd& gap = gaps[first + lane + 1];
+      for (int k = 0; k < kTangent; ++k) gap[k] = static_cast<double>(d[k][lane]);
       // Of equal states ⊖ leaves the rounding of a quaternion product.
       if (!gap.allFinite() || gap.cwiseAbs().maxCoeff() < 1e-6) gap.setZero();
     }

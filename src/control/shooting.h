@@ -15,6 +15,6 @@ namespace mimicx::control {
 
 /// [n + 1]: gaps of a trajectory's states; [0] is zero. Frames go through the simulator in the lanes of
 /// packs. A frame that goes wrong there has a gap of zero.
-std::vector<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajectory);
+List<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajectory);
 
 }  // namespace mimicx::control

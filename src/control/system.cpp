@@ -5,8 +5,8 @@
 
 namespace mimicx::control {
 
-System make_system(const Character& character, const SimulationConfig& config,
-                   std::vector<State<double>> reference, double fps) {
+System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
+                   double fps) {
   if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
   const double substeps = config.rate / fps;
   if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
@@ -26,13 +26,13 @@ State<double> as_floats(const State<double>& x) { return lane_of(in_all_lanes<P>
 Target<P> target_of(const System& system, int frame, const Control& u) {
   Target<P> out{};
   set_target(
-      system, frame, [&](int dof) { return u[static_cast<std::size_t>(dof)]; }, 0, out);
+      system, frame, [&](int dof) { return u[dof]; }, 0, out);
   return in_all_lanes<P>(lane_of(out, 0));
 }
 
 Wrench<P> help_of(const System& system, const Control& u) {
   Wrench<P> out;
-  const auto entry = [&](int k) { return u[static_cast<std::size_t>(kDofs + k)]; };
+  const auto entry = [&](int k) { return u[kDofs + k]; };
   for (int lane = 0; lane < kLanes; ++lane) set_help(system, entry, lane, out);
   return out;
 }

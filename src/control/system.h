@@ -2,17 +2,15 @@
 ///
 /// Time goes in control frames (1/30 s). The state x_t belongs to frame t; the control u_t acts from frame t
 /// to t + 1: 55 residual rotations on the reference's joint rotations of frame t + 1, exactly the actions of
-/// rl::tracking::TrackingPack in residual mode, so that a plan can be replayed as actions, byte for byte. During the
-/// interval the PD target moves from the old target to the new one, so the next state depends on the control
-/// before, too:
+/// rl::tracking::TrackingPack in residual mode, so that a plan can be replayed as actions, byte for byte.
+/// During the interval the PD target moves from the old target to the new one, so the next state depends on
+/// the control before, too:
 ///     x_{t+1} = f_t(x_t, u_{t−1}, u_t).
 /// Soft systems have six more controls: accelerations of help on the pelvis (step.h, `help`), by which a
 /// plan follows what no body can; they are penalised (cost.h), and a hard plan has exactly none.
 #pragma once
 
-#include <array>
-#include <vector>
-
+#include "core/containers.h"
 #include "physics/control_interval.h"
 #include "physics/lanes.h"
 #include "physics/pd_target.h"
@@ -31,27 +29,27 @@ inline constexpr double kHelpRadius = 0.3;
 
 /// u_t: rotation vectors (angles for hinges) on the reference's joints, rad, in the order of first_dof; then
 /// the help in world axes, linear and angular, zero in a hard system.
-using Control = std::array<float, kMaxControls>;
+using Control = Array<float, kMaxControls>;
 
 struct System {
   Model<float> model;
-  Model<double> exact_model;             ///< the same for the analytic derivatives
-  double mass = 0;                       ///< of the whole character, kg
-  double fps = 30;                       ///< frames per second
-  int substeps = 8;                      ///< physics steps per frame
-  double max_residual = 2.5;             ///< residuals beyond are clamped, rad
-  bool velocity_feed_forward = true;     ///< PD damps towards the reference's joint velocity
-  bool soft = false;                     ///< whether there is help
-  std::vector<State<double>> reference;  ///< [frames]
+  Model<double> exact_model;          ///< the same for the analytic derivatives
+  double mass = 0;                    ///< of the whole character, kg
+  double fps = 30;                    ///< frames per second
+  int substeps = 8;                   ///< physics steps per frame
+  double max_residual = 2.5;          ///< residuals beyond are clamped, rad
+  bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity
+  bool soft = false;                  ///< whether there is help
+  List<State<double>> reference;      ///< [frames]
 
   int frames() const { return static_cast<int>(reference.size()); }
   int controls() const { return soft ? kMaxControls : kDofs; }
-  const State<double>& at(int frame) const { return reference[static_cast<std::size_t>(frame)]; }
+  const State<double>& at(int frame) const { return reference[frame]; }
 };
 
 /// @throws std::invalid_argument for fewer than 2 frames, or unless the physics rate is a multiple of fps
-System make_system(const Character& character, const SimulationConfig& config,
-                   std::vector<State<double>> reference, double fps);
+System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
+                   double fps);
 
 /// A state in the numbers that the simulator can hold.
 State<double> as_floats(const State<double>& x);
@@ -61,18 +59,16 @@ State<double> as_floats(const State<double>& x);
 template <class Entry>
 void set_joint_target(const System& system, int frame, int body, const Entry& entry, int lane,
                       Target<P>& out) {
-  const auto i = static_cast<std::size_t>(body);
-  const Quaterniond reference = to_eigen(system.at(frame).q[i]);
-  set_lane(out.q[i], lane, residual_target(reference, action_rotation(body, system.max_residual, entry)));
+  const Quaterniond reference = to_eigen(system.at(frame).q[body]);
+  set_lane(out.q[body], lane, residual_target(reference, action_rotation(body, system.max_residual, entry)));
 }
 /// That of all joints.
 template <class Entry>
 void set_target(const System& system, int frame, const Entry& entry, int lane, Target<P>& out) {
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
     set_joint_target(system, frame, body, entry, lane, out);
-    const Vector3d omega = to_eigen(system.at(frame).omega[i]);
-    set_lane(out.omega[i], lane, system.velocity_feed_forward ? omega : Vector3d::Zero());
+    const Vector3d omega = to_eigen(system.at(frame).omega[body]);
+    set_lane(out.omega[body], lane, system.velocity_feed_forward ? omega : Vector3d::Zero());
   }
 }
 /// That of all joints in all lanes.

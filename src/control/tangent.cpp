@@ -33,9 +33,9 @@ void write(const Vec3<T>& v, T* out) {
 
 }  // namespace
 
-const std::array<Dof, kDofs>& dofs() {
+const Array<Dof, kDofs>& dofs() {
   static const auto table = [] {
-    std::array<Dof, kDofs> out;
+    Array<Dof, kDofs> out;
     std::size_t k = 0;
     for (int body = 1; body < kBodies; ++body) {
       if (is_hinge(body)) {
@@ -58,9 +58,8 @@ Tangent<T> difference(const State<T>& a, const State<T>& b) {
   write(a.v_root - b.v_root, d + kRootVelocity);
   write(a.omega[0] - b.omega[0], d + kRootSpin);
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    write_joint(body, log_map(conjugate(b.q[i]) * a.q[i]), d + kJointRotation + first_dof(body));
-    write_joint(body, a.omega[i] - b.omega[i], d + kJointVelocity + first_dof(body));
+    write_joint(body, log_map(conjugate(b.q[body]) * a.q[body]), d + kJointRotation + first_dof(body));
+    write_joint(body, a.omega[body] - b.omega[body], d + kJointVelocity + first_dof(body));
   }
   return out;
 }
@@ -74,9 +73,8 @@ void retract(State<T>& s, const Tangent<T>& delta) {
   s.v_root += vec(kRootVelocity);
   s.omega[0] += vec(kRootSpin);
   for (int body = 1; body < kBodies; ++body) {
-    const auto i = static_cast<std::size_t>(body);
-    s.q[i] = s.q[i] * exp_map(read_joint(body, d + kJointRotation + first_dof(body)));
-    s.omega[i] += read_joint(body, d + kJointVelocity + first_dof(body));
+    s.q[body] = s.q[body] * exp_map(read_joint(body, d + kJointRotation + first_dof(body)));
+    s.omega[body] += read_joint(body, d + kJointVelocity + first_dof(body));
   }
 }
 

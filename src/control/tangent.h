@@ -14,8 +14,7 @@
 /// Source: rotations as in Forster et al., "On-Manifold Preintegration" (2017), §II.
 #pragma once
 
-#include <array>
-
+#include "core/containers.h"
 #include "physics/data.h"
 
 namespace mimicx::control {
@@ -31,7 +30,7 @@ inline constexpr int kRootSpin = kPositions + 3;
 inline constexpr int kJointVelocity = kPositions + 6;
 
 template <class T>
-using Tangent = std::array<T, kTangent>;
+using Tangent = Array<T, kTangent>;
 
 /// One actuated degree of freedom.
 struct Dof {
@@ -39,7 +38,7 @@ struct Dof {
   Vector3d axis;  ///< of the rotation, child's frame
 };
 /// All of them in the order of first_dof.
-const std::array<Dof, kDofs>& dofs();
+const Array<Dof, kDofs>& dofs();
 
 /// a ⊖ b, lane by lane. Rotations differ by the shorter way.
 template <class T>

@@ -28,12 +28,20 @@ struct Array : std::array<T, static_cast<std::size_t>(N)> {
   }
 };
 
-/// std::vector with a subscript that is any Subscript.
+/// std::vector with a subscript that is any Subscript and sizes that may be an `int`.
 template <class T>
 struct List : std::vector<T> {
   using std::vector<T>::vector;
+  using std::vector<T>::assign;
+  using std::vector<T>::resize;
   List() = default;
   List(std::vector<T> values) : std::vector<T>(std::move(values)) {}
+  explicit List(std::signed_integral auto n) : std::vector<T>(static_cast<std::size_t>(n)) {}
+  List(std::signed_integral auto n, const T& value) : std::vector<T>(static_cast<std::size_t>(n), value) {}
+  void resize(std::signed_integral auto n) { std::vector<T>::resize(static_cast<std::size_t>(n)); }
+  void assign(std::signed_integral auto n, const T& value) {
+    std::vector<T>::assign(static_cast<std::size_t>(n), value);
+  }
   decltype(auto) operator[](Subscript auto i) {
     return std::vector<T>::operator[](static_cast<std::size_t>(i));
   }

@@ -9,7 +9,7 @@
 namespace mimicx {
 
 void parallel_for(int chunks, int threads, const std::function<void(int)>& body) {
-  List<std::exception_ptr> errors(static_cast<std::size_t>(chunks > 0 ? chunks : 0));
+  List<std::exception_ptr> errors(chunks > 0 ? chunks : 0);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : 1)
   for (int chunk = 0; chunk < chunks; ++chunk) {
     try {

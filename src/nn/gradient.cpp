@@ -12,7 +12,7 @@ namespace {
 /// [node] whether it lies on a path from wrt: it is a member, or one of its inputs lies on such a path.
 template <class S>
 List<bool> dependents(const Tape<S>& tape, Var scalar, std::span<const Var> wrt) {
-  List<bool> depends(static_cast<std::size_t>(tape.size()), false);
+  List<bool> depends(tape.size(), false);
   for (const Var v : wrt) depends[v.index] = true;
   for (int i = 0; i <= scalar.index; ++i) {
     const auto& recipe = tape.recipe({i});
@@ -46,7 +46,7 @@ template <class S>
 std::vector<Var> gradient(Tape<S>& tape, Var scalar, std::span<const Var> wrt) {
   assert(tape.value(scalar).size() == 1);
   const List<bool> depends = dependents(tape, scalar, wrt);
-  List<Var> adjoint(static_cast<std::size_t>(tape.size()));
+  List<Var> adjoint(tape.size());
   adjoint[scalar.index] = tape.constant(1, 1, S(1));
   for (int i = scalar.index; i >= 0; --i)
     if (adjoint[i].exists() && tape.recipe({i}).rule != nullptr) propagate(tape, {i}, depends, adjoint);

@@ -67,8 +67,8 @@ std::string need_in_words(const Need& need, int first, int last) {
 std::string loss_in_words(const motion::Reference& reference, const control::Loss& loss) {
   std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / reference.fps);
   if (loss.body >= 0)
-    text += print(": %s is %.2f m from its reference",
-                  std::string(kBodyNames[static_cast<std::size_t>(loss.body)]).c_str(), loss.distance);
+    text +=
+        print(": %s is %.2f m from its reference", std::string(kBodyNames[loss.body]).c_str(), loss.distance);
   if (loss.help_force > 0.0 || loss.help_moment > 0.0)
     text += print("; a hand that holds the pelvis would keep it there with %.0f N and %.0f N m",
                   loss.help_force, loss.help_moment);

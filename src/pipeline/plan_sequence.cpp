@@ -81,7 +81,7 @@ void leave_gains(const motion::Reference& reference, const PlanningConfig& confi
   const control::System system = system_of(reference, stored);
   const auto gains =
       control::feedback_gains(system, control::make_cost(system, config.plan.weights, config.plan.certainty),
-                              control::trajectory_of(stored.plan), config.plan.gain_options, watch.control());
+                              control::trajectory_of(stored.plan), config.plan.gain_config, watch.control());
   if (gains.empty()) return;  // it was told to stop
   std::filesystem::create_directories(file.parent_path());
   output::write_gains(file, gains);

@@ -39,7 +39,7 @@ struct StepResult {
         terminated(Flags::Constant(group_size, false)),
         truncated(Flags::Constant(group_size, false)),
         final_observations(nn::Matrix<float>::Zero(group_size, observation_dim)),
-        final_actors(static_cast<std::size_t>(group_size), 0) {}
+        final_actors(group_size, 0) {}
 };
 
 /// A character of an environment.

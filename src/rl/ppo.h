@@ -67,7 +67,7 @@ struct UpdateScratch {
   List<GradientSlot> slots;
   std::vector<int> order;  ///< shuffled rows
 
-  explicit UpdateScratch(const PpoConfig& config) : slots(static_cast<std::size_t>(config.gradient_slots)) {}
+  explicit UpdateScratch(const PpoConfig& config) : slots(config.gradient_slots) {}
 };
 
 /// Which random numbers shuffle the rows, together with iteration and epoch.

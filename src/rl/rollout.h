@@ -71,9 +71,7 @@ struct CollectScratch {
   nn::Workspace<float> actor, critic;
 
   CollectScratch(int group_size, int observation_dim)
-      : raw(group_size, observation_dim),
-        actors(static_cast<std::size_t>(group_size), 0),
-        result(group_size, observation_dim) {}
+      : raw(group_size, observation_dim), actors(group_size, 0), result(group_size, observation_dim) {}
 };
 
 /// Forgets the last roll-out but keeps the ages.

@@ -35,7 +35,7 @@ class PpoTrainer {
         buffer_(make_rollout_buffer(environment.groups(), environment.group_size(), config.horizon,
                                     environment.observation_dim(), environment.action_dim(),
                                     static_cast<int>(agents.size()))),
-        collect_(static_cast<std::size_t>(environment.groups()),
+        collect_(environment.groups(),
                  CollectScratch(environment.group_size(), environment.observation_dim())),
         update_(config),
         rows_(agents.size()) {
@@ -109,7 +109,7 @@ class PpoTrainer {
     iteration_ = whole_number_at(archive, prefix + "iteration");
     samples_ = whole_number_at(archive, prefix + "samples");
     const std::vector<double> ages = archive.at(prefix + "ages").to_double();
-    const auto size = static_cast<std::size_t>(buffer_.group_size);
+    const int size = buffer_.group_size;
     if (ages.size() != size * buffer_.groups.size())
       throw DataError(archive.path, prefix + "ages",
                       std::to_string(size * buffer_.groups.size()) + " characters",

@@ -40,7 +40,7 @@ TEST(Gains, NeitherBlocksNorThreadsChangeThem) {
   Walk walk;
   walk.motion.x.resize(41);
   walk.motion.u.resize(40);
-  GainOptions options;
+  GainConfig options;
   const auto whole = feedback_gains(walk.system, walk.cost, walk.motion, options, {.threads = 1});
   options.block = 7;
   const auto blocks = feedback_gains(walk.system, walk.cost, walk.motion, options, {.threads = 2});

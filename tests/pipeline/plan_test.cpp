@@ -65,7 +65,7 @@ TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
   const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   EXPECT_EQ(manifest.method, "plan");
   EXPECT_EQ(manifest.samples, 0);
-  EXPECT_EQ(value_of(manifest.settings, "plan_horizon"), control::HorizonOptions{}.horizon);
+  EXPECT_EQ(value_of(manifest.settings, "plan_horizon"), control::HorizonConfig{}.horizon);
   EXPECT_EQ(value_of(manifest.settings, "physics_rate"), physics::SimulationConfig{}.rate);
   const record::SequenceEntry& entry = manifest.sequences.at(0);
   EXPECT_TRUE(entry.ok) << entry.reason;

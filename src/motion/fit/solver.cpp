@@ -54,12 +54,12 @@ void backward(const BorderedBand& s, PerFrame<VectorXd>& y) {
 }  // namespace
 
 BorderedBand::BorderedBand(int frames, int n, int m)
-    : diagonal(static_cast<std::size_t>(frames), MatrixXd::Zero(n, n)),
+    : diagonal(frames, MatrixXd::Zero(n, n)),
       next(diagonal),
       second(diagonal),
-      border(static_cast<std::size_t>(frames), MatrixXd::Zero(n, m)),
+      border(frames, MatrixXd::Zero(n, m)),
       corner(MatrixXd::Zero(m, m)),
-      rhs(static_cast<std::size_t>(frames), VectorXd::Zero(n)),
+      rhs(frames, VectorXd::Zero(n)),
       rhs_border(VectorXd::Zero(m)) {}
 
 BandSolution solve(BorderedBand& s) {

@@ -11,7 +11,7 @@ constexpr double kToesFollow =
 
 /// Position of a point of the sole in the ankle's frame, toes straight. @param index  0..5: heel, ball, toe
 Vector3d foot_point(const Character& c, int side, int index) {
-  const ContactPoint& point = c.contact_points[static_cast<std::size_t>(6 * side + index)];
+  const ContactPoint& point = c.contact_points[6 * side + index];
   const bool on_toes = point.body == kLeftFoot || point.body == kRightFoot;
   return on_toes ? Vector3d(c.joint_offset[point.body] + sole_point(point)) : sole_point(point);
 }

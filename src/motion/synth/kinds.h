@@ -23,9 +23,7 @@ struct PlanRequest {
 
   double seconds() const { return (frames - 1) / kSynthFps; }
   /// One frame of the plan for each frame of the motion, all the same.
-  PerFrame<PlanFrame> every_frame(const PlanFrame& frame) const {
-    return PerFrame<PlanFrame>(static_cast<std::size_t>(frames), frame);
-  }
+  PerFrame<PlanFrame> every_frame(const PlanFrame& frame) const { return PerFrame<PlanFrame>(frames, frame); }
 };
 
 struct SynthKind {

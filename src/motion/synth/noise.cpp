@@ -181,7 +181,7 @@ PerFrame<double> smooth_noise(Random& random, int count, double frames) {
     kernel.push_back(std::exp(-0.5 * k * k / (frames * frames)));
     squares += kernel.back() * kernel.back();
   }
-  PerFrame<double> out(static_cast<std::size_t>(count));
+  PerFrame<double> out(count);
   std::vector<double> white(out.size() + kernel.size() - 1);
   for (double& value : white) value = random.normal();
   for (std::size_t i = 0; i < out.size(); ++i) {

@@ -27,7 +27,7 @@ int compare(const Points& points, int a, int b) {
 
 /// Rows in lexicographic order. Equal rows are interchangeable.
 List<int> canonical_order(const Points& points) {
-  List<int> order(static_cast<std::size_t>(points.rows()));
+  List<int> order(points.rows());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return compare(points, a, b) < 0; });
   return order;
@@ -91,7 +91,7 @@ Index farthest_point(const Points& points, const Points& centres, const List<boo
 /// Moves every centre to the mean of its points, then those without points to where they get some.
 void move_centres(const Points& points, Partition& p) {
   Points sum = Points::Zero(p.centres.rows(), p.centres.cols());
-  List<int> count(static_cast<std::size_t>(p.centres.rows()), 0);
+  List<int> count(p.centres.rows(), 0);
   for (Index i = 0; i < points.rows(); ++i) {
     const int c = p.cluster[i];
     sum.row(c) += points.row(i);
@@ -117,7 +117,7 @@ void move_centres(const Points& points, Partition& p) {
 /// point that is nearer to it than to all others.
 Partition lloyd_sorted(const Points& sorted, const Points& centres) {
   require_clusters(sorted, centres.rows());
-  Partition p{List<int>(static_cast<std::size_t>(sorted.rows()), -1), centres, 0.0};
+  Partition p{List<int>(sorted.rows(), -1), centres, 0.0};
   double cost = std::numeric_limits<double>::infinity();
   while (assign(sorted, p) && p.cost < cost) {
     cost = p.cost;

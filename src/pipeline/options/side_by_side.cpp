@@ -37,7 +37,7 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::Track
   characters.packs.assign((options.size() + physics::kLanes - 1) / physics::kLanes,
                           rl::tracking::TrackingPack(clip, config));
   physics::Data<rl::tracking::TrackingPack::P> scratch;
-  List<float> state(static_cast<std::size_t>(clip->state_size()));
+  List<float> state(clip->state_size());
   Array<float, kDofs> action{};
   SideBySide result;
   result.rewards.emplace_back(options.size(), 1.0);

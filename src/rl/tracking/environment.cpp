@@ -35,19 +35,19 @@ TrackingEnvironment::TrackingEnvironment(std::vector<std::shared_ptr<const Track
   if (clips_.empty()) throw std::invalid_argument("TrackingEnvironment: no clips");
   require_whole_groups(characters, group_size);
   for (const auto& clip : clips_) {
-    const auto bins = static_cast<std::size_t>(bins_of(*clip, config_));
+    const int bins = bins_of(*clip, config_);
     last_.falls.emplace_back(bins, 0);
     last_.visits.emplace_back(bins, 0);
     fall_rates_.emplace_back(bins, 0.0);
     start_weights_.push_back(start_weights(fall_rates_.back(), config_.uniform_starts));
   }
-  groups_.resize(static_cast<std::size_t>(characters / group_size));
+  groups_.resize(characters / group_size);
   for (int g = 0; g < groups_.count(); ++g) {
     Group& group = groups_[g];
-    const auto packs = static_cast<std::size_t>(group_size / physics::kLanes);
+    const int packs = group_size / physics::kLanes;
     group.clips.assign(packs, 0);
     group.packs.assign(packs, TrackingPack(clips_.front(), config_));
-    group.episodes.assign(static_cast<std::size_t>(group_size), 0);
+    group.episodes.assign(group_size, 0);
     group.scratch = std::make_unique<physics::Data<TrackingPack::P>>();
     group.statistics = last_;
     for (int p = 0; p < group.packs.count(); ++p) follow_next_clip(g, p);
