@@ -50,7 +50,7 @@ struct Problem {
   control::System system;
   control::Cost cost;
   control::Trajectory plan;
-  std::vector<control::FrameModel> models;
+  List<control::FrameModel> models;
   control::Sweep sweep;
 
   explicit Problem(bool soft) : system(make(soft)), cost(control::make_cost(system, {})) {

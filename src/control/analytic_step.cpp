@@ -120,7 +120,7 @@ struct Solves {
   /// The table that the next solve will fill.
   SolveTable<Real>& next() {
     const int k = out.solve_count;
-    if (k == out.solves.size()) out.solves.emplace_back();
+    if (k == out.solves.count()) out.solves.emplace_back();
     return out.solves[k];
   }
 

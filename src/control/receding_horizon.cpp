@@ -18,11 +18,11 @@ struct Variant {
   double steps;  ///< factor on the steps of differences
 };
 /// The usual one first.
-constexpr Array<Variant, 5> kVariants = {{{0, std::nullopt, 1.0},
-                                          {12, std::nullopt, 1.0},
-                                          {-5, std::nullopt, 1.0},
-                                          {0, Derivatives::kSmoothed, 1.0},
-                                          {0, Derivatives::kColumns, 1.0}}};
+constexpr Array<Variant, 5> kVariants = {{{{0, std::nullopt, 1.0},
+                                           {12, std::nullopt, 1.0},
+                                           {-5, std::nullopt, 1.0},
+                                           {0, Derivatives::kSmoothed, 1.0},
+                                           {0, Derivatives::kColumns, 1.0}}}};
 
 /// What stays the same from window to window.
 struct Task {

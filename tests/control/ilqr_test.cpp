@@ -31,7 +31,7 @@ struct Problem {
 
 TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
   Problem p;
-  std::vector<FrameModel> models;
+  List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0, last = p.plan.cost;
   const double first = last;
@@ -55,7 +55,7 @@ TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
 TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
   Problem one, two;
   for (auto [p, threads] : {std::pair{&one, 1}, std::pair{&two, 2}}) {
-    std::vector<FrameModel> models;
+    List<FrameModel> models;
     Sweep sweep;
     double regularisation = 0.0;
     for (int i = 0; i < 2; ++i)
@@ -69,7 +69,7 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
 // The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
 TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
   Problem p;
-  std::vector<FrameModel> models;
+  List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
   for (int i = 0; i < 3; ++i)

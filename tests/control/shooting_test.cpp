@@ -53,7 +53,7 @@ TEST(Shooting, GapsAreWhatIsMissingToTheNextState) {
 // guess falls.
 TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
   Problem p;
-  std::vector<FrameModel> models;
+  List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
   improve(p.system, p.cost, {}, 2, true, 0.2, models, sweep, regularisation, p.plan);
@@ -69,7 +69,7 @@ TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
 TEST(Shooting, FramesBehindTheTrustedOnesKeepTheirStates) {
   Problem p;
   const Trajectory before = p.plan;
-  std::vector<FrameModel> models;
+  List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
   improve(p.system, p.cost, {}, 2, true, 1e-9, models, sweep, regularisation, p.plan);

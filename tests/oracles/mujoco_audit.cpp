@@ -102,16 +102,6 @@ std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit
     const MujocoMomentum before = mujoco_momentum(mujoco, a), after = mujoco_momentum(mujoco, b);
     const Vector3d point = 0.5 * (before.center + after.center);
     const physics::BodyWrenches external = external_of(motion.forces[t]);
-    pipeline::audit::AuditRow row;
-    row.index = static_cast<int>(t);
-    row.root = motion.fps * (about(point, after.about_center, after.center) -
-                             about(point, before.about_center, before.center));
-    row.root[5] += weight;
-    const BodyPoses from = forward_kinematics(motion.character, a.p_root, a.q),
-                    to = forward_kinematics(motion.character, b.p_root, b.q);
-    for (int i = 0; i < kBodies; ++i)
-      row.root -= about(point, external[i], 0.5 * (from.p_WB[i] + to.p_WB[i]));
-
     physics::MotionState middle = a;
     middle.p_root = 0.5 * (a.p_root + b.p_root);
     middle.v_root = 0.5 * (a.v_root + b.v_root);
@@ -121,6 +111,28 @@ std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit
       middle.omega[i] = 0.5 * (a.omega[i] + b.omega[i]);
       middle.omega_d[i] = motion.fps * (b.omega[i] - a.omega[i]);
     }
+    // Γ of docs/physics.md §9, (11); mj_inverse adds the weight, which acts at the centre of mass.
+    const auto product = [&](physics::MotionState pose, const physics::MotionState& velocity) {
+      pose.v_root = velocity.v_root;
+      pose.omega = velocity.omega;
+      physics::BodyWrenches none;
+      none.fill(Vector6d::Zero());
+      Vector6d weight_about_center = Vector6d::Zero();
+      weight_about_center[5] = weight;
+      return Vector6d(about(point, mujoco_inverse_dynamics(mujoco, pose, none).root, pose.p_root) -
+                      about(point, weight_about_center, mujoco_momentum(mujoco, pose).center));
+    };
+    pipeline::audit::AuditRow row;
+    row.index = static_cast<int>(t);
+    row.root = motion.fps * (about(point, after.about_center, after.center) -
+                             about(point, before.about_center, before.center));
+    row.root[5] += weight;
+    const BodyPoses from = forward_kinematics(motion.character, a.p_root, a.q),
+                    to = forward_kinematics(motion.character, b.p_root, b.q);
+    for (int i = 0; i < kBodies; ++i)
+      row.root -= about(point, external[i], 0.5 * (from.p_WB[i] + to.p_WB[i]));
+    row.root -= motion.fps / simulation.rate *
+                (product(b, b) - product(a, a) - 0.5 * (product(b, middle) - product(a, middle)));
     row.torque_gap = torque_gap(mujoco_inverse_dynamics(mujoco, middle, external), motion.forces[t]);
     rows.push_back(row);
   }

@@ -71,7 +71,7 @@ double height_of(const Character& c, const BodyPoses& poses, int body) {
   return lowest;
 }
 
-/// docs/physics.md §9, (11): how far the centre of mass went beyond the mean of its velocities, in parts of
+/// docs/physics.md §9, (12): how far the centre of mass went beyond the mean of its velocities, in parts of
 /// what forces of the recorded impulse can do by their timing.
 double travel_share(const Kinematics& before, const Kinematics& after, const Vector3d& v_before,
                     const Vector3d& v_after, double rate, double acceleration) {
@@ -138,6 +138,31 @@ physics::MotionState between(const motion::ReferenceFrame& a, const motion::Refe
   return s;
 }
 
+/// Γ(q, v): the wrench about `point` that bodies need which move at constant coordinates of velocity.
+/// @param pose, velocity  what of them is q, and what is v
+Vector6d velocity_products(const Character& c, const physics::MotionState& pose,
+                           const physics::MotionState& velocity, const Vector3d& point) {
+  physics::MotionState s = pose;
+  s.v_root = velocity.v_root;
+  s.omega = velocity.omega;
+  s.a_root.setZero();
+  s.omega_d.fill(Vector3d::Zero());
+  physics::BodyWrenches none;
+  none.fill(Vector6d::Zero());
+  return shifted(physics::inverse_dynamics(c, 0.0, s, none).root, s.p_root, point);
+}
+
+/// docs/physics.md §9, (11): the rate at which semi-implicit steps of `dt` change momentum beside the forces.
+Vector6d integrator_share(const Character& c, double dt, double fps, const motion::ReferenceFrame& a,
+                          const motion::ReferenceFrame& b, const Vector3d& point) {
+  const physics::MotionState from = between(a, b, fps, 0.0), middle = between(a, b, fps, 0.5),
+                             to = between(a, b, fps, 1.0);
+  const auto change = [&](const physics::MotionState& v_to, const physics::MotionState& v_from) {
+    return Vector6d(velocity_products(c, to, v_to, point) - velocity_products(c, from, v_from, point));
+  };
+  return dt * fps * (change(to, from) - 0.5 * change(middle, middle));
+}
+
 /// docs/physics.md §9, (10): change of momentum = weight and mean wrenches, about the middle of the centre of
 /// mass' way.
 Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kinematics& before,
@@ -182,7 +207,9 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
     const physics::BodyWrenches external = external_of(motion.forces[t]);
     AuditRow row;
     row.index = static_cast<int>(t);
-    row.root = momentum_gap(c, simulation.gravity, motion.fps, before, after, external);
+    row.root =
+        momentum_gap(c, simulation.gravity, motion.fps, before, after, external) -
+        integrator_share(c, 1.0 / simulation.rate, motion.fps, a, b, 0.5 * (before.center + after.center));
     const physics::RequiredForces required =
         physics::inverse_dynamics(c, simulation.gravity, between(a, b, motion.fps, 0.5), external);
     PerBody<Vector3d> speed;

@@ -28,7 +28,7 @@ Limits limits_of(Evidence evidence) {
   }
 }
 constexpr double kTorqueRounding = 1e-5;  ///< relative, of float32
-constexpr double kMostTravel = 1.2;       ///< parts of (11): its derivation leaves out an eighth
+constexpr double kMostTravel = 1.2;       ///< parts of (12): its derivation leaves out an eighth
 /// Share of the normal impulse; likewise of pull and of force in the air.
 constexpr double kMostBeyondCone = 0.1;
 

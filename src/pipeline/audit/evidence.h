@@ -24,7 +24,7 @@ struct AuditRow {
   double beyond_cone = 0.0;            ///< horizontal force beyond μ times the push, N
   double in_air = 0.0;                 ///< the floor's force on bodies more than 2 cm above it, N
   double power = 0.0;                  ///< of all joint torques, W
-  double travel = 0.0;                 ///< of the centre of mass beyond its velocities, in parts of (11)
+  double travel = 0.0;                 ///< of the centre of mass beyond its velocities, in parts of (12)
   double lowest = 0.0;                 ///< contact point over the floor, m
   double replay_gap = 0.0;             ///< of the floor's whole force, recorded against replayed, N
   double positive = 0.0, total = 0.0;  ///< power of the joints that drive; sum of all sizes, W

@@ -116,7 +116,7 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
   add_residuals(plan, npz);
   add_states("", plan.states, Precision::kFloat32, npz);
   add_states("reference_", stored.reference, Precision::kFloat64, npz);
-  npz.set("ending", NpyArray::scalar_text(std::string(kEndings[plan.ending])));
+  npz.set("ending", NpyArray::scalar_text(std::string(kEndings[static_cast<std::size_t>(plan.ending)])));
   for_each_number(plan, add);
   if (plan.loss) for_each_loss_number(*plan.loss, add);
   npz.set("input_checksum", NpyArray::scalar_text(stored.input_checksum));
