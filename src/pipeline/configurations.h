@@ -8,8 +8,8 @@
 ///
 /// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
 /// (reward, starts, simulation), the encoder and the plan, which have one value for all, beside their meaning
-/// (rl/tracking/pack.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h, control/plan.h). The printed
-/// table has them, too.
+/// (rl/tracking/config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h, control/plan.h). The
+/// printed table has them, too.
 #pragma once
 
 #include <string>

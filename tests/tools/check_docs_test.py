@@ -12,6 +12,7 @@ import tempfile
 
 ROOT = pathlib.Path(sys.argv[1]).resolve().parent.parent
 MISTAKES = [  # what is added to which file, what the check says of it
+    ("docs/usage.md", "word " * 24 + "w", "121 columns, at most 120"),
     ("docs/usage.md", "[a page](no_such_page.md)", "links to no_such_page.md"),
     ("docs/usage.md", "`src/core/no_such_file.h`", "there is no src/core/no_such_file.h"),
     ("docs/usage.md", "`no_such_file.cpp`", "there is no file no_such_file.cpp"),
@@ -29,6 +30,7 @@ MISTAKES = [  # what is added to which file, what the check says of it
     ("src/core/error.h", "/// METHOD", "METHOD is no page"),
 ]
 RIGHT = [
+    ("docs/usage.md", "| " + "cell " * 30 + "|"),
     ("docs/usage.md", '[method.md](method.md) §8 and §9, [physics.md](physics.md) §4, (8), `Aba.*`, "any words"'),
     ("src/core/error.h", "/// docs/physics.md §2,\n/// (2), docs/method.md §8, §9 and Ericson (2005), §5.1.9"),
 ]
