@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "motion/import/text_input.h"
 
 namespace mimicx::motion::import {
@@ -129,12 +130,12 @@ std::vector<double> read_frames(TextInput& in, SkeletonMotion& motion) {
 /// The median duration counts: the last frame's is 0 in most files.
 void set_fps(std::vector<double> durations, SkeletonMotion& motion) {
   if (durations.size() > 1) durations.pop_back();
-  std::sort(durations.begin(), durations.end());
-  const double duration = durations[durations.size() / 2];
+  const double duration = median(durations);
   if (!(duration >= 1.0 / kMaxFps && duration <= 10.0))
     throw DataError(motion.path, "Frames", "frame durations between 0.0005 and 10 s",
                     std::to_string(duration) + " s");
-  if (durations.back() > 1.01 * duration || durations.front() < 0.99 * duration)
+  const auto [shortest, longest] = std::minmax_element(durations.begin(), durations.end());
+  if (*longest > 1.01 * duration || *shortest < 0.99 * duration)
     motion.warnings.push_back("frames are of different durations: all are taken for " +
                               std::to_string(duration) + " s");
   motion.fps = whole_rate(1.0 / duration);

@@ -38,7 +38,7 @@ constexpr double kFastPelvis = 8.0;  ///< m/s in the median: a sprinter's pace
 constexpr double kFastJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
 
 /// Quantile of the finite values: absurd input may lead to others. 0 where there is none.
-double percentile(std::vector<double> values, double share) {
+double finite_quantile(std::vector<double> values, double share) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   return values.empty() ? 0.0 : quantile(std::move(values), share);
 }
@@ -53,7 +53,7 @@ double median_height(const Clip& clip) {
   const char axis = static_cast<char>(std::tolower(detect_up(clip).axis));
   std::vector<double> heights;
   for (const Vector3d& trans : clip.trans) heights.push_back(std::abs(trans[axis - 'x']));
-  return percentile(heights, 0.5);
+  return finite_quantile(heights, 0.5);
 }
 
 PerFrame<double> lowest_heights(const Character& character, const PerFrame<BodyPoses>& poses) {
@@ -73,7 +73,7 @@ double support_spread(const Clip& clip, const PerFrame<BodyPoses>& poses, const 
     for (const Vector3d& p : surface_positions(points, pose)) most = std::max(most, p.dot(down));
     deepest.push_back(most);
   }
-  return percentile(deepest, 0.9) - percentile(deepest, 0.1);
+  return finite_quantile(deepest, 0.9) - finite_quantile(deepest, 0.1);
 }
 
 /// Length of a joint's path, m.
@@ -126,7 +126,7 @@ double support_speed(const Clip& clip) {
   for (int t = 1; t < poses.count(); ++t)
     stillest.push_back(
         std::min(speed_of(poses, t, kLeftFoot, clip.fps), speed_of(poses, t, kRightFoot, clip.fps)));
-  return percentile(stillest, 0.5);
+  return finite_quantile(stillest, 0.5);
 }
 
 bool is_wrong_scale(const Clip& clip, double speed, double speed_scaled) {
@@ -170,7 +170,7 @@ std::optional<FallRate> rate_from_flights(const Clip& clip) {
   const Character character = character_of(clip);
   const PerFrame<BodyPoses> poses = poses_of(clip);
   const PerFrame<double> lowest = lowest_heights(character, poses);
-  const double floor = percentile(lowest, kFloorShare);
+  const double floor = finite_quantile(lowest, kFloorShare);
   PerFrame<double> height;
   for (const BodyPoses& pose : poses) height.push_back(center_of_mass(character, pose).z());
   FallRate fall;
@@ -204,7 +204,7 @@ std::optional<FallRate> rate_from_flights(const Clip& clip) {
 }
 
 double detect_floor(const Clip& clip) {
-  return percentile(lowest_heights(character_of(clip), poses_of(clip)), kFloorShare);
+  return finite_quantile(lowest_heights(character_of(clip), poses_of(clip)), kFloorShare);
 }
 
 std::vector<std::string> implausible_speeds(const Clip& clip) {
@@ -217,10 +217,10 @@ std::vector<std::string> implausible_speeds(const Clip& clip) {
     fastest.push_back(most);
   }
   std::vector<std::string> said;
-  if (const double speed = percentile(pelvis, 0.5); speed > kFastPelvis)
+  if (const double speed = finite_quantile(pelvis, 0.5); speed > kFastPelvis)
     said.push_back("the pelvis moves at " + short_number(speed) +
                    " m/s in the median: are scale and frame rate right? (--scale, --fps)");
-  if (const double speed = percentile(fastest, 0.99); speed > kFastJoint)
+  if (const double speed = finite_quantile(fastest, 0.99); speed > kFastJoint)
     said.push_back("a joint reaches " + short_number(speed) +
                    " m/s: are scale and frame rate right? (--scale, --fps)");
   return said;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/units.h"
 #include "pipeline/record/json.h"
 #include "pipeline/report/report_page.h"
 
@@ -74,7 +75,7 @@ std::string encode_capsules(const Character& character, const std::vector<BodyPo
   std::vector<std::uint8_t> bytes;
   bytes.reserve(poses.size() * kBodies * 12);
   const auto put = [&bytes](double metres) {
-    const double mm = std::clamp(std::round(1000.0 * metres), -32768.0, 32767.0);
+    const double mm = std::clamp(std::round(kMm * metres), -32768.0, 32767.0);
     const auto word = static_cast<std::uint16_t>(static_cast<std::int16_t>(mm));
     bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));
     bytes.push_back(static_cast<std::uint8_t>(word >> 8));

@@ -4,13 +4,12 @@
 
 #include <numbers>
 
+#include "core/units.h"
 #include "motion/reference.h"
 #include "motion/synth/synth.h"
 
 namespace mimicx::pipeline::audit {
 namespace {
-
-constexpr double kG = 9.81;
 
 /// The T-pose, upright, its soles at `height(t)` of frame t.
 template <class Height>
@@ -37,7 +36,7 @@ TEST(Feasibility, StandingStillNeedsNoHand) {
 }
 
 TEST(Feasibility, FreeFallNeedsNothing) {
-  const motion::Clip clip = t_pose([](int t) { return 1.0 - 0.5 * kG * t * t / 900.0; });
+  const motion::Clip clip = t_pose([](int t) { return 1.0 - 0.5 * kGravity * t * t / 900.0; });
   const Feasibility f = feasibility(clip);
   EXPECT_LT(f.max_force, 1e-9);
   EXPECT_LT(f.max_moment, 1e-9);
@@ -53,7 +52,8 @@ TEST(Feasibility, HoveringNeedsAHandThatCarriesTheWeight) {
 
 /// A floor can push but not pull.
 TEST(Feasibility, AFallFasterThanGravityIsNotPulledByTheFloor) {
-  const motion::Clip clip = t_pose([](int t) { return -0.5 * 1.5 * kG * (t - 3) * (t - 3) / 900.0 - 0.01; });
+  const motion::Clip clip =
+      t_pose([](int t) { return -0.5 * 1.5 * kGravity * (t - 3) * (t - 3) / 900.0 - 0.01; });
   const Feasibility f = feasibility(clip);
   EXPECT_NEAR(f.mean_force, 0.5, 1e-6);
 }
@@ -64,9 +64,9 @@ TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
   const BodyPoses poses = motion::poses_of(clip)[3];
   const FrameDemand demand = motion_demands(clip)[2];
   Vector3d expected = Vector3d::Zero();
-  for (std::size_t b : {kLeftShoulder, kLeftElbow, kLeftWrist})
+  for (const int b : {kLeftShoulder, kLeftElbow, kLeftWrist})
     expected += (poses.p_WB[b] + poses.q_WB[b] * c.com_B[b] - poses.p_WB[kLeftShoulder])
-                    .cross(Vector3d(0.0, 0.0, kG * c.mass[b]));
+                    .cross(Vector3d(0.0, 0.0, kGravity * c.mass[b]));
   EXPECT_GT(expected.norm(), 3.0);
   EXPECT_LT((demand.torque[kLeftShoulder] - expected).norm(), 1e-9);
   EXPECT_NEAR(torque_ratios(c, poses, demand)[kLeftShoulder],
@@ -74,9 +74,9 @@ TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
 }
 
 TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
-  motion::synth::SynthConfig options;
-  options.kind = "squat";
-  const motion::Clip clip = motion::synth::synthesize(options);
+  motion::synth::SynthConfig config;
+  config.kind = "squat";
+  const motion::Clip clip = motion::synth::synthesize(config);
   const Character c = make_character(clip.betas);
   const std::vector<FrameDemand> demands = motion_demands(clip);
   for (std::size_t i = 0; i < demands.size(); i += 20) {
@@ -87,11 +87,11 @@ TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
 
 TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
   for (const std::string& kind : motion::synth::synthetic_kinds()) {
-    motion::synth::SynthConfig options;
-    options.kind = kind;
-    options.seed = 1;
-    options.betas_from_seed = true;
-    const Feasibility f = feasibility(motion::synth::synthesize(options));
+    motion::synth::SynthConfig config;
+    config.kind = kind;
+    config.seed = 1;
+    config.betas_from_seed = true;
+    const Feasibility f = feasibility(motion::synth::synthesize(config));
     EXPECT_LT(f.mean_force, 0.001) << kind;
     EXPECT_LT(f.mean_moment, 0.001) << kind;
     EXPECT_LT(f.max_force, 0.02) << kind;
