@@ -49,7 +49,8 @@ void declare_pretrain(CLI::App& app, Action& action) {
   add_cluster_arguments(*command, a->config.clusters);
   add_read_arguments(*command, a->config.read);
   command
-      ->add_option("--preset", a->preset, "sizes of the networks: small (128-128) or paper (1024-1024-512)")
+      ->add_option("--preset", a->preset,
+                   "sizes of the networks: small or paper, as `mimicx config` lists them")
       ->check(CLI::IsMember({"small", "paper"}))
       ->capture_default_str();
   add_seed(*command, a->config.training.seed);

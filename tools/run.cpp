@@ -36,7 +36,8 @@ void declare_run(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("run", "All stages on a folder: pretrain options on it, then adapt all of it");
   command->add_option("DIR", a->in, "folder of motions")->required();
-  command->add_option("--out", a->out, "folder of the run: options/ and clean/")->required();
+  command->add_option("--out", a->out, "where the folders of the two stages go: options/ and clean/")
+      ->required();
   command
       ->add_option("--pretrain-samples", a->pretrain.training.samples,
                    "training budget of all options together, in character steps")

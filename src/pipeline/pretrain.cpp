@@ -118,16 +118,17 @@ nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::trackin
   return nn::train_autoencoder(samples, config, seed, &stats, progress);
 }
 
-struct OptionRun {
+/// An option after its training, and what the manifest says of it.
+struct OptionTraining {
   options::TrainedOption trained;
   record::Json record;
   bool interrupted = false;
 };
 
 /// Encoder and policy of one cluster.
-OptionRun train_option(const PretrainConfig& config, const record::RunContext& context,
-                       const options::Clusters& clusters, int index, std::int64_t samples,
-                       const Motions& motions) {
+OptionTraining train_option(const PretrainConfig& config, const record::RunContext& context,
+                            const options::Clusters& clusters, int index, std::int64_t samples,
+                            const Motions& motions) {
   const options::MotionCluster& cluster = clusters.clusters[index];
   const std::string name = "option" + std::to_string(index);
   TrainingConfig training = config.training;
@@ -139,7 +140,7 @@ OptionRun train_option(const PretrainConfig& config, const record::RunContext& c
       if (motions.features[i].name == member)
         clips.push_back(rl::tracking::make_tracking_clip(motions.references[i], training.tracking));
 
-  OptionRun run;
+  OptionTraining made;
   options::Option option;
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
@@ -159,16 +160,17 @@ OptionRun train_option(const PretrainConfig& config, const record::RunContext& c
   control.progress = progress_of_training(context.progress, label, training.samples);
   const TrainingResult result = train(clips, {start}, training, files, control);
   option.agent = result.agents.front();
-  run.interrupted = result.interrupted;
-  run.trained = {option, cluster.description, cluster.centre, static_cast<int>(clips.size()), result.samples};
-  run.record = {{"name", name},
-                {"description", cluster.description},
-                {"members", cluster.members},
-                {"samples", result.samples},
-                {"seed", training.seed},
-                {"encoder_loss_first", losses.first_loss},
-                {"encoder_loss_last", losses.last_loss}};
-  return run;
+  made.interrupted = result.interrupted;
+  made.trained = {option, cluster.description, cluster.centre, static_cast<int>(clips.size()),
+                  result.samples};
+  made.record = {{"name", name},
+                 {"description", cluster.description},
+                 {"members", cluster.members},
+                 {"samples", result.samples},
+                 {"seed", training.seed},
+                 {"encoder_loss_first", losses.first_loss},
+                 {"encoder_loss_last", losses.last_loss}};
+  return made;
 }
 
 }  // namespace
@@ -214,14 +216,14 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   options::OptionSet set;
   record::Json trained = record::Json::array();
   for (int index = 0; index < clusters.clusters.count(); ++index) {
-    OptionRun run = train_option(config, context, clusters, index, samples[index], motions);
-    if (run.interrupted) {
+    OptionTraining made = train_option(config, context, clusters, index, samples[index], motions);
+    if (made.interrupted) {
       context.progress.finish("interrupted; the same command continues");
       return record::RunOutcome::kInterrupted;
     }
-    context.progress.finish(run.record["name"].get<std::string>() + ": done, " + run.trained.description);
-    set.options.push_back(std::move(run.trained));
-    trained.push_back(run.record);
+    context.progress.finish(made.record["name"].get<std::string>() + ": done, " + made.trained.description);
+    set.options.push_back(std::move(made.trained));
+    trained.push_back(made.record);
   }
   options::write_options(config.out / "options.npz", set);
   write_file_atomically(folder.manifest(),

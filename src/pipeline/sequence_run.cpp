@@ -93,8 +93,8 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
   return !stands;
 }
 
-/// Reads, fits and prepares the input, and tells at once what was decided: a wrong axis shows before the
-/// training, not after it.
+/// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
+/// sees a wrong axis there can stop the run.
 PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
   const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
   entry.frames = motion.reference.size();
@@ -192,7 +192,8 @@ bool do_sequence(RunState& run, record::SequenceEntry& entry, std::size_t& told)
   return made.interrupted;
 }
 
-std::string summary_of(const record::SequenceEntry& entry) {
+/// "walk: ok, reward 0.912, gMPJPE 3.1 mm, MPJPE 2.8 mm"
+std::string result_line(const record::SequenceEntry& entry) {
   char text[64];
   std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
   if (!entry.reason.empty()) line += ", " + entry.reason;
@@ -284,7 +285,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     run.manifest.put(entry);
     write_records(run);
     if (i + 1 == config.inputs.size() || record::steady_seconds() - reported > kReportSeconds) report();
-    context.progress.finish(summary_of(entry));
+    context.progress.finish(result_line(entry));
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';
     const bool copied = copied_clean(run, entry);
