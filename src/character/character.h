@@ -67,14 +67,14 @@ Character make_character(const std::array<double, kBetas>& betas = {});
 /// Rest positions of the joints in a body model's frame (y up), m; index = Body.
 using RestJoints = PerBody<Vector3d>;
 
-/// The character of a body whose joints are known, but not as a shape of ours: bones exactly as given,
-/// everything else (radii, masses, contact points) as the shape of ours has it whose bones are nearest; its β
-/// is in `betas`.
+/// The character of a body whose rest joints are known, but no β of our shape basis. Its bones are exactly as
+/// given. Everything else (radii, masses, contact points) is that of our shape whose bones are nearest, and
+/// `betas` holds the β of that shape.
 /// @throws std::invalid_argument for a bone shorter than a third or longer than three times the standard one
 Character make_character_of_joints(const RestJoints& joints);
 
-/// Rest position of the pelvis J0 (m) in the y-up frame of a body model: pelvis = trans + J0.  docs/method.md
-/// §2 Known: "mimicx", "smplx", "smplh", "smpl".
+/// Rest position J0 of the pelvis in the y-up frame of a body model, m: pelvis = trans + J0 (docs/method.md
+/// §2). Known are "mimicx", "smplx", "smplh" and "smpl".
 Vector3d rest_pelvis(std::string_view body_model);
 
 /// World poses of all bodies. @param q_joint  [22] rotations relative to the parent; entry 0 is the root's

@@ -1,10 +1,10 @@
 /// Rows of the derivative through one physics step, backwards: the articulated-body recursion of
 /// physics/aba.h, differentiated and transposed.                            docs/control_derivatives.md §4
 ///
-/// A row of F asks one coordinate of the end how much it owes to everything before. T = double carries one
-/// row, T = Pack one per lane. Names are those of physics/data.h; every one means the derivative of the row's
-/// coordinate by D of that quantity, the change that an observer sees who turns with the body
-/// (docs/control_derivatives.md §2, (2)); p and v are those of the world.
+/// A row of F is the derivative of one coordinate of the frame's end by everything before. T = double carries
+/// one row, T = Pack one per lane. Names are those of physics/data.h. Every one means the derivative of the
+/// row's coordinate by D of that quantity, where D is the change that an observer sees who turns with the
+/// body (docs/control_derivatives.md §2, (2)); p and v are those of the world.
 #pragma once
 
 #include "control/analytic_tables.h"
@@ -31,8 +31,10 @@ struct AdjointData {
   PerBody<Vec3<T>> torque;            ///< of the joint
   PerBody<Vec3<T>> law, range, held;  ///< its PD law, its range, the constant in place of the law
 
-  // A solve is asked by joint accelerations `qdd` and by forces on bodies; it answers with accelerations and
-  // with forces that the joints transmit. The sums are over the solves of the step.
+  // What is asked of a solve: derivatives by its joint accelerations (`qdd`), applied like joint torques, and
+  // by the accelerations of its bodies (`force`), applied like forces. Its answer: accelerations (`alpha`,
+  // `a`), and the forces that joints transmit. Sums are over the solves of a step.
+  // docs/control_derivatives.md §4
   PerBody<Vec3<T>> qdd;
   PerBody<Wrench<T>> force;
   PerBody<Vec3<T>> free;      ///< α of the body, were its parent at rest

@@ -5,8 +5,8 @@
 
 namespace mimicx::control {
 
-/// One physics step of the nominal motion, as `step` does it bit by bit and everything
-/// about it that its derivative needs.
+/// Does one physics step of the nominal motion, with the same bits as `step`, and fills `out` with everything
+/// that the derivative of the step needs.
 /// @param help  external wrench on the pelvis, as in `step`
 /// @return whether the motion ran away
 template <class Real>

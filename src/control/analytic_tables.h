@@ -30,7 +30,7 @@ struct BodyTable {
   Real damping;               ///< torque of PD and range by −R δω
   Mat3<Real> turn;            ///< rotation after the step by the one before, body frames
   Mat3<Real> turn_by_omega;   ///< … and by the velocity after the step, s
-  bool placed;                ///< somebody asks where the body is: a contact of it or of a body it carries
+  bool placed;                ///< the place of the body matters: it, or a body that it carries, has a contact
 };
 
 /// A joint that is at its torque bound in some solve of the step: the range's part of its torque, which has
@@ -75,7 +75,7 @@ struct SolveBodyTable {
 template <class Real>
 struct SaturatedTable {
   int body;
-  bool set;               ///< its torque follows the law at the solve before; otherwise it is kept
+  bool set;               ///< true: the torque follows the law at the solve before; false: it keeps its value
   Sym3<Real> projection;  ///< torque by law: limit/‖law‖ (1 − l lᵀ)
 };
 

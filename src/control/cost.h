@@ -1,11 +1,11 @@
 /// What a plan is to minimise: a sum of squares over frames, with its gradient and Gauss–Newton Hessian.
 ///
-///     J = Σ_t  Σ_i w_i c_ti ‖p_ti − p*_ti‖²  +  Σ_k d_tk (x_t ⊖ x*_t)_k²  +  w_u ‖u_t‖² + w_Δ ‖u_t −
-///     u_{t−1}‖² + w_h ‖h_t‖²
+///     J = Σ_t  Σ_i w_i c_ti ‖p_ti − p*_ti‖²  +  Σ_k d_tk (x_t ⊖ x*_t)_k²
+///              + w_u ‖u_t‖²  +  w_Δ ‖u_t − u_{t−1}‖²  +  w_h ‖h_t‖²
 ///
 /// p_i are the joint centres in the world, * is the goal, u the residuals, h the help of a soft system.
-/// Distances in the world decide where the body is; the rotations hold what they leave open; velocities and
-/// changes of the controls make it smooth.
+/// Distances in the world decide where the body is. Rotations decide what distances leave open, such as the
+/// twist of a straight limb. Velocities and changes of the controls make the motion smooth.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,14 +1,15 @@
 /// Derivatives of a control frame by differences, with perturbed characters in the lanes of packs.
 ///
-///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, help),   F [122 × (122 + 55 + 55 (+
-///     6))]
+///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, help)
+///
+/// F has 122 rows and 122 + 55 + 55 columns, and 6 more for the help of a soft system.
 ///
 /// Two ways. *Columns*: central differences, one coordinate at a time. *Smoothed*: all coordinates at once,
 /// along ± the rows of a Hadamard matrix, and a least-squares fit, which for orthogonal rows is a product. It
-/// averages F over a neighbourhood in which contacts open and close, so its steps are a scale of smoothing:
-/// the derivative of a contact at a point says nothing about the step beside it. Random signs per column
-/// (a fixed stream per frame) keep the same coordinates from always moving together; what is even in the
-/// perturbation cancels between + and −.
+/// averages F over a neighbourhood in which contacts open and close, which the derivative at a point cannot
+/// show; the sizes of its steps say how far it smooths. Random signs per column (a fixed stream per frame)
+/// keep the same coordinates from always moving together; what is even in the perturbation cancels between +
+/// and −.
 /// Sources: antithetic pairs as in Salimans et al., "Evolution Strategies" (2017), §2.1; why smoothing:
 /// Suh et al., "Do Differentiable Simulators Give Better Policy Gradients?" (2022); steps: docs/control.md.
 #pragma once

@@ -2,11 +2,11 @@
 ///
 ///     u = ū_t + K_t (z − z̄_t),      z = (state, residual before)
 ///
-/// The gains that planning itself uses are too stiff for contact: they answer to an error of a few
-/// millimetres by what is right at the very point of the plan, where the next millimetre opens or closes a
-/// contact. These are softened twice: derivatives smoothed over a neighbourhood of some centimetres and
-/// degrees (differences.h), and a high price on residuals. One sweep over the whole motion, in blocks of
-/// frames, so that memory does not grow with its length (the gains themselves aside: 39 kB per frame).
+/// The gains that planning itself uses are too stiff for contact. They come from derivatives at the planned
+/// state, and these are wrong for a state a few millimetres away, in which other contacts are open. The gains
+/// here are softened twice: their derivatives are smoothed over some centimetres and degrees (differences.h),
+/// and residuals have a high price. One sweep goes over the whole motion in blocks of frames, so that memory
+/// does not grow with the length of the motion (but for the gains themselves, 39 kB per frame).
 #pragma once
 
 #include "control/ilqr.h"
@@ -22,7 +22,7 @@ struct GainConfig {
 };
 
 /// K_t [controls][kMemory] of every control of a roll-out.
-/// @return fewer, none, where it was told to stop
+/// @return none where it was told to stop
 List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
                                      const GainConfig& config, const PlanControl& control);
 

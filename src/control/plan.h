@@ -1,15 +1,16 @@
 /// The front door: from a reference to a motion that the simulator carries out, with its controls.
 ///
-///     System system = make_system(character, options, reference, fps);
+///     System system = make_system(character, simulation, reference, fps);
 ///     Plan plan = make_plan(system, {}, {.threads = 2});
 ///
 /// Replaying `plan.residuals` as actions of rl::tracking::TrackingPack (residual mode, velocity feed-forward,
 /// the same reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the
 /// result does not depend on the number of threads.
 ///
-/// A reference that is lost is planned again with help (system.h), and then once more without, towards what
-/// the helped body did: help that a body can do without leaves a motion that it can do. A soft system is
-/// planned with help alone; its result is no simulation.
+/// A reference that is lost is planned a second time with help (system.h), and a third time without help. The
+/// third plan follows the motion of the helped body instead of the reference: the penalty on help has drawn
+/// that motion towards what the body can do by itself. A soft system is planned with help alone; its result
+/// is no simulation.
 #pragma once
 
 #include <optional>
@@ -24,7 +25,7 @@ struct PlanConfig {
   List<Certainty> certainty;  ///< [frames], or empty
   Linearisation linearisation;
   HorizonConfig horizon;
-  bool soft_to_hard = true;  ///< try again by way of help where the reference is lost
+  bool soft_to_hard = true;  ///< where the reference is lost, plan again by way of help
   bool gains = false;        ///< compute the feedback gains of a plan that was followed
   GainConfig gain_config;
 };
@@ -34,8 +35,8 @@ struct Loss {
   int frame = -1;       ///< first frame that no window reached
   int body = -1;        ///< the body that was farthest from its reference in the longest try
   double distance = 0;  ///< of it, m
-  /// Largest help within half a second of that frame, of the soft plan: what something outside of the body
-  /// would have to push with. Zero where there is no soft plan that far.
+  /// Largest help of the plan with help within half a second of that frame: with so much something outside of
+  /// the body would have to push. Zero where that plan does not reach the frame, or was not made.
   double help_force = 0;   ///< N
   double help_moment = 0;  ///< N·m
 };

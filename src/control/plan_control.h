@@ -1,15 +1,15 @@
-/// How a caller accompanies a long computation.
+/// How a caller watches a long computation, and stops it.
 #pragma once
 
 #include <functional>
 
 namespace mimicx::control {
 
-/// None of it changes a byte of the result, `should_stop` aside.
+/// Only `should_stop` can change the result.
 struct PlanControl {
   int threads = 1;
-  std::function<bool()> should_stop = {};                   ///< asked between windows; empty: never
-  std::function<void(int done, int frames)> progress = {};  ///< frames that are settled; empty: nobody
+  std::function<bool()> should_stop = {};                   ///< asked between windows; may be empty
+  std::function<void(int done, int frames)> progress = {};  ///< of the frames that are settled; may be empty
 };
 
 }  // namespace mimicx::control

@@ -12,7 +12,7 @@
 
 namespace mimicx {
 
-/// Unpacked bytes of an archive, or of one array: 2 GiB are 20 hours of SMPL-X poses at 30 fps.
+/// Most bytes that an archive, or one array, may unpack to: 2 GiB hold 20 hours of SMPL-X poses at 30 fps.
 inline constexpr std::size_t kMaxMemberBytes = std::size_t{1} << 31;
 
 /// Parses one npy member. @param path, place  for messages.

@@ -1,14 +1,15 @@
 /// Values that stand at a place in the order of a list.
 ///
-/// What it does not do: no interpolation between two values, and nothing is known of NaN: remove it before.
+/// What it does not do: it does not interpolate between two values, and it does not sort NaN: the caller
+/// removes NaN first.
 #pragma once
 
 #include <vector>
 
 namespace mimicx {
 
-/// The value that has exactly `rank` of the others before it when all are sorted, from the smallest up.
-/// @param rank  0 to size − 1
+/// The value at place `rank` of the list when it is sorted, from the smallest up.
+/// @param rank  0 (the smallest) to size − 1
 double ranked(std::vector<double> values, int rank);
 
 /// The value below which a share of the values lies: that of rank ⌊share · (size − 1)⌋.

@@ -21,9 +21,9 @@ Quaterniond exp_map(const Vector3d& rotation_vector);
 Vector3d log_map(const Quaterniond& q);
 /// First two columns of the rotation matrix (Zhou et al. 2019): continuous, 6 numbers.
 Vector6d rotation_6d(const Quaterniond& q);
-/// Rotation about z by the heading of q: the direction of its local z axis ("forward" of the SMPL body
-/// frame) projected onto the floor, as an angle from world x. 0 where the body looks straight up or down
-/// is replaced by the heading of its local y axis.
+/// Heading of q: the direction of its local z axis ("forward" of the SMPL body frame), projected onto the
+/// floor, as an angle from world x. Where the body looks straight up or down, that projection is zero, and
+/// the heading is that of the local y axis.
 double heading_angle(const Quaterniond& q_WB);
 /// Rotation about the world's vertical.
 Quaterniond rotation_z(double angle);

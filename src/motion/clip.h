@@ -42,7 +42,7 @@ struct Clip {
   /// Joints of the file's own body where they are known: J(β) of a licensed model. They replace the standard
   /// body and the mean J0.
   std::optional<RestJoints> rest_joints;
-  bool on_floor = false;  ///< the user says that the floor is z = 0: nothing moves the whole motion
+  bool on_floor = false;  ///< the user says that the floor is z = 0: the motion is not shifted as a whole
 
   int frames() const { return rotations.count(); }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.

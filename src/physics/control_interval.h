@@ -18,7 +18,7 @@ using SubstepWatcher = std::function<void(const State<T>& before, const Target<T
 /// frames within rounding of a slerp), feed-forward velocities linearly.
 /// @param substeps  ≥ 1
 /// @param applied  where not null, what acted is added to it
-/// @param watch  sees every physics step and changes none; empty: nobody watches
+/// @param watch  sees every physics step and changes none; may be empty
 /// @param help  where not null, the constant wrench on the pelvis that `step` knows
 /// @return mask of the lanes that went wrong in any of the steps
 template <class T>

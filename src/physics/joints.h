@@ -82,7 +82,7 @@ template <class T>
     const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
     const T size = norm(law);  // of a hinge both vectors lie along its axis
     const MaskOf<T> over = size > limit;
-    const MaskOf<T> constant = over | d.saturated[i];  // now or before: the parent will see the difference
+    const MaskOf<T> constant = over | d.saturated[i];  // now or before: its parent is formed anew
     if (any(constant)) d.changed[kParents[i]] = true;
     d.saturated[i] = over;
     const T scale = limit / max(size, limit);

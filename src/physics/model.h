@@ -1,4 +1,4 @@
-/// What the simulator knows of a character and never changes during a run.
+/// What the simulator knows of a character and never changes while it simulates.
 ///
 /// `Model<Real>` is immutable and shared by all threads; `Data<T>` (data.h) is one worker's scratch. Names
 /// follow R. Featherstone, "Rigid Body Dynamics Algorithms" (2008, "RBDA"), table 4.3 and chapter 7;

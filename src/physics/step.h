@@ -10,8 +10,8 @@ namespace mimicx::physics {
 
 /// Accelerations d.qdd, d.a_w, d.a_v under joint torques alone: no floor, no self contact, no PD, no limits,
 /// armature included. The pure algorithm, for oracles and audits.
-/// @param tau  joint torques in the child's frame, N·m; entry 0 unused; of a hinge the part along its axis
-/// counts
+/// @param tau  joint torques in the child's frame, N·m; entry 0 unused; of a hinge only the part along
+///             its axis counts
 template <class T>
 void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, const PerBody<Vec3<T>>& tau,
                       Data<T>& d);

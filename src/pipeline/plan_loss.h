@@ -8,10 +8,10 @@
 
 namespace mimicx::pipeline {
 
-/// "the plan is lost at frame 132 (4.40 s): left_foot is 0.41 m from its reference; …", and what would have
-/// to push or turn the reference's body from outside in the frames that lead there, whatever the floor gives
-/// it (pipeline/audit/audit.h, poses alone). Where that is next to nothing a body could follow, and the
-/// search failed.
+/// "the plan is lost at frame 132 (4.40 s): left_foot is 0.41 m from its reference; …", then the force and
+/// the moment with which something outside would have to push the reference's body in the frames before,
+/// beyond all that the floor can give (pipeline/audit/audit.h, poses alone). Where these are next to nothing,
+/// a body could follow, and it is the search that failed: the sentence says so.
 std::string loss_in_words(const motion::Reference& reference, const control::Loss& loss);
 
 }  // namespace mimicx::pipeline

@@ -28,7 +28,7 @@
 
 namespace mimicx::pipeline {
 
-/// What a run is told whatever its method.
+/// The settings that every run has, whatever its method.
 struct RunConfig {
   std::vector<std::string> inputs;  ///< as given; recorded as such
   std::filesystem::path out;
@@ -37,7 +37,7 @@ struct RunConfig {
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
   bool gains = false;       ///< also write the feedback gains of plans; finished ones get theirs, too
-  bool fit = false;  ///< move inputs onto their keypoints first, where they have any; Eq. 3 sees no others
+  bool fit = false;  ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
   int threads = 1;
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
 };
@@ -56,16 +56,16 @@ struct SequenceJob {
 
 /// What a method made of one motion.
 struct SimulatedSequence {
-  bool interrupted = false;  ///< the job's context said so: a checkpoint is there, and nothing below
+  bool interrupted = false;  ///< the job's context asked to stop: only the seconds below are filled
   std::string method;        ///< what made the result: imitate, plan or paper
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
   record::Ending ending = record::Ending::kNone;
   std::int64_t samples = 0;
-  std::optional<rl::tracking::TrackingRollout> before;  ///< what the method started from, where that moves
+  std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none
   rl::tracking::TrackingRollout after;                  ///< the result
   std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option}; empty without options
   NamedValues plan = {};                                ///< what planning it took
-  std::string reason = {};              ///< where the method knows why it is no success, or may be none
+  std::string reason = {};              ///< why it is no success, or may be none, where the method knows
   std::vector<std::string> notes = {};  ///< for the manifest
 };
 

@@ -7,8 +7,8 @@
 ///
 /// Several agents may share a roll-out: each acts, and values, the rows that name it. The value of an
 /// observation is always that of the agent who acts there, so a return that crosses from one agent's rows
-/// into another's is bootstrapped with the other's critic. docs/method.md §9 The recording functions know
-/// agents and no environment; who acts in which row is the caller's choice.
+/// into another's is bootstrapped with the other's critic (docs/method.md §9). The recording functions
+/// know no environment: their caller says which agent acts in which row.
 #pragma once
 
 #include <span>

@@ -61,7 +61,8 @@ class PpoTrainer {
     std::vector<IterationStats> parts(learners_.size(), stats);
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       Learner& learner = learners_[k];
-      // The first roll-out only measures the observations: learning needs the scale that acting had.
+      // The first roll-out only measures the observations. Their scale is not known before, and later
+      // learning uses the scale with which the agents acted.
       if (learner.agent.observations.moments.count > 0)
         update(learner, config_, buffer_, rows_[k], stats.sigma, {course_.seed, k}, threads, update_,
                parts[k]);

@@ -1,4 +1,4 @@
-/// Feet that stand: what the keypoint fit decides anew before each step.
+/// Finds the feet that stand. The keypoint fit does this anew before each of its steps.
 #pragma once
 
 #include "motion/fit/kinematics.h"
@@ -8,9 +8,9 @@ namespace mimicx::motion::fit {
 /// Which foot points stand in which frame: [frames][kFootPoints].
 using Contacts = PerFrame<Array<bool, kFootPoints>>;
 
-/// Foot points that are low and slow stand.
-/// @param settled  the motion is on the floor already, and a low point is low over z = 0; else it is low over
-///                 the floor of its own foot, a low percentile of that foot's heights
+/// A foot point stands where it is low and slow.
+/// @param settled  true: the motion is on the floor already, and low means low over z = 0. False: low means
+///                 low over a low percentile of the heights of the point's own foot
 Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool settled);
 
 }  // namespace mimicx::motion::fit

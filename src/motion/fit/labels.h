@@ -1,14 +1,13 @@
-/// Left and right of the detections in order: what the keypoint fit decides anew before each step.
-///
-/// Detectors sometimes exchange the sides of both arms or both legs for a few frames.
+/// Puts left and right of the detections in order: detectors sometimes exchange the sides of both arms or
+/// both legs for a few frames. The keypoint fit does this anew before each of its steps.
 #pragma once
 
 #include "motion/fit/problem.h"
 
 namespace mimicx::motion::fit {
 
-/// Fills `FitProblem::uvc` with the detections; in frames in which the prediction strongly prefers it, left
-/// and right of the arms or of the legs change places.
+/// Fills `FitProblem::uvc` with the detections. Left and right of the arms or of the legs change places in
+/// the frames in which they then fit the prediction much better.
 /// @param detected   [frames][K] pixels and confidence, as in the file
 /// @param predicted  [frames][K] pixels
 /// @return number of frames in which a limb differs from the file

@@ -42,7 +42,7 @@ struct FitFootPoint {
 struct FitProblem {
   FitConfig config;
   double fps = 30.0;
-  std::array<double, kBetas> betas{};  ///< told
+  std::array<double, kBetas> betas{};  ///< as the file says
   double beta_sigma = 0.0;
   std::optional<RestJoints> rest_joints;  ///< of the clip; its shape is known and stays
   PerFrame<Vector3d> p_root;              ///< [frames] of the input, m

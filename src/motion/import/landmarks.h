@@ -35,7 +35,8 @@ double leg_length(const PerFrame<Landmarks>& poses);
 /// How far a pose is from a straight stance, 0 … : bends of hips and knees, half those of the elbows, and
 /// arms that reach forward or back.
 double bend_of(const Landmarks& pose);
-/// Legs under the trunk and straight, arms in the plane of the body: a person who stands, whatever is up.
+/// Legs under the trunk and straight, arms in the plane of the body: a person who stands, whichever axis is
+/// up.
 bool is_stance(const Landmarks& pose);
 /// A stance with the arms straight out to the sides.
 bool is_t_pose(const Landmarks& pose);

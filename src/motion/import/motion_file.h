@@ -26,7 +26,7 @@ struct ReadConfig {
   std::filesystem::path smplx;  ///< licensed SMPL-X model: gives the body its joints where betas are SMPL-X's
   std::filesystem::path joint_map;  ///< more joint names for foreign skeletons
 
-  /// Everything that was set, in one line: two runs that read alike have equal lines. Empty: nothing.
+  /// Everything that was set, in one line; empty: nothing. Settings that read alike have equal lines.
   std::string text() const;
 };
 

@@ -1,13 +1,12 @@
-/// Retargeting: the motion of a foreign skeleton on the 22 bodies.                       docs/method.md,
-/// "Retargeting"
+/// Retargeting: the motion of a foreign skeleton on the 22 bodies.        docs/method.md, "Retargeting"
 ///
 /// What is kept: the directions of thighs, shanks, upper arms and forearms, and of the trunk from the middle
 /// of the hips to the middle of the shoulders, in every frame; how every joint turns relative to a neutral
 /// pose; the path of the middle of the hips, times the ratio of leg lengths, so that planted feet stay
 /// planted. Bone lengths are matched by fitting β. The neutral pose is the skeleton's rest pose where that is
 /// a person who stands, else the frames that come nearest to one; it is found by geometry, so A-poses,
-/// T-poses and rest poses with every bone along x need no tables. Unit and up axis are found by looking, too,
-/// and every decision is a line in `Clip::decisions`.
+/// T-poses and rest poses with every bone along x need no tables. Unit and up axis are found from the
+/// motion, too. Every decision is a line in `Clip::decisions`.
 ///
 /// What it does not do: no inverse kinematics (hands do not meet where the proportions differ), no fingers,
 /// no change of frame rate.

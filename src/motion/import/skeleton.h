@@ -31,7 +31,7 @@ struct SkeletonMotion {
   std::string name;  ///< file name without folder and suffix
   std::string path;  ///< where it came from, for messages
   double fps = 30.0;
-  bool metric_y_up = false;  ///< the format itself says metres and y up; else both are found by looking
+  bool metric_y_up = false;  ///< the format itself says metres and y up; else retargeting finds both
   PerJoint<SkeletonJoint> joints;
   PerFrame<PerJoint<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
   PerFrame<PerJoint<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent

@@ -25,11 +25,11 @@
 
 namespace mimicx::pipeline::options {
 
-/// Points are rows: [N][D].
+/// Points are rows: [points][D].
 using Points = Eigen::MatrixXd;
 
 struct Partition {
-  List<int> cluster;  ///< [N] nearest centre; of equally near ones the first
+  List<int> cluster;  ///< [points] nearest centre; of equally near ones the first
   Points centres;     ///< [k][D] means of the members
   double cost = 0.0;  ///< sum of squared distances to the centres
 };

@@ -8,7 +8,7 @@
 ///
 ///     dp(1,c) = r[1][c];   dp(t,c) = r[t][c] + max( dp(t-1,c),  w_p + max_{c'} dp(t-1,c') )
 ///
-/// in O(N·C), because a switch costs the same whichever option it comes from.
+/// in O(T·C) for T frames and C options, because a switch costs the same whichever option it comes from.
 ///
 /// What it does not do: it does not make the rewards (the options' side-by-side roll-out does), and it knows
 /// nothing of what happens to a character when its option changes.

@@ -1,8 +1,8 @@
-/// plans/NAME.npz: a plan, with everything that repeats it but the body; gains/NAME.npz: the feedback around
-/// it.                                                                                docs/formats.md
+/// plans/NAME.npz: a plan, with all that is needed to repeat it except the body. gains/NAME.npz: the feedback
+/// around the plan.                                                                   docs/formats.md
 ///
-/// States and residuals are the simulator's own numbers (float32), the reference is what the residuals are
-/// applied to (float64): a system made of the file and of the body of references/NAME.npz rolls the residuals
+/// States and residuals are the simulator's own numbers (float32); the residuals are applied to the reference
+/// (float64). A system that is made of this file and of the body of references/NAME.npz rolls the residuals
 /// out to the same states, byte for byte.
 #pragma once
 

@@ -6,8 +6,8 @@
 ///
 /// The product of Eq. 2 stays near zero while a motion is hard to follow, and teaches little there. The
 /// learner's reward is therefore the product to a power, that is, all weights times one factor. The power
-/// falls while the mean reward stays under `reward_target` and returns to 1 as the motion is mastered.
-/// docs/method.md §7
+/// falls while the mean reward stays under `reward_target` and returns to 1 as the motion is mastered
+/// (docs/method.md §7).
 ///
 /// Every pack of characters follows one clip. Where there are more clips than packs, packs move on to the
 /// next clip in turn, one after the other, so that all clips have their share. Every start is drawn from a

@@ -33,7 +33,7 @@ class TrackingPack {
   /// Sets what the lane aims at during the next control step. @param action  [55]
   void act(int lane, const float* action);
   /// One control step of every lane; frames advance by one. @param applied  sums of what acted, or null
-  /// @param watch  sees every physics step and changes none; empty: nobody watches
+  /// @param watch  sees every physics step and changes none; may be empty
   void advance(physics::Data<P>& scratch, physics::Applied<P>* applied = nullptr,
                const SubstepWatcher& watch = {});
 
