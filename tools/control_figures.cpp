@@ -1,9 +1,8 @@
 // The figures of docs/control.md, as SVG:
 //   control_figures docs/figures
 // writes control_lqr.svg, control_ilqr.svg, control_shooting.svg, control_contact.svg and control_pushes.svg
-// and prints the numbers in them. Motions are synthetic, seed 501. A build gives the same bytes each time,
-// whatever the processor and its threads; builds for other instruction sets have other numbers of lanes, and
-// so of step lengths.
+// and prints the numbers in them. Motions are synthetic, seed 501. A build gives the same bytes each time;
+// builds for other instruction sets have other numbers of lanes, and so of step lengths.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
