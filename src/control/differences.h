@@ -11,7 +11,8 @@
 /// keep the same coordinates from always moving together; what is even in the perturbation cancels between +
 /// and −.
 /// Sources: antithetic pairs as in Salimans et al., "Evolution Strategies" (2017), §2.1; why smoothing:
-/// Suh et al., "Do Differentiable Simulators Give Better Policy Gradients?" (2022); steps: docs/control.md.
+/// Suh et al., "Do Differentiable Simulators Give Better Policy Gradients?" (2022); the fit and its
+/// steps: docs/control.md §4, (6).
 #pragma once
 
 #include "control/system.h"

@@ -7,9 +7,9 @@
 /// ½ z'ᵀ V z' + vᵀ z', the sum of both is a quadratic function Q of (z, u), least at
 ///     u = k + K z,      K = −Q_uu⁻¹ Q_uz,      k = −Q_uu⁻¹ q_u,
 /// and V ← Q_zz − Q_zu Q_uu⁻¹ Q_uz is the value of this one. Without memory (`memory` 0) this is the
-/// textbook's regulator. Source: Tassa, Erez, Todorov, "Synthesis and Stabilization of Complex Behaviors
-/// through Online Trajectory Optimization" (2012), eqs. (5), (6); gaps: Mastalli et al., "Crocoddyl" (2020),
-/// §IV-B.
+/// textbook's regulator (docs/control.md §1, (2)). Source: Tassa, Erez, Todorov, "Synthesis and Stabilization
+/// of Complex Behaviors through Online Trajectory Optimization" (2012), eqs. (5), (6); gaps: Mastalli et al.,
+/// "Crocoddyl" (2020), §IV-B.
 ///
 /// Nearly all time goes into products of matrices. Their scalar is `Real`; gradients, Q_uu and its root are
 /// always in double. Planning takes float, which halves the time and plans as well (docs/control.md).

@@ -46,7 +46,7 @@ struct RollConfig {
 };
 
 /// Rolls a trajectory out again from x0, lane by lane under its own share α of the new controls:
-///     u = ū + α k + K (z − z̄).
+///     u = ū + α k + K (z − z̄)                                                  docs/control.md §3, (4)
 /// @param laws  [n] or empty: u = ū
 Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
              std::span<const Feedback> laws, const Array<float, kLanes>& alpha, const State<P>& x0,

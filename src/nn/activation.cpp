@@ -14,7 +14,9 @@ constexpr std::array<std::pair<Activation, std::string_view>, 4> kNames = {{{Act
                                                                             {Activation::kTanh, "tanh"}}};
 }  // namespace
 
-std::string_view to_string(Activation activation) { return kNames[static_cast<std::size_t>(activation)].second; }
+std::string_view to_string(Activation activation) {
+  return kNames[static_cast<std::size_t>(activation)].second;
+}
 
 Activation activation_from_string(std::string_view name) {
   for (const auto& [activation, known] : kNames)

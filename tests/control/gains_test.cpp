@@ -27,6 +27,20 @@ TEST(Gains, HoldAWalkUnderPushesThatFellTheBarePlan) {
   EXPECT_LT(open.frames_kept, 89.0);
 }
 
+// The gains that planning itself uses answer to a contact as it is at the very point of the plan.
+TEST(Gains, SoftenedOnesHoldMoreThanStiffOnes) {
+  const Walk walk;
+  GainConfig stiff;
+  stiff.linearisation = {};
+  stiff.residual = walk.cost.weights.residual;
+  stiff.change = walk.cost.weights.change;
+  const auto followed = [&](const GainConfig& config) {
+    const auto gains = feedback_gains(walk.system, walk.cost, walk.motion, config, {.threads = 2});
+    return test_pushes(walk.system, walk.cost, walk.motion, gains, {.speed = 0.15}).followed;
+  };
+  EXPECT_GE(followed({}), followed(stiff) + 3);
+}
+
 // Not to the byte: the laws answer to the rounding of x ⊖ x̄.
 TEST(Gains, WithoutPushesThePlanIsFollowed) {
   const Walk walk;

@@ -39,24 +39,150 @@ double riccati_residual(const Regulator& r, const Eigen::MatrixXd& P) {
   return (P - next).cwiseAbs().maxCoeff() / P.cwiseAbs().maxCoeff();
 }
 
-// dt, ½ and 1 are floats exactly. By hand (docs/control.md): with Q = diag(1, 0), R = r and dt → 0 the gains
-// of the double integrator tend to (1/√r, √2 / r^¼); at dt = 1/64 they are within its order.
-TEST(Riccati, DoubleIntegratorSolvesTheAlgebraicEquation) {
-  const double dt = 1.0 / 64.0, r = 0.25;
+/// The solution of the algebraic Riccati equation by another way: the stable eigenvectors (X; Y) of the
+/// symplectic matrix span (x; P x), so P = Y X⁻¹.
+Eigen::MatrixXd algebraic_solution(const Regulator& r) {
+  const auto n = r.A.rows();
+  const Eigen::MatrixXd G = r.B * r.R.inverse() * r.B.transpose(), At_inv = r.A.transpose().inverse();
+  Eigen::MatrixXd Z(2 * n, 2 * n);
+  Z << r.A + G * At_inv * r.Q, -G * At_inv, -At_inv * r.Q, At_inv;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(Z);
+  Eigen::MatrixXcd stable(2 * n, n);
+  Eigen::Index found = 0;
+  for (Eigen::Index k = 0; k < 2 * n; ++k)
+    if (std::abs(solver.eigenvalues()[k]) < 1.0 && found < n)
+      stable.col(found++) = solver.eigenvectors().col(k);
+  EXPECT_EQ(found, n);
+  return (stable.bottomRows(n) * stable.topRows(n).inverse()).real();
+}
+
+/// A mass on a line, pushed for `dt` at a time; its place costs 1 per second, a push r per second.
+Regulator double_integrator(double dt, double r) {
   Regulator d;
   d.A = (Eigen::Matrix2d() << 1, dt, 0, 1).finished();
   d.B = Eigen::Vector2d(0.5 * dt * dt, dt);
   d.Q = Eigen::Vector2d(dt, 0).asDiagonal();
   d.R = Eigen::MatrixXd::Constant(1, 1, r * dt);
+  return d;
+}
+
+const double kGolden = 0.5 * (1.0 + std::sqrt(5.0));
+
+// The numbers of docs/control.md §1, "One number": V goes through quotients of Fibonacci numbers.
+TEST(Riccati, ScalarIntegratorsValueIsTheGoldenRatio) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  const Regulator s{one, one, one, one};
   Eigen::MatrixXd K;
-  const Eigen::MatrixXd value = sweep(d, 3000, K);
-  EXPECT_LT(riccati_residual(d, value), 1e-7);  // B is rounded to a float in the sweep
-  EXPECT_NEAR(-K(0, 0), 1.0 / std::sqrt(r), 0.05);
-  EXPECT_NEAR(-K(0, 1), std::sqrt(2.0) / std::pow(r, 0.25), 0.05);
+  const double quotients[] = {1.0, 3.0 / 2.0, 8.0 / 5.0, 21.0 / 13.0};
+  for (int steps = 0; steps < 4; ++steps) EXPECT_NEAR(sweep(s, steps, K)(0, 0), quotients[steps], 1e-15);
+  const Eigen::MatrixXd value = sweep(s, 40, K);
+  EXPECT_NEAR(value(0, 0), kGolden, 1e-15);
+  EXPECT_NEAR(K(0, 0), -1.0 / kGolden, 1e-7);  // laws are floats
+  EXPECT_NEAR(1.0 + K(0, 0), std::pow(kGolden, -2), 1e-7);
+  EXPECT_NEAR(1.0 + K(0, 0), 0.382, 5e-4);
+  EXPECT_NEAR(algebraic_solution(s)(0, 0), kGolden, 1e-14);
+}
+
+// The numbers of docs/control.md §1, "By hand".
+TEST(Riccati, DoubleIntegratorIsTheOneWorkedByHand) {
+  const Regulator d = double_integrator(1.0, 0.25);
+  const auto expect_near = [](const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double within) {
+    EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), within) << actual << "\nand not\n" << expected;
+  };
+  expect_near(d.R + d.B.transpose() * d.Q * d.B, Eigen::MatrixXd::Constant(1, 1, 0.5), 1e-15);
+  expect_near(d.B.transpose() * d.Q * d.A, Eigen::RowVector2d(0.5, 0.5), 1e-15);
+  expect_near(d.A.transpose() * d.Q * d.A, Eigen::Matrix2d::Ones(), 1e-15);
+  Eigen::MatrixXd K;
+  expect_near(sweep(d, 1, K), (Eigen::Matrix2d() << 1.5, 0.5, 0.5, 0.5).finished(), 1e-15);
+  expect_near(K, Eigen::RowVector2d(-1.0, -1.0), 1e-7);
+  expect_near(sweep(d, 2, K), (Eigen::Matrix2d() << 20, 6, 6, 7).finished() / 13.0, 1e-15);
+  expect_near(K, -Eigen::RowVector2d(10, 16) / 13.0, 1e-7);
+
+  const double root5 = std::sqrt(5.0), g = kGolden;
+  const Eigen::Matrix2d V = (Eigen::Matrix2d() << g, 0.5, 0.5, 0.25 * root5).finished();
+  expect_near(d.R + d.B.transpose() * V * d.B, Eigen::MatrixXd::Constant(1, 1, 0.25 * std::pow(g, 4)), 1e-14);
+  expect_near(d.B.transpose() * V * d.A, 0.5 * Eigen::RowVector2d(g * g, g * g * g), 1e-14);
+  const Eigen::Matrix2d AtVA = (Eigen::Matrix2d() << g, g + 0.5, g + 0.5, g * g + 0.25 * root5).finished();
+  expect_near(d.A.transpose() * V * d.A, AtVA, 1e-14);
+  const Eigen::RowVector2d law(-2.0 / (g * g), -2.0 / g);
+  const Eigen::Matrix2d taken = (Eigen::Matrix2d() << 1, g, g, g * g).finished();
+  expect_near(d.A.transpose() * V * d.B * law, -taken, 1e-14);
+  expect_near(d.Q + AtVA - taken, V, 1e-14);
+  EXPECT_LT(riccati_residual(d, V), 1e-15);
+  expect_near(algebraic_solution(d), V, 1e-13);
+  expect_near(sweep(d, 4, K), V, 0.01);
+  expect_near(sweep(d, 40, K), V, 1e-14);
+  expect_near(K, law, 1e-7);
+  expect_near(law, Eigen::RowVector2d(-0.764, -1.236), 5e-4);
+
+  // A sixth of a turn and a shrinking by φ² per frame: three frames turn every state round.
+  const Eigen::Matrix2d closed = d.A + d.B * law;
+  EXPECT_NEAR(closed.determinant(), std::pow(g, -4), 1e-14);
+  EXPECT_NEAR(closed.trace(), std::pow(g, -2), 1e-14);
+  expect_near(closed * closed * closed, -std::pow(g, -6) * Eigen::Matrix2d::Identity(), 1e-14);
+  Eigen::Vector2d x(1, 0);
+  double cost = 0.0;
+  const double places[] = {1.0, 0.618, 0.090, -0.056, -0.034};
+  for (int t = 0; t < 60; ++t) {
+    if (t < 5) {
+      EXPECT_NEAR(x[0], places[t], 5e-4) << t;
+    }
+    const double u = law * x;
+    cost += x[0] * x[0] + 0.25 * u * u;
+    x = d.A * x + d.B * u;
+  }
+  EXPECT_NEAR(cost, g, 1e-12);
+}
+
+// dt, ½ and 1 are floats exactly. As dt → 0 the values and gains tend to those of docs/control.md §1, (3), in
+// proportion to dt.
+TEST(Riccati, DoubleIntegratorSolvesTheAlgebraicEquation) {
+  const auto continuous = [](double r) {
+    const double b = std::sqrt(r), c = std::sqrt(2.0 * r * b);
+    return Eigen::Matrix2d((Eigen::Matrix2d() << b * c / r, b, b, c).finished());
+  };
+  for (const double r : {0.25, 4.0}) {
+    double off[2];
+    for (int half = 0; half < 2; ++half) {
+      const Regulator d = double_integrator(half == 0 ? 1.0 / 64.0 : 1.0 / 128.0, r);
+      Eigen::MatrixXd K;
+      const Eigen::MatrixXd value = sweep(d, 8000, K);
+      EXPECT_LT(riccati_residual(d, value), 1e-12);
+      EXPECT_LT((value - algebraic_solution(d)).norm(), 1e-9 * value.norm());
+      EXPECT_LT((value - continuous(r)).cwiseAbs().maxCoeff(), 0.01);
+      EXPECT_NEAR(-K(0, 0), 1.0 / std::sqrt(r), 0.05);
+      EXPECT_NEAR(-K(0, 1), std::sqrt(2.0) / std::pow(r, 0.25), 0.05);
+      off[half] = -K(0, 0) - 1.0 / std::sqrt(r);
+    }
+    EXPECT_NEAR(off[0] / off[1], 2.0, 0.05);
+  }
+  EXPECT_LT((continuous(0.25) - (Eigen::Matrix2d() << 1, 0.5, 0.5, 0.5).finished()).norm(), 1e-15);
+}
+
+// e^(−t) (cos t + sin t), which the frames of 1/64 s follow; it costs 1 and is lowest, −e^(−π), at t = π.
+TEST(Riccati, DoubleIntegratorMovesAsTheClosedFormDoes) {
+  const double dt = 1.0 / 64.0;
+  const Regulator d = double_integrator(dt, 0.25);
+  Eigen::MatrixXd K;
+  sweep(d, 3000, K);
+  Eigen::Vector2d x(1, 0);
+  double cost = 0.0, lowest = 0.0, when = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const double t = k * dt, u = (K * x)[0];
+    EXPECT_NEAR(x[0], std::exp(-t) * (std::cos(t) + std::sin(t)), 0.01);
+    EXPECT_NEAR(x[1], -2.0 * std::exp(-t) * std::sin(t), 0.01);
+    if (x[0] < lowest) lowest = x[0], when = t;
+    cost += dt * (x[0] * x[0] + 0.25 * u * u);
+    x = d.A * x + d.B * u;
+  }
+  EXPECT_NEAR(cost, 1.0, 0.01);
+  EXPECT_NEAR(lowest, -std::exp(-std::acos(-1.0)), 1e-4);
+  EXPECT_NEAR(lowest, -0.0432, 5e-5);
+  EXPECT_NEAR(when, std::acos(-1.0), 0.02);
 }
 
 // A pendulum held upright: unstable without control, stable with the sweep's.
-TEST(Riccati, InvertedPendulumIsStabilised) {
+TEST(Riccati, InvertedPendulumSolvesTheAlgebraicEquationAndStands) {
   const double dt = 1.0 / 32.0, gravity = 8.0;
   Regulator p;
   p.A = (Eigen::Matrix2d() << 1, dt, gravity * dt, 1).finished();
@@ -66,6 +192,7 @@ TEST(Riccati, InvertedPendulumIsStabilised) {
   Eigen::MatrixXd K;
   const Eigen::MatrixXd value = sweep(p, 500, K);
   EXPECT_LT(riccati_residual(p, value), 1e-12);
+  EXPECT_LT((value - algebraic_solution(p)).norm(), 1e-10 * value.norm());
   EXPECT_GT(p.A.eigenvalues().cwiseAbs().maxCoeff(), 1.0);
   EXPECT_LT((p.A + p.B * K).eigenvalues().cwiseAbs().maxCoeff(), 1.0);
 }

@@ -51,7 +51,7 @@ TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInFrames) {
     const SimulatedFrames frames = test::on_hinge_axes(thrown.frames());
     const std::vector<AuditRow> rows = test::mujoco_audit_frames(frames, thrown.config.simulation);
     EXPECT_LT(test::largest_difference(audit_frames(frames, thrown.config.simulation), rows), 1e-8) << size;
-    EXPECT_GT(largest_force(rows), 0.01) << size;
+    EXPECT_GT(largest_force(rows), 1e-4) << size;  // something to agree on
   }
 }
 
