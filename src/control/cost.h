@@ -27,6 +27,7 @@ struct CostWeights {
   double change = 2.0;           ///< of the residual from frame to frame, 1/rad²
   double help = 3.0;             ///< of the linear help, s⁴/m²
   double help_spin = 0.27;       ///< of the angular help, s⁴/rad²
+  double last = 1.0;  ///< factor on the state's cost in a window's last frame, which stands for those behind it
   /// Factor of each body on its distance and its joint's rotation; the feet's distance counts twice.
   PerBody<double> body_position, body_rotation;
 
@@ -45,6 +46,10 @@ struct Cost {
   List<Certainty> certainty;     ///< [frames], or empty: everything is certain
 
   double position_weight(int frame, int body) const;
+  /// Factor on the state's cost at a frame. @param last  whether a window ends there
+  double state_weight(int frame, bool last) const {
+    return last && frame + 1 < static_cast<int>(goal.size()) ? weights.last : 1.0;
+  }
   /// d_tk, k ≥ 3.
   double tangent_weight(int frame, int k) const;
 };
@@ -76,6 +81,13 @@ struct StateQuadratic {
   Eigen::VectorXd gradient;          ///< [122]
   Eigen::MatrixXd position_hessian;  ///< [61][61], of the positions
   Eigen::VectorXd velocity_hessian;  ///< [61], the diagonal of the velocities; nothing couples the two
+
+  void scale(double factor) {
+    value *= factor;
+    gradient *= factor;
+    position_hessian *= factor;
+    velocity_hessian *= factor;
+  }
 };
 StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame, const State<double>& x);
 

@@ -73,8 +73,9 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
     }
     const MaskOf<P> wrong = advance(system, from, to, help, x, scratch);
     const LaneCost now = state_cost(system, cost, frame + 1, x, scratch);
+    const double weight = cost.state_weight(frame + 1, t + 1 == n);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double value = static_cast<double>(now.cost[lane]);
+      const double value = weight * static_cast<double>(now.cost[lane]);
       const double distance = std::sqrt(static_cast<double>(now.worst[lane]));
       const bool broken = wrong[lane] != 0 || !std::isfinite(value);
       fan.cost[lane] +=

@@ -23,6 +23,7 @@ void for_each_setting(Config& config, const Add& add) {
   add("plan_change", w.change, 0, 1e9);
   add("plan_help", w.help, 0, 1e9);
   add("plan_help_spin", w.help_spin, 0, 1e9);
+  add("plan_last", w.last, 1, 1e9);
 
   add("plan_derivatives", config.linearisation.derivatives, 0, 2);
   auto& s = config.linearisation.steps;
