@@ -17,17 +17,17 @@ namespace mimicx::control {
 
 /// The one table of weights.
 struct CostWeights {
-  double position = 50.0;        ///< of a body's distance, 1/m²
+  double position = 1600.0;      ///< of a body's distance, 1/m²
   double root_rotation = 10.0;   ///< 1/rad²
   double joint_rotation = 1.0;   ///< 1/rad²
   double root_velocity = 0.5;    ///< s²/m²
   double root_spin = 0.05;       ///< s²/rad²
   double joint_velocity = 0.05;  ///< s²/rad²
   double residual = 0.02;        ///< 1/rad²
-  double change = 2.0;           ///< of the residual from frame to frame, 1/rad²
-  double help = 3.0;             ///< of the linear help, s⁴/m²
-  double help_spin = 0.27;       ///< of the angular help, s⁴/rad²
-  double last = 1.0;  ///< factor on the state's cost in a window's last frame, which stands for those behind it
+  double change = 64.0;          ///< of the residual from frame to frame, 1/rad²
+  double help = 96.0;            ///< of the linear help, s⁴/m²
+  double help_spin = 8.6;        ///< of the angular help, s⁴/rad²
+  double last = 8.0;  ///< factor on the state in a window's last frame: it stands for all frames behind it
   /// Factor of each body on its distance and its joint's rotation; the feet's distance counts twice.
   PerBody<double> body_position, body_rotation;
 

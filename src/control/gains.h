@@ -16,8 +16,8 @@ namespace mimicx::control {
 
 struct GainConfig {
   Linearisation linearisation{Derivatives::kSmoothed, DifferenceSteps{}.scaled(6.0)};
-  double residual = 50.0;  ///< weights in place of the plan's own
-  double change = 50.0;
+  double residual = 1600.0;  ///< weights in place of the plan's own
+  double change = 1600.0;
   int block = 32;  ///< frames that are linearised at once
 };
 

@@ -50,6 +50,20 @@ HorizonResult plan_softly(const Attempt& attempt, const Cost& cost) {
   return attempt.run(cheap, 3);
 }
 
+/// Follows from farther away: nearly the same motion, but distances and changes of the controls cost little
+/// beside the rest. A body that has to stay close to what it cannot do falls; one that may leave it does not.
+/// @return what came of it, or what was lost where that was longer
+HorizonResult plan_gently(const Attempt& attempt, const Cost& cost, HorizonResult lost) {
+  constexpr double kGentle = 1.0 / 32;
+  Cost gentle = cost;
+  gentle.weights.position *= kGentle;
+  gentle.weights.change *= kGentle;
+  gentle.weights.last = 1.0;
+  HorizonResult again = attempt.run(gentle, attempt.config.horizon.backtracks);
+  const bool longer = again.motion.size() > lost.motion.size();
+  return again.ending != Ending::kLost || longer ? again : lost;
+}
+
 /// By way of help: a soft plan, then a hard one towards it. @param lost  the plan without
 /// @return what the hard one came to, or the longer of both where it was lost, too
 HorizonResult plan_soft_then_hard(const Attempt& hard, const Cost& cost, HorizonResult lost, Loss& loss) {
@@ -86,7 +100,8 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
       system.soft ? plan_softly(attempt, cost) : attempt.run(cost, config.horizon.backtracks);
   if (found.ending == Ending::kLost) {
     Loss loss{found.lost_frame, found.lost_body, found.lost_distance};
-    if (config.soft_to_hard && !system.soft)
+    if (!system.soft) found = plan_gently(attempt, cost, std::move(found));
+    if (found.ending == Ending::kLost && config.soft_to_hard && !system.soft)
       found = plan_soft_then_hard(attempt, cost, std::move(found), loss);
     if (found.ending == Ending::kLost) {
       if (found.lost_frame > loss.frame) loss.frame = found.lost_frame;

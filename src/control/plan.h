@@ -7,10 +7,10 @@
 /// the same reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the
 /// result does not depend on the number of threads.
 ///
-/// A reference that is lost is planned a second time with help (system.h), and a third time without help. The
-/// third plan follows the motion of the helped body instead of the reference: the penalty on help has drawn
-/// that motion towards what the body can do by itself. A soft system is planned with help alone; its result
-/// is no simulation.
+/// A reference that is lost is planned a second time from farther away: distances cost less beside the rest.
+/// If that is lost, too, the third plan has help (system.h), and the fourth has none. The fourth plan follows
+/// the motion of the helped body instead of the reference: the penalty on help has drawn that motion towards
+/// what the body can do by itself. A soft system is planned with help alone; its result is no simulation.
 #pragma once
 
 #include <optional>
