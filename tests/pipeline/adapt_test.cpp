@@ -186,7 +186,7 @@ TEST_F(Adapt, ATrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
   run(config);
   config.run.out = out("halves");
   config.run.threads = 2;
-  EXPECT_EQ(run(config, 4), record::RunOutcome::kInterrupted);
+  EXPECT_EQ(run(config, 6), record::RunOutcome::kInterrupted);
   EXPECT_TRUE(std::filesystem::exists(out("halves") / "checkpoints" / "walk.npz")) << "not in the training";
   run(config);
   EXPECT_EQ(results_of(out("whole")), results_of(out("halves")));
