@@ -61,7 +61,7 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
   for (int t = 0; t < n; ++t) {
     const int frame = nominal.begin + t;
     if (config.disturbance) config.disturbance(frame, x);
-    const Feedback* law = laws.empty() ? nullptr : &laws[t];
+    const Feedback* law = laws.empty() ? nullptr : &laws[static_cast<std::size_t>(t)];
     if (law != nullptr) memory_difference(x, before, nominal.x[t], nominal.previous(t), dz);
     const LaneControls u = controls_of(system, nominal.u[t], law, dz, alpha);
     for (int lane = 0; lane < kLanes; ++lane) {

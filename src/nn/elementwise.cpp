@@ -73,10 +73,11 @@ S ordered_sum(const S* x, Eigen::Index n) {
   std::array<S, kLanes> partial{};
   Eigen::Index i = 0;
   for (; i + kLanes <= n; i += kLanes)
-    for (int lane = 0; lane < kLanes; ++lane) partial[lane] += x[i + lane];
-  for (int lane = 0; i < n; ++i, ++lane) partial[lane] += x[i];
+    for (int lane = 0; lane < kLanes; ++lane) partial[static_cast<std::size_t>(lane)] += x[i + lane];
+  for (int lane = 0; i < n; ++i, ++lane) partial[static_cast<std::size_t>(lane)] += x[i];
   for (std::size_t half = kLanes / 2; half > 0; half /= 2)
-    for (std::size_t lane = 0; lane < half; ++lane) partial[lane] += partial[lane + half];
+    for (std::size_t lane = 0; lane < half; ++lane)
+      partial[static_cast<std::size_t>(lane)] += partial[lane + half];
   return partial[0];
 }
 

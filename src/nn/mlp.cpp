@@ -73,10 +73,11 @@ void evaluate(const Mlp<S>& mlp, const Matrix<S>& input, Workspace<S>& workspace
   workspace.hidden.resize(mlp.weights.size() - 1);
   const Matrix<S>* x = &input;
   for (int layer = 0; layer < mlp.layers(); ++layer) {
+    const auto index = static_cast<std::size_t>(layer);
     const bool last = layer + 1 == mlp.layers();
-    Matrix<S>& y = last ? output : workspace.hidden[layer];
-    y.resize(input.rows(), mlp.weights[layer].cols());
-    gemm(false, false, *x, mlp.weights[layer], mlp.biases[layer].data(), y);
+    Matrix<S>& y = last ? output : workspace.hidden[index];
+    y.resize(input.rows(), mlp.weights[index].cols());
+    gemm(false, false, *x, mlp.weights[index], mlp.biases[index].data(), y);
     const Activation activation = layer_activation(mlp, layer);
     if (activation != Activation::kLinear) apply_activation(activation, y, y);
     x = &y;

@@ -7,7 +7,7 @@ namespace mimicx::nn {
 template <class S>
 typename Tape<S>::Node& Tape<S>::next() {
   if (static_cast<std::size_t>(size_) == nodes_.size()) nodes_.emplace_back();
-  return nodes_[size_++];
+  return nodes_[static_cast<std::size_t>(size_++)];
 }
 
 template <class S>

@@ -64,7 +64,7 @@ class Tape {
   const Matrix<S>& value(Var v) const { return *node(v).value; }
   /// The only number of a 1×1 node.
   S scalar(Var v) const;
-  Matrix<S>& buffer(Var v) { return nodes_[v.index].buffer; }
+  Matrix<S>& buffer(Var v) { return nodes_[static_cast<std::size_t>(v.index)].buffer; }
 
   /// For operations: a new node with a buffer of that shape and unspecified content.
   Var append(const Recipe& recipe, Eigen::Index rows, Eigen::Index cols);
@@ -77,7 +77,7 @@ class Tape {
     const Matrix<S>* value = nullptr;
   };
 
-  const Node& node(Var v) const { return nodes_[v.index]; }
+  const Node& node(Var v) const { return nodes_[static_cast<std::size_t>(v.index)]; }
   Node& next();
 
   std::deque<Node> nodes_;  ///< a deque, because references to values must survive growth
