@@ -88,7 +88,7 @@ void gather(const RolloutBuffer& buffer, std::span<const int> rows, const Advant
   slot.targets.resize(n, 1);
   const double deviation = returns.deviation();
   for (Eigen::Index k = 0; k < n; ++k) {
-    const RowPlace at = place(buffer, rows[k]);
+    const RowPlace at = place(buffer, rows[static_cast<std::size_t>(k)]);
     slot.observations.row(k) = at.group.observations.row(at.row);
     slot.actions.row(k) = at.group.actions.row(at.row);
     slot.old_means.row(k) = at.group.means.row(at.row);
@@ -178,7 +178,7 @@ LossSums take_gradients(const Learner& learner, const PpoConfig& config, const R
     clear(agent.actor, slot.actor_gradient);
     clear(agent.critic, slot.critic_gradient);
     const auto mine = part(rows, static_cast<std::size_t>(index), scratch.slots.size());
-    const int pass_rows = config.pass_rows;
+    const auto pass_rows = static_cast<std::size_t>(config.pass_rows);
     const std::size_t passes = (mine.size() + pass_rows - 1) / pass_rows;
     for (std::size_t pass = 0; pass < passes; ++pass) {
       gather(buffer, part(mine, pass, passes), advantages, agent.returns, slot);

@@ -54,7 +54,7 @@ RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int o
   group.log_density = group.rewards = group.values = group.final_values = group.advantages = per_step;
   group.last_values.setZero(1, group_size);
   group.terminated = group.truncated = no_flags;
-  group.actors.assign(rows, 0);
+  group.actors.assign(static_cast<std::size_t>(rows), 0);
   group.moments.assign(agents, nn::make_moments(observation_dim));
   group.ages.assign(group_size, 0);
   return {horizon, group_size, List<GroupRollout>(groups, group)};

@@ -110,7 +110,7 @@ class PpoTrainer {
     iteration_ = whole_number_at(archive, prefix + "iteration");
     samples_ = whole_number_at(archive, prefix + "samples");
     const std::vector<double> ages = archive.at(prefix + "ages").to_double();
-    const int size = buffer_.group_size;
+    const auto size = static_cast<std::size_t>(buffer_.group_size);
     if (ages.size() != size * buffer_.groups.size())
       throw DataError(archive.path, prefix + "ages",
                       std::to_string(size * buffer_.groups.size()) + " characters",
