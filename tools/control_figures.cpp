@@ -8,17 +8,16 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
+#include "control/fixtures.h"
 #include "control/plan.h"
 #include "control/shooting.h"
+#include "core/file.h"
+#include "core/units.h"
 #include "line_plot.h"
-#include "motion/prepare.h"
-#include "motion/synth/synth.h"
 #include "physics/step.h"
 
 namespace mimicx::tools {
@@ -99,24 +98,7 @@ std::string lqr_figure() {
 
 // iLQR and multiple shooting: docs/control.md §3
 
-System synthetic_system(const std::string& kind) {
-  motion::synth::SynthConfig config;
-  config.kind = kind;
-  config.seed = 501;
-  const motion::Reference reference =
-      motion::prepare_reference(motion::synth::synthesize(config), {}, nullptr);
-  List<State<double>> states;
-  for (const motion::ReferenceFrame& frame : reference.frames) {
-    State<double>& x = states.emplace_back();
-    x.p_root = from_eigen(frame.p_root);
-    x.v_root = from_eigen(frame.v_root);
-    for (int i = 0; i < kBodies; ++i) {
-      x.q[i] = from_eigen(frame.q[i]);
-      x.omega[i] = from_eigen(frame.omega[i]);
-    }
-  }
-  return make_system(reference.character, {}, std::move(states), reference.fps);
-}
+System synthetic_system(const std::string& kind) { return system_of(synthetic_reference(kind, 501)); }
 
 /// The reference's own states, controls of zero, gaps between them.
 Trajectory with_gaps(const System& system, int begin, int frames) {
@@ -230,8 +212,7 @@ State<double> standing_at(const System& system, double height) {
   const BodyPoses poses = poses_of(system, x);
   double lowest = kInfinity;
   for (const ContactPoint& point : system.model.contacts)
-    lowest =
-        std::min(lowest, (poses.p_WB[point.body] + poses.q_WB[point.body] * point.p_B).z() - point.radius);
+    lowest = std::min(lowest, lowest_position(point, poses).z());
   x.p_root.z += height + system.model.config.skin - lowest;
   return x;
 }
@@ -279,7 +260,7 @@ std::string contact_figure(const System& stand) {
   std::printf("control_contact: standing at rest, soles at some height\n");
   print("height, mm", forces.x);
   print("force, N", forces.y, " %.0f");
-  print("weight, N", {9.81 * stand.mass});
+  print("weight, N", {kGravity * stand.mass});
   force.curves = {forces};
   velocity.curves = {velocities};
   const auto scratch = std::make_unique<LinearisationScratch>();
@@ -342,20 +323,14 @@ std::string pushes_figure(const System& system, const Cost& cost) {
   return line_plot("Pushes that a plan survives under its feedback gains", {followed, kept});
 }
 
-void write(const std::filesystem::path& path, const std::string& svg) {
-  std::ofstream file(path, std::ios::binary);
-  file << svg;
-  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
-}
-
 void draw_all(const std::filesystem::path& folder) {
   const System walk = synthetic_system("walk");
   const Cost cost = make_cost(walk, {});
-  write(folder / "control_lqr.svg", lqr_figure());
-  write(folder / "control_ilqr.svg", ilqr_figure(walk, cost));
-  write(folder / "control_shooting.svg", shooting_figure(walk, cost));
-  write(folder / "control_contact.svg", contact_figure(synthetic_system("stand")));
-  write(folder / "control_pushes.svg", pushes_figure(walk, cost));
+  write_file_atomically(folder / "control_lqr.svg", lqr_figure());
+  write_file_atomically(folder / "control_ilqr.svg", ilqr_figure(walk, cost));
+  write_file_atomically(folder / "control_shooting.svg", shooting_figure(walk, cost));
+  write_file_atomically(folder / "control_contact.svg", contact_figure(synthetic_system("stand")));
+  write_file_atomically(folder / "control_pushes.svg", pushes_figure(walk, cost));
 }
 
 }  // namespace
