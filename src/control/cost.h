@@ -46,10 +46,8 @@ struct Cost {
   List<Certainty> certainty;     ///< [frames], or empty: everything is certain
 
   double position_weight(int frame, int body) const;
-  /// Factor on the state's cost at a frame. @param last  whether a window ends there
-  double state_weight(int frame, bool last) const {
-    return last && frame + 1 < static_cast<int>(goal.size()) ? weights.last : 1.0;
-  }
+  /// Factor on the state's cost at the frame where a window ends; 1 at the end of the goal.
+  double last_weight(int frame) const { return frame + 1 < goal.count() ? weights.last : 1.0; }
   /// d_tk, k ≥ 3.
   double tangent_weight(int frame, int k) const;
 };

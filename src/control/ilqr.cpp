@@ -52,7 +52,7 @@ void build_models(const System& system, const Cost& cost, const Trajectory& traj
     const auto scratch = std::make_unique<LinearisationScratch>();
     for (int t = chunk; t <= n; t += kChunks) {
       models[t].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[t]);
-      models[t].cost.scale(cost.state_weight(trajectory.begin + t, t == n));
+      if (t == n) models[t].cost.scale(cost.last_weight(trajectory.begin + t));
       if (t < n) models[t].F = linearise(system, trajectory.point(t), how, *scratch);
     }
   });

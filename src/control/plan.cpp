@@ -29,6 +29,12 @@ struct Attempt {
   }
 };
 
+/// Of two tries, the second of which was made because the first was lost: the second where it was followed or
+/// stopped, else the longer.
+HorizonResult better_of(HorizonResult lost, HorizonResult again) {
+  return again.ending != Ending::kLost || again.motion.size() > lost.motion.size() ? again : lost;
+}
+
 /// Largest force and moment of help within half a second of a frame.
 void find_help(const System& system, const Trajectory& helped, Loss& loss) {
   const int around = static_cast<int>(std::lround(0.5 * system.fps));
@@ -52,16 +58,13 @@ HorizonResult plan_softly(const Attempt& attempt, const Cost& cost) {
 
 /// Follows from farther away: nearly the same motion, but distances and changes of the controls cost little
 /// beside the rest. A body that has to stay close to what it cannot do falls; one that may leave it does not.
-/// @return what came of it, or what was lost where that was longer
-HorizonResult plan_gently(const Attempt& attempt, const Cost& cost, HorizonResult lost) {
+HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   constexpr double kGentle = 1.0 / 32;
   Cost gentle = cost;
   gentle.weights.position *= kGentle;
   gentle.weights.change *= kGentle;
   gentle.weights.last = 1.0;
-  HorizonResult again = attempt.run(gentle, attempt.config.horizon.backtracks);
-  const bool longer = again.motion.size() > lost.motion.size();
-  return again.ending != Ending::kLost || longer ? again : lost;
+  return attempt.run(gentle, attempt.config.horizon.backtracks);
 }
 
 /// By way of help: a soft plan, then a hard one towards it. @param lost  the plan without
@@ -76,8 +79,7 @@ HorizonResult plan_soft_then_hard(const Attempt& hard, const Cost& cost, Horizon
   for (Control& u : guess) std::fill(u.begin() + kDofs, u.end(), 0.0f);
   HorizonResult again = hard.run(with_goal(hard.system, cost, soft.motion.x), 4, guess);
   hard.plan.by_way_of_help = again.ending == Ending::kFollowed;
-  const bool longer = again.motion.size() > lost.motion.size();
-  return again.ending != Ending::kLost || longer ? again : lost;
+  return better_of(std::move(lost), std::move(again));
 }
 
 void fill(const System& system, const Trajectory& motion, Plan& plan) {
@@ -100,7 +102,7 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
       system.soft ? plan_softly(attempt, cost) : attempt.run(cost, config.horizon.backtracks);
   if (found.ending == Ending::kLost) {
     Loss loss{found.lost_frame, found.lost_body, found.lost_distance};
-    if (!system.soft) found = plan_gently(attempt, cost, std::move(found));
+    if (!system.soft) found = better_of(std::move(found), plan_gently(attempt, cost));
     if (found.ending == Ending::kLost && config.soft_to_hard && !system.soft)
       found = plan_soft_then_hard(attempt, cost, std::move(found), loss);
     if (found.ending == Ending::kLost) {

@@ -73,7 +73,7 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
     }
     const MaskOf<P> wrong = advance(system, from, to, help, x, scratch);
     const LaneCost now = state_cost(system, cost, frame + 1, x, scratch);
-    const double weight = cost.state_weight(frame + 1, t + 1 == n);
+    const double weight = t + 1 == n ? cost.last_weight(frame + 1) : 1.0;
     for (int lane = 0; lane < kLanes; ++lane) {
       const double value = weight * static_cast<double>(now.cost[lane]);
       const double distance = std::sqrt(static_cast<double>(now.worst[lane]));

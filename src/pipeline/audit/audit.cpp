@@ -163,11 +163,9 @@ Vector6d integrator_share(const Character& c, double dt, double fps, const motio
   return dt * fps * (change(to, from) - 0.5 * change(middle, middle));
 }
 
-/// docs/physics.md §9, (10): change of momentum = weight and mean wrenches, about the middle of the centre of
-/// mass' way.
+/// docs/physics.md §9, (10): change of momentum = weight and mean wrenches, about `point`.
 Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kinematics& before,
-                      const Kinematics& after, const physics::BodyWrenches& external) {
-  const Vector3d point = 0.5 * (before.center + after.center);
+                      const Kinematics& after, const physics::BodyWrenches& external, const Vector3d& point) {
   Vector6d gap = rate * (momentum_of(c, after, point) - momentum_of(c, before, point));
   gap[5] += c.total_mass() * gravity;
   for (std::size_t i = 0; i < kBodies; ++i)
@@ -207,9 +205,9 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
     const physics::BodyWrenches external = external_of(motion.forces[t]);
     AuditRow row;
     row.index = static_cast<int>(t);
-    row.root =
-        momentum_gap(c, simulation.gravity, motion.fps, before, after, external) -
-        integrator_share(c, 1.0 / simulation.rate, motion.fps, a, b, 0.5 * (before.center + after.center));
+    const Vector3d point = 0.5 * (before.center + after.center);  // middle of the centre of mass' way
+    row.root = momentum_gap(c, simulation.gravity, motion.fps, before, after, external, point) -
+               integrator_share(c, 1.0 / simulation.rate, motion.fps, a, b, point);
     const physics::RequiredForces required =
         physics::inverse_dynamics(c, simulation.gravity, between(a, b, motion.fps, 0.5), external);
     PerBody<Vector3d> speed;
