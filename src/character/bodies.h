@@ -71,6 +71,12 @@ static_assert(first_dof(kBodies - 1) + 3 == kDofs);
 /// End effectors e^p of the state: wrists and balls of the feet.                    docs/method.md §3
 inline constexpr std::array<int, 4> kEndEffectors = {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot};
 
+/// The trunk with head and collars (0), left and right leg (1, 2), left and right arm (3, 4).
+inline constexpr int kLimbs = 5;
+inline constexpr PerBody<int> kLimbOf = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 0, 0, 0, 3, 4, 3, 4, 3, 4};
+/// The body whose joint a limb hangs on; of the trunk the pelvis.
+inline constexpr Array<int, kLimbs> kLimbRoot = {kPelvis, kLeftHip, kRightHip, kLeftShoulder, kRightShoulder};
+
 /// Whether a body is of the right side.
 bool is_right(int body);
 

@@ -67,14 +67,16 @@ double Cost::position_weight(int frame, int body) const {
 
 double Cost::tangent_weight(int frame, int k) const {
   if (k < kRootRotation) return 0.0;
+  const auto sure = [&](int body) {
+    return certainty.empty() ? 1.0 : static_cast<double>(certainty[frame][body]);
+  };
   if (k < kRootVelocity) {
     const int body = k < kJointRotation ? 0 : dofs()[k - kJointRotation].body;
-    const double sure = certainty.empty() ? 1.0 : static_cast<double>(certainty[frame][body]);
-    return sure * weights.body_rotation[body] * (body == 0 ? weights.root_rotation : weights.joint_rotation);
+    return sure(body) * weights.body_rotation[body] *
+           (body == 0 ? weights.root_rotation : weights.joint_rotation);
   }
-  return k < kRootSpin        ? weights.root_velocity
-         : k < kJointVelocity ? weights.root_spin
-                              : weights.joint_velocity;
+  if (k < kJointVelocity) return sure(0) * (k < kRootSpin ? weights.root_velocity : weights.root_spin);
+  return sure(dofs()[k - kJointVelocity].body) * weights.joint_velocity;
 }
 
 Cost make_cost(const System& system, const CostWeights& weights, List<Certainty> certainty) {

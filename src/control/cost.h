@@ -35,7 +35,7 @@ struct CostWeights {
 };
 
 /// How much a frame's reference is to be believed, per body: factors in [0, 1] on the weights of its distance
-/// and its joint's rotation. From detections, flags, an estimator's error model.
+/// and its joint's rotation and spin. From detections, flags, an estimator's error model.
 using Certainty = PerBody<float>;
 
 /// The weights of one system and what they measure from: the system's reference, or another motion near it.

@@ -62,7 +62,4 @@ struct Success {
 /// @param simulated  may be shorter than the reference (a fall): then it is no success
 Success judge_success(const MotionSamples& simulated, const MotionSamples& reference);
 
-/// Smallest distance between two line segments, m.
-double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);
-
 }  // namespace mimicx::motion

@@ -7,8 +7,10 @@
 #include "core/units.h"
 #include "motion/feet.h"
 #include "motion/hinge.h"
+#include "motion/limb_glitches.h"
 #include "motion/repair.h"
 #include "motion/resample.h"
+#include "motion/separation.h"
 #include "motion/surface.h"
 
 namespace mimicx::motion {
@@ -106,7 +108,12 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   out.keypoints = input.keypoints;
   out.flagged = find_glitches(input);
   r.flagged_frames = static_cast<int>(std::count(out.flagged.begin(), out.flagged.end(), true));
-  if (config.bridge_flagged) bridge_glitches(bridged, out.flagged);
+  if (config.bridge_flagged) {
+    bridge_glitches(bridged, out.flagged);
+    const List<LimbGlitch> limbs = find_limb_glitches(bridged);
+    for (const LimbGlitch& glitch : limbs) r.limb_frames += glitch.last - glitch.first + 1;
+    bridge_limb_glitches(bridged, limbs);
+  }
 
   const auto q = to_hinges(out.character, joint_rotations(bridged));
   const Vector3d pelvis = rest_pelvis(clip);
@@ -120,6 +127,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   const Distance hinge = distance_mm(poses_of(bridged), out.poses);
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
+  if (config.separate) r.arms_moved_mm = kMm * separate_arms(out);
   if (config.level_feet) {
     r.foot_level_deg = level_feet(out);
     if (r.foot_level_deg > 0.0) forward(out);

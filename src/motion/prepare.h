@@ -18,13 +18,16 @@ struct PreparationReport {
   double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< docs/method.md §2
   /// Distance of joint positions from the input's, both on the body of the clip.
   double change_mean_mm = 0, change_max_mm = 0;
+  double arms_moved_mm = 0;   ///< largest distance of a joint by separate_arms (motion/separation.h)
   double foot_level_deg = 0;  ///< largest constant rotation that levelled a sole or toes (motion/feet.h)
   int flagged_frames = 0;     ///< frames of glitches (motion/repair.h)
+  int limb_frames = 0;  ///< frames of single limbs' glitches (motion/limb_glitches.h), all limbs together
   std::vector<std::string> notes;
 };
 
 struct PreparationConfig {
   double fps = 30.0;
+  bool separate = true;        ///< move arms out of the body
   bool level_feet = true;      ///< remove a constant error in the pitch and roll of standing feet
   bool ground = true;          ///< align with the floor
   bool bridge_flagged = true;  ///< interpolate over implausible frames

@@ -21,8 +21,8 @@ enum class AdaptMethod { kAuto, kPlan, kPaper };
 struct AdaptConfig {
   AdaptMethod method = AdaptMethod::kAuto;
   RunConfig run;
-  control::PlanConfig plan;  ///< simulated as `training` says
-  TrainingConfig training;   ///< of the fine-tuning; the networks are the options' own
+  MotionPlanConfig plan;    ///< simulated as `training` says
+  TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   options::ArrangementConfig arrangement;
   std::shared_ptr<const options::OptionSet> options;  ///< to start from; not looked at by the plan alone
 };

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/units.h"
+#include "pipeline/certainty.h"
 #include "pipeline/output/plan_file.h"
 #include "pipeline/plan_loss.h"
 
@@ -68,7 +69,9 @@ output::StoredPlan make(const motion::Reference& reference, const PlanningConfig
   stored.fps = reference.fps;
   stored.simulation = config.simulation;
   stored.reference = states_of(reference);
-  stored.plan = control::make_plan(system_of(reference, stored), config.plan, watch.control());
+  control::PlanConfig plan = config.plan;
+  plan.certainty = certainty_of(reference, config.plan.plausible_acceleration);
+  stored.plan = control::make_plan(system_of(reference, stored), plan, watch.control());
   return stored;
 }
 
@@ -79,9 +82,10 @@ void leave_gains(const motion::Reference& reference, const PlanningConfig& confi
   std::filesystem::remove(file);
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
   const control::System system = system_of(reference, stored);
-  const auto gains =
-      control::feedback_gains(system, control::make_cost(system, config.plan.weights, config.plan.certainty),
-                              control::trajectory_of(stored.plan), config.plan.gain_config, watch.control());
+  const control::Cost cost = control::make_cost(system, config.plan.weights,
+                                                certainty_of(reference, config.plan.plausible_acceleration));
+  const auto gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
+                                             config.plan.gain_config, watch.control());
   if (gains.empty()) return;  // it was told to stop
   std::filesystem::create_directories(file.parent_path());
   output::write_gains(file, gains);

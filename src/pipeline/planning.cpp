@@ -49,11 +49,12 @@ void for_each_setting(Config& config, const Add& add) {
   add("plan_backtracks", h.backtracks, 0, 1000);
   add("plan_budget", h.budget, 0, 1e6);
   add("plan_soft_to_hard", config.soft_to_hard, 0, 1);
+  add("plan_plausible_acceleration", config.plausible_acceleration, 0, 1e9);
 }
 
 }  // namespace
 
-NamedValues plan_settings(const control::PlanConfig& plan) {
+NamedValues plan_settings(const MotionPlanConfig& plan) {
   NamedValues values;
   for_each_setting(plan, [&](const char* name, const auto& field, double, double) {
     values.emplace_back(name, number_of(field));
@@ -69,7 +70,7 @@ NamedValues planning_settings(const PlanningConfig& config) {
   return values;
 }
 
-bool change_setting(control::PlanConfig& plan, const std::string& name, double value) {
+bool change_setting(MotionPlanConfig& plan, const std::string& name, double value) {
   bool found = false;
   for_each_setting(plan, [&](const char* known, auto& field, double, double) {
     if (known != name) return;
@@ -89,7 +90,7 @@ void apply_setting(PlanningConfig& config, const std::string& name, double value
   if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
-void check(const control::PlanConfig& plan) {
+void check(const MotionPlanConfig& plan) {
   for_each_setting(plan, [](const char* name, const auto& field, double least, double most) {
     require_range(name, number_of(field), least, most);
   });

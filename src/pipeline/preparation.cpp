@@ -16,8 +16,10 @@ NamedValues values_of(const motion::PreparationReport& r) {
           {"hinge_residual_max_mm", r.hinge_residual_max_mm},
           {"change_mean_mm", r.change_mean_mm},
           {"change_max_mm", r.change_max_mm},
+          {"arms_moved_mm", r.arms_moved_mm},
           {"foot_level_deg", r.foot_level_deg},
-          {"flagged_frames", static_cast<double>(r.flagged_frames)}};
+          {"flagged_frames", static_cast<double>(r.flagged_frames)},
+          {"limb_frames", static_cast<double>(r.limb_frames)}};
 }
 
 NamedValues values_of(const motion::fit::FitReport& r) {

@@ -1,4 +1,5 @@
 #include "motion/metrics.h"
+#include "motion/segments.h"
 
 #include <gtest/gtest.h>
 

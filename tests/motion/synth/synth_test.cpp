@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "motion/metrics.h"
+#include "motion/segments.h"
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 #include "motion/synth/synth_motions.h"

@@ -1,0 +1,18 @@
+/// Line segments, the axes of capsules.
+#pragma once
+
+#include "core/so3.h"
+
+namespace mimicx::motion {
+
+/// The points of two segments that are nearest to each other.
+struct SegmentPair {
+  Vector3d a, b;
+};
+/// @param a0,a1  ends of the one; @param b0,b1  of the other; an end may be both ends
+SegmentPair closest_points(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);
+
+/// Distance of two segments.
+double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);
+
+}  // namespace mimicx::motion
