@@ -18,7 +18,8 @@ constexpr const char* kHelp =
     "Make a benchmark of clean motions: truth/ and noisy/, a file per motion\n\n"
     "  mimicx corrupt mocap/ --out bench\n"
     "  mimicx evaluate --truth bench/truth --motions bench/noisy\n\n"
-    "  mimicx corrupt walk.bvh --noise gvhmr,drift=0 --camera moving --keypoints coco17 --seed 3 --out bench\n\n"
+    "  mimicx corrupt walk.bvh --noise gvhmr,drift=0 --camera moving --keypoints coco17 --seed 3 --out "
+    "bench\n\n"
     "A motion's errors follow from the seed and its name alone, never from the other files.";
 
 struct Arguments {
@@ -68,13 +69,16 @@ void declare_corrupt(CLI::App& app, Action& action) {
   command->add_option("FILE", a->inputs, "clean motions and folders of them")->required();
   command->add_option("--out", a->out, "folder to write to")->required();
   command
-      ->add_option("--noise", a->noise,
-                   "what estimates them: independent (default; shares nothing with the keypoint fit), gvhmr or "
-                   "vibe; single amplitudes behind commas: independent,stature=0,swap_rate=0 "
-                   "(docs/method.md, \"Noise model\")")
+      ->add_option(
+          "--noise", a->noise,
+          "what estimates them: independent (default; shares nothing with the keypoint fit), gvhmr or "
+          "vibe; single amplitudes behind commas: independent,stature=0,swap_rate=0 "
+          "(docs/method.md, \"Noise model\")")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--camera", a->camera, "how well the camera is known; moving: carried, and told with drift")
+  command
+      ->add_option("--camera", a->camera,
+                   "how well the camera is known; moving: carried, and told with drift")
       ->check(CLI::IsMember({"calibrated", "perturbed", "wild", "moving"}))
       ->capture_default_str();
   command->add_option("--keypoints", a->keypoints, "which points are detected; none: nor is a camera told")

@@ -12,18 +12,18 @@
 namespace mimicx::motion::synth {
 namespace {
 
-constexpr double kWidth = 1920.0, kHeight = 1080.0;       ///< picture, px
-constexpr double kBorder = 0.05;                          ///< of the picture that stays free of the person
-constexpr double kFarthest = 1e3, kDistanceStep = 0.25;   ///< m
-constexpr double kAimHeight = 0.9;                        ///< of the point a standing camera looks at, m
+constexpr double kWidth = 1920.0, kHeight = 1080.0;      ///< picture, px
+constexpr double kBorder = 0.05;                         ///< of the picture that stays free of the person
+constexpr double kFarthest = 1e3, kDistanceStep = 0.25;  ///< m
+constexpr double kAimHeight = 0.9;                       ///< of the point a standing camera looks at, m
 
 // Somebody who carries a camera: times in s, lengths in m, angles in degrees.
-constexpr double kFollowTau = 0.5;                        ///< how late and how smoothly it follows the person
-constexpr double kWalk = 0.25, kWalkTau = 2.5;            ///< of the feet
-constexpr double kSway = 0.015, kSwayTau = 0.4;           ///< of the arms
-constexpr double kWander = 1.2, kWanderTau = 0.9;         ///< of the direction
-constexpr double kTremor = 0.12, kTremorTau = 0.08;       ///< of the hands
-constexpr double kCarryDriftTau = 0.5;                    ///< of the velocity of what drifts
+constexpr double kFollowTau = 0.5;                   ///< how late and how smoothly it follows the person
+constexpr double kWalk = 0.25, kWalkTau = 2.5;       ///< of the feet
+constexpr double kSway = 0.015, kSwayTau = 0.4;      ///< of the arms
+constexpr double kWander = 1.2, kWanderTau = 0.9;    ///< of the direction
+constexpr double kTremor = 0.12, kTremorTau = 0.08;  ///< of the hands
+constexpr double kCarryDriftTau = 0.5;               ///< of the velocity of what drifts
 
 bool in_picture(const Camera& camera, const BodyPoses& poses) {
   for (const Vector3d& joint : poses.p_WB) {
@@ -176,7 +176,8 @@ CameraError camera_error(std::string_view name) {
   if (name == "perturbed") return {.focal = 0.01, .tilt = 0.3, .beta = 0.15};
   if (name == "wild") return {.focal = 0.05, .tilt = 0.7, .beta = 0.3};
   if (name == "moving")
-    return {.focal = 0.01, .tilt = 0.3, .beta = 0.15, .moving = true, .turn_drift = 0.2, .place_drift = 0.015};
+    return {
+        .focal = 0.01, .tilt = 0.3, .beta = 0.15, .moving = true, .turn_drift = 0.2, .place_drift = 0.015};
   throw std::invalid_argument("camera_error: unknown camera '" + std::string(name) + "'");
 }
 

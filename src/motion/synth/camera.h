@@ -1,5 +1,6 @@
 /// The camera that sees a synthetic or corrupted clip: where it stands, how it moves in a hand, and what the
-/// program is told of it.                                              docs/method.md, "Noise model", (1) to (3)
+/// program is told of it.                                              docs/method.md, "Noise model", (1) to
+/// (3)
 ///
 /// What it does not do: no lens distortion, no rolling shutter, no images.
 #pragma once

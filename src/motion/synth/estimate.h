@@ -17,8 +17,8 @@ using NoiseModel = std::variant<NoisePreset, IndependentPreset>;
 
 /// A model by name ("independent", "gvhmr", "vibe"; "independent" where none is named) with single amplitudes
 /// set by NAME=VALUE. @param words  one name at most; amplitudes in any order
-/// @throws std::invalid_argument for an unknown name, with those that are known, and for a value that makes no
-/// sense
+/// @throws std::invalid_argument for an unknown name, with those that are known, and for a value that makes
+/// no sense
 NoiseModel noise_model(const std::vector<std::string>& words);
 
 struct EstimateConfig {

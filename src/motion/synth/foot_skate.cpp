@@ -9,14 +9,13 @@
 namespace mimicx::motion::synth {
 namespace {
 
-constexpr double kSlipTau = 0.4;                             ///< of the slip's velocity, s
+constexpr double kSlipTau = 0.4;                              ///< of the slip's velocity, s
 constexpr double kStandingReturn = 1.0, kFlyingReturn = 0.1;  ///< s
-constexpr double kReach = 0.9999;                            ///< of the straight leg
+constexpr double kReach = 0.9999;                             ///< of the straight leg
 
 /// Length of the third side of the triangle of two bones and the angle between their directions, inverted.
 double angle_for(double thigh, double shank, double distance) {
-  const double cosine =
-      (distance * distance - thigh * thigh - shank * shank) / (2.0 * thigh * shank);
+  const double cosine = (distance * distance - thigh * thigh - shank * shank) / (2.0 * thigh * shank);
   return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
@@ -46,8 +45,8 @@ void move_ankle(const Character& character, const Vector3d& shift, int ankle, Pe
   const double reach = kReach * (upper.norm() + lower.norm());
   const double angle = angle_for(upper.norm(), lower.norm(), std::min(wanted.norm(), reach));
   const Vector3d across = upper.cross(lower);
-  const Vector3d axis = across.norm() > 1e-4 * upper.norm() * lower.norm() ? Vector3d(across.normalized())
-                                                                           : hinge_axis(knee);
+  const Vector3d axis =
+      across.norm() > 1e-4 * upper.norm() * lower.norm() ? Vector3d(across.normalized()) : hinge_axis(knee);
   q[knee] = exp_map((angle - angle_between(upper, lower)) * axis) * q[knee];
   const Vector3d bent = old_hip * (upper + q[knee] * character.joint_offset[ankle]);
   const Quaterniond new_hip = rotation_between(bent, wanted) * old_hip;
@@ -60,8 +59,7 @@ void skate(const Character& character, const PerFrame<BodyPoses>& truth, double 
            double fps, EstimatedMotion& motion) {
   if (speed == 0.0) return;
   for (int ankle : {kLeftAnkle, kRightAnkle}) {
-    const PerFrame<Vector3d> slip =
-        drawn_slip(standing_frames(truth, ankle, fps), speed, ankle, seed, fps);
+    const PerFrame<Vector3d> slip = drawn_slip(standing_frames(truth, ankle, fps), speed, ankle, seed, fps);
     for (int t = 0; t < slip.count(); ++t) move_ankle(character, slip[t], ankle, motion.q[t]);
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPercent = 0.01;
 constexpr double kWanderTau = 0.25, kHiddenTau = 0.15, kConfidenceTau = 0.3;  // s
-constexpr int kTailFreedom = 3;                      ///< of Student's t of the errors frame by frame
+constexpr int kTailFreedom = 3;  ///< of Student's t of the errors frame by frame
 constexpr double kSwapShortest = 2, kSwapLongest = 12, kGapShortest = 2, kGapLongest = 8;  // frames
 constexpr double kMeanConfidence = 0.8, kLeastConfidence = 0.05;
 constexpr double kTypicalError = 0.01;  ///< of the box: of a detection of mean confidence
@@ -86,8 +86,7 @@ void mix_up_sides(const std::vector<Landmark>& points, double rate, std::uint64_
 void leave_out(const IndependentPreset& p, std::uint64_t seed, double fps,
                PerFrame<std::vector<Vector3d>>& uvc) {
   Random gaps(seed, {kGapStream}), misses(seed, {kMissStream});
-  for (const Interval& gap :
-       poisson_intervals(gaps, p.gap_rate, kGapShortest, kGapLongest, uvc.count(), fps))
+  for (const Interval& gap : poisson_intervals(gaps, p.gap_rate, kGapShortest, kGapLongest, uvc.count(), fps))
     for (int t = gap.first; t < gap.first + gap.length; ++t)
       std::fill(uvc[t].begin(), uvc[t].end(), Vector3d::Zero());
   for (auto& frame : uvc)
@@ -100,7 +99,8 @@ void leave_out(const IndependentPreset& p, std::uint64_t seed, double fps,
 BodyPoses pose_between(const SeenMotion& motion, double frame) {
   const int last = motion.q.count() - 1;
   const double time = std::clamp(frame, 0.0, static_cast<double>(last));
-  const int before = std::min(static_cast<int>(time), std::max(last - 1, 0)), after = std::min(before + 1, last);
+  const int before = std::min(static_cast<int>(time), std::max(last - 1, 0)),
+            after = std::min(before + 1, last);
   const double part = time - before;
   PerBody<Quaterniond> q;
   for (int b = 0; b < kBodies; ++b) q[b] = motion.q[before][b].slerp(part, motion.q[after][b]);
@@ -139,8 +139,9 @@ Keypoints detect_independently(const SeenMotion& truth, const CameraPath& camera
       const Vector3d to_eye = q_WB.conjugate() * (eye - joint).normalized();
       const Vector3d found = joint + q_WB * (offset.limb + offset.view * to_eye);
       const double box = box_size(view, seen[t]);
-      const Eigen::Vector2d error = detection_error(preset, noise, t, foreshortening(seen[t], points[k], eye),
-                                                    is_hidden(truth.character, seen[t], eye, joint));
+      const Eigen::Vector2d error =
+          detection_error(preset, noise, t, foreshortening(seen[t], points[k], eye),
+                          preset.occlusion > 0.0 && is_hidden(truth.character, seen[t], eye, joint));
       const Eigen::Vector2d uv = project(view, found).head<2>() + box * error;
       const double off = (uv - project(view, joint).head<2>()).norm() / box;
       keypoints.uvc[t][k] = {uv.x(), uv.y(), told_confidence(preset, noise.confidence[t], off)};

@@ -1,4 +1,5 @@
-/// What a stranger's 2D detector makes of the motion it sees.          docs/method.md, "Noise model", (11) to (17)
+/// What a stranger's 2D detector makes of the motion it sees.          docs/method.md, "Noise model", (10) to
+/// (15)
 ///
 /// Its idea of a joint turns with the limb and with the view; its errors grow for limbs that point at the
 /// camera and for what the body hides; they have heavy tails; and its confidence hardly tells.
@@ -14,7 +15,7 @@ namespace mimicx::motion::synth {
 /// The person that is seen: body, and root and joint rotations of every frame.
 struct SeenMotion {
   const Character& character;
-  const PerFrame<Vector3d>& p_root;                 ///< m
+  const PerFrame<Vector3d>& p_root;  ///< m
   const PerFrame<PerBody<Quaterniond>>& q;
   double fps;
 };

@@ -1,6 +1,8 @@
 /// The errors of the motion in the independent noise model: joints, root, place.
-///                                                                     docs/method.md, "Noise model", (4) to (9)
-/// Each term has its own random streams. What it does not do: no keypoints (independent_keypoints.h), no body.
+///                                                                     docs/method.md, "Noise model", (4) to
+///                                                                     (7)
+/// Each term has its own random streams. What it does not do: no keypoints (independent_keypoints.h), no
+/// body.
 #pragma once
 
 #include "motion/synth/camera.h"

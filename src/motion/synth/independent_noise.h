@@ -1,9 +1,10 @@
 /// A second noise model, which shares none of the keypoint fit's assumptions.
-///                                                                   docs/method.md, "Noise model", (4) to (17)
-/// The first model (noise.h) and the fit believe in the same joint weights, in constant offsets of keypoints in
-/// the picture, in normal errors and in confidence that tells. This one does not; what a method achieves on it
-/// is nearer to what it achieves on a stranger's estimate. Everything the true clip does not tell comes from
-/// the seed; each term has its own random stream, so that turning one off leaves the others as they are.
+///                                                                   docs/method.md, "Noise model", (4) to
+///                                                                   (15)
+/// The first model (noise.h) and the fit believe in the same joint weights, in constant offsets of keypoints
+/// in the picture, in normal errors and in confidence that tells. This one does not; what a method achieves
+/// on it is nearer to what it achieves on a stranger's estimate. Everything the true clip does not tell comes
+/// from the seed; each term has its own random stream, so that turning one off leaves the others as they are.
 ///
 /// What it does not do: no images; the truth is never written into the noisy clip.
 #pragma once
@@ -15,7 +16,8 @@ namespace mimicx::motion::synth {
 
 struct IndependentNoiseConfig {
   IndependentPreset preset = independent_preset();
-  CameraError camera = camera_error("perturbed");  ///< its `beta` is left out: the preset errs in shape itself
+  CameraError camera =
+      camera_error("perturbed");  ///< its `beta` is left out: the preset errs in shape itself
   KeypointSet keypoints = KeypointSet::kJoints22;
   std::uint64_t seed = 0;
 };

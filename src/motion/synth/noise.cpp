@@ -188,8 +188,8 @@ Clip add_noise(const Clip& truth, const NoiseConfig& config) {
     poses.push_back(forward_kinematics(character, p_root[t], q[t]));
     support.push_back(lowest_height(surface, poses[t]));
   }
-  const CameraPath camera = config.camera.moving ? carry_camera(poses, seed, truth.fps)
-                                                 : CameraPath(place_camera(poses, seed));
+  const CameraPath camera =
+      config.camera.moving ? carry_camera(poses, seed, truth.fps) : CameraPath(place_camera(poses, seed));
   const std::vector<Burst> bursts = draw_bursts(preset, seed, truth.frames(), truth.fps);
 
   Clip noisy;

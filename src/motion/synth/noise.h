@@ -8,7 +8,8 @@
 ///
 /// Everything the true clip does not tell (camera, errors) comes from the seed; each term has its own
 /// random stream, so that turning one off leaves the others as they are.
-/// What it does not do: no images, no occlusion by geometry (independent_noise.h); the truth is never written into the noisy clip.
+/// What it does not do: no images, no occlusion by geometry (independent_noise.h); the truth is never written
+/// into the noisy clip.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-/// Which points of a body the body itself hides from a camera.       docs/method.md, "Noise model", (14)
+/// Which points of a body the body itself hides from a camera.       docs/method.md, "Noise model", (13)
 ///
 /// The body is its collision capsules. A joint lies inside its own limb and is seen all the same, so a point
 /// counts as hidden where the ray from the eye to it runs through more of a capsule than one and a half of
