@@ -14,6 +14,7 @@
 namespace mimicx::tools {
 namespace {
 
+constexpr const char* kPurpose = "Make a benchmark of clean motions: truth/ and noisy/, a file per motion";
 constexpr const char* kHelp =
     "Make a benchmark of clean motions: truth/ and noisy/, a file per motion\n\n"
     "  mimicx corrupt mocap/ --out bench\n"
@@ -65,7 +66,9 @@ int corrupt(const Arguments& a) {
 
 void declare_corrupt(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("corrupt", kHelp);
+  auto* command = app.add_subcommand("corrupt", kPurpose);
+  command->preparse_callback(
+      [command](std::size_t) { command->description(kHelp); });  // in its own help alone
   command->add_option("FILE", a->inputs, "clean motions and folders of them")->required();
   command->add_option("--out", a->out, "folder to write to")->required();
   command
@@ -75,7 +78,8 @@ void declare_corrupt(CLI::App& app, Action& action) {
           "vibe; single amplitudes behind commas: independent,stature=0,swap_rate=0 "
           "(docs/method.md, \"Noise model\")")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("MODEL,NAME=VALUE...");
   command
       ->add_option("--camera", a->camera,
                    "how well the camera is known; moving: carried, and told with drift")
