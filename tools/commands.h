@@ -36,6 +36,7 @@ void declare_cluster(CLI::App& app, Action& action);
 void declare_fit(CLI::App& app, Action& action);
 void declare_info(CLI::App& app, Action& action);
 void declare_convert(CLI::App& app, Action& action);
+void declare_corrupt(CLI::App& app, Action& action);
 void declare_audit(CLI::App& app, Action& action);
 void declare_export_mjcf(CLI::App& app, Action& action);
 void declare_synth(CLI::App& app, Action& action);

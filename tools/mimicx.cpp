@@ -17,9 +17,10 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
   Action action;
-  for (const auto declare : {declare_run, declare_plan, declare_pretrain, declare_adapt, declare_imitate,
-                             declare_evaluate, declare_cluster, declare_fit, declare_info, declare_convert,
-                             declare_audit, declare_export_mjcf, declare_synth, declare_config})
+  for (const auto declare :
+       {declare_run, declare_plan, declare_pretrain, declare_adapt, declare_imitate, declare_evaluate,
+        declare_cluster, declare_fit, declare_info, declare_convert, declare_corrupt, declare_audit,
+        declare_export_mjcf, declare_synth, declare_config})
     declare(app, action);
   try {
     app.parse(argc, argv);

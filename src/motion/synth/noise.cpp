@@ -123,19 +123,6 @@ std::array<double, kBetas> told_betas(const std::array<double, kBetas>& betas, d
   return told;
 }
 
-Camera told_camera(const Camera& camera, const CameraError& error, std::uint64_t seed) {
-  Random random(seed, {kToldCameraStream});
-  const double focal = 1.0 + error.focal * random.normal();
-  const double tilt = kDegree * error.tilt * random.normal();
-  Camera told = camera;
-  told.intrinsics(0, 0) *= focal;
-  told.intrinsics(1, 1) *= focal;
-  // Turned about its own horizontal axis; it stays where it is, so translation turns with it.
-  const Matrix3d turn = exp_map(tilt * Vector3d::UnitX()).toRotationMatrix();
-  told.extrinsics.topRows<3>() = turn * camera.extrinsics.topRows<3>();
-  return told;
-}
-
 }  // namespace
 
 NoisePreset noise_preset(std::string_view name) {
@@ -164,32 +151,6 @@ NoisePreset noise_preset(std::string_view name) {
     return p;
   }
   throw std::invalid_argument("noise_preset: unknown preset '" + std::string(name) + "'");
-}
-
-CameraError camera_error(std::string_view name) {
-  if (name == "calibrated") return {};
-  if (name == "perturbed") return {0.01, 0.3, 0.15};
-  if (name == "wild") return {0.05, 0.7, 0.3};
-  throw std::invalid_argument("camera_error: unknown camera '" + std::string(name) + "'");
-}
-
-PerFrame<double> smooth_noise(Random& random, int count, double frames) {
-  const int radius = static_cast<int>(std::ceil(4.0 * frames));
-  std::vector<double> kernel;
-  double squares = 0.0;
-  for (int k = -radius; k <= radius; ++k) {
-    kernel.push_back(std::exp(-0.5 * k * k / (frames * frames)));
-    squares += kernel.back() * kernel.back();
-  }
-  PerFrame<double> out(count);
-  std::vector<double> white(out.size() + kernel.size() - 1);
-  for (double& value : white) value = random.normal();
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < kernel.size(); ++k) sum += kernel[k] * white[i + k];
-    out[i] = sum / std::sqrt(squares);
-  }
-  return out;
 }
 
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps) {
@@ -227,7 +188,8 @@ Clip add_noise(const Clip& truth, const NoiseConfig& config) {
     poses.push_back(forward_kinematics(character, p_root[t], q[t]));
     support.push_back(lowest_height(surface, poses[t]));
   }
-  const Camera camera = place_camera(poses, seed);
+  const CameraPath camera =
+      config.camera.moving ? carry_camera(poses, seed, truth.fps) : CameraPath(place_camera(poses, seed));
   const std::vector<Burst> bursts = draw_bursts(preset, seed, truth.frames(), truth.fps);
 
   Clip noisy;
@@ -238,7 +200,7 @@ Clip add_noise(const Clip& truth, const NoiseConfig& config) {
   disturb_joints(preset, seed, truth.fps, q);
   apply_bursts(bursts, q);
   disturb_root(preset, seed, truth.fps, q);
-  const Vector3d view = camera.extrinsics.block<1, 3>(2, 0).transpose();
+  const Vector3d view = camera.extrinsics.front().block<1, 3>(2, 0).transpose();
   disturb_path(preset, seed, truth.fps, Vector3d(view.x(), view.y(), 0.0).normalized(), p_root);
   disturb_height(preset, seed, truth.fps, support, make_character(noisy.betas), q, p_root);
   noisy.rotations.resize(q.size());
@@ -247,9 +209,9 @@ Clip add_noise(const Clip& truth, const NoiseConfig& config) {
     noisy.trans.push_back(p_root[t] - rest);
   }
   noisy.keypoints = detect_keypoints(poses, camera, config.keypoints, bursts, seed, truth.fps);
-  const Camera told = told_camera(camera, config.camera, seed);
+  const CameraPath told = told_camera(camera, config.camera, seed, truth.fps);
   noisy.keypoints->intrinsics = told.intrinsics;
-  noisy.keypoints->extrinsics = {told.extrinsics};
+  noisy.keypoints->extrinsics = told.extrinsics;
   return noisy;
 }
 

@@ -8,7 +8,8 @@
 ///
 /// Everything the true clip does not tell (camera, errors) comes from the seed; each term has its own
 /// random stream, so that turning one off leaves the others as they are.
-/// What it does not do: no images, no occlusion by geometry; the truth is never written into the noisy clip.
+/// What it does not do: no images, no occlusion by geometry (independent_noise.h); the truth is never written
+/// into the noisy clip.
 #pragma once
 
 #include <string_view>
@@ -38,15 +39,6 @@ struct NoisePreset {
 /// "vibe-like" or "gvhmr-like". @throws std::invalid_argument for another name.
 NoisePreset noise_preset(std::string_view name);
 
-/// How much the program is told about the camera and the body's shape.
-struct CameraError {
-  double focal = 0.0;  ///< relative σ of the focal length
-  double tilt = 0.0;   ///< σ of the tilt, degrees
-  double beta = 0.0;   ///< σ per entry of β
-};
-/// "calibrated" (exact), "perturbed" or "wild". @throws std::invalid_argument for another name.
-CameraError camera_error(std::string_view name);
-
 struct NoiseConfig {
   NoisePreset preset = noise_preset("gvhmr-like");
   CameraError camera = camera_error("perturbed");
@@ -58,11 +50,6 @@ struct NoiseConfig {
 /// keypoints of the clean motion with detection errors, and the camera as the program is told of it.
 /// @throws std::invalid_argument for fewer than 2 frames or another body model.
 Clip add_noise(const Clip& truth, const NoiseConfig& config);
-
-// The parts of the model, shared between its files and tested one by one.
-
-/// J_s, and S_τ with frames = τ · fps: unit variance, correlated over `frames`. @param random  advanced
-PerFrame<double> smooth_noise(Random& random, int count, double frames);
 
 /// Bursts of a clip, in the order of their beginnings.
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps);

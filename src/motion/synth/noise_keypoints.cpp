@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <stdexcept>
+
+#include "motion/synth/detected_points.h"
 
 namespace mimicx::motion::synth {
 namespace {
-
-constexpr double kWidth = 1920.0, kHeight = 1080.0;  ///< picture, px
-constexpr double kBorder = 0.05;                     ///< of the picture that stays free of the person
 
 // Errors of a detector in units of the person's box; per axis.
 constexpr double kBias = 0.007, kCorrelated = 0.001, kWhite = 0.0005, kOccluded = 0.02;
@@ -19,81 +15,6 @@ constexpr double kWristNoise = 3.0;                     ///< wrists move fast an
 constexpr double kDropShare = 0.02;                     ///< keypoints a detector misses
 constexpr double kSwapRate = 0.05;                      ///< left and right of a limb mixed up, per second
 constexpr double kSwapShortest = 3, kSwapLongest = 10;  ///< frames
-
-/// A detected point: fixed to a body, mirrored by another one of the set.
-struct Landmark {
-  std::string name;
-  int body;
-  Vector3d p_B;
-};
-
-/// Where the points of COCO that are no joints lie on the head, m.
-Vector3d place_on_head(const std::string& name) {
-  if (name == "nose") return {0.0, 0.055, 0.100};
-  const double side = name.starts_with("left_") ? 1.0 : -1.0;
-  return name.ends_with("eye") ? Vector3d(side * 0.032, 0.085, 0.080) : Vector3d(side * 0.075, 0.065, 0.005);
-}
-
-std::vector<Landmark> landmarks(KeypointSet set) {
-  std::vector<Landmark> points;
-  for (const std::string& name : keypoint_names(set)) {
-    const int body = body_of_name(name);
-    points.push_back(body < 0 ? Landmark{name, kHead, place_on_head(name)}
-                              : Landmark{name, body, Vector3d::Zero()});
-  }
-  return points;
-}
-
-/// Larger side of the box around the projected joints, px.
-double box_size(const Camera& camera, const BodyPoses& poses) {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Vector3d& joint : poses.p_WB) {
-    const Eigen::Vector2d uv = project(camera, joint).head<2>();
-    low = low.cwiseMin(uv);
-    high = high.cwiseMax(uv);
-  }
-  return (high - low).maxCoeff();
-}
-
-bool in_picture(const Camera& camera, const PerFrame<BodyPoses>& motion) {
-  for (const BodyPoses& poses : motion)
-    for (const Vector3d& joint : poses.p_WB) {
-      const Vector3d seen = project(camera, joint);
-      if (seen.z() < 1.0 || seen.x() < kBorder * kWidth || seen.x() > (1.0 - kBorder) * kWidth ||
-          seen.y() < kBorder * kHeight || seen.y() > (1.0 - kBorder) * kHeight)
-        return false;
-    }
-  return true;
-}
-
-/// Looks from `eye` at `target`, the horizon level.
-Eigen::Matrix4d look_at(const Vector3d& eye, const Vector3d& target) {
-  const Vector3d forward = (target - eye).normalized();
-  const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
-  Eigen::Matrix4d world_to_camera = Eigen::Matrix4d::Identity();
-  world_to_camera.block<1, 3>(0, 0) = right.transpose();
-  world_to_camera.block<1, 3>(1, 0) = forward.cross(right).transpose();
-  world_to_camera.block<1, 3>(2, 0) = forward.transpose();
-  world_to_camera.block<3, 1>(0, 3) = -world_to_camera.block<3, 3>(0, 0) * eye;
-  return world_to_camera;
-}
-
-bool is_descendant(int body, int ancestor) {
-  while (body > ancestor) body = kParents[body];
-  return body == ancestor;
-}
-
-/// The other side's keypoint of the same limb, or the same index for one in the middle.
-std::size_t mirror_of(const std::vector<Landmark>& points, std::size_t k) {
-  std::string name = points[k].name;
-  if (name.starts_with("left_"))
-    name.replace(0, 5, "right_");
-  else if (name.starts_with("right_"))
-    name.replace(0, 6, "left_");
-  const auto found =
-      std::find_if(points.begin(), points.end(), [&](const Landmark& p) { return p.name == name; });
-  return static_cast<std::size_t>(found - points.begin());
-}
 
 /// Left and right of both arms or both legs change places for a few frames.
 void swap_sides(const std::vector<Landmark>& points, std::uint64_t seed, double fps,
@@ -148,52 +69,22 @@ PerFrame<Vector3d> detector_errors(const Landmark& point, std::size_t k, std::ui
 
 }  // namespace
 
-Vector3d project(const Camera& camera, const Vector3d& p_W) {
-  const Vector3d p_C = camera.extrinsics.block<3, 3>(0, 0) * p_W + camera.extrinsics.block<3, 1>(0, 3);
-  const Vector3d pixel = camera.intrinsics * p_C;
-  return {pixel.x() / pixel.z(), pixel.y() / pixel.z(), p_C.z()};
-}
-
-Camera place_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed) {
-  Random random(seed, {kCameraStream});
-  Vector3d low = truth.front().p_WB[kPelvis], high = low;
-  for (const BodyPoses& poses : truth) {
-    low = low.cwiseMin(poses.p_WB[kPelvis]);
-    high = high.cwiseMax(poses.p_WB[kPelvis]);
-  }
-  const Vector3d target(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), 0.9);
-  const double around = random.uniform(-std::numbers::pi, std::numbers::pi),
-               height = random.uniform(1.2, 1.8);
-  double distance = random.uniform(4.0, 6.0);
-  Camera camera;
-  camera.intrinsics(0, 0) = camera.intrinsics(1, 1) = kHeight * random.uniform(0.95, 1.05);
-  camera.intrinsics(0, 2) = 0.5 * kWidth;
-  camera.intrinsics(1, 2) = 0.5 * kHeight;
-  for (; distance < 1e3; distance += 0.25) {
-    const Vector3d eye(target.x() + distance * std::cos(around), target.y() + distance * std::sin(around),
-                       height);
-    camera.extrinsics = look_at(eye, target);
-    if (in_picture(camera, truth)) return camera;
-  }
-  throw std::invalid_argument("place_camera: the motion does not fit into any picture");
-}
-
-Keypoints detect_keypoints(const PerFrame<BodyPoses>& truth, const Camera& camera, KeypointSet set,
+Keypoints detect_keypoints(const PerFrame<BodyPoses>& truth, const CameraPath& camera, KeypointSet set,
                            const std::vector<Burst>& bursts, std::uint64_t seed, double fps) {
   const std::vector<Landmark> points = landmarks(set);
   const auto hidden = hidden_by(bursts, points, truth.size());
   PerFrame<double> box;
-  for (const BodyPoses& poses : truth) box.push_back(box_size(camera, poses));
+  for (int t = 0; t < truth.count(); ++t) box.push_back(box_size(camera.at(t), truth[t]));
   Keypoints keypoints;
   keypoints.names = keypoint_names(set);
   keypoints.intrinsics = camera.intrinsics;
-  keypoints.extrinsics = {camera.extrinsics};
+  keypoints.extrinsics = camera.extrinsics;
   keypoints.uvc.assign(truth.size(), std::vector<Vector3d>(points.size()));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const PerFrame<Vector3d> errors = detector_errors(points[k], k, seed, hidden);
     const auto& [name, body, p_B] = points[k];
     for (int t = 0; t < truth.count(); ++t) {
-      const Vector3d seen = project(camera, truth[t].p_WB[body] + truth[t].q_WB[body] * p_B);
+      const Vector3d seen = project(camera.at(t), truth[t].p_WB[body] + truth[t].q_WB[body] * p_B);
       keypoints.uvc[t][k] = {seen.x() + box[t] * errors[t].x(), seen.y() + box[t] * errors[t].y(),
                              errors[t].z()};
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/containers.h"
 #include "core/random.h"
 #include "core/so3.h"
 
@@ -25,7 +26,36 @@ enum NoiseStream : std::uint64_t {
   kKeypointBiasStream,
   kKeypointStream,
   kSwapStream,
-  kDropStream
+  kDropStream,
+  kCarriedCameraStream,
+  kHandStream,
+  kToldDriftStream,
+  kToldTurnStream,
+  kJointConstantStream,
+  kJointSlowStream,
+  kJointJitterStream,
+  kRootConstantStream,
+  kWobbleTurnStream,
+  kWobbleStream,
+  kDistanceStream,
+  kFloorStream,
+  kStrideStream,
+  kFalseVelocityStream,
+  kHeadingWalkStream,
+  kSkateStream,
+  kStatureStream,
+  kProportionStream,
+  kTimeOffsetStream,
+  kLimbOffsetStream,
+  kViewOffsetStream,
+  kWanderStream,
+  kTailStream,
+  kHiddenStream,
+  kMixUpStream,
+  kGapStream,
+  kMissStream,
+  kConfidenceStream,
+  kClipSeedStream
 };
 
 inline constexpr double kHeightTau = 1.5;  ///< of the slow term of the height, s
@@ -44,5 +74,15 @@ struct Interval {
 /// A Poisson process of `rate` beginnings per second; lengths uniform in [shortest, longest], cut at the end.
 std::vector<Interval> poisson_intervals(Random& random, double rate, double shortest, double longest,
                                         int frames, double fps);
+
+/// J_s, and S_τ with frames = τ · fps: unit variance, correlated over `frames`. @param random  advanced
+PerFrame<double> smooth_noise(Random& random, int count, double frames);
+
+/// Student's t with a whole number of degrees of freedom. @param random  advanced
+double student_t(Random& random, int freedom);
+
+/// A walk that begins at 0 and whose variance grows, after τ, by 1 per second. Its velocity is the smooth
+/// process S_τ / √(2√π τ), so that its position is smooth, too. @param random  advanced
+PerFrame<double> smooth_walk(Random& random, int count, double tau, double fps);
 
 }  // namespace mimicx::motion::synth

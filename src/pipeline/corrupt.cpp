@@ -1,0 +1,46 @@
+#include "pipeline/corrupt.h"
+
+#include "motion/clip_file.h"
+#include "motion/import/plausibility.h"
+#include "motion/resample.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+constexpr double kFps = 30.0;
+constexpr int kFewestFrames = 2;
+
+}  // namespace
+
+motion::Clip benchmark_truth(const motion::Clip& input) {
+  motion::require_usable(input, kFewestFrames);
+  const motion::Clip clip = motion::resampled(input, kFps);
+  motion::require_usable(clip, kFewestFrames);
+  const Character body = make_character(motion::character_of(clip).betas);
+  const Vector3d pelvis = motion::rest_pelvis(clip);
+  PerFrame<Vector3d> p_root;
+  for (const Vector3d& trans : clip.trans) p_root.push_back(trans + pelvis);
+  motion::Clip truth = motion::to_clip(input.name, kFps, body, p_root, motion::joint_rotations(clip));
+  truth.gender = clip.gender;
+  if (clip.body_model != truth.body_model && !clip.on_floor) {
+    const double floor = motion::import::detect_floor(truth);
+    for (Vector3d& trans : truth.trans) trans.z() -= floor;
+  }
+  return truth;
+}
+
+motion::Clip corrupt_file(const std::filesystem::path& file, const std::string& name,
+                          const std::filesystem::path& directory, const CorruptConfig& config) {
+  motion::Clip input = motion::import::read_motion(file, config.read);
+  motion::Clip truth = benchmark_truth(input);
+  truth.name = name;
+  const motion::Clip noisy =
+      motion::synth::estimate(truth, config.estimate, motion::synth::clip_seed(config.seed, name));
+  std::filesystem::create_directories(directory / "truth");
+  std::filesystem::create_directories(directory / "noisy");
+  motion::write_clip(directory / "truth" / (name + ".npz"), truth);
+  motion::write_clip(directory / "noisy" / (name + ".npz"), noisy);
+  return input;
+}
+
+}  // namespace mimicx::pipeline

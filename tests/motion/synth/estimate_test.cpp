@@ -1,0 +1,66 @@
+#include "motion/synth/estimate.h"
+
+#include <gtest/gtest.h>
+
+#include "motion/synth/noise_fixtures.h"
+
+namespace mimicx::motion::synth {
+namespace {
+
+std::string complaint(const std::vector<std::string>& words) {
+  try {
+    noise_model(words);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(NoiseModel, NamesChooseItAndValuesSetSingleAmplitudes) {
+  const auto plain = std::get<IndependentPreset>(noise_model({}));
+  EXPECT_EQ(plain.stature, independent_preset().stature);
+  const auto changed =
+      std::get<IndependentPreset>(noise_model({"stature=0", "independent", "swap_rate=2.5"}));
+  EXPECT_EQ(changed.stature, 0.0);
+  EXPECT_EQ(changed.swap_rate, 2.5);
+  EXPECT_EQ(changed.drift, plain.drift);
+  EXPECT_EQ(std::get<NoisePreset>(noise_model({"vibe", "drift=0.1"})).drift, 0.1);
+  EXPECT_EQ(std::get<NoisePreset>(noise_model({"gvhmr"})).drift, noise_preset("gvhmr-like").drift);
+}
+
+TEST(NoiseModel, SaysWhatItKnowsWhereItDoesNotUnderstand) {
+  EXPECT_NE(complaint({"mystery"}).find("independent, gvhmr, vibe"), std::string::npos);
+  EXPECT_NE(complaint({"burst_rate=1"}).find("no amplitude 'burst_rate'; known: joint_static"),
+            std::string::npos);
+  EXPECT_NE(complaint({"gvhmr", "stature=1"}).find("known: joint_static, joint_slow, slow_tau"),
+            std::string::npos);
+  for (const char* word : {"drift=", "drift=fast", "drift=1m", "drift=-1", "drift=nan", "drop_share=1.5"})
+    EXPECT_FALSE(complaint({word}).empty()) << word;
+  EXPECT_FALSE(complaint({"gvhmr", "slow_tau=0"}).empty());
+  EXPECT_FALSE(complaint({"gvhmr", "burst_max=1"}).empty());
+  EXPECT_FALSE(complaint({"gvhmr", "vibe"}).empty());
+}
+
+TEST(Estimate, IsTheModelsOwnAndHasNoCameraWithoutKeypoints) {
+  const Clip& truth = test::truth_of("wave");
+  EstimateConfig config;
+  config.noise = noise_preset("gvhmr-like");
+  const Clip clip = estimate(truth, config, 7), same = add_noise(truth, {.seed = 7});
+  EXPECT_TRUE(clip.rotations == same.rotations && clip.trans == same.trans);
+  EXPECT_TRUE(clip.keypoints->uvc == same.keypoints->uvc);
+  config.keypoints = {};
+  const Clip blind = estimate(truth, config, 7);
+  EXPECT_TRUE(blind.rotations == same.rotations && !blind.keypoints);
+  config.noise = independent_preset();
+  EXPECT_TRUE(estimate(truth, config, 7).rotations == add_independent_noise(truth, {.seed = 7}).rotations);
+}
+
+TEST(ClipSeed, DependsOnTheSeedAndOnEveryLetterOfTheName) {
+  EXPECT_EQ(clip_seed(1, "walk"), clip_seed(1, "walk"));
+  EXPECT_NE(clip_seed(1, "walk"), clip_seed(2, "walk"));
+  EXPECT_NE(clip_seed(1, "walk"), clip_seed(1, "klaw"));
+  EXPECT_NE(clip_seed(1, "walk"), clip_seed(1, "walk-2"));
+}
+
+}  // namespace
+}  // namespace mimicx::motion::synth

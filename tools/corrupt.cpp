@@ -1,0 +1,96 @@
+#include "pipeline/corrupt.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "commands.h"
+#include "pipeline/preparation.h"
+#include "pipeline/record/run_folder.h"
+
+namespace mimicx::tools {
+namespace {
+
+constexpr const char* kPurpose = "Make a benchmark of clean motions: truth/ and noisy/, a file per motion";
+constexpr const char* kHelp =
+    "Make a benchmark of clean motions: truth/ and noisy/, a file per motion\n\n"
+    "  mimicx corrupt mocap/ --out bench\n"
+    "  mimicx evaluate --truth bench/truth --motions bench/noisy\n\n"
+    "  mimicx corrupt walk.bvh --noise gvhmr,drift=0 --camera moving --keypoints coco17 --seed 3 --out "
+    "bench\n\n"
+    "A motion's errors follow from the seed and its name alone, never from the other files.";
+
+struct Arguments {
+  std::vector<std::string> inputs, noise;
+  std::filesystem::path out;
+  std::string camera = "perturbed", keypoints = "22";
+  pipeline::CorruptConfig config;
+};
+
+/// @throws UsageError for a noise that cannot be
+pipeline::CorruptConfig checked_config(const Arguments& a) {
+  static const std::map<std::string, std::optional<motion::KeypointSet>> kSets = {
+      {"22", motion::KeypointSet::kJoints22}, {"coco17", motion::KeypointSet::kCoco17}, {"none", {}}};
+  pipeline::CorruptConfig config = a.config;
+  config.estimate.camera = motion::synth::camera_error(a.camera);
+  config.estimate.keypoints = kSets.at(a.keypoints);
+  try {
+    config.estimate.noise = motion::synth::noise_model(a.noise);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("corrupt: ") + error.what());
+  }
+  return config;
+}
+
+int corrupt(const Arguments& a) {
+  const pipeline::CorruptConfig config = checked_config(a);
+  std::vector<std::string> names;
+  std::size_t written = 0;
+  for (const std::string& file : pipeline::expand_inputs(a.inputs)) {
+    names.push_back(pipeline::record::unique_name(file, names));
+    try {
+      pipeline::tell_decisions(file, pipeline::corrupt_file(file, names.back(), a.out, config), std::cerr);
+      ++written;
+    } catch (const std::exception& error) {
+      std::cerr << file << ": left out: " << error.what() << '\n';
+    }
+  }
+  std::cout << a.out.string() << ": " << written << " motions, each as truth and as a noisy estimate\n";
+  return written == names.size() ? kAllGood : kSomeFailed;
+}
+
+}  // namespace
+
+void declare_corrupt(CLI::App& app, Action& action) {
+  const auto a = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("corrupt", kPurpose);
+  command->preparse_callback(
+      [command](std::size_t) { command->description(kHelp); });  // in its own help alone
+  command->add_option("FILE", a->inputs, "clean motions and folders of them")->required();
+  command->add_option("--out", a->out, "folder to write to")->required();
+  command
+      ->add_option(
+          "--noise", a->noise,
+          "what estimates them: independent (default; shares nothing with the keypoint fit), gvhmr or "
+          "vibe; single amplitudes behind commas: independent,stature=0,swap_rate=0 "
+          "(docs/method.md, \"Noise model\")")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("MODEL,NAME=VALUE...");
+  command
+      ->add_option("--camera", a->camera,
+                   "how well the camera is known; moving: carried, and told with drift")
+      ->check(CLI::IsMember({"calibrated", "perturbed", "wild", "moving"}))
+      ->capture_default_str();
+  command->add_option("--keypoints", a->keypoints, "which points are detected; none: nor is a camera told")
+      ->check(CLI::IsMember({"22", "coco17", "none"}))
+      ->capture_default_str();
+  add_seed(*command, a->config.seed);
+  add_read_arguments(*command, a->config.read);
+  command->callback([a, &action] { action = [a] { return corrupt(*a); }; });
+}
+
+}  // namespace mimicx::tools
