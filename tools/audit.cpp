@@ -1,28 +1,53 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "arguments.h"
 #include "commands.h"
 #include "core/npz.h"
 #include "pipeline/audit/audit_file.h"
+#include "pipeline/audit/pose_files.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/progress.h"
 
 namespace mimicx::tools {
 namespace {
 
+constexpr double kProgressPeriod = 2.0;  // s
+
 struct Arguments {
   std::vector<std::string> inputs;
-  bool poses_alone = false;
-  std::string json;
+  bool poses = false;
+  std::string json, csv, frames_csv;
+  pipeline::audit::PoseFilesConfig config;
+  double reach_mm = 20.0;
 };
 
-int audit(const Arguments& a) {
+/// @throws UsageError where a file to write is one to read, or two are the same
+void refuse_to_overwrite(const Arguments& a, const std::vector<std::string>& inputs) {
+  const auto same = [](const std::string& x, const std::string& y) {
+    std::error_code none;
+    return std::filesystem::weakly_canonical(x, none) == std::filesystem::weakly_canonical(y, none);
+  };
+  std::vector<std::string> outputs;
+  for (const std::string& output : {a.csv, a.frames_csv, a.json}) {
+    if (output.empty()) continue;
+    for (const std::string& input : inputs)
+      if (same(output, input)) throw UsageError("audit: " + output + " is an input; it would be overwritten");
+    for (const std::string& other : outputs)
+      if (same(output, other)) throw UsageError("audit: " + output + " is asked for twice");
+    outputs.push_back(output);
+  }
+}
+
+int audit_forces(const Arguments& a, const std::vector<std::string>& inputs) {
   std::vector<pipeline::audit::AuditedFile> files;
   bool all_good = true;
   std::cout << pipeline::audit::audit_table_head();
-  for (const std::string& path : pipeline::expand_inputs(a.inputs)) {
+  for (const std::string& path : inputs) {
     try {
-      files.push_back({path, pipeline::audit::audit_file(path, a.poses_alone)});
+      files.push_back({path, pipeline::audit::audit_file(path, false)});
       for (const pipeline::audit::Audit& audit : files.back().audits) {
         std::cout << pipeline::audit::format_audit(path, audit);
         all_good = all_good && audit.failures.empty();
@@ -36,15 +61,69 @@ int audit(const Arguments& a) {
   return all_good ? kAllGood : kSomeFailed;
 }
 
+int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
+  pipeline::audit::PoseFilesConfig config = a.config;
+  config.frames = !a.frames_csv.empty();
+  config.needs.reach = a.reach_mm / 1000.0;
+  std::optional<AtomicFile> csv, frames_csv;
+  if (!a.csv.empty()) csv.emplace(a.csv).write(pipeline::audit::poses_csv_head());
+  if (config.frames) frames_csv.emplace(a.frames_csv).write(pipeline::audit::pose_frames_csv_head());
+  std::vector<pipeline::audit::PoseFile> kept;  // for the JSON
+  std::size_t done = 0, failed = 0;
+  double next = pipeline::record::steady_seconds() + kProgressPeriod;
+  std::cout << pipeline::audit::pose_table_head();
+  pipeline::audit::judge_poses(inputs, config, [&](const pipeline::audit::PoseFile& file) {
+    ++done;
+    if (file.failure.empty()) {
+      std::cout << pipeline::audit::format_poses(file);
+    } else {
+      std::cerr << file.path << ": left out: " << file.failure << '\n';
+      ++failed;
+    }
+    if (csv) csv->write(pipeline::audit::poses_csv_row(file));
+    if (frames_csv) frames_csv->write(pipeline::audit::pose_frames_csv_rows(file));
+    if (!a.json.empty()) kept.push_back(file), kept.back().needs.frames.clear();
+    if (pipeline::record::steady_seconds() < next) return;
+    std::cerr << done << " of " << inputs.size() << " motions\n";
+    next = pipeline::record::steady_seconds() + kProgressPeriod;
+  });
+  if (csv) csv->finish();
+  if (frames_csv) frames_csv->finish();
+  if (!a.json.empty()) write_file_atomically(a.json, pipeline::audit::poses_json(kept));
+  return failed == 0 ? kAllGood : kSomeFailed;
+}
+
+int audit(const Arguments& a) {
+  if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
+    throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
+  const std::vector<std::string> inputs = pipeline::expand_inputs(a.inputs);
+  refuse_to_overwrite(a, inputs);
+  return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
+}
+
 }  // namespace
 
 void declare_audit(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("audit", "Do the forces in a file explain the motion in it?");
-  command->add_option("FILE", a->inputs, "motions and physics steps (.npz), and folders of them")->required();
-  command->add_flag("--poses", a->poses_alone,
-                    "look at the poses alone, under the best ground reaction that is physically possible");
-  command->add_option("--json", a->json, "also write every row and every value here");
+  command->usage(
+      "  mimicx audit out/run/motions out/run/substeps      did the recorded forces make these motions?\n"
+      "  mimicx audit --poses DIR --csv feasible.csv        could any forces make them? of every motion in DIR\n"
+      "Usage: mimicx audit [OPTIONS] FILE...");
+  command->add_option("FILE", a->inputs, "motions and physics steps, and folders of them")->required();
+  auto* poses = command->add_flag(
+      "--poses", a->poses,
+      "look at the poses alone: what would have to push from outside, after the best forces that a floor can "
+      "give. Reads every motion format");
+  command->add_option("--csv", a->csv, "with --poses: a row per motion")->needs(poses);
+  command->add_option("--frames-csv", a->frames_csv, "with --poses: a row per frame")->needs(poses);
+  command->add_option("--json", a->json, "also write every value here; without --poses every row, too");
+  command
+      ->add_option("--reach-mm", a->reach_mm, "with --poses: up to which a point over the floor can push on it")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  add_read_arguments(*command, a->config.read);
+  add_threads(*command, a->config.threads);
   command->callback([a, &action] { action = [a] { return audit(*a); }; });
 }
 

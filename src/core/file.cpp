@@ -1,7 +1,6 @@
 #include "core/file.h"
 
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
 namespace mimicx {
@@ -30,22 +29,51 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
   return content;
 }
 
-void write_file_atomically(const std::filesystem::path& path, const std::string& content) {
-  std::filesystem::path temporary = path;
-  temporary += ".tmp";
-  std::error_code error;
+namespace {
+
+DataError not_writable(const std::filesystem::path& path, const std::error_code& error) {
+  return {path.string(), "", "a writable file", error.message()};
+}
+
+/// What the last failed operation says, or an error of its own where it says nothing.
+std::error_code last_error() { return {errno == 0 ? EIO : errno, std::generic_category()}; }
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
+  temporary_ += ".tmp";
   errno = 0;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.flush();
-    if (!out) error.assign(errno == 0 ? EIO : errno, std::generic_category());
-  }
-  if (!error) std::filesystem::rename(temporary, path, error);
-  if (!error) return;
+  out_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (!out_) throw not_writable(path_, last_error());
+}
+
+AtomicFile::~AtomicFile() {
+  if (temporary_.empty()) return;
+  out_.close();
   std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw DataError(path.string(), "", "a writable file", error.message());
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void AtomicFile::write(std::string_view content) {
+  errno = 0;
+  out_.write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!out_) throw not_writable(path_, last_error());
+}
+
+void AtomicFile::finish() {
+  errno = 0;
+  out_.close();
+  if (!out_) throw not_writable(path_, last_error());
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) throw not_writable(path_, error);
+  temporary_.clear();
+}
+
+void write_file_atomically(const std::filesystem::path& path, const std::string& content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.finish();
 }
 
 }  // namespace mimicx
