@@ -106,10 +106,9 @@ int audit(const Arguments& a) {
 void declare_audit(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("audit", "Do the forces in a file explain the motion in it?");
-  command->usage(
-      "  mimicx audit out/run/motions out/run/substeps      did the recorded forces make these motions?\n"
-      "  mimicx audit --poses DIR --csv feasible.csv        could any forces make them? of every motion in DIR\n"
-      "Usage: mimicx audit [OPTIONS] FILE...");
+  add_examples(*command,
+               "  mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
+               "  mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?\n");
   command->add_option("FILE", a->inputs, "motions and physics steps, and folders of them")->required();
   auto* poses = command->add_flag(
       "--poses", a->poses,

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "core/npz.h"
+#include "pipeline/protocol.h"
 
 namespace mimicx::tools {
 namespace {
@@ -14,9 +15,30 @@ namespace {
 struct Arguments {
   std::filesystem::path truth, json;
   std::vector<std::string> motions;
+  std::string protocol;  ///< empty: our own metrics
 };
 
+int evaluate_published(const Arguments& a) {
+  const auto& names = motion::protocol_names();
+  const auto protocol =
+      static_cast<motion::Protocol>(std::find(names.begin(), names.end(), a.protocol) - names.begin());
+  std::vector<pipeline::ProtocolTable> tables;
+  bool all_good = true;
+  for (const std::string& folder : a.motions) {
+    tables.push_back(pipeline::evaluate_protocol(protocol, a.truth, folder));
+    for (const pipeline::ProtocolRow& row : tables.back().rows) {
+      if (row.reason.empty()) continue;
+      std::cerr << folder << '/' << row.name << ": left out: " << row.reason << '\n';
+      all_good = false;
+    }
+  }
+  std::cout << pipeline::format_protocol(tables);
+  if (!a.json.empty()) write_file_atomically(a.json, pipeline::protocol_json(tables));
+  return all_good ? kAllGood : kSomeFailed;
+}
+
 int evaluate(const Arguments& a) {
+  if (!a.protocol.empty()) return evaluate_published(a);
   if (a.motions.size() > 1) {
     const pipeline::Comparison comparison = pipeline::compare_folders(a.truth, a.motions);
     std::cout << pipeline::format_comparison(comparison);
@@ -47,6 +69,10 @@ void declare_evaluate(CLI::App& app, Action& action) {
           "folder of motions to score; several folders are compared by their means over the motions that all "
           "of them hold")
       ->required();
+  command
+      ->add_option("--protocol", a->protocol,
+                   "the columns of a published protocol instead: phc, pmr or emdb, docs/metrics.md")
+      ->check(CLI::IsMember(motion::protocol_names()));
   command->add_option("--json", a->json, "also write every value, its count and its definition here");
   command->callback([a, &action] { action = [a] { return evaluate(*a); }; });
 }

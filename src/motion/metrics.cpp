@@ -1,12 +1,12 @@
 #include "motion/metrics.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "core/units.h"
 #include "motion/segments.h"
+#include "motion/similarity.h"
 
 namespace mimicx::motion {
 namespace {
@@ -44,24 +44,13 @@ Vector3d difference(const PerFrame<Joints>& p, int t, int j, int order) {
 }
 
 /// Mean distance of the joints after the similarity transform that brings p closest to g.
-/// Umeyama, IEEE PAMI 13 (1991): rotation from the SVD of the cross-covariance, reflections excluded.
 double procrustes_error(const Joints& p, const Joints& g) {
-  using Points = Eigen::Matrix<double, 3, kBodies>;
-  Points P, G;
+  Points P(3, kBodies), G(3, kBodies);
   for (int j = 0; j < kBodies; ++j) {
     P.col(j) = p[j];
     G.col(j) = g[j];
   }
-  P.colwise() -= Vector3d(P.rowwise().mean());
-  G.colwise() -= Vector3d(G.rowwise().mean());
-  const Eigen::JacobiSVD<Matrix3d> svd(Matrix3d(G * P.transpose()),
-                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vector3d sign = Vector3d::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) sign.z() = -1.0;
-  const Matrix3d R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  const double size = P.squaredNorm();
-  const double scale = size > 0.0 ? svd.singularValues().dot(sign) / size : 1.0;
-  return (scale * R * P - G).colwise().norm().mean();
+  return (nearest_similarity(P, G).of(P) - G).colwise().norm().mean();
 }
 
 void compare_with_truth(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {

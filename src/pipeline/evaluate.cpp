@@ -13,15 +13,6 @@
 namespace mimicx::pipeline {
 namespace {
 
-std::vector<std::string> npz_names(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) throw DataError(folder.string(), "", "a folder", "none");
-  std::vector<std::string> names;
-  for (const auto& file : std::filesystem::directory_iterator(folder))
-    if (file.path().extension() == ".npz") names.push_back(file.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 motion::MotionSamples samples_of(const motion::Clip& clip) {
   return motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps);
 }
@@ -30,12 +21,9 @@ EvaluatedMotion evaluate_file(const std::filesystem::path& truth, const std::fil
   EvaluatedMotion result;
   result.name = motion.stem().string();
   try {
-    if (!std::filesystem::exists(truth))
-      throw DataError(truth.string(), "", "the truth of " + result.name, "no file");
-    const motion::MotionSamples p = samples_of(motion::read_clip(motion)),
-                                g = samples_of(motion::read_clip(truth));
-    result.frames = p.frames();
-    result.metrics = motion::evaluate_motion(p, &g);
+    const PairedMotion pair = read_pair(truth, motion);
+    result.frames = pair.evaluated.frames();
+    result.metrics = motion::evaluate_motion(pair.evaluated, &pair.truth);
     result.ok = true;
   } catch (const std::exception& error) {
     result.reason = error.what();
@@ -74,10 +62,30 @@ record::Json to_json(const EvaluatedMotion& m) {
 
 }  // namespace
 
+std::vector<std::string> npz_names(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) throw DataError(folder.string(), "", "a folder", "none");
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    if (file.path().extension() == ".npz") names.push_back(file.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> motion_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names = npz_names(folder);
+  if (names.empty()) throw DataError(folder.string(), "", "motions (.npz)", "none");
+  return names;
+}
+
+PairedMotion read_pair(const std::filesystem::path& truth, const std::filesystem::path& motion) {
+  if (!std::filesystem::exists(truth))
+    throw DataError(truth.string(), "", "the truth of " + motion.stem().string(), "no file");
+  return {samples_of(motion::read_clip(motion)), samples_of(motion::read_clip(truth))};
+}
+
 Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions) {
   Evaluation evaluation;
-  const std::vector<std::string> names = npz_names(motions);
-  if (names.empty()) throw DataError(motions.string(), "", "motions (.npz)", "none");
+  const std::vector<std::string> names = motion_names(motions);
   for (const auto& name : npz_names(truth))
     if (!std::binary_search(names.begin(), names.end(), name)) evaluation.unmatched.push_back(name);
   for (const auto& name : names)

@@ -13,6 +13,18 @@
 
 namespace mimicx::pipeline {
 
+/// A motion and its truth, as the metrics look at them.
+struct PairedMotion {
+  motion::MotionSamples evaluated, truth;
+};
+/// @throws DataError for a file that is not there or cannot be read
+PairedMotion read_pair(const std::filesystem::path& truth, const std::filesystem::path& motion);
+
+/// The names of a folder's .npz files without suffix, sorted. @throws DataError for a path that is no folder
+std::vector<std::string> npz_names(const std::filesystem::path& folder);
+/// The same of a folder that must hold some. @throws DataError where there is none
+std::vector<std::string> motion_names(const std::filesystem::path& folder);
+
 struct EvaluatedMotion {
   std::string name;  ///< file name without suffix
   bool ok = false;

@@ -16,8 +16,13 @@ Vector6d share_out(const Floor& floor, const Vector3d& center, const Vector6d& w
   }
   Matrix6X A(6, floor.edges * pushes.count());
   for (int i = 0; i < pushes.count(); ++i)
-    for (int k = 0; k < floor.edges; ++k)
-      A.col(floor.edges * i + k) << (pushes[i].p - center).cross(edges[k]), edges[k];
+    for (int k = 0; k < floor.edges; ++k) {
+      const Vector3d moment = (pushes[i].p - center).cross(edges[k]);
+      for (int axis = 0; axis < 3; ++axis) {
+        A(axis, floor.edges * i + k) = moment[axis];
+        A(3 + axis, floor.edges * i + k) = edges[k][axis];
+      }
+    }
   const Eigen::VectorXd x = non_negative_least_squares(A, wanted, floor.small_forces);
   for (int i = 0; i < pushes.count(); ++i)
     for (int k = 0; k < floor.edges; ++k) pushes[i].force += x[floor.edges * i + k] * edges[k];

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <utility>
+#include <cmath>
 #include <vector>
 
 namespace mimicx::pipeline::audit {
@@ -13,27 +13,29 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr int kMostSteps = 200;    ///< seen: under 20; the bound holds even where rounding would go in circles
 constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which rounding is all that is left
 
-/// Where φ is smallest on the way from r to r + d, as a part of it. `at` = Aᵀr, `change` = Aᵀd.
+/// Slope of φ along d at r + part · d. `at` = Aᵀr, `change` = Aᵀd.
+double slope_at(double part, const Vector6d& r, const Vector6d& d, const Vector6d& b,
+                const Eigen::VectorXd& at, const Eigen::VectorXd& change, double small) {
+  return (r + part * d - b).dot(d) + (at + part * change).cwiseMax(0.0).dot(change) / small;
+}
+
+/// Where φ is smallest on the way from r to r + d, as a part of it: where its slope, which is linear between
+/// two planes and never falls, is 0.
 double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d& b,
                            const Eigen::VectorXd& at, const Eigen::VectorXd& change, double small) {
-  // The slope along d is piecewise linear and grows: offset + part · growth between two planes.
-  double offset = (r - b).dot(d), growth = d.squaredNorm();
-  std::vector<std::pair<double, Eigen::Index>> planes;  // part of the way, column
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    if (at[i] > 0.0 || (at[i] == 0.0 && change[i] > 0.0)) {
-      offset += at[i] * change[i] / small;
-      growth += change[i] * change[i] / small;
-    }
-    if (at[i] * change[i] < 0.0 && -at[i] / change[i] < 1.0) planes.emplace_back(-at[i] / change[i], i);
-  }
+  const auto slope = [&](double part) { return slope_at(part, r, d, b, at, change, small); };
+  std::vector<double> planes = {1.0};
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+    if (at[i] * change[i] < 0.0 && std::abs(at[i]) < std::abs(change[i]))
+      planes.push_back(-at[i] / change[i]);
   std::sort(planes.begin(), planes.end());
-  for (const auto& [part, i] : planes) {
-    if (offset + part * growth >= 0.0) break;
-    const double sign = change[i] > 0.0 ? 1.0 : -1.0;  // the column begins, or ceases, to count
-    offset += sign * at[i] * change[i] / small;
-    growth += sign * change[i] * change[i] / small;
-  }
-  return std::clamp(-offset / growth, 0.0, 1.0);
+  const auto beyond = std::partition_point(planes.begin(), planes.end(),
+                                           [&](double part) { return slope(part) < 0.0; });
+  if (beyond == planes.end()) return 1.0;
+  const double low = beyond == planes.begin() ? 0.0 : *(beyond - 1), high = *beyond;
+  const double at_low = slope(low), at_high = slope(high);
+  if (!(at_low < 0.0)) return low;
+  return low + (high - low) * (-at_low / (at_high - at_low));
 }
 
 }  // namespace

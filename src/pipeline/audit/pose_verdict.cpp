@@ -56,7 +56,7 @@ Totals totals_of(const PoseNeeds& needs) {
 std::string joints_over(const PerBody<int>& over) {
   std::string text;
   for (int b = 1; b < kBodies; ++b)
-    if (over[b] > 0) text += (text.empty() ? "" : " ") + std::string(kBodyNames[b]) + print(":%d", over[b]);
+    if (over[b] > 0) text += print("%s%s:%d", text.empty() ? "" : " ", std::string(kBodyNames[b]).c_str(), over[b]);
   return text;
 }
 
@@ -152,8 +152,8 @@ PoseVerdict verdict_on(const PoseNeeds& needs) {
   for (int k = 1; k < kWrongs; ++k)
     verdict.values.emplace_back(std::string(name_of(static_cast<Wrong>(k))) + "_share", sum.wrong[k] / n);
   append(verdict.values, {{"longest_s", any ? longest.frames() / needs.fps : 0.0},
-                          {"longest_first", any ? longest.first : NAN},
-                          {"longest_last", any ? longest.last : NAN},
+                          {"longest_first", any ? 1.0 * longest.first : NAN},
+                          {"longest_last", any ? 1.0 * longest.last : NAN},
                           {"over_torque_share", sum.over_torque / n},
                           {"torque_max_share", sum.torque},
                           {"lowest_mm", kMm * sum.lowest}});

@@ -18,7 +18,7 @@ inline constexpr double kTooMuch = 0.05;  ///< of the weight; as a moment: metre
 
 enum class Wrong {
   kNothing,
-  kHovers,   ///< needs a force up: nothing touches the floor, and yet it does not fall
+  kHovers,   ///< needs a force up: it does not fall, and nothing touches that could carry it
   kPulled,   ///< needs a force down: it falls faster than free fall, or stops rising sooner
   kDrifts,   ///< needs a force sideways, nothing touches
   kTurns,    ///< needs a moment, nothing touches
