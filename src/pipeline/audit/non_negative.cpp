@@ -10,7 +10,7 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kMostSteps = 200;    ///< seen: under 20; the bound holds even where rounding would go in circles
+constexpr int kMostSteps = 200;     ///< seen: under 20; the bound holds even where rounding would go in circles
 constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which rounding is all that is left
 
 /// Slope of φ along d at r + part · d. `at` = Aᵀr, `change` = Aᵀd.
@@ -43,13 +43,14 @@ double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d&
 Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b, double small) {
   Vector6d r = b;
   Eigen::VectorXd at = A.transpose() * r;
-  for (int step = 0; step < kMostSteps; ++step) {
+  int settled = 0;  // whole steps inside one piece: the second takes away what the first one rounded
+  for (int step = 0; step < kMostSteps && settled < 2; ++step) {
+    const Vector6d slope = r - b + A * at.cwiseMax(0.0) / small;
+    if (slope.norm() <= kNoSlope * b.norm()) break;
     Matrix6d hessian = Matrix6d::Identity();
     for (Eigen::Index i = 0; i < A.cols(); ++i)
       if (at[i] > 0.0) hessian.noalias() += A.col(i) * (A.col(i).transpose() / small);
-    const Vector6d slope = hessian * r - b;
-    if (slope.norm() <= kNoSlope * b.norm()) break;
-    const Vector6d d = hessian.ldlt().solve(b) - r;
+    const Vector6d d = -hessian.ldlt().solve(slope);
     const Eigen::VectorXd change = A.transpose() * d;
     const double part = smallest_on_the_way(r, d, b, at, change, small);
     if (part == 0.0) break;
@@ -57,7 +58,7 @@ Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b,
     const Eigen::VectorXd next = A.transpose() * r;
     const bool same_piece = ((at.array() > 0.0) == (next.array() > 0.0)).all();
     at = next;
-    if (part == 1.0 && same_piece) break;
+    if (part == 1.0 && same_piece) ++settled;
   }
   return at.cwiseMax(0.0) / small;
 }
