@@ -106,9 +106,10 @@ int audit(const Arguments& a) {
 void declare_audit(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("audit", "Do the forces in a file explain the motion in it?");
-  add_examples(*command,
-               "  mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
-               "  mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?\n");
+  add_examples(
+      *command,
+      "  mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
+      "  mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?\n");
   command->add_option("FILE", a->inputs, "motions and physics steps, and folders of them")->required();
   auto* poses = command->add_flag(
       "--poses", a->poses,
@@ -118,7 +119,8 @@ void declare_audit(CLI::App& app, Action& action) {
   command->add_option("--frames-csv", a->frames_csv, "with --poses: a row per frame")->needs(poses);
   command->add_option("--json", a->json, "also write every value here; without --poses every row, too");
   command
-      ->add_option("--reach-mm", a->reach_mm, "with --poses: up to which a point over the floor can push on it")
+      ->add_option("--reach-mm", a->reach_mm,
+                   "with --poses: up to which a point over the floor can push on it")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   add_read_arguments(*command, a->config.read);

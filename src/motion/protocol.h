@@ -7,8 +7,8 @@
 ///  - emdb  recovery in the world: the second split of EMDB (M. Kaufmann et al., ICCV 2023) as the
 ///          evaluations of WHAM (S. Shin et al., CVPR 2024) and GVHMR (Z. Shen et al., 2024) have it
 ///
-/// A value is a mean of samples, and a table's mean pools the samples of all motions: long motions count more,
-/// as they do in those evaluations. All three are defined at 30 frames per second.
+/// A value is a mean of samples, and a table's mean pools the samples of all motions: long motions count
+/// more, as they do in those evaluations. All three are defined at 30 frames per second.
 ///
 /// What differs from the published ones, and cannot be otherwise here: 22 joints instead of SMPL's 24 (no
 /// hands), surface points of our shapes instead of the vertices of a mesh.

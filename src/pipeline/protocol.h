@@ -1,8 +1,8 @@
 /// `mimicx evaluate --protocol`: the tables of published protocols (motion/protocol.h), file by file.
 ///
 /// Pairs are files of the same name. A truth without a motion, or with one that cannot be compared, has no
-/// values; protocols with a success rate count it as no success, because a method that leaves the hard motions
-/// out would otherwise look better.
+/// values; protocols with a success rate count it as no success, because a method that leaves the hard
+/// motions out would otherwise look better.
 #pragma once
 
 #include <filesystem>

@@ -64,18 +64,17 @@ TEST(Protocol, ATranslationIsAGlobalErrorAndNoOther) {
   EXPECT_NEAR(phc("E_g-mpjpe", p, truth), 500.0, 1e-9);
   for (const char* name : {"E_mpjpe", "E_pa-mpjpe", "E_acc", "E_vel"})
     EXPECT_NEAR(phc(name, p, truth), 0.0, 1e-9) << name;
-  for (const char* name : {"WA-MPJPE", "W-MPJPE", "RTE"}) EXPECT_NEAR(emdb(name, p, truth), 0.0, 1e-6) << name;
+  for (const char* name : {"WA-MPJPE", "W-MPJPE", "RTE"})
+    EXPECT_NEAR(emdb(name, p, truth), 0.0, 1e-6) << name;
 }
 
 TEST(Protocol, ATurnAboutUpAndAScaleVanishInTheAlignmentOfWorldErrors) {
   const MotionSamples truth = walking(230, 6.0);
   const Quaterniond turn = rotation_z(0.7);
-  const MotionSamples turned =
-      mapped(truth, [&](int, const Vector3d& p) -> Vector3d { return turn * p; });
+  const MotionSamples turned = mapped(truth, [&](int, const Vector3d& p) -> Vector3d { return turn * p; });
   for (const char* name : {"WA-MPJPE", "W-MPJPE", "RTE"})
     EXPECT_NEAR(emdb(name, turned, truth), 0.0, 1e-6) << name;
-  const MotionSamples scaled =
-      mapped(truth, [&](int, const Vector3d& p) -> Vector3d { return 1.1 * p; });
+  const MotionSamples scaled = mapped(truth, [&](int, const Vector3d& p) -> Vector3d { return 1.1 * p; });
   for (const char* name : {"WA-MPJPE", "W-MPJPE"}) EXPECT_NEAR(emdb(name, scaled, truth), 0.0, 1e-6) << name;
   EXPECT_GT(emdb("RTE", scaled, truth), 1.0);  // the root's way keeps its scale
 }
@@ -85,7 +84,8 @@ TEST(Protocol, ATurnAboutUpAndAScaleVanishInTheAlignmentOfWorldErrors) {
 TEST(Protocol, RootErrorOfAScaledStraightWayIsAQuarterOfTheScaleError) {
   const int n = 401;
   MotionSamples truth = standing(n);
-  truth = mapped(truth, [](int t, const Vector3d& p) -> Vector3d { return p + 0.02 * t * Vector3d::UnitX(); });
+  truth =
+      mapped(truth, [](int t, const Vector3d& p) -> Vector3d { return p + 0.02 * t * Vector3d::UnitX(); });
   const MotionSamples p =
       mapped(truth, [](int t, const Vector3d& q) -> Vector3d { return q + 0.002 * t * Vector3d::UnitX(); });
   double mean = 0.0;
@@ -155,8 +155,8 @@ TEST(Protocol, AUniformSlideIsItsSpeedInEveryFootSliding) {
   EXPECT_NEAR(pmr("FS", p, truth), 7.0, 1e-9);
   EXPECT_NEAR(emdb("FS", p, truth), 7.0, 1e-9);
   const MotionSamples lifted = moved(p, {0.0, 0.0, 0.1});
-  EXPECT_EQ(pmr("FS", lifted, truth), 0.0);            // nothing touches
-  EXPECT_NEAR(emdb("FS", lifted, truth), 7.0, 1e-9);   // the truth stands
+  EXPECT_EQ(pmr("FS", lifted, truth), 0.0);           // nothing touches
+  EXPECT_NEAR(emdb("FS", lifted, truth), 7.0, 1e-9);  // the truth stands
 }
 
 TEST(Protocol, PoolingWeighsByTheSamples) {

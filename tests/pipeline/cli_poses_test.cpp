@@ -53,7 +53,8 @@ TEST_F(CliPoses, ARowPerMotionAndPerFrameAndTheRestIsDone) {
   };
   EXPECT_NE(rows[1].find("bad.npz,,"), std::string::npos);
   EXPECT_NE(rows[1].find("left out"), std::string::npos);
-  for (int row = 2; row <= 4; ++row) EXPECT_EQ(split(rows.at(static_cast<std::size_t>(row)), ',').size(), head.size());
+  for (int row = 2; row <= 4; ++row)
+    EXPECT_EQ(split(rows.at(static_cast<std::size_t>(row)), ',').size(), head.size());
   EXPECT_EQ(cell(2, "file"), path("in/good.npz"));
   EXPECT_EQ(cell(2, "infeasible_share"), "0");
   EXPECT_EQ(cell(3, "infeasible_share"), "1");
@@ -62,7 +63,8 @@ TEST_F(CliPoses, ARowPerMotionAndPerFrameAndTheRestIsDone) {
               0.05 * std::stod(cell(3, "weight_N")));
   EXPECT_LT(std::stod(cell(4, "infeasible_share")), 0.1) << "the BVH of an exact walk";
   const auto frames = split(read_file(path("f.csv")), '\n');
-  const int expected = std::stoi(cell(2, "frames")) + std::stoi(cell(3, "frames")) + std::stoi(cell(4, "frames"));
+  const int expected =
+      std::stoi(cell(2, "frames")) + std::stoi(cell(3, "frames")) + std::stoi(cell(4, "frames"));
   EXPECT_EQ(frames.size(), static_cast<std::size_t>(expected) + 1);
   for (const std::string& line : frames) EXPECT_EQ(split(line, ',').size(), split(frames[0], ',').size());
   const auto json = nlohmann::json::parse(read_file(path("a.json")));
@@ -142,8 +144,10 @@ TEST_F(CliProtocol, AMissingMotionIsNoSuccess) {
 
 TEST_F(CliProtocol, EveryProtocolPrintsItsColumnsAndFoldersGetALineEach) {
   std::filesystem::remove(path("truth/c.npz"));
-  for (const auto& [protocol, column] : {std::pair{"phc", "E_pa-mpjpe"}, {"pmr", "Float"}, {"emdb", "WA-MPJPE"}}) {
-    const std::string arguments = std::string("evaluate --protocol ") + protocol + " --truth " + path("truth");
+  for (const auto& [protocol, column] :
+       {std::pair{"phc", "E_pa-mpjpe"}, {"pmr", "Float"}, {"emdb", "WA-MPJPE"}}) {
+    const std::string arguments =
+        std::string("evaluate --protocol ") + protocol + " --truth " + path("truth");
     const Call call = mimicx(arguments + " --motions " + path("motions"));
     EXPECT_EQ(call.status, 0) << call.text;
     EXPECT_TRUE(says(call, column) && says(call, "pooled")) << call.text;
@@ -162,7 +166,8 @@ TEST_F(CliProtocol, AnotherRateOrProtocolIsRefused) {
   EXPECT_EQ(call.status, 1);
   EXPECT_TRUE(says(call, "motions/d: left out: protocols are defined at 30 frames per second")) << call.text;
   EXPECT_EQ(mimicx("evaluate --protocol mine" + folders).status, 2);
-  EXPECT_EQ(mimicx("evaluate --protocol phc --truth " + path("none") + " --motions " + path("motions")).status, 1);
+  EXPECT_EQ(
+      mimicx("evaluate --protocol phc --truth " + path("none") + " --motions " + path("motions")).status, 1);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 /// What a motion demands of a body: inverse dynamics of a clip, frame by frame.
 ///
-/// Newton and Euler over the character's masses and inertias (pipeline/audit/body_loads.h), accelerations from
-/// second differences of the frames. Where a foot touches the floor (or, where asked for, any body), contact
-/// forces inside friction cones (μ = 1, four edges) at its points take over what they can of the force and
-/// moment that the whole body needs (pipeline/audit/floor_push.h), moments about the centre of mass. What is
-/// left is the root residual: a hand that would have to hold the body. Joint torques follow from the motion of
-/// the bodies beyond a joint and the contact forces on them. Nothing is smoothed: for exact motions. Real ones
-/// are judged by pipeline/audit/pose_needs.h.
+/// Newton and Euler over the character's masses and inertias (pipeline/audit/body_loads.h), accelerations
+/// from second differences of the frames. Where a foot touches the floor (or, where asked for, any body),
+/// contact forces inside friction cones (μ = 1, four edges) at its points take over what they can of the
+/// force and moment that the whole body needs (pipeline/audit/floor_push.h), moments about the centre of
+/// mass. What is left is the root residual: a hand that would have to hold the body. Joint torques follow
+/// from the motion of the bodies beyond a joint and the contact forces on them. Nothing is smoothed: for
+/// exact motions. Real ones are judged by pipeline/audit/pose_needs.h.
 ///
 /// What it does not do: no armature of the joints, no contacts with anything but the floor; while both feet
 /// stand the split of the load between them is that of the smallest forces, not that of a person.

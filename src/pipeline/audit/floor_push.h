@@ -8,9 +8,9 @@
 namespace mimicx::pipeline::audit {
 
 struct Floor {
-  double friction = 1.0;      ///< μ
-  int edges = 8;              ///< of the pyramid inside of the round cone
-  double small_forces = 1e-6; ///< weight of the squared forces beside the squared rest: makes them unique
+  double friction = 1.0;       ///< μ
+  int edges = 8;               ///< of the pyramid inside of the round cone
+  double small_forces = 1e-6;  ///< weight of the squared forces beside the squared rest: makes them unique
 };
 
 /// Gives the pushes the forces that come nearest to `wanted` = (moment about `center`, N·m; force, N), a N·m

@@ -10,7 +10,7 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kMostSteps = 200;     ///< seen: under 20; the bound holds even where rounding would go in circles
+constexpr int kMostSteps = 200;  ///< seen: under 20; the bound holds even where rounding would go in circles
 constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which rounding is all that is left
 
 /// Slope of φ along d at r + part · d. `at` = Aᵀr, `change` = Aᵀd.
@@ -21,16 +21,16 @@ double slope_at(double part, const Vector6d& r, const Vector6d& d, const Vector6
 
 /// Where φ is smallest on the way from r to r + d, as a part of it: where its slope, which is linear between
 /// two planes and never falls, is 0.
-double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d& b,
-                           const Eigen::VectorXd& at, const Eigen::VectorXd& change, double small) {
+double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d& b, const Eigen::VectorXd& at,
+                           const Eigen::VectorXd& change, double small) {
   const auto slope = [&](double part) { return slope_at(part, r, d, b, at, change, small); };
   std::vector<double> planes = {1.0};
   for (Eigen::Index i = 0; i < at.size(); ++i)
     if (at[i] * change[i] < 0.0 && std::abs(at[i]) < std::abs(change[i]))
       planes.push_back(-at[i] / change[i]);
   std::sort(planes.begin(), planes.end());
-  const auto beyond = std::partition_point(planes.begin(), planes.end(),
-                                           [&](double part) { return slope(part) < 0.0; });
+  const auto beyond =
+      std::partition_point(planes.begin(), planes.end(), [&](double part) { return slope(part) < 0.0; });
   if (beyond == planes.end()) return 1.0;
   const double low = beyond == planes.begin() ? 0.0 : *(beyond - 1), high = *beyond;
   const double at_low = slope(low), at_high = slope(high);

@@ -23,7 +23,8 @@ double shift_to_floor(const Character& c, const PerFrame<BodyPoses>& poses) {
 }
 
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
@@ -85,7 +86,8 @@ void judge_poses(const std::vector<std::string>& paths, const PoseFilesConfig& c
   const List<std::string> all(paths);
   for (int begin = 0; begin < all.count(); begin += kBatch) {
     List<PoseFile> files(std::min(kBatch, all.count() - begin));
-    parallel_for(files.count(), config.threads, [&](int i) { files[i] = judge_poses(all[begin + i], config); });
+    parallel_for(files.count(), config.threads,
+                 [&](int i) { files[i] = judge_poses(all[begin + i], config); });
     for (const PoseFile& file : files) judged(file);
   }
 }
@@ -138,10 +140,9 @@ std::string pose_frames_csv_rows(const PoseFile& file) {
     const PoseNeed& need = file.needs.frames[t];
     const int joint = weakest_joint(need);
     lines += name + ',' + std::to_string(t) + ',' + number(t / file.needs.fps);
-    for (const double value :
-         {need.force.x(), need.force.y(), need.force.z(), need.force.norm(),
-          need.force.norm() / file.needs.mass, need.moment.x(), need.moment.y(), need.moment.z(),
-          need.moment.norm()})
+    for (const double value : {need.force.x(), need.force.y(), need.force.z(), need.force.norm(),
+                               need.force.norm() / file.needs.mass, need.moment.x(), need.moment.y(),
+                               need.moment.z(), need.moment.norm()})
       lines += ',' + number(value);
     lines += ',' + std::string(name_of(wrong_with(need, file.needs.weight)));
     lines += ',' + number(need.floor) + ',' + std::to_string(need.points) + ',' + number(kMm * need.lowest);

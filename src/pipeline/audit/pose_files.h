@@ -1,8 +1,10 @@
-/// `mimicx audit --poses`: the feasibility of whole data sets, a row per motion and, where asked for, per frame.
+/// `mimicx audit --poses`: the feasibility of whole data sets, a row per motion and, where asked for, per
+/// frame.
 ///
-/// Motions of our own layout stand where they stand. The floor of any other file is known to a few centimetres
-/// at best, its body often not at all: it is moved up or down as a whole until the 5th percentile of its lowest
-/// point is at z = 0, unless the user says where its floor is (`ReadConfig::floor`). The shift is in the table.
+/// Motions of our own layout stand where they stand. The floor of any other file is known to a few
+/// centimetres at best, its body often not at all: it is moved up or down as a whole until the 5th percentile
+/// of its lowest point is at z = 0, unless the user says where its floor is (`ReadConfig::floor`). The shift
+/// is in the table.
 #pragma once
 
 #include <functional>

@@ -81,8 +81,8 @@ List<Push> possible_pushes(const Character& c, const PerFrame<FramePoints>& poin
 PerBody<double> torque_shares(const Character& c, const PerBody<Vector3d>& moment) {
   PerBody<double> shares{};
   for (int b = 1; b < kBodies; ++b)
-    shares[b] = (is_hinge(b) ? std::abs(moment[b].dot(hinge_axis(b))) : moment[b].norm()) /
-                c.joint[b].torque_limit;
+    shares[b] =
+        (is_hinge(b) ? std::abs(moment[b].dot(hinge_axis(b))) : moment[b].norm()) / c.joint[b].torque_limit;
   return shares;
 }
 

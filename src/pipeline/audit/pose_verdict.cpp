@@ -18,7 +18,8 @@ std::string print(const char* format, Args... args) {
 
 /// Sums over the frames.
 struct Totals {
-  double force = 0.0, moment = 0.0, largest_force = 0.0, largest_moment = 0.0, torque = 0.0, lowest = HUGE_VAL;
+  double force = 0.0, moment = 0.0, largest_force = 0.0, largest_moment = 0.0, torque = 0.0,
+         lowest = HUGE_VAL;
   int worst_frame = 0, infeasible = 0, over_torque = 0;
   double worst = 0.0;  ///< force and moment per metre of the worst frame, N
   Array<int, kWrongs> wrong{};
@@ -56,7 +57,8 @@ Totals totals_of(const PoseNeeds& needs) {
 std::string joints_over(const PerBody<int>& over) {
   std::string text;
   for (int b = 1; b < kBodies; ++b)
-    if (over[b] > 0) text += print("%s%s:%d", text.empty() ? "" : " ", std::string(kBodyNames[b]).c_str(), over[b]);
+    if (over[b] > 0)
+      text += print("%s%s:%d", text.empty() ? "" : " ", std::string(kBodyNames[b]).c_str(), over[b]);
   return text;
 }
 
@@ -115,7 +117,8 @@ std::string in_words(const Stretch& stretch) {
     case Wrong::kHovers:
       return frames + print("the body hovers; %.0f N would have to hold it", stretch.force);
     case Wrong::kPulled:
-      return frames + print("the body sinks faster than it falls; %.0f N would have to pull it", stretch.force);
+      return frames +
+             print("the body sinks faster than it falls; %.0f N would have to pull it", stretch.force);
     case Wrong::kDrifts:
       return frames + print("the body drifts in the air; %.0f N would have to push it", stretch.force);
     case Wrong::kTurns:

@@ -1,7 +1,7 @@
 /// The needs of a motion in a few numbers and in words.
 ///
-/// A frame is infeasible where more than 5 % of the weight, or 5 cm times the weight as a moment, would have to
-/// come from outside (`kTooMuch`). What is wrong with it is named after the largest of the four: force up,
+/// A frame is infeasible where more than 5 % of the weight, or 5 cm times the weight as a moment, would have
+/// to come from outside (`kTooMuch`). What is wrong with it is named after the largest of the four: force up,
 /// down, sideways, and moment per metre.
 #pragma once
 
@@ -33,8 +33,8 @@ Wrong wrong_with(const PoseNeed& need, double weight);
 /// Frames in a row that are infeasible.
 struct Stretch {
   int first = 0, last = 0;
-  Wrong wrong = Wrong::kNothing;        ///< in most of them
-  double force = 0.0, moment = 0.0;     ///< largest of them, N, N·m
+  Wrong wrong = Wrong::kNothing;     ///< in most of them
+  double force = 0.0, moment = 0.0;  ///< largest of them, N, N·m
   int frames() const { return last - first + 1; }
 };
 std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs);

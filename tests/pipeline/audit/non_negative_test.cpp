@@ -71,7 +71,8 @@ TEST(NonNegative, MeetsTheConditionsOfOptimalityWithManyColumns) {
   for (int trial = 0; trial < 200; ++trial) {
     const Matrix6X A = random_matrix(random, 1 + 2 * trial);
     const Vector6d b = random_wrench(random);
-    for (const double small : {1e-2, 1e-6}) expect_optimal(A, b, small, non_negative_least_squares(A, b, small));
+    for (const double small : {1e-2, 1e-6})
+      expect_optimal(A, b, small, non_negative_least_squares(A, b, small));
   }
 }
 

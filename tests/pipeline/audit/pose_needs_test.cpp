@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <cstdio>
 
 #include "core/units.h"
 #include "motion/synth/synth.h"
@@ -12,6 +12,7 @@
 #include "pipeline/audit/feasibility.h"
 #include "pipeline/audit/pose_verdict.h"
 #include "pipeline/standing_clip.h"
+#include "pipeline/thrown.h"
 
 namespace mimicx::pipeline::audit {
 namespace {
@@ -58,8 +59,8 @@ TEST(PoseNeeds, ExactMotionsNeedLessThanAThousandthOfTheWeight) {
 TEST(PoseNeeds, AMotionLiftedByTenCentimetresNeedsItsWholeWeightWhereItStands) {
   const motion::Clip clip = exact("stand");
   const Character c = motion::character_of(clip);
-  const PoseNeeds needs = needs_of_poses(
-      c, moved(motion::poses_of(clip), Quaterniond::Identity(), {0.0, 0.0, 0.1}), clip.fps);
+  const PoseNeeds needs =
+      needs_of_poses(c, moved(motion::poses_of(clip), Quaterniond::Identity(), {0.0, 0.0, 0.1}), clip.fps);
   for (const PoseNeed& need : needs.frames) {
     EXPECT_EQ(need.points, 0);
     EXPECT_NEAR(need.force.z(), needs.weight, 0.05 * needs.weight);
@@ -144,7 +145,9 @@ TEST(BodyLoads, AgreeWithInverseDynamicsOnASmoothMotion) {
   const motion::Clip clip = standing_clip(1);
   const Character c = motion::character_of(clip);
   const double fps = 2000.0;
-  const auto swing = [](int b) { return Vector3d(0.3 * std::sin(1.0 + b), 0.2 * std::cos(2.0 * b), 0.1 * b / kBodies); };
+  const auto swing = [](int b) {
+    return Vector3d(0.3 * std::sin(1.0 + b), 0.2 * std::cos(2.0 * b), 0.1 * b / kBodies);
+  };
   // q(s) = q0 exp(s² swing / 2): at s = 0 at rest, accelerating by `swing`; hinges about their axes.
   const auto turn_of = [&](int b) -> Vector3d {
     return is_hinge(b) ? Vector3d(swing(b).x() * hinge_axis(b)) : swing(b);
@@ -175,6 +178,39 @@ TEST(BodyLoads, AgreeWithInverseDynamicsOnASmoothMotion) {
     Vector3d expected = required.joint[b] - armature, found = poses[1].q_WB[b].conjugate() * moments[b];
     if (is_hinge(b)) found = found.dot(hinge_axis(b)) * hinge_axis(b);
     EXPECT_LT((found - expected).norm(), 1e-3 * (1.0 + expected.norm())) << kBodyNames[b];
+  }
+}
+
+/// A character that the simulator drops and shakes: its poses alone need little, and the floor found for them
+/// is the recorded one, averaged as the needs are. What poses cannot tell is when a force acted between two
+/// frames.
+TEST(PoseNeeds, OfASimulatedMotionAreSmallAndTheFloorIsTheRecordedOne) {
+  for (const double size : {0.0, 0.08}) {
+    const Thrown thrown(240.0, size);
+    const SimulatedFrames frames = thrown.frames();
+    PerFrame<BodyPoses> poses;
+    for (const motion::ReferenceFrame& frame : frames.frames)
+      poses.push_back(forward_kinematics(frames.character, frame.p_root, frame.q));
+    const PoseNeeds needs = needs_of_poses(frames.character, poses, frames.fps);
+    PerFrame<double> recorded;  // of the interval that ends at a frame
+    for (const auto& forces : frames.forces) {
+      recorded.push_back(0.0);
+      for (const Vector6d& wrench : forces.ground) recorded.back() += wrench[5];
+    }
+    double need = 0.0, gap = 0.0;
+    int count = 0;
+    for (int t = 3; t + 4 < needs.frames.count(); ++t, ++count) {
+      const double weights[] = {12, 10, 5};
+      double floor = 0.0;
+      for (int j = -2; j <= 2; ++j)
+        floor += weights[std::abs(j)] / 42.0 * 0.5 * (recorded[t + j] + recorded[t + j + 1]);
+      need += needs.frames[t].force.norm();
+      gap += std::abs(needs.frames[t].floor - floor);
+    }
+    std::printf("  measured: targets off by %.2f rad: need %.2f %%, floor apart by %.2f %% of the weight\n",
+                size, 100.0 * need / count / needs.weight, 100.0 * gap / count / needs.weight);
+    EXPECT_LT(need / count, 0.001 * needs.weight) << size;
+    EXPECT_LT(gap / count, 0.02 * needs.weight) << size;
   }
 }
 
