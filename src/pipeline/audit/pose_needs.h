@@ -8,7 +8,7 @@
 /// Real poses tremble, and their second differences are noise. So a frame's need is a mean of those around
 /// it: the weights are those which turn second differences into the second derivative of the parabola that
 /// fits 2m + 1 frames best (A. Savitzky, M. J. E. Golay, Anal. Chem. 36 (1964)),
-///     w_j ∝ (m² − j²)((m + 1)² − j²),  |j| < m,  m = window · fps, at least 1,
+///     w_j ∝ (m² − j²)((m + 1)² − j²),  |j| < m,  m = window · fps, at least 1   (docs/physics.md §9, (13))
 /// which passes half of the amplitude at 0.45/window Hz. The mean of feasible needs is feasible for
 /// the points that touched at any of the frames in it; these are allowed to push, each where it was, relative
 /// to the centre of mass, at the frame nearest to the one in question. So smoothing never makes a feasible

@@ -73,13 +73,14 @@ std::string words_for(const PoseNeeds& needs, const Totals& sum, const Stretch& 
 
 std::string_view name_of(Wrong wrong) {
   constexpr Array<std::string_view, kWrongs> kNames = {"feasible", "hovers", "pulled", "drifts",
-                                                       "turns",    "slips",  "tips"};
+                                                       "turns",    "slips",  "tips",   "sunk"};
   return kNames[static_cast<int>(wrong)];
 }
 
 Wrong wrong_with(const PoseNeed& need, double weight) {
   const double force = need.force.norm(), moment = need.moment.norm();
-  if (!(std::max(force, moment) > kTooMuch * weight)) return Wrong::kNothing;
+  if (!(std::max(force, moment) > kTooMuch * weight))
+    return need.lowest < -kTooDeep ? Wrong::kSunk : Wrong::kNothing;
   const double up = need.force.z(), sideways = need.force.head<2>().norm();
   const double largest = std::max({up, -up, sideways, moment});
   if (largest == up) return Wrong::kHovers;
@@ -96,13 +97,14 @@ std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs) {
     const Wrong wrong = wrong_with(need, needs.weight);
     if (wrong == Wrong::kNothing) continue;
     if (stretches.empty() || stretches.back().last + 1 < t) {
-      stretches.push_back({t, t, wrong, 0.0, 0.0});
+      stretches.push_back({.first = t, .last = t});
       count.fill(0);
     }
     Stretch& stretch = stretches.back();
     stretch.last = t;
     stretch.force = std::max(stretch.force, need.force.norm());
     stretch.moment = std::max(stretch.moment, need.moment.norm());
+    stretch.depth = std::max(stretch.depth, -need.lowest);
     ++count[static_cast<int>(wrong)];
     stretch.wrong = static_cast<Wrong>(std::max_element(count.begin(), count.end()) - count.begin());
   }
@@ -127,6 +129,8 @@ std::string in_words(const Stretch& stretch) {
       return frames + print("the body would slip; %.0f N would have to push it", stretch.force);
     case Wrong::kTipsOver:
       return frames + print("the body tips over; %.0f N m would have to hold it", stretch.moment);
+    case Wrong::kSunk:
+      return frames + print("the body is %.0f mm in the floor", kMm * stretch.depth);
     default:
       return frames + "nothing is wrong";
   }

@@ -2,7 +2,8 @@
 ///
 /// A frame is infeasible where more than 5 % of the weight, or 5 cm times the weight as a moment, would have
 /// to come from outside (`kTooMuch`). What is wrong with it is named after the largest of the four: force up,
-/// down, sideways, and moment per metre.
+/// down, sideways, and moment per metre. A frame that needs nothing is infeasible all the same where a
+/// contact point is deeper than 5 cm in the floor (`kTooDeep`): the floor that carries it there is none.
 #pragma once
 
 #include <string>
@@ -16,17 +17,20 @@ namespace mimicx::pipeline::audit {
 
 inline constexpr double kTooMuch = 0.05;  ///< of the weight; as a moment: metres times the weight
 
+inline constexpr double kTooDeep = 0.05;  ///< m
+
 enum class Wrong {
   kNothing,
-  kHovers,   ///< needs a force up: it does not fall, and nothing touches that could carry it
-  kPulled,   ///< needs a force down: it falls faster than free fall, or stops rising sooner
-  kDrifts,   ///< needs a force sideways, nothing touches
-  kTurns,    ///< needs a moment, nothing touches
-  kSlips,    ///< needs a force sideways beyond the floor's friction
-  kTipsOver  ///< needs a moment: what must push lies outside of where it touches
+  kHovers,    ///< needs a force up: it does not fall, and nothing touches that could carry it
+  kPulled,    ///< needs a force down: it falls faster than free fall, or stops rising sooner
+  kDrifts,    ///< needs a force sideways, nothing touches
+  kTurns,     ///< needs a moment, nothing touches
+  kSlips,     ///< needs a force sideways beyond the floor's friction
+  kTipsOver,  ///< needs a moment: what must push lies outside of where it touches
+  kSunk       ///< needs nothing, but is deep in the floor
 };
-inline constexpr int kWrongs = 7;
-/// "feasible", "hovers", "pulled", "drifts", "turns", "slips", "tips".
+inline constexpr int kWrongs = 8;
+/// "feasible", "hovers", "pulled", "drifts", "turns", "slips", "tips", "sunk".
 std::string_view name_of(Wrong wrong);
 Wrong wrong_with(const PoseNeed& need, double weight);
 
@@ -35,6 +39,7 @@ struct Stretch {
   int first = 0, last = 0;
   Wrong wrong = Wrong::kNothing;     ///< in most of them
   double force = 0.0, moment = 0.0;  ///< largest of them, N, N·m
+  double depth = 0.0;                ///< of the deepest point in the floor, m
   int frames() const { return last - first + 1; }
 };
 std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs);

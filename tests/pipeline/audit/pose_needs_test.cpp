@@ -88,6 +88,17 @@ TEST(PoseNeeds, AMotionLeaningByTwentyDegreesTipsOver) {
   EXPECT_GT(value_of(verdict.values, "moment_mean_Nm"), 0.1 * needs.weight);
 }
 
+TEST(PoseNeeds, AMotionTwentyCentimetresInTheFloorIsSunk) {
+  const motion::Clip clip = exact("squat");
+  const PoseNeeds needs =
+      needs_of_poses(motion::character_of(clip),
+                     moved(motion::poses_of(clip), Quaterniond::Identity(), {0.0, 0.0, -0.2}), clip.fps);
+  const PoseVerdict verdict = verdict_on(needs);
+  EXPECT_EQ(value_of(verdict.values, "sunk_share"), 1.0);
+  EXPECT_NE(verdict.words.find("mm in the floor"), std::string::npos) << verdict.words;
+  EXPECT_NEAR(verdict.longest.depth, 0.2, 0.01);
+}
+
 /// A rigid pose that falls from rest, and one that falls half again as fast.
 TEST(PoseNeeds, AFlightNeedsNothingAndAFasterFallIsPulled) {
   const motion::Clip clip = standing_clip(1);
