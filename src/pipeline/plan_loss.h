@@ -8,10 +8,9 @@
 
 namespace mimicx::pipeline {
 
-/// "the plan is lost at frame 132 (4.40 s): left_foot is 0.41 m from its reference; …", then the force and
-/// the moment with which something outside would have to push the reference's body in the frames before,
-/// beyond all that the floor can give (pipeline/audit/audit.h, poses alone). Where these are next to nothing,
-/// a body could follow, and it is the search that failed: the sentence says so.
+/// "the plan is lost at frame 132 (4.40 s): left_foot is 0.41 m from its reference; …", then what the
+/// reference asks for within a second before that no body can do (pipeline/audit/pose_verdict.h). Where that
+/// is next to nothing, a body could follow, and it is the search that failed: the sentence says so.
 std::string loss_in_words(const motion::Reference& reference, const control::Loss& loss);
 
 }  // namespace mimicx::pipeline

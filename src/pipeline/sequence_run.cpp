@@ -10,6 +10,7 @@
 #include "motion/clip_file.h"
 #include "pipeline/audit/audit.h"
 #include "pipeline/audit/audit_summary.h"
+#include "pipeline/audit/pose_verdict.h"
 #include "pipeline/audit/substeps.h"
 #include "pipeline/output/clean_copy.h"
 #include "pipeline/output/motion_output.h"
@@ -93,6 +94,16 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
   return !stands;
 }
 
+/// What the reference asks for that no body can do, into the entry.
+void judge_reference(const motion::Reference& reference, record::SequenceEntry& entry) {
+  if (reference.size() < 3) return;
+  const audit::PoseNeeds needs = audit::needs_of_poses(reference.character, reference.poses, reference.fps);
+  const audit::PoseVerdict verdict = audit::verdict_on(needs);
+  entry.feasibility = verdict.values;
+  if (verdict.longest.wrong != audit::Wrong::kNothing)
+    entry.notes.push_back("the reference is not feasible: " + verdict.words);
+}
+
 /// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
 /// sees a wrong axis there can stop the run.
 PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
@@ -103,6 +114,7 @@ PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entr
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
+  judge_reference(motion.reference, entry);
   for (const auto* lines : {&entry.decisions, &entry.notes})
     for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
   return motion;

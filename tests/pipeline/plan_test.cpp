@@ -164,8 +164,11 @@ TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
   EXPECT_EQ(lost.output, "rejected/lean.npz");
   EXPECT_LT(value_of(lost.plan, "frames"), 45);
   for (const char* words : {"the plan is lost at frame ", " is 0.", " m from its reference",
-                            " N from outside", "% of the weight", "limit 0.5 m"})
+                            "the reference is not feasible there: frames ", "the body tips over; ",
+                            " N m would have to hold it", "limit 0.5 m"})
     EXPECT_NE(lost.reason.find(words), std::string::npos) << words << ": " << lost.reason;
+  EXPECT_GT(value_of(lost.feasibility, "infeasible_share"), 0.1);
+  EXPECT_EQ(value_of(done.feasibility, "infeasible_share"), 0.0);
   EXPECT_EQ(read_npz(out("run") / "rejected" / "lean.npz").at("poses").shape.at(0), 45u);
   EXPECT_TRUE(done.ok) << done.reason;
 }

@@ -55,6 +55,7 @@ Json to_json(const SequenceEntry& e) {
           {"metrics", to_json(e.metrics)},
           {"audit", to_json(e.audit)},
           {"preparation", to_json(e.preparation)},
+          {"feasibility", to_json(e.feasibility)},
           {"decisions", e.decisions},
           {"notes", e.notes}};
 }
@@ -89,6 +90,7 @@ SequenceEntry entry_of(const Json& json) {
   e.metrics = named_values(json.at("metrics"));
   if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // older manifests have none
   e.preparation = named_values(json.at("preparation"));
+  if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above
   e.decisions = json.value("decisions", std::vector<std::string>{});
   e.notes = json.at("notes").get<std::vector<std::string>>();
   return e;

@@ -43,6 +43,8 @@ struct SequenceEntry {
   bool ok_before = false;      ///< whether the motion was a success before training
   NamedValues audit;           ///< of the simulated motion: what its forces leave unexplained (audit.h)
   NamedValues preparation;     ///< what preparation did to the input
+  /// What the prepared reference needs from outside (pipeline/audit/pose_verdict.h); empty under 3 frames.
+  NamedValues feasibility;
   std::vector<std::string> decisions;  ///< what reading the input decided
   std::vector<std::string> notes;
 

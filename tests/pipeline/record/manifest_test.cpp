@@ -34,6 +34,7 @@ Manifest example() {
   e.metrics = {{"MPJPE", 17.3}, {"Float_gt", std::nan("")}};
   e.audit = {{"root_force_max_N", 12.25}};
   e.preparation = {{"floor_shift_mm", -12.5}};
+  e.feasibility = {{"infeasible_share", 0.25}};
   e.notes = {"a note"};
   m.put(e);
   return m;
