@@ -2,33 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
-#include <memory>
 #include <string>
-#include <utility>
 
 #include "core/parallel.h"
 
 namespace mimicx::tools {
-namespace {
-
-class FormatterWithExamples : public CLI::Formatter {
- public:
-  explicit FormatterWithExamples(std::string examples) : examples_(std::move(examples)) {}
-  std::string make_usage(const CLI::App* app, std::string name) const override {
-    return examples_ + CLI::Formatter::make_usage(app, std::move(name));
-  }
-
- private:
-  std::string examples_;
-};
-
-}  // namespace
-
-void add_examples(CLI::App& command, const std::string& examples) {
-  const auto formatter = std::make_shared<FormatterWithExamples>(examples);
-  formatter->column_width(command.get_formatter()->get_column_width());
-  command.formatter(formatter);
-}
 
 void add_read_arguments(CLI::App& command, motion::import::ReadConfig& read) {
   static const std::map<std::string, char> kAxes = {{"x", 'x'},  {"y", 'y'},  {"z", 'z'},

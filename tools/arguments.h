@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "motion/import/motion_file.h"
 #include "pipeline/options/clusters.h"
@@ -12,9 +11,6 @@ class App;
 }
 
 namespace mimicx::tools {
-
-/// Lines that stand in the help of a command before its usage.
-void add_examples(CLI::App& command, const std::string& examples);
 
 /// --up, --scale, --fps …: what the user knows better than the files.
 void add_read_arguments(CLI::App& command, motion::import::ReadConfig& read);

@@ -14,6 +14,12 @@
 namespace mimicx::tools {
 namespace {
 
+constexpr const char* kPurpose = "Do the forces in a file explain the motion in it?";
+constexpr const char* kHelp =
+    "  mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
+    "  mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?\n\n"
+    "Do the forces in a file explain the motion in it?";
+
 constexpr double kProgressPeriod = 2.0;  // s
 
 struct Arguments {
@@ -105,11 +111,9 @@ int audit(const Arguments& a) {
 
 void declare_audit(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("audit", "Do the forces in a file explain the motion in it?");
-  add_examples(
-      *command,
-      "  mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
-      "  mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?\n");
+  auto* command = app.add_subcommand("audit", kPurpose);
+  command->preparse_callback(
+      [command](std::size_t) { command->description(kHelp); });  // in its own help alone
   command->add_option("FILE", a->inputs, "motions and physics steps, and folders of them")->required();
   auto* poses = command->add_flag(
       "--poses", a->poses,
