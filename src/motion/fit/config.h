@@ -15,7 +15,7 @@ struct FitConfig {
   double keypoint_correlation = 0.3;  ///< of its error from frame to frame at 30 fps
   double confidence_power = 1.0;      ///< σ grows with confidence to the minus this power
   double flat_offset_sigma = 0.005;   ///< static offset of a keypoint in the picture
-  double limb_offset_sigma = 0.006;   ///< m, static offset of a keypoint on its limb
+  double limb_offset_sigma = 0.004;   ///< m, static offset of a keypoint on its limb
   double keypoint_kernel = 0.03;      ///< residual at which a detection has lost half its weight, at first
 
   // What is known of camera and body; 0 keeps what the file says.
@@ -39,7 +39,7 @@ struct FitConfig {
   /// corrections of so many frames weigh as much as one.
   double prior_frames = 30.0;
   double joint_rate = 0.5;    ///< degrees per frame
-  double joint_bend = 0.1;    ///< degrees per frame²
+  double joint_bend = 0.3;    ///< degrees per frame²
   double root_rate = 0.003;   ///< m per frame
   double root_bend = 0.0006;  ///< m per frame²
 

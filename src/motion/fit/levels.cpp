@@ -9,9 +9,10 @@
 namespace mimicx::motion::fit {
 namespace {
 
-constexpr double kTail = 4.0;               ///< degrees of freedom of a detection's error: outliers happen
-constexpr double kDetectionCounts = 300.0;  ///< coordinates that the told σ counts for beside the residuals
-constexpr double kConfidenceSpread = 0.5;   ///< σ of the told power of the confidence
+constexpr double kTail = 4.0;            ///< degrees of freedom of a detection's error: outliers happen
+constexpr double kToldCounts = 300.0;    ///< coordinates that the told σ counts for, beside all residuals
+constexpr double kPooledCounts = 100.0;  ///< that the σ of all keypoints counts for, beside a keypoint's own
+constexpr double kConfidenceSpread = 0.5;  ///< σ of the told power of the confidence
 constexpr double kMostPower = 4.0;
 
 double square(double x) { return x * x; }
@@ -46,6 +47,11 @@ std::vector<Seen> seen_of(const FitProblem& problem, const FitState& state,
                       square(w) * expected_square(problem, state, motion, draws, t, k)});
   return seen;
 }
+
+/// Sum of expected squares, and the number of coordinates in it.
+struct Sum {
+  double squares = 0, count = 0;
+};
 
 /// What the detections of a keypoint say of the power of the confidence: slope and curvature of the
 /// likelihood's logarithm. The mean confidence is left to the keypoint's own σ.
@@ -117,15 +123,20 @@ FitLevels levels_of(const FitProblem& problem, const FitState& state, const PerF
   FitLevels levels = before;
   const auto weights = detection_weights(problem, state, motion);
   Evidence evidence;
+  std::vector<Sum> sums;
+  Sum all{square(problem.config.keypoint_sigma) * kToldCounts, kToldCounts};
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const std::vector<Seen> seen = seen_of(problem, state, motion, draws, weights, k);
-    double squares = 0.0;
-    for (const Seen& s : seen) squares += s.square;
-    levels.keypoint[k] = std::sqrt(
-        (square(before.keypoint[k]) * squares + square(problem.config.keypoint_sigma) * kDetectionCounts) /
-        (2.0 * static_cast<double>(seen.size()) + kDetectionCounts));
+    Sum sum{0.0, 2.0 * static_cast<double>(seen.size())};
+    for (const Seen& s : seen) sum.squares += square(before.keypoint[k]) * s.square;
+    all.squares += sum.squares, all.count += sum.count;
+    sums.push_back(sum);
     add_evidence(seen, evidence);
   }
+  const double pooled = all.squares / all.count;
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    levels.keypoint[k] =
+        std::sqrt((sums[k].squares + pooled * kPooledCounts) / (sums[k].count + kPooledCounts));
   const double precision = 1.0 / square(kConfidenceSpread);
   evidence.slope += precision * (problem.config.confidence_power - before.confidence_power);
   levels.confidence_power = std::clamp(
