@@ -70,10 +70,6 @@ void add_evidence(const std::vector<Seen>& seen, Evidence& evidence) {
 
 }  // namespace
 
-FitLevels initial_levels(const FitConfig& config, std::size_t points) {
-  return {std::vector<double>(points, config.keypoint_sigma), config.confidence_power};
-}
-
 double correlation_of(const FitProblem& problem) {
   return std::pow(problem.config.keypoint_correlation, kReferenceFps / problem.fps);
 }

@@ -10,9 +10,6 @@
 
 namespace mimicx::motion::fit {
 
-/// Where nothing is known yet: those of the configuration.
-FitLevels initial_levels(const FitConfig& config, std::size_t points);
-
 /// Correlation of a detection's error between neighbouring frames of the clip.
 double correlation_of(const FitProblem& problem);
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/quantile.h"
-#include "motion/fit/levels.h"
 #include "motion/hinge.h"
 
 namespace mimicx::motion::fit {
@@ -141,7 +140,7 @@ Array<double, kBetas> shapes_of_people(const FitConfig& config, const FitProblem
 FitProblem make_problem(const Clip& clip, const FitConfig& config) {
   FitProblem problem;
   problem.config = config;
-  problem.levels = initial_levels(config, 0);
+  problem.levels.confidence_power = config.confidence_power;
   problem.fps = clip.fps;
   problem.betas = clip.usable_betas();
   add_shape_derivatives(problem);
@@ -155,7 +154,7 @@ FitProblem make_problem(const Clip& clip, const FitConfig& config) {
   measure_jitter(input, problem);
   if (!clip.keypoints) return problem;
   add_points(*clip.keypoints, problem);
-  problem.levels = initial_levels(config, problem.points.size());
+  problem.levels.keypoint.assign(problem.points.size(), config.keypoint_sigma);
   for (int t = 0; t < problem.frames(); ++t)
     problem.box.push_back(box_of(problem, t, forward_kinematics(character, problem.p_root[t], problem.q[t])));
   return problem;
