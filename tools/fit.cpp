@@ -22,16 +22,20 @@ struct Arguments {
 };
 
 void print(const std::string& name, const motion::fit::FitReport& r) {
-  std::printf("%-24s %7.2f %7.2f %8.4f %7.2f %7.2f %6d %6d %8.0f %8.0f\n", name.c_str(), r.residual_before,
-              r.residual_after, r.focal_scale, r.tilt_deg, r.shape_change, r.swapped_frames, r.dropped_points,
-              r.change_mean_mm, r.change_max_mm);
+  std::printf("%-24s %7.2f %7.2f %8.4f %7.2f %7.2f %7.2f %7.2f %6d %6d %8.0f %8.0f\n", name.c_str(),
+              r.residual_before, r.residual_after, r.focal_scale, r.tilt_deg, r.shape_change,
+              r.keypoint_sigma, r.lead_frames, r.swapped_frames, r.dropped_points, r.change_mean_mm,
+              r.change_max_mm);
 }
 
 int fit(const Arguments& a) {
   std::filesystem::create_directories(a.out);
-  std::printf("%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n%-24s %7s %7s %8s %7s %7s %6s %6s %8s %8s\n",
-              "motion", "before", "after", "focal", "tilt", "shape", "swaps", "drops", "change", "largest",
-              "", "% box", "% box", "scale", "deg", "beta", "frames", "points", "mm", "mm");
+  std::printf(
+      "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n"
+      "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n",
+      "motion", "before", "after", "focal", "tilt", "shape", "sigma", "lead", "swaps", "drops", "change",
+      "largest", "", "% box", "% box", "scale", "deg", "beta", "% box", "frames", "frames", "points", "mm",
+      "mm");
   std::vector<std::string> names;
   bool all_good = true;
   for (const std::string& file : pipeline::expand_inputs(a.inputs)) {

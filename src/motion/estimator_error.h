@@ -1,7 +1,6 @@
 /// What is known about the errors of video estimators joint by joint.
 ///
-/// The noise model (noise.h) draws its errors with these weights and the keypoint fit (fit.h) trusts the
-/// input by them: so on synthetic noise the fit is right about the weights, which flatters it a little.
+/// The noise model (noise.h) draws its errors with these weights. The keypoint fit does not know them.
 #pragma once
 
 namespace mimicx::motion {

@@ -5,14 +5,18 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/units.h"
 #include "motion/fit/labels.h"
+#include "motion/fit/levels.h"
 #include "motion/fit/projection.h"
 #include "motion/fit/terms.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
+constexpr int kDraws = 3;                       ///< of the solution's error, for the levels
+constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
 constexpr int kTremorFrames = 4;           ///< that show a tremor
 constexpr int kUnsettled = 3;              ///< iterations until the motion is on the floor
@@ -21,6 +25,8 @@ constexpr std::size_t kFewestPoints = 6;   ///< joints among the keypoints, else
 constexpr double kFarOff = 3.0;            ///< kernels: a detection this far off was set aside
 constexpr double kSmallestStep = 1e-5;     ///< rad and m: below, the fit has converged
 constexpr double kBlindPriorFrames = 5.0;  ///< `prior_frames` where nothing but the input tells of the pose
+
+constexpr double kBlindRate = 2.0, kBlindBend = 0.6;  ///< `joint_rate`, `joint_bend` there
 
 /// A state with everything that follows from it.
 struct Evaluated {
@@ -45,8 +51,7 @@ PerFrame<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const 
   for (int t = 0; t < problem.frames(); ++t) {
     predicted.emplace_back();
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const int body = problem.points[k].body;
-      const Projection seen = project_point(problem, state, t, k, e.motion[t].poses.p_WB[body]);
+      const Projection seen = see(problem, state, e.motion, t, k);
       const Eigen::Vector2d detected = problem.uvc[t][k].head<2>();
       predicted.back().push_back(seen.valid ? Eigen::Vector2d(detected + problem.box[t] * seen.error)
                                             : detected);
@@ -65,9 +70,8 @@ Residual residual_of(const FitProblem& problem, const FitState& state, const Eva
   double squares = 0.0, weights = 0.0;
   for (int t = 0; t < problem.frames(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const int body = problem.points[k].body;
       const double confidence = problem.uvc[t][k].z();
-      const Projection seen = project_point(problem, state, t, k, e.motion[t].poses.p_WB[body]);
+      const Projection seen = see(problem, state, e.motion, t, k);
       if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.config.keypoint_kernel)
         ++out.dropped;
       if (confidence <= 0.0 || !seen.valid) continue;
@@ -141,9 +145,17 @@ std::string reason_to_refuse(const FitProblem& problem) {
   return "";
 }
 
-/// Gauss-Newton with labels and contacts found anew before each step.
+/// Draws of the error of the solution of a system that was solved.
+std::vector<BandSolution> draws_of(const BorderedBand& factored, Random& random) {
+  std::vector<BandSolution> draws;
+  for (int i = 0; i < kDraws; ++i) draws.push_back(draw(factored, random));
+  return draws;
+}
+
+/// Gauss-Newton with labels and contacts found anew before each step, levels after it.
 FitState iterate(FitProblem& problem, FitReport& report) {
   const PerFrame<std::vector<Vector3d>> detected = problem.uvc;
+  Random random(kLevelStream);
   FitState state = initial_state(problem);
   Evaluated e = evaluate(problem, state);
   report.residual_before = residual_of(problem, state, e).rms;
@@ -153,6 +165,9 @@ FitState iterate(FitProblem& problem, FitReport& report) {
     BorderedBand system = linearise(problem, state, e.motion, e.feet, contacts);
     const double step = advance(solve(system), state);
     e = evaluate(problem, state);
+    problem.settled = report.iterations >= kUnsettled;
+    if (problem.settled && problem.config.find_levels && !problem.points.empty())
+      problem.levels = levels_of(problem, state, e.motion, draws_of(system, random));
     ++report.iterations;
     if (step < kSmallestStep && report.iterations > kUnsettled) break;
   }
@@ -162,6 +177,15 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   return state;
 }
 
+void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
+  report.lead_frames = state.g[kLead];
+  report.confidence_power = problem.levels.confidence_power;
+  if (problem.points.empty()) return;
+  const std::vector<double>& sigma = problem.levels.keypoint;
+  report.keypoint_sigma = kPercent * median(sigma);
+  report.keypoint_sigma_max = kPercent * *std::max_element(sigma.begin(), sigma.end());
+}
+
 /// The clip at the problem's solution; as it is, with a note, where there is none.
 Clip solved(const Clip& clip, FitProblem& problem, FitReport& report) {
   try {
@@ -169,6 +193,7 @@ Clip solved(const Clip& clip, FitProblem& problem, FitReport& report) {
     const Clip fitted = result_of(clip, problem, state);
     report.focal_scale = std::exp(state.g[kLogFocal]);
     report.tilt_deg = state.g[kTilt] / kDegree;
+    report_levels(problem, state, report);
     report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
     report_change(clip, fitted, report);
     return fitted;
@@ -206,6 +231,8 @@ Clip steady(const Clip& clip, const FitConfig& config, FitReport* report) {
   blind.keypoints.reset();
   FitConfig trusting = config;
   trusting.prior_frames = std::min(config.prior_frames, kBlindPriorFrames);
+  trusting.joint_rate = kBlindRate;
+  trusting.joint_bend = kBlindBend;
   FitProblem problem = make_problem(blind, trusting);
   Clip calm = problem.rotation_jitter < kTremor * kDegree ? clip : solved(clip, problem, r);
   if (report) *report = r;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/quantile.h"
-#include "motion/estimator_error.h"
 #include "motion/hinge.h"
 
 namespace mimicx::motion::fit {
@@ -80,13 +79,17 @@ double jitter_of(const std::vector<double>& third_differences) {
 
 void measure_jitter(const PerFrame<PerBody<Quaterniond>>& q, FitProblem& problem) {
   std::vector<double> rotations, positions;
-  for (int t = 0; t + 3 < q.count(); ++t) {
-    for (int b = 1; b < kBodies; ++b) {
+  for (int b = 1; b < kBodies; ++b) {
+    std::vector<double> own;
+    for (int t = 0; t + 3 < q.count(); ++t) {
       Array<Vector3d, 3> step;
       for (int i = 0; i < 3; ++i) step[i] = log_map(q[t + i][b].conjugate() * q[t + i + 1][b]);
-      for (double x : ((step[0] - 2.0 * step[1] + step[2]) / relative_joint_error(b)).eval())
-        rotations.push_back(std::abs(x));
+      for (double x : (step[0] - 2.0 * step[1] + step[2]).eval()) own.push_back(std::abs(x));
     }
+    problem.joint_jitter[b] = jitter_of(own);
+    rotations.insert(rotations.end(), own.begin(), own.end());
+  }
+  for (int t = 0; t + 3 < q.count(); ++t) {
     const auto& p = problem.p_root;
     for (double x : (p[t + 3] - 3.0 * p[t + 2] + 3.0 * p[t + 1] - p[t]).eval())
       positions.push_back(std::abs(x));
@@ -112,24 +115,46 @@ void add_shape_derivatives(FitProblem& problem) {
   }
 }
 
+Array<double, kBetas> told_shape(const FitConfig& config) {
+  Array<double, kBetas> sigma;
+  sigma.fill(config.beta_sigma);
+  return sigma;
+}
+
+/// How people differ, as σ of our entries of β: the first is stature, the others move proportions. An entry
+/// is measured by the bone that it changes most; one that changes none (girth) cannot be seen and stays.
+Array<double, kBetas> shapes_of_people(const FitConfig& config, const FitProblem& problem) {
+  const Character standard = make_character();
+  Array<double, kBetas> sigma{};
+  for (int k = 0; k < kBetas; ++k) {
+    double change = 0.0;
+    for (int b = 1; b < kBodies; ++b)
+      change = std::max(change, problem.offset_by_beta[b].col(k).norm() / standard.joint_offset[b].norm());
+    if (change > 0.0) sigma[k] = (k == 0 ? config.stature_spread : config.proportion_spread) / change;
+  }
+  return sigma;
+}
+
 }  // namespace
 
 FitProblem make_problem(const Clip& clip, const FitConfig& config) {
   FitProblem problem;
   problem.config = config;
+  problem.levels.confidence_power = config.confidence_power;
   problem.fps = clip.fps;
   problem.betas = clip.usable_betas();
+  add_shape_derivatives(problem);
   if (clip.keypoints && !clip.rest_joints)  // nothing else tells of the shape, or it is known
-    problem.beta_sigma = clip.body_model == "mimicx" ? config.beta_sigma : config.foreign_beta_sigma;
+    problem.beta_sigma = clip.body_model == "mimicx" ? told_shape(config) : shapes_of_people(config, problem);
   problem.rest_joints = clip.rest_joints;
   const Character character = character_of(clip);
   const auto input = joint_rotations(clip);
   problem.q = to_hinges(character, input);
   for (const Vector3d& trans : clip.trans) problem.p_root.push_back(trans + rest_pelvis(clip));
-  add_shape_derivatives(problem);
   measure_jitter(input, problem);
   if (!clip.keypoints) return problem;
   add_points(*clip.keypoints, problem);
+  problem.levels.keypoint.assign(problem.points.size(), config.keypoint_sigma);
   for (int t = 0; t < problem.frames(); ++t)
     problem.box.push_back(box_of(problem, t, forward_kinematics(character, problem.p_root[t], problem.q[t])));
   return problem;

@@ -12,9 +12,11 @@ namespace mimicx::motion::fit {
 
 /// Unknowns of a frame: root position (world, m), root rotation, joints as in `first_dof`.
 inline constexpr int kRootRotation = 3, kFirstJoint = 6, kFrameUnknowns = kFirstJoint + kDofs;
-/// Unknowns of the clip: tilt (rad), log of the focal length's scale, change of β, keypoint offsets (2 each,
-/// heights of the box).
-enum GlobalUnknown : int { kTilt, kLogFocal, kFirstBeta, kFirstOffset = kFirstBeta + kBetas };
+/// Unknowns of the clip: tilt (rad), log of the focal length's scale, time by which the keypoints are ahead
+/// of the motion (frames), change of β, and five per keypoint: its offset in the picture (heights of the box)
+/// and on its limb (body's frame, m).
+enum GlobalUnknown : int { kTilt, kLogFocal, kLead, kFirstBeta, kFirstOffset = kFirstBeta + kBetas };
+inline constexpr int kFlatOffset = 2, kOffsets = 5;  ///< offsets in the picture; all offsets of a keypoint
 
 using FrameVector = Eigen::Matrix<double, kFrameUnknowns, 1>;
 using ShapeJacobian = Eigen::Matrix<double, 3, kBetas>;
@@ -23,6 +25,14 @@ using Eigen::VectorXd;
 struct FitState {
   PerFrame<FrameVector> c;  ///< [frames] corrections
   VectorXd g;               ///< unknowns of the clip
+};
+
+inline constexpr double kReferenceFps = 30.0;  ///< frame rate at which rates in settings are meant
+
+/// What the fit believes of the detections' errors.  docs/method.md, "Keypoint fit", "Levels"
+struct FitLevels {
+  std::vector<double> keypoint;   ///< [K] σ of a detection of confidence 1, heights of the box
+  double confidence_power = 0.0;  ///< σ of a detection grows with confidence to the minus this power
 };
 
 /// A detection that the fit uses.
@@ -41,9 +51,11 @@ struct FitFootPoint {
 /// The input as the fit sees it, and what does not change while it runs.
 struct FitProblem {
   FitConfig config;
+  FitLevels levels;
+  bool settled = false;  ///< near the solution: kernels follow the levels; before, they are wide
   double fps = 30.0;
-  std::array<double, kBetas> betas{};  ///< as the file says
-  double beta_sigma = 0.0;
+  std::array<double, kBetas> betas{};     ///< as the file says
+  Array<double, kBetas> beta_sigma{};     ///< per entry; 0: it is known
   std::optional<RestJoints> rest_joints;  ///< of the clip; its shape is known and stays
   PerFrame<Vector3d> p_root;              ///< [frames] of the input, m
   PerFrame<PerBody<Quaterniond>> q;       ///< [frames] of the input, knees and elbows hinges
@@ -55,10 +67,11 @@ struct FitProblem {
   Matrix3d intrinsics = Matrix3d::Identity();
   PerFrame<Eigen::Matrix4d> extrinsics;  ///< one, or one per frame
   double rotation_jitter = 0.0;          ///< white part of the input's joint rotations, rad per axis
+  PerBody<double> joint_jitter{};        ///< the same, joint by joint
   double position_jitter = 0.0;          ///< of its root position, m per axis
 
   int frames() const { return q.count(); }
-  int globals() const { return kFirstOffset + 2 * static_cast<int>(points.size()); }
+  int globals() const { return kFirstOffset + kOffsets * static_cast<int>(points.size()); }
   const Eigen::Matrix4d& camera(int t) const { return extrinsics[extrinsics.count() > 1 ? t : 0]; }
 };
 

@@ -78,4 +78,17 @@ BandSolution solve(BorderedBand& s) {
   return out;
 }
 
+BandSolution draw(const BorderedBand& s, Random& random) {
+  BandSolution out{{}, VectorXd(s.corner.rows())};
+  for (double& value : out.g) value = random.normal();
+  s.corner.transpose().triangularView<Eigen::Upper>().solveInPlace(out.g);
+  for (int t = 0; t < s.frames(); ++t) {
+    VectorXd x(s.diagonal[t].rows());
+    for (double& value : x) value = random.normal();
+    out.x.push_back(x - s.border[t] * out.g);
+  }
+  backward(s, out.x);
+  return out;
+}
+
 }  // namespace mimicx::motion::fit

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "core/containers.h"
+#include "core/random.h"
 
 namespace mimicx::motion::fit {
 
@@ -39,5 +40,10 @@ struct BandSolution {
 /// Solves the system; overwrites it with its factors.
 /// @throws std::domain_error when it is not positive definite
 BandSolution solve(BorderedBand& system);
+
+/// A draw from the normal distribution whose inverse covariance is the matrix of a system that `solve` has
+/// factored: the solution's error under the model.  docs/method.md, "Keypoint fit", (10)
+/// @param random  advanced
+BandSolution draw(const BorderedBand& factored, Random& random);
 
 }  // namespace mimicx::motion::fit

@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "motion/estimator_error.h"
+#include "motion/fit/levels.h"
 #include "motion/fit/projection.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
-constexpr double kFps = 30.0;          ///< frame rate at which the settings' rates are meant
-constexpr double kWristFactor = 3.0;   ///< wrists move fast and blur
 constexpr double kFloorKernel = 0.03;  ///< m: a "standing" foot so far off the floor has lost half its weight
 constexpr double kAccelerationKernel = 3.0;  ///< in its σ: landings and kicks may be sharp
 constexpr double kSlipKernel = 5.0;          ///< in its σ: a foot that begins to move
@@ -34,8 +32,20 @@ struct Assembler {
   const PerFrame<FootPositions>& feet;
   const Contacts& contacts;
   BorderedBand& system;
+  PerFrame<std::vector<double>> weights;  ///< of the detections
 
-  double time_scale() const { return kFps / problem.fps; }
+  /// Rows of a frame's detections, by the unknowns of the frame, the clip's, and the point's own offsets;
+  /// errors.
+  struct Rows {
+    Eigen::MatrixXd J, G, O;
+    VectorXd z;
+  };
+  Rows before, now;
+
+  double time_scale() const { return kReferenceFps / problem.fps; }
+  void look(int t);
+  void add_border(int t, const Eigen::MatrixXd& J, const Eigen::MatrixXd& G, const Eigen::MatrixXd& O,
+                  const VectorXd& r);
   void keypoints(int t);
   void globals();
   void priors(int t);
@@ -45,79 +55,106 @@ struct Assembler {
   void slipping(int t);
 };
 
-/// Projected joints against detections. J: by the unknowns of the frame; G: by those of the clip; r:
-/// residuals, all over σ and under the kernel. σ grows with 1/confidence².
-void Assembler::keypoints(int t) {
+void Assembler::look(int t) {
+  std::swap(before, now);
   const auto rows = static_cast<Eigen::Index>(2 * problem.points.size());
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, kFrameUnknowns),
-                  G = Eigen::MatrixXd::Zero(rows, problem.globals());
-  VectorXd r = VectorXd::Zero(rows);
+  now.J.setZero(rows, kFrameUnknowns);
+  now.G.setZero(rows, kFirstOffset);
+  now.O.setZero(rows, kOffsets);
+  now.z.setZero(rows);
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const double confidence = problem.uvc[t][k].z();
-    if (confidence <= 0.0) continue;
-    const int body = problem.points[k].body;
-    const Vector3d& p = motion[t].poses.p_WB[body];
-    const Projection seen = project_point(problem, state, t, k, p);
-    if (!seen.valid) continue;
-    const bool wrist = body == kLeftWrist || body == kRightWrist;
-    const double sigma = problem.config.keypoint_sigma * (wrist ? kWristFactor : 1.0);
-    const double scale = square(confidence) / sigma *
-                         std::sqrt(cauchy(seen.error.squaredNorm(), problem.config.keypoint_kernel));
+    const double scale = weights[t][k];
+    if (scale <= 0.0) continue;
+    const SeenPoint point = see_closely(problem, state, motion, t, k);
     const auto row = static_cast<Eigen::Index>(2 * k);
-    J.middleRows<2>(row) = scale * seen.by_point * point_jacobian(motion[t], body, p);
-    G.block<2, 1>(row, kTilt) = scale * seen.by_tilt;
-    G.block<2, 1>(row, kLogFocal) = scale * seen.by_focal;
-    G.block<2, kBetas>(row, kFirstBeta) = scale * seen.by_point * motion[t].by_beta[body];
-    G.block<2, 2>(row, kFirstOffset + row) = scale * Eigen::Matrix2d::Identity();
-    r.segment<2>(row) = scale * seen.error;
+    now.J.middleRows<2>(row) = scale * point.by_frame;
+    now.G.middleRows<2>(row) = scale * point.by_clip;
+    now.O.middleRows<2>(row) = scale * point.by_offset;
+    now.z.segment<2>(row) = scale * point.seen.error;
   }
-  system.diagonal[t].noalias() += J.transpose() * J;
-  system.border[t].noalias() += J.transpose() * G;
-  system.corner.noalias() += G.transpose() * G;
+}
+
+/// Projected joints against detections: what is new in the error of a frame after that of the frame before.
+void Assembler::keypoints(int t) {
+  look(t);
+  const auto rows = now.z.size();
+  VectorXd here = VectorXd::Ones(rows), kept = VectorXd::Zero(rows), own(rows);
+  const double correlation = correlation_of(problem);
+  const double grown = 1.0 / std::sqrt(1.0 - square(correlation));
+  const auto follows = [&](int after, std::size_t k) {
+    return after > 0 && after < problem.frames() && weights[after][k] > 0.0 && weights[after - 1][k] > 0.0;
+  };
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(2 * k);
+    if (follows(t, k))
+      here.segment<2>(row).setConstant(grown), kept.segment<2>(row).setConstant(correlation * grown);
+    const double later = follows(t + 1, k) ? square(correlation * grown) : 0.0;
+    own.segment<2>(row) = here.segment<2>(row).array().square() + later;
+  }
+  system.diagonal[t].noalias() += now.J.transpose() * (own.asDiagonal() * now.J);
+  Eigen::MatrixXd G = here.asDiagonal() * now.G, O = here.asDiagonal() * now.O;
+  VectorXd r = here.cwiseProduct(now.z);
+  if (t > 0) {
+    G -= kept.asDiagonal() * before.G;
+    O -= kept.asDiagonal() * before.O;
+    r -= kept.cwiseProduct(before.z);
+    system.next[t - 1].noalias() -= now.J.transpose() * (here.cwiseProduct(kept).asDiagonal() * before.J);
+    add_border(t - 1, -(kept.asDiagonal() * before.J).eval(), G, O, r);
+  }
+  add_border(t, here.asDiagonal() * now.J, G, O, r);
+  system.corner.topLeftCorner<kFirstOffset, kFirstOffset>().noalias() += G.transpose() * G;
+  system.rhs_border.head<kFirstOffset>().noalias() -= G.transpose() * r;
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(2 * k);
+    const int at = offset_of(k);
+    const Eigen::Matrix<double, kOffsets, 2> offsets = O.middleRows<2>(row).transpose();
+    const Eigen::Matrix<double, kOffsets, kFirstOffset> shared = offsets * G.middleRows<2>(row);
+    system.corner.block<kOffsets, kFirstOffset>(at, 0) += shared;
+    system.corner.block<kFirstOffset, kOffsets>(0, at) += shared.transpose();
+    system.corner.block<kOffsets, kOffsets>(at, at) += offsets * offsets.transpose();
+    system.rhs_border.segment<kOffsets>(at) -= offsets * r.segment<2>(row);
+  }
+}
+
+/// What the rows J of a frame share with the clip's unknowns, and its right side.
+void Assembler::add_border(int t, const Eigen::MatrixXd& J, const Eigen::MatrixXd& G,
+                           const Eigen::MatrixXd& O, const VectorXd& r) {
+  system.border[t].leftCols<kFirstOffset>().noalias() += J.transpose() * G;
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(2 * k);
+    system.border[t].middleCols<kOffsets>(offset_of(k)).noalias() +=
+        J.middleRows<2>(row).transpose() * O.middleRows<2>(row);
+  }
   system.rhs[t].noalias() -= J.transpose() * r;
-  system.rhs_border.noalias() -= G.transpose() * r;
 }
 
 void Assembler::globals() {
   const FitConfig& o = problem.config;
   VectorXd weight(problem.globals());
-  weight.setConstant(information(o.keypoint_bias_sigma));
   weight[kTilt] = o.told_weight * information(kDegree * o.tilt_sigma);
   weight[kLogFocal] = o.told_weight * information(o.focal_sigma);
-  weight.segment<kBetas>(kFirstBeta).setConstant(o.told_weight * information(problem.beta_sigma));
+  weight[kLead] = information(o.lead_sigma / time_scale());
+  for (int i = 0; i < kBetas; ++i)
+    weight[kFirstBeta + i] = o.told_weight * information(problem.beta_sigma[i]);
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    weight.segment<kFlatOffset>(offset_of(k)).setConstant(information(o.flat_offset_sigma));
+    weight.segment<3>(offset_of(k) + kFlatOffset).setConstant(information(o.limb_offset_sigma));
+  }
   system.corner.diagonal() += weight;
   system.rhs_border -= weight.cwiseProduct(state.g);
 }
 
-/// One number for every unknown of a frame, from a figure for positions, one for the root and one for joints.
-FrameVector per_unknown(double position, double rotation, double joint) {
-  FrameVector v;
-  v.head<3>().setConstant(position);
-  v.segment<3>(kRootRotation).setConstant(rotation);
-  for (int b = 1; b < kBodies; ++b)
-    v.segment(kFirstJoint + first_dof(b), is_hinge(b) ? 1 : 3).setConstant(joint * relative_joint_error(b));
-  return v;
-}
-
 void Assembler::priors(int t) {
-  const FitConfig& o = problem.config;
-  const FrameVector sigma =
-      per_unknown(o.root_position_sigma, kDegree * o.root_rotation_sigma, kDegree * o.joint_sigma);
-  const FrameVector weight = sigma.array().square().inverse() / (o.prior_frames / time_scale());
+  const FrameVector weight = correction_levels(problem).size.array().square().inverse();
   system.diagonal[t].diagonal() += weight;
   system.rhs[t] -= weight.cwiseProduct(state.c[t]);
 }
 
 /// First and second differences of the corrections; what the input itself jitters is allowed on top.
 void Assembler::smoothness(int t) {
-  const FitConfig& o = problem.config;
-  const double s = time_scale();
-  const FrameVector jitter =
-      per_unknown(problem.position_jitter, problem.rotation_jitter, problem.rotation_jitter);
+  const CorrectionLevels level = correction_levels(problem);
   if (t + 1 < state.c.count()) {
-    const FrameVector rate =
-        per_unknown(s * o.root_rate, s * kDegree * o.joint_rate, s * kDegree * o.joint_rate);
-    const FrameVector w = (rate.array().square() + 2.0 * jitter.array().square()).inverse();
+    const FrameVector w = level.rate.array().square().inverse();
     const FrameVector d = w.cwiseProduct(state.c[t + 1] - state.c[t]);
     system.diagonal[t].diagonal() += w;
     system.diagonal[t + 1].diagonal() += w;
@@ -126,9 +163,7 @@ void Assembler::smoothness(int t) {
     system.rhs[t + 1] -= d;
   }
   if (t + 2 < state.c.count()) {
-    const FrameVector bend =
-        per_unknown(s * s * o.root_bend, s * s * kDegree * o.joint_bend, s * s * kDegree * o.joint_bend);
-    const FrameVector w = (bend.array().square() + 6.0 * jitter.array().square()).inverse();
+    const FrameVector w = level.bend.array().square().inverse();
     const FrameVector d = w.cwiseProduct(state.c[t] - 2.0 * state.c[t + 1] + state.c[t + 2]);
     system.diagonal[t].diagonal() += w;
     system.diagonal[t + 1].diagonal() += 4.0 * w;
@@ -216,7 +251,8 @@ BorderedBand linearise(const FitProblem& problem, const FitState& state,
                        const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,
                        const Contacts& contacts) {
   BorderedBand system(problem.frames(), kFrameUnknowns, problem.globals());
-  Assembler add{problem, state, motion, feet, contacts, system};
+  Assembler add{problem, state, motion, feet, contacts, system, detection_weights(problem, state, motion),
+                {},      {}};
   add.globals();
   for (int t = 0; t < problem.frames(); ++t) {
     add.keypoints(t);

@@ -63,7 +63,8 @@ Clip disturbed(const Clip& truth, std::uint64_t seed) {
 
 FitConfig exact_camera() {
   FitConfig config;
-  config.focal_sigma = config.tilt_sigma = config.beta_sigma = config.keypoint_bias_sigma = 0.0;
+  config.focal_sigma = config.tilt_sigma = config.beta_sigma = 0.0;
+  config.flat_offset_sigma = config.limb_offset_sigma = config.lead_sigma = 0.0;
   return config;
 }
 

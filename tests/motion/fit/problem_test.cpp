@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/estimator_error.h"
 #include "motion/fit/random_problems.h"
 
 namespace mimicx::motion::fit {
@@ -45,7 +44,7 @@ TEST(FitProblem, JitterIsTheWhitePartOfTheInput) {
     Clip clip = test::random_clip(8, 900, 0.15);
     for (int t = 0; t < clip.frames(); ++t) {
       for (int b = 1; b < kBodies; ++b) {
-        const Vector3d error = size * relative_joint_error(b) * test::random_vector(random);
+        const Vector3d error = size * (b == kLeftElbow ? 3.0 : 1.0) * test::random_vector(random);
         clip.rotations[t][b] = log_map(exp_map(clip.rotations[t][b]) * exp_map(error));
       }
       clip.trans[t] += size * test::random_vector(random);
@@ -53,10 +52,33 @@ TEST(FitProblem, JitterIsTheWhitePartOfTheInput) {
     const FitProblem problem = make_problem(clip, {});
     EXPECT_NEAR(problem.rotation_jitter, size, 0.05 * size);
     EXPECT_NEAR(problem.position_jitter, size, 0.1 * size);
+    EXPECT_NEAR(problem.joint_jitter[kLeftElbow], 3.0 * size, 0.3 * size);
+    EXPECT_NEAR(problem.joint_jitter[kRightKnee], size, 0.1 * size);
   }
   const FitProblem smooth = make_problem(test::random_clip(8, 900, 0.15), {});
   EXPECT_LT(smooth.rotation_jitter, 0.0005);
   EXPECT_LT(smooth.position_jitter, 0.0005);
+}
+
+TEST(FitProblem, AForeignBodyDiffersAsPeopleDo) {
+  Clip clip = test::random_clip(6, 4, 0.1);
+  clip.body_model = "smplx";
+  clip.keypoints.emplace();
+  clip.keypoints->uvc.resize(4);
+  clip.keypoints->extrinsics.assign(1, Eigen::Matrix4d::Identity());
+  const FitConfig config;
+  const FitProblem foreign = make_problem(clip, config);
+  std::array<double, kBetas> tall{};
+  tall[0] = foreign.beta_sigma[0];
+  const Character one = make_character(), other = make_character(tall);
+  for (int b = 1; b < kBodies; ++b)
+    EXPECT_NEAR(other.joint_offset[b].norm() / one.joint_offset[b].norm(), 1.0 + config.stature_spread, 1e-9);
+  std::array<double, kBetas> legs{};
+  legs[2] = foreign.beta_sigma[2];
+  EXPECT_NEAR(make_character(legs).joint_offset[kLeftKnee].y() / one.joint_offset[kLeftKnee].y(),
+              1.0 + config.proportion_spread, 2e-3);
+  clip.body_model = "mimicx";
+  for (double sigma : make_problem(clip, config).beta_sigma) EXPECT_EQ(sigma, config.beta_sigma);
 }
 
 }  // namespace

@@ -31,11 +31,12 @@ TEST(FitProjection, ErrorIsThatOfThePinholeCameraOfTheStateInHeightsOfTheBox) {
     high = high.cwiseMax(pixel(p, 0.0, 1.0));
   }
   const double box = std::max(high.x() - low.x(), high.y() - low.y());
+  const Vector3d v(0.3, -0.2, 0.1);
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const Vector3d p(0.1, 0.2, 0.04 * static_cast<double>(k));
-    const Eigen::Vector2d offset = state.g.segment<2>(kFirstOffset + 2 * static_cast<Eigen::Index>(k)),
-                          seen = pixel(p, state.g[kTilt], std::exp(state.g[kLogFocal]));
-    const Projection found = project_point(problem, state, 1, k, p);
+    const Eigen::Vector2d offset = state.g.segment<2>(offset_of(k)),
+                          seen = pixel(p + state.g[kLead] * v, state.g[kTilt], std::exp(state.g[kLogFocal]));
+    const Projection found = project_point(problem, state, 1, k, p, v);
     ASSERT_TRUE(found.valid);
     EXPECT_LT((found.error - (seen - problem.uvc[1][k].head<2>()) / box - offset).norm(), 1e-10);
   }
@@ -48,34 +49,40 @@ TEST(FitProjection, DerivativesMatchFiniteDifferences) {
     const test::Moved m = test::move(problem, s);
     VectorXd e(2 * static_cast<Eigen::Index>(problem.points.size()));
     for (std::size_t k = 0; k < problem.points.size(); ++k)
-      e.segment<2>(2 * static_cast<Eigen::Index>(k)) =
-          project_point(problem, s, 0, k, m.motion[0].poses.p_WB[problem.points[k].body]).error;
+      e.segment<2>(2 * static_cast<Eigen::Index>(k)) = see(problem, s, m.motion, 0, k).error;
     return e;
   };
   const MatrixXd expected = test::finite_differences(state, errors);
   const test::Moved m = test::move(problem, state);
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const int body = problem.points[k].body;
-    const Vector3d& p = m.motion[0].poses.p_WB[body];
-    const Projection seen = project_point(problem, state, 0, k, p);
-    ASSERT_TRUE(seen.valid);
+    const SeenPoint found = see_closely(problem, state, m.motion, 0, k);
+    ASSERT_TRUE(found.seen.valid);
     const auto row = 2 * static_cast<Eigen::Index>(k);
-    const auto column = [&](int global) { return expected.block<2, 1>(row, kFrameUnknowns + global); };
-    EXPECT_LT((seen.by_tilt - column(kTilt)).norm(), 1e-7);
-    EXPECT_LT((seen.by_focal - column(kLogFocal)).norm(), 1e-7);
-    EXPECT_LT(
-        (seen.by_point * point_jacobian(m.motion[0], body, p) - expected.block(row, 0, 2, kFrameUnknowns))
-            .norm(),
-        1e-7);
-    EXPECT_LT(
-        (expected.block<2, 2>(row, kFrameUnknowns + kFirstOffset + row) - Eigen::Matrix2d::Identity()).norm(),
-        1e-7);
+    EXPECT_LT((found.by_frame - expected.block<2, kFrameUnknowns>(row, 0)).norm(), 1e-7);
+    EXPECT_LT((found.by_clip - expected.block<2, kFirstOffset>(row, kFrameUnknowns)).norm(), 1e-7);
+    EXPECT_LT((found.by_offset - expected.block<2, kOffsets>(row, kFrameUnknowns + offset_of(k))).norm(),
+              1e-7);
+  }
+}
+
+TEST(FitProjection, ALeadIsTheMotionAFewFramesLater) {
+  const FitProblem problem = test::random_problem(2, 3, {});
+  FitState state = initial_state(problem);
+  const test::Moved m = test::move(problem, state);
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    const int body = problem.points[k].body;
+    const Vector3d v = 0.5 * (m.motion[2].poses.p_WB[body] - m.motion[0].poses.p_WB[body]);
+    state.g[kLead] = 0.6;
+    const Eigen::Vector2d late = see(problem, state, m.motion, 1, k).error;
+    state.g[kLead] = 0.0;
+    const Vector3d p = m.motion[1].poses.p_WB[body] + 0.6 * v;
+    EXPECT_LT((late - project_point(problem, state, 1, k, p, Vector3d::Zero()).error).norm(), 1e-12);
   }
 }
 
 TEST(FitProjection, APointBehindTheCameraIsNotSeen) {
   const FitProblem problem = test::random_problem(2, 1, {});
-  EXPECT_FALSE(project_point(problem, initial_state(problem), 0, 0, {0, -50, 1}).valid);
+  EXPECT_FALSE(project_point(problem, initial_state(problem), 0, 0, {0, -50, 1}, {0, 0, 0}).valid);
 }
 
 }  // namespace

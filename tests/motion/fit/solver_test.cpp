@@ -65,6 +65,23 @@ TEST(BorderedBand, SolutionIsThatOfTheDenseSystem) {
   }
 }
 
+TEST(BorderedBand, DrawsHaveTheInverseMatrixAsCovariance) {
+  Made made = random_system(4, 2, 2, 5);
+  const MatrixXd expected = made.dense.inverse();
+  solve(made.band);
+  Random random(3, {});
+  constexpr int kDraws = 40000;
+  MatrixXd found = MatrixXd::Zero(10, 10);
+  for (int i = 0; i < kDraws; ++i) {
+    const BandSolution d = draw(made.band, random);
+    VectorXd all(10);
+    all << d.x[0], d.x[1], d.x[2], d.x[3], d.g;
+    found += all * all.transpose() / kDraws;
+  }
+  const VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();  // entries as correlations
+  EXPECT_LT((scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff(), 0.04);
+}
+
 TEST(BorderedBand, AnIndefiniteSystemIsRefused) {
   Made band = random_system(3, 2, 1, 1);
   band.band.diagonal[1](0, 0) = -1.0;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/estimator_error.h"
 #include "motion/fit/projection.h"
 #include "motion/fit/random_problems.h"
 
@@ -29,23 +28,32 @@ VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState&
   const int frames = problem.frames();
   for (int t = 0; t < frames; ++t) {
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const int body = problem.points[k].body;
-      const double sigma = o.keypoint_sigma * (body == kLeftWrist || body == kRightWrist ? 3.0 : 1.0);
-      const double confidence = problem.uvc[t][k].z();
-      const Projection was = project_point(problem, weights_at, t, k, frozen.motion[t].poses.p_WB[body]);
-      add(project_point(problem, s, t, k, m.motion[t].poses.p_WB[body]).error,
-          confidence * confidence / sigma * kernel(was.error.squaredNorm(), o.keypoint_kernel));
+      const auto scaled = [&](int at) -> Eigen::Vector2d {
+        const double confidence = problem.uvc[at][k].z();
+        if (confidence <= 0.0) return Eigen::Vector2d::Zero();
+        const double plain =
+            std::pow(confidence, problem.levels.confidence_power) / problem.levels.keypoint[k];
+        const double was = see(problem, weights_at, frozen.motion, at, k).error.squaredNorm();
+        const double weight =
+            problem.settled ? std::sqrt(6.0 / (4.0 + plain * plain * was)) : kernel(was, o.keypoint_kernel);
+        return plain * weight * see(problem, s, m.motion, at, k).error;
+      };
+      const bool follows = t > 0 && problem.uvc[t][k].z() > 0.0 && problem.uvc[t - 1][k].z() > 0.0;
+      const double c = follows ? o.keypoint_correlation : 0.0;
+      Eigen::Vector2d fresh = scaled(t);
+      if (follows) fresh -= c * scaled(t - 1);
+      add(fresh, 1.0 / std::sqrt(1.0 - c * c));
     }
     for (int i = 0; i < kFrameUnknowns; ++i) {
       double size = o.root_position_sigma, rate = o.root_rate, bend = o.root_bend,
              jitter = problem.position_jitter;
       if (i >= kRootRotation) {
-        double w = 1.0;
+        jitter = problem.rotation_jitter;
         for (int b = 1; b < kBodies; ++b)
-          if (i >= kFirstJoint + first_dof(b)) w = relative_joint_error(b);
-        size = degree * (i < kFirstJoint ? o.root_rotation_sigma : w * o.joint_sigma);
-        rate = w * degree * o.joint_rate, bend = w * degree * o.joint_bend,
-        jitter = w * problem.rotation_jitter;
+          if (i >= kFirstJoint + first_dof(b) && i < kFirstJoint + first_dof(b) + (is_hinge(b) ? 1 : 3))
+            jitter = problem.joint_jitter[b];
+        size = degree * (i < kFirstJoint ? o.root_rotation_sigma : o.joint_sigma);
+        rate = degree * o.joint_rate, bend = degree * o.joint_bend;
       }
       r.push_back(s.c[t][i] / size / std::sqrt(o.prior_frames));
       if (t + 1 < frames)
@@ -74,8 +82,12 @@ VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState&
   const double told = std::sqrt(o.told_weight);
   r.push_back(told * s.g[kTilt] / (degree * o.tilt_sigma));
   r.push_back(told * s.g[kLogFocal] / o.focal_sigma);
+  r.push_back(s.g[kLead] / o.lead_sigma);
   add(s.g.segment<kBetas>(kFirstBeta), told / o.beta_sigma);
-  add(s.g.tail(s.g.size() - kFirstOffset), 1.0 / o.keypoint_bias_sigma);
+  for (std::size_t k = 0; k < problem.points.size(); ++k) {
+    add(s.g.segment<2>(offset_of(k)), 1.0 / o.flat_offset_sigma);
+    add(s.g.segment<3>(offset_of(k) + 2), 1.0 / o.limb_offset_sigma);
+  }
   return Eigen::Map<const VectorXd>(r.data(), static_cast<Eigen::Index>(r.size()));
 }
 
@@ -111,7 +123,8 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
 TEST(FitTerms, NormalEquationsMatchADenseAssemblyByFiniteDifferences) {
   FitProblem problem = test::random_problem(3, 4, {});
   for (Vector3d& p : problem.p_root) p.z() -= 0.02;  // some foot points below the floor, some above
-  const FitState state = test::random_state(problem, 3, 0.01);
+  FitState state = test::random_state(problem, 3, 0.01);
+  state.g[kLead] = 0.0;  // the derivatives leave out how a correction changes the velocity
   const test::Moved m = test::move(problem, state);
   Contacts contacts(4);
   for (std::size_t t = 0; t < 4; ++t)
@@ -126,6 +139,11 @@ TEST(FitTerms, NormalEquationsMatchADenseAssemblyByFiniteDifferences) {
     EXPECT_LT(mismatch(found.H.topLeftCorner(size, size), H.topLeftCorner(size, size)), 1e-6);
     EXPECT_LT((found.rhs.head(size) - rhs.head(size)).norm(), 1e-6 * rhs.norm());
   };
+  compare(false);
+  problem.settled = true;
+  problem.levels.keypoint[3] = 0.002;
+  problem.levels.confidence_power = 1.7;
+  problem.uvc[2][5].z() = 0.0;  // not seen
   compare(false);
   // Without the two terms that leave the shape's influence out, the border is exact as well.
   problem.config.acceleration_sigma = problem.config.slip_sigma = 1e3;
