@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "motion/metrics.h"
+#include "motion/segments.h"
 #include "motion/synth/noise_fixtures.h"
 
 namespace mimicx::motion::synth {
