@@ -24,11 +24,10 @@ Array<double, kLimbs> accelerations(const PerFrame<BodyPoses>& poses, int t) {
 }  // namespace
 
 List<control::Certainty> certainty_of(const motion::Reference& reference, double plausible) {
-  List<control::Certainty> certainty;
-  if (plausible == 0.0) return certainty;
+  if (plausible == 0.0) return {};
   control::Certainty sure;
   sure.fill(1.0f);
-  certainty.resize(reference.size(), sure);
+  List<control::Certainty> certainty(reference.frames.size(), sure);
   for (int t = 1; t + 1 < reference.size(); ++t) {
     const Array<double, kLimbs> a = accelerations(reference.poses, t);
     for (int body = 0; body < kBodies; ++body) {

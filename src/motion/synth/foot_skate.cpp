@@ -38,9 +38,9 @@ PerFrame<Vector3d> drawn_slip(const PerFrame<bool>& standing, double speed, int 
 
 void move_ankle(const Character& character, const Vector3d& shift, int ankle, PerBody<Quaterniond>& q) {
   const int knee = kParents[ankle], hip = kParents[knee];
-  const Vector3d thigh = character.joint_offset[knee];
   const Quaterniond q_root = q[kPelvis], old_hip = q_root * q[hip], old_shank = old_hip * q[knee];
-  const Vector3d upper = thigh, lower = q[knee] * character.joint_offset[ankle];  // in the thigh's frame
+  const Vector3d upper = character.joint_offset[knee],
+                 lower = q[knee] * character.joint_offset[ankle];  // in the thigh's frame
   const Vector3d to_ankle = old_hip * (upper + lower), wanted = to_ankle + shift;
   const double reach = kReach * (upper.norm() + lower.norm());
   const double angle = angle_for(upper.norm(), lower.norm(), std::min(wanted.norm(), reach));
