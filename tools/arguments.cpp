@@ -43,6 +43,10 @@ void add_threads(CLI::App& command, int& threads) {
       ->capture_default_str();
 }
 
+void set_own_help(CLI::App& command, const std::string& help) {
+  command.preparse_callback([&command, help](std::size_t) { command.description(help); });
+}
+
 void add_seed(CLI::App& command, std::uint64_t& seed) {
   command.add_option("--seed", seed, "root of every random number")->capture_default_str();
 }

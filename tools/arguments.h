@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "motion/import/motion_file.h"
 #include "pipeline/options/clusters.h"
@@ -17,6 +18,9 @@ void add_read_arguments(CLI::App& command, motion::import::ReadConfig& read);
 
 /// --threads; default: all there are.
 void add_threads(CLI::App& command, int& threads);
+
+/// A longer description in the command's own help than in the list of commands.
+void set_own_help(CLI::App& command, const std::string& help);
 
 /// --seed; the default is the value that is there.
 void add_seed(CLI::App& command, std::uint64_t& seed);

@@ -112,8 +112,7 @@ int audit(const Arguments& a) {
 void declare_audit(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("audit", kPurpose);
-  command->preparse_callback(
-      [command](std::size_t) { command->description(kHelp); });  // in its own help alone
+  set_own_help(*command, kHelp);
   command->add_option("FILE", a->inputs, "motions and physics steps, and folders of them")->required();
   auto* poses = command->add_flag(
       "--poses", a->poses,

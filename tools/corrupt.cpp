@@ -67,8 +67,7 @@ int corrupt(const Arguments& a) {
 void declare_corrupt(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("corrupt", kPurpose);
-  command->preparse_callback(
-      [command](std::size_t) { command->description(kHelp); });  // in its own help alone
+  set_own_help(*command, kHelp);
   command->add_option("FILE", a->inputs, "clean motions and folders of them")->required();
   command->add_option("--out", a->out, "folder to write to")->required();
   command

@@ -10,24 +10,11 @@ constexpr double kMaxAcceleration = 200.0;  ///< m/s²
 constexpr double kLongest = 1.0 / 6.0;      ///< s
 constexpr double kOverBridged = 3.0;        ///< what the bridge must win
 
-/// Largest acceleration of a limb's joints at frame t, 0 < t < frames − 1, m/s².
-double acceleration(const PerFrame<BodyPoses>& poses, int limb, int t, double fps) {
-  double largest = 0.0;
-  for (int body = 0; body < kBodies; ++body) {
-    if (kLimbOf[body] != limb) continue;
-    const auto relative = [&](int frame) -> Vector3d {
-      return poses[frame].p_WB[body] - poses[frame].p_WB[kLimbRoot[limb]];
-    };
-    const Vector3d second = relative(t + 1) - 2.0 * relative(t) + relative(t - 1);
-    largest = std::max(largest, fps * fps * second.norm());
-  }
-  return largest;
-}
-
+/// m/s².
 double largest_acceleration(const PerFrame<BodyPoses>& poses, int limb, int first, int last, double fps) {
   double largest = 0.0;
   for (int t = std::max(first, 1); t <= std::min(last, poses.count() - 2); ++t)
-    largest = std::max(largest, acceleration(poses, limb, t, fps));
+    largest = std::max(largest, fps * fps * limb_acceleration(poses, limb, t));
   return largest;
 }
 
@@ -45,6 +32,20 @@ bool is_calm_without(const Clip& clip, const PerFrame<BodyPoses>& poses, const L
 
 }  // namespace
 
+double limb_acceleration(const PerFrame<BodyPoses>& poses, int limb, int t) {
+  double largest = 0.0;
+  for (int body = 0; body < kBodies; ++body) {
+    if (kLimbOf[body] != limb) continue;
+    const auto position = [&](int frame) -> Vector3d {
+      const PerBody<Vector3d>& p = poses[frame].p_WB;
+      return limb == 0 ? p[body] : Vector3d(p[body] - p[kLimbRoot[limb]]);
+    };
+    const Vector3d second = position(t + 1) - 2.0 * position(t) + position(t - 1);
+    largest = std::max(largest, second.norm());
+  }
+  return largest;
+}
+
 List<LimbGlitch> find_limb_glitches(const Clip& clip) {
   const PerFrame<BodyPoses> poses = poses_of(clip);
   const int longest = static_cast<int>(kLongest * clip.fps);
@@ -52,7 +53,7 @@ List<LimbGlitch> find_limb_glitches(const Clip& clip) {
   for (int limb = 1; limb < kLimbs; ++limb) {
     PerFrame<bool> jumps(clip.rotations.size(), false);
     for (int t = 1; t + 1 < clip.frames(); ++t)
-      jumps[t] = acceleration(poses, limb, t, clip.fps) > kMaxAcceleration;
+      jumps[t] = clip.fps * clip.fps * limb_acceleration(poses, limb, t) > kMaxAcceleration;
     // A glitch of frames first … last has jumps at first − 1 and last + 1 at the outside.
     for (int before = 1; before + 1 < clip.frames(); ++before) {
       if (!jumps[before]) continue;

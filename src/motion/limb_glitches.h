@@ -7,6 +7,11 @@
 
 namespace mimicx::motion {
 
+/// Largest second difference of a limb's joints at frame t, 0 < t < frames − 1, m per frame². Joints of a leg
+/// or an arm relative to the joint that it hangs on, those of the trunk as they are.
+/// @param limb  as in kLimbOf
+double limb_acceleration(const PerFrame<BodyPoses>& poses, int limb, int t);
+
 /// Frames first … last of a limb (kLimbOf) that are somewhere else.
 struct LimbGlitch {
   int limb = 0;

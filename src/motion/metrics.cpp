@@ -74,12 +74,6 @@ void compare_with_truth(const MotionSamples& motion, const MotionSamples& truth,
   m.accel = accel.times(kMm);
 }
 
-double lowest(const std::vector<Vector3d>& points) {
-  double z = std::numeric_limits<double>::infinity();
-  for (const Vector3d& p : points) z = std::min(z, p.z());
-  return z;
-}
-
 /// Mean horizontal displacement of the points at or under `height` in both frames; 0 without any.
 double slide(const std::vector<Vector3d>& now, const std::vector<Vector3d>& next, double height) {
   Mean displacement;
@@ -96,7 +90,7 @@ double mean_depth(const std::vector<Vector3d>& points) {
 }
 
 double floating_height(const std::vector<Vector3d>& points) {
-  const double z = lowest(points);
+  const double z = lowest_height(points);
   return z > kContactHeight ? z : 0.0;
 }
 
@@ -109,7 +103,7 @@ void judge_physics(const MotionSamples& motion, Metrics& m) {
       fs_0.add(slide(surface[t], surface[t + 1], 0.0));
     }
     gp.add(mean_depth(surface[t]));
-    gp_max.add(std::max(0.0, -lowest(surface[t])));
+    gp_max.add(std::max(0.0, -lowest_height(surface[t])));
     floating.add(floating_height(surface[t]));
   }
   for (const double depth : motion.self_depth) self_pen.add(depth);
@@ -128,7 +122,7 @@ void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& 
   const auto &p = motion.surface, &g = truth.surface;
   Mean slide, floating;
   for (int t = 0; t < p.count(); ++t) {
-    if (lowest(g[t]) <= kContactHeight) floating.add(floating_height(p[t]));
+    if (lowest_height(g[t]) <= kContactHeight) floating.add(floating_height(p[t]));
     for (std::size_t i = 0; i < kFootPoints && t + 1 < p.count(); ++i)
       if ((g[t + 1][i] - g[t][i]).norm() < kStaticMotion) slide.add((p[t + 1][i] - p[t][i]).norm());
   }
@@ -139,12 +133,8 @@ void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& 
 double self_depth(const Character& character, const BodyPoses& poses) {
   Mean depth;
   for (const auto& [a, b] : character.self_pairs) {
-    const Capsule &A = character.capsule[a], &B = character.capsule[b];
-    const auto world = [&](int body, const Vector3d& p_B) -> Vector3d {
-      return poses.p_WB[body] + poses.q_WB[body] * p_B;
-    };
-    const double gap = segment_distance(world(a, A.a_B), world(a, A.b_B), world(b, B.a_B), world(b, B.b_B)) -
-                       A.radius - B.radius;
+    const SegmentPair near = closest_points(character, poses, a, b);
+    const double gap = (near.a - near.b).norm() - character.capsule[a].radius - character.capsule[b].radius;
     if (gap < 0.0) depth.add(-gap);
   }
   return depth.count == 0 ? 0.0 : depth.times(1.0).value;

@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "motion/similarity.h"
+#include "motion/surface.h"
 
 namespace mimicx::motion {
 namespace {
@@ -34,18 +35,12 @@ MetricValue success(const Joints& p, const Joints& g) {
   return {near ? 100.0 : 0.0, 1};
 }
 
-double lowest(const std::vector<Vector3d>& points) {
-  double z = HUGE_VAL;
-  for (const Vector3d& p : points) z = std::min(z, p.z());
-  return z;
-}
-
-/// Beyond the tolerance under (sign −1) or over (+1) the floor: height of the lowest point, else 0.
-MetricValue beyond_tolerance(const PerFrame<std::vector<Vector3d>>& surface, double sign) {
+/// Depth of the lowest point where it is deeper than the tolerance, else 0.
+MetricValue penetration(const PerFrame<std::vector<Vector3d>>& surface) {
   double sum = 0.0;
   for (const auto& points : surface) {
-    const double z = sign * lowest(points);
-    sum += z > kTolerance ? z : 0.0;
+    const double depth = -lowest_height(points);
+    sum += depth > kTolerance ? depth : 0.0;
   }
   return mean_of(sum, surface.size(), kMm);
 }
@@ -148,8 +143,7 @@ std::vector<MetricValue> evaluate_by(Protocol protocol, const MotionSamples& mot
     case Protocol::kPhc:
       return {success(motion.joints, truth.joints), m.gmpjpe, m.mpjpe, m.pa_mpjpe, m.accel, m.vel};
     case Protocol::kPmr:
-      return {beyond_tolerance(motion.surface, -1.0), beyond_tolerance(motion.surface, 1.0),
-              skate(motion.surface), m.accel};
+      return {penetration(motion.surface), m.floating, skate(motion.surface), m.accel};
     default:
       return {segment_error(motion.joints, truth.joints, kSegment),
               segment_error(motion.joints, truth.joints, 2), root_error(motion.joints, truth.joints),

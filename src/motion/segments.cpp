@@ -17,6 +17,14 @@ SegmentPair closest_points(const Vector3d& a0, const Vector3d& a1, const Vector3
   return {a0 + s * d1, b0 + t * d2};
 }
 
+SegmentPair closest_points(const Character& character, const BodyPoses& poses, int a, int b) {
+  const auto end = [&](int body, const Vector3d& p_B) -> Vector3d {
+    return poses.p_WB[body] + poses.q_WB[body] * p_B;
+  };
+  const Capsule &A = character.capsule[a], &B = character.capsule[b];
+  return closest_points(end(a, A.a_B), end(a, A.b_B), end(b, B.a_B), end(b, B.b_B));
+}
+
 double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1) {
   const SegmentPair near = closest_points(a0, a1, b0, b1);
   return (near.a - near.b).norm();

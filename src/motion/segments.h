@@ -1,7 +1,7 @@
-/// Line segments, the axes of capsules.
+/// Line segments, such as the axes of capsules.
 #pragma once
 
-#include "core/so3.h"
+#include "character/character.h"
 
 namespace mimicx::motion {
 
@@ -11,6 +11,9 @@ struct SegmentPair {
 };
 /// @param a0,a1  ends of the one; @param b0,b1  of the other; an end may be both ends
 SegmentPair closest_points(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);
+
+/// The same of the axes of two bodies' capsules, in the world.
+SegmentPair closest_points(const Character& character, const BodyPoses& poses, int a, int b);
 
 /// Distance of two segments.
 double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);

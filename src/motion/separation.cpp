@@ -64,14 +64,10 @@ List<Overlap> find_overlaps(const Character& character, const BodyPoses& poses) 
   List<Overlap> found;
   for (const auto& [a, b] : character.self_pairs) {
     if (!is_of_arm(a) && !is_of_arm(b)) continue;
-    const Capsule &A = character.capsule[a], &B = character.capsule[b];
-    const auto world = [&](int body, const Vector3d& p_B) -> Vector3d {
-      return poses.p_WB[body] + poses.q_WB[body] * p_B;
-    };
-    const SegmentPair near =
-        closest_points(world(a, A.a_B), world(a, A.b_B), world(b, B.a_B), world(b, B.b_B));
+    const SegmentPair near = closest_points(character, poses, a, b);
     const Vector3d apart = near.a - near.b;
-    const double excess = A.radius + B.radius - apart.norm() - kAllowedOverlap;
+    const double excess =
+        character.capsule[a].radius + character.capsule[b].radius - apart.norm() - kAllowedOverlap;
     if (excess <= 0.0 || apart.norm() < kTouching) continue;
     const Vector3d n = apart.normalized();
     found.push_back(

@@ -52,10 +52,14 @@ std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points,
   return positions;
 }
 
-double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
+double lowest_height(const std::vector<Vector3d>& points) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& p : surface_positions(points, poses)) lowest = std::min(lowest, p.z());
+  for (const Vector3d& p : points) lowest = std::min(lowest, p.z());
   return lowest;
+}
+
+double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
+  return lowest_height(surface_positions(points, poses));
 }
 
 }  // namespace mimicx::motion

@@ -23,7 +23,9 @@ std::vector<SurfacePoint> surface_points(const Character& character);
 /// World positions, in the order of the points, m.
 std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
 
-/// Height of the lowest point over the floor z = 0, m.
+/// Height of the lowest of some points over the floor z = 0, m; +∞ of none.
+double lowest_height(const std::vector<Vector3d>& points);
+/// The same of a character's surface.
 double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
 
 }  // namespace mimicx::motion

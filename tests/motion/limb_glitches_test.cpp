@@ -5,19 +5,14 @@
 #include <cmath>
 
 #include "motion/made_motions.h"
-#include "motion/synth/synth.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion {
 namespace {
 
 using test::kPi;
 
-Clip synthetic(const std::string& kind) {
-  synth::SynthConfig config;
-  config.kind = kind;
-  config.seed = 501;
-  return synth::synthesize(config);
-}
+Clip synthetic(const std::string& kind) { return test::synthetic_clip(kind, 501); }
 
 /// The right leg is taken for another one in the frames first … last: its hip is turned by 0.6 rad.
 Clip with_swapped_leg(Clip clip, int first, int last) {

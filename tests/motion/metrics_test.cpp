@@ -8,21 +8,16 @@
 #include <set>
 #include <stdexcept>
 
-#include "motion/made_motions.h"
+#include "motion/standing_samples.h"
 
 namespace mimicx::motion {
 namespace {
 
 using test::kPi;
 
-MotionSamples samples_of(const Clip& clip) {
-  return sample_motion(make_character(clip.usable_betas()), poses_of(clip), clip.fps);
-}
+using test::samples_of;
 
-/// Standing still on the floor.
-MotionSamples standing(int frames) {
-  return samples_of(test::standing_clip(frames, test::standing_height()));
-}
+MotionSamples standing(int frames) { return test::standing_samples(frames); }
 
 /// The samples moved by offset(t) (m).
 template <class Offset>

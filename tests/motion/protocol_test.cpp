@@ -6,19 +6,15 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "motion/made_motions.h"
 #include "motion/similarity.h"
+#include "motion/standing_samples.h"
 
 namespace mimicx::motion {
 namespace {
 
-MotionSamples samples_of(const Clip& clip) {
-  return sample_motion(make_character(clip.usable_betas()), poses_of(clip), clip.fps);
-}
+using test::samples_of;
 
-MotionSamples standing(int frames) {
-  return samples_of(test::standing_clip(frames, test::standing_height()));
-}
+MotionSamples standing(int frames) { return test::standing_samples(frames); }
 
 /// The samples with every point p of frame t at f(t, p).
 template <class Map>

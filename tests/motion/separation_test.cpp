@@ -6,20 +6,12 @@
 
 #include "motion/prepare.h"
 #include "motion/segments.h"
-#include "motion/synth/synth.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion {
 namespace {
 
-Clip standing() {
-  synth::SynthConfig config;
-  config.kind = "stand";
-  config.seed = 501;
-  Clip clip = synth::synthesize(config);
-  clip.rotations.resize(60);
-  clip.trans.resize(60);
-  return clip;
-}
+Clip standing() { return test::synthetic_clip("stand", 501, 60); }
 
 /// The left arm swings into the trunk and out of it again, as an estimator may leave it.
 Clip with_arm_inside(Clip clip, double turn) {

@@ -3,17 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "motion/prepare.h"
-#include "motion/synth/synth.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::pipeline {
 namespace {
 
-motion::Reference walk() {
-  motion::synth::SynthConfig config;
-  config.kind = "walk";
-  config.seed = 501;
-  return motion::prepare_reference(motion::synth::synthesize(config), {}, nullptr);
-}
+motion::Reference walk() { return motion::prepare_reference(test::synthetic_clip("walk", 501), {}, nullptr); }
 
 TEST(Certainty, AnOrdinaryMotionIsCertain) {
   const motion::Reference reference = walk();

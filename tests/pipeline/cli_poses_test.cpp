@@ -5,18 +5,13 @@
 #include "core/npz.h"
 #include "motion/import/bvh_write.h"
 #include "motion/import/motion_file.h"
-#include "motion/synth/synth.h"
+#include "motion/synthetic_clip.h"
 #include "pipeline/cli.h"
 
 namespace mimicx::pipeline {
 namespace {
 
-motion::Clip synthetic(const std::string& kind) {
-  motion::synth::SynthConfig config;
-  config.kind = kind;
-  config.seed = 501;
-  return motion::synth::synthesize(config);
-}
+motion::Clip synthetic(const std::string& kind) { return test::synthetic_clip(kind, 501); }
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;

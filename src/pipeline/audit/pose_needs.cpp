@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "core/units.h"
+#include "motion/surface.h"
 #include "pipeline/audit/body_loads.h"
 #include "pipeline/audit/floor_push.h"
 
@@ -132,10 +132,7 @@ PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& 
                               possible_pushes(character, points, t, m, config.reach));
   needs.frames[0] = needs.frames[1];
   needs.frames[n - 1] = needs.frames[n - 2];
-  for (int t = 0; t < n; ++t) {
-    needs.frames[t].lowest = std::numeric_limits<double>::infinity();
-    for (const Vector3d& p : points[t].p) needs.frames[t].lowest = std::min(needs.frames[t].lowest, p.z());
-  }
+  for (int t = 0; t < n; ++t) needs.frames[t].lowest = motion::lowest_height(points[t].p);
   return needs;
 }
 

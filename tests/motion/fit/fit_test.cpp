@@ -9,7 +9,7 @@
 #include "motion/metrics.h"
 #include "motion/resample.h"
 #include "motion/synth/noise.h"
-#include "motion/synth/synth.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion::fit {
 namespace {
@@ -17,15 +17,7 @@ namespace {
 using namespace test;
 
 /// Three seconds of a synthetic motion.
-Clip truth_of(const std::string& kind) {
-  synth::SynthConfig config;
-  config.kind = kind;
-  config.seed = 5;
-  Clip clip = synth::synthesize(config);
-  clip.rotations.resize(90);
-  clip.trans.resize(90);
-  return clip;
-}
+Clip truth_of(const std::string& kind) { return synthetic_clip(kind, 5, 90); }
 
 /// Detections that are where they should be.
 Keypoints exact_keypoints(const Clip& truth) {

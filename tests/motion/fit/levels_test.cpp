@@ -9,22 +9,14 @@
 #include "motion/fit/random_problems.h"
 #include "motion/metrics.h"
 #include "motion/synth/noise.h"
-#include "motion/synth/synth.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
 
-Clip walk() {
-  synth::SynthConfig config;
-  config.kind = "walk";
-  config.seed = 5;
-  Clip clip = synth::synthesize(config);
-  clip.rotations.resize(150);
-  clip.trans.resize(150);
-  return clip;
-}
+Clip walk() { return synthetic_clip("walk", 5, 150); }
 
 /// What turns normal errors into those of Student's distribution with four degrees of freedom.
 double tail(Random& random) {
