@@ -42,8 +42,10 @@ NamedValues values_of(const motion::fit::FitReport& r) {
 }  // namespace
 
 PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
-                              bool fit) {
+                              bool fit, int threads) {
   PreparedMotion motion;
+  motion::fit::FitConfig config;
+  config.threads = threads;
   motion.input = motion::import::read_motion(path, read);
   motion.has_fit = fit && motion.input.keypoints.has_value();
   const int fewest = motion.has_fit ? 3 : 2;
@@ -52,10 +54,10 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::i
                     std::to_string(motion.input.frames()));
   motion::fit::FitReport fitting, calming;
   if (motion.has_fit) {
-    motion.fitted = motion::fit::fit_keypoints(motion.input, {}, &fitting);
+    motion.fitted = motion::fit::fit_keypoints(motion.input, config, &fitting);
     motion.fit_values = values_of(fitting);
   } else {
-    motion.fitted = motion::fit::steady(motion.input, {}, &calming);
+    motion.fitted = motion::fit::steady(motion.input, config, &calming);
   }
   for (const motion::fit::FitReport* report : {&fitting, &calming})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());

@@ -30,10 +30,11 @@ struct PreparedMotion {
   std::vector<std::string> notes;  ///< warnings of all steps
 };
 
-/// @param fit  move the motion onto its keypoints first, where it has any
+/// @param fit      move the motion onto its keypoints first, where it has any
+/// @param threads  no influence on the result
 /// @throws DataError as reading, fitting and preparing do
 PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
-                              bool fit);
+                              bool fit, int threads = 1);
 
 /// Prints what reading decided and what it warns of, a line each, behind the file's name.
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);

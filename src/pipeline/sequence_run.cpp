@@ -107,7 +107,7 @@ void judge_reference(const motion::Reference& reference, record::SequenceEntry& 
 /// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
 /// sees a wrong axis there can stop the run.
 PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
-  const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
+  const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit, run.config.threads);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;

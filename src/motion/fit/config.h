@@ -8,11 +8,12 @@ namespace mimicx::motion::fit {
 
 struct FitConfig {
   int iterations = 12;      ///< of Gauss-Newton, at most; contacts, labels and levels are found anew in each
+  int threads = 1;          ///< no influence on the result
   bool find_levels = true;  ///< false: `keypoint_sigma` and `confidence_power` are believed
 
   // Keypoints, in heights of the person's box.
   double keypoint_sigma = 0.005;      ///< of a detection with its offsets taken out
-  double keypoint_correlation = 0.3;  ///< of its error from frame to frame at 30 fps
+  double keypoint_correlation = 0.5;  ///< of its error from frame to frame at 30 fps
   double confidence_power = 1.0;      ///< σ grows with confidence to the minus this power
   double flat_offset_sigma = 0.005;   ///< static offset of a keypoint in the picture
   double limb_offset_sigma = 0.004;   ///< m, static offset of a keypoint on its limb
@@ -46,7 +47,7 @@ struct FitConfig {
   // The result.
   double acceleration_sigma = 0.012;  ///< m per frame², of every joint
   double floor_sigma = 0.02;          ///< m, height of a foot point that stands
-  double slip_sigma = 0.002;          ///< m per frame, of a foot point that stands
+  double slip_sigma = 0.003;          ///< m per frame, of a foot point that stands
   double penetration_sigma = 0.003;   ///< m, of a foot point below the floor
 };
 

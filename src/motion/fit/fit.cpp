@@ -163,7 +163,7 @@ FitState iterate(FitProblem& problem, FitReport& report) {
     report.swapped_frames = order_labels(detected, predict(problem, state, e), problem);
     const Contacts contacts = find_contacts(e.feet, problem.fps, report.iterations >= kUnsettled);
     BorderedBand system = linearise(problem, state, e.motion, e.feet, contacts);
-    const double step = advance(solve(system), state);
+    const double step = advance(solve(system, problem.config.threads), state);
     e = evaluate(problem, state);
     problem.settled = report.iterations >= kUnsettled;
     if (problem.settled && problem.config.find_levels && !problem.points.empty())

@@ -10,7 +10,7 @@
 /// each keypoint errs is found out from what is left over (fit/levels.h). Knees and elbows are exact hinges
 /// throughout.
 ///
-/// The solver is Gauss-Newton on a block-banded system with a border (fit/solver.h), in one thread.
+/// The solver is Gauss-Newton on a block-banded system with a border (fit/solver.h).
 /// What it does not do: no foreign body meshes, no floor but the flat one, and it cannot tell depth from
 /// focal length: what is left of the root's error is nearly all depth.
 #pragma once

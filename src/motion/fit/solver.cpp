@@ -1,8 +1,11 @@
 #include "motion/fit/solver.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
+
+#include "core/parallel.h"
 
 namespace mimicx::motion::fit {
 namespace {
@@ -32,14 +35,35 @@ void factorise(BorderedBand& s) {
   }
 }
 
-/// Y ← L⁻¹ Y, Y in blocks of rows: a vector or the border.
-template <class Block>
-void forward(const BorderedBand& s, PerFrame<Block>& Y) {
-  for (int t = 0; t < Y.count(); ++t) {
-    if (t >= 1) Y[t].noalias() -= s.next[t - 1] * Y[t - 1];
-    if (t >= 2) Y[t].noalias() -= s.second[t - 2] * Y[t - 2];
-    s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(Y[t]);
+/// y ← L⁻¹ y
+void forward(const BorderedBand& s, PerFrame<VectorXd>& y) {
+  for (int t = 0; t < y.count(); ++t) {
+    if (t >= 1) y[t].noalias() -= s.next[t - 1] * y[t - 1];
+    if (t >= 2) y[t].noalias() -= s.second[t - 2] * y[t - 2];
+    s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(y[t]);
   }
+}
+
+/// B ← L⁻¹ B, then C ← C − BᵀB, in chunks of columns.
+void eliminate_border(BorderedBand& s, int threads) {
+  static constexpr Eigen::Index kColumns = 32;
+  const Eigen::Index columns = s.corner.cols();
+  const auto columns_of = [columns](MatrixXd& m, int chunk) {
+    return m.middleCols(chunk * kColumns, std::min(kColumns, columns - chunk * kColumns));
+  };
+  const auto chunks = static_cast<int>((columns + kColumns - 1) / kColumns);
+  parallel_for(chunks, threads, [&](int chunk) {
+    for (int t = 0; t < s.frames(); ++t) {
+      auto here = columns_of(s.border[t], chunk);
+      if (t >= 1) here.noalias() -= s.next[t - 1] * columns_of(s.border[t - 1], chunk);
+      if (t >= 2) here.noalias() -= s.second[t - 2] * columns_of(s.border[t - 2], chunk);
+      s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(here);
+    }
+  });
+  parallel_for(chunks, threads, [&](int chunk) {
+    auto here = columns_of(s.corner, chunk);
+    for (MatrixXd& border : s.border) here.noalias() -= border.transpose() * columns_of(border, chunk);
+  });
 }
 
 /// y ← L⁻ᵀ y
@@ -62,14 +86,11 @@ BorderedBand::BorderedBand(int frames, int n, int m)
       rhs(frames, VectorXd::Zero(n)),
       rhs_border(VectorXd::Zero(m)) {}
 
-BandSolution solve(BorderedBand& s) {
+BandSolution solve(BorderedBand& s, int threads) {
   factorise(s);
-  forward(s, s.border);
+  eliminate_border(s, threads);
   forward(s, s.rhs);
-  for (int t = 0; t < s.frames(); ++t) {
-    s.corner.noalias() -= s.border[t].transpose() * s.border[t];
-    s.rhs_border.noalias() -= s.border[t].transpose() * s.rhs[t];
-  }
+  for (int t = 0; t < s.frames(); ++t) s.rhs_border.noalias() -= s.border[t].transpose() * s.rhs[t];
   const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(s.corner);
   require_definite(factor);
   BandSolution out{std::move(s.rhs), factor.solve(s.rhs_border)};

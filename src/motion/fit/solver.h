@@ -5,7 +5,8 @@
 ///   ⎣ Bᵀ  C ⎦ ⎣ g ⎦ = ⎣ b ⎦        the frames after them); C: m × m of unknowns that every frame shares
 ///
 /// Block Cholesky A = L Lᵀ, then the Schur complement C − Bᵀ A⁻¹ B for the border. Work grows linearly with
-/// the number of frames. One thread, a fixed order of summation.
+/// the number of frames. The columns of the border do not know of each other: they are divided among threads
+/// in chunks of fixed width, so the bytes are those of one thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,8 +39,9 @@ struct BandSolution {
 };
 
 /// Solves the system; overwrites it with its factors.
+/// @param threads  no influence on the result
 /// @throws std::domain_error when it is not positive definite
-BandSolution solve(BorderedBand& system);
+BandSolution solve(BorderedBand& system, int threads = 1);
 
 /// A draw from the normal distribution whose inverse covariance is the matrix of a system that `solve` has
 /// factored: the solution's error under the model.  docs/method.md, "Keypoint fit", (10)

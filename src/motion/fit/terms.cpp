@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "core/units.h"
 #include "motion/fit/levels.h"
 #include "motion/fit/projection.h"
@@ -15,7 +16,26 @@ constexpr double kAccelerationKernel = 3.0;  ///< in its σ: landings and kicks 
 constexpr double kSlipKernel = 5.0;          ///< in its σ: a foot that begins to move
 constexpr double kFixed = 1e-6;              ///< σ of an unknown that is not estimated
 
-using JointsJacobian = Eigen::Matrix<double, 3 * kBodies, kFrameUnknowns>;
+/// Of the coordinates of N points by a frame's unknowns.
+template <int N>
+using PointsJacobian = Eigen::Matrix<double, 3 * N, kFrameUnknowns>;
+
+/// Weights of differences of N points over frames. Residuals that share a frame share its Jacobian J: block
+/// (s, t) of the system is Jₛᵀ diag(Σ aₛ aₜ w) Jₜ, with the coefficients a of the differences, and the right
+/// side of frame t is Jₜᵀ pull.
+template <int N>
+struct DifferenceWeights {
+  using Coordinates = Eigen::Matrix<double, 3 * N, 1>;
+  bool has_second;  ///< second differences: they reach over three frames
+  PerFrame<Coordinates> diagonal, next, second, pull;
+
+  DifferenceWeights(int frames, bool second_differences)
+      : has_second(second_differences),
+        diagonal(frames, Coordinates::Zero()),
+        next(diagonal),
+        second(second_differences ? diagonal : PerFrame<Coordinates>()),
+        pull(diagonal) {}
+};
 
 double square(double x) { return x * x; }
 /// Weight of a residual under a Cauchy kernel: 1 at 0, one half at `width`.
@@ -50,9 +70,11 @@ struct Assembler {
   void globals();
   void priors(int t);
   void smoothness(int t);
+  template <int N>
+  void add_differences(const PerFrame<PointsJacobian<N>>& J, const DifferenceWeights<N>& w);
   void acceleration();
   void standing(int t);
-  void slipping(int t);
+  void slipping();
 };
 
 void Assembler::look(int t) {
@@ -177,35 +199,44 @@ void Assembler::smoothness(int t) {
   }
 }
 
-/// Second differences of all joint positions. Neighbouring residuals share the frames' Jacobians J: block (s,
-/// t) is Jₛᵀ diag(Σ aₛ aₜ w) Jₜ, with a = 1, -2, 1. The shape's influence on accelerations is left out.
+/// Adds differences of points over frames: [frames] derivatives of the points' coordinates, and their weights.
+template <int N>
+void Assembler::add_differences(const PerFrame<PointsJacobian<N>>& J, const DifferenceWeights<N>& w) {
+  const int frames = problem.frames();
+  constexpr int kFrames = 16;  // a chunk; every frame writes its own blocks
+  parallel_for((frames + kFrames - 1) / kFrames, problem.config.threads, [&](int chunk) {
+    for (int t = chunk * kFrames; t < std::min((chunk + 1) * kFrames, frames); ++t) {
+      system.diagonal[t].noalias() += J[t].transpose() * (w.diagonal[t].asDiagonal() * J[t]);
+      if (t + 1 < frames) system.next[t].noalias() += J[t + 1].transpose() * (w.next[t].asDiagonal() * J[t]);
+      if (w.has_second && t + 2 < frames)
+        system.second[t].noalias() += J[t + 2].transpose() * (w.second[t].asDiagonal() * J[t]);
+      system.rhs[t].noalias() += J[t].transpose() * w.pull[t];
+    }
+  });
+}
+
+/// Second differences of all joint positions. The shape's influence on accelerations is left out.
 void Assembler::acceleration() {
   const int frames = problem.frames();
   const double sigma = square(time_scale()) * problem.config.acceleration_sigma;
-  using Joints = Eigen::Matrix<double, 3 * kBodies, 1>;
-  PerFrame<Joints> diagonal(motion.size(), Joints::Zero()), next(diagonal), second(diagonal), pull(diagonal);
+  DifferenceWeights<kBodies> weights(frames, true);
   for (int t = 1; t + 1 < frames; ++t)
     for (int b = 0; b < kBodies; ++b) {
       const Vector3d a =
           motion[t - 1].poses.p_WB[b] - 2.0 * motion[t].poses.p_WB[b] + motion[t + 1].poses.p_WB[b];
       const double w = information(sigma) * cauchy(a.squaredNorm(), kAccelerationKernel * sigma);
-      const auto add = [&](Joints& v, double x) { v.segment<3>(3 * b).array() += w * x; };
-      add(diagonal[t - 1], 1.0), add(diagonal[t], 4.0), add(diagonal[t + 1], 1.0);
-      add(next[t - 1], -2.0), add(next[t], -2.0), add(second[t - 1], 1.0);
-      pull[t - 1].segment<3>(3 * b) -= w * a;
-      pull[t].segment<3>(3 * b) += 2.0 * w * a;
-      pull[t + 1].segment<3>(3 * b) -= w * a;
+      const auto add = [&](auto& v, double x) { v.template segment<3>(3 * b).array() += w * x; };
+      add(weights.diagonal[t - 1], 1.0), add(weights.diagonal[t], 4.0), add(weights.diagonal[t + 1], 1.0);
+      add(weights.next[t - 1], -2.0), add(weights.next[t], -2.0), add(weights.second[t - 1], 1.0);
+      weights.pull[t - 1].segment<3>(3 * b) -= w * a;
+      weights.pull[t].segment<3>(3 * b) += 2.0 * w * a;
+      weights.pull[t + 1].segment<3>(3 * b) -= w * a;
     }
-  PerFrame<JointsJacobian> J(motion.size());
+  PerFrame<PointsJacobian<kBodies>> J(motion.size());
   for (int t = 0; t < frames; ++t)
     for (int b = 0; b < kBodies; ++b)
       J[t].middleRows<3>(3 * b) = point_jacobian(motion[t], b, motion[t].poses.p_WB[b]);
-  for (int t = 0; t < frames; ++t) {
-    system.diagonal[t].noalias() += J[t].transpose() * (diagonal[t].asDiagonal() * J[t]);
-    if (t + 1 < frames) system.next[t].noalias() += J[t + 1].transpose() * (next[t].asDiagonal() * J[t]);
-    if (t + 2 < frames) system.second[t].noalias() += J[t + 2].transpose() * (second[t].asDiagonal() * J[t]);
-    system.rhs[t].noalias() += J[t].transpose() * pull[t];
-  }
+  add_differences<kBodies>(J, weights);
 }
 
 /// Heights of the foot points: on the floor where they stand, not below it anywhere.
@@ -228,21 +259,27 @@ void Assembler::standing(int t) {
 }
 
 /// A point that stands in this frame and the next does not move. The shape's influence is left out.
-void Assembler::slipping(int t) {
+void Assembler::slipping() {
+  const int frames = problem.frames();
   const double sigma = time_scale() * problem.config.slip_sigma;
-  for (int i = 0; i < kFootPoints; ++i) {
-    if (!contacts[t][i] || !contacts[t + 1][i]) continue;
-    const Vector3d d = feet[t + 1][i] - feet[t][i];
-    const double w = information(sigma) * cauchy(d.squaredNorm(), kSlipKernel * sigma);
-    const int body = problem.foot_points[i].body;
-    const PointJacobian J0 = point_jacobian(motion[t], body, feet[t][i]),
-                        J1 = point_jacobian(motion[t + 1], body, feet[t + 1][i]);
-    system.diagonal[t].noalias() += w * J0.transpose() * J0;
-    system.diagonal[t + 1].noalias() += w * J1.transpose() * J1;
-    system.next[t].noalias() -= w * J1.transpose() * J0;
-    system.rhs[t].noalias() += w * J0.transpose() * d;
-    system.rhs[t + 1].noalias() -= w * J1.transpose() * d;
-  }
+  DifferenceWeights<kFootPoints> weights(frames, false);
+  PerFrame<PointsJacobian<kFootPoints>> J(motion.size(), PointsJacobian<kFootPoints>::Zero());
+  const auto stands_on = [&](int t, int i) { return contacts[t][i] && contacts[t + 1][i]; };
+  for (int t = 0; t < frames; ++t)
+    for (int i = 0; i < kFootPoints; ++i) {
+      const bool stays = t + 1 < frames && stands_on(t, i);
+      if (stays || (t > 0 && stands_on(t - 1, i)))
+        J[t].middleRows<3>(3 * i) = point_jacobian(motion[t], problem.foot_points[i].body, feet[t][i]);
+      if (!stays) continue;
+      const Vector3d d = feet[t + 1][i] - feet[t][i];
+      const double w = information(sigma) * cauchy(d.squaredNorm(), kSlipKernel * sigma);
+      weights.diagonal[t].segment<3>(3 * i).array() += w;
+      weights.diagonal[t + 1].segment<3>(3 * i).array() += w;
+      weights.next[t].segment<3>(3 * i).array() -= w;
+      weights.pull[t].segment<3>(3 * i) += w * d;
+      weights.pull[t + 1].segment<3>(3 * i) -= w * d;
+    }
+  add_differences<kFootPoints>(J, weights);
 }
 
 }  // namespace
@@ -259,8 +296,8 @@ BorderedBand linearise(const FitProblem& problem, const FitState& state,
     add.priors(t);
     add.smoothness(t);
     add.standing(t);
-    if (t + 1 < problem.frames()) add.slipping(t);
   }
+  add.slipping();
   add.acceleration();
   return system;
 }
