@@ -46,7 +46,7 @@ void forward(const BorderedBand& s, PerFrame<VectorXd>& y) {
 
 /// B ← L⁻¹ B, then C ← C − BᵀB, in chunks of columns.
 void eliminate_border(BorderedBand& s, int threads) {
-  static constexpr Eigen::Index kColumns = 32;
+  static constexpr Eigen::Index kColumns = 64;
   const Eigen::Index columns = s.corner.cols();
   const auto columns_of = [columns](MatrixXd& m, int chunk) {
     return m.middleCols(chunk * kColumns, std::min(kColumns, columns - chunk * kColumns));

@@ -199,7 +199,8 @@ void Assembler::smoothness(int t) {
   }
 }
 
-/// Adds differences of points over frames: [frames] derivatives of the points' coordinates, and their weights.
+/// Adds differences of points over frames: [frames] derivatives of the points' coordinates, and their
+/// weights.
 template <int N>
 void Assembler::add_differences(const PerFrame<PointsJacobian<N>>& J, const DifferenceWeights<N>& w) {
   const int frames = problem.frames();

@@ -65,6 +65,15 @@ TEST(BorderedBand, SolutionIsThatOfTheDenseSystem) {
   }
 }
 
+/// A border of several chunks.
+TEST(BorderedBand, ThreadsDoNotChangeTheSolution) {
+  Made one = random_system(3, 4, 150, 7), four = random_system(3, 4, 150, 7);
+  const BandSolution a = solve(one.band, 1), b = solve(four.band, 4);
+  EXPECT_EQ(a.g, b.g);
+  for (int t = 0; t < 3; ++t) EXPECT_EQ(a.x[t], b.x[t]) << t;
+  EXPECT_LT((a.g - one.dense.ldlt().solve(one.rhs).tail(150)).norm(), 1e-6);
+}
+
 TEST(BorderedBand, DrawsHaveTheInverseMatrixAsCovariance) {
   Made made = random_system(4, 2, 2, 5);
   const MatrixXd expected = made.dense.inverse();
