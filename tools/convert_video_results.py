@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """Results of video estimators to the npz that mimicx reads: GVHMR, WHAM and TRAM, with keypoints (ViTPose's COCO-17).
 
-    convert_video_results.py hmr4d_results.pt OUT.npz [--keypoints vitpose.pt] [--static]                 GVHMR
-    convert_video_results.py wham_output.pkl OUT.npz [--keypoints tracking_results.pth --size W H]         WHAM
-    convert_video_results.py results/VIDEO OUT.npz [--keypoints K.npy]            TRAM: camera.npy and hps/ inside
+    convert_video_results.py hmr4d_results.pt OUT.npz [--keypoints vitpose.pt --static]                    GVHMR
+    convert_video_results.py wham_output.pkl OUT.npz [--keypoints tracking_results.pth --slam slam_results.pth
+                                                      --size W H]                                          WHAM
+    convert_video_results.py results/VIDEO OUT.npz [--keypoints K.npy]      TRAM: a folder with camera.npy and hps/
 
 Every person gets a file, and every piece of a person's track that has no gap: OUT.npz where there is but one, else
 OUT_person2.npz or OUT_person2_from310.npz (frame of the video). Pieces shorter than --shortest frames are left out.
 
-Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in a pickle. The camera of a frame is what
-takes the motion in the world (y up) to the same motion in front of the camera; --static makes one camera of all of
-them: use it where the camera stood still. WHAM keeps no focal length: with keypoints, --size gives the picture's
-diagonal, which is what WHAM assumes.
+Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in a pickle. GVHMR and WHAM tell no camera,
+but where the motion is in the world (y up) and where in front of the camera. What takes one to the other is the camera
+of a frame, with all errors of both; the keypoint fit needs better. --static makes one camera of all frames, --slam
+lays the camera's path, which both estimators leave beside their results, through them; --moving takes them as they are.
+TRAM tells its camera. WHAM keeps no focal length: --size gives the picture's diagonal, which is what it assumes.
 """
 import argparse
 import glob
@@ -127,15 +129,47 @@ def keypoints_of(data, person, frames):
     return out
 
 
-def cameras(turn, pelvis, pelvis_camera, static):
-    """World to camera, (T, 4, 4), or (4, 4): the mean turn and the median place."""
-    if static:
-        u, _, v = np.linalg.svd(turn.sum(0))
-        turn = np.tile(u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v, (len(turn), 1, 1))
+def slam_of(path, frames):
+    """Turns (T, 3, 3), camera to SLAM's world, and places (T, 3) up to a scale: DPVO's x y z, quaternion x y z w."""
+    rows = np.asarray(load(path), float)[frames]
+    x, y, z, w = (rows[:, 3:7] / np.linalg.norm(rows[:, 3:7], axis=1, keepdims=True)).T
+    half = np.arctan2(np.sqrt(x * x + y * y + z * z), w)
+    return matrices(np.stack([x, y, z], 1) * (2 * half / np.maximum(np.sin(half), 1e-12))[:, None]), rows[:, :3]
+
+
+def mean_turn(turns):
+    u, _, v = np.linalg.svd(turns.sum(0))
+    return u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v
+
+
+def camera_path(turn, pelvis, pelvis_camera, slam_turn, slam_place):
+    """World to camera, (T, 4, 4), by one turn, one scale and one place of SLAM's world in ours: those under which the
+    pelvis is where it was estimated in front of the camera, distances counted once, not squared (outliers)."""
+    whole = mean_turn(slam_turn @ turn)
+    gap = (np.einsum("ij,tj->ti", whole, pelvis) - np.einsum("tij,tj->ti", slam_turn, pelvis_camera)).reshape(-1)
+    columns = np.hstack([slam_place.reshape(-1, 1), np.tile(np.eye(3), (len(turn), 1))])
+    weight = np.ones(len(turn))
+    for _ in range(10):
+        w = np.repeat(np.sqrt(weight), 3)
+        found = np.linalg.lstsq(columns * w[:, None], gap * w, rcond=None)[0]
+        weight = 1 / np.maximum(np.linalg.norm((columns @ found - gap).reshape(-1, 3), axis=1), 0.01)
+    out = np.tile(np.eye(4), (len(turn), 1, 1))
+    out[:, :3, :3] = slam_turn.transpose(0, 2, 1) @ whole
+    out[:, :3, 3] = -np.einsum("tji,tj->ti", slam_turn, (columns @ found).reshape(-1, 3))
+    return out
+
+
+def cameras(turn, pelvis, pelvis_camera, frames, options):
+    """World to camera, (T, 4, 4), or (4, 4) of one that stood still."""
+    if options.static:
+        still = np.tile(np.eye(3), (len(turn), 1, 1)), np.zeros((len(turn), 3))
+        return camera_path(turn, pelvis, pelvis_camera, *still)[0]
+    if options.slam:
+        return camera_path(turn, pelvis, pelvis_camera, *slam_of(options.slam, frames))
     out = np.tile(np.eye(4), (len(turn), 1, 1))
     out[:, :3, :3] = turn
     out[:, :3, 3] = pelvis_camera - np.einsum("tij,tj->ti", turn, pelvis)
-    return np.vstack([np.hstack([turn[0], np.median(out[:, :3, 3:], 0)]), [[0, 0, 0, 1]]]) if static else out
+    return out
 
 
 def motion_of(track, first, last, points, intrinsics, options):
@@ -148,7 +182,8 @@ def motion_of(track, first, last, points, intrinsics, options):
         return out
     turn = matrices(track.root_camera[first:last]) @ root.transpose(0, 2, 1) @ Y_TO_Z.T
     out.update(keypoints_2d=points[first:last], camera_intrinsics=intrinsics,
-               camera_extrinsics=cameras(turn, pelvis, track.pelvis_camera[first:last], options.static))
+               camera_extrinsics=cameras(turn, pelvis, track.pelvis_camera[first:last],
+                                         track.frames[first:last], options))
     if points.shape[1] == len(COCO17):  # of other numbers mimicx says what it takes them for
         out["keypoint_names"] = np.array(COCO17)
     return out
@@ -171,7 +206,10 @@ def main():
                         ".npy, .npz, .pt or pickle; or WHAM's tracking_results.pth")
     parser.add_argument("--size", nargs=2, type=float, metavar=("W", "H"), help="of the picture, pixels")
     parser.add_argument("--person", "--subject", help="one of several, by its name in the results")
-    parser.add_argument("--static", action="store_true", help="the camera stood still")
+    camera = parser.add_mutually_exclusive_group()
+    camera.add_argument("--static", action="store_true", help="the camera stood still")
+    camera.add_argument("--slam", metavar="FILE", help="its path: GVHMR's slam_results.pt, WHAM's slam_results.pth")
+    camera.add_argument("--moving", action="store_true", help="it moved, and nothing else is known")
     parser.add_argument("--shortest", type=int, default=30, metavar="FRAMES", help="pieces that are shorter are left "
                         "out (default: 30)")
     parser.add_argument("--fps", type=float, default=30.0, help="of the video")
@@ -179,6 +217,8 @@ def main():
     tracks = tracks_of(a.results)
     if a.person is not None:
         tracks = {person: track for person, track in tracks.items() if str(person) == a.person}
+    if a.keypoints and not (a.static or a.slam or a.moving or os.path.isdir(a.results)):
+        parser.error("--keypoints needs a camera: --static where it stood still, --slam FILE, or else --moving")
     data, written = load(a.keypoints) if a.keypoints else None, 0
     for person, track in tracks.items():
         points = keypoints_of(data, person, track.frames) if a.keypoints else None

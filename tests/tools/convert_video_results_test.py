@@ -55,7 +55,7 @@ def convert(results, *more):
 
 def check_gvhmr(path):
     np.save("points.npy", POINTS)
-    status, complaint, out = convert(path, "--keypoints", "points.npy")
+    status, complaint, out = convert(path, "--keypoints", "points.npy", "--moving")
     assert status == 0, complaint
     y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
     pelvis = out["trans"] + J0
@@ -168,8 +168,10 @@ def check_joblib():
     assert np.allclose(out["poses"][:, 3:66], GLOBAL["body_pose"])
     assert np.allclose(out["trans"] + SMPL_J0, np.stack([pelvis[:, 0], -pelvis[:, 2], pelvis[:, 1]], 1))
     np.save("points.npy", POINTS)
-    assert convert("wham_output.pkl", "--keypoints", "points.npy")[0] == 2, "no focal length without a size"
-    status, complaint, out = convert("wham_output.pkl", "--keypoints", "points.npy", "--size", "600", "800")
+    size = "--size", "600", "800"
+    assert convert("wham_output.pkl", "--keypoints", "points.npy", "--moving")[0] == 2, "no focal length without a size"
+    assert convert("wham_output.pkl", "--keypoints", "points.npy", *size)[0] == 2, "what of the camera?"
+    status, complaint, out = convert("wham_output.pkl", "--keypoints", "points.npy", "--moving", *size)
     assert status == 0 and out["camera_intrinsics"][0, 0] == 1000.0, complaint
     for t in range(FRAMES):
         seen = out["camera_extrinsics"][t] @ np.append(out["trans"][t] + SMPL_J0, 1)
@@ -182,10 +184,11 @@ def check_several_people():
     people[0]["frame_ids"] = np.r_[5:45, 70:115, 300:305]
     tracker = {person: {"frame_id": p["frame_ids"], "keypoints": person + random.uniform(size=(len(p["pose"]), 17, 3))}
                for person, p in people.items()}
-    tracker[2] = {"frame_id": np.r_[110:130, 140:160], "keypoints": np.arange(1.0, 41)[:, None, None] * np.ones((17, 3))}
+    counted = np.arange(1.0, 41)[:, None, None] * np.ones((17, 3))
+    tracker[2] = {"frame_id": np.r_[110:130, 140:160], "keypoints": counted}
     dump_joblib(people, "wham_output.pkl")
     dump_joblib(tracker, "tracking_results.pth")
-    more = "--keypoints", "tracking_results.pth", "--size", "600", "800"
+    more = "--keypoints", "tracking_results.pth", "--moving", "--size", "600", "800"
     run = subprocess.run([sys.executable, TOOL, "wham_output.pkl", "all.npz", *more], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     lines = run.stdout.splitlines()
@@ -200,8 +203,8 @@ def check_several_people():
     assert later["camera_extrinsics"].shape == (45, 4, 4)
     points = np.load("all_person2.npz")["keypoints_2d"]
     assert not points[:10].any() and not points[30:40].any(), "frames that the tracker does not have"
-    assert np.array_equal(points[10:30], tracker[2]["keypoints"][:20])
-    assert np.array_equal(points[40:], tracker[2]["keypoints"][20:])
+    assert np.array_equal(points[10:30], counted[:20])
+    assert np.array_equal(points[40:], counted[20:])
     assert convert("wham_output.pkl", "--person", "2", *more)[0] == 0
     assert convert("wham_output.pkl", "--person", "9")[0] == 1, "there is no such person"
 
@@ -291,7 +294,7 @@ def check_a_static_camera():
         pickle.dump(dict(GVHMR, smpl_params_incam=trembling), file)
     np.save("points.npy", POINTS)
     y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
-    _, _, each = convert("results.pkl", "--keypoints", "points.npy")
+    _, _, each = convert("results.pkl", "--keypoints", "points.npy", "--moving")
     status, complaint, one = convert("results.pkl", "--keypoints", "points.npy", "--static")
     assert status == 0, complaint
     assert one["camera_extrinsics"].shape == (4, 4)
@@ -299,6 +302,36 @@ def check_a_static_camera():
     errors = np.linalg.norm(each["camera_extrinsics"][:, :3, 3] - PLACE, axis=1)
     assert np.linalg.norm(one["camera_extrinsics"][:3, 3] - PLACE) < errors.mean()
     assert one["camera_extrinsics"][3].tolist() == [0, 0, 0, 1]
+
+
+def check_a_camera_path():
+    """A SLAM's path, in a world of its own turn, place and scale, gives the true cameras; wild frames do not matter."""
+    frames = 60
+    turns = np.array([rotation(np.array([2.5, 0.3 + 0.01 * t, -0.2])) for t in range(frames)])  # y-up world to camera
+    eyes = np.array([[0.05 * t, 1.4 + 0.2 * np.sin(0.1 * t), -4.0] for t in range(frames)])
+    roots = np.array([rotation(r) for r in 0.4 * random.normal(size=(frames, 3))])
+    pelvis = random.normal(size=(frames, 3))
+    seen = np.einsum("tij,tj->ti", turns, pelvis - eyes)
+    seen[::7, 2] += 0.5  # far too far away
+    part = {"body_pose": np.zeros((frames, 63)), "betas": np.zeros((frames, 10))}
+    world = dict(part, global_orient=np.array([vector(r) for r in roots]), transl=pelvis - J0)
+    camera = dict(part, global_orient=np.array([vector(c @ r) for c, r in zip(turns, roots)]), transl=seen - J0)
+    with open("results.pkl", "wb") as file:
+        pickle.dump({"smpl_params_global": world, "smpl_params_incam": camera, "K_fullimg": K[None]}, file)
+    other = rotation(np.array([0.3, -0.8, 0.5]))
+    rows = []
+    for turn, eye in zip(turns, eyes):
+        r = vector(other @ turn.T)
+        angle = np.linalg.norm(r)
+        rows.append([*(0.37 * other @ eye + [3, -2, 1]), *(np.sin(angle / 2) * r / angle), np.cos(angle / 2)])
+    np.save("slam.npy", np.array(rows))
+    np.save("points.npy", random.uniform(size=(frames, 17, 3)))
+    status, complaint, out = convert("results.pkl", "--keypoints", "points.npy", "--slam", "slam.npy")
+    assert status == 0, complaint
+    y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    for E, turn, eye in zip(out["camera_extrinsics"], turns, eyes):
+        assert np.allclose(E[:3, :3], turn @ y_to_z.T, atol=1e-6)
+        assert np.linalg.norm(-E[:3, :3].T @ E[:3, 3] - y_to_z @ eye) < 0.03
 
 
 def check_refusals():
@@ -322,6 +355,6 @@ def check_refusals():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for check in (check_plain_pickle, check_torch_zip, check_joblib, check_several_people, check_tram,
-                  check_a_static_camera, check_refusals):
+                  check_a_static_camera, check_a_camera_path, check_refusals):
         check()
         print(check.__name__, "ok")

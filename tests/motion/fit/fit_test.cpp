@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -174,6 +175,48 @@ TEST(Fit, DetectionsWithoutConfidenceAreNeverRead) {
   EXPECT_EQ(report.dropped_points, dropped);
   EXPECT_TRUE(a.rotations == b.rotations && a.trans == b.trans);
   EXPECT_LT(against(truth, a).mpjpe.value, 9.0);
+}
+
+/// Mean distance of some bodies of two clips over some frames, relative to the pelvis, mm.
+double error_where(const Clip& a, const Clip& b, int first, int last, const std::vector<int>& bodies) {
+  const PerFrame<BodyPoses> p = poses_of(a), q = poses_of(b);
+  double sum = 0.0;
+  for (int t = first; t < last; ++t)
+    for (const int body : bodies)
+      sum += (p[t].p_WB[body] - p[t].p_WB[0] - q[t].p_WB[body] + q[t].p_WB[0]).norm();
+  return kMm * sum / static_cast<double>(bodies.size()) / (last - first);
+}
+
+const std::vector<int> kLegs = {kLeftHip,   kRightHip,   kLeftKnee, kRightKnee,
+                                kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot};
+
+TEST(Fit, TwoSecondsWithoutAnyDetectionComeCloserToTheTruthAsWell) {
+  for (const char* preset : {"gvhmr-like", "vibe-like"}) {
+    const Clip truth = synthetic_clip("walk", 5, 150);
+    Clip noisy = noisy_of(truth, preset, KeypointSet::kJoints22, 3);
+    for (int t = 45; t < 105; ++t)
+      for (Vector3d& point : noisy.keypoints->uvc[t]) point.setZero();
+    const Clip fitted = fit_keypoints(noisy, {}, nullptr);
+    std::vector<int> all(kBodies);
+    std::iota(all.begin(), all.end(), 0);
+    EXPECT_LT(error_where(fitted, truth, 45, 105, all), error_where(noisy, truth, 45, 105, all)) << preset;
+    EXPECT_LT(error_where(fitted, truth, 65, 85, all), error_where(noisy, truth, 65, 85, all)) << preset;
+  }
+}
+
+TEST(Fit, LegsThatAreNeverSeenDoNotGetWorse) {
+  for (const char* preset : {"gvhmr-like", "vibe-like"})
+    for (const char* kind : {"walk", "squat"}) {
+      const Clip truth = truth_of(kind);
+      Clip noisy = noisy_of(truth, preset, KeypointSet::kCoco17, 3);
+      for (auto& frame : noisy.keypoints->uvc)
+        for (std::size_t k = 11; k < 17; ++k) frame[k].setZero();  // hips, knees, ankles
+      const Clip fitted = fit_keypoints(noisy, {}, nullptr);
+      EXPECT_LE(error_where(fitted, truth, 0, 90, kLegs), error_where(noisy, truth, 0, 90, kLegs))
+          << preset << " " << kind;
+      EXPECT_LT(against(truth, fitted).mpjpe.value, against(truth, noisy).mpjpe.value)
+          << preset << " " << kind;
+    }
 }
 
 TEST(Fit, FarOffDetectionsAreSetAside) {
