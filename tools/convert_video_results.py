@@ -1,90 +1,34 @@
 #!/usr/bin/env python3
-"""Results of video estimators to the npz that mimicx reads: GVHMR and WHAM, with ViTPose keypoints (COCO-17).
+"""Results of video estimators to the npz that mimicx reads: GVHMR, WHAM and TRAM, with keypoints (ViTPose's COCO-17).
 
-    convert_video_results.py hmr4d_results.pt OUT.npz [--keypoints vitpose.pt]
-    convert_video_results.py wham_output.pkl OUT.npz [--subject 0] [--keypoints K.npy --size W H]
+    convert_video_results.py hmr4d_results.pt OUT.npz [--keypoints vitpose.pt --static]                    GVHMR
+    convert_video_results.py wham_output.pkl OUT.npz [--keypoints tracking_results.pth --slam slam_results.pth
+                                                      --size W H]                                          WHAM
+    convert_video_results.py results/VIDEO OUT.npz [--keypoints K.npy]      TRAM: a folder with camera.npy and hps/
 
-Needs NumPy alone. Pickles run code when they are read carelessly: here only arrays, numbers, text, lists and
-dictionaries are made, anything else is refused. Plain pickles, joblib's uncompressed ones and torch's zip files (.pt)
-are read, without torch or joblib, and .npz/.npy. The camera of a frame is what takes the motion in the world (y up) to
-the same motion in front of the camera. WHAM keeps no focal length: with keypoints, --size gives the picture's diagonal,
-which is what WHAM assumes.
+Every person gets a file, and every piece of a person's track that has no gap: OUT.npz where there is but one, else
+OUT_person2.npz or OUT_person2_from310.npz (frame of the video). Pieces shorter than --shortest frames are left out.
+
+Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in a pickle. GVHMR and WHAM tell no camera,
+but where the motion is in the world (y up) and where in front of the camera. What takes one to the other is the camera
+of a frame, with all errors of both; the keypoint fit needs better. --static makes one camera of all frames, --slam
+lays the camera's path, which both estimators leave beside their results, through them; --moving takes them as they are.
+TRAM tells its camera. WHAM keeps no focal length: --size gives the picture's diagonal, which is what it assumes.
 """
 import argparse
-import pickle
+import glob
+import os
 import sys
-import zipfile
 
 import numpy as np
 
+from pickled_arrays import load
+
 J0 = {"smplx": np.array([0.003, -0.351, 0.012]), "smpl": np.array([-0.002, -0.223, 0.028])}  # rest pelvis, m
+MID_HIP = np.array([-0.001, -0.086, -0.016])  # of SMPL at rest, from its pelvis, m
 Y_TO_Z = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]])
 COCO17 = ["nose"] + [side + part for part in ("eye", "ear", "shoulder", "elbow", "wrist", "hip", "knee", "ankle")
                      for side in ("left_", "right_")]
-STORAGES = {"FloatStorage": "<f4", "DoubleStorage": "<f8", "LongStorage": "<i8", "BoolStorage": "?"}
-
-
-class JoblibArray:
-    """Stands for joblib's NumpyArrayWrapper: the elements follow in the file."""
-
-    def read(self, file):
-        if self.dtype.hasobject:
-            raise pickle.UnpicklingError("an array of objects is not read")
-        if getattr(self, "numpy_array_alignment_bytes", None) is not None:
-            file.read(file.read(1)[0])
-        size = int(np.prod(self.shape, dtype=np.int64)) * self.dtype.itemsize
-        return np.frombuffer(file.read(size), self.dtype).reshape(self.shape, order=self.order)
-
-
-def tensor(storage, offset, size, stride, *_):
-    step = storage.dtype.itemsize
-    if any(s < 0 for s in stride) or offset + sum((n - 1) * s for n, s in zip(size, stride)) >= max(storage.size, 1):
-        raise pickle.UnpicklingError("a tensor outside its storage")
-    return np.lib.stride_tricks.as_strided(storage[offset:], size, [s * step for s in stride]).copy()
-
-
-class Unpickler(pickle._Unpickler):  # the one in Python: joblib's arrays stand between the opcodes
-    def __init__(self, file, storages=None):
-        super().__init__(file)
-        self.file, self.storages = file, storages
-
-    def find_class(self, module, name):
-        if module in ("numpy.core.multiarray", "numpy._core.multiarray") and name in ("_reconstruct", "scalar"):
-            return getattr(getattr(np, "_core", None) or np.core, "multiarray").__dict__[name]
-        known = {("numpy", "ndarray"): np.ndarray, ("numpy", "dtype"): np.dtype, ("builtins", "dict"): dict,
-                 ("collections", "OrderedDict"): dict, ("collections", "defaultdict"): lambda *_: {},
-                 ("_codecs", "encode"): lambda text, coding: text.encode("latin1"),
-                 ("joblib.numpy_pickle", "NumpyArrayWrapper"): JoblibArray,
-                 ("torch._utils", "_rebuild_tensor_v2"): tensor}
-        if module == "torch" and name in STORAGES:
-            return np.dtype(STORAGES[name])
-        if (module, name) not in known:
-            raise pickle.UnpicklingError(f"{module}.{name} is not data: refused")
-        return known[module, name]
-
-    def persistent_load(self, pid):
-        if self.storages is None or pid[0] != "storage":
-            raise pickle.UnpicklingError("a reference outside the file")
-        return np.frombuffer(self.storages(pid[2]), pid[1])
-
-    def load_build(self):
-        super().load_build()
-        if isinstance(self.stack[-1], JoblibArray):
-            self.stack[-1] = self.stack[-1].read(self.file)
-
-    dispatch = {**pickle._Unpickler.dispatch, pickle.BUILD[0]: load_build}
-
-
-def load(path):
-    if path.endswith((".npz", ".npy")):
-        data = np.load(path, allow_pickle=False)
-        return dict(data) if path.endswith(".npz") else data
-    if not zipfile.is_zipfile(path):
-        with open(path, "rb") as file:
-            return Unpickler(file).load()
-    archive = zipfile.ZipFile(path)
-    index = next(n for n in archive.namelist() if n.endswith("data.pkl"))
-    return Unpickler(archive.open(index), lambda key: archive.read(f"{index[:-8]}data/{key}")).load()
 
 
 def matrices(r):
@@ -96,57 +40,203 @@ def matrices(r):
     return np.eye(3) + np.sin(a) * k + (1 - np.cos(a)) * k @ k
 
 
-def y_to_z(r):
-    """Rotation vectors (T, 3) after a quarter turn about x: the product of the quaternions."""
-    half = np.linalg.norm(r, axis=1) / 2
-    w, (x, y, z) = np.cos(half), (r * (np.sinc(half / np.pi) / 2)[:, None]).T
-    q = np.sqrt(0.5) * np.stack([w - x, x + w, y - z, z + y], 1)
-    q *= np.where(q[:, :1] < 0, -1.0, 1.0)
-    sine = np.linalg.norm(q[:, 1:], axis=1)
-    return q[:, 1:] * (2 * np.arctan2(sine, q[:, 0]) / np.maximum(sine, 1e-12))[:, None]
+def vectors(m):
+    """Rotation matrices (..., 3, 3) to rotation vectors, through the quaternion's largest entry."""
+    shape, m = m.shape[:-2], m.reshape(-1, 3, 3)
+    d = np.einsum("tii->ti", m)
+    squares = np.stack([1 + d.sum(1), *(1 + 2 * d - d.sum(1, keepdims=True)).T], 1)  # 4 w², 4 x², 4 y², 4 z²
+    x, y, z = m[:, 2, 1] - m[:, 1, 2], m[:, 0, 2] - m[:, 2, 0], m[:, 1, 0] - m[:, 0, 1]
+    xy, xz, yz = m[:, 0, 1] + m[:, 1, 0], m[:, 0, 2] + m[:, 2, 0], m[:, 1, 2] + m[:, 2, 1]
+    rows = np.stack([squares[:, 0], x, y, z, x, squares[:, 1], xy, xz, y, xy, squares[:, 2], yz, z, xz, yz,
+                     squares[:, 3]], 1).reshape(-1, 4, 4)
+    q = rows[np.arange(len(m)), squares.argmax(1)]
+    q *= np.where(q[:, :1] < 0, -1.0, 1.0) / np.linalg.norm(q, axis=1, keepdims=True)
+    sine = np.linalg.norm(q[:, 1:], axis=1, keepdims=True)
+    return (q[:, 1:] * 2 * np.arctan2(sine, q[:, :1]) / np.maximum(sine, 1e-12)).reshape(*shape, 3)
 
 
-def motion_of(data, subject):
-    """Body model, poses in the world and in the camera, translations in both, betas, intrinsics or None."""
+class Track:
+    """One person: rotation vectors (T, 3J) and pelvis (T, 3) in the world (y up), and in front of the camera."""
+
+    def __init__(self, model, pose, root_camera, pelvis, pelvis_camera, betas, intrinsics=None, frames=None):
+        self.model, self.intrinsics = model, intrinsics
+        self.pose, self.root_camera, self.pelvis, self.pelvis_camera = (
+            np.asarray(x, float) for x in (pose, root_camera, pelvis, pelvis_camera))
+        self.betas = np.asarray(betas, float).reshape(-1, np.shape(betas)[-1])
+        self.frames = np.arange(len(self.pose)) if frames is None else np.asarray(frames, int).reshape(-1)
+
+    def pieces(self):
+        """First and last + 1 of every run of frames without a gap."""
+        breaks = np.flatnonzero(np.diff(self.frames) != 1) + 1
+        return list(zip([0, *breaks], [*breaks, len(self.frames)]))
+
+
+def gvhmr(data):
+    world, camera = data["smpl_params_global"], data["smpl_params_incam"]
+    pose = np.hstack([world["global_orient"], world["body_pose"]])
+    return Track("smplx", pose, camera["global_orient"], world["transl"] + J0["smplx"], camera["transl"] + J0["smplx"],
+                 world["betas"], data.get("K_fullimg"))
+
+
+def wham(data):
+    """WHAM's trans is SMPL's, but its trans_world is where the middle of the hips is."""
+    pose = np.asarray(data["pose_world"], float)
+    pelvis = data["trans_world"] - matrices(pose[:, :3]) @ MID_HIP
+    return Track("smpl", pose, data["pose"][:, :3], pelvis, data["trans"] + J0["smpl"], data["betas"],
+                 frames=data.get("frame_ids"))
+
+
+def tram(data, camera):
+    """Poses in front of the camera, and the camera's own place in a world that is y up."""
+    if "world_cam_R" not in camera:
+        raise ValueError("camera.npy without world_cam_R: an older TRAM, which does not say where up is")
+    frames, rotations = np.asarray(data["frame"], int), np.asarray(data["pred_rotmat"], float)
+    turn, place = (np.asarray(camera[key], float)[frames] for key in ("world_cam_R", "world_cam_T"))
+    pelvis = np.asarray(data["pred_trans"], float).reshape(-1, 3) + J0["smpl"]
+    pose = np.hstack([vectors(turn @ rotations[:, 0]), vectors(rotations[:, 1:]).reshape(len(frames), -1)])
+    focal, (u, v) = float(camera["img_focal"]), np.asarray(camera["img_center"], float).reshape(2)
+    return Track("smpl", pose, vectors(rotations[:, 0]), np.einsum("tij,tj->ti", turn, pelvis) + place, pelvis,
+                 np.asarray(data["pred_shape"], float).mean(0), np.array([[focal, 0, u], [0, focal, v], [0, 0, 1]]),
+                 frames)
+
+
+def tracks_of(path):
+    """{person: Track}"""
+    if os.path.isdir(path):
+        files = sorted(glob.glob(os.path.join(path, "hps", "*.npy")), key=lambda f: (len(f), f))
+        camera = load(os.path.join(path, "camera.npy"))
+        return {os.path.basename(f)[:-4].split("_")[-1]: tram(load(f), camera) for f in files}
+    data = load(path)
     if "smpl_params_global" in data:
-        world, camera = data["smpl_params_global"], data["smpl_params_incam"]
-        pose = [np.hstack([p["global_orient"], p["body_pose"]]) for p in (world, camera)]
-        return "smplx", *pose, world["transl"], camera["transl"], world["betas"], data.get("K_fullimg")
-    d = data if "pose_world" in data else data[subject]
-    return "smpl", d["pose_world"], d["pose"], d["trans_world"], d["trans"], d["betas"], None
+        return {0: gvhmr(data)}
+    return {0: wham(data)} if "pose_world" in data else {person: wham(one) for person, one in data.items()}
+
+
+def keypoints_of(data, person, frames):
+    """(T, K, 3) of a track's frames. `data`: of the track, of the whole video, or by person as WHAM's tracker has it;
+    a frame that has none gets zeros."""
+    at = None
+    if isinstance(data, dict):
+        data = data if "keypoints" in data else data[person]
+        data, at = data["keypoints"], data.get("frame_id")
+    points = np.asarray(data, float)
+    if at is None and len(points) == len(frames):
+        return points
+    at = np.arange(len(points)) if at is None else np.asarray(at, int).reshape(-1)
+    out = np.zeros((len(frames), *points.shape[1:]))
+    seen = np.isin(frames, at)
+    out[seen] = points[np.searchsorted(at, frames[seen])]
+    return out
+
+
+def slam_of(path, frames):
+    """Turns (T, 3, 3), camera to SLAM's world, and places (T, 3) up to a scale: DPVO's x y z, quaternion x y z w."""
+    rows = np.asarray(load(path), float)[frames]
+    x, y, z, w = (rows[:, 3:7] / np.linalg.norm(rows[:, 3:7], axis=1, keepdims=True)).T
+    half = np.arctan2(np.sqrt(x * x + y * y + z * z), w)
+    return matrices(np.stack([x, y, z], 1) * (2 * half / np.maximum(np.sin(half), 1e-12))[:, None]), rows[:, :3]
+
+
+def mean_turn(turns):
+    u, _, v = np.linalg.svd(turns.sum(0))
+    return u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v
+
+
+def camera_path(turn, pelvis, pelvis_camera, slam_turn, slam_place):
+    """World to camera, (T, 4, 4), by one turn, one scale and one place of SLAM's world in ours: those under which the
+    pelvis is where it was estimated in front of the camera, distances counted once, not squared (outliers)."""
+    whole = mean_turn(slam_turn @ turn)
+    gap = (np.einsum("ij,tj->ti", whole, pelvis) - np.einsum("tij,tj->ti", slam_turn, pelvis_camera)).reshape(-1)
+    columns = np.hstack([slam_place.reshape(-1, 1), np.tile(np.eye(3), (len(turn), 1))])
+    weight = np.ones(len(turn))
+    for _ in range(10):
+        w = np.repeat(np.sqrt(weight), 3)
+        found = np.linalg.lstsq(columns * w[:, None], gap * w, rcond=None)[0]
+        weight = 1 / np.maximum(np.linalg.norm((columns @ found - gap).reshape(-1, 3), axis=1), 0.01)
+    out = np.tile(np.eye(4), (len(turn), 1, 1))
+    out[:, :3, :3] = slam_turn.transpose(0, 2, 1) @ whole
+    out[:, :3, 3] = -np.einsum("tji,tj->ti", slam_turn, (columns @ found).reshape(-1, 3))
+    return out
+
+
+def cameras(turn, pelvis, pelvis_camera, frames, options):
+    """World to camera, (T, 4, 4), or (4, 4) of one that stood still."""
+    if options.static:
+        still = np.tile(np.eye(3), (len(turn), 1, 1)), np.zeros((len(turn), 3))
+        return camera_path(turn, pelvis, pelvis_camera, *still)[0]
+    if options.slam:
+        return camera_path(turn, pelvis, pelvis_camera, *slam_of(options.slam, frames))
+    out = np.tile(np.eye(4), (len(turn), 1, 1))
+    out[:, :3, :3] = turn
+    out[:, :3, 3] = pelvis_camera - np.einsum("tij,tj->ti", turn, pelvis)
+    return out
+
+
+def motion_of(track, first, last, points, intrinsics, options):
+    """Members of the npz for a piece of a track."""
+    pose, model = track.pose[first:last], track.model
+    root, pelvis = matrices(pose[:, :3]), track.pelvis[first:last] @ Y_TO_Z.T
+    out = {"poses": np.hstack([vectors(Y_TO_Z @ root), pose[:, 3:]]), "trans": pelvis - J0[model],
+           "betas": track.betas[0], "mocap_framerate": options.fps, "body_model": model, "gender": "neutral"}
+    if points is None:
+        return out
+    turn = matrices(track.root_camera[first:last]) @ root.transpose(0, 2, 1) @ Y_TO_Z.T
+    out.update(keypoints_2d=points[first:last], camera_intrinsics=intrinsics,
+               camera_extrinsics=cameras(turn, pelvis, track.pelvis_camera[first:last],
+                                         track.frames[first:last], options))
+    if points.shape[1] == len(COCO17):  # of other numbers mimicx says what it takes them for
+        out["keypoint_names"] = np.array(COCO17)
+    return out
+
+
+def intrinsics_of(track, size, parser):
+    if track.intrinsics is not None:
+        return np.asarray(track.intrinsics, float).reshape(-1, 3, 3)[0]
+    if not size:
+        parser.error("--size W H is needed: the results hold no focal length")
+    focal = np.hypot(*size)
+    return np.array([[focal, 0, size[0] / 2], [0, focal, size[1] / 2], [0, 0, 1]])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results")
     parser.add_argument("out")
-    parser.add_argument("--keypoints", help="(T, 17, 3): u, v, confidence; .npy, .npz, .pt or pickle")
+    parser.add_argument("--keypoints", help="(T, K, 3): u, v, confidence, of one person's track or of the whole video; "
+                        ".npy, .npz, .pt or pickle; or WHAM's tracking_results.pth")
     parser.add_argument("--size", nargs=2, type=float, metavar=("W", "H"), help="of the picture, pixels")
-    parser.add_argument("--subject", type=int, default=0, help="which person of WHAM's results")
+    parser.add_argument("--person", "--subject", help="one of several, by its name in the results")
+    camera = parser.add_mutually_exclusive_group()
+    camera.add_argument("--static", action="store_true", help="the camera stood still")
+    camera.add_argument("--slam", metavar="FILE", help="its path: GVHMR's slam_results.pt, WHAM's slam_results.pth")
+    camera.add_argument("--moving", action="store_true", help="it moved, and nothing else is known")
+    parser.add_argument("--shortest", type=int, default=30, metavar="FRAMES", help="pieces that are shorter are left "
+                        "out (default: 30)")
     parser.add_argument("--fps", type=float, default=30.0, help="of the video")
     a = parser.parse_args()
-    model, *arrays, intrinsics = motion_of(load(a.results), a.subject)
-    world, camera, trans, trans_camera, betas = (np.asarray(x, float) for x in arrays)
-    root, j0 = matrices(world[:, :3]), J0[model]
-    out = {"poses": np.hstack([y_to_z(world[:, :3]), world[:, 3:]]), "trans": (trans + j0) @ Y_TO_Z.T - j0,
-           "betas": betas.reshape(-1, betas.shape[-1])[0], "mocap_framerate": a.fps, "body_model": model,
-           "gender": "neutral"}
-    if a.keypoints:
-        points = load(a.keypoints)
-        points = np.asarray(points["keypoints"] if isinstance(points, dict) else points, float)
-        if intrinsics is None:
-            if not a.size:
-                parser.error("--size W H is needed: the results hold no focal length")
-            focal = np.hypot(*a.size)
-            intrinsics = np.array([[focal, 0, a.size[0] / 2], [0, focal, a.size[1] / 2], [0, 0, 1]])
-        turn = matrices(camera[:, :3]) @ root.transpose(0, 2, 1) @ Y_TO_Z.T
-        extrinsics = np.tile(np.eye(4), (len(turn), 1, 1))
-        extrinsics[:, :3, :3] = turn
-        extrinsics[:, :3, 3] = trans_camera + j0 - np.einsum("tij,tj->ti", turn, out["trans"] + j0)
-        out.update(keypoints_2d=points, keypoint_names=np.array(COCO17), camera_extrinsics=extrinsics,
-                   camera_intrinsics=np.asarray(intrinsics, float).reshape(-1, 3, 3)[0])
-    np.savez(a.out, **out)
-    print(f"{a.out}: {len(world)} frames, {model}" + (", with keypoints" if a.keypoints else ""))
+    tracks = tracks_of(a.results)
+    if a.person is not None:
+        tracks = {person: track for person, track in tracks.items() if str(person) == a.person}
+    if a.keypoints and not (a.static or a.slam or a.moving or os.path.isdir(a.results)):
+        parser.error("--keypoints needs a camera: --static where it stood still, --slam FILE, or else --moving")
+    data, written = load(a.keypoints) if a.keypoints else None, 0
+    for person, track in tracks.items():
+        points = keypoints_of(data, person, track.frames) if a.keypoints else None
+        intrinsics = intrinsics_of(track, a.size, parser) if a.keypoints else None
+        pieces = track.pieces()
+        for first, last in pieces:
+            begin, end = track.frames[first], track.frames[last - 1]
+            what = f"person {person}, frames {begin} to {end}"
+            if last - first < a.shortest and (len(tracks) > 1 or len(pieces) > 1):
+                print(f"{what}: left out, shorter than {a.shortest} frames")
+                continue
+            name = a.out.removesuffix(".npz") + (f"_person{person}" if len(tracks) > 1 else "") + (
+                f"_from{begin}" if len(pieces) > 1 else "") + ".npz"
+            np.savez(name, **motion_of(track, first, last, points, intrinsics, a))
+            written += 1
+            print(f"{name}: {what}, {track.model}" + (", with keypoints" if a.keypoints else ""))
+    if not written:
+        raise ValueError("no person in it" + (f" is called {a.person}" if a.person is not None else ""))
 
 
 if __name__ == "__main__":

@@ -33,7 +33,10 @@ struct Arguments {
 /// @throws UsageError for a noise that cannot be
 pipeline::CorruptConfig checked_config(const Arguments& a) {
   static const std::map<std::string, std::optional<motion::KeypointSet>> kSets = {
-      {"22", motion::KeypointSet::kJoints22}, {"coco17", motion::KeypointSet::kCoco17}, {"none", {}}};
+      {"22", motion::KeypointSet::kJoints22},
+      {"coco17", motion::KeypointSet::kCoco17},
+      {"coco133", motion::KeypointSet::kCoco133},
+      {"none", {}}};
   pipeline::CorruptConfig config = a.config;
   config.estimate.camera = motion::synth::camera_error(a.camera);
   config.estimate.keypoints = kSets.at(a.keypoints);
@@ -85,7 +88,7 @@ void declare_corrupt(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"calibrated", "perturbed", "wild", "moving"}))
       ->capture_default_str();
   command->add_option("--keypoints", a->keypoints, "which points are detected; none: nor is a camera told")
-      ->check(CLI::IsMember({"22", "coco17", "none"}))
+      ->check(CLI::IsMember({"22", "coco17", "coco133", "none"}))
       ->capture_default_str();
   add_seed(*command, a->config.seed);
   add_read_arguments(*command, a->config.read);

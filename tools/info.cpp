@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
+#include "motion/keypoint_names.h"
 #include "motion/prepare.h"
 
 namespace mimicx::tools {
@@ -16,10 +17,10 @@ struct Arguments {
   motion::import::ReadConfig read;
 };
 
-/// How many keypoints the fit and Eq. 3 can use.
-std::ptrdiff_t joints_among(const std::vector<std::string>& names) {
+/// How many keypoints the fit can use.
+std::ptrdiff_t usable_among(const std::vector<std::string>& names) {
   return std::count_if(names.begin(), names.end(),
-                       [](const std::string& name) { return body_of_name(name) >= 0; });
+                       [](const std::string& name) { return motion::place_of_keypoint(name).has_value(); });
 }
 
 void describe_file(const motion::Clip& clip) {
@@ -30,8 +31,8 @@ void describe_file(const motion::Clip& clip) {
   for (double b : clip.betas) std::printf(" %g", b);
   std::printf("\n");
   if (clip.keypoints)
-    std::printf("keypoints    %zu per frame, %td of them joints of the body, %s camera\n",
-                clip.keypoints->names.size(), joints_among(clip.keypoints->names),
+    std::printf("keypoints    %zu per frame, %td of them with a place on the body, %s camera\n",
+                clip.keypoints->names.size(), usable_among(clip.keypoints->names),
                 clip.keypoints->extrinsics.size() > 1 ? "moving" : "static");
   else
     std::printf("keypoints    none\n");

@@ -91,8 +91,12 @@ void declare_synth(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"calibrated", "perturbed", "wild"}))
       ->capture_default_str();
   static const std::map<std::string, motion::KeypointSet> kSets = {
-      {"joints22", motion::KeypointSet::kJoints22}, {"coco17", motion::KeypointSet::kCoco17}};
-  command->add_option("--keypoints", set.keypoints, "which points are detected: joints22 (default) or coco17")
+      {"joints22", motion::KeypointSet::kJoints22},
+      {"coco17", motion::KeypointSet::kCoco17},
+      {"coco133", motion::KeypointSet::kCoco133}};
+  command
+      ->add_option("--keypoints", set.keypoints,
+                   "which points are detected: joints22 (default), coco17 or coco133")
       ->transform(CLI::CheckedTransformer(kSets));
   command
       ->add_option("--seed", set.seed, "seed of the first motion of every kind; 101 and up: training split")

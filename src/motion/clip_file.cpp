@@ -192,14 +192,28 @@ std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& point
   if (npz.has("keypoint_names") || unreadable) return npz.at("keypoint_names").text;
   if (points.array.shape.size() != 3) points.fail("shape (frames, keypoints, 3)", points.shape());
   const std::size_t count = points.array.shape[1];
-  if (count != 22 && count != 17)
-    throw DataError(npz.path, "keypoint_names",
-                    "the keypoints' names (22 may go without: the body's joints; 17: COCO's)",
-                    "none for " + std::to_string(count) + " keypoints");
-  clip.decisions.push_back(count == 22
-                               ? "keypoints: 22 without names, taken for the 22 joints in their order"
-                               : "keypoints: 17 without names, taken for those of COCO in their order");
-  return keypoint_names(count == 22 ? KeypointSet::kJoints22 : KeypointSet::kCoco17);
+  const std::optional<KeypointSet> set = keypoint_set_of(count);
+  if (!set)
+    throw DataError(
+        npz.path, "keypoint_names",
+        "the keypoints' names (22 may go without: the body's joints; 17: COCO's; 133: COCO-WholeBody's)",
+        "none for " + std::to_string(count) + " keypoints");
+  const char* taken_for = *set == KeypointSet::kJoints22 ? "the 22 joints"
+                          : *set == KeypointSet::kCoco17 ? "those of COCO"
+                                                         : "those of COCO-WholeBody";
+  clip.decisions.push_back("keypoints: " + std::to_string(count) + " without names, taken for " + taken_for +
+                           " in their order");
+  return keypoint_names(*set);
+}
+
+/// Where most keypoints are of the face and of fingers, that they weigh nothing.
+void say_what_is_left_aside(const std::vector<std::string>& names, Clip& clip) {
+  const auto used = std::count_if(names.begin(), names.end(), [](const std::string& name) {
+    return place_of_keypoint(name).has_value();
+  });
+  if (2 * used < std::ssize(names))
+    clip.decisions.push_back("keypoints: " + std::to_string(used) + " of " + std::to_string(names.size()) +
+                             " have a place on the body; the others (face, fingers) are not used");
 }
 
 Keypoints read_keypoints(const Npz& npz, Clip& clip) {
@@ -207,6 +221,7 @@ Keypoints read_keypoints(const Npz& npz, Clip& clip) {
   const Member points(npz, "keypoints_2d");
   Keypoints out;
   out.names = read_keypoint_names(npz, points, clip);
+  say_what_is_left_aside(out.names, clip);
   const std::size_t count = out.names.size();
   const Member intrinsics(npz, "camera_intrinsics"), extrinsics(npz, "camera_extrinsics");
   points.expect_shape({frames, count, 3});

@@ -48,7 +48,7 @@ TEST_F(Cli, InfoOfOneFrameSaysWhatItHoldsAndThatItIsTooShort) {
   motion::write_clip(path("one.npz"), clip);
   const Call call = mimicx("info " + path("one.npz"));
   EXPECT_EQ(call.status, 1);
-  EXPECT_TRUE(says(call, "3 per frame, 2 of them joints of the body, static camera")) << call.text;
+  EXPECT_TRUE(says(call, "3 per frame, 2 of them with a place on the body, static camera")) << call.text;
   EXPECT_TRUE(says(call, path("one.npz") + ": expected at least 2 frames to prepare it, found 1"))
       << call.text;
 }

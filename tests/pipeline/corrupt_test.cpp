@@ -86,8 +86,10 @@ TEST_F(Cli, CorruptLeavesNoTruthInTheNoisyFile) {
 
 TEST_F(Cli, CorruptTakesOtherKeypointsAndNone) {
   motion::write_clip(path("x.npz"), standing_clip(20));
-  EXPECT_EQ(mimicx("corrupt " + path("x.npz") + " --keypoints coco17 --out " + path("c")).status, 0);
-  EXPECT_EQ(motion::read_clip(path("c/noisy/x.npz")).keypoints->names.size(), 17u);
+  for (const auto& [set, points] : {std::pair("coco17", 17u), std::pair("coco133", 133u)}) {
+    EXPECT_EQ(mimicx("corrupt " + path("x.npz") + " --keypoints " + set + " --out " + path(set)).status, 0);
+    EXPECT_EQ(motion::read_clip(path(std::string(set) + "/noisy/x.npz")).keypoints->names.size(), points);
+  }
   EXPECT_EQ(mimicx("corrupt " + path("x.npz") + " --keypoints none --out " + path("n")).status, 0);
   EXPECT_FALSE(motion::read_clip(path("n/noisy/x.npz")).keypoints);
 }

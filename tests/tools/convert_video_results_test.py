@@ -20,6 +20,7 @@ except ImportError:
 TOOL = sys.argv[1]
 FRAMES = 7
 J0 = np.array([0.003, -0.351, 0.012])
+SMPL_J0, MID_HIP = np.array([-0.002, -0.223, 0.028]), np.array([-0.001, -0.086, -0.016])
 random = np.random.default_rng(5)
 
 
@@ -54,7 +55,7 @@ def convert(results, *more):
 
 def check_gvhmr(path):
     np.save("points.npy", POINTS)
-    status, complaint, out = convert(path, "--keypoints", "points.npy")
+    status, complaint, out = convert(path, "--keypoints", "points.npy", "--moving")
     assert status == 0, complaint
     y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
     pelvis = out["trans"] + J0
@@ -121,13 +122,17 @@ def check_torch_zip():
     check_gvhmr("results.pt")
 
 
-def wham():
+def wham(frames=FRAMES, begin=0):
+    """As WHAM's demo stores a person: `trans` is SMPL's, `trans_world` is where the middle of the hips is."""
+    pelvis = np.array([p + rotation(r) @ -MID_HIP for p, r in zip(GLOBAL["transl"], GLOBAL["global_orient"])])
     poses = {name: np.hstack([part["global_orient"], part["body_pose"], np.zeros((FRAMES, 6))])
              for name, part in (("pose_world", GLOBAL), ("pose", INCAM))}
-    return {0: dict(poses, trans_world=GLOBAL["transl"], trans=INCAM["transl"], betas=GLOBAL["betas"])}
+    one = dict(poses, trans_world=GLOBAL["transl"], trans=pelvis @ CAMERA.T + PLACE - SMPL_J0, betas=GLOBAL["betas"])
+    return dict({key: np.resize(value, (frames, *value.shape[1:])) for key, value in one.items()},
+                frame_ids=begin + np.arange(frames)), pelvis
 
 
-def check_joblib():
+def dump_joblib(value, path):
     """As joblib.dump writes it, uncompressed: the elements of an array follow its wrapper in the file."""
     class NumpyArrayWrapper:
         def __init__(self, array):
@@ -148,18 +153,185 @@ def check_joblib():
             padding = 16 - (self.file.tell() + 1) % 16
             self.file.write(bytes([padding]) + b"\xff" * padding + np.ascontiguousarray(value).tobytes())
 
-    with open("wham_output.pkl", "wb") as file:
+    with open(path, "wb") as file:
         pickler = Pickler(file, 4)
         pickler.file = file
-        pickler.dump(wham())
+        pickler.dump(value)
+
+
+def check_joblib():
+    one, pelvis = wham()
+    dump_joblib({0: one}, "wham_output.pkl")
     status, complaint, out = convert("wham_output.pkl")
     assert status == 0, complaint
     assert out["poses"].shape == (FRAMES, 72) and out["body_model"] == "smpl"
     assert np.allclose(out["poses"][:, 3:66], GLOBAL["body_pose"])
+    assert np.allclose(out["trans"] + SMPL_J0, np.stack([pelvis[:, 0], -pelvis[:, 2], pelvis[:, 1]], 1))
     np.save("points.npy", POINTS)
-    assert convert("wham_output.pkl", "--keypoints", "points.npy")[0] == 2, "no focal length without a size"
-    status, complaint, out = convert("wham_output.pkl", "--keypoints", "points.npy", "--size", "600", "800")
+    size = "--size", "600", "800"
+    assert convert("wham_output.pkl", "--keypoints", "points.npy", "--moving")[0] == 2, "no focal length without a size"
+    assert convert("wham_output.pkl", "--keypoints", "points.npy", *size)[0] == 2, "what of the camera?"
+    status, complaint, out = convert("wham_output.pkl", "--keypoints", "points.npy", "--moving", *size)
     assert status == 0 and out["camera_intrinsics"][0, 0] == 1000.0, complaint
+    for t in range(FRAMES):
+        seen = out["camera_extrinsics"][t] @ np.append(out["trans"][t] + SMPL_J0, 1)
+        assert np.allclose(seen[:3], CAMERA @ pelvis[t] + PLACE)
+
+
+def check_several_people():
+    """Person 0 leaves and comes back, person 1 is seen for a moment, person 2 has keypoints in some frames only."""
+    people = {np.int64(0): wham(90)[0], np.int64(1): wham(12, 40)[0], np.int64(2): wham(60, 100)[0]}
+    people[0]["frame_ids"] = np.r_[5:45, 70:115, 300:305]
+    tracker = {person: {"frame_id": p["frame_ids"], "keypoints": person + random.uniform(size=(len(p["pose"]), 17, 3))}
+               for person, p in people.items()}
+    counted = np.arange(1.0, 41)[:, None, None] * np.ones((17, 3))
+    tracker[2] = {"frame_id": np.r_[110:130, 140:160], "keypoints": counted}
+    dump_joblib(people, "wham_output.pkl")
+    dump_joblib(tracker, "tracking_results.pth")
+    more = "--keypoints", "tracking_results.pth", "--moving", "--size", "600", "800"
+    run = subprocess.run([sys.executable, TOOL, "wham_output.pkl", "all.npz", *more], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    lines = run.stdout.splitlines()
+    assert lines == ["all_person0_from5.npz: person 0, frames 5 to 44, smpl, with keypoints",
+                     "all_person0_from70.npz: person 0, frames 70 to 114, smpl, with keypoints",
+                     "person 0, frames 300 to 304: left out, shorter than 30 frames",
+                     "person 1, frames 40 to 51: left out, shorter than 30 frames",
+                     "all_person2.npz: person 2, frames 100 to 159, smpl, with keypoints"], lines
+    later = np.load("all_person0_from70.npz")
+    assert np.allclose(later["poses"][:, 3:], people[0]["pose_world"][40:85, 3:])
+    assert np.array_equal(later["keypoints_2d"], tracker[0]["keypoints"][40:85])
+    assert later["camera_extrinsics"].shape == (45, 4, 4)
+    points = np.load("all_person2.npz")["keypoints_2d"]
+    assert not points[:10].any() and not points[30:40].any(), "frames that the tracker does not have"
+    assert np.array_equal(points[10:30], counted[:20])
+    assert np.array_equal(points[40:], counted[20:])
+    assert convert("wham_output.pkl", "--person", "2", *more)[0] == 0
+    assert convert("wham_output.pkl", "--person", "9")[0] == 1, "there is no such person"
+
+
+def dump_tensors(value):
+    """A dictionary of tensors as np.save pickles it, each by the bytes of torch.save before its zip files."""
+    class FloatStorage:
+        pass
+
+    class LongStorage:
+        pass
+
+    def _rebuild_tensor_v2():
+        pass
+
+    def _load_from_bytes():
+        pass
+
+    torch, utils, place = (types.ModuleType(name) for name in ("torch", "torch._utils", "torch.storage"))
+    for thing, module in ((FloatStorage, torch), (LongStorage, torch), (_rebuild_tensor_v2, utils),
+                          (_load_from_bytes, place)):
+        thing.__module__, thing.__qualname__ = module.__name__, thing.__name__
+        setattr(module, thing.__name__, thing)
+    sys.modules.update({"torch": torch, "torch._utils": utils, "torch.storage": place})
+
+    class Storage:
+        def __init__(self, array):
+            self.array, self.type = (array.astype("<i8"), LongStorage) if array.dtype.kind == "i" else (
+                array.astype("<f4"), FloatStorage)
+
+        def __reduce__(self):
+            class Legacy(pickle.Pickler):
+                def persistent_id(self, value):
+                    size = value.array.size if type(value) is Storage else None
+                    return None if size is None else ("storage", value.type, "94", "cpu", size, None)
+
+            file = io.BytesIO()
+            for header in (0x1950a86a20f9469cfc6c, 1001, {"protocol_version": 1001, "little_endian": True}):
+                pickle.dump(header, file, 2)
+            Legacy(file, 2).dump(self)
+            pickle.dump(["94"], file, 2)
+            file.write(np.int64(self.array.size).tobytes() + self.array.tobytes())
+            return _load_from_bytes, (file.getvalue(),)
+
+    class Tensor:
+        def __init__(self, array):
+            self.array = np.ascontiguousarray(array)
+
+        def __reduce__(self):
+            strides = tuple(s // self.array.itemsize for s in self.array.strides)
+            return _rebuild_tensor_v2, (Storage(self.array), 0, self.array.shape, strides, False, {})
+
+    return {key: Tensor(array) for key, array in value.items()}
+
+
+def check_tram():
+    """A folder: hps/hps_track_K.npy in front of the camera, camera.npy with the camera's places in a y-up world."""
+    frames = np.r_[3:43]
+    camera_R = np.array([CAMERA.T @ rotation(np.array([0.1, 0.02 * t, 0.05])) for t in range(50)])
+    camera_T = np.array([[0.1 * t, 1.3, 0.2] for t in range(50)])
+    rotmat = np.array([[rotation(0.2 * random.normal(size=3)) for _ in range(24)] for _ in frames])
+    trans = random.normal(size=(len(frames), 1, 3)) + [0, 0, 5]
+    os.makedirs("video/hps")
+    np.save("video/hps/hps_track_0.npy", dump_tensors({"pred_rotmat": rotmat, "pred_trans": trans, "frame": frames,
+                                                       "pred_shape": random.normal(size=(len(frames), 10))}))
+    np.save("video/camera.npy", {"world_cam_R": camera_R, "world_cam_T": camera_T, "img_focal": np.float64(900.0),
+                                 "img_center": np.array([480.0, 270.0])})
+    np.save("points.npy", random.uniform(size=(50, 17, 3)))
+    status, complaint, out = convert("video", "--keypoints", "points.npy")
+    assert status == 0, complaint
+    assert np.array_equal(out["keypoints_2d"], np.load("points.npy")[3:43])
+    y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    for t, frame in enumerate(frames):
+        pelvis = camera_R[frame] @ (trans[t, 0] + SMPL_J0) + camera_T[frame]
+        assert np.allclose(out["trans"][t] + SMPL_J0, y_to_z @ pelvis, atol=1e-5)
+        assert np.allclose(rotation(out["poses"][t, :3]), y_to_z @ camera_R[frame] @ rotmat[t, 0], atol=1e-5)
+        assert np.allclose(rotation(out["poses"][t, 30:33]), rotmat[t, 10], atol=1e-5)
+        seen = out["camera_extrinsics"][t] @ np.append(out["trans"][t] + SMPL_J0, 1)
+        assert np.allclose(seen[:3], trans[t, 0] + SMPL_J0, atol=1e-5)
+    assert out["camera_intrinsics"][0, 0] == 900.0 and out["camera_intrinsics"][1, 2] == 270.0
+
+
+def check_a_static_camera():
+    """Places in front of the camera that tremble make the camera tremble, unless it is said to stand."""
+    trembling = dict(INCAM, transl=INCAM["transl"] + 0.05 * random.normal(size=(FRAMES, 3)))
+    with open("results.pkl", "wb") as file:
+        pickle.dump(dict(GVHMR, smpl_params_incam=trembling), file)
+    np.save("points.npy", POINTS)
+    y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    _, _, each = convert("results.pkl", "--keypoints", "points.npy", "--moving")
+    status, complaint, one = convert("results.pkl", "--keypoints", "points.npy", "--static")
+    assert status == 0, complaint
+    assert one["camera_extrinsics"].shape == (4, 4)
+    assert np.allclose(one["camera_extrinsics"][:3, :3], CAMERA @ y_to_z.T, atol=1e-6)
+    errors = np.linalg.norm(each["camera_extrinsics"][:, :3, 3] - PLACE, axis=1)
+    assert np.linalg.norm(one["camera_extrinsics"][:3, 3] - PLACE) < errors.mean()
+    assert one["camera_extrinsics"][3].tolist() == [0, 0, 0, 1]
+
+
+def check_a_camera_path():
+    """A SLAM's path, in a world of its own turn, place and scale, gives the true cameras; wild frames do not matter."""
+    frames = 60
+    turns = np.array([rotation(np.array([2.5, 0.3 + 0.01 * t, -0.2])) for t in range(frames)])  # y-up world to camera
+    eyes = np.array([[0.05 * t, 1.4 + 0.2 * np.sin(0.1 * t), -4.0] for t in range(frames)])
+    roots = np.array([rotation(r) for r in 0.4 * random.normal(size=(frames, 3))])
+    pelvis = random.normal(size=(frames, 3))
+    seen = np.einsum("tij,tj->ti", turns, pelvis - eyes)
+    seen[::7, 2] += 0.5  # far too far away
+    part = {"body_pose": np.zeros((frames, 63)), "betas": np.zeros((frames, 10))}
+    world = dict(part, global_orient=np.array([vector(r) for r in roots]), transl=pelvis - J0)
+    camera = dict(part, global_orient=np.array([vector(c @ r) for c, r in zip(turns, roots)]), transl=seen - J0)
+    with open("results.pkl", "wb") as file:
+        pickle.dump({"smpl_params_global": world, "smpl_params_incam": camera, "K_fullimg": K[None]}, file)
+    other = rotation(np.array([0.3, -0.8, 0.5]))
+    rows = []
+    for turn, eye in zip(turns, eyes):
+        r = vector(other @ turn.T)
+        angle = np.linalg.norm(r)
+        rows.append([*(0.37 * other @ eye + [3, -2, 1]), *(np.sin(angle / 2) * r / angle), np.cos(angle / 2)])
+    np.save("slam.npy", np.array(rows))
+    np.save("points.npy", random.uniform(size=(frames, 17, 3)))
+    status, complaint, out = convert("results.pkl", "--keypoints", "points.npy", "--slam", "slam.npy")
+    assert status == 0, complaint
+    y_to_z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    for E, turn, eye in zip(out["camera_extrinsics"], turns, eyes):
+        assert np.allclose(E[:3, :3], turn @ y_to_z.T, atol=1e-6)
+        assert np.linalg.norm(-E[:3, :3].T @ E[:3, 3] - y_to_z @ eye) < 0.03
 
 
 def check_refusals():
@@ -172,6 +344,8 @@ def check_refusals():
             pickle.dump(content, file)
         status, complaint, _ = convert("bad.pkl")
         assert status == 1 and "bad.pkl" in complaint and complaint.count("\n") == 1, complaint
+    np.save("bad.npy", {"pose_world": Evil()})
+    assert convert("bad.npy")[0] == 1
     assert not os.path.exists("evil"), "code in a pickle was run"
     with open("cut.pkl", "wb") as file:
         file.write(pickle.dumps(GVHMR)[:-100])
@@ -180,6 +354,7 @@ def check_refusals():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for check in (check_plain_pickle, check_torch_zip, check_joblib, check_refusals):
+    for check in (check_plain_pickle, check_torch_zip, check_joblib, check_several_people, check_tram,
+                  check_a_static_camera, check_a_camera_path, check_refusals):
         check()
         print(check.__name__, "ok")

@@ -5,6 +5,7 @@
 
 #include "core/quantile.h"
 #include "motion/hinge.h"
+#include "motion/keypoint_names.h"
 
 namespace mimicx::motion::fit {
 namespace {
@@ -12,8 +13,8 @@ namespace {
 constexpr double kMedianToSigma = 1.4826;  ///< of a normal distribution
 constexpr double kThirdDifference = 20.0;  ///< variance of a third difference of white noise of variance 1
 
-/// The other side's body of a limb (below shoulder or hip), itself for every other body.
-int mirrored_limb(int body) {
+/// Whether a body belongs to a limb: below shoulder or hip.
+bool is_of_a_limb(int body) {
   switch (body) {
     case kLeftHip:
     case kLeftKnee:
@@ -22,7 +23,6 @@ int mirrored_limb(int body) {
     case kLeftShoulder:
     case kLeftElbow:
     case kLeftWrist:
-      return body + 1;
     case kRightHip:
     case kRightKnee:
     case kRightAnkle:
@@ -30,22 +30,45 @@ int mirrored_limb(int body) {
     case kRightShoulder:
     case kRightElbow:
     case kRightWrist:
-      return body - 1;
+      return true;
     default:
-      return body;
+      return false;
   }
 }
 
-void add_points(const Keypoints& keypoints, FitProblem& problem) {
-  for (std::size_t k = 0; k < keypoints.names.size(); ++k)
-    if (const int body = body_of_name(keypoints.names[k]); body >= 0) problem.points.push_back({body, k, 0});
-  for (std::size_t i = 0; i < problem.points.size(); ++i) {
-    const int other = mirrored_limb(problem.points[i].body);
-    const auto found = std::find_if(problem.points.begin(), problem.points.end(),
-                                    [&](const FitPoint& p) { return p.body == other; });
-    problem.points[i].mirror =
-        found == problem.points.end() ? i : static_cast<std::size_t>(found - problem.points.begin());
+/// The keypoints with a place on the body, and which of them belong together.
+std::vector<FitPoint> points_among(const std::vector<std::string>& names, const Character& character) {
+  std::vector<FitPoint> points;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (const auto place = place_of_keypoint(names[k]))
+      points.push_back({place->body, k, points.size(), place_on(character, *place)});
+  for (FitPoint& point : points) {
+    if (!is_of_a_limb(point.body)) continue;
+    const std::string other = mirrored_name(names[point.column]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (names[points[i].column] == other) point.mirror = i;
   }
+  return points;
+}
+
+/// How the places of keypoints on their bodies move with the shape.
+void add_shape_derivatives(const std::vector<std::string>& names, std::vector<FitPoint>& points) {
+  const Character standard = make_character();
+  for (std::size_t k = 0; k < kBetas; ++k) {
+    std::array<double, kBetas> unit{};
+    unit[k] = 1.0;
+    const Character character = make_character(unit);
+    for (FitPoint& point : points) {
+      const KeypointPlace place = *place_of_keypoint(names[point.column]);
+      point.by_beta.col(static_cast<Eigen::Index>(k)) =
+          place_on(character, place) - place_on(standard, place);
+    }
+  }
+}
+
+void add_points(const Keypoints& keypoints, const Character& character, FitProblem& problem) {
+  problem.points = points_among(keypoints.names, character);
+  add_shape_derivatives(keypoints.names, problem.points);
   for (const auto& frame : keypoints.uvc) {
     problem.uvc.emplace_back();
     for (const FitPoint& point : problem.points) {
@@ -153,7 +176,7 @@ FitProblem make_problem(const Clip& clip, const FitConfig& config) {
   for (const Vector3d& trans : clip.trans) problem.p_root.push_back(trans + rest_pelvis(clip));
   measure_jitter(input, problem);
   if (!clip.keypoints) return problem;
-  add_points(*clip.keypoints, problem);
+  add_points(*clip.keypoints, character, problem);
   problem.levels.keypoint.assign(problem.points.size(), config.keypoint_sigma);
   for (int t = 0; t < problem.frames(); ++t)
     problem.box.push_back(box_of(problem, t, forward_kinematics(character, problem.p_root[t], problem.q[t])));

@@ -40,6 +40,8 @@ struct FitPoint {
   int body = 0;
   std::size_t column = 0;  ///< in the clip's keypoints
   std::size_t mirror = 0;  ///< index of the other side's point of the same limb; itself where there is none
+  Vector3d p_B = Vector3d::Zero();                ///< where on its body, m: 0 for a joint
+  ShapeJacobian by_beta = ShapeJacobian::Zero();  ///< of p_B
 };
 
 /// A point of a sole (`sole_point`), in the order of Character::contact_points.

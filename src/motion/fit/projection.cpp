@@ -42,8 +42,10 @@ Projection project_point(const FitProblem& problem, const FitState& state, int t
 
 Vector3d point_of(const FitProblem& problem, const FitState& state, const FrameKinematics& k,
                   std::size_t point) {
-  const int body = problem.points[point].body;
-  return k.poses.p_WB[body] + k.R[body] * state.g.segment<3>(offset_of(point) + kFlatOffset);
+  const FitPoint& p = problem.points[point];
+  const Vector3d p_B = p.p_B + p.by_beta * state.g.segment<kBetas>(kFirstBeta) +
+                       state.g.segment<3>(offset_of(point) + kFlatOffset);
+  return k.poses.p_WB[p.body] + k.R[p.body] * p_B;
 }
 
 Projection see(const FitProblem& problem, const FitState& state, const PerFrame<FrameKinematics>& motion,
@@ -59,7 +61,8 @@ SeenPoint see_closely(const FitProblem& problem, const FitState& state,
   if (!out.seen.valid) return out;
   const int body = problem.points[k].body;
   out.by_frame = out.seen.by_point * point_jacobian(motion[t], body, point_of(problem, state, motion[t], k));
-  out.by_clip << out.seen.by_camera, out.seen.by_point * motion[t].by_beta[body];
+  const ShapeJacobian by_beta = motion[t].by_beta[body] + motion[t].R[body] * problem.points[k].by_beta;
+  out.by_clip << out.seen.by_camera, out.seen.by_point * by_beta;
   out.by_offset << Eigen::Matrix2d::Identity(), out.seen.by_point * motion[t].R[body];
   return out;
 }

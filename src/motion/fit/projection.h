@@ -30,7 +30,7 @@ struct SeenPoint {
   Eigen::Matrix<double, 2, kOffsets> by_offset;
 };
 
-/// Where a keypoint's point is: its joint with the offset on the limb.
+/// Where a keypoint's point is: its place on the body, of the shape, with the offset on the limb.
 Vector3d point_of(const FitProblem& problem, const FitState& state, const FrameKinematics& k,
                   std::size_t point);
 

@@ -18,7 +18,7 @@ struct Landmark {
   Vector3d p_B;
 };
 
-/// In the order of the set; nose, eyes and ears are places on the head.
+/// In the order of the set; what is no joint has a place on the skin of its body.
 std::vector<Landmark> landmarks(KeypointSet set);
 
 /// The other side's keypoint of the same limb, or the same index for one in the middle.

@@ -5,76 +5,13 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "motion/made_motions.h"
-#include "motion/metrics.h"
+#include "motion/fit/fitted_clips.h"
 #include "motion/resample.h"
-#include "motion/synth/noise.h"
-#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
 using namespace test;
-
-/// Three seconds of a synthetic motion.
-Clip truth_of(const std::string& kind) { return synthetic_clip(kind, 5, 90); }
-
-/// Detections that are where they should be.
-Keypoints exact_keypoints(const Clip& truth) {
-  const PerFrame<BodyPoses> poses = poses_of(truth);
-  const synth::Camera camera = synth::place_camera(poses, 1);
-  Keypoints k;
-  k.names = keypoint_names(KeypointSet::kJoints22);
-  k.intrinsics = camera.intrinsics;
-  k.extrinsics = {camera.extrinsics};
-  for (const BodyPoses& pose : poses) {
-    k.uvc.emplace_back();
-    for (const Vector3d& p : pose.p_WB) {
-      const Vector3d seen = synth::project(camera, p);
-      k.uvc.back().push_back({seen.x(), seen.y(), 1.0});
-    }
-  }
-  return k;
-}
-
-/// The truth with a smooth error of a few degrees in every joint and of 0.2 m in place, and exact detections.
-Clip disturbed(const Clip& truth, std::uint64_t seed) {
-  Random random(seed, {3});
-  Clip clip = truth;
-  clip.keypoints = exact_keypoints(truth);
-  for (std::size_t j = 0; j < kBodies; ++j) {
-    const Vector3d still = 0.05 * test::random_vector(random), slow = 0.02 * test::random_vector(random);
-    for (std::size_t t = 0; t < clip.rotations.size(); ++t) {
-      const Vector3d error = still + slow * std::sin(0.05 * static_cast<double>(t));
-      clip.rotations[t][j] = log_map(exp_map(clip.rotations[t][j]) * exp_map(error));
-    }
-  }
-  for (Vector3d& p : clip.trans) p += Vector3d(0.15, -0.1, 0.08);
-  return clip;
-}
-
-FitConfig exact_camera() {
-  FitConfig config;
-  config.focal_sigma = config.tilt_sigma = config.beta_sigma = 0.0;
-  config.flat_offset_sigma = config.limb_offset_sigma = config.lead_sigma = 0.0;
-  return config;
-}
-
-Metrics against(const Clip& truth, const Clip& motion) {
-  const auto samples = [](const Clip& c) {
-    return sample_motion(make_character(c.usable_betas()), poses_of(c), c.fps);
-  };
-  const MotionSamples t = samples(truth);
-  return evaluate_motion(samples(motion), &t);
-}
-
-Clip noisy_of(const Clip& truth, const char* preset, KeypointSet set, std::uint64_t seed) {
-  synth::NoiseConfig config;
-  config.preset = synth::noise_preset(preset);
-  config.keypoints = set;
-  config.seed = seed;
-  return synth::add_noise(truth, config);
-}
 
 bool same(const Clip& a, const Clip& b) {
   return a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas &&
@@ -109,55 +46,6 @@ TEST(Fit, KneesAndElbowsAreHingesAfterwards) {
   for (const auto& frame : fitted.rotations)
     for (int b : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow})
       EXPECT_LT(frame[b].cross(hinge_axis(b)).norm(), 1e-9);
-}
-
-TEST(Fit, ABurstOfExchangedSidesIsHealed) {
-  const Clip truth = truth_of("walk"), input = disturbed(truth, 3);
-  const Clip expected = fit_keypoints(input, exact_camera(), nullptr);
-  Clip swapped = input;
-  for (std::size_t t = 30; t < 38; ++t) {
-    for (const std::size_t left : std::initializer_list<std::size_t>{
-             kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
-      std::swap(swapped.keypoints->uvc[t][left], swapped.keypoints->uvc[t][left + 1]);
-  }
-  FitReport report;
-  const Clip fitted = fit_keypoints(swapped, exact_camera(), &report);
-  EXPECT_EQ(report.swapped_frames, 8);
-  EXPECT_TRUE(fitted.keypoints->uvc == input.keypoints->uvc);
-  EXPECT_LT(against(expected, fitted).gmpjpe.value, 0.5);
-}
-
-TEST(Fit, DetectionsWithoutConfidenceAreNeverRead) {
-  const Clip truth = truth_of("walk");
-  Clip zeros = disturbed(truth, 4), garbage = zeros;
-  Random random(1, {});
-  int dropped = 0;
-  for (std::size_t t = 0; t < zeros.keypoints->uvc.size(); ++t)
-    for (std::size_t k = 0; k < kBodies; ++k)
-      if (random.uniform() < 0.2) {
-        zeros.keypoints->uvc[t][k].setZero();
-        garbage.keypoints->uvc[t][k] = Vector3d(1e4 * random.normal(), -5e3, 0.0);
-        ++dropped;
-      }
-  FitReport report;
-  const Clip a = fit_keypoints(zeros, exact_camera(), &report);
-  const Clip b = fit_keypoints(garbage, exact_camera(), nullptr);
-  EXPECT_EQ(report.dropped_points, dropped);
-  EXPECT_TRUE(a.rotations == b.rotations && a.trans == b.trans);
-  EXPECT_LT(against(truth, a).mpjpe.value, 9.0);
-}
-
-TEST(Fit, FarOffDetectionsAreSetAside) {
-  const Clip truth = truth_of("squat");
-  Clip input = disturbed(truth, 4);
-  Random random(2, {});
-  for (auto& frame : input.keypoints->uvc)
-    for (Vector3d& point : frame)
-      if (random.uniform() < 0.05)
-        point.head<2>() += 300.0 * Eigen::Vector2d(random.normal(), random.normal());
-  const Metrics after = against(truth, fit_keypoints(input, exact_camera(), nullptr));
-  EXPECT_LT(after.mpjpe.value, 10.0);
-  EXPECT_LT(after.mrpe.value, 25.0);
 }
 
 TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/fit/projection.h"
 #include "motion/fit/random_problems.h"
+#include "motion/keypoint_names.h"
 
 namespace mimicx::motion::fit {
 namespace {
@@ -36,6 +38,39 @@ TEST(FitProblem, WithoutCorrectionItIsTheInputWithHinges) {
   const PerBody<Quaterniond> q = rotations_of(problem, initial_state(problem), 2);
   for (int b = 0; b < kBodies; ++b) EXPECT_LT(q[b].angularDistance(problem.q[2][b]), 1e-12) << kBodyNames[b];
   EXPECT_LT((problem.p_root[2] - poses_of(clip)[2].p_WB[0]).norm(), 1e-12);
+}
+
+TEST(FitProblem, FaceAndFingersAreNoPointsAndEveryOtherHasItsMirror) {
+  const FitProblem problem = test::random_problem(4, 2, {}, KeypointSet::kCoco133);
+  const std::vector<std::string> names = keypoint_names(KeypointSet::kCoco133);
+  ASSERT_EQ(problem.points.size(), 18u);  // 12 joints, 6 points of the feet
+  for (const FitPoint& point : problem.points) {
+    EXPECT_EQ(names[problem.points[point.mirror].column], mirrored_name(names[point.column]));
+    EXPECT_NE(names[point.column], mirrored_name(names[point.column]));
+  }
+}
+
+TEST(FitProblem, FootPointsStayOnTheFootOfEveryShape) {
+  FitProblem problem = test::random_problem(4, 1, {}, KeypointSet::kCoco133);
+  FitState state = initial_state(problem);
+  for (int i = 0; i < kBetas; ++i) state.g[kFirstBeta + i] = i % 2 ? 1.5 : -1.0;
+  const Character character = character_of(problem, state);
+  const FrameKinematics k = kinematics(problem, state, character, 0);
+  const std::vector<std::string> names = keypoint_names(KeypointSet::kCoco133);
+  int feet = 0;
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    const FitPoint& point = problem.points[i];
+    const auto place = place_of_keypoint(names[point.column]);
+    const Vector3d p_B = place_on(character, *place);
+    EXPECT_LT((point_of(problem, state, k, i) - k.poses.p_WB[point.body] - k.R[point.body] * p_B).norm(),
+              1e-9)
+        << names[point.column];
+    if (place->last < 0) continue;
+    ++feet;
+    const bool heel = names[point.column].ends_with("heel");
+    EXPECT_EQ(p_B.z() < 0.0, heel) << "heels are behind the ankle, toes before the ball";
+  }
+  EXPECT_EQ(feet, 6);
 }
 
 TEST(FitProblem, JitterIsTheWhitePartOfTheInput) {

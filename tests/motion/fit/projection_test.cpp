@@ -42,8 +42,9 @@ TEST(FitProjection, ErrorIsThatOfThePinholeCameraOfTheStateInHeightsOfTheBox) {
   }
 }
 
-TEST(FitProjection, DerivativesMatchFiniteDifferences) {
-  const FitProblem problem = test::random_problem(2, 1, {});
+/// @param set  of the keypoints
+void expect_derivatives(KeypointSet set) {
+  const FitProblem problem = test::random_problem(2, 1, {}, set);
   const FitState state = test::random_state(problem, 2, 0.1);
   const auto errors = [&](const FitState& s) {
     const test::Moved m = test::move(problem, s);
@@ -63,6 +64,10 @@ TEST(FitProjection, DerivativesMatchFiniteDifferences) {
     EXPECT_LT((found.by_offset - expected.block<2, kOffsets>(row, kFrameUnknowns + offset_of(k))).norm(),
               1e-7);
   }
+}
+
+TEST(FitProjection, DerivativesMatchFiniteDifferences) {
+  for (const KeypointSet set : {KeypointSet::kJoints22, KeypointSet::kCoco133}) expect_derivatives(set);
 }
 
 TEST(FitProjection, ALeadIsTheMotionAFewFramesLater) {

@@ -13,14 +13,14 @@ namespace mimicx::test {
 
 /// A few frames of random motion with detections by a camera in front of it.
 inline motion::fit::FitProblem random_problem(std::uint64_t seed, int frames,
-                                              const motion::fit::FitConfig& config) {
+                                              const motion::fit::FitConfig& config,
+                                              motion::KeypointSet set = motion::KeypointSet::kJoints22) {
   motion::Clip clip = random_clip(seed, frames, 0.15);
   motion::synth::Camera camera;
   camera.intrinsics << 900, 2, 640, 0, 950, 360, 0, 0, 1;
   camera.extrinsics.block<3, 3>(0, 0) << 1, 0, 0, 0, 0.1, -std::sqrt(0.99), 0, std::sqrt(0.99), 0.1;
   camera.extrinsics.block<3, 1>(0, 3) = Vector3d(0.1, 1.2, 4.5);
-  clip.keypoints = motion::synth::detect_keypoints(motion::poses_of(clip), camera,
-                                                   motion::KeypointSet::kJoints22, {}, seed, clip.fps);
+  clip.keypoints = motion::synth::detect_keypoints(motion::poses_of(clip), camera, set, {}, seed, clip.fps);
   return motion::fit::make_problem(clip, config);
 }
 

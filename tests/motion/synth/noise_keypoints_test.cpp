@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "motion/synth/noise_fixtures.h"
 
@@ -189,6 +190,27 @@ TEST(DetectKeypoints, NamesTheCoco17PointsAndPutsThemOnTheSameJoints) {
     EXPECT_LT((k.uvc[40][i] - project(camera, poses[40].p_WB[body])).head<2>().norm(), 45.0) << names[i];
   }
   EXPECT_EQ(keypoint_names(KeypointSet::kJoints22)[kLeftFoot], "left_foot");
+}
+
+TEST(DetectKeypoints, WholeBodyPointsLieOnTheBodyPartThatTheyAreCalledAfter) {
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("wave"));
+  const Camera camera = place_camera(poses, 7);
+  const Keypoints k = detect_keypoints(poses, camera, KeypointSet::kCoco133, {}, 7, 30.0);
+  ASSERT_EQ(k.names.size(), 133u);
+  const std::map<std::string, int> parts = {{"left_heel", kLeftAnkle},
+                                            {"right_heel", kRightAnkle},
+                                            {"left_big_toe", kLeftFoot},
+                                            {"right_small_toe", kRightFoot},
+                                            {"left_forefinger4", kLeftWrist},
+                                            {"right_thumb1", kRightWrist},
+                                            {"face-30", kHead}};
+  for (std::size_t i = 0; i < k.names.size(); ++i) {
+    const auto part = parts.find(k.names[i]);
+    if (part == parts.end() || k.uvc[40][i].z() == 0.0) continue;
+    const double metre = camera.intrinsics(0, 0) / project(camera, poses[40].p_WB[part->second]).z();
+    EXPECT_LT((k.uvc[40][i] - project(camera, poses[40].p_WB[part->second])).head<2>().norm(), 0.25 * metre)
+        << k.names[i];
+  }
 }
 
 }  // namespace
