@@ -1,7 +1,6 @@
 #include "control/plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 namespace mimicx::control {
@@ -15,7 +14,7 @@ struct Attempt {
   Plan& plan;  ///< counts what it took
 
   /// @param backtracks  at most so many, where the configuration allows more
-  HorizonResult run(const Cost& cost, int backtracks, const List<Control>& guess = {}) const {
+  HorizonResult run(const Cost& cost, int backtracks, const Trajectory& guess = {}) const {
     Trajectory start;
     start.x = {as_floats(system.at(0))};
     HorizonConfig horizon = config.horizon;
@@ -35,25 +34,47 @@ HorizonResult better_of(HorizonResult lost, HorizonResult again) {
   return again.ending != Ending::kLost || again.motion.size() > lost.motion.size() ? again : lost;
 }
 
-/// Largest force and moment of help within half a second of a frame.
-void find_help(const System& system, const Trajectory& helped, Loss& loss) {
-  const int around = static_cast<int>(std::lround(0.5 * system.fps));
-  const int first = std::max(0, loss.frame - around), last = std::min(helped.size(), loss.frame + around);
-  for (int t = first; t < last; ++t) {
-    const Wrench<P> help = help_of(system, helped.u[t]);
-    loss.help_force = std::max(loss.help_force, lane_of(help.f, 0).norm());
-    loss.help_moment = std::max(loss.help_moment, lane_of(help.n, 0).norm());
-  }
+List<Array<float, kHelp>> help_in(const Trajectory& motion) {
+  List<Array<float, kHelp>> help;
+  for (const Control& u : motion.u) std::copy_n(u.begin() + kDofs, kHelp, help.emplace_back().begin());
+  return help;
 }
 
+/// @param price  factor on the price of help
+Cost with_price(const Cost& cost, double price) {
+  Cost out = cost;
+  out.weights.help *= price;
+  out.weights.help_spin *= price;
+  return out;
+}
+
+/// A plan with help, and the factor on the price of help that it took.
+struct SoftPlan {
+  HorizonResult found;
+  double price;
+};
+
 /// Plans with help, at its price and, where that is too high to stay with the reference, at a hundredth.
-HorizonResult plan_softly(const Attempt& attempt, const Cost& cost) {
+SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
+  constexpr double kCheap = 0.01;
   HorizonResult found = attempt.run(cost, 1);
-  if (found.ending != Ending::kLost) return found;
-  Cost cheap = cost;
-  cheap.weights.help *= 0.01;
-  cheap.weights.help_spin *= 0.01;
-  return attempt.run(cheap, 3);
+  if (found.ending != Ending::kLost) return {std::move(found), 1.0};
+  return {attempt.run(with_price(cost, kCheap), 3), kCheap};
+}
+
+/// Makes help dearer from stage to stage until next to none is left. Each stage begins with the motion of the
+/// one before and follows that instead of the reference: so the motion moves away from the reference no
+/// faster than the body needs. A stage that is lost is the last.
+Trajectory stiffen(const Attempt& soft, const Cost& cost, Trajectory motion, double price) {
+  constexpr double kDear = 4.0;
+  while (price < kDear) {
+    price *= soft.config.stiffening;
+    const Cost dearer = with_goal(soft.system, with_price(cost, price), motion.x);
+    HorizonResult stage = soft.run(dearer, 2, motion);
+    if (stage.ending != Ending::kFollowed) break;
+    motion = std::move(stage.motion);
+  }
+  return motion;
 }
 
 /// Follows from farther away: nearly the same motion, but distances and changes of the controls cost little
@@ -67,17 +88,21 @@ HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   return attempt.run(gentle, attempt.config.horizon.backtracks);
 }
 
-/// By way of help: a soft plan, then a hard one towards it. @param lost  the plan without
+/// By way of help: a soft plan, stiffened, then a hard one towards it. @param lost  the plan without
 /// @return what the hard one came to, or the longer of both where it was lost, too
-HorizonResult plan_soft_then_hard(const Attempt& hard, const Cost& cost, HorizonResult lost, Loss& loss) {
+HorizonResult plan_soft_to_hard(const Attempt& hard, const Cost& cost, HorizonResult lost) {
   System soft_system = hard.system;
   soft_system.soft = true;
-  const HorizonResult soft = plan_softly({soft_system, hard.config, hard.control, hard.plan}, cost);
-  find_help(soft_system, soft.motion, loss);
-  if (soft.ending != Ending::kFollowed) return lost;
-  List<Control> guess = soft.motion.u;
-  for (Control& u : guess) std::fill(u.begin() + kDofs, u.end(), 0.0f);
-  HorizonResult again = hard.run(with_goal(hard.system, cost, soft.motion.x), 4, guess);
+  const Attempt soft{soft_system, hard.config, hard.control, hard.plan};
+  SoftPlan first = plan_softly(soft, cost);
+  hard.plan.soft_help = help_in(first.found.motion);
+  if (first.found.ending != Ending::kFollowed) {
+    lost.ending = first.found.ending;
+    return lost;
+  }
+  Trajectory stiff = stiffen(soft, cost, std::move(first.found.motion), first.price);
+  for (Control& u : stiff.u) std::fill(u.begin() + kDofs, u.end(), 0.0f);
+  HorizonResult again = hard.run(with_goal(hard.system, cost, stiff.x), 4, stiff);
   hard.plan.by_way_of_help = again.ending == Ending::kFollowed;
   return better_of(std::move(lost), std::move(again));
 }
@@ -86,10 +111,8 @@ void fill(const System& system, const Trajectory& motion, Plan& plan) {
   plan.states = motion.x;
   plan.cost = motion.cost;
   plan.worst_distance = motion.worst;
-  for (const Control& u : motion.u) {
-    std::copy_n(u.begin(), kDofs, plan.residuals.emplace_back().begin());
-    if (system.soft) std::copy_n(u.begin() + kDofs, kHelp, plan.help.emplace_back().begin());
-  }
+  for (const Control& u : motion.u) std::copy_n(u.begin(), kDofs, plan.residuals.emplace_back().begin());
+  if (system.soft) plan.help = help_in(motion);
 }
 
 }  // namespace
@@ -99,12 +122,12 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   Plan plan;
   const Attempt attempt{system, config, control, plan};
   HorizonResult found =
-      system.soft ? plan_softly(attempt, cost) : attempt.run(cost, config.horizon.backtracks);
+      system.soft ? plan_softly(attempt, cost).found : attempt.run(cost, config.horizon.backtracks);
   if (found.ending == Ending::kLost) {
     Loss loss{found.lost_frame, found.lost_body, found.lost_distance};
     if (!system.soft) found = better_of(std::move(found), plan_gently(attempt, cost));
     if (found.ending == Ending::kLost && config.soft_to_hard && !system.soft)
-      found = plan_soft_then_hard(attempt, cost, std::move(found), loss);
+      found = plan_soft_to_hard(attempt, cost, std::move(found));
     if (found.ending == Ending::kLost) {
       if (found.lost_frame > loss.frame) loss.frame = found.lost_frame;
       plan.loss = loss;
@@ -116,6 +139,18 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   if (config.gains && plan.ending == Ending::kFollowed)
     plan.gains = feedback_gains(system, cost, found.motion, config.gain_config, control);
   return plan;
+}
+
+List<Vector6d> wrenches_of(const List<Array<float, kHelp>>& help, double mass) {
+  List<Vector6d> wrenches;
+  for (const Array<float, kHelp>& row : help) {
+    Vector6d& wrench = wrenches.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      wrench[k] = mass * kHelpRadius * kHelpRadius * static_cast<double>(row[3 + k]);
+      wrench[3 + k] = mass * static_cast<double>(row[k]);
+    }
+  }
+  return wrenches;
 }
 
 Trajectory trajectory_of(const Plan& plan) {

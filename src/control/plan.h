@@ -8,9 +8,10 @@
 /// result does not depend on the number of threads.
 ///
 /// A reference that is lost is planned a second time from farther away: distances cost less beside the rest.
-/// If that is lost, too, the third plan has help (system.h), and the fourth has none. The fourth plan follows
-/// the motion of the helped body instead of the reference: the penalty on help has drawn that motion towards
-/// what the body can do by itself. A soft system is planned with help alone; its result is no simulation.
+/// If that is lost, too, it goes from soft to hard: a plan with help (system.h) follows the reference; help
+/// gets dearer from stage to stage, each stage following the one before, and so draws the motion to what the
+/// body can do by itself; the last plan follows that and has no help. What it comes to is a true simulation.
+/// A soft system is planned with help alone; its result is no simulation.
 #pragma once
 
 #include <optional>
@@ -26,26 +27,26 @@ struct PlanConfig {
   Linearisation linearisation;
   HorizonConfig horizon;
   bool soft_to_hard = true;  ///< where the reference is lost, plan again by way of help
+  double stiffening = 8.0;   ///< factor on the price of help from stage to stage
   bool gains = false;        ///< compute the feedback gains of a plan that was followed
   GainConfig gain_config;
 };
 
-/// Where a reference was lost and what it would have taken to follow it there.
+/// Where a reference was lost.
 struct Loss {
   int frame = -1;       ///< first frame that no window reached
   int body = -1;        ///< the body that was farthest from its reference in the longest try
   double distance = 0;  ///< of it, m
-  /// Largest help of the plan with help within half a second of that frame: with so much something outside of
-  /// the body would have to push. Zero where that plan does not reach the frame, or was not made.
-  double help_force = 0;   ///< N
-  double help_moment = 0;  ///< N·m
 };
 
 struct Plan {
   List<State<double>> states;           ///< [frames planned], from frame 0; all of them unless it was lost
   List<Array<float, kDofs>> residuals;  ///< [frames planned − 1]
   List<Array<float, kHelp>> help;       ///< [frames planned − 1] of a soft system, else empty
-  List<Eigen::MatrixXf> gains;          ///< [frames planned − 1] K_t (gains.h), where asked for
+  /// Help that was left in the soft stage of a hard plan, [frames that it reached − 1]: what somebody outside
+  /// of the body would have to do. Empty where no soft stage was needed.
+  List<Array<float, kHelp>> soft_help;
+  List<Eigen::MatrixXf> gains;  ///< [frames planned − 1] K_t (gains.h), where asked for
   Ending ending = Ending::kFollowed;
   std::optional<Loss> loss;
   bool by_way_of_help = false;  ///< followed only after a plan with help had shown how
@@ -58,6 +59,9 @@ struct Plan {
 
 /// @throws std::invalid_argument as make_cost does
 Plan make_plan(const System& system, const PlanConfig& config, const PlanControl& control = {});
+
+/// Moments and forces on the pelvis that numbers of help stand for, N·m, N, world axes. @param mass  kg
+List<Vector6d> wrenches_of(const List<Array<float, kHelp>>& help, double mass);
 
 /// The plan as a trajectory, for feedback_gains and test_pushes.
 Trajectory trajectory_of(const Plan& plan);

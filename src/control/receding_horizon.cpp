@@ -38,25 +38,26 @@ struct Window {
   Sweep sweep;
 };
 
-/// The window of `n` frames after the motion's last state: the rest of the window before, then the goal, with
-/// gaps.
+/// The window of `n` frames after the motion's last state: the rest of the window before, then the guess,
+/// then the goal, with gaps.
 Trajectory first_guess(const Task& task, const Trajectory& motion, const Trajectory& last, int n,
-                       const List<Control>& guess) {
+                       const Trajectory& guess) {
   Trajectory window;
   window.begin = motion.begin + motion.size();
   window.before = motion.u.empty() ? motion.before : motion.u.back();
   window.x.push_back(motion.x.back());
   for (int k = 0; k < n; ++k) {
     const int frame = window.begin + k, in_last = frame - last.begin;
-    const bool known = in_last >= 0 && in_last < last.size();
-    if (known)
+    if (in_last >= 0 && in_last < last.size()) {
       window.u.push_back(last.u[in_last]);
-    else if (frame < static_cast<int>(guess.size()))
-      window.u.push_back(guess[frame]);
-    else
+      window.x.push_back(last.x[in_last + 1]);
+    } else if (frame < guess.size()) {
+      window.u.push_back(guess.u[frame]);
+      window.x.push_back(guess.x[frame + 1]);
+    } else {
       window.u.push_back(window.u.empty() ? Control{} : window.u.back());
-    const int next = frame + 1;
-    window.x.push_back(known ? last.x[in_last + 1] : as_floats(task.cost.goal[next]));
+      window.x.push_back(as_floats(task.cost.goal[frame + 1]));
+    }
   }
   window.gaps = find_gaps(task.system, window);
   window.cost = window.worst = std::numeric_limits<double>::infinity();
@@ -166,7 +167,7 @@ void roll_plain(const System& system, const Cost& cost, Trajectory& motion) {
 
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
                                 const HorizonConfig& config, const PlanControl& control, Trajectory start,
-                                int end, const List<Control>& guess) {
+                                int end, const Trajectory& guess) {
   const Task task{system, cost, config, control.threads};
   HorizonResult result;
   result.motion = std::move(start);

@@ -47,10 +47,11 @@ struct HorizonResult {
 
 /// Follows the cost's goal from the last state of `start` to frame `end`.
 /// @param start  at least one state; its controls are the history
-/// @param guess  controls to start from, [frames − 1], or empty: residuals of zero
+/// @param guess  a motion from frame 0 to begin with, as far as it goes; behind its end, and without one, a
+///               frame begins with the controls before it and with the goal's state
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
                                 const HorizonConfig& config, const PlanControl& control, Trajectory start,
-                                int end, const List<Control>& guess = {});
+                                int end, const Trajectory& guess = {});
 
 /// Rolls a motion out from its first state under its controls as they are: its states, cost and distance.
 void roll_plain(const System& system, const Cost& cost, Trajectory& motion);

@@ -53,6 +53,7 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion::Ref
   kept.training_seconds = trained.training_seconds;
   kept.samples = trained.samples;
   kept.plan = plan.plan;
+  kept.help = plan.help;
   for (const record::Ending ending : {plan.ending, trained.ending})
     if (ending == record::Ending::kLimitSeconds) kept.ending = ending;
   if (!keep_plan && !plan.reason.empty()) kept.notes.push_back(plan.reason);

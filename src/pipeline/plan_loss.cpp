@@ -10,6 +10,8 @@ namespace {
 
 /// Frames before the loss in which its cause is looked for: what topples a body takes most of a second.
 constexpr int kFramesBefore = 30;
+/// Frames behind it that count among those which took help: a body that only just passes falls there.
+constexpr int kFramesAfter = 15;
 
 template <class... Args>
 std::string print(const char* format, Args... args) {
@@ -19,8 +21,7 @@ std::string print(const char* format, Args... args) {
 }
 
 /// What the reference asks for in frames first … last that no body can do.
-std::string needs_in_words(const motion::Reference& reference, int first, int last) {
-  const audit::PoseNeeds needs = audit::needs_of_poses(reference.character, reference.poses, reference.fps);
+std::string needs_in_words(const audit::PoseNeeds& needs, int first, int last) {
   std::string text;
   for (const audit::Stretch& stretch : audit::infeasible_stretches(needs))
     if (stretch.last >= first && stretch.first <= last)
@@ -34,17 +35,17 @@ std::string needs_in_words(const motion::Reference& reference, int first, int la
 
 }  // namespace
 
-std::string loss_in_words(const motion::Reference& reference, const control::Loss& loss) {
-  std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / reference.fps);
+std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& needs,
+                          const PerFrame<Vector6d>& help) {
+  std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / needs.fps);
   if (loss.body >= 0)
     text +=
         print(": %s is %.2f m from its reference", std::string(kBodyNames[loss.body]).c_str(), loss.distance);
-  if (loss.help_force > 0.0 || loss.help_moment > 0.0)
-    text += print("; a hand that holds the pelvis would keep it there with %.0f N and %.0f N m",
-                  loss.help_force, loss.help_moment);
-  if (reference.size() < 3) return text;
+  if (needs.frames.empty()) return text;
   const int first = std::max(loss.frame - kFramesBefore, 0);
-  return text + "; " + needs_in_words(reference, first, std::min(loss.frame, reference.size() - 1));
+  text += "; " + needs_in_words(needs, first, std::min(loss.frame, needs.frames.count() - 1));
+  const std::string helped = help_in_words(help, needs.mass, first, loss.frame + kFramesAfter);
+  return helped.empty() ? text : text + "; " + helped;
 }
 
 }  // namespace mimicx::pipeline

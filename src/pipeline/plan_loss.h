@@ -4,13 +4,15 @@
 #include <string>
 
 #include "control/plan.h"
-#include "motion/reference.h"
+#include "pipeline/reference_needs.h"
 
 namespace mimicx::pipeline {
 
 /// "the plan is lost at frame 132 (4.40 s): left_foot is 0.41 m from its reference; …", then what the
-/// reference asks for within a second before that no body can do (pipeline/audit/pose_verdict.h). Where that
-/// is next to nothing, a body could follow, and it is the search that failed: the sentence says so.
-std::string loss_in_words(const motion::Reference& reference, const control::Loss& loss);
+/// reference asks for within a second before that no body can do (pipeline/audit/pose_verdict.h), and how
+/// much help it took to pass (reference_needs.h). Where the poses ask for next to nothing, a body could
+/// follow, and it is the search that failed: the sentence says so.
+std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& needs,
+                          const PerFrame<Vector6d>& help);
 
 }  // namespace mimicx::pipeline

@@ -11,20 +11,6 @@
 namespace mimicx::pipeline {
 namespace {
 
-std::vector<physics::State<double>> states_of(const motion::Reference& reference) {
-  std::vector<physics::State<double>> states;
-  for (const motion::ReferenceFrame& frame : reference.frames) {
-    physics::State<double>& x = states.emplace_back();
-    x.p_root = physics::from_eigen(frame.p_root);
-    x.v_root = physics::from_eigen(frame.v_root);
-    for (std::size_t i = 0; i < kBodies; ++i) {
-      x.q[i] = physics::from_eigen(frame.q[i]);
-      x.omega[i] = physics::from_eigen(frame.omega[i]);
-    }
-  }
-  return states;
-}
-
 /// The plan that an earlier run finished for this very input; none where the file is not that.
 std::optional<output::StoredPlan> finished_plan(const SequenceJob& job) {
   const std::filesystem::path file = job.folder.plan(job.name);
@@ -61,31 +47,29 @@ struct Watch {
   }
 };
 
-output::StoredPlan make(const motion::Reference& reference, const PlanningConfig& config, Watch& watch) {
+output::StoredPlan make(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+                        const control::PlanConfig& plan, Watch& watch) {
   const SequenceJob& job = watch.job;
   job.context.progress.start(job.name + ": plan", 0.0, reference.size(), "frames");
   output::StoredPlan stored;
   stored.input_checksum = job.input_checksum;
   stored.fps = reference.fps;
-  stored.simulation = config.simulation;
-  stored.reference = states_of(reference);
-  control::PlanConfig plan = config.plan;
-  plan.certainty = certainty_of(reference, config.plan.plausible_acceleration);
+  stored.simulation = simulation;
+  stored.reference = rl::tracking::simulator_states(reference);
   stored.plan = control::make_plan(system_of(reference, stored), plan, watch.control());
   return stored;
 }
 
 /// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
-void leave_gains(const motion::Reference& reference, const PlanningConfig& config,
+void leave_gains(const motion::Reference& reference, const control::PlanConfig& config,
                  const output::StoredPlan& stored, Watch& watch) {
   const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
   std::filesystem::remove(file);
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
   const control::System system = system_of(reference, stored);
-  const control::Cost cost = control::make_cost(system, config.plan.weights,
-                                                certainty_of(reference, config.plan.plausible_acceleration));
+  const control::Cost cost = control::make_cost(system, config.weights, config.certainty);
   const auto gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
-                                             config.plan.gain_config, watch.control());
+                                             config.gain_config, watch.control());
   if (gains.empty()) return;  // it was told to stop
   std::filesystem::create_directories(file.parent_path());
   output::write_gains(file, gains);
@@ -137,22 +121,25 @@ SimulatedSequence plan_sequence(const motion::Reference& reference, const Planni
   SimulatedSequence made;
   made.method = "plan";
   Watch watch{job};
+  control::PlanConfig settings = config.plan;
+  settings.certainty = certainty_of(reference, config.plan.plausible_acceleration);
   std::optional<output::StoredPlan> stored = finished_plan(job);
   if (!stored) {
-    stored = make(reference, config, watch);
+    stored = make(reference, config.simulation, settings, watch);
     if (!watch.interrupted) {
       std::filesystem::create_directories(job.folder.plan(job.name).parent_path());
       output::write_plan(job.folder.plan(job.name), *stored);
     }
   }
-  if (!watch.interrupted) leave_gains(reference, config, *stored, watch);
+  if (!watch.interrupted) leave_gains(reference, settings, *stored, watch);
   made.planning_seconds = record::steady_seconds() - watch.started;
   made.interrupted = watch.interrupted;
   if (made.interrupted) return made;
   const control::Plan& plan = stored->plan;
   made.ending = ending_of(plan);
   made.plan = values_of(plan);
-  if (plan.loss) made.reason = loss_in_words(reference, *plan.loss);
+  made.help = control::wrenches_of(plan.soft_help, reference.character.total_mass());
+  if (plan.loss) made.reason = loss_in_words(*plan.loss, job.needs, made.help);
   if (made.ending == record::Ending::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);

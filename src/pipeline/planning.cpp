@@ -49,6 +49,7 @@ void for_each_setting(Config& config, const Add& add) {
   add("plan_backtracks", h.backtracks, 0, 1000);
   add("plan_budget", h.budget, 0, 1e6);
   add("plan_soft_to_hard", config.soft_to_hard, 0, 1);
+  add("plan_stiffening", config.stiffening, 1.1, 1e9);
   add("plan_plausible_acceleration", config.plausible_acceleration, 0, 1e9);
 }
 

@@ -16,6 +16,7 @@
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/timing.h"
+#include "pipeline/reference_needs.h"
 #include "pipeline/report/run_report.h"
 #include "pipeline/scores.h"
 
@@ -95,26 +96,31 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
 }
 
 /// What the reference asks for that no body can do, into the entry.
-void judge_reference(const motion::Reference& reference, record::SequenceEntry& entry) {
-  if (reference.size() < 3) return;
-  const audit::PoseNeeds needs = audit::needs_of_poses(reference.character, reference.poses, reference.fps);
+void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry) {
+  if (needs.frames.empty()) return;
   const audit::PoseVerdict verdict = audit::verdict_on(needs);
   entry.feasibility = verdict.values;
   if (verdict.longest.wrong != audit::Wrong::kNothing)
     entry.notes.push_back("the reference is not feasible: " + verdict.words);
 }
 
+/// A prepared motion and what its reference asks for that no body has.
+struct JudgedMotion : PreparedMotion {
+  audit::PoseNeeds needs;
+};
+
 /// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
 /// sees a wrong axis there can stop the run.
-PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
-  const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit, run.config.threads);
+JudgedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
+  JudgedMotion motion{prepare_motion(entry.input, run.config.read, run.config.fit, run.config.threads), {}};
+  motion.needs = needs_of(motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
-  judge_reference(motion.reference, entry);
+  judge_reference(motion.needs, entry);
   for (const auto* lines : {&entry.decisions, &entry.notes})
     for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
   return motion;
@@ -135,6 +141,7 @@ void judge_sequence(const Method& method, const motion::Reference& reference, co
                     record::SequenceEntry& entry) {
   entry.method = made.method;
   entry.plan = made.plan;
+  append(entry.feasibility, help_values(made.help, reference.character.total_mass()));
   entry.samples = made.samples;
   entry.ending = made.ending;
   entry.arrangement = made.arrangement;
@@ -164,12 +171,15 @@ std::filesystem::path with_parents(const std::filesystem::path& file) {
   return file;
 }
 
-/// Fit, reference, simulated motion and, where wanted, its physics steps.
-void write_sequence(const RunState& run, const PreparedMotion& motion, const SimulatedSequence& made,
+/// Fit, reference and its feasibility, simulated motion and, where wanted, its physics steps.
+void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
                     record::SequenceEntry& entry) {
   const record::RunFolder& folder = run.folder;
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
   output::write_reference(folder.reference(entry.name), motion.input, motion.reference);
+  if (!motion.needs.frames.empty())
+    record::write_feasibility(with_parents(folder.feasibility(entry.name)),
+                              frame_feasibility(motion.needs, made.help));
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
   output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after,
@@ -186,12 +196,12 @@ void write_sequence(const RunState& run, const PreparedMotion& motion, const Sim
 /// @return whether the sequence was interrupted
 bool do_sequence(RunState& run, record::SequenceEntry& entry, std::size_t& told) {
   const double started = record::steady_seconds();
-  const PreparedMotion motion = prepare_sequence(run, entry);
+  const JudgedMotion motion = prepare_sequence(run, entry);
   told = entry.notes.size();
   entry.input_metrics = score_input(motion.input, motion.reference);
   const SimulatedSequence made = run.method.simulate(
       motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
-                         run.config.threads, run.config.limit_seconds, run.context});
+                         run.config.threads, run.config.limit_seconds, motion.needs, run.context});
   record::Timing& timing = timing_of(run, entry.name);
   timing.planning_seconds += made.planning_seconds;
   timing.training_seconds += made.training_seconds;

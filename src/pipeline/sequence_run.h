@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "motion/import/motion_file.h"
+#include "pipeline/audit/pose_needs.h"
 #include "pipeline/record/manifest.h"
 #include "pipeline/record/run_context.h"
 #include "pipeline/record/run_folder.h"
@@ -50,7 +51,8 @@ struct SequenceJob {
   bool substeps = false;  ///< record every physics step of the result
   bool gains = false;     ///< leave the feedback gains of a plan
   int threads = 1;
-  double limit_seconds = 0.0;  ///< safety stop; 0: none
+  double limit_seconds = 0.0;     ///< safety stop; 0: none
+  const audit::PoseNeeds& needs;  ///< of the reference; without frames under 3
   const record::RunContext& context;
 };
 
@@ -65,6 +67,7 @@ struct SimulatedSequence {
   rl::tracking::TrackingRollout after;                  ///< the result
   std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option}; empty without options
   NamedValues plan = {};                                ///< what planning it took
+  PerFrame<Vector6d> help = {};         ///< moment and force that a plan's soft stage was left with; or none
   std::string reason = {};              ///< why it is no success, or may be none, where the method knows
   std::vector<std::string> notes = {};  ///< for the manifest
 };

@@ -8,19 +8,11 @@
 #include "core/random.h"
 #include "motion/prepare.h"
 #include "motion/synth/synth.h"
+#include "rl/tracking/clip.h"
 
 namespace mimicx::control {
 
-inline State<double> to_state(const motion::ReferenceFrame& frame) {
-  State<double> x;
-  x.p_root = from_eigen(frame.p_root);
-  x.v_root = from_eigen(frame.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    x.q[i] = from_eigen(frame.q[i]);
-    x.omega[i] = from_eigen(frame.omega[i]);
-  }
-  return x;
-}
+using rl::tracking::simulator_state;
 
 /// A synthetic motion, cut to its first frames (0: all of it).
 inline motion::Reference synthetic_reference(const std::string& kind, std::uint64_t seed,
@@ -38,9 +30,7 @@ inline motion::Reference synthetic_reference(const std::string& kind, std::uint6
 }
 
 inline System system_of(const motion::Reference& reference, const SimulationConfig& config = {}) {
-  std::vector<State<double>> states;
-  for (const motion::ReferenceFrame& frame : reference.frames) states.push_back(to_state(frame));
-  return make_system(reference.character, config, std::move(states), reference.fps);
+  return make_system(reference.character, config, rl::tracking::simulator_states(reference), reference.fps);
 }
 
 /// A change of a state, every coordinate about `size`.

@@ -37,6 +37,7 @@ TEST_P(Followed, WithinTwoMillimetresAndReplayedByTheSimulatorToTheByte) {
   const Plan plan = make_plan(system_of(reference), {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kFollowed);
   EXPECT_FALSE(plan.loss);
+  EXPECT_TRUE(plan.soft_help.empty());
   ASSERT_EQ(plan.states.size(), 75u);
   const rl::tracking::TrackingRollout rollout = replay(reference, plan);
   ASSERT_EQ(rollout.poses.size(), 75u);
@@ -80,10 +81,13 @@ TEST(Plan, AReferenceThatNoBodyCanFollowIsReportedAndNotFought) {
   EXPECT_LT(plan.loss->frame, 45);
   EXPECT_GE(plan.loss->body, 0);
   EXPECT_GT(plan.loss->distance, 0.05);
-  // To hang in the air takes the body's weight.
+  // To hang in the air takes the body's weight; to stand takes nothing.
   const double weight = 9.81 * system.mass;
-  EXPECT_GT(plan.loss->help_force, 0.8 * weight);
-  EXPECT_LT(plan.loss->help_force, 3.0 * weight);
+  const List<Vector6d> help = wrenches_of(plan.soft_help, system.mass);
+  ASSERT_EQ(help.size(), 59u);
+  EXPECT_GT(help[plan.loss->frame].tail<3>().norm(), 0.8 * weight);
+  EXPECT_LT(help[plan.loss->frame].tail<3>().norm(), 3.0 * weight);
+  EXPECT_LT(help[5].tail<3>().norm(), 0.1 * weight);
   EXPECT_FALSE(plan.by_way_of_help);
   EXPECT_GT(plan.states.size(), 10u);
   EXPECT_LT(plan.states.size(), 60u);

@@ -15,7 +15,7 @@ namespace {
 
 TEST(System, RefusesTooFewFramesAndRatesThatDoNotFit) {
   const Character character = make_character();
-  const State<double> x = to_state(synthetic_reference("stand", 501, 2).frames[0]);
+  const State<double> x = simulator_state(synthetic_reference("stand", 501, 2).frames[0]);
   EXPECT_THROW(make_system(character, {}, {x}, 30.0), std::invalid_argument);
   EXPECT_THROW(make_system(character, {}, {x, x}, 37.0), std::invalid_argument);
   EXPECT_EQ(make_system(character, {}, {x, x}, 60.0).substeps, 4);

@@ -12,21 +12,21 @@ TEST(Tangent, AddingAndTakingAwayAreInverse) {
   const motion::Reference walk = synthetic_reference("walk", 501, 30);
   Random random(41);
   for (int trial = 0; trial < 20; ++trial) {
-    const State<double> y = to_state(walk.frames[static_cast<std::size_t>(trial)]);
+    const State<double> y = simulator_state(walk.frames[static_cast<std::size_t>(trial)]);
     const Tangent<double> delta = random_tangent<double>(random, 0.5);
     State<double> x = y;
     retract(x, delta);
     const Tangent<double> back = difference(x, y);
     for (std::size_t k = 0; k < kTangent; ++k) EXPECT_NEAR(back[k], delta[k], 1e-12) << k;
     State<double> again = y;
-    retract(again, difference(to_state(walk.frames[29]), y));
-    const Tangent<double> left = difference(again, to_state(walk.frames[29]));
+    retract(again, difference(simulator_state(walk.frames[29]), y));
+    const Tangent<double> left = difference(again, simulator_state(walk.frames[29]));
     for (std::size_t k = 0; k < kTangent; ++k) EXPECT_NEAR(left[k], 0.0, 1e-12) << k;
   }
 }
 
 TEST(Tangent, CoordinatesAreWhatTheHeaderSays) {
-  const State<double> y = to_state(synthetic_reference("walk", 501, 30).frames[12]);
+  const State<double> y = simulator_state(synthetic_reference("walk", 501, 30).frames[12]);
   const auto moved = [&](int k) {
     Tangent<double> delta{};
     delta[static_cast<std::size_t>(k)] = 0.1;
@@ -57,8 +57,8 @@ TEST(Tangent, CoordinatesAreWhatTheHeaderSays) {
 TEST(Tangent, PacksAgreeWithDouble) {
   const motion::Reference walk = synthetic_reference("walk", 501, 30);
   Random random(42);
-  State<P> a = in_all_lanes<P>(to_state(walk.frames[3]));
-  const State<P> b = in_all_lanes<P>(to_state(walk.frames[7]));
+  State<P> a = in_all_lanes<P>(simulator_state(walk.frames[3]));
+  const State<P> b = in_all_lanes<P>(simulator_state(walk.frames[7]));
   const Tangent<double> delta = random_tangent<double>(random, 0.2);
   Tangent<P> in_lanes;
   for (std::size_t k = 0; k < kTangent; ++k) in_lanes[k] = P(delta[k]);

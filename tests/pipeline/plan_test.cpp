@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "core/npz.h"
+#include "core/units.h"
 #include "motion/clip_file.h"
 #include "pipeline/output/plan_file.h"
+#include "pipeline/record/feasibility_file.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
@@ -50,10 +52,10 @@ struct PlanMotions : testing::Test {
 TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
   EXPECT_EQ(run(planning("run", {stand})).value, record::RunOutcome::kAllGood);
   const auto files = results_of(out("run"));
-  for (const char* name :
-       {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz", "plans/stand.npz"})
+  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz",
+                           "plans/stand.npz", "feasibility/stand.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
-  EXPECT_EQ(files.size(), 5u);
+  EXPECT_EQ(files.size(), 6u);
   EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
   const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
   EXPECT_EQ(motion.at("joint_torques").shape, (std::vector<std::size_t>{20, 55}));
@@ -163,14 +165,44 @@ TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
   EXPECT_EQ(lost.ending, record::Ending::kLost);
   EXPECT_EQ(lost.output, "rejected/lean.npz");
   EXPECT_LT(value_of(lost.plan, "frames"), 45);
-  for (const char* words : {"the plan is lost at frame ", " is 0.", " m from its reference",
-                            "the reference is not feasible there: frames ", "the body tips over; ",
-                            " N m would have to hold it", "limit 0.5 m"})
+  for (const char* words :
+       {"the plan is lost at frame ", " is 0.", " m from its reference",
+        "the reference is not feasible there: frames ", "the body tips over; ", " N m would have to hold it",
+        "; with help the body passes frames 0-", " N m turn it", "limit 0.5 m"})
     EXPECT_NE(lost.reason.find(words), std::string::npos) << words << ": " << lost.reason;
   EXPECT_GT(value_of(lost.feasibility, "infeasible_share"), 0.1);
   EXPECT_EQ(value_of(done.feasibility, "infeasible_share"), 0.0);
   EXPECT_EQ(read_npz(out("run") / "rejected" / "lean.npz").at("poses").shape.at(0), 45u);
   EXPECT_TRUE(done.ok) << done.reason;
+}
+
+TEST_F(PlanMotions, TheFeasibilityOfEveryFrameIsInItsFileTheManifestAndTheReport) {
+  run(planning("run", {lean, stand}));
+  const record::RunFolder made{out("run")};
+  const record::FrameFeasibility lost = record::read_feasibility(made.feasibility("lean"));
+  const record::SequenceEntry says = entry("run", 0);
+  ASSERT_EQ(lost.need.size(), 45u);
+  double need = 0.0, help = 0.0;
+  for (const Vector6d& w : lost.need) need = std::max(need, w.tail<3>().norm());
+  for (const Vector6d& w : lost.help) help = std::max(help, lost.acceleration(w));
+  EXPECT_EQ(need, value_of(says.feasibility, "force_max_N"));
+  EXPECT_EQ(help, value_of(says.feasibility, "help_accel_max_m_s2"));
+  EXPECT_EQ(lost.help.size(), value_of(says.feasibility, "help_frames"));
+  EXPECT_EQ(lost.wrong.at(22), "tips");
+  // To lean needs the weight on the arm by which the centre of mass is beside the feet, and so does the soft
+  // stage.
+  const double weight = kGravity * lost.mass;
+  EXPECT_GT(lost.need.at(22).head<3>().norm(), 0.2 * weight);
+  EXPECT_GT(lost.help.at(22).norm(), 0.1 * weight);
+
+  const record::FrameFeasibility done = record::read_feasibility(made.feasibility("stand"));
+  EXPECT_EQ(done.need.size(), 20u);
+  EXPECT_TRUE(done.help.empty());
+  EXPECT_TRUE(std::isnan(value_of(entry("run", 1).feasibility, "help_frames")));
+  for (const std::string& word : done.wrong) EXPECT_EQ(word, "feasible");
+  const std::string page = read_file(made.report());
+  EXPECT_NE(page.find("\"help\":{\"force\":["), std::string::npos);
+  EXPECT_NE(page.find("\"tips\""), std::string::npos);
 }
 
 TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {

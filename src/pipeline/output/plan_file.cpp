@@ -39,9 +39,14 @@ void add_states(const std::string& prefix, const std::vector<physics::State<doub
   npz.set(prefix + "v", numbers_member({states.size(), kVelocityNumbers}, v, precision));
 }
 
+/// Rows of a member, whatever its shape.
+std::size_t rows_of(const Npz& npz, const std::string& name) {
+  const NpyArray& member = npz.at(name);
+  return member.shape.empty() ? 0 : member.shape[0];
+}
+
 std::vector<physics::State<double>> read_states(const Npz& npz, const std::string& prefix) {
-  const NpyArray& member = npz.at(prefix + "q");
-  const std::size_t count = member.shape.empty() ? 0 : member.shape[0];
+  const std::size_t count = rows_of(npz, prefix + "q");
   const std::vector<double> q = read_numbers(npz, prefix + "q", count, kPositionNumbers);
   const std::vector<double> v = read_numbers(npz, prefix + "v", count, kVelocityNumbers);
   std::vector<physics::State<double>> states(count);
@@ -53,18 +58,19 @@ std::vector<physics::State<double>> read_states(const Npz& npz, const std::strin
   return states;
 }
 
-void add_residuals(const control::Plan& plan, Npz& npz) {
+template <int N>
+void add_rows(const std::string& name, const List<Array<float, N>>& rows, Npz& npz) {
   std::vector<double> values;
-  for (const auto& row : plan.residuals) values.insert(values.end(), row.begin(), row.end());
-  npz.set("residuals", numbers_member({plan.residuals.size(), kDofs}, values, Precision::kFloat32));
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+  npz.set(name, numbers_member({rows.size(), N}, values, Precision::kFloat32));
 }
 
-void read_residuals(const Npz& npz, control::Plan& plan) {
-  const std::size_t count = std::max<std::size_t>(plan.states.size(), 1) - 1;
-  const std::vector<double> values = read_numbers(npz, "residuals", count, kDofs);
-  plan.residuals.resize(count);
+template <int N>
+void read_rows(const Npz& npz, const std::string& name, std::size_t count, List<Array<float, N>>& rows) {
+  const std::vector<double> values = read_numbers(npz, name, count, N);
+  rows.resize(count);
   const double* at = values.data();
-  for (auto& row : plan.residuals)
+  for (auto& row : rows)
     for (float& number : row) number = static_cast<float>(*at++);
 }
 
@@ -85,8 +91,6 @@ void for_each_loss_number(LossType& loss, const Add& add) {
   add("lost_frame", loss.frame);
   add("lost_body", loss.body);
   add("lost_distance", loss.distance);
-  add("help_force", loss.help_force);
-  add("help_moment", loss.help_moment);
 }
 
 std::string read_text(const Npz& npz, const std::string& name) {
@@ -113,12 +117,13 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
     const double value = static_cast<double>(field);
     npz.set(name, NpyArray::from_double({1}, &value));
   };
-  add_residuals(plan, npz);
+  add_rows("residuals", plan.residuals, npz);
   add_states("", plan.states, Precision::kFloat32, npz);
   add_states("reference_", stored.reference, Precision::kFloat64, npz);
   npz.set("ending", NpyArray::scalar_text(std::string(kEndings[static_cast<std::size_t>(plan.ending)])));
   for_each_number(plan, add);
   if (plan.loss) for_each_loss_number(*plan.loss, add);
+  if (!plan.soft_help.empty()) add_rows("soft_help", plan.soft_help, npz);
   npz.set("input_checksum", NpyArray::scalar_text(stored.input_checksum));
   add("fps", stored.fps);
   for_each_simulation_setting(stored.simulation, add);
@@ -140,8 +145,7 @@ void write_gains(const std::filesystem::path& path, const std::vector<Eigen::Mat
 
 std::vector<Eigen::MatrixXf> read_gains(const std::filesystem::path& path) {
   const Npz npz = read_npz(path);
-  const std::vector<std::size_t>& shape = npz.at("gains").shape;
-  const std::size_t count = shape.empty() ? 0 : shape[0];
+  const std::size_t count = rows_of(npz, "gains");
   const std::vector<double> values = read_numbers(npz, "gains", count, kDofs * control::kMemory);
   std::vector<Eigen::MatrixXf> gains(count, Eigen::MatrixXf(kDofs, control::kMemory));
   const double* at = values.data();
@@ -159,11 +163,12 @@ StoredPlan read_plan(const std::filesystem::path& path) {
     field = static_cast<std::decay_t<decltype(field)>>(read_number(npz, name));
   };
   plan.states = read_states(npz, "");
-  read_residuals(npz, plan);
+  read_rows(npz, "residuals", std::max<std::size_t>(plan.states.size(), 1) - 1, plan.residuals);
   stored.reference = read_states(npz, "reference_");
   plan.ending = ending_of(npz);
   for_each_number(plan, read);
   if (npz.has("lost_frame")) for_each_loss_number(plan.loss.emplace(), read);
+  if (npz.has("soft_help")) read_rows(npz, "soft_help", rows_of(npz, "soft_help"), plan.soft_help);
   stored.input_checksum = read_text(npz, "input_checksum");
   read("fps", stored.fps);
   for_each_simulation_setting(stored.simulation, read);

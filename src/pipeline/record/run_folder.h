@@ -6,6 +6,7 @@
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
+///     DIR/feasibility/NAME.npz   what these ask for that no body has, frame by frame
 ///     DIR/substeps/NAME.npz      every physics step of the result, where asked for
 ///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
 ///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
@@ -34,6 +35,9 @@ struct RunFolder {
   std::filesystem::path report() const { return root / "report.html"; }
   std::filesystem::path reference(const std::string& name) const {
     return root / "references" / (name + ".npz");
+  }
+  std::filesystem::path feasibility(const std::string& name) const {
+    return root / "feasibility" / (name + ".npz");
   }
   std::filesystem::path fit(const std::string& name) const { return root / "fits" / (name + ".npz"); }
   std::filesystem::path clean(const std::string& name, const std::string& suffix) const {

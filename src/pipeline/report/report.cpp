@@ -41,6 +41,13 @@ record::Json numbers(const std::vector<double>& values) {
   return list;
 }
 
+record::Json to_json(const ReportNeeds& needs) {
+  return {{"force", numbers(needs.force)},
+          {"acceleration", numbers(needs.acceleration)},
+          {"moment", numbers(needs.moment)},
+          {"bar", numbers(needs.bar)}};
+}
+
 record::Json to_json(const ReportSequence& s) {
   record::Json metrics = {{"columns", s.metric_columns}, {"rows", record::Json::array()}};
   for (const auto& m : s.metrics)
@@ -62,6 +69,11 @@ record::Json to_json(const ReportSequence& s) {
                        {"notes", s.notes},
                        {"series", series},
                        {"log", {{"columns", s.log.columns}, {"rows", rows}}}};
+  if (!s.needs.force.empty()) {
+    json["needs"] = to_json(s.needs);
+    json["needs"]["wrong"] = s.wrong;
+    if (!s.help.force.empty()) json["help"] = to_json(s.help);
+  }
   json["reference"] =
       s.reference.empty() ? record::Json(nullptr) : record::Json(encode_capsules(s.character, s.reference));
   json["simulated"] =

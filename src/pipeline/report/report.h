@@ -28,6 +28,12 @@ struct ReportSeries {
   std::vector<double> values;
 };
 
+/// What the reference asks for that no body has, a value per frame.
+struct ReportNeeds {
+  std::vector<double> force, acceleration, moment;  ///< N, m/s², N·m
+  std::vector<double> bar;                          ///< height of its bar in the band, in [0, 1]
+};
+
 struct ReportSequence {
   std::string name;
   std::string status;  ///< "ok" or "failed"
@@ -39,6 +45,9 @@ struct ReportSequence {
   std::vector<std::string> metric_columns;
   std::vector<ReportMetric> metrics;
   std::vector<std::string> notes;  ///< one line each
+  ReportNeeds needs;               ///< from outside, by the poses; may be empty
+  std::vector<std::string> wrong;  ///< with each of these frames, in a word
+  ReportNeeds help;                ///< left in a plan's soft stage; may be empty, and shorter than the motion
   std::vector<ReportSeries> series;
   /// A column per quantity, a row per iteration, with a column "samples". Columns named "title:part" share
   /// one chart.

@@ -142,7 +142,83 @@ function draw(canvas) {
   parts.sort((p, q) => q.depth - p.depth);
   g.lineWidth = 0.8;
   for (const p of parts) draw_capsule(g, project, p.c, colours[p.who], p.alpha);
-  $('time').textContent = `${state.time.toFixed(2)} s · frame ${frame + 1} / ${clip.frames}`;
+  $('time').textContent = `${state.time.toFixed(2)} s · frame ${frame} of 0–${clip.frames - 1}`;
+}
+
+// ---- what the reference asks for that no body has --------------------------------------------------
+
+// Colours of Okabe and Ito, which colour-blind people tell apart; the height of a bar says how much.
+const kinds = [
+  {words: ['hovers', 'pulled'], colour: '#d55e00', name: 'up or down'},
+  {words: ['drifts', 'slips'], colour: '#0072b2', name: 'sideways'},
+  {words: ['turns', 'tips'], colour: '#e69f00', name: 'a turn'},
+  {words: ['sunk'], colour: '#000000', name: 'in the floor'},
+];
+const feasible_colour = '#b4bcc6', help_colour = '#cc79a7';
+const band = {inset: 8, row: 18, pointed: -1};  // the inset is half of a slider's thumb
+
+const colour_of = (word) => (kinds.find((k) => k.words.includes(word)) || {colour: feasible_colour}).colour;
+
+function band_x(frame, width) { return band.inset + (width - 2 * band.inset) * frame / Math.max(clip.frames - 1, 1); }
+
+function band_frame(x, width) {
+  const frame = Math.round((x - band.inset) / (width - 2 * band.inset) * Math.max(clip.frames - 1, 1));
+  return Math.min(Math.max(frame, 0), clip.frames - 1);
+}
+
+const amount = (n, t) =>
+    `${n.force[t].toFixed(0)} N (${n.acceleration[t].toFixed(1)} m/s²) and ${n.moment[t].toFixed(0)} N m`;
+
+// "frame 61 (2.03 s): the reference is not feasible (hovers); 310 N (4.4 m/s²) and 12 N m would have to come …"
+function need_in_words(frame) {
+  let text = `frame ${frame} (${(frame / clip.fps).toFixed(2)} s): `;
+  if (frame >= clip.needs.force.length) return text + 'behind the end of the reference';
+  const word = clip.needs.wrong[frame];
+  text += word === 'feasible' ? 'the reference is feasible' : `the reference is not feasible (${word})`;
+  text += `; ${amount(clip.needs, frame)} would have to come from outside`;
+  if (!clip.help || frame >= clip.help.force.length) return text;
+  return text + `; in the soft stage ${amount(clip.help, frame)} helped the pelvis`;
+}
+
+function draw_band(current) {
+  const canvas = $('band'), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth;
+  const height = band.row * (clip.help ? 2 : 1);
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  const g = canvas.getContext('2d');
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const wide = Math.max((width - 2 * band.inset) / Math.max(clip.frames - 1, 1), 1);
+  const bars = (needs, foot, colour) => needs.bar.forEach((part, t) => {
+    g.fillStyle = colour(t);
+    const high = Math.max(g.fillStyle === feasible_colour ? 1 : 4, part * (band.row - 3));
+    g.fillRect(band_x(t, width) - wide / 2, foot - high, wide, high);
+  });
+  bars(clip.needs, band.row, (t) => colour_of(clip.needs.wrong[t]));
+  if (clip.help) bars(clip.help, 2 * band.row, () => help_colour);
+  g.fillStyle = '#1d2530';
+  g.fillRect(band_x(current, width) - 0.5, 0, 1, height);
+}
+
+// The band of the present clip and its key; nothing where the run recorded no needs.
+function show_band() {
+  band.pointed = -1;
+  $('needs').hidden = !clip.needs;
+  $('band').style.height = clip.needs ? `${band.row * (clip.help ? 2 : 1)}px` : '0';
+  if (!clip.needs) return;
+  const shown = kinds.filter((k) => k.words.some((w) => clip.needs.wrong.includes(w)));
+  const keys = [{colour: feasible_colour, name: 'feasible'}, ...shown];
+  if (clip.help) keys.push({colour: help_colour, name: 'help in the soft stage (lower row)'});
+  $('need-key').replaceChildren('from outside; a full bar is half the weight or more:', ...keys.flatMap((k) => {
+    const swatch = document.createElement('i');
+    swatch.style.background = k.colour;
+    return [swatch, k.name];
+  }));
+}
+
+function update_band(current) {
+  if (!clip.needs) return;
+  draw_band(current);
+  $('need').textContent = need_in_words(band.pointed < 0 ? current : band.pointed);
 }
 
 // ---- curves ---------------------------------------------------------------------------------------
@@ -245,6 +321,7 @@ function show_clip(index) {
     return item;
   }));
   show_curves();
+  show_band();
   state.time = 0;
 }
 
@@ -264,6 +341,7 @@ function tick(now) {
     c.setAttribute('x2', state.time * c.dataset.w);
   }
   draw($('view'));
+  update_band(Math.min(Math.floor(state.time * clip.fps), clip.frames - 1));
   requestAnimationFrame(tick);
 }
 
@@ -276,6 +354,10 @@ function listen() {
   $('clip').onchange = () => show_clip(Number($('clip').value));
   $('play').onclick = () => set_playing(!state.playing);
   $('scrub').oninput = () => go_to_frame(Number($('scrub').value));
+  const strip = $('band');
+  strip.onpointermove = (e) => { band.pointed = band_frame(e.offsetX, strip.clientWidth); };
+  strip.onpointerleave = () => { band.pointed = -1; };
+  strip.onclick = (e) => go_to_frame(band_frame(e.offsetX, strip.clientWidth));
   const view = $('view');
   view.onpointerdown = (e) => view.setPointerCapture(e.pointerId);
   view.onpointermove = (e) => {

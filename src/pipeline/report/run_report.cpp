@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "motion/clip_file.h"
 #include "motion/metrics.h"
+#include "pipeline/record/feasibility_file.h"
 #include "pipeline/record/table.h"
 #include "pipeline/report/report.h"
 
@@ -79,6 +80,31 @@ std::vector<double> distances(const std::vector<BodyPoses>& a, const std::vector
   return means;
 }
 
+/// A bar is full where half the weight, or half the weight on an arm of a metre, would have to come from
+/// outside.
+constexpr double kFullBar = 0.5;
+
+ReportNeeds report_needs(const PerFrame<Vector6d>& wrenches, double mass) {
+  ReportNeeds needs;
+  for (const Vector6d& w : wrenches) {
+    needs.force.push_back(w.tail<3>().norm());
+    needs.acceleration.push_back(needs.force.back() / mass);
+    needs.moment.push_back(w.head<3>().norm());
+    const double most = std::max(needs.force.back(), needs.moment.back());
+    needs.bar.push_back(std::min(1.0, most / (kFullBar * kGravity * mass)));
+  }
+  return needs;
+}
+
+/// Runs of older versions have no such file.
+void add_feasibility(const std::filesystem::path& file, ReportSequence& s) {
+  if (!std::filesystem::exists(file)) return;
+  const record::FrameFeasibility all = record::read_feasibility(file);
+  s.needs = report_needs(all.need, all.mass);
+  s.wrong = all.wrong;
+  s.help = report_needs(all.help, all.mass);
+}
+
 /// Whether policies were trained for the motion, be it that a plan was written in the end.
 bool was_trained(const record::SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
 
@@ -115,6 +141,7 @@ ReportSequence sequence_of(const record::RunFolder& folder, const record::Sequen
   s.series.push_back({"reward over the clip", 1.0 / entry.fps, motion.at("reward").to_double()});
   s.series.push_back(
       {"mean distance from the reference, mm", 1.0 / entry.fps, distances(s.simulated, s.reference)});
+  add_feasibility(folder.feasibility(entry.name), s);
   if (was_trained(entry)) add_training(folder, entry, s);
   return s;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "physics/lanes.h"
+
 namespace mimicx::rl::tracking {
 
 void require_whole_steps(double physics_rate, double fps) {
@@ -28,6 +30,23 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& 
   for (const Pose& pose : clip->poses) clip->joints.push_back(joint_features(pose.frame));
   if (reference.keypoints) clip->keypoints = match_keypoints(*reference.keypoints);
   return clip;
+}
+
+physics::State<double> simulator_state(const motion::ReferenceFrame& frame) {
+  physics::State<double> x;
+  x.p_root = physics::from_eigen(frame.p_root);
+  x.v_root = physics::from_eigen(frame.v_root);
+  for (int i = 0; i < kBodies; ++i) {
+    x.q[i] = physics::from_eigen(frame.q[i]);
+    x.omega[i] = physics::from_eigen(frame.omega[i]);
+  }
+  return x;
+}
+
+List<physics::State<double>> simulator_states(const motion::Reference& reference) {
+  List<physics::State<double>> states;
+  for (const motion::ReferenceFrame& frame : reference.frames) states.push_back(simulator_state(frame));
+  return states;
 }
 
 }  // namespace mimicx::rl::tracking

@@ -6,6 +6,7 @@
 
 #include "core/containers.h"
 #include "motion/reference.h"
+#include "physics/data.h"
 #include "rl/tracking/config.h"
 #include "rl/tracking/state.h"
 
@@ -39,5 +40,9 @@ void require_whole_steps(double physics_rate, double fps);
 /// @throws std::invalid_argument for a reference of less than 2 frames, and as `require_whole_steps`
 std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& reference,
                                                        const TrackingConfig& config);
+
+/// A frame, and all frames, as the simulator's states.
+physics::State<double> simulator_state(const motion::ReferenceFrame& frame);
+List<physics::State<double>> simulator_states(const motion::Reference& reference);
 
 }  // namespace mimicx::rl::tracking

@@ -50,7 +50,9 @@ struct PlanFile : testing::Test {
 TEST_F(PlanFile, ComesBackToTheBit) {
   StoredPlan plan = planned(8);
   plan.plan.ending = control::Ending::kLost;
-  plan.plan.loss = control::Loss{5, kLeftFoot, 0.41, 300.0, 40.0};
+  plan.plan.loss = control::Loss{5, kLeftFoot, 0.41};
+  plan.plan.soft_help = {{{0.5f, 1.0f / 3.0f, 0.0f, -2.0f, 0.0f, 0.0f}},
+                         {{0.0f, 0.0f, 9.5f, 0.0f, 0.1f, 0.0f}}};
   plan.plan.by_way_of_help = true;
   const StoredPlan back = written(plan);
   EXPECT_EQ(back.input_checksum, plan.input_checksum);
@@ -69,14 +71,14 @@ TEST_F(PlanFile, ComesBackToTheBit) {
   EXPECT_EQ(back.plan.loss->frame, 5);
   EXPECT_EQ(back.plan.loss->body, kLeftFoot);
   EXPECT_EQ(back.plan.loss->distance, 0.41);
-  EXPECT_EQ(back.plan.loss->help_force, 300.0);
-  EXPECT_EQ(back.plan.loss->help_moment, 40.0);
+  EXPECT_EQ(back.plan.soft_help, plan.plan.soft_help);
   EXPECT_TRUE(back.plan.by_way_of_help);
 }
 
 TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
   const StoredPlan stored = written(planned(8));
   EXPECT_FALSE(stored.plan.loss);
+  EXPECT_TRUE(stored.plan.soft_help.empty());
   const control::System system =
       control::make_system(make_character(), stored.simulation, stored.reference, stored.fps);
   const auto scratch = std::make_unique<physics::Data<control::P>>();
@@ -107,10 +109,11 @@ TEST_F(PlanFile, GainsComeBackToTheBitAndAreRefusedInAnotherShape) {
 }
 
 TEST_F(PlanFile, OneThatIsDamagedNamesTheMember) {
-  const StoredPlan plan = planned(4);
+  StoredPlan plan = planned(4);
+  plan.plan.soft_help.resize(3);
   const double one = 1.0;
   for (const char* member : {"residuals", "q", "v", "reference_q", "reference_v", "ending", "cost", "fps",
-                             "physics_rate", "input_checksum"}) {
+                             "soft_help", "physics_rate", "input_checksum"}) {
     write_plan(file, plan);
     Npz npz = read_npz(file);
     npz.set(member, NpyArray::from_double({3, 1}, std::vector<double>(3, one).data()));

@@ -83,6 +83,23 @@ TEST(Report, DataSurvivesTheHtmlAroundIt) {
   EXPECT_NEAR(s["log"]["rows"][0][2].get<double>(), 0.123456789, 1e-5);
 }
 
+TEST(Report, NeedsOfTheReferenceAreThereFrameByFrameOrNotAtAll) {
+  ReportSequence s = example();
+  EXPECT_FALSE(data_of(format_report({s}))["sequences"][0].contains("needs"));
+  s.needs = {{310.123456, 0.0, 2.0}, {4.5, 0.0, 0.03}, {12.0, 0.0, 1.0}, {1.0, 0.0, 0.01}};
+  s.wrong = {"hovers", "feasible", "</script>"};
+  auto data = data_of(format_report({s}))["sequences"][0];
+  EXPECT_FALSE(data.contains("help"));
+  EXPECT_EQ(data["needs"]["force"][0], 310.12);
+  EXPECT_EQ(data["needs"]["acceleration"][0], 4.5);
+  EXPECT_EQ(data["needs"]["moment"][2], 1.0);
+  EXPECT_EQ(data["needs"]["bar"][2], 0.01);
+  EXPECT_EQ(data["needs"]["wrong"], (std::vector<std::string>{"hovers", "feasible", "</script>"}));
+  s.help = {{100.0}, {1.5}, {3.0}, {0.3}};
+  data = data_of(format_report({s}))["sequences"][0];
+  EXPECT_EQ(data["help"]["force"].size(), 1u);
+}
+
 TEST(Report, NeedsNoNetwork) {
   const std::string page = format_report({example()});
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
