@@ -104,10 +104,15 @@ void judge_reference(const motion::Reference& reference, record::SequenceEntry& 
     entry.notes.push_back("the reference is not feasible: " + verdict.words);
 }
 
+Correction correction_of(const RunConfig& config) {
+  if (config.as_is) return Correction::kNone;
+  return config.fit ? Correction::kKeypoints : Correction::kPoses;
+}
+
 /// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
 /// sees a wrong axis there can stop the run.
 PreparedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
-  const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
+  const PreparedMotion motion = prepare_motion(entry.input, run.config.read, correction_of(run.config));
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
@@ -255,8 +260,10 @@ bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
 }  // namespace
 
 NamedValues settings_of(const RunConfig& config) {
-  const double fit = config.fit ? 1.0 : 0.0;
-  return {{"fit", fit}, {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
+  const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;
+  return {{"fit", fit},
+          {"as_is", config.as_is ? 1.0 : 0.0},
+          {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
 }
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,

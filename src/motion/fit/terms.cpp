@@ -261,7 +261,7 @@ BorderedBand linearise(const FitProblem& problem, const FitState& state,
     add.standing(t);
     if (t + 1 < problem.frames()) add.slipping(t);
   }
-  add.acceleration();
+  if (problem.calms) add.acceleration();
   return system;
 }
 
