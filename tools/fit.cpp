@@ -1,5 +1,6 @@
 #include "motion/fit/fit.h"
 #include "motion/clip_file.h"
+#include "motion/fit/poses.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -17,6 +18,7 @@ namespace {
 struct Arguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
+  bool poses = false;
   motion::fit::FitConfig config;
   motion::import::ReadConfig read;
 };
@@ -44,8 +46,9 @@ int fit(const Arguments& a) {
       motion::fit::FitReport report;
       const motion::Clip clip = motion::import::read_motion(file, a.read);
       pipeline::tell_decisions(file, clip, std::cerr);
-      motion::write_clip(a.out / (names.back() + ".npz"),
-                         motion::fit::fit_keypoints(clip, a.config, &report));
+      motion::write_clip(
+          a.out / (names.back() + ".npz"),
+          (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(clip, a.config, &report));
       print(names.back(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
@@ -64,6 +67,8 @@ void declare_fit(CLI::App& app, Action& action) {
   command->add_option("FILE", a->inputs, "motions and folders of them")->required();
   command->add_option("--out", a->out, "folder for the fitted motions")->required();
   add_read_arguments(*command, a->read);
+  command->add_flag("--poses", a->poses,
+                    "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
   const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
     command->add_option(name, sigma, "standard error of " + what + "; 0: it is exact")
         ->check(CLI::NonNegativeNumber)

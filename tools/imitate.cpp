@@ -30,6 +30,7 @@ void declare_imitate(CLI::App& app, Action& action) {
   add_training_arguments(*command, a->config.training, "--samples");
   command->add_flag("--fit", a->config.run.fit,
                     "move motions onto their keypoints first, where they have any");
+  add_as_is(*command, a->config.run);
   command->callback([a, &action] { action = [a] { return imitate_motions(*a); }; });
 }
 

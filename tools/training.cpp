@@ -101,10 +101,18 @@ void add_training_arguments(CLI::App& command, pipeline::TrainingConfig& trainin
   add_seed(command, training.seed);
 }
 
+void add_as_is(CLI::App& command, pipeline::RunConfig& run) {
+  command.add_flag("--as-is", run.as_is,
+                   "follow the poses as they are: no fit and no repair of any kind, whatever --fit says");
+}
+
 void add_fit_arguments(CLI::App& command, pipeline::RunConfig& run) {
-  command.add_flag("--fit,!--no-fit", run.fit,
-                   "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
-                   "look at keypoints at all");
+  command.add_flag(
+      "--fit,!--no-fit", run.fit,
+      "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
+      "look at keypoints at all, correct the motion by its feet, the floor and balance alone, as "
+      "where a file has no keypoints");
+  add_as_is(command, run);
 }
 
 void add_gains_argument(CLI::App& command, pipeline::RunConfig& run) {

@@ -36,7 +36,9 @@ void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<
 /// Those of a run that trains. @param samples  name of the argument for the budget
 void add_training_arguments(CLI::App& command, pipeline::TrainingConfig& training,
                             const std::string& samples);
-/// --fit, the default, and --no-fit.
+/// --as-is.
+void add_as_is(CLI::App& command, pipeline::RunConfig& run);
+/// --fit, the default, --no-fit and --as-is.
 void add_fit_arguments(CLI::App& command, pipeline::RunConfig& run);
 /// --gains.
 void add_gains_argument(CLI::App& command, pipeline::RunConfig& run);

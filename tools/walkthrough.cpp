@@ -239,7 +239,8 @@ void walk(const std::filesystem::path& file, const std::filesystem::path& option
           const pipeline::record::RunFolder& folder) {
   heading("the file", "what is in it");
   list_members(file);
-  const pipeline::PreparedMotion motion = pipeline::prepare_motion(file, {}, true);
+  const pipeline::PreparedMotion motion =
+      pipeline::prepare_motion(file, {}, pipeline::Correction::kKeypoints);
   heading("motion/import", "read_motion");
   std::printf("  %d frames at %.0f fps, body model %s\n", motion.input.frames(), motion.input.fps,
               motion.input.body_model.c_str());

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "motion/fit/poses.h"
 #include "motion/prepare.h"
 
 namespace mimicx::pipeline {
@@ -39,34 +40,43 @@ NamedValues values_of(const motion::fit::FitReport& r) {
           {"change_max_mm", r.change_max_mm}};
 }
 
+motion::PreparationConfig preparing(Correction correction) {
+  motion::PreparationConfig config;
+  if (correction == Correction::kNone)
+    config.separate = config.level_feet = config.ground = config.bridge_flagged = false;
+  return config;
+}
+
 }  // namespace
 
 PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
-                              bool fit, int threads) {
+                              Correction correction, int threads) {
   PreparedMotion motion;
   motion::fit::FitConfig config;
   config.threads = threads;
   motion.input = motion::import::read_motion(path, read);
-  motion.has_fit = fit && motion.input.keypoints.has_value();
+  motion.has_fit = correction == Correction::kKeypoints && motion.input.keypoints.has_value();
   const int fewest = motion.has_fit ? 3 : 2;
   if (motion.input.frames() < fewest)
     throw DataError(path.string(), "", "at least " + std::to_string(fewest) + " frames",
                     std::to_string(motion.input.frames()));
-  motion::fit::FitReport fitting, calming;
+  motion::fit::FitReport fitting, planting;
   if (motion.has_fit) {
     motion.fitted = motion::fit::fit_keypoints(motion.input, config, &fitting);
     motion.fit_values = values_of(fitting);
+  } else if (correction == Correction::kNone) {
+    motion.fitted = motion.input;
   } else {
-    motion.fitted = motion::fit::steady(motion.input, config, &calming);
+    motion.fitted = motion::fit::fit_poses(motion.input, config, &planting);
   }
-  for (const motion::fit::FitReport* report : {&fitting, &calming})
+  for (const motion::fit::FitReport* report : {&fitting, &planting})
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;
-  motion.reference = motion::prepare_reference(motion.fitted, {}, &report);
+  motion.reference = motion::prepare_reference(motion.fitted, preparing(correction), &report);
   if (!motion.has_fit) motion.reference.keypoints.reset();
   motion.preparation_values = values_of(report);
-  motion.preparation_values.emplace_back("steadied_mean_mm", calming.change_mean_mm);
-  motion.preparation_values.emplace_back("steadied_max_mm", calming.change_max_mm);
+  motion.preparation_values.emplace_back("pose_fit_mean_mm", planting.change_mean_mm);
+  motion.preparation_values.emplace_back("pose_fit_max_mm", planting.change_max_mm);
   motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
   return motion;
 }

@@ -29,7 +29,8 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
     try {
-      PreparedMotion motion = prepare_motion(files[i], config.read, config.fit);
+      PreparedMotion motion =
+          prepare_motion(files[i], config.read, config.fit ? Correction::kKeypoints : Correction::kPoses);
       tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
       std::vector<std::string> taken;

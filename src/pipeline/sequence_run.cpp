@@ -104,6 +104,11 @@ void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry
     entry.notes.push_back("the reference is not feasible: " + verdict.words);
 }
 
+Correction correction_of(const RunConfig& config) {
+  if (config.as_is) return Correction::kNone;
+  return config.fit ? Correction::kKeypoints : Correction::kPoses;
+}
+
 /// A prepared motion and what its reference asks for that no body has.
 struct JudgedMotion : PreparedMotion {
   audit::PoseNeeds needs;
@@ -112,7 +117,8 @@ struct JudgedMotion : PreparedMotion {
 /// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
 /// sees a wrong axis there can stop the run.
 JudgedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
-  JudgedMotion motion{prepare_motion(entry.input, run.config.read, run.config.fit, run.config.threads), {}};
+  JudgedMotion motion{
+      prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads), {}};
   motion.needs = needs_of(motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
@@ -265,8 +271,10 @@ bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
 }  // namespace
 
 NamedValues settings_of(const RunConfig& config) {
-  const double fit = config.fit ? 1.0 : 0.0;
-  return {{"fit", fit}, {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
+  const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;
+  return {{"fit", fit},
+          {"as_is", config.as_is ? 1.0 : 0.0},
+          {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
 }
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,

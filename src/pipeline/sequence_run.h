@@ -38,7 +38,8 @@ struct RunConfig {
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
   bool gains = false;       ///< also write the feedback gains of plans; finished ones get theirs, too
-  bool fit = false;  ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
+  bool fit = false;    ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
+  bool as_is = false;  ///< correct nothing (Correction::kNone), whatever `fit` says
   int threads = 1;
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
 };

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/clip_file.h"
+#include "pipeline/temporary_folder.h"
+
 namespace mimicx::pipeline {
 namespace {
 
@@ -9,10 +12,36 @@ const std::filesystem::path kNoisy =
     std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
 
 TEST(Preparation, ReferencesHaveKeypointsOnlyWhereTheyWereFittedOntoThem) {
-  EXPECT_TRUE(prepare_motion(kNoisy, {}, true).reference.keypoints.has_value());
-  const PreparedMotion unfitted = prepare_motion(kNoisy, {}, false);
+  EXPECT_TRUE(prepare_motion(kNoisy, {}, Correction::kKeypoints).reference.keypoints.has_value());
+  const PreparedMotion unfitted = prepare_motion(kNoisy, {}, Correction::kPoses);
   EXPECT_TRUE(unfitted.input.keypoints.has_value());
   EXPECT_FALSE(unfitted.reference.keypoints.has_value()) << "Eq. 3 would ask for a second pose";
+}
+
+TEST(Preparation, NoCorrectionIsNone) {
+  const PreparedMotion plain = prepare_motion(kNoisy, {}, Correction::kNone);
+  EXPECT_EQ(plain.fitted.rotations, plain.input.rotations);
+  ASSERT_EQ(plain.reference.size(), plain.input.frames());
+  const auto pelvis = motion::rest_pelvis(plain.input);
+  for (int t = 0; t < plain.reference.size(); ++t) {
+    EXPECT_EQ(plain.reference.frames[t].p_root, plain.input.trans[t] + pelvis)
+        << "it floats, and stays there";
+    EXPECT_LT(plain.reference.frames[t].q[0].angularDistance(exp_map(plain.input.rotations[t][0])), 1e-12);
+  }
+  EXPECT_FALSE(plain.reference.keypoints.has_value());
+}
+
+TEST(Preparation, WithoutItsKeypointsAFileIsPreparedAsIfTheyWereIgnored) {
+  const PreparedMotion ignored = prepare_motion(kNoisy, {}, Correction::kPoses);
+  motion::Clip bare = ignored.input;
+  bare.keypoints.reset();
+  const TemporaryFolder folder;
+  motion::write_clip(folder.path / "stand_1.npz", bare);
+  const PreparedMotion without = prepare_motion(folder.path / "stand_1.npz", {}, Correction::kKeypoints);
+  ASSERT_EQ(without.reference.size(), ignored.reference.size());
+  for (int t = 0; t < ignored.reference.size(); ++t)
+    EXPECT_LT((without.reference.frames[t].p_root - ignored.reference.frames[t].p_root).norm(), 1e-4)
+        << "files have single precision";
 }
 
 }  // namespace

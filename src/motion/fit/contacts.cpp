@@ -12,6 +12,7 @@ constexpr double kSpeed = 0.3;                             ///< m/s over five fr
 constexpr double kHeight = 0.03, kUnsettledHeight = 0.05;  ///< m
 constexpr double kLowShare = 0.1;
 constexpr double kSpeedWindow = 2.0 / 30.0;  ///< s to either side
+constexpr double kLevel = 0.5;               ///< vertical part of a sole's normal
 constexpr int kPointsPerFoot = kFootPoints / 2;
 
 /// Low percentile of the height of a foot's lowest point, m. @param first  the foot's first point
@@ -42,6 +43,13 @@ Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool set
     }
   }
   return contacts;
+}
+
+void keep_level_soles(const FitProblem& problem, const PerFrame<FrameKinematics>& motion,
+                      Contacts& contacts) {
+  for (int t = 0; t < contacts.count(); ++t)
+    for (int i = 0; i < kFootPoints; ++i)
+      if (motion[t].R[problem.foot_points[i].body](2, 1) < kLevel) contacts[t][i] = false;
 }
 
 }  // namespace mimicx::motion::fit

@@ -13,4 +13,7 @@ using Contacts = PerFrame<Array<bool, kFootPoints>>;
 ///                 low over a low percentile of the heights of the point's own foot
 Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool settled);
 
+/// Takes out the points of feet whose sole does not look down: of somebody who crawls or lies.
+void keep_level_soles(const FitProblem& problem, const PerFrame<FrameKinematics>& motion, Contacts& contacts);
+
 }  // namespace mimicx::motion::fit

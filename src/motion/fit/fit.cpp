@@ -1,141 +1,14 @@
 #include "motion/fit/fit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include "core/error.h"
-#include "core/quantile.h"
-#include "core/units.h"
-#include "motion/fit/labels.h"
-#include "motion/fit/levels.h"
-#include "motion/fit/projection.h"
-#include "motion/fit/terms.h"
+#include "motion/fit/solution.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
-constexpr int kDraws = 3;                       ///< of the solution's error, for the levels
-constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
-constexpr double kPercent = 100.0;
-constexpr int kTremorFrames = 4;           ///< that show a tremor
-constexpr int kUnsettled = 3;              ///< iterations until the motion is on the floor
-constexpr double kLargestTurn = 0.35;      ///< rad: longest step of one joint in one iteration
-constexpr std::size_t kFewestPoints = 6;   ///< joints among the keypoints, else there is nothing to fit to
-constexpr double kFarOff = 3.0;            ///< kernels: a detection this far off was set aside
-constexpr double kSmallestStep = 1e-5;     ///< rad and m: below, the fit has converged
-constexpr double kBlindPriorFrames = 5.0;  ///< `prior_frames` where nothing but the input tells of the pose
-
-constexpr double kBlindRate = 2.0, kBlindBend = 0.6;  ///< `joint_rate`, `joint_bend` there
-
-/// A state with everything that follows from it.
-struct Evaluated {
-  PerFrame<FrameKinematics> motion;
-  PerFrame<FootPositions> feet;
-};
-
-Evaluated evaluate(const FitProblem& problem, const FitState& state) {
-  const Character character = character_of(problem, state);
-  Evaluated e;
-  for (int t = 0; t < problem.frames(); ++t) {
-    e.motion.push_back(kinematics(problem, state, character, t));
-    e.feet.push_back(foot_positions(character, e.motion[t]));
-  }
-  return e;
-}
-
-/// Where the detections should be, pixels: [frames][K].
-PerFrame<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const FitState& state,
-                                               const Evaluated& e) {
-  PerFrame<std::vector<Eigen::Vector2d>> predicted;
-  for (int t = 0; t < problem.frames(); ++t) {
-    predicted.emplace_back();
-    for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const Projection seen = see(problem, state, e.motion, t, k);
-      const Eigen::Vector2d detected = problem.uvc[t][k].head<2>();
-      predicted.back().push_back(seen.valid ? Eigen::Vector2d(detected + problem.box[t] * seen.error)
-                                            : detected);
-    }
-  }
-  return predicted;
-}
-
-struct Residual {
-  double rms = 0.0;  ///< % of the box
-  int dropped = 0;
-};
-
-Residual residual_of(const FitProblem& problem, const FitState& state, const Evaluated& e) {
-  Residual out;
-  double squares = 0.0, weights = 0.0;
-  for (int t = 0; t < problem.frames(); ++t)
-    for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const double confidence = problem.uvc[t][k].z();
-      const Projection seen = see(problem, state, e.motion, t, k);
-      if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.config.keypoint_kernel)
-        ++out.dropped;
-      if (confidence <= 0.0 || !seen.valid) continue;
-      squares += confidence * seen.error.squaredNorm();
-      weights += confidence;
-    }
-  if (weights > 0.0) out.rms = kPercent * std::sqrt(squares / weights);
-  return out;
-}
-
-/// Moves the state along a Gauss-Newton step, shortened where a joint would turn too far. @return its length
-double advance(const BandSolution& step, FitState& state) {
-  double turn = 0.0, longest = 0.0;
-  for (const VectorXd& x : step.x) {
-    if (!x.allFinite()) throw std::domain_error("keypoint fit: a step is not finite");
-    turn = std::max(turn, x.tail(kFrameUnknowns - kRootRotation).cwiseAbs().maxCoeff());
-    longest = std::max(longest, x.cwiseAbs().maxCoeff());
-  }
-  const double scale = std::min(1.0, kLargestTurn / std::max(turn, 1e-12));
-  for (int t = 0; t < state.c.count(); ++t) state.c[t] += scale * step.x[t];
-  state.g += scale * step.g;
-  return scale * longest;
-}
-
-/// Keypoints of the clip with the labels and the camera of the fit.
-void correct_keypoints(const FitProblem& problem, const FitState& state, Keypoints& keypoints) {
-  for (int t = 0; t < keypoints.uvc.count(); ++t)
-    for (std::size_t k = 0; k < problem.points.size(); ++k)
-      keypoints.uvc[t][problem.points[k].column] = problem.uvc[t][k];
-  keypoints.intrinsics.topLeftCorner<2, 2>() *= std::exp(state.g[kLogFocal]);
-  const Matrix3d turn = Eigen::AngleAxisd(state.g[kTilt], Vector3d::UnitX()).toRotationMatrix();
-  for (Eigen::Matrix4d& extrinsics : keypoints.extrinsics)
-    extrinsics.topRows<3>() = (turn * extrinsics.topRows<3>()).eval();
-}
-
-Clip result_of(const Clip& input, const FitProblem& problem, const FitState& state) {
-  PerFrame<Vector3d> p_root;
-  PerFrame<PerBody<Quaterniond>> q;
-  for (int t = 0; t < problem.frames(); ++t) {
-    p_root.push_back(problem.p_root[t] + state.c[t].head<3>());
-    q.push_back(rotations_of(problem, state, t));
-  }
-  Clip out = to_clip(input.name, input.fps, character_of(problem, state), p_root, q);
-  if (input.rest_joints) put_on_body_of(input, out);
-  out.gender = input.gender;
-  out.passthrough = input.passthrough;
-  out.warnings = input.warnings;
-  out.decisions = input.decisions;
-  out.on_floor = input.on_floor;
-  out.keypoints = input.keypoints;
-  if (!problem.points.empty()) correct_keypoints(problem, state, *out.keypoints);
-  return out;
-}
-
-/// Largest and mean distance of the joints of two clips, mm.
-void report_change(const Clip& before, const Clip& after, FitReport& report) {
-  const PerFrame<BodyPoses> a = poses_of(before), b = poses_of(after);
-  for (int t = 0; t < a.count(); ++t)
-    for (int j = 0; j < kBodies; ++j) {
-      const double mm = kMm * (a[t].p_WB[j] - b[t].p_WB[j]).norm();
-      report.change_mean_mm += mm / static_cast<double>(a.size() * kBodies);
-      report.change_max_mm = std::max(report.change_max_mm, mm);
-    }
-}
+constexpr std::size_t kFewestPoints = 6;  ///< joints among the keypoints, else there is nothing to fit to
 
 /// Why there is nothing to fit to; empty where there is.
 std::string reason_to_refuse(const FitProblem& problem) {
@@ -145,71 +18,13 @@ std::string reason_to_refuse(const FitProblem& problem) {
   return "";
 }
 
-/// Draws of the error of the solution of a system that was solved.
-std::vector<BandSolution> draws_of(const BorderedBand& factored, Random& random) {
-  std::vector<BandSolution> draws;
-  for (int i = 0; i < kDraws; ++i) draws.push_back(draw(factored, random));
-  return draws;
-}
-
-/// Gauss-Newton with labels and contacts found anew before each step, levels after it.
-FitState iterate(FitProblem& problem, FitReport& report) {
-  const PerFrame<std::vector<Vector3d>> detected = problem.uvc;
-  Random random(kLevelStream);
-  FitState state = initial_state(problem);
-  Evaluated e = evaluate(problem, state);
-  report.residual_before = residual_of(problem, state, e).rms;
-  for (report.iterations = 0; report.iterations < problem.config.iterations;) {
-    report.swapped_frames = order_labels(detected, predict(problem, state, e), problem);
-    const Contacts contacts = find_contacts(e.feet, problem.fps, report.iterations >= kUnsettled);
-    BorderedBand system = linearise(problem, state, e.motion, e.feet, contacts);
-    const double step = advance(solve(system, problem.config.threads), state);
-    e = evaluate(problem, state);
-    problem.settled = report.iterations >= kUnsettled;
-    if (problem.settled && problem.config.find_levels && !problem.points.empty())
-      problem.levels = levels_of(problem, state, e.motion, draws_of(system, random));
-    ++report.iterations;
-    if (step < kSmallestStep && report.iterations > kUnsettled) break;
-  }
-  const Residual residual = residual_of(problem, state, e);
-  report.residual_after = residual.rms;
-  report.dropped_points = residual.dropped;
-  return state;
-}
-
-void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
-  report.lead_frames = state.g[kLead];
-  report.confidence_power = problem.levels.confidence_power;
-  if (problem.points.empty()) return;
-  const std::vector<double>& sigma = problem.levels.keypoint;
-  report.keypoint_sigma = kPercent * median(sigma);
-  report.keypoint_sigma_max = kPercent * *std::max_element(sigma.begin(), sigma.end());
-}
-
-/// The clip at the problem's solution; as it is, with a note, where there is none.
-Clip solved(const Clip& clip, FitProblem& problem, FitReport& report) {
-  try {
-    const FitState state = iterate(problem, report);
-    const Clip fitted = result_of(clip, problem, state);
-    report.focal_scale = std::exp(state.g[kLogFocal]);
-    report.tilt_deg = state.g[kTilt] / kDegree;
-    report_levels(problem, state, report);
-    report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
-    report_change(clip, fitted, report);
-    return fitted;
-  } catch (const std::domain_error& error) {
-    report.notes.push_back(std::string(error.what()) + ": left as it is");
-    return clip;
-  }
-}
-
 }  // namespace
 
 Clip fit_keypoints(const Clip& clip, const FitConfig& config, FitReport* report) {
   FitReport r;
   Clip fitted = clip;
   if (!clip.keypoints) {
-    r.notes.push_back("no keypoints: left as it is");
+    r.notes.emplace_back("no keypoints: left as it is");
   } else {
     require_usable(clip, 3);
     FitProblem problem = make_problem(clip, config);
@@ -220,23 +35,6 @@ Clip fit_keypoints(const Clip& clip, const FitConfig& config, FitReport* report)
   }
   if (report) *report = r;
   return fitted;
-}
-
-Clip steady(const Clip& clip, const FitConfig& config, FitReport* report) {
-  FitReport r;
-  if (report) *report = r;
-  if (clip.frames() < kTremorFrames) return clip;
-  require_usable(clip, 3);
-  Clip blind = clip;
-  blind.keypoints.reset();
-  FitConfig trusting = config;
-  trusting.prior_frames = std::min(config.prior_frames, kBlindPriorFrames);
-  trusting.joint_rate = kBlindRate;
-  trusting.joint_bend = kBlindBend;
-  FitProblem problem = make_problem(blind, trusting);
-  Clip calm = problem.rotation_jitter < kTremor * kDegree ? clip : solved(clip, problem, r);
-  if (report) *report = r;
-  return calm;
 }
 
 }  // namespace mimicx::motion::fit

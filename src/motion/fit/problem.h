@@ -54,7 +54,9 @@ struct FitFootPoint {
 struct FitProblem {
   FitConfig config;
   FitLevels levels;
-  bool settled = false;  ///< near the solution: kernels follow the levels; before, they are wide
+  bool poses_alone = false;  ///< no detections: the input is on the floor, and balance is asked for
+  bool calms = true;         ///< accelerations cost
+  bool settled = false;      ///< near the solution: kernels follow the levels; before, they are wide
   double fps = 30.0;
   std::array<double, kBetas> betas{};     ///< as the file says
   Array<double, kBetas> beta_sigma{};     ///< per entry; 0: it is known

@@ -299,7 +299,7 @@ BorderedBand linearise(const FitProblem& problem, const FitState& state,
     add.standing(t);
   }
   add.slipping();
-  add.acceleration();
+  if (problem.calms) add.acceleration();
   return system;
 }
 

@@ -124,39 +124,6 @@ TEST(Fit, AClipWithNothingToFitToComesBackUnchangedAndSaysWhy) {
   expect_unchanged(unseen, "does not see");
 }
 
-TEST(Steady, CalmsATremblingMotionAndComesNoFartherFromTheTruth) {
-  for (const char* kind : {"walk", "punch"}) {
-    const Clip truth = truth_of(kind), noisy = noisy_of(truth, "vibe-like", KeypointSet::kJoints22, 3);
-    FitReport report;
-    const Clip calm = steady(noisy, {}, &report);
-    const Metrics before = against(truth, noisy), after = against(truth, calm);
-    EXPECT_LT(after.accel.value, 0.5 * before.accel.value) << kind;
-    EXPECT_LT(after.fs_gt.value, 0.5 * before.fs_gt.value) << kind;
-    EXPECT_LT(after.mpjpe.value, before.mpjpe.value) << kind;
-    EXPECT_GT(report.change_mean_mm, 0.0);
-    for (std::size_t i = 0; i < kBetas; ++i)
-      EXPECT_NEAR(calm.betas[i], noisy.betas[i], 1e-4) << "nothing tells of the shape";
-  }
-}
-
-TEST(Steady, NeverLooksAtTheKeypoints) {
-  const Clip noisy = noisy_of(truth_of("walk"), "vibe-like", KeypointSet::kJoints22, 3);
-  Clip blind = noisy;
-  blind.keypoints.reset();
-  const Clip calm = steady(noisy, {}, nullptr);
-  EXPECT_EQ(calm.rotations, steady(blind, {}, nullptr).rotations);
-  EXPECT_EQ(calm.keypoints->uvc, noisy.keypoints->uvc);
-}
-
-TEST(Steady, LeavesAMotionAloneThatDoesNotTremble) {
-  for (const char* kind : {"walk", "jog", "kick", "punch"}) {
-    const Clip truth = truth_of(kind);
-    EXPECT_TRUE(same(steady(truth, {}, nullptr), truth)) << kind;
-    const Clip smooth = noisy_of(truth, "gvhmr-like", KeypointSet::kJoints22, 3);
-    EXPECT_TRUE(same(steady(smooth, {}, nullptr), smooth)) << kind;
-  }
-}
-
 TEST(Fit, NumbersThatAreNoneAreRefused) {
   Clip clip = disturbed(truth_of("stand"), 1);
   clip.trans[7].x() = std::nan("");
