@@ -88,23 +88,24 @@ HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   return attempt.run(gentle, attempt.config.horizon.backtracks);
 }
 
-/// By way of help: a soft plan, stiffened, then a hard one towards it. @param lost  the plan without
-/// @return what the hard one came to, or the longer of both where it was lost, too
-HorizonResult plan_soft_to_hard(const Attempt& hard, const Cost& cost, HorizonResult lost) {
+/// By way of help: a soft plan, stiffened, then a hard one towards it. @return what the hard one came to, or
+/// the first state alone where the soft one did not come to the end
+HorizonResult plan_soft_to_hard(const Attempt& hard, const Cost& cost) {
   System soft_system = hard.system;
   soft_system.soft = true;
   const Attempt soft{soft_system, hard.config, hard.control, hard.plan};
   SoftPlan first = plan_softly(soft, cost);
   hard.plan.soft_help = help_in(first.found.motion);
   if (first.found.ending != Ending::kFollowed) {
-    lost.ending = first.found.ending;
-    return lost;
+    first.found.motion = {};
+    first.found.motion.x = {as_floats(hard.system.at(0))};
+    return std::move(first.found);
   }
   Trajectory stiff = stiffen(soft, cost, std::move(first.found.motion), first.price);
   for (Control& u : stiff.u) std::fill(u.begin() + kDofs, u.end(), 0.0f);
-  HorizonResult again = hard.run(with_goal(hard.system, cost, stiff.x), 4, stiff);
-  hard.plan.by_way_of_help = again.ending == Ending::kFollowed;
-  return better_of(std::move(lost), std::move(again));
+  HorizonResult found = hard.run(with_goal(hard.system, cost, stiff.x), 4, stiff);
+  hard.plan.by_way_of_help = found.ending == Ending::kFollowed;
+  return found;
 }
 
 void fill(const System& system, const Trajectory& motion, Plan& plan) {
@@ -123,15 +124,14 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   const Attempt attempt{system, config, control, plan};
   HorizonResult found =
       system.soft ? plan_softly(attempt, cost).found : attempt.run(cost, config.horizon.backtracks);
+  Loss loss{found.lost_frame, found.lost_body, found.lost_distance};
+  if (found.ending == Ending::kLost && config.soft_to_hard && !system.soft)
+    found = better_of(std::move(found), plan_soft_to_hard(attempt, cost));
+  if (found.ending == Ending::kLost && !system.soft)
+    found = better_of(std::move(found), plan_gently(attempt, cost));
   if (found.ending == Ending::kLost) {
-    Loss loss{found.lost_frame, found.lost_body, found.lost_distance};
-    if (!system.soft) found = better_of(std::move(found), plan_gently(attempt, cost));
-    if (found.ending == Ending::kLost && config.soft_to_hard && !system.soft)
-      found = plan_soft_to_hard(attempt, cost, std::move(found));
-    if (found.ending == Ending::kLost) {
-      if (found.lost_frame > loss.frame) loss.frame = found.lost_frame;
-      plan.loss = loss;
-    }
+    loss.frame = std::max(loss.frame, found.lost_frame);
+    plan.loss = loss;
   }
   plan.ending = found.ending;
   roll_plain(system, cost, found.motion);  // its cost and distances from the reference

@@ -7,11 +7,11 @@
 /// the same reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the
 /// result does not depend on the number of threads.
 ///
-/// A reference that is lost is planned a second time from farther away: distances cost less beside the rest.
-/// If that is lost, too, it goes from soft to hard: a plan with help (system.h) follows the reference; help
-/// gets dearer from stage to stage, each stage following the one before, and so draws the motion to what the
-/// body can do by itself; the last plan follows that and has no help. What it comes to is a true simulation.
-/// A soft system is planned with help alone; its result is no simulation.
+/// A reference that is lost goes from soft to hard: a plan with help (system.h) follows it; help gets dearer
+/// from stage to stage, each stage following the one before, and so draws the motion to what the body can do
+/// by itself; the last plan follows that and has no help. What it comes to is a true simulation. If that is
+/// lost, too, the reference is planned once more from farther away: distances cost less beside the rest. A
+/// soft system is planned with help alone; its result is no simulation.
 #pragma once
 
 #include <optional>

@@ -205,6 +205,24 @@ TEST_F(PlanMotions, TheFeasibilityOfEveryFrameIsInItsFileTheManifestAndTheReport
   EXPECT_NE(page.find("\"tips\""), std::string::npos);
 }
 
+// Its first half second needs half of its weight from outside. Hard plans lose it.
+TEST_F(PlanMotions, FromSoftToHardARealReferenceIsFollowedThatNoBodyCanDo) {
+  const auto dance = std::filesystem::path(MIMICX_SHARED_DIR) / "motions/deepmimic/humanoid3d_dance_a.txt";
+  if (!std::filesystem::exists(dance)) GTEST_SKIP() << "no real motions beside the source tree";
+  PlanMotionsConfig config = plan_configuration();
+  config.run.inputs = {dance.string()};
+  config.run.out = out("run");
+  config.run.threads = 2;
+  run(config);
+  const record::SequenceEntry followed = entry("run");
+  EXPECT_TRUE(followed.ok) << followed.reason;
+  EXPECT_EQ(value_of(followed.plan, "by_way_of_help"), 1.0);
+  EXPECT_GT(value_of(followed.feasibility, "help_force_max_N"), 100.0);
+  // What is written has no help: its own forces explain it.
+  EXPECT_LT(value_of(followed.audit, "root_force_max_N"), 10.0);
+  for (const std::string& note : followed.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
+}
+
 TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
   PlanMotionsConfig config = planning("run", {other});
   config.run.limit_seconds = 1e-9;
