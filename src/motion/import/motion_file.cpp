@@ -120,6 +120,13 @@ double usual_rate(double fps) {
   return 0.0;
 }
 
+/// Whether a motion at another rate has no speeds that it has not now and that no human has.
+bool is_plausible_at(double fps, const Clip& clip) {
+  Clip other = clip;
+  other.fps = fps;
+  return implausible_speeds(other).empty();
+}
+
 void settle_fps(const ReadConfig& o, bool believed, Clip& clip) {
   if (o.fps) {
     clip.decisions.push_back("frame rate: " + short_number(*o.fps) + " fps, as asked for (the file says " +
@@ -130,15 +137,22 @@ void settle_fps(const ReadConfig& o, bool believed, Clip& clip) {
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  std::string line = "frame rate: " + short_number(clip.fps) + " fps, as given";
-  if (fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0) {
-    line = "frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps);
+  const std::string given = "frame rate: " + short_number(clip.fps) + " fps, as given";
+  if (!fall) return clip.decisions.push_back(given);
+  const std::string falls = std::to_string(fall->flights) + (fall->flights == 1 ? " flight" : " flights") +
+                            ", in which the body falls with " + short_number(fall->acceleration) +
+                            " m/s² at the file's rate";
+  if (!(std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0))
+    return clip.decisions.push_back(given + " (" + falls + ")");
+  if (fall->agreed && is_plausible_at(usual, clip)) {
+    clip.decisions.push_back("frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps) +
+                             " (" + falls + "; --fps overrides)");
     clip.fps = usual;
+    return;
   }
-  if (fall)
-    line += " (the body falls with " + short_number(fall->acceleration) +
-            " m/s² at the file's rate; --fps overrides)";
-  clip.decisions.push_back(line);
+  clip.decisions.push_back(given);
+  clip.warnings.push_back("the frame rate may be " + short_number(usual) + " fps, not " +
+                          short_number(clip.fps) + " (" + falls + "): --fps " + short_number(usual));
 }
 
 void settle_floor(const ReadConfig& o, bool believed, Clip& clip) {
