@@ -172,8 +172,7 @@ void write_sequence(const RunState& run, const PreparedMotion& motion, const Sim
   output::write_reference(folder.reference(entry.name), motion.input, motion.reference);
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
-  output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after,
-                          entry.notes);
+  output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
   std::filesystem::remove(folder.substeps(entry.name));
   if (run.config.substeps)
     audit::write_substeps(
