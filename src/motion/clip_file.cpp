@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/keypoint_check.h"
 #include "motion/keypoint_names.h"
 
 namespace mimicx::motion {
@@ -332,6 +333,7 @@ Clip clip_from(const Npz& npz, const std::string& name) {
                                    "body_model",      "surface_model_type"};
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
     clip.keypoints = read_keypoints(npz, clip);
+    check_keypoints(npz.path, *clip.keypoints, clip.decisions);
     used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
   } else if (npz.has("keypoints_2d")) {
     clip.warnings.push_back("keypoints_2d without camera_intrinsics and camera_extrinsics are not used");

@@ -12,6 +12,7 @@
 #include "motion/import/body_model.h"
 #include "motion/import/bvh.h"
 #include "motion/import/bvh_write.h"
+#include "motion/import/clip_checks.h"
 #include "motion/import/deepmimic.h"
 #include "motion/import/motionx.h"
 #include "motion/import/plausibility.h"
@@ -255,6 +256,7 @@ Clip read_motion(const std::filesystem::path& path, const ReadConfig& config) {
 Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& config) {
   require_sense(config);
   Clip clip = read_any(bytes, path, config);
+  mend_angles(path.string(), clip);
   const MotionFormat format = recognise(bytes);
   const bool skeleton = format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
   const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
@@ -265,9 +267,12 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
   }
   settle_fps(config, believed, clip);
   settle_floor(config, believed, clip);
+  if (!believed) leave_out_t_pose(clip);
+  name_jumps(clip);
   if (!believed)
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
   require_near(path, clip);
+  require_in_view(path.string(), clip);
   return clip;
 }
 
@@ -292,6 +297,11 @@ bool is_written(const std::string& suffix) {
 }
 
 std::string written_suffixes() { return ".npz, .npy or .bvh"; }
+
+std::string_view written_opening(const std::filesystem::path& path) {
+  const std::string suffix = lower_suffix(path);
+  return suffix == ".bvh" ? kBvhOpening : suffix == ".npy" ? kMotionxOpening : std::string_view();
+}
 
 void write_motion(const std::filesystem::path& path, const Clip& clip) {
   const std::string suffix = lower_suffix(path);
