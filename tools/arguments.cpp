@@ -43,12 +43,26 @@ void add_threads(CLI::App& command, int& threads) {
       ->capture_default_str();
 }
 
+std::string refuse_negative(const std::string& number) {
+  return number.starts_with('-') ? "expected a number from 0 on, found " + number : std::string();
+}
+
+std::string refuse_empty_path(const std::string& path) {
+  return path.empty() ? "expected a path, found nothing" : std::string();
+}
+
+void add_force(CLI::App& command, bool& force) {
+  command.add_flag("--force", force, "overwrite files that this program did not make; inputs never");
+}
+
 void set_own_help(CLI::App& command, const std::string& help) {
   command.preparse_callback([&command, help](std::size_t) { command.description(help); });
 }
 
 void add_seed(CLI::App& command, std::uint64_t& seed) {
-  command.add_option("--seed", seed, "root of every random number")->capture_default_str();
+  command.add_option("--seed", seed, "root of every random number")
+      ->check(refuse_negative)
+      ->capture_default_str();
 }
 
 void add_cluster_arguments(CLI::App& command, pipeline::options::ClusterConfig& clusters) {

@@ -9,6 +9,7 @@
 #include "pipeline/audit/audit_file.h"
 #include "pipeline/audit/pose_files.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
 #include "pipeline/record/progress.h"
 
 namespace mimicx::tools {
@@ -28,23 +29,14 @@ struct Arguments {
   std::string json, csv, frames_csv;
   pipeline::audit::PoseFilesConfig config;
   double reach_mm = 20.0;
+  bool force = false;
 };
 
-/// @throws UsageError where a file to write is one to read, or two are the same
-void refuse_to_overwrite(const Arguments& a, const std::vector<std::string>& inputs) {
-  const auto same = [](const std::string& x, const std::string& y) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(x, none) == std::filesystem::weakly_canonical(y, none);
-  };
-  std::vector<std::string> outputs;
-  for (const std::string& output : {a.csv, a.frames_csv, a.json}) {
-    if (output.empty()) continue;
-    for (const std::string& input : inputs)
-      if (same(output, input)) throw UsageError("audit: " + output + " is an input; it would be overwritten");
-    for (const std::string& other : outputs)
-      if (same(output, other)) throw UsageError("audit: " + output + " is asked for twice");
-    outputs.push_back(output);
-  }
+void claim_outputs(const Arguments& a, const std::vector<std::string>& inputs) {
+  pipeline::record::Outputs outputs(inputs, a.force);
+  outputs.claim(a.csv, pipeline::audit::poses_csv_head());
+  outputs.claim(a.frames_csv, pipeline::audit::pose_frames_csv_head());
+  outputs.claim(a.json, pipeline::record::kJsonOpening);
 }
 
 int audit_forces(const Arguments& a, const std::vector<std::string>& inputs) {
@@ -102,8 +94,8 @@ int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
 int audit(const Arguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
-  const std::vector<std::string> inputs = pipeline::expand_inputs(a.inputs);
-  refuse_to_overwrite(a, inputs);
+  const std::vector<std::string> inputs = pipeline::expand_inputs(a.inputs, &std::cerr);
+  claim_outputs(a, inputs);
   return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
 }
 
@@ -128,6 +120,7 @@ void declare_audit(CLI::App& app, Action& action) {
       ->capture_default_str();
   add_read_arguments(*command, a->config.read);
   add_threads(*command, a->config.threads);
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return audit(*a); }; });
 }
 

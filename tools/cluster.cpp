@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "pipeline/configurations.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx::tools {
@@ -22,13 +23,14 @@ struct Arguments {
   pipeline::options::ClusterConfig config{pipeline::pretrain_configuration("small").clusters.radius,
                                           std::nullopt, 0};
   motion::import::ReadConfig read;
+  bool force = false;
 };
 
 /// The files named, and the motions of the folders named, each once and in order of their paths.
-std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& inputs) {
-  std::vector<std::filesystem::path> files;
-  for (const std::string& file : pipeline::expand_inputs(inputs))
-    files.push_back(std::filesystem::path(file).lexically_normal());
+std::vector<std::string> motion_files(const std::vector<std::string>& inputs) {
+  std::vector<std::string> files;
+  for (const std::string& file : pipeline::expand_inputs(inputs, &std::cerr))
+    files.push_back(std::filesystem::path(file).lexically_normal().string());
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
@@ -36,17 +38,18 @@ std::vector<std::filesystem::path> motion_files(const std::vector<std::string>& 
 
 int cluster(const Arguments& a) {
   std::vector<pipeline::options::NamedFeatures> motions;
-  std::vector<std::string> names;
+  const std::vector<std::string> files = motion_files(a.inputs);
+  const std::vector<std::string> names = pipeline::record::unique_names(files);
+  pipeline::record::Outputs(files, a.force).claim(a.out, pipeline::record::kJsonOpening);
   bool all_good = true;
-  for (const auto& file : motion_files(a.inputs)) {
-    names.push_back(pipeline::record::unique_name(file, names));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string& file = files[i];
     try {
       const motion::Clip clip = motion::import::read_motion(file, a.read);
-      pipeline::tell_decisions(file.string(), clip, std::cerr);
-      motions.push_back(
-          {names.back(), motion::motion_features(motion::prepare_reference(clip, {}, nullptr))});
+      pipeline::tell_decisions(file, clip, std::cerr);
+      motions.push_back({names[i], motion::motion_features(motion::prepare_reference(clip, {}, nullptr))});
     } catch (const std::exception& error) {
-      std::cerr << file.string() << ": left out: " << error.what() << '\n';
+      std::cerr << file << ": left out: " << error.what() << '\n';
       all_good = false;
     }
   }
@@ -69,10 +72,13 @@ void declare_cluster(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("cluster", "Sort motions into clusters of similar ones");
   command->add_option("FILE", a->inputs, "motions and folders of them")->required();
-  command->add_option("--out", a->out, "where to write the clusters: .json")->required();
+  command->add_option("--out", a->out, "where to write the clusters: .json")
+      ->check(refuse_empty_path)
+      ->required();
   add_read_arguments(*command, a->read);
   add_cluster_arguments(*command, a->config);
   add_seed(*command, a->config.seed);
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return cluster(*a); }; });
 }
 

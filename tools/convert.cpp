@@ -8,6 +8,7 @@
 #include "motion/resample.h"
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
 
 namespace mimicx::tools {
 namespace {
@@ -16,12 +17,14 @@ struct Arguments {
   std::filesystem::path in, out;
   motion::import::ReadConfig read;
   std::string rate = "input";
+  bool force = false;
 };
 
 int convert(const Arguments& a) {
   if (!motion::import::is_written(a.out.extension().string()))
     throw UsageError(a.out.string() + ": motions are written as " + motion::import::written_suffixes() +
                      ", not '" + a.out.extension().string() + "'");
+  pipeline::record::Outputs({a.in.string()}, a.force).claim(a.out, motion::import::written_opening(a.out));
   motion::Clip clip = motion::import::read_motion(a.in, a.read);
   if (a.rate == "30") clip = motion::resampled(clip, 30.0);
   pipeline::tell_decisions(a.in.string(), clip, std::cerr);
@@ -47,6 +50,7 @@ void declare_convert(CLI::App& app, Action& action) {
   command->add_option("--rate", a->rate, "frame rate of OUT: input or 30")
       ->check(CLI::IsMember({"input", "30"}))
       ->capture_default_str();
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return convert(*a); }; });
 }
 

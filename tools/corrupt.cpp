@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx::tools {
@@ -28,6 +29,7 @@ struct Arguments {
   std::filesystem::path out;
   std::string camera = "perturbed", keypoints = "22";
   pipeline::CorruptConfig config;
+  bool force = false;
 };
 
 /// @throws UsageError for a noise that cannot be
@@ -50,12 +52,16 @@ pipeline::CorruptConfig checked_config(const Arguments& a) {
 
 int corrupt(const Arguments& a) {
   const pipeline::CorruptConfig config = checked_config(a);
-  std::vector<std::string> names;
+  const std::vector<std::string> files = pipeline::expand_inputs(a.inputs, &std::cerr);
+  const std::vector<std::string> names = pipeline::record::unique_names(files);
+  pipeline::record::Outputs outputs(files, a.force);
+  for (const std::string& name : names)
+    for (const char* part : {"truth", "noisy"}) outputs.claim(a.out / part / (name + ".npz"));
   std::size_t written = 0;
-  for (const std::string& file : pipeline::expand_inputs(a.inputs)) {
-    names.push_back(pipeline::record::unique_name(file, names));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string& file = files[i];
     try {
-      pipeline::tell_decisions(file, pipeline::corrupt_file(file, names.back(), a.out, config), std::cerr);
+      pipeline::tell_decisions(file, pipeline::corrupt_file(file, names[i], a.out, config), std::cerr);
       ++written;
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << error.what() << '\n';
@@ -72,7 +78,7 @@ void declare_corrupt(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("corrupt", kPurpose);
   set_own_help(*command, kHelp);
   command->add_option("FILE", a->inputs, "clean motions and folders of them")->required();
-  command->add_option("--out", a->out, "folder to write to")->required();
+  command->add_option("--out", a->out, "folder to write to")->check(refuse_empty_path)->required();
   command
       ->add_option(
           "--noise", a->noise,
@@ -92,6 +98,7 @@ void declare_corrupt(CLI::App& app, Action& action) {
       ->capture_default_str();
   add_seed(*command, a->config.seed);
   add_read_arguments(*command, a->config.read);
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return corrupt(*a); }; });
 }
 

@@ -5,9 +5,11 @@
 #include <iostream>
 #include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "core/npz.h"
 #include "pipeline/protocol.h"
+#include "pipeline/record/outputs.h"
 
 namespace mimicx::tools {
 namespace {
@@ -16,7 +18,21 @@ struct Arguments {
   std::filesystem::path truth, json;
   std::vector<std::string> motions;
   std::string protocol;  ///< empty: our own metrics
+  bool force = false;
 };
+
+/// The motions of all folders named; a folder that is none has none.
+std::vector<std::string> files_to_read(const Arguments& a) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) return;
+    for (const std::string& name : pipeline::npz_names(folder))
+      files.push_back((folder / (name + ".npz")).string());
+  };
+  add(a.truth);
+  for (const std::string& folder : a.motions) add(folder);
+  return files;
+}
 
 int evaluate_published(const Arguments& a) {
   const auto& names = motion::protocol_names();
@@ -38,6 +54,7 @@ int evaluate_published(const Arguments& a) {
 }
 
 int evaluate(const Arguments& a) {
+  pipeline::record::Outputs(files_to_read(a), a.force).claim(a.json, pipeline::record::kJsonOpening);
   if (!a.protocol.empty()) return evaluate_published(a);
   if (a.motions.size() > 1) {
     const pipeline::Comparison comparison = pipeline::compare_folders(a.truth, a.motions);
@@ -73,7 +90,9 @@ void declare_evaluate(CLI::App& app, Action& action) {
       ->add_option("--protocol", a->protocol,
                    "the columns of a published protocol instead: phc, pmr or emdb, docs/metrics.md")
       ->check(CLI::IsMember(motion::protocol_names()));
-  command->add_option("--json", a->json, "also write every value, its count and its definition here");
+  command->add_option("--json", a->json, "also write every value, its count and its definition here")
+      ->check(refuse_empty_path);
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return evaluate(*a); }; });
 }
 

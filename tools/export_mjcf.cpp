@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
 
 namespace mimicx::tools {
 namespace {
@@ -17,6 +18,7 @@ struct Arguments {
   std::vector<double> betas;          ///< at most 10, the others are 0
   std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
   motion::import::ReadConfig read;
+  bool force = false;
 };
 
 Character character_of_shape(const std::vector<double>& betas) {
@@ -38,6 +40,7 @@ int export_mjcf(const Arguments& a) {
   if (a.motion.empty() && !a.read.text().empty())
     throw UsageError("export-mjcf: " + a.read.text() +
                      " says how to read a motion, and there is none: --motion FILE");
+  pipeline::record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
   if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
@@ -59,6 +62,7 @@ void declare_export_mjcf(CLI::App& app, Action& action) {
   command->add_option("--motion", a->motion, "take the body of this motion: that of its qpos by `convert`")
       ->excludes(betas);
   add_read_arguments(*command, a->read);
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return export_mjcf(*a); }; });
 }
 

@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx::tools {
@@ -21,6 +22,7 @@ struct Arguments {
   bool poses = false;
   motion::fit::FitConfig config;
   motion::import::ReadConfig read;
+  bool force = false;
 };
 
 void print(const std::string& name, const motion::fit::FitReport& r) {
@@ -30,7 +32,21 @@ void print(const std::string& name, const motion::fit::FitReport& r) {
               r.change_max_mm);
 }
 
+/// Where every input goes, claimed before any work.
+std::vector<std::filesystem::path> claimed_outputs(const std::vector<std::string>& files,
+                                                   const Arguments& a) {
+  pipeline::record::Outputs outputs(files, a.force);
+  std::vector<std::filesystem::path> paths;
+  for (const std::string& name : pipeline::record::unique_names(files)) {
+    paths.push_back(a.out / (name + ".npz"));
+    outputs.claim(paths.back());
+  }
+  return paths;
+}
+
 int fit(const Arguments& a) {
+  const std::vector<std::string> files = pipeline::expand_inputs(a.inputs, &std::cerr);
+  const std::vector<std::filesystem::path> outputs = claimed_outputs(files, a);
   std::filesystem::create_directories(a.out);
   std::printf(
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n"
@@ -38,18 +54,16 @@ int fit(const Arguments& a) {
       "motion", "before", "after", "focal", "tilt", "shape", "sigma", "lead", "swaps", "drops", "change",
       "largest", "", "% box", "% box", "scale", "deg", "beta", "% box", "frames", "frames", "points", "mm",
       "mm");
-  std::vector<std::string> names;
   bool all_good = true;
-  for (const std::string& file : pipeline::expand_inputs(a.inputs)) {
-    names.push_back(pipeline::record::unique_name(file, names));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string& file = files[i];
     try {
       motion::fit::FitReport report;
       const motion::Clip clip = motion::import::read_motion(file, a.read);
       pipeline::tell_decisions(file, clip, std::cerr);
-      motion::write_clip(
-          a.out / (names.back() + ".npz"),
-          (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(clip, a.config, &report));
-      print(names.back(), report);
+      motion::write_clip(outputs[i], (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(
+                                         clip, a.config, &report));
+      print(outputs[i].stem().string(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << error.what() << '\n';
@@ -65,7 +79,7 @@ void declare_fit(CLI::App& app, Action& action) {
   const auto a = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("fit", "Move motions onto their 2D keypoints, where they have any");
   command->add_option("FILE", a->inputs, "motions and folders of them")->required();
-  command->add_option("--out", a->out, "folder for the fitted motions")->required();
+  command->add_option("--out", a->out, "folder for the fitted motions")->check(refuse_empty_path)->required();
   add_read_arguments(*command, a->read);
   command->add_flag("--poses", a->poses,
                     "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
@@ -77,6 +91,7 @@ void declare_fit(CLI::App& app, Action& action) {
   add_sigma("--focal-sigma", a->config.focal_sigma, "the focal length in the file, relative");
   add_sigma("--tilt-sigma", a->config.tilt_sigma, "the camera's tilt in the file, degrees");
   add_sigma("--beta-sigma", a->config.beta_sigma, "each entry of the shape in the file");
+  add_force(*command, a->force);
   command->callback([a, &action] { action = [a] { return fit(*a); }; });
 }
 

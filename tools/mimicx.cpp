@@ -1,10 +1,13 @@
 /// `mimicx`: one binary, a subcommand per task (commands.h).
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 
 #include "commands.h"
+#include "pipeline/record/outputs.h"
 
 namespace mimicx::tools {
 namespace {
@@ -30,13 +33,25 @@ int run(int argc, char** argv) {
   return action();
 }
 
+/// Whether everything that was printed has arrived.
+bool is_told() {
+  std::cout.flush();
+  return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
 }  // namespace
 }  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
   try {
-    return mimicx::tools::run(argc, argv);
+    const int status = mimicx::tools::run(argc, argv);
+    if (mimicx::tools::is_told()) return status;
+    std::cerr << "mimicx: standard output cannot be written to\n";
+    return std::max(status, mimicx::tools::kSomeFailed);
   } catch (const mimicx::tools::UsageError& error) {
+    std::cerr << "mimicx: " << error.what() << '\n';
+    return mimicx::tools::kWrongUsage;
+  } catch (const mimicx::pipeline::record::OutputRefused& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kWrongUsage;
   } catch (const std::exception& error) {

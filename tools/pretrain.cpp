@@ -42,6 +42,7 @@ void declare_pretrain(CLI::App& app, Action& action) {
   command->add_option("DIR", a->config.inputs, "motions and folders of them")->required();
   command
       ->add_option("--out", a->config.out, "folder of the options; the same command continues what is there")
+      ->check(refuse_empty_path)
       ->required();
   command->add_option("--samples", a->samples, "training budget of all options together, in character steps")
       ->check(CLI::NonNegativeNumber)
@@ -54,6 +55,7 @@ void declare_pretrain(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"small", "paper"}))
       ->capture_default_str();
   add_seed(*command, a->config.training.seed);
+  add_force(*command, a->config.force);
   add_threads(*command, a->config.threads);
   command->add_flag("--encoder,!--no-encoder", a->config.use_encoder,
                     "policies see their reference through a denoising encoder (default)");

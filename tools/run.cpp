@@ -23,6 +23,7 @@ int run_all_stages(Arguments a) {
   a.adapt.method = pipeline::AdaptMethod::kPaper;  // it is the options that are to be tried
   a.adapt.training.seed = a.pretrain.training.seed;
   a.adapt.run.threads = a.pretrain.threads;
+  a.adapt.run.force = a.pretrain.force;
   a.adapt.run.read = a.pretrain.read;
   const int status = pretrain_options(a.pretrain, {});
   if (status == kInterrupted) return status;
@@ -37,6 +38,7 @@ void declare_run(CLI::App& app, Action& action) {
       app.add_subcommand("run", "All stages on a folder: pretrain options on it, then adapt all of it");
   command->add_option("DIR", a->in, "folder of motions")->required();
   command->add_option("--out", a->out, "where the folders of the two stages go: options/ and clean/")
+      ->check(refuse_empty_path)
       ->required();
   command
       ->add_option("--pretrain-samples", a->pretrain.training.samples,
@@ -52,6 +54,7 @@ void declare_run(CLI::App& app, Action& action) {
       ->capture_default_str();
   add_arrangement_arguments(*command, a->adapt.arrangement);
   add_seed(*command, a->pretrain.training.seed);
+  add_force(*command, a->pretrain.force);
   add_threads(*command, a->pretrain.threads);
   command->callback([a, &action] { action = [a] { return run_all_stages(*a); }; });
 }

@@ -4,9 +4,11 @@
 #include <map>
 #include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "motion/synth/set.h"
 #include "pipeline/audit/feasibility.h"
+#include "pipeline/record/outputs.h"
 #include "pipeline/record/progress.h"
 
 namespace mimicx::tools {
@@ -19,6 +21,7 @@ struct Arguments {
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
   motion::synth::SynthSetConfig set;
+  bool force = false;
   bool report = false;  ///< print what each motion of the set demands of a body
 };
 
@@ -57,10 +60,23 @@ void print_report(const std::vector<motion::synth::SynthConfig>& clips) {
   }
 }
 
+void claim_outputs(const Arguments& a) {
+  pipeline::record::Outputs outputs({}, a.force);
+  const auto claim = [&](const std::filesystem::path& directory, const motion::synth::SynthSetConfig& set) {
+    for (const motion::synth::SynthConfig& clip : motion::synth::clips_of_set(set))
+      for (const char* part : {"truth", "noisy"})
+        outputs.claim(directory / part / (motion::synth::name_of(clip) + ".npz"));
+  };
+  if (!a.out.empty()) claim(a.out, a.set);
+  if (a.data_set.empty()) return;
+  for (const auto& [split, set] : motion::synth::synthetic_splits()) claim(a.data_set / split, set);
+}
+
 int synth(const Arguments& a) {
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
   const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
+  claim_outputs(a);
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
     motion::synth::write_synthetic_data(a.data_set);
@@ -78,7 +94,7 @@ void declare_synth(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
   motion::synth::SynthSetConfig& set = a->set;
-  auto* out = command->add_option("--out", a->out, "folder to write to");
+  auto* out = command->add_option("--out", a->out, "folder to write to")->check(refuse_empty_path);
   command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
       ->check(CLI::PositiveNumber);
   command->add_option("--kinds", set.kinds, "kinds to make, separated by commas; default: all")
@@ -100,11 +116,13 @@ void declare_synth(CLI::App& app, Action& action) {
       ->transform(CLI::CheckedTransformer(kSets));
   command
       ->add_option("--seed", set.seed, "seed of the first motion of every kind; 101 and up: training split")
+      ->check(refuse_negative)
       ->capture_default_str();
   command
       ->add_option("--data-set", a->data_set,
                    "write the project's own small set, test/ and train/, to this folder instead")
       ->excludes(out);
+  add_force(*command, a->force);
   command->add_flag(
       "--report", a->report,
       "print the forces and torques that each motion of the set demands; --out may be left out");

@@ -8,6 +8,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "pipeline/preparation.h"
+#include "pipeline/run_outputs.h"
 
 namespace mimicx::tools {
 namespace {
@@ -71,10 +72,11 @@ void for_each_setting(const std::vector<std::string>& settings,
 
 void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<std::string>& settings) {
   command.add_option("FILE", run.inputs, "motions and folders of them")->required();
-  command.add_option(
-      "--out", run.out,
-      "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
-      "every input, and its clean motion beside it as NAME.clean.EXT");
+  command
+      .add_option("--out", run.out,
+                  "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
+                  "every input, and its clean motion beside it as NAME.clean.EXT")
+      ->check(refuse_empty_path);
   add_read_arguments(command, run.read);
   command
       .add_option_function<std::string>(
@@ -83,6 +85,7 @@ void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<
       ->check(CLI::IsMember({"30", "input"}));
   command.add_flag("--substeps", run.substeps,
                    "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
+  add_force(command, run.force);
   add_threads(command, run.threads);
   command
       .add_option(
@@ -148,13 +151,15 @@ int with_context(
 
 pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
                                         const std::function<pipeline::record::RunOutcome()>& once) {
-  const std::vector<std::string> files = pipeline::expand_inputs(run.inputs);
+  const std::vector<std::string> files = pipeline::expand_inputs(run.inputs, &context.messages);
   if (!run.out.empty()) {
     run.inputs = files;
     return once();
   }
   pipeline::record::RunOutcome all = pipeline::record::RunOutcome::kAllGood;
   run.beside = true;
+  run.protect = files;
+  pipeline::claim_copies_beside(files, run.force);
   for (const std::filesystem::path file : files) {
     run.inputs = {file.string()};
     run.out = file.parent_path() / (file.stem().string() + ".mimicx");

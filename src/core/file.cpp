@@ -41,7 +41,7 @@ std::error_code last_error() { return {errno == 0 ? EIO : errno, std::generic_ca
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
-  temporary_ += ".tmp";
+  temporary_ += ".mimicx-tmp";  // no file of a user's is called so
   errno = 0;
   out_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!out_) throw not_writable(path_, last_error());

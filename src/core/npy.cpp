@@ -188,7 +188,7 @@ NpyArray parse_npy(const std::uint8_t* data, std::size_t size, const std::string
   }
   if (t.bytes == 0 && count > kMaxEmptyTexts)
     throw DataError(path, place, "text of one character or more", std::to_string(count) + " empty elements");
-  if (count * t.bytes > size - start)
+  if (count * t.bytes != size - start)
     throw DataError(path, place, std::to_string(count * t.bytes) + " bytes of elements",
                     std::to_string(size - start));
   NpyArray array;

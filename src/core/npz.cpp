@@ -18,6 +18,8 @@ constexpr std::size_t kLocalBytes = 30, kCentralBytes = 46, kEndBytes = 22;
 constexpr std::uint64_t kSaturated32 = 0xFFFFFFFF;
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 constexpr std::uint32_t kDosDate = (0u << 9) | (1u << 5) | 1u;  ///< 1980-01-01; the time is 00:00
+constexpr std::size_t kAlwaysUnpacked = std::size_t{1} << 28;   ///< bytes, whatever the archive's own size
+constexpr std::size_t kMostRatio = 100;                         ///< of larger archives
 constexpr std::size_t kMaxDeflateRatio = 1032;                  ///< of the deflate format itself
 
 std::uint32_t crc32_of(const std::uint8_t* data, std::size_t size) {
@@ -117,6 +119,9 @@ std::vector<Entry> read_directory(const Bytes& bytes) {
       bytes.fail("", "an npz (zip) archive", "no zip directory (not a zip file, or truncated)");
     --end;
   }
+  if (const std::uint64_t behind = bytes.size() - end - kEndBytes, comment = bytes.number(end + 20, 2);
+      behind != comment)
+    bytes.fail("", "the end of the archive behind its directory", std::to_string(behind) + " bytes more");
   const std::uint64_t count = bytes.number(end + 10, 2), size = bytes.number(end + 12, 4);
   std::uint64_t at = bytes.number(end + 16, 4);
   if (count == 0xFFFF || size == kSaturated32 || at == kSaturated32)
@@ -258,13 +263,15 @@ Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_
   const Bytes bytes(data, path);
   Npz archive;
   archive.path = path;
-  std::size_t left = max_bytes;  // for all members together: a bomb may have many small ones
+  // For all members together: a bomb may have many small ones. No motion shrinks to a hundredth.
+  const std::size_t most = std::min(max_bytes, std::max(kAlwaysUnpacked, kMostRatio * data.size()));
+  std::size_t left = most;
   for (const Entry& e : read_directory(bytes)) {
     if (!e.name.ends_with(".npy")) continue;
     const std::string key = e.name.substr(0, e.name.size() - 4);
     if (!keys.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
     if (e.unpacked > left)
-      bytes.fail(e.name, "at most " + std::to_string(max_bytes) + " bytes after unpacking", "more");
+      bytes.fail(e.name, "at most " + std::to_string(most) + " bytes after unpacking", "more");
     left -= e.unpacked;
     const std::vector<std::uint8_t> content = read_member(bytes, e);
     try {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/keypoint_check.h"
 #include "motion/keypoint_names.h"
 
 namespace mimicx::motion {
@@ -86,6 +87,16 @@ NpyArray columns_from(const NpyArray& array, std::size_t first) {
   return out;
 }
 
+/// Hands, jaw and eyes, where `poses` has them: they come back in the columns they were in, also where the
+/// file has them as named arrays, too. The order of these columns is nobody's business here.
+void keep_other_columns(const Npz& npz, std::size_t frames, Clip& clip) {
+  if (!npz.has("poses")) return;
+  const NpyArray& poses = npz.at("poses");
+  if (poses.type == NpyArray::Type::kText || poses.shape.size() != 2 || poses.shape[0] != frames) return;
+  if (poses.shape[1] > kPoseColumns)
+    clip.passthrough.emplace_back("poses_rest", columns_from(poses, kPoseColumns));
+}
+
 /// Fills the rotations; returns the body model the layout stands for.
 std::string read_rotations(const Npz& npz, Clip& clip) {
   const auto vector_at = [](const std::vector<double>& v, std::size_t at) {
@@ -102,6 +113,7 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
       for (std::size_t j = 0; j < kJoints; ++j)
         clip.rotations[t][j + 1] = vector_at(body.values, 3 * (kJoints * t + j));
     }
+    keep_other_columns(npz, frames, clip);
     return "smplx";
   }
   const Member poses(npz, "poses");
@@ -113,8 +125,7 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
   for (std::size_t t = 0; t < clip.rotations.size(); ++t)
     for (std::size_t j = 0; j < kBodies; ++j)
       clip.rotations[t][j] = vector_at(poses.values, columns * t + 3 * j);
-  if (columns > kPoseColumns && !npz.has("pose_hand"))
-    clip.passthrough.emplace_back("poses_rest", columns_from(poses.array, kPoseColumns));
+  keep_other_columns(npz, clip.rotations.size(), clip);
   return columns == 72 ? "smpl" : columns == 156 ? "smplh" : "smplx";
 }
 
@@ -274,6 +285,24 @@ NpyArray beside(const NpyArray& left, const NpyArray& right) {
   return from_matrix(both);
 }
 
+/// What stands behind the body in `poses`: the input's own columns; where it has named arrays of SMPL-X
+/// alone, these in the model's order: jaw, eyes (at rest where there are none), hands.
+NpyArray other_columns(const Clip& clip) {
+  if (const NpyArray* rest = passed_on(clip, "poses_rest")) return *rest;
+  constexpr std::pair<const char*, std::size_t> kParts[] = {
+      {"pose_jaw", 3}, {"pose_eye", 6}, {"pose_hand", 90}};
+  const std::size_t frames = clip.rotations.size();
+  if (!passed_on(clip, "pose_hand")) return {};
+  std::vector<NpyArray> parts;
+  for (const auto& [name, columns] : kParts) {
+    const std::vector<std::size_t> shape = {frames, columns};
+    const NpyArray* part = passed_on(clip, name);
+    const std::vector<double> none(frames * columns, 0.0);
+    parts.push_back(part && part->shape == shape ? *part : NpyArray::from_double(shape, none.data()));
+  }
+  return beside(beside(parts[0], parts[1]), parts[2]);
+}
+
 /// The betas in use and those past the tenth.
 NpyArray all_betas(const Clip& clip) {
   std::vector<double> betas(clip.betas.begin(), clip.betas.end());
@@ -319,6 +348,7 @@ Clip clip_from(const Npz& npz, const std::string& name) {
                                    "body_model",      "surface_model_type"};
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
     clip.keypoints = read_keypoints(npz, clip);
+    check_keypoints(npz.path, *clip.keypoints, clip.decisions);
     used.insert(used.end(), kKeypointMembers.begin(), kKeypointMembers.end());
   } else if (npz.has("keypoints_2d")) {
     clip.warnings.push_back("keypoints_2d without camera_intrinsics and camera_extrinsics are not used");
@@ -341,8 +371,7 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
   for (const Vector3d& p : clip.trans) trans.insert(trans.end(), p.data(), p.data() + 3);
   const NpyArray root_orient = NpyArray::from_double({frames, 3}, root.data());
   const NpyArray pose_body = NpyArray::from_double({frames, 3 * kJoints}, body.data());
-  const NpyArray* rest = passed_on(clip, "poses_rest");
-  npz.set("poses", beside(beside(root_orient, pose_body), rest ? *rest : NpyArray{}));
+  npz.set("poses", beside(beside(root_orient, pose_body), other_columns(clip)));
   npz.set("trans", NpyArray::from_double({frames, 3}, trans.data()));
   npz.set("betas", all_betas(clip));
   npz.set("mocap_framerate", NpyArray::scalar(clip.fps));

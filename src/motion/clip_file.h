@@ -14,7 +14,7 @@ namespace mimicx::motion {
 
 /// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
 /// 165 columns); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`. Columns of `poses` past the 66th
-/// are kept as the member `poses_rest`, unless the file holds them as named arrays; betas past the tenth as
+/// are kept as the member `poses_rest`; betas past the tenth as
 /// `betas_rest`. Undetected keypoints (not finite) get confidence 0. Keypoints without names are the body's
 /// joints where they are 22 and those of COCO where they are 17; a decision says so.
 /// @throws DataError naming file and member.

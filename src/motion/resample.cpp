@@ -4,8 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "motion/passthrough.h"
+
 namespace mimicx::motion {
 namespace {
+
+constexpr std::size_t kMostFrames = 300000;  ///< that a lower rate is made to: nearly three hours at 30 fps
 
 /// A time of the output between two frames of the input.
 struct Between {
@@ -44,6 +48,9 @@ Clip resampled(const Clip& clip, double fps) {
   const double ratio = clip.fps / fps;
   // The last frame counts as reached when rounding alone keeps it away.
   const auto count = static_cast<std::size_t>((frames - 1) / ratio + 1e-9) + 1;
+  if (count > std::max(kMostFrames, clip.rotations.size()))
+    throw DataError(clip.name, "", "at most " + std::to_string(kMostFrames) + " frames at the new frame rate",
+                    std::to_string(count) + " (is the frame rate right?)");
   Clip out = clip;
   out.fps = fps;
   out.rotations.resize(count);
@@ -64,14 +71,7 @@ Clip resampled(const Clip& clip, double fps) {
     const auto& camera = clip.keypoints->extrinsics;
     if (camera.size() > 1) out.keypoints->extrinsics[k] = interpolate_pose(camera[t], camera[n], share);
   }
-  std::string dropped;
-  std::erase_if(out.passthrough, [&](const auto& member) {
-    const bool per_frame = !member.second.shape.empty() && member.second.shape[0] == clip.rotations.size();
-    if (per_frame) dropped += (dropped.empty() ? "" : ", ") + member.first;
-    return per_frame;
-  });
-  if (!dropped.empty())
-    out.warnings.push_back("resampling leaves out members with one row per frame: " + dropped);
+  out.passthrough = resampled_members(clip.passthrough, clip.rotations.size(), count, ratio);
   return out;
 }
 

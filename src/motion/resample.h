@@ -9,9 +9,9 @@ namespace mimicx::motion {
 
 /// The clip at another frame rate (Hz), from its first frame on: rotations by slerp, positions, keypoints and
 /// cameras linearly. A clip of that rate comes back unchanged. A keypoint that is seen in one of two frames
-/// alone is that of the nearer frame. Passed-through members with one row per frame are left out, with a
-/// warning.
-/// @throws std::invalid_argument unless the rate is positive
+/// alone is that of the nearer frame. Passed-through members follow as passthrough.h says.
+/// @throws std::invalid_argument unless the rate is positive, DataError where frames would be made by the
+/// hundred thousand
 Clip resampled(const Clip& clip, double fps);
 
 }  // namespace mimicx::motion

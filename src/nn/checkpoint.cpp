@@ -1,5 +1,7 @@
 #include "nn/checkpoint.h"
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "core/error.h"
@@ -33,7 +35,10 @@ std::vector<double> checked(const Npz& archive, const std::string& key, NpyArray
   if (array.type != type) throw DataError(archive.path, key, "the element type it was saved with", "another");
   if (array.shape != shape)
     throw DataError(archive.path, key, "shape " + shape_text(shape), shape_text(array.shape));
-  return array.to_double();
+  std::vector<double> values = array.to_double();
+  if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+    throw DataError(archive.path, key, "finite numbers", "one that is not");
+  return values;
 }
 
 template <class S>

@@ -60,7 +60,7 @@ void append_subtree(int body, PerBody<int>& order, int& count) {
 
 /// Where each joint's numbers stand in qpos and qvel.
 void write_coordinates(std::ostream& out) {
-  out << "<!-- joint: first entry of qpos (how many), first entry of qvel (how many)\n";
+  out << kMjcfOpening;
   int qpos = 0, qvel = 0;
   for (const int body : mjcf_order()) {
     const int positions = body == kPelvis ? 7 : is_hinge(body) ? 1 : 4;

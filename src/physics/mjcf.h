@@ -17,6 +17,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "physics/model.h"
 
@@ -26,6 +27,10 @@ struct MjcfConfig {
   bool springs = false;  ///< PD gains as the joints' stiffness and damping, pulling towards the T-pose
   bool shapes = true;    ///< capsules to look at; they collide with nothing
 };
+
+/// How every file of ours begins.
+inline constexpr std::string_view kMjcfOpening =
+    "<!-- joint: first entry of qpos (how many), first entry of qvel (how many)\n";
 
 /// The text of the file.
 std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what = {});

@@ -148,7 +148,7 @@ std::string comparison_json(const Comparison& comparison) {
   for (const EvaluatedMotion& m : comparison.evaluations.front().motions) json["motions"].push_back(m.name);
   for (const auto& d : motion::metric_definitions())
     json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
-  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
+  return record::document(json);
 }
 
 std::string format_evaluation(const Evaluation& evaluation) {
@@ -176,7 +176,7 @@ std::string evaluation_json(const Evaluation& evaluation) {
     json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
   }
   json["unmatched"] = evaluation.unmatched;
-  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
+  return record::document(json);
 }
 
 }  // namespace mimicx::pipeline

@@ -4,12 +4,16 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "core/error.h"
 #include "core/npz.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/json.h"
+#include "pipeline/record/names.h"
+#include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx::pipeline {
@@ -33,8 +37,8 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
           prepare_motion(files[i], config.read, config.fit ? Correction::kKeypoints : Correction::kPoses);
       tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
-      std::vector<std::string> taken;
-      for (const auto& named : motions.features) taken.push_back(named.name);
+      std::set<std::string> taken;
+      for (const auto& named : motions.features) taken.insert(named.name);
       motions.features.push_back(
           {record::unique_name(files[i], taken), motion::motion_features(motion.reference)});
       motions.references.push_back(std::move(motion.reference));
@@ -43,8 +47,9 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
       motions.all_good = false;
       context.messages << "  " << reason << '\n';
     }
-    motions.record.push_back(
-        {{"input", files[i]}, {"status", reason.empty() ? "ok" : "failed"}, {"reason", reason}});
+    motions.record.push_back({{"input", record::to_utf8(files[i])},
+                              {"status", reason.empty() ? "ok" : "failed"},
+                              {"reason", record::to_utf8(reason)}});
     context.progress.update(static_cast<double>(i + 1), "");
   }
   context.progress.finish("prepared " + std::to_string(motions.references.size()) + " of " +
@@ -75,15 +80,27 @@ record::Json run_record(const PretrainConfig& config, const std::vector<std::str
       checksum = record::file_checksum(file);
     } catch (const DataError&) {  // told when the motion is read
     }
-    inputs.push_back({{"input", file}, {"checksum", checksum}});
+    inputs.push_back({{"input", record::to_utf8(file)}, {"checksum", checksum}});
   }
   return {{"version", MIMICX_VERSION},
           {"target", MIMICX_TARGET},
           {"seed", config.training.seed},
           {"samples", config.training.samples},
           {"settings", settings_json(config)},
-          {"reading", config.read.text()},
+          {"reading", record::to_utf8(config.read.text())},
           {"inputs", inputs}};
+}
+
+/// Claims what does not have an option's number in its name. In a folder of this run all of it is ours.
+void claim_options(const record::RunFolder& folder, const std::vector<std::string>& files, bool force) {
+  record::Outputs outputs(files, force);
+  const bool continued = std::filesystem::exists(folder.manifest());
+  const auto claim = [&](const std::filesystem::path& path, std::string_view opening) {
+    continued ? outputs.claim_own(path) : outputs.claim(path, opening);
+  };
+  claim(folder.manifest(), record::kJsonOpening);
+  claim(folder.root / "clusters.json", record::kJsonOpening);
+  claim(folder.root / "options.npz", {});
 }
 
 /// How the run in the folder ended, where it is this one and its options are there to the last byte.
@@ -164,9 +181,11 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   made.interrupted = result.interrupted;
   made.trained = {option, cluster.description, cluster.centre, static_cast<int>(clips.size()),
                   result.samples};
+  record::Json members = record::Json::array();
+  for (const std::string& member : cluster.members) members.push_back(record::to_utf8(member));
   made.record = {{"name", name},
                  {"description", cluster.description},
-                 {"members", cluster.members},
+                 {"members", members},
                  {"samples", result.samples},
                  {"seed", training.seed},
                  {"encoder_loss_first", losses.first_loss},
@@ -194,8 +213,10 @@ std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<
 }
 
 record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context) {
-  const std::vector<std::string> files = expand_inputs(config.inputs);
+  const std::vector<std::string> files = expand_inputs(config.inputs, &context.messages);
   const record::RunFolder folder{config.out};
+  claim_options(folder, files, config.force);
+  const record::FolderLock lock(folder.root);
   const record::Json record = run_record(config, files);
   if (const auto outcome = finished_outcome(folder, record)) {
     context.messages << folder.root.string() << ": these options are trained already\n";

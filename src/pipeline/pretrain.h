@@ -32,6 +32,7 @@ struct PretrainConfig {
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
   bool fit = false;         ///< move motions onto their keypoints first, where they have any
   motion::import::ReadConfig read;
+  bool force = false;  ///< overwrite files that no run made
   int threads = 1;
 };
 

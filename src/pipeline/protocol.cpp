@@ -134,7 +134,7 @@ std::string protocol_json(const std::vector<ProtocolTable>& tables) {
                                    {"values", to_json(columns, row.values)}});
     json["folders"].push_back(folder);
   }
-  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
+  return record::document(json);
 }
 
 }  // namespace mimicx::pipeline

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "core/npz.h"
@@ -12,12 +14,15 @@
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/pose_verdict.h"
 #include "pipeline/audit/substeps.h"
+#include "pipeline/kept_files.h"
 #include "pipeline/output/clean_copy.h"
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/timing.h"
 #include "pipeline/reference_needs.h"
 #include "pipeline/report/run_report.h"
+#include "pipeline/run_outputs.h"
 #include "pipeline/scores.h"
 
 namespace mimicx::pipeline {
@@ -32,6 +37,8 @@ struct RunState {
   record::RunFolder folder;
   record::Manifest manifest;
   std::vector<record::Timing> timings;
+  std::vector<std::string> inputs = {};           ///< as the manifest spells them
+  std::map<std::string, std::string> names = {};  ///< of the inputs, in the folder
 };
 
 record::Manifest manifest_of(const RunConfig& config, const Method& method) {
@@ -50,9 +57,9 @@ record::Manifest manifest_of(const RunConfig& config, const Method& method) {
 /// The folder's own manifest where it is one of this run's settings; a new one where there is none.
 record::Manifest open_manifest(const RunConfig& config, const Method& method,
                                const record::RunFolder& folder) {
+  std::set<std::string> seen;
   for (const std::string& input : config.inputs)
-    if (std::count(config.inputs.begin(), config.inputs.end(), input) > 1)
-      throw std::invalid_argument(input + " is given twice");
+    if (!seen.insert(input).second) throw std::invalid_argument(input + " is given twice");
   record::Manifest manifest = manifest_of(config, method);
   if (!std::filesystem::exists(folder.manifest())) return manifest;
   record::Manifest there = record::read_manifest(folder.manifest());
@@ -76,13 +83,29 @@ record::Timing& timing_of(RunState& run, const std::string& name) {
   return run.timings.back();
 }
 
+/// Makes fit and reference of a finished sequence again where they are damaged; of other files it says so.
+void restore_files(const RunState& run, const record::SequenceEntry& entry,
+                   const std::vector<std::string>& damaged) {
+  for (const std::string& name : damaged) {
+    const std::filesystem::path file = run.folder.root / name;
+    const bool fit = file == run.folder.fit(entry.name), reference = file == run.folder.reference(entry.name);
+    run.context.messages << entry.name << ": " << name << " is gone or damaged"
+                         << (fit || reference ? ": made again\n" : ", and is not made again\n");
+    if (!fit && !reference) continue;
+    const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
+    std::filesystem::create_directories(file.parent_path());
+    if (fit)
+      motion::write_clip(file, motion.fitted);
+    else
+      output::write_reference(file, motion.input, motion.reference);
+  }
+}
+
 /// Fills what is known of an input before any work. @return false where its earlier result still stands
 bool begin_entry(const RunState& run, const std::string& input, record::SequenceEntry& entry) {
   const record::SequenceEntry* there = run.manifest.find(input);
-  std::vector<std::string> taken;
-  for (const auto& e : run.manifest.sequences) taken.push_back(e.name);
   entry.input = input;
-  entry.name = there ? there->name : record::unique_name(input, taken);
+  entry.name = run.names.at(input);
   entry.seed = run.method.seed;
   entry.input_checksum = record::file_checksum(input);
   const auto has = [](const std::filesystem::path& file) { return std::filesystem::exists(file); };
@@ -90,9 +113,15 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
       there && has(run.folder.root / there->output) &&
       (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
       (!run.config.gains || there->ending != record::Ending::kFollowed || has(run.folder.gains(entry.name)));
-  const bool stands = complete && there->finished() && there->input_checksum == entry.input_checksum;
-  if (stands) entry = *there;
-  return !stands;
+  if (!complete || !there->finished() || there->input_checksum != entry.input_checksum) return true;
+  const std::vector<std::string> damaged = damaged_files(run.folder, *there);
+  if (std::find(damaged.begin(), damaged.end(), there->output) != damaged.end()) {
+    run.context.messages << entry.name << ": " << there->output << " is damaged: made again\n";
+    return true;
+  }
+  entry = *there;
+  restore_files(run, entry, damaged);
+  return false;
 }
 
 /// What the reference asks for that no body can do, into the entry.
@@ -188,14 +217,14 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
                               frame_feasibility(motion.needs, made.help));
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
-  output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after,
-                          entry.notes);
+  output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
   std::filesystem::remove(folder.substeps(entry.name));
   if (run.config.substeps)
     audit::write_substeps(
         with_parents(folder.substeps(entry.name)),
         {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
   entry.output = output;
+  entry.files = checksums_of(folder, entry);
 }
 
 /// Prepare → simulate → judge and write. @param told  notes of the entry that were said already
@@ -244,16 +273,15 @@ void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
   const std::filesystem::path input(entry.input);
   const std::string suffix = output::clean_suffix(input);
   if (suffix == ".npz" && !run.config.beside && !run.config.input_rate) return;
-  const std::filesystem::path copy = run.config.beside
-                                         ? input.parent_path() / (input.stem().string() + ".clean" + suffix)
-                                         : run.folder.clean(entry.name, suffix);
+  const std::filesystem::path copy =
+      run.config.beside ? copy_beside(input) : run.folder.clean(entry.name, suffix);
   if (!entry.ok) {
     std::filesystem::remove(copy);
     return;
   }
-  output::write_clean_copy(run.folder.root / entry.output, input, run.config.read, run.config.input_rate,
-                           copy);
-  if (run.config.beside) run.context.messages << "  clean motion: " << copy.string() << '\n';
+  const std::string body = output::write_clean_copy(run.folder.root / entry.output, input, run.config.read,
+                                                    run.config.input_rate, copy);
+  if (run.config.beside) run.context.messages << "  clean motion: " << copy.string() << ", " << body << '\n';
 }
 
 /// Does `copy_clean` and tells what went wrong. The motion itself is written already; the same command tries
@@ -280,12 +308,19 @@ NamedValues settings_of(const RunConfig& config) {
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context) {
   const record::RunFolder folder{config.out};
+  const record::FolderLock lock(folder.root);
   RunState run{config,
                method,
                context,
                folder,
                open_manifest(config, method, folder),
                record::read_timing(folder.timing())};
+  run.inputs = as_recorded(config.inputs, run.manifest);
+  run.names = sequence_names(run.inputs, run.manifest);
+  std::vector<std::string> protect = config.protect;
+  protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
+  record::Outputs outputs(protect, config.force);
+  claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
   folder.create();
   write_records(run);
   bool all_good = true;
@@ -300,8 +335,8 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     context.progress.finish(name + ": interrupted; the same command continues");
     return record::RunOutcome::kInterrupted;
   };
-  for (std::size_t i = 0; i < config.inputs.size(); ++i) {
-    const std::string& input = config.inputs[i];
+  for (std::size_t i = 0; i < run.inputs.size(); ++i) {
+    const std::string& input = run.inputs[i];
     if (i > 0 && context.should_stop()) return interrupted(input);
     record::SequenceEntry entry;
     std::size_t told = 0;
@@ -314,7 +349,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     }
     run.manifest.put(entry);
     write_records(run);
-    if (i + 1 == config.inputs.size() || record::steady_seconds() - reported > kReportSeconds) report();
+    if (i + 1 == run.inputs.size() || record::steady_seconds() - reported > kReportSeconds) report();
     context.progress.finish(result_line(entry));
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';

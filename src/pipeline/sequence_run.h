@@ -36,8 +36,10 @@ struct RunConfig {
   motion::import::ReadConfig read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
-  bool substeps = false;    ///< also write every physics step of the result; finished motions get theirs too
-  bool gains = false;       ///< also write the feedback gains of plans; finished ones get theirs, too
+  bool force = false;       ///< overwrite files that no run made
+  std::vector<std::string> protect;  ///< inputs of the same command that belong to other runs
+  bool substeps = false;  ///< also write every physics step of the result; finished motions get theirs too
+  bool gains = false;     ///< also write the feedback gains of plans; finished ones get theirs, too
   bool fit = false;    ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
   bool as_is = false;  ///< correct nothing (Correction::kNone), whatever `fit` says
   int threads = 1;
@@ -87,7 +89,8 @@ struct Method {
 /// The settings of a run on which its results depend, whatever the method.
 NamedValues settings_of(const RunConfig& config);
 
-/// @throws std::invalid_argument when an input is given twice, or the folder holds a run of other settings
+/// @throws std::invalid_argument when an input is given twice, the folder holds a run of other settings, or
+/// something would be overwritten that no run made
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context);
 

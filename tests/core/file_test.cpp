@@ -21,7 +21,7 @@ TEST(WriteFile, SaysWhatIsInTheWayAndLeavesNothingBehind) {
   const fs::path folder = scratch("taken.npz");
   fs::create_directories(folder);
   EXPECT_EQ(why(folder), folder.string() + ": expected a writable file, found Is a directory");
-  EXPECT_FALSE(fs::exists(folder.string() + ".tmp"));
+  EXPECT_FALSE(fs::exists(folder.string() + ".mimicx-tmp"));
   const fs::path nowhere = scratch("nowhere") / "file";
   EXPECT_EQ(why(nowhere), nowhere.string() + ": expected a writable file, found No such file or directory");
 }

@@ -121,6 +121,20 @@ TEST(Npy, MatrixRoundTripIsExact) {
   EXPECT_EQ(from_matrix(m).to_double()[7], m(1, 0));  // row-major in the file
 }
 
+TEST(Npy, BytesBehindTheElementsAreSaidNotCut) {
+  const std::string whole = format_npy(NpyArray::scalar(1.5)), longer = whole + "more";
+  const auto parse = [](const std::string& bytes) {
+    return parse_npy(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), "a.npy", "");
+  };
+  EXPECT_NO_THROW(parse(whole));
+  try {
+    parse(longer);
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_STREQ(error.what(), "a.npy: expected 8 bytes of elements, found 12");
+  }
+}
+
 TEST(Npy, MutatedHeadersAreReadOrRefusedNeverMore) {
   Random random(7, {2});
   int refused = 0;

@@ -36,8 +36,38 @@ TEST(Npz, EqualContentIsEqualBytesAndLeavesNoTemporaryFile) {
   EXPECT_EQ(format_npz(example_archive()), format_npz(example_archive()));
   const fs::path path = scratch("twice.npz");
   write_npz(path, example_archive());
-  EXPECT_FALSE(fs::exists(scratch("twice.npz.tmp")));
+  EXPECT_FALSE(fs::exists(scratch("twice.npz.mimicx-tmp")));
   EXPECT_EQ(fs::file_size(path), format_npz(example_archive()).size());
+}
+
+TEST(Npz, BytesBehindTheArchiveAreSaidNotCut) {
+  const std::string whole = format_npz(example_archive());
+  try {
+    parse_npz(whole + "more", "a.npz");
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a.npz: expected the end of the archive behind its directory, found 4 bytes more");
+  }
+  std::string commented = whole;
+  commented[whole.size() - 2] = 4;  // a comment of the archive's own
+  EXPECT_NO_THROW(parse_npz(commented + "more", "a.npz"));
+}
+
+TEST(Npz, AnArchiveThatUnpacksToAHundredTimesItsSizeIsRefusedBeforeItIsUnpacked) {
+  // The header of a stored member that claims 300 MB; what it has does not matter.
+  std::string bytes = format_npz(example_archive());
+  const std::size_t central = bytes.find("PK\x01\x02");
+  ASSERT_NE(central, std::string::npos);
+  const std::uint32_t claim = 300u << 20;
+  for (std::size_t i = 0; i < 4; ++i) bytes[central + 24 + i] = static_cast<char>(claim >> (8 * i));
+  try {
+    parse_npz(bytes, "a.npz");
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a.npz: poses.npy: expected at most 268435456 bytes after unpacking, found more");
+  }
 }
 
 TEST(Npz, MissingMemberIsNamedWithItsFile) {
@@ -113,7 +143,7 @@ std::string zip_message(const std::string& bytes) {
 
 TEST(Zip, BombsEncryptionAndUnknownMethodsAreRefusedByName) {
   const std::string content(100, 'x');
-  EXPECT_NE(zip_message(one_member_zip(content, 2000000000, 8)).find("deflate can reach"), std::string::npos);
+  EXPECT_NE(zip_message(one_member_zip(content, 200000000, 8)).find("deflate can reach"), std::string::npos);
   EXPECT_NE(zip_message(one_member_zip(content, 100, 0, 1)).find("encrypted"), std::string::npos);
   EXPECT_NE(zip_message(one_member_zip(content, 100, 12)).find("method 12"), std::string::npos);
   EXPECT_NE(zip_message(one_member_zip(content, 100, 0, 0, 50)).find("overlapping"), std::string::npos);

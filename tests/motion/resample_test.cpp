@@ -35,7 +35,7 @@ TEST(Resample, SameRateChangesNothing) {
   EXPECT_TRUE(out.warnings.empty());
 }
 
-TEST(Resample, KeypointsAndMovingCamerasFollowAndPerFrameMembersAreNamedInAWarning) {
+TEST(Resample, KeypointsAndMovingCamerasFollow) {
   Clip clip = test::clip_with_everything();
   clip.fps = 60.0;
   clip.keypoints->uvc[1][0] = {11.5, 22.25, 0.7};
@@ -43,14 +43,70 @@ TEST(Resample, KeypointsAndMovingCamerasFollowAndPerFrameMembersAreNamedInAWarni
   EXPECT_EQ(half.frames(), 3);
   EXPECT_EQ(half.keypoints->uvc.size(), 3u);
   EXPECT_EQ(half.keypoints->extrinsics.size(), 3u);
-  EXPECT_TRUE(half.passthrough.empty());
-  ASSERT_EQ(half.warnings.size(), 1u);
-  EXPECT_NE(half.warnings[0].find("pose_hand"), std::string::npos);
+  EXPECT_TRUE(half.warnings.empty());
   // At 40 fps frame 1 lies between the input's frames 1 and 2, midway.
   EXPECT_LT((third.keypoints->uvc[1][0] - Vector3d(11.0, 21.25, 0.7)).norm(), 1e-9);
   EXPECT_EQ(third.keypoints->uvc[1][1].z(), 0.0);
   EXPECT_NEAR(third.keypoints->extrinsics[2](0, 3), 4.5, 1e-9);
   EXPECT_LT((third.keypoints->extrinsics[1].topLeftCorner<3, 3>() - Matrix3d::Identity()).norm(), 1e-12);
+}
+
+TEST(Resample, WhatBelongsToFramesFollowsThemAndWhatDoesNotStays) {
+  Clip clip = test::standing_clip(9, 1.0, 120.0);
+  const Vector3d axis = Vector3d(2, -1, 3).normalized();
+  std::vector<double> hand, soft;
+  std::vector<std::int64_t> frame;
+  std::vector<std::string> words;
+  for (int t = 0; t < 9; ++t) {
+    const Vector3d turn = 0.3 * t * axis;
+    hand.insert(hand.end(), turn.data(), turn.data() + 3);
+    soft.insert(soft.end(), {1.0 * t, 10.0 * t, 0.0, 0.0});
+    frame.push_back(t);
+    words.push_back("frame " + std::to_string(t));
+  }
+  clip.passthrough = {{"pose_hand", NpyArray::from_double({9, 3}, hand.data())},
+                      {"dmpls", NpyArray::from_double({9, 2, 2}, soft.data())},
+                      {"number", NpyArray::from_int64({9}, frame.data())},
+                      {"words", NpyArray::from_text(words)},
+                      {"num_betas", NpyArray::scalar_int(16)},
+                      {"betas_rest", NpyArray::from_double({9}, soft.data())},
+                      {"markers", NpyArray::from_double({2, 9}, hand.data())}};
+  const Clip out = resampled(clip, 50.0);  // frame k of it is frame 2.4 k of the input: 0, 2.4, 4.8, 7.2
+  ASSERT_EQ(out.frames(), 4);
+  ASSERT_EQ(out.passthrough.size(), 7u);
+  EXPECT_TRUE(out.warnings.empty());
+  const auto at = [&](int i) { return out.passthrough[static_cast<std::size_t>(i)].second; };
+  EXPECT_EQ(at(0).shape, (std::vector<std::size_t>{4, 3}));
+  EXPECT_EQ(at(1).shape, (std::vector<std::size_t>{4, 2, 2}));
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector3d turn = to_matrix(at(0)).row(k);
+    EXPECT_LT((turn - 0.3 * 2.4 * k * axis).norm(), 1e-9) << k;
+    EXPECT_NEAR(to_matrix(at(1))(k, 1), 24.0 * k, 1e-9);
+  }
+  EXPECT_EQ(at(2).to_double(), (std::vector<double>{0, 2, 5, 7}));
+  EXPECT_EQ(at(3).text, (std::vector<std::string>{"frame 0", "frame 2", "frame 5", "frame 7"}));
+  for (const int i : {4, 5, 6}) {
+    EXPECT_EQ(at(i).bytes, clip.passthrough[static_cast<std::size_t>(i)].second.bytes);
+    EXPECT_EQ(at(i).shape, clip.passthrough[static_cast<std::size_t>(i)].second.shape);
+  }
+}
+
+TEST(Resample, ARateThatWouldMakeFramesWithoutEndIsRefused) {
+  const Clip slow = test::standing_clip(200, 1.0, 0.01);
+  try {
+    resampled(slow, 30.0);
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("is the frame rate right?"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Resample, AMemberAtTheFramesOfTheInputIsThereToTheBit) {
+  Clip clip = test::clip_with_everything();
+  clip.fps = 60.0;
+  const Clip half = resampled(clip, 30.0);
+  const auto all = to_matrix(clip.passthrough[0].second), kept = to_matrix(half.passthrough[0].second);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(kept.row(k), all.row(2 * k));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST_F(CliPoses, NeverOverwritesAnInputOrLeavesHalfAFile) {
   EXPECT_EQ(nowhere.status, 1);
   EXPECT_TRUE(says(nowhere, "expected a writable file")) << nowhere.text;
   EXPECT_FALSE(std::filesystem::exists(path("x")));
-  EXPECT_FALSE(std::filesystem::exists(path("x.tmp")));
+  EXPECT_FALSE(std::filesystem::exists(path("x.mimicx-tmp")));
 }
 
 TEST_F(CliPoses, AFloorThatIsSaidIsBelievedAndOneThatIsNotIsLookedFor) {

@@ -8,10 +8,16 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "motion/clip.h"
 
 namespace mimicx::motion::import {
+
+/// How every file of ours begins: nine decimals, a root without an offset, and this order of channels.
+inline constexpr std::string_view kBvhOpening =
+    "HIERARCHY\nROOT pelvis\n{\n\tOFFSET 0.000000000 0.000000000 0.000000000\n"
+    "\tCHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n";
 
 void write_bvh(const std::filesystem::path& path, const Clip& clip);
 /// The text `write_bvh` writes.

@@ -12,6 +12,7 @@
 #include "motion/import/body_model.h"
 #include "motion/import/bvh.h"
 #include "motion/import/bvh_write.h"
+#include "motion/import/clip_checks.h"
 #include "motion/import/deepmimic.h"
 #include "motion/import/motionx.h"
 #include "motion/import/plausibility.h"
@@ -120,6 +121,13 @@ double usual_rate(double fps) {
   return 0.0;
 }
 
+/// Whether a motion at another rate has no speeds that it has not now and that no human has.
+bool is_plausible_at(double fps, const Clip& clip) {
+  Clip other = clip;
+  other.fps = fps;
+  return implausible_speeds(other).empty();
+}
+
 void settle_fps(const ReadConfig& o, bool believed, Clip& clip) {
   if (o.fps) {
     clip.decisions.push_back("frame rate: " + short_number(*o.fps) + " fps, as asked for (the file says " +
@@ -130,15 +138,22 @@ void settle_fps(const ReadConfig& o, bool believed, Clip& clip) {
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  std::string line = "frame rate: " + short_number(clip.fps) + " fps, as given";
-  if (fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0) {
-    line = "frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps);
+  const std::string given = "frame rate: " + short_number(clip.fps) + " fps, as given";
+  if (!fall) return clip.decisions.push_back(given);
+  const std::string falls = std::to_string(fall->flights) + (fall->flights == 1 ? " flight" : " flights") +
+                            ", in which the body falls with " + short_number(fall->acceleration) +
+                            " m/s² at the file's rate";
+  if (!(std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0))
+    return clip.decisions.push_back(given + " (" + falls + ")");
+  if (fall->agreed && is_plausible_at(usual, clip)) {
+    clip.decisions.push_back("frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps) +
+                             " (" + falls + "; --fps overrides)");
     clip.fps = usual;
+    return;
   }
-  if (fall)
-    line += " (the body falls with " + short_number(fall->acceleration) +
-            " m/s² at the file's rate; --fps overrides)";
-  clip.decisions.push_back(line);
+  clip.decisions.push_back(given);
+  clip.warnings.push_back("the frame rate may be " + short_number(usual) + " fps, not " +
+                          short_number(clip.fps) + " (" + falls + "): --fps " + short_number(usual));
 }
 
 void settle_floor(const ReadConfig& o, bool believed, Clip& clip) {
@@ -241,6 +256,7 @@ Clip read_motion(const std::filesystem::path& path, const ReadConfig& config) {
 Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& config) {
   require_sense(config);
   Clip clip = read_any(bytes, path, config);
+  mend_angles(path.string(), clip);
   const MotionFormat format = recognise(bytes);
   const bool skeleton = format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
   const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
@@ -251,9 +267,12 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
   }
   settle_fps(config, believed, clip);
   settle_floor(config, believed, clip);
+  if (!believed) leave_out_t_pose(clip);
+  name_jumps(clip);
   if (!believed)
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
   require_near(path, clip);
+  require_in_view(path.string(), clip);
   return clip;
 }
 
@@ -278,6 +297,11 @@ bool is_written(const std::string& suffix) {
 }
 
 std::string written_suffixes() { return ".npz, .npy or .bvh"; }
+
+std::string_view written_opening(const std::filesystem::path& path) {
+  const std::string suffix = lower_suffix(path);
+  return suffix == ".bvh" ? kBvhOpening : suffix == ".npy" ? kMotionxOpening : std::string_view();
+}
 
 void write_motion(const std::filesystem::path& path, const Clip& clip) {
   const std::string suffix = lower_suffix(path);

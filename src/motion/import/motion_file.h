@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "motion/clip.h"
 
@@ -48,6 +49,9 @@ std::string lower_suffix(const std::filesystem::path& path);
 /// Whether `write_motion` knows a suffix; those it knows, for messages.
 bool is_written(const std::string& suffix);
 std::string written_suffixes();
+
+/// How the files of a suffix begin that `write_motion` makes; empty for archives, which are known otherwise.
+std::string_view written_opening(const std::filesystem::path& path);
 
 /// Writes a motion in the format that the suffix names: .npz (our own layout, docs/formats.md), .npy
 /// (Motion-X) or .bvh. @throws std::invalid_argument for another suffix

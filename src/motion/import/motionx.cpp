@@ -1,5 +1,6 @@
 #include "motion/import/motionx.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@ using Eigen::MatrixXd;
 
 constexpr double kMotionXFps = 30.0;
 constexpr double kAistScale = 1.0 / 94.0;  ///< of the data set's README
+constexpr std::size_t kOwnBlanks = 64;     ///< by which our header is longer
 constexpr Index kBody = 0, kTrans = 309, kBetaColumns = 312;
 
 /// Columns that pass through, and the names they get.
@@ -40,16 +42,23 @@ void read_betas(const MatrixXd& values, Clip& clip) {
     clip.warnings.emplace_back("betas change over time: those of the first frame are used");
 }
 
-/// Undoes the scale and the mirrored axis of the AIST subset, where the speed gives it away.
-void undo_aist(Clip& clip) {
-  Clip corrected = clip;
-  for (Vector3d& trans : corrected.trans) trans = kAistScale * trans.cwiseProduct(Vector3d(1, 1, -1));
-  const double before = support_speed(clip), after = support_speed(corrected);
+/// Undoes centimetres, or the scale and the mirrored axis of the AIST subset, where the speed gives them
+/// away. They are alike in size; the feet are calmer where the right one is undone.
+void settle_unit(Clip& clip) {
+  Clip aist = clip, centimetres = clip;
+  for (Vector3d& trans : aist.trans) trans = kAistScale * trans.cwiseProduct(Vector3d(1, 1, -1));
+  for (Vector3d& trans : centimetres.trans) trans *= 0.01;
+  const double before = support_speed(clip), as_aist = support_speed(aist),
+               as_centimetres = support_speed(centimetres);
+  const double after = std::min(as_aist, as_centimetres);
   if (!is_wrong_scale(clip, before, after)) return;
-  clip = corrected;
-  clip.decisions.push_back(
-      "scale: 1/94 with z negated, the known slip of Motion-X's AIST part (the stillest joint moved at " +
-      short_number(before) + " m/s, now at " + short_number(after) + ")");
+  const bool is_aist = as_aist <= as_centimetres;
+  clip = is_aist ? aist : centimetres;
+  clip.decisions.push_back(std::string("scale: ") +
+                           (is_aist ? "1/94 with z negated, the known slip of Motion-X's AIST part"
+                                    : "the translation is in centimetres") +
+                           " (the stillest joint moved at " + short_number(before) + " m/s, now at " +
+                           short_number(after) + "; --scale overrides)");
 }
 
 }  // namespace
@@ -73,7 +82,7 @@ Clip motionx_from(const NpyArray& array, const std::string& name, const std::str
   read_betas(values, clip);
   for (const Columns& part : kParts)
     clip.passthrough.emplace_back(part.name, from_matrix(values.middleCols(part.first, part.columns)));
-  if (may_scale) undo_aist(clip);
+  if (may_scale) settle_unit(clip);
   rotate_world(rotation_to_z_up('y'), clip);
   return clip;
 }
@@ -106,7 +115,10 @@ NpyArray to_motionx(const Clip& clip) {
 }
 
 void write_motionx(const std::filesystem::path& path, const Clip& clip) {
-  write_file_atomically(path, format_npy(to_motionx(clip)));
+  std::string bytes = format_npy(to_motionx(clip));
+  bytes.replace(0, kMotionxOpening.size(), kMotionxOpening);
+  bytes.insert(bytes.find('\n'), kOwnBlanks, ' ');
+  write_file_atomically(path, bytes);
 }
 
 }  // namespace mimicx::motion::import

@@ -11,10 +11,14 @@
 
 namespace mimicx::motion::import {
 
+/// How every file of ours begins: its header has a line of blanks more than NumPy's, which every reader
+/// skips.
+inline constexpr std::string_view kMotionxOpening("\x93NUMPY\x01\x00\xb6\x00", 10);
+
 inline constexpr std::size_t kMotionxColumns = 322;
 
 /// @throws DataError naming the file for another shape, for text, and for numbers that are not finite
-/// @param may_scale  look for the AIST scale; false where the user names a scale
+/// @param may_scale  look for the AIST scale and for centimetres; false where the user names a scale
 Clip motionx_from(const NpyArray& array, const std::string& name, const std::string& path,
                   bool may_scale = true);
 

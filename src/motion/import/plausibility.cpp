@@ -31,6 +31,8 @@ constexpr double kFootTravel = 0.08;         ///< m of either foot in a flight
 constexpr double kLargestFactor = 4.2;       ///< between frame rates: 120 labelled 30, a little noise
 constexpr int kShortestFlight = 5;           ///< frames
 constexpr double kParabolaResidual = 0.012;  ///< m, root mean square, of a clean flight
+constexpr int kSeveralFlights = 3;           ///< that must agree before a file is not believed
+constexpr double kSameRate = 0.1;            ///< relative difference of the rates of flights that agree
 
 // Floor and speeds.
 constexpr double kFloorShare = 0.05;
@@ -112,6 +114,37 @@ Parabola fit_parabola(const PerFrame<double>& z, int first, int last) {
   return {c[2], (powers * c - values).norm() / std::sqrt(n)};
 }
 
+/// A stretch in which nothing carries the body.
+struct Flight {
+  int frames = 0;
+  double acceleration = 0;  ///< downward, m per frame²
+};
+
+List<Flight> flights_of(const Clip& clip) {
+  const Character character = character_of(clip);
+  const PerFrame<BodyPoses> poses = poses_of(clip);
+  const PerFrame<double> lowest = lowest_heights(character, poses);
+  const double floor = finite_quantile(lowest, kFloorShare);
+  PerFrame<double> height;
+  for (const BodyPoses& pose : poses) height.push_back(center_of_mass(character, pose).z());
+  List<Flight> flights;
+  for (int first = 0; first < lowest.count();) {
+    int end = first;
+    while (end < lowest.count() && lowest[end] > floor + kClear) ++end;
+    const int length = end - first;
+    if (length >= kShortestFlight) {
+      const Parabola p = fit_parabola(height, first, end - 1);
+      // A foot that stays where it is carries the body, whatever its height.
+      const bool free = travel_of(poses, kLeftFoot, first, end - 1) > kFootTravel &&
+                        travel_of(poses, kRightFoot, first, end - 1) > kFootTravel;
+      if (free && p.residual < kParabolaResidual && p.acceleration < 0.0)
+        flights.push_back({length, -p.acceleration});
+    }
+    first = std::max(end, first + 1);
+  }
+  return flights;
+}
+
 }  // namespace
 
 std::string short_number(double value) {
@@ -167,39 +200,26 @@ UpAxis detect_up(const Clip& clip) {
 }
 
 std::optional<FallRate> rate_from_flights(const Clip& clip) {
-  const Character character = character_of(clip);
-  const PerFrame<BodyPoses> poses = poses_of(clip);
-  const PerFrame<double> lowest = lowest_heights(character, poses);
-  const double floor = finite_quantile(lowest, kFloorShare);
-  PerFrame<double> height;
-  for (const BodyPoses& pose : poses) height.push_back(center_of_mass(character, pose).z());
-  FallRate fall;
+  const List<Flight> flights = flights_of(clip);
+  if (flights.empty()) return std::nullopt;
   double sum = 0.0, weights = 0.0;
-  for (int first = 0; first < lowest.count();) {
-    int end = first;
-    while (end < lowest.count() && lowest[end] > floor + kClear) ++end;
-    const int length = end - first;
-    if (length >= kShortestFlight) {
-      const Parabola p = fit_parabola(height, first, end - 1);
-      // The uncertainty of the curvature falls with the fifth power of the length.
-      const double weight = std::pow(length, 5);
-      // A foot that stays where it is carries the body, whatever its height.
-      const bool free = travel_of(poses, kLeftFoot, first, end - 1) > kFootTravel &&
-                        travel_of(poses, kRightFoot, first, end - 1) > kFootTravel;
-      if (free && p.residual < kParabolaResidual && p.acceleration < 0.0) {
-        fall.frames += length;
-        sum -= weight * p.acceleration;
-        weights += weight;
-      }
-    }
-    first = std::max(end, first + 1);
+  for (const Flight& flight : flights) {
+    // The uncertainty of the curvature falls with the fifth power of the length.
+    const double weight = std::pow(flight.frames, 5);
+    sum += weight * flight.acceleration;
+    weights += weight;
   }
-  if (weights == 0.0) return std::nullopt;
   const double per_frame = sum / weights;
+  FallRate fall;
+  fall.flights = flights.count();
   fall.acceleration = per_frame * clip.fps * clip.fps;
   fall.fps = std::sqrt(kGravity / per_frame);
   const double factor = fall.fps / clip.fps;
   if (std::max(factor, 1.0 / factor) > kLargestFactor) return std::nullopt;
+  fall.agreed = flights.count() >= kSeveralFlights &&
+                std::all_of(flights.begin(), flights.end(), [&](const Flight& flight) {
+                  return std::abs(std::sqrt(kGravity / flight.acceleration) / fall.fps - 1.0) < kSameRate;
+                });
   return fall;
 }
 

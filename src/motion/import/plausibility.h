@@ -37,11 +37,14 @@ struct UpAxis {
 /// stands along it, and the floor stops the body there. (A body that crawls lies along the floor.)
 UpAxis detect_up(const Clip& clip);
 
-/// Frame rates that explain a fall.
+/// The frame rate at which a motion falls with g.
 struct FallRate {
-  int frames = 0;           ///< of all flights together
+  int flights = 0;          ///< that fall along a parabola
   double acceleration = 0;  ///< downward, at the file's frame rate, m/s²
   double fps = 0;           ///< the frame rate at which the body falls with g
+  /// Three flights or more, and each alone says this rate. One flight may be a toe that stands, or a floor
+  /// that drifts: nothing is decided by it.
+  bool agreed = false;
 };
 /// From the flights of the body: nothing touches the floor, and the centre of mass falls along a parabola.
 /// None where there is no flight that is long and clean enough.

@@ -97,12 +97,15 @@ void write_synth_set(const std::filesystem::path& directory, const SynthSetConfi
   }
 }
 
+std::vector<std::pair<std::string, SynthSetConfig>> synthetic_splits() {
+  SynthSetConfig test, train;
+  test.seed = kTestSeed;
+  train.seed = kTrainingSeed;
+  return {{"test", test}, {"train", train}};
+}
+
 void write_synthetic_data(const std::filesystem::path& directory) {
-  SynthSetConfig config;
-  config.seed = kTestSeed;
-  write_synth_set(directory / "test", config);
-  config.seed = kTrainingSeed;
-  write_synth_set(directory / "train", config);
+  for (const auto& [split, config] : synthetic_splits()) write_synth_set(directory / split, config);
 }
 
 }  // namespace mimicx::motion::synth

@@ -12,6 +12,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "motion/synth/noise.h"
 #include "motion/synth/synth.h"
@@ -48,6 +51,8 @@ void write_synth_set(const std::filesystem::path& directory, const SynthSetConfi
 
 /// The data set in data/synthetic: test/ and train/, each one clip of every kind with the first seed of its
 /// split, gvhmr noise, perturbed camera.
+std::vector<std::pair<std::string, SynthSetConfig>> synthetic_splits();
+/// Writes it.
 void write_synthetic_data(const std::filesystem::path& directory);
 
 }  // namespace mimicx::motion::synth

@@ -29,6 +29,8 @@ std::vector<std::string> synthetic_kinds() {
   return names;
 }
 
+std::string name_of(const SynthConfig& config) { return config.kind + "_" + std::to_string(config.seed); }
+
 Clip synthesize(const SynthConfig& config) {
   const auto& kinds = synth_kinds();
   const auto kind =
@@ -55,7 +57,7 @@ Clip synthesize(const SynthConfig& config) {
     q.push_back(pose.q);
     q.back()[kPelvis] = heading * pose.q[kPelvis];
   }
-  return to_clip(config.kind + "_" + std::to_string(config.seed), kSynthFps, character, p_root, q);
+  return to_clip(name_of(config), kSynthFps, character, p_root, q);
 }
 
 }  // namespace mimicx::motion::synth

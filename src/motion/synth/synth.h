@@ -32,7 +32,10 @@ struct SynthConfig {
 /// Names accepted as `SynthConfig::kind`, in a fixed order.
 std::vector<std::string> synthetic_kinds();
 
-/// The exact motion; the same settings give the same bytes. The clip is named kind_seed.
+/// kind_seed.
+std::string name_of(const SynthConfig& config);
+
+/// The exact motion; the same settings give the same bytes. The clip has the name above.
 /// @throws std::invalid_argument for an unknown kind, a length outside 4 to 60 s, or a shape with |β_k| > 5.
 Clip synthesize(const SynthConfig& config);
 

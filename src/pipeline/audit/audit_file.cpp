@@ -118,7 +118,7 @@ std::string audit_json(const std::vector<AuditedFile>& files) {
     for (const Audit& audit : file.audits) audits.push_back(to_json(audit));
     list.push_back({{"file", file.path}, {"audits", audits}});
   }
-  return record::Json({{"files", list}}).dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
+  return record::document(record::Json({{"files", list}}));
 }
 
 }  // namespace mimicx::pipeline::audit

@@ -163,7 +163,7 @@ std::string poses_json(const std::vector<PoseFile>& files) {
                     {"joints_over", file.verdict.joints_over},
                     {"words", file.verdict.words}});
   }
-  return record::Json({{"files", list}}).dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
+  return record::document(record::Json({{"files", list}}));
 }
 
 }  // namespace mimicx::pipeline::audit

@@ -156,7 +156,7 @@ std::string format_clusters(const Clusters& clusters) {
                                 {"members", cluster.members},
                                 {"centre", named(cluster.centre)}});
   }
-  return json.dump(1, ' ', false, record::Json::error_handler_t::replace) + "\n";
+  return record::document(json);
 }
 
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters) {

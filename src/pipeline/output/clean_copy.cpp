@@ -1,9 +1,32 @@
 #include "pipeline/output/clean_copy.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 
 namespace mimicx::pipeline::output {
+namespace {
+
+/// Members of a simulated motion that belong to the body it was simulated with.
+constexpr std::array<std::string_view, 6> kOfTheBody = {
+    "joints", "velocities", "joint_torques", "range_torques", "ground_wrenches", "self_contact_wrenches"};
+
+/// Puts a copy on one body. @return which, in words
+std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
+  if (original.body_model == clean.body_model && original.rest_joints == clean.rest_joints)
+    return "on the simulated body";
+  motion::put_on_body_of(original, clean);
+  std::erase_if(clean.passthrough, [](const auto& member) {
+    return std::find(kOfTheBody.begin(), kOfTheBody.end(), member.first) != kOfTheBody.end();
+  });
+  return "on the input's body, " + original.body_model +
+         "; joints and forces stand beside the simulated body";
+}
+
+}  // namespace
 
 std::string clean_suffix(const std::filesystem::path& input) {
   const std::string suffix = motion::import::lower_suffix(input);
@@ -19,15 +42,16 @@ motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like) {
   return out;
 }
 
-void write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
-                      const motion::import::ReadConfig& read, bool input_rate,
-                      const std::filesystem::path& copy) {
+std::string write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
+                             const motion::import::ReadConfig& read, bool input_rate,
+                             const std::filesystem::path& copy) {
   const motion::Clip original = motion::import::read_motion(input, read);
   motion::Clip clean = motion::read_clip(motion);
   if (input_rate && original.fps != clean.fps) clean = at_rate_of(clean, original);
-  motion::put_on_body_of(original, clean);
+  const std::string body = settle_body(original, clean);
   if (copy.has_parent_path()) std::filesystem::create_directories(copy.parent_path());
   motion::import::write_motion(copy, clean);
+  return body;
 }
 
 }  // namespace mimicx::pipeline::output

@@ -1,13 +1,16 @@
 /// A simulated motion for the tools its input came from: the input's format, body and, if wanted, frame rate.
 ///
-/// The file names the body as the input did (body model and β), with the pelvis where the simulation had it.
-/// At 30 fps a copy holds all members of the simulated motion that its format has a place for. At the input's
-/// rate it has the input's frames, rotations by slerp; torques, wrenches and rewards are means over intervals
-/// of the simulation and stay out, and what the input held beside the body (hands, face, eyes) comes along
-/// untouched.
+/// One body per file. Where the input's body is the simulated one, or a body of ours that the keypoint fit
+/// gave another shape, it is the simulated one, and joints, velocities and forces belong to it. Else the file
+/// names the body as the input did (body model and β), with the pelvis where the simulation had it, and
+/// members that belong to the simulated body stay out. At 30 fps a copy holds all other members of the
+/// simulated motion that its format has a place for. At the input's rate it has the input's frames, rotations
+/// by slerp; torques, wrenches and rewards are means over intervals of the simulation and stay out, and what
+/// the input held beside the body (hands, face, eyes) comes along untouched.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "motion/import/motion_file.h"
 
@@ -20,8 +23,9 @@ std::string clean_suffix(const std::filesystem::path& input);
 motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like);
 
 /// @param motion  file of the simulated motion @param input  the file it was made from, read with `read`
-void write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
-                      const motion::import::ReadConfig& read, bool input_rate,
-                      const std::filesystem::path& copy);
+/// @return whose body it is, in words
+std::string write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
+                             const motion::import::ReadConfig& read, bool input_rate,
+                             const std::filesystem::path& copy);
 
 }  // namespace mimicx::pipeline::output

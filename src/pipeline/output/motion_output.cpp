@@ -1,9 +1,12 @@
 #include "pipeline/output/motion_output.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "motion/clip_file.h"
+#include "motion/passthrough.h"
+#include "motion/resample.h"
 #include "pipeline/output/simulated_members.h"
 
 namespace mimicx::pipeline::output {
@@ -26,17 +29,17 @@ NpyArray rewards_member(const std::vector<rl::tracking::Reward>& rewards) {
   return NpyArray::from_double({values.size()}, values.data());
 }
 
-/// Whether a member of the input still means the same beside `frames` frames.
-bool fits(const NpyArray& array, std::size_t input_frames, std::size_t frames) {
-  const bool per_frame = !array.shape.empty() && array.shape[0] == input_frames;
-  return !per_frame || array.shape[0] == frames;
+/// Members of the input at the frames that were simulated.
+motion::Passthrough members_for(const motion::Clip& input, double fps, std::size_t frames) {
+  const motion::Clip resampled = motion::resampled(input, fps);
+  return motion::first_frames(resampled.passthrough, resampled.rotations.size(),
+                              std::min(frames, resampled.rotations.size()));
 }
 
 }  // namespace
 
 void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
-                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
-                     std::vector<std::string>& notes) {
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   std::vector<Vector3d> p_root;
   std::vector<PerBody<Quaterniond>> q;
   std::vector<motion::ReferenceFrame> states;
@@ -58,12 +61,7 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
   if (input.rest_joints) motion::put_on_body_of(input, clip);
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
-  for (const auto& member : input.passthrough) {
-    if (fits(member.second, input.rotations.size(), rollout.poses.size()) && (input.fps == reference.fps))
-      clip.passthrough.push_back(member);
-    else
-      notes.push_back("'" + member.first + "' of the input is not passed on: the frames no longer match");
-  }
+  clip.passthrough = members_for(input, reference.fps, rollout.poses.size());
   const Members extra = {{"joints", positions_member(joints)},
                          {"velocities", velocities_member(states, kPrecision)},
                          {"joint_torques", joints_member(torques, kPrecision)},

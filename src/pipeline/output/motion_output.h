@@ -11,11 +11,9 @@
 namespace mimicx::pipeline::output {
 
 /// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards;
-/// members of the input that the program does not use pass through where their frames still match.
-/// @param notes  gets a line for every member that could not pass through
+/// members of the input that the program does not use come along at its frames (motion/passthrough.h).
 void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
-                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
-                     std::vector<std::string>& notes);
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
 /// The prepared reference of an input.
 void write_reference(const std::filesystem::path& path, const motion::Clip& input,

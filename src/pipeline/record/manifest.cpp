@@ -7,6 +7,7 @@
 #include "core/containers.h"
 #include "core/error.h"
 #include "pipeline/record/json.h"
+#include "pipeline/record/names.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx::pipeline::record {
@@ -25,6 +26,12 @@ Json to_json(const NamedValues& values) {
   return json;
 }
 
+Json to_json(const FileChecksums& files) {
+  Json json = Json::object();
+  for (const auto& [name, checksum] : files) json[to_utf8(name)] = checksum;
+  return json;
+}
+
 NamedValues named_values(const Json& json) {
   NamedValues values;
   for (const auto& [name, value] : json.items()) values.emplace_back(name, number(value));
@@ -32,10 +39,10 @@ NamedValues named_values(const Json& json) {
 }
 
 Json to_json(const SequenceEntry& e) {
-  return {{"name", e.name},
-          {"input", e.input},
+  return {{"name", to_utf8(e.name)},
+          {"input", to_utf8(e.input)},
           {"input_checksum", e.input_checksum},
-          {"output", e.output.empty() ? Json(nullptr) : Json(e.output)},
+          {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
           {"status", e.ok ? "ok" : "failed"},
           {"reason", e.reason},
           {"method", e.method},
@@ -57,7 +64,8 @@ Json to_json(const SequenceEntry& e) {
           {"preparation", to_json(e.preparation)},
           {"feasibility", to_json(e.feasibility)},
           {"decisions", e.decisions},
-          {"notes", e.notes}};
+          {"notes", e.notes},
+          {"files", to_json(e.files)}};
 }
 
 Ending ending_of(const std::string& name) {
@@ -67,10 +75,10 @@ Ending ending_of(const std::string& name) {
 
 SequenceEntry entry_of(const Json& json) {
   SequenceEntry e;
-  e.name = json.at("name");
-  e.input = json.at("input");
+  e.name = from_utf8(json.at("name"));
+  e.input = from_utf8(json.at("input"));
   e.input_checksum = json.at("input_checksum");
-  if (!json.at("output").is_null()) e.output = json.at("output");
+  if (!json.at("output").is_null()) e.output = from_utf8(json.at("output"));
   e.ok = json.at("status") == "ok";
   e.reason = json.at("reason");
   e.method = json.value("method", "");
@@ -93,6 +101,9 @@ SequenceEntry entry_of(const Json& json) {
   if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above
   e.decisions = json.value("decisions", std::vector<std::string>{});
   e.notes = json.at("notes").get<std::vector<std::string>>();
+  if (json.contains("files"))  // as above
+    for (const auto& [name, checksum] : json.at("files").items())
+      e.files.emplace_back(from_utf8(name), checksum);
   return e;
 }
 
@@ -131,7 +142,7 @@ std::string format_manifest(const Manifest& manifest) {
                  {"samples", manifest.samples},
                  {"method", manifest.method},
                  {"options", manifest.options},
-                 {"reading", manifest.reading},
+                 {"reading", to_utf8(manifest.reading)},
                  {"settings", to_json(manifest.settings)}}},
                {"sequences", Json::array()}};
   for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
@@ -150,7 +161,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
     manifest.samples = run.at("samples");
     manifest.method = run.value("method", "");
     manifest.options = run.at("options");
-    manifest.reading = run.value("reading", "");
+    manifest.reading = from_utf8(run.value("reading", ""));
     manifest.settings = named_values(run.at("settings"));
     for (const auto& e : json.at("sequences")) manifest.sequences.push_back(entry_of(e));
     return manifest;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/named_values.h"
@@ -17,11 +18,15 @@
 
 namespace mimicx::pipeline::record {
 
+/// Names in the folder of a run, and what `file_checksum` says of the files.
+using FileChecksums = std::vector<std::pair<std::string, std::string>>;
+
 struct SequenceEntry {
   std::string name;            ///< key of the sequence's files in the folder
   std::string input;           ///< as given on the command line
   std::string input_checksum;  ///< of the input's bytes; empty when it could not be read
   std::string output;          ///< relative to the folder; empty when there is none
+  FileChecksums files;         ///< what the sequence left, to tell whether it is still there
   bool ok = false;
   std::string reason;  ///< why it failed
   std::string method;  ///< what made the motion: imitate, plan or paper

@@ -1,6 +1,5 @@
 #include "pipeline/record/run_folder.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <system_error>
@@ -17,14 +16,21 @@ void RunFolder::create() const {
   }
 }
 
-std::string unique_name(const std::filesystem::path& input, const std::vector<std::string>& taken) {
+std::string unique_name(const std::filesystem::path& input, const std::set<std::string>& taken) {
   const std::string stem = input.stem().string();
-  const auto free = [&](const std::string& name) {
-    return std::find(taken.begin(), taken.end(), name) == taken.end();
-  };
   std::string name = stem;
-  for (int n = 2; !free(name); ++n) name = stem + "-" + std::to_string(n);
+  for (int n = 2; taken.contains(name); ++n) name = stem + "-" + std::to_string(n);
   return name;
+}
+
+std::vector<std::string> unique_names(const std::vector<std::string>& inputs) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const std::string& input : inputs) {
+    names.push_back(unique_name(input, taken));
+    taken.insert(names.back());
+  }
+  return names;
 }
 
 std::string file_checksum(const std::filesystem::path& path) {

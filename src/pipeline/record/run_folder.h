@@ -20,6 +20,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,20 @@ struct RunFolder {
     return root / "checkpoints" / (name + ".npz");
   }
 
+  /// Every file that a sequence may have, but the clean copy, which has its input's suffix.
+  std::vector<std::filesystem::path> files_of(const std::string& name) const {
+    return {root / motion_name(name, true),
+            root / motion_name(name, false),
+            reference(name),
+            fit(name),
+            substeps(name),
+            plan(name),
+            gains(name),
+            log(name),
+            falls(name),
+            checkpoint(name)};
+  }
+
   /// Relative to the folder, as the manifest names it.
   static std::string motion_name(const std::string& name, bool success) {
     return (success ? "motions/" : "rejected/") + name + ".npz";
@@ -67,8 +82,11 @@ struct RunFolder {
 };
 
 /// Name of an input inside the folder: its file name without suffix, numbered from the second of the same
-/// name on ("walk", "walk-2"). @param taken  names given before, in order
-std::string unique_name(const std::filesystem::path& input, const std::vector<std::string>& taken);
+/// name on ("walk", "walk-2"). @param taken  names given before
+std::string unique_name(const std::filesystem::path& input, const std::set<std::string>& taken);
+
+/// The names of several inputs, in order.
+std::vector<std::string> unique_names(const std::vector<std::string>& inputs);
 
 /// 64-bit FNV-1a of a file's bytes in hexadecimal: tells an input that changed. Not cryptographic.
 /// @throws DataError when the file cannot be read.

@@ -2,13 +2,14 @@
 
 #include "core/file.h"
 #include "pipeline/record/json.h"
+#include "pipeline/record/names.h"
 
 namespace mimicx::pipeline::record {
 
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences) {
   Json list = Json::array();
   for (const auto& t : timings) {
-    Json json = {{"name", t.name},
+    Json json = {{"name", to_utf8(t.name)},
                  {"seconds", t.seconds},
                  {"planning_seconds", t.planning_seconds},
                  {"training_seconds", t.training_seconds},
@@ -28,7 +29,7 @@ std::vector<Timing> read_timing(const std::filesystem::path& path) {
   if (json.is_discarded() || !json.contains("sequences")) return timings;
   for (const auto& t : json["sequences"]) {
     Timing timing;
-    timing.name = t.value("name", "");
+    timing.name = from_utf8(t.value("name", ""));
     timing.seconds = t.value("seconds", 0.0);
     timing.planning_seconds = t.value("planning_seconds", 0.0);
     timing.training_seconds = t.value("training_seconds", 0.0);

@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "core/file.h"
+#include "motion/import/bvh.h"
+#include "motion/import/deepmimic.h"
 #include "motion/import/motionx.h"
 #include "motion/import/plausibility.h"
 #include "motion/import/world.h"
@@ -112,22 +114,45 @@ TEST(ReadMotion, FindsCentimetresAndMillimetres) {
   }
 }
 
-TEST(ReadMotion, AFallTellsTheFrameRate) {
-  for (const auto& [label, rate] : {std::pair{60.0, 120.0}, {30.0, 20.0}, {120.0, 60.0}, {30.0, 120.0}}) {
-    // Half a metre up and down between two pauses: √(8 h / g) = 0.64 s in the air.
-    Clip wrong = test::standing_clip(static_cast<int>(2 * rate), test::standing_height(), label);
-    wrong.body_model = "smplx";
-    const double half = std::sqrt(2 * 0.5 / 9.81);
-    for (std::size_t t = 0; t < wrong.trans.size(); ++t) {
+/// Jumps, two seconds each: half a metre up and down between two pauses, √(8 h / g) = 0.64 s in the air.
+/// @param rates  at which each was recorded; the file says `label`
+Clip jumping(const std::vector<double>& rates, double label) {
+  const double half = std::sqrt(2 * 0.5 / 9.81);
+  Clip clip = test::standing_clip(0, test::standing_height(), label);
+  clip.body_model = "smplx";
+  clip.name = "jumps";
+  for (const double rate : rates) {
+    Clip jump = test::standing_clip(static_cast<int>(2 * rate), test::standing_height(), label);
+    for (std::size_t t = 0; t < jump.trans.size(); ++t) {
       const double s = static_cast<double>(t) / rate - 1.0;
-      if (std::abs(s) < half) wrong.trans[t].z() += 0.5 - 0.5 * 9.81 * s * s;
+      if (std::abs(s) < half) jump.trans[t].z() += 0.5 - 0.5 * 9.81 * s * s;
     }
+    clip.rotations.insert(clip.rotations.end(), jump.rotations.begin(), jump.rotations.end());
+    clip.trans.insert(clip.trans.end(), jump.trans.begin(), jump.trans.end());
+  }
+  return clip;
+}
+
+TEST(ReadMotion, ThreeFallsThatAgreeTellTheFrameRate) {
+  for (const auto& [label, rate] : {std::pair{60.0, 120.0}, {30.0, 20.0}, {120.0, 60.0}, {30.0, 120.0}}) {
+    const Clip wrong = jumping({rate, rate, rate}, label);
     const Clip back = reread(wrong);
     EXPECT_EQ(back.fps, rate) << label;
     EXPECT_TRUE(says(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
     ReadConfig asked;
     asked.fps = label;
     EXPECT_EQ(reread(wrong, asked).fps, label) << "the user is believed";
+  }
+}
+
+TEST(ReadMotion, FewFallsAndFallsThatDisagreeOnlySuggestAFrameRate) {
+  const std::vector<std::vector<double>> jumps = {{60.0}, {60.0, 60.0}, {60.0, 60.0, 45.0}};
+  for (const std::vector<double>& rates : jumps) {
+    const Clip back = reread(jumping(rates, 30.0));
+    EXPECT_EQ(back.fps, 30.0) << rates.size();
+    EXPECT_TRUE(says(back, "frame rate: 30 fps, as given"));
+    ASSERT_EQ(back.warnings.size(), 1u) << rates.size();
+    EXPECT_NE(back.warnings[0].find("--fps 60"), std::string::npos) << back.warnings[0];
   }
 }
 
@@ -348,6 +373,8 @@ TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
       const Clip clip = read_motion(file.path());
       EXPECT_TRUE(is_motion_file(file.path())) << file.path();
       EXPECT_TRUE(says(clip, "format: ")) << file.path();
+      const bool bvh = folder == std::string("bvh");
+      EXPECT_EQ(clip.fps, (bvh ? read_bvh(file.path()) : read_deepmimic(file.path())).fps) << file.path();
       for (const char* suffix : {"back.bvh", "back.npz"}) {
         write_motion(test::scratch(suffix), clip);
         EXPECT_LT(distance(read_motion(test::scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;

@@ -27,14 +27,20 @@ struct CleanCopy : testing::Test {
 
 TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
   const motion::Clip simulated = standing_clip(40);
-  motion::write_clip(path("simulated.npz"), simulated, {{"reward", NpyArray::scalar(1.0)}});
+  const NpyArray joints = from_matrix(Eigen::MatrixXd::Random(40, 66));
+  motion::write_clip(path("simulated.npz"), simulated,
+                     {{"reward", NpyArray::scalar(1.0)}, {"joints", joints}, {"joint_torques", joints}});
   for (const char* model : {"smpl", "smplh", "smplx"}) {
     motion::Clip input = simulated;
     input.body_model = model;
     input.betas[1] = 0.7;
     input.gender = "female";
     motion::write_clip(path("input.npz"), input);
-    write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
+    const std::string body =
+        write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
+    EXPECT_NE(body.find(model), std::string::npos) << body;
+    EXPECT_FALSE(read_npz(path("copy.npz")).has("joints")) << "of another body";
+    EXPECT_FALSE(read_npz(path("copy.npz")).has("joint_torques"));
     const motion::Clip copy = motion::read_clip(path("copy.npz"));
     EXPECT_EQ(copy.body_model, model);
     EXPECT_EQ(copy.betas, input.betas);
@@ -42,6 +48,27 @@ TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
     EXPECT_LT(distance(copy, simulated), 1e-12);
     EXPECT_TRUE(read_npz(path("copy.npz")).has("reward"));
   }
+}
+
+TEST_F(CleanCopy, OfABodyThatTheFitChangedIsTheSimulatedOneWithItsJointsAndForces) {
+  motion::Clip simulated = standing_clip(40);
+  simulated.betas[0] = 1.25;
+  simulated.betas[3] = -0.5;
+  std::vector<double> joints;
+  for (const BodyPoses& pose : motion::poses_of(simulated))
+    for (const Vector3d& p : pose.p_WB) joints.insert(joints.end(), p.data(), p.data() + 3);
+  motion::write_clip(path("simulated.npz"), simulated,
+                     {{"joints", NpyArray::from_double({40, kBodies, 3}, joints.data())}});
+  motion::write_clip(path("input.npz"), standing_clip(40));
+  write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
+  const motion::Clip copy = motion::read_clip(path("copy.npz"));
+  EXPECT_EQ(copy.betas, simulated.betas);
+  const std::vector<double> of_copy = read_npz(path("copy.npz")).at("joints").to_double();
+  const auto poses = motion::poses_of(copy);
+  for (std::size_t j = 0; j < kBodies; ++j)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(of_copy[3 * j + static_cast<std::size_t>(axis)], poses[0].p_WB[j][axis], 1e-12)
+          << "joints and betas are of one body";
 }
 
 TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndItsHands) {

@@ -1,0 +1,32 @@
+/// Members of a file that the program does not use, such as hands, face and soft tissue: what becomes of them
+/// when the frames change.
+///
+/// A member whose first dimension is the number of frames belongs to the frames and follows them; every other
+/// one belongs to the file and stays as it is.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/npz.h"
+
+namespace mimicx::motion {
+
+using Passthrough = std::vector<std::pair<std::string, NpyArray>>;
+
+/// Whether a member has one row per frame.
+bool is_per_frame(const std::string& name, const NpyArray& array, std::size_t frames);
+
+/// Members at another frame rate: row k of the result is row k · ratio of the input. Rotations ("pose" in the
+/// name, triples of axis-angle) by slerp, other fractions linearly; whole numbers and texts are those of the
+/// nearer frame. @param frames  of the input @param count  of the result
+Passthrough resampled_members(const Passthrough& members, std::size_t frames, std::size_t count,
+                              double ratio);
+
+/// Members of the first frames of a clip.
+Passthrough first_frames(const Passthrough& members, std::size_t frames, std::size_t count);
+/// Members of the last frames of a clip.
+Passthrough last_frames(const Passthrough& members, std::size_t frames, std::size_t count);
+
+}  // namespace mimicx::motion
