@@ -62,6 +62,7 @@ struct RunFolder {
     return {root / motion_name(name, true),
             root / motion_name(name, false),
             reference(name),
+            feasibility(name),
             fit(name),
             substeps(name),
             plan(name),
