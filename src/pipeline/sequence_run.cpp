@@ -83,6 +83,11 @@ record::Timing& timing_of(RunState& run, const std::string& name) {
   return run.timings.back();
 }
 
+Correction correction_of(const RunConfig& config) {
+  if (config.as_is) return Correction::kNone;
+  return config.fit ? Correction::kKeypoints : Correction::kPoses;
+}
+
 /// Makes fit and reference of a finished sequence again where they are damaged; of other files it says so.
 void restore_files(const RunState& run, const record::SequenceEntry& entry,
                    const std::vector<std::string>& damaged) {
@@ -92,7 +97,8 @@ void restore_files(const RunState& run, const record::SequenceEntry& entry,
     run.context.messages << entry.name << ": " << name << " is gone or damaged"
                          << (fit || reference ? ": made again\n" : ", and is not made again\n");
     if (!fit && !reference) continue;
-    const PreparedMotion motion = prepare_motion(entry.input, run.config.read, run.config.fit);
+    const PreparedMotion motion =
+        prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads);
     std::filesystem::create_directories(file.parent_path());
     if (fit)
       motion::write_clip(file, motion.fitted);
@@ -131,11 +137,6 @@ void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry
   entry.feasibility = verdict.values;
   if (verdict.longest.wrong != audit::Wrong::kNothing)
     entry.notes.push_back("the reference is not feasible: " + verdict.words);
-}
-
-Correction correction_of(const RunConfig& config) {
-  if (config.as_is) return Correction::kNone;
-  return config.fit ? Correction::kKeypoints : Correction::kPoses;
 }
 
 /// A prepared motion and what its reference asks for that no body has.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "motion/fit/camera_path.h"
 #include "motion/fit/solution.h"
 
 namespace mimicx::motion::fit {
@@ -18,6 +19,15 @@ std::string reason_to_refuse(const FitProblem& problem) {
   return "";
 }
 
+/// The clip, its camera calmed where it trembles.
+Clip with_a_calm_camera(const Clip& clip, FitReport& report) {
+  Clip calm = clip;
+  calm.keypoints->extrinsics = calmed(clip.keypoints->extrinsics, clip.fps);
+  if (calm.keypoints->extrinsics != clip.keypoints->extrinsics)
+    report.notes.push_back("the told camera trembles from frame to frame: smoothed over 0.1 s");
+  return calm;
+}
+
 }  // namespace
 
 Clip fit_keypoints(const Clip& clip, const FitConfig& config, FitReport* report) {
@@ -27,11 +37,12 @@ Clip fit_keypoints(const Clip& clip, const FitConfig& config, FitReport* report)
     r.notes.emplace_back("no keypoints: left as it is");
   } else {
     require_usable(clip, 3);
-    FitProblem problem = make_problem(clip, config);
+    const Clip calm = with_a_calm_camera(clip, r);
+    FitProblem problem = make_problem(calm, config);
     if (const std::string why = reason_to_refuse(problem); !why.empty())
       r.notes.push_back(why);
     else
-      fitted = solved(clip, problem, r);
+      fitted = solved(calm, problem, r);
   }
   if (report) *report = r;
   return fitted;

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/quantile.h"
+#include "motion/fit/jitter.h"
 #include "motion/hinge.h"
 #include "motion/keypoint_names.h"
 
 namespace mimicx::motion::fit {
 namespace {
-
-constexpr double kMedianToSigma = 1.4826;  ///< of a normal distribution
-constexpr double kThirdDifference = 20.0;  ///< variance of a third difference of white noise of variance 1
 
 /// Whether a body belongs to a limb: below shoulder or hip.
 bool is_of_a_limb(int body) {
@@ -92,12 +89,6 @@ double box_of(const FitProblem& problem, int t, const BodyPoses& poses) {
     high = high.cwiseMax(uv);
   }
   return (high - low).maxCoeff();
-}
-
-/// Standard deviation of the white part of a series.  docs/method.md, "Keypoint fit", (8)
-double jitter_of(const std::vector<double>& third_differences) {
-  if (third_differences.empty()) return 0.0;
-  return kMedianToSigma * median(third_differences) / std::sqrt(kThirdDifference);
 }
 
 void measure_jitter(const PerFrame<PerBody<Quaterniond>>& q, FitProblem& problem) {
