@@ -24,7 +24,7 @@ Clip with_a_calm_camera(const Clip& clip, FitReport& report) {
   Clip calm = clip;
   calm.keypoints->extrinsics = calmed(clip.keypoints->extrinsics, clip.fps);
   if (calm.keypoints->extrinsics != clip.keypoints->extrinsics)
-    report.notes.push_back("the told camera trembles from frame to frame: smoothed over 0.1 s");
+    report.notes.emplace_back("the told camera trembles from frame to frame: smoothed over 0.1 s");
   return calm;
 }
 
