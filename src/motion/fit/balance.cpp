@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
 #include "motion/surface.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
-constexpr double kGravity = 9.81;             ///< m/s²
 constexpr double kAccelerationWindow = 0.1;   ///< s to either side
 constexpr double kOtherSupport = 0.05;        ///< m: what else is so low may bear weight
 constexpr double kLeastPush = 0.5;            ///< of the weight; a body that bears less flies
