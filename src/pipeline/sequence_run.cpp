@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -91,19 +92,20 @@ Correction correction_of(const RunConfig& config) {
 /// Makes fit and reference of a finished sequence again where they are damaged; of other files it says so.
 void restore_files(const RunState& run, const record::SequenceEntry& entry,
                    const std::vector<std::string>& damaged) {
+  std::optional<PreparedMotion> motion;  // made once, where a file needs it
   for (const std::string& name : damaged) {
     const std::filesystem::path file = run.folder.root / name;
     const bool fit = file == run.folder.fit(entry.name), reference = file == run.folder.reference(entry.name);
     run.context.messages << entry.name << ": " << name << " is gone or damaged"
                          << (fit || reference ? ": made again\n" : ", and is not made again\n");
     if (!fit && !reference) continue;
-    const PreparedMotion motion =
-        prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads);
+    if (!motion)
+      motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads);
     std::filesystem::create_directories(file.parent_path());
     if (fit)
-      motion::write_clip(file, motion.fitted);
+      motion::write_clip(file, motion->fitted);
     else
-      output::write_reference(file, motion.input, motion.reference);
+      output::write_reference(file, motion->input, motion->reference);
   }
 }
 
