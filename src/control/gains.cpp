@@ -23,12 +23,14 @@ Trajectory piece(const Trajectory& motion, int first, int last) {
 }  // namespace
 
 List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
-                                     const GainConfig& config, const PlanControl& control) {
+                                     const GainConfig& config, const PlanControl& control,
+                                     List<Eigen::MatrixXf>* curvature) {
   Cost soft = cost;
   soft.weights.residual = config.residual;
   soft.weights.change = config.change;
   const int n = motion.size();
   List<Eigen::MatrixXf> gains(n);
+  if (curvature) *curvature = List<Eigen::MatrixXf>(n);
   List<FrameModel> models;
   StageCost stage;
   RiccatiScratch<float> scratch;
@@ -43,6 +45,10 @@ List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, con
     for (int t = last - 1; t >= first; --t) {
       const FrameModel& model = models[t - first];
       const SweepResult step = sweep_frame(system, soft, motion, t, model, 0.0, value, law, stage, scratch);
+      if (curvature) {
+        const Eigen::MatrixXd Quu = stage.H.bottomRightCorner(system.controls(), system.controls());
+        (*curvature)[t] = Eigen::MatrixXd(Quu.selfadjointView<Eigen::Lower>()).cast<float>();
+      }
       gains[t] = step.positive ? law.K : Eigen::MatrixXf::Zero(system.controls(), kMemory);
     }
   }
