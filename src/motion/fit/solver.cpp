@@ -44,25 +44,50 @@ void forward(const BorderedBand& s, PerFrame<VectorXd>& y) {
   }
 }
 
-/// B ← L⁻¹ B, then C ← C − BᵀB, in chunks of columns.
-void eliminate_border(BorderedBand& s, int threads) {
+/// Calls use(first, rows) for the rows of L⁻¹ B of the frames first, first + 1, …, some frames at a time.
+template <class Use>
+void for_each_eliminated(const BorderedBand& s, const Border& border, int threads, const Use& use) {
+  constexpr int kFrames = 32, kPart = 8;
   static constexpr Eigen::Index kColumns = 64;
   const Eigen::Index columns = s.corner.cols();
-  const auto columns_of = [columns](MatrixXd& m, int chunk) {
-    return m.middleCols(chunk * kColumns, std::min(kColumns, columns - chunk * kColumns));
-  };
   const auto chunks = static_cast<int>((columns + kColumns - 1) / kColumns);
-  parallel_for(chunks, threads, [&](int chunk) {
-    for (int t = 0; t < s.frames(); ++t) {
-      auto here = columns_of(s.border[t], chunk);
-      if (t >= 1) here.noalias() -= s.next[t - 1] * columns_of(s.border[t - 1], chunk);
-      if (t >= 2) here.noalias() -= s.second[t - 2] * columns_of(s.border[t - 2], chunk);
-      s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(here);
-    }
-  });
-  parallel_for(chunks, threads, [&](int chunk) {
-    auto here = columns_of(s.corner, chunk);
-    for (MatrixXd& border : s.border) here.noalias() -= border.transpose() * columns_of(border, chunk);
+  List<MatrixXd> blocks(kFrames + 2);  // of two frames before, then of the frames from `first` on
+  for (int first = 0; first < s.frames(); first += kFrames) {
+    const int count = std::min(kFrames, s.frames() - first);
+    parallel_for((count + kPart - 1) / kPart, threads, [&](int part) {
+      const int at = part * kPart;
+      border(first + at, std::span(blocks).subspan(static_cast<std::size_t>(2 + at),
+                                                   static_cast<std::size_t>(std::min(kPart, count - at))));
+    });
+    parallel_for(chunks, threads, [&](int chunk) {
+      const auto columns_of = [&](MatrixXd& m) {
+        return m.middleCols(chunk * kColumns, std::min(kColumns, columns - chunk * kColumns));
+      };
+      for (int k = 0; k < count; ++k) {
+        const int t = first + k;
+        auto here = columns_of(blocks[2 + k]);
+        if (t >= 1) here.noalias() -= s.next[t - 1] * columns_of(blocks[1 + k]);
+        if (t >= 2) here.noalias() -= s.second[t - 2] * columns_of(blocks[k]);
+        s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(here);
+      }
+    });
+    use(first, std::span<const MatrixXd>(blocks).subspan(2, static_cast<std::size_t>(count)));
+    if (count == kFrames) blocks[0].swap(blocks[kFrames]), blocks[1].swap(blocks[kFrames + 1]);
+  }
+}
+
+/// C ← C − Bᵀ A⁻¹ B and b ← b − Bᵀ A⁻¹ a from a ← L⁻¹ a. The columns of C in chunks.
+void eliminate_border(BorderedBand& s, const Border& border, int threads) {
+  static constexpr Eigen::Index kColumns = 64;
+  const Eigen::Index columns = s.corner.cols();
+  const auto chunks = static_cast<int>((columns + kColumns - 1) / kColumns);
+  for_each_eliminated(s, border, threads, [&](int first, std::span<const MatrixXd> blocks) {
+    parallel_for(chunks, threads, [&](int chunk) {
+      const Eigen::Index at = chunk * kColumns, count = std::min(kColumns, columns - at);
+      for (const MatrixXd& rows : blocks)
+        s.corner.middleCols(at, count).noalias() -= rows.transpose() * rows.middleCols(at, count);
+    });
+    for (const MatrixXd& rows : blocks) s.rhs_border.noalias() -= rows.transpose() * s.rhs[first++];
   });
 }
 
@@ -75,41 +100,51 @@ void backward(const BorderedBand& s, PerFrame<VectorXd>& y) {
   }
 }
 
+/// Normal numbers in the shape of a solution.
+BandSolution noise_like(const BandSolution& solution, Random& random) {
+  BandSolution noise = solution;
+  for (double& value : noise.g) value = random.normal();
+  for (VectorXd& x : noise.x)
+    for (double& value : x) value = random.normal();
+  return noise;
+}
+
 }  // namespace
 
 BorderedBand::BorderedBand(int frames, int n, int m)
     : diagonal(frames, MatrixXd::Zero(n, n)),
       next(diagonal),
       second(diagonal),
-      border(frames, MatrixXd::Zero(n, m)),
       corner(MatrixXd::Zero(m, m)),
       rhs(frames, VectorXd::Zero(n)),
       rhs_border(VectorXd::Zero(m)) {}
 
-BandSolution solve(BorderedBand& s, int threads) {
+SolutionWithDraws solve(BorderedBand& s, const Border& border, int draws, Random& random, int threads) {
   factorise(s);
-  eliminate_border(s, threads);
   forward(s, s.rhs);
-  for (int t = 0; t < s.frames(); ++t) s.rhs_border.noalias() -= s.border[t].transpose() * s.rhs[t];
+  eliminate_border(s, border, threads);
   const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(s.corner);
   require_definite(factor);
-  BandSolution out{std::move(s.rhs), factor.solve(s.rhs_border)};
-  for (int t = 0; t < s.frames(); ++t) out.x[t].noalias() -= s.border[t] * out.g;
+  SolutionWithDraws out{{std::move(s.rhs), factor.solve(s.rhs_border)}, {}};
+  for (int i = 0; i < draws; ++i) {
+    BandSolution& draw = out.draws.emplace_back(noise_like(out, random));
+    s.corner.transpose().triangularView<Eigen::Upper>().solveInPlace(draw.g);
+  }
+  for_each_eliminated(s, border, threads, [&](int first, std::span<const MatrixXd> blocks) {
+    for (const MatrixXd& rows : blocks) {
+      out.x[first].noalias() -= rows * out.g;
+      for (BandSolution& draw : out.draws) draw.x[first] -= rows * draw.g;
+      ++first;
+    }
+  });
   backward(s, out.x);
+  for (BandSolution& draw : out.draws) backward(s, draw.x);
   return out;
 }
 
-BandSolution draw(const BorderedBand& s, Random& random) {
-  BandSolution out{{}, VectorXd(s.corner.rows())};
-  for (double& value : out.g) value = random.normal();
-  s.corner.transpose().triangularView<Eigen::Upper>().solveInPlace(out.g);
-  for (int t = 0; t < s.frames(); ++t) {
-    VectorXd x(s.diagonal[t].rows());
-    for (double& value : x) value = random.normal();
-    out.x.push_back(x - s.border[t] * out.g);
-  }
-  backward(s, out.x);
-  return out;
+BandSolution solve(BorderedBand& s, const Border& border, int threads) {
+  Random unused(0, {});
+  return solve(s, border, 0, unused, threads);
 }
 
 }  // namespace mimicx::motion::fit
