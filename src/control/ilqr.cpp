@@ -16,7 +16,8 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
                 const StateQuadratic& state, StageCost& out) {
   const CostWeights& weights = cost.weights;
   const int controls = system.controls(), u = kMemory, w = kTangent;
-  out.H.setZero(kMemory + controls, kMemory + controls);
+  out.H.resize(kMemory + controls, kMemory + controls);
+  out.H.triangularView<Eigen::Lower>().setZero();
   out.g.setZero(kMemory + controls);
   if (t > 0) {  // the first state is given
     out.g.head(kTangent) = state.gradient;
