@@ -23,8 +23,8 @@ void factorise(BorderedBand& s) {
   const int frames = s.frames();
   for (int t = 0; t < frames; ++t) {
     MatrixXd& D = s.diagonal[t];
-    if (t >= 1) D.noalias() -= s.next[t - 1] * s.next[t - 1].transpose();
-    if (t >= 2) D.noalias() -= s.second[t - 2] * s.second[t - 2].transpose();
+    if (t >= 1) D.triangularView<Eigen::Lower>() -= s.next[t - 1] * s.next[t - 1].transpose();
+    if (t >= 2) D.triangularView<Eigen::Lower>() -= s.second[t - 2] * s.second[t - 2].transpose();
     require_definite(Eigen::LLT<Eigen::Ref<MatrixXd>>(D));
     const auto transposed = std::as_const(D).transpose().triangularView<Eigen::Upper>();  // Lᵀ
     if (t + 1 < frames) {
@@ -44,51 +44,57 @@ void forward(const BorderedBand& s, PerFrame<VectorXd>& y) {
   }
 }
 
-/// Calls use(first, rows) for the rows of L⁻¹ B of the frames first, first + 1, …, some frames at a time.
+constexpr int kBlock = 512;            ///< frames of the border that are there at once
+constexpr Eigen::Index kColumns = 64;  ///< of the border in a chunk
+
+int chunks_of(const BorderedBand& s) { return static_cast<int>((s.corner.cols() + kColumns - 1) / kColumns); }
+
+/// Calls use(first, rows) for the rows of L⁻¹ B of the frames first, first + 1, …, block by block.
 template <class Use>
 void for_each_eliminated(const BorderedBand& s, const Border& border, int threads, const Use& use) {
-  constexpr int kFrames = 32, kPart = 8;
-  static constexpr Eigen::Index kColumns = 64;
+  constexpr int kPart = 16;
   const Eigen::Index columns = s.corner.cols();
-  const auto chunks = static_cast<int>((columns + kColumns - 1) / kColumns);
-  List<MatrixXd> blocks(kFrames + 2);  // of two frames before, then of the frames from `first` on
-  for (int first = 0; first < s.frames(); first += kFrames) {
-    const int count = std::min(kFrames, s.frames() - first);
-    parallel_for((count + kPart - 1) / kPart, threads, [&](int part) {
-      const int at = part * kPart;
-      border(first + at, std::span(blocks).subspan(static_cast<std::size_t>(2 + at),
-                                                   static_cast<std::size_t>(std::min(kPart, count - at))));
+  List<MatrixXd> rows;
+  Array<MatrixXd, 2> before;  // the two frames before the block, the last one first
+  for (int first = 0; first < s.frames(); first += kBlock) {
+    rows.resize(std::min(kBlock, s.frames() - first));
+    parallel_for((rows.count() + kPart - 1) / kPart, threads, [&](int part) {
+      const int at = part * kPart, count = std::min(kPart, rows.count() - at);
+      border(first + at,
+             std::span(rows).subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(count)));
     });
-    parallel_for(chunks, threads, [&](int chunk) {
-      const auto columns_of = [&](MatrixXd& m) {
-        return m.middleCols(chunk * kColumns, std::min(kColumns, columns - chunk * kColumns));
+    parallel_for(chunks_of(s), threads, [&](int chunk) {
+      const auto part_of = [&](int t) {
+        MatrixXd& all = t >= first ? rows[t - first] : before[first - 1 - t];
+        return all.middleCols(chunk * kColumns, std::min(kColumns, columns - chunk * kColumns));
       };
-      for (int k = 0; k < count; ++k) {
-        const int t = first + k;
-        auto here = columns_of(blocks[2 + k]);
-        if (t >= 1) here.noalias() -= s.next[t - 1] * columns_of(blocks[1 + k]);
-        if (t >= 2) here.noalias() -= s.second[t - 2] * columns_of(blocks[k]);
+      for (int t = first; t < first + rows.count(); ++t) {
+        auto here = part_of(t);
+        if (t >= 1) here.noalias() -= s.next[t - 1] * part_of(t - 1);
+        if (t >= 2) here.noalias() -= s.second[t - 2] * part_of(t - 2);
         s.diagonal[t].triangularView<Eigen::Lower>().solveInPlace(here);
       }
     });
-    use(first, std::span<const MatrixXd>(blocks).subspan(2, static_cast<std::size_t>(count)));
-    if (count == kFrames) blocks[0].swap(blocks[kFrames]), blocks[1].swap(blocks[kFrames + 1]);
+    use(first, rows);
+    if (first + kBlock < s.frames()) before[0].swap(rows[kBlock - 1]), before[1].swap(rows[kBlock - 2]);
   }
 }
 
-/// C ← C − Bᵀ A⁻¹ B and b ← b − Bᵀ A⁻¹ a from a ← L⁻¹ a. The columns of C in chunks.
-void eliminate_border(BorderedBand& s, const Border& border, int threads) {
-  static constexpr Eigen::Index kColumns = 64;
-  const Eigen::Index columns = s.corner.cols();
-  const auto chunks = static_cast<int>((columns + kColumns - 1) / kColumns);
-  for_each_eliminated(s, border, threads, [&](int first, std::span<const MatrixXd> blocks) {
-    parallel_for(chunks, threads, [&](int chunk) {
-      const Eigen::Index at = chunk * kColumns, count = std::min(kColumns, columns - at);
-      for (const MatrixXd& rows : blocks)
-        s.corner.middleCols(at, count).noalias() -= rows.transpose() * rows.middleCols(at, count);
+/// C ← C − Bᵀ A⁻¹ B, its lower triangle, and b ← b − Bᵀ A⁻¹ a from a ← L⁻¹ a. The columns of C in chunks.
+/// @return L⁻¹ B where that is one block
+List<MatrixXd> eliminate_border(BorderedBand& s, const Border& border, int threads) {
+  List<MatrixXd> kept;
+  for_each_eliminated(s, border, threads, [&](int first, List<MatrixXd>& rows) {
+    parallel_for(chunks_of(s), threads, [&](int chunk) {
+      const Eigen::Index at = chunk * kColumns, below = s.corner.cols() - at;
+      for (const MatrixXd& frame : rows)
+        s.corner.block(at, at, below, std::min(kColumns, below)).noalias() -=
+            frame.rightCols(below).transpose() * frame.middleCols(at, std::min(kColumns, below));
     });
-    for (const MatrixXd& rows : blocks) s.rhs_border.noalias() -= rows.transpose() * s.rhs[first++];
+    for (int k = 0; k < rows.count(); ++k) s.rhs_border.noalias() -= rows[k].transpose() * s.rhs[first + k];
+    if (rows.count() == s.frames()) kept = std::move(rows);
   });
+  return kept;
 }
 
 /// y ← L⁻ᵀ y
@@ -122,7 +128,7 @@ BorderedBand::BorderedBand(int frames, int n, int m)
 SolutionWithDraws solve(BorderedBand& s, const Border& border, int draws, Random& random, int threads) {
   factorise(s);
   forward(s, s.rhs);
-  eliminate_border(s, border, threads);
+  const List<MatrixXd> kept = eliminate_border(s, border, threads);
   const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(s.corner);
   require_definite(factor);
   SolutionWithDraws out{{std::move(s.rhs), factor.solve(s.rhs_border)}, {}};
@@ -130,13 +136,17 @@ SolutionWithDraws solve(BorderedBand& s, const Border& border, int draws, Random
     BandSolution& draw = out.draws.emplace_back(noise_like(out, random));
     s.corner.transpose().triangularView<Eigen::Upper>().solveInPlace(draw.g);
   }
-  for_each_eliminated(s, border, threads, [&](int first, std::span<const MatrixXd> blocks) {
-    for (const MatrixXd& rows : blocks) {
-      out.x[first].noalias() -= rows * out.g;
-      for (BandSolution& draw : out.draws) draw.x[first] -= rows * draw.g;
+  const auto subtract = [&](int first, const List<MatrixXd>& rows) {
+    for (const MatrixXd& frame : rows) {
+      out.x[first].noalias() -= frame * out.g;
+      for (BandSolution& draw : out.draws) draw.x[first] -= frame * draw.g;
       ++first;
     }
-  });
+  };
+  if (kept.empty())
+    for_each_eliminated(s, border, threads, subtract);
+  else
+    subtract(0, kept);
   backward(s, out.x);
   for (BandSolution& draw : out.draws) backward(s, draw.x);
   return out;
