@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
 #include "motion/fit/balance.h"
@@ -30,12 +31,16 @@ struct Evaluated {
 };
 
 Evaluated evaluate(const FitProblem& problem, const FitState& state) {
+  constexpr int kFrames = 32;  // a chunk
   const Character character = character_of(problem, state);
-  Evaluated e;
-  for (int t = 0; t < problem.frames(); ++t) {
-    e.motion.push_back(kinematics(problem, state, character, t));
-    e.feet.push_back(foot_positions(character, e.motion[t]));
-  }
+  const int frames = problem.frames();
+  Evaluated e{PerFrame<FrameKinematics>(frames), PerFrame<FootPositions>(frames)};
+  parallel_for((frames + kFrames - 1) / kFrames, problem.config.threads, [&](int chunk) {
+    for (int t = chunk * kFrames; t < std::min((chunk + 1) * kFrames, frames); ++t) {
+      e.motion[t] = kinematics(problem, state, character, t);
+      e.feet[t] = foot_positions(character, e.motion[t]);
+    }
+  });
   return e;
 }
 

@@ -136,19 +136,18 @@ SolutionWithDraws solve(BorderedBand& s, const Border& border, int draws, Random
     BandSolution& draw = out.draws.emplace_back(noise_like(out, random));
     s.corner.transpose().triangularView<Eigen::Upper>().solveInPlace(draw.g);
   }
+  List<BandSolution*> all = {&out};
+  for (BandSolution& draw : out.draws) all.push_back(&draw);
   const auto subtract = [&](int first, const List<MatrixXd>& rows) {
-    for (const MatrixXd& frame : rows) {
-      out.x[first].noalias() -= frame * out.g;
-      for (BandSolution& draw : out.draws) draw.x[first] -= frame * draw.g;
-      ++first;
-    }
+    parallel_for(all.count(), threads, [&](int i) {
+      for (int k = 0; k < rows.count(); ++k) all[i]->x[first + k].noalias() -= rows[k] * all[i]->g;
+    });
   };
   if (kept.empty())
     for_each_eliminated(s, border, threads, subtract);
   else
     subtract(0, kept);
-  backward(s, out.x);
-  for (BandSolution& draw : out.draws) backward(s, draw.x);
+  parallel_for(all.count(), threads, [&](int i) { backward(s, all[i]->x); });
   return out;
 }
 
