@@ -1,25 +1,24 @@
 #include "motion/prepare.h"
 #include "pipeline/options/clusters.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "pipeline/configurations.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::vector<std::string> inputs;
-  std::string out;
+  std::filesystem::path out;
   pipeline::options::ClusterConfig config{pipeline::pretrain_configuration("small").clusters.radius,
                                           std::nullopt, 0};
   motion::import::ReadConfig read;
@@ -68,18 +67,18 @@ int cluster(const Arguments& a) {
 
 }  // namespace
 
-void declare_cluster(CLI::App& app, Action& action) {
+void declare_cluster(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("cluster", "Sort motions into clusters of similar ones");
-  command->add_option("FILE", a->inputs, "motions and folders of them")->required();
-  command->add_option("--out", a->out, "where to write the clusters: .json")
-      ->check(refuse_empty_path)
-      ->required();
-  add_read_arguments(*command, a->read);
-  add_cluster_arguments(*command, a->config);
-  add_seed(*command, a->config.seed);
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return cluster(*a); }; });
+  Command command = line.add("cluster", "Sort motions into clusters of similar ones",
+                             "mimicx cluster DIR --out clusters.json                # as pretrain would\n"
+                             "mimicx cluster DIR --out clusters.json --clusters 5   # exactly five");
+  command.files("FILE", a->inputs, "motions and folders of them");
+  command.path("--out", a->out, "where to write the clusters: .json").required();
+  add_read_arguments(command, a->read);
+  add_cluster_arguments(command, a->config);
+  add_seed(command, a->config.seed);
+  add_force(command, a->force);
+  command.action([a] { return cluster(*a); });
 }
 
 }  // namespace mimicx::tools

@@ -1,15 +1,14 @@
 #include "pipeline/evaluate.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "core/npz.h"
 #include "pipeline/protocol.h"
 #include "pipeline/record/outputs.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -76,24 +75,23 @@ int evaluate(const Arguments& a) {
 
 }  // namespace
 
-void declare_evaluate(CLI::App& app, Action& action) {
+void declare_evaluate(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("evaluate", "Score motions against their truth, pairing files by name");
-  command->add_option("--truth", a->truth, "folder of true motions")->required();
+  Command command =
+      line.add("evaluate", "Score motions against their truth, pairing files by name",
+               "mimicx evaluate --truth truth --motions out/run/motions         # a row per motion\n"
+               "mimicx evaluate --truth truth --motions noisy out/run/motions   # means, side by side");
+  command.path("--truth", a->truth, "folder of true motions").required();
   command
-      ->add_option(
-          "--motions", a->motions,
-          "folder of motions to score; several folders are compared by their means over the motions that all "
-          "of them hold")
-      ->required();
-  command
-      ->add_option("--protocol", a->protocol,
-                   "the columns of a published protocol instead: phc, pmr or emdb, docs/metrics.md")
-      ->check(CLI::IsMember(motion::protocol_names()));
-  command->add_option("--json", a->json, "also write every value, its count and its definition here")
-      ->check(refuse_empty_path);
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return evaluate(*a); }; });
+      .paths("--motions", a->motions,
+             "folder of motions to score; several folders are compared by their means over the motions that "
+             "all of them hold")
+      .required();
+  command.one_of("--protocol", a->protocol, motion::protocol_names(),
+                 "the columns of a published protocol instead, docs/metrics.md");
+  command.path("--json", a->json, "also write every value, its count and its definition here");
+  add_force(command, a->force);
+  command.action([a] { return evaluate(*a); });
 }
 
 }  // namespace mimicx::tools

@@ -2,16 +2,15 @@
 #include "motion/clip_file.h"
 #include "motion/fit/poses.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -75,24 +74,24 @@ int fit(const Arguments& a) {
 
 }  // namespace
 
-void declare_fit(CLI::App& app, Action& action) {
+void declare_fit(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("fit", "Move motions onto their 2D keypoints, where they have any");
-  command->add_option("FILE", a->inputs, "motions and folders of them")->required();
-  command->add_option("--out", a->out, "folder for the fitted motions")->check(refuse_empty_path)->required();
-  add_read_arguments(*command, a->read);
-  command->add_flag("--poses", a->poses,
-                    "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
+  Command command = line.add("fit", "Move motions onto their 2D keypoints, where they have any",
+                             "mimicx fit DIR --out fitted             # the fit alone, no simulation\n"
+                             "mimicx fit DIR --out planted --poses    # no keypoints: feet, floor, balance");
+  command.files("FILE", a->inputs, "motions and folders of them");
+  command.path("--out", a->out, "folder for the fitted motions").required();
+  add_read_arguments(command, a->read);
+  command.flag("--poses", a->poses,
+               "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
   const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
-    command->add_option(name, sigma, "standard error of " + what + "; 0: it is exact")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
+    command.number(name, sigma, kFromZero, "standard error of " + what + "; 0: it is exact");
   };
   add_sigma("--focal-sigma", a->config.focal_sigma, "the focal length in the file, relative");
   add_sigma("--tilt-sigma", a->config.tilt_sigma, "the camera's tilt in the file, degrees");
   add_sigma("--beta-sigma", a->config.beta_sigma, "each entry of the shape in the file");
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return fit(*a); }; });
+  add_force(command, a->force);
+  command.action([a] { return fit(*a); });
 }
 
 }  // namespace mimicx::tools

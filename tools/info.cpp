@@ -1,13 +1,12 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
 #include "motion/keypoint_names.h"
 #include "motion/prepare.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -73,13 +72,14 @@ int info(const Arguments& a) {
 
 }  // namespace
 
-void declare_info(CLI::App& app, Action& action) {
+void declare_info(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command =
-      app.add_subcommand("info", "What a motion file holds, what reading decides, what preparation does");
-  command->add_option("FILE", a->file, "motion")->required();
-  add_read_arguments(*command, a->read);
-  command->callback([a, &action] { action = [a] { return info(*a); }; });
+  Command command = line.add("info", "What a motion file holds, what reading decides, what preparation does",
+                             "mimicx info clip.bvh           # axes, unit, frame rate, floor, body\n"
+                             "mimicx info clip.bvh --up z    # what changes where you know better");
+  command.file("FILE", a->file, "motion");
+  add_read_arguments(command, a->read);
+  command.action([a] { return info(*a); });
 }
 
 }  // namespace mimicx::tools
