@@ -103,20 +103,29 @@ void claim_options(const record::RunFolder& folder, const std::vector<std::strin
   claim(folder.root / "options.npz", {});
 }
 
+/// What a file holds; null where it is no JSON.
+record::Json json_or_null(const std::filesystem::path& path) {
+  try {
+    return record::Json::parse(read_file(path));
+  } catch (const record::JsonError&) {
+    return nullptr;
+  }
+}
+
 /// How the run in the folder ended, where it is this one and its options are there to the last byte.
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs
 std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
                                                    const record::Json& record) {
   if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
-  const record::Json there = record::Json::parse(read_file(folder.manifest()), nullptr, false);
-  if (!there.is_object() || there.value("run", record::Json()) != record)
+  const record::Json there = json_or_null(folder.manifest());
+  if (!there.is_object() || there.value("run", nullptr) != record)
     throw std::invalid_argument(folder.root.string() +
                                 " holds a pre-training of other settings or inputs: give another folder, or "
                                 "remove it first");
   const std::filesystem::path options = folder.root / "options.npz";
   if (!std::filesystem::exists(options) || there.value("checksum", "") != record::file_checksum(options))
     return std::nullopt;
-  for (const record::Json& input : there.at("inputs"))
+  for (const record::Json& input : there.at("inputs").elements())
     if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
   return record::RunOutcome::kAllGood;
 }
@@ -197,7 +206,7 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
 
 NamedValues settings_of(const PretrainConfig& config) {
   NamedValues values;
-  const record::Json settings = settings_json(config);  // items() looks into it, so it has to live that long
+  const record::Json settings = settings_json(config);  // items() looks into it
   for (const auto& [name, value] : settings.items())
     values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
   return values;

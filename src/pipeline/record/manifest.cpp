@@ -75,14 +75,14 @@ Ending ending_of(const std::string& name) {
 
 SequenceEntry entry_of(const Json& json) {
   SequenceEntry e;
-  e.name = from_utf8(json.at("name"));
-  e.input = from_utf8(json.at("input"));
-  e.input_checksum = json.at("input_checksum");
-  if (!json.at("output").is_null()) e.output = from_utf8(json.at("output"));
+  e.name = from_utf8(json.at("name").get<std::string>());
+  e.input = from_utf8(json.at("input").get<std::string>());
+  e.input_checksum = json.at("input_checksum").get<std::string>();
+  if (!json.at("output").is_null()) e.output = from_utf8(json.at("output").get<std::string>());
   e.ok = json.at("status") == "ok";
-  e.reason = json.at("reason");
-  e.method = json.value("method", "");
-  e.ending = ending_of(json.at("ending"));
+  e.reason = json.at("reason").get<std::string>();
+  e.method = json.value("method", "").get<std::string>();
+  e.ending = ending_of(json.at("ending").get<std::string>());
   e.frames = json.at("frames");
   e.fps = json.at("fps");
   e.seed = json.at("seed");
@@ -99,11 +99,11 @@ SequenceEntry entry_of(const Json& json) {
   if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // older manifests have none
   e.preparation = named_values(json.at("preparation"));
   if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above
-  e.decisions = json.value("decisions", std::vector<std::string>{});
+  e.decisions = json.value("decisions", Json::array()).get<std::vector<std::string>>();
   e.notes = json.at("notes").get<std::vector<std::string>>();
   if (json.contains("files"))  // as above
     for (const auto& [name, checksum] : json.at("files").items())
-      e.files.emplace_back(from_utf8(name), checksum);
+      e.files.emplace_back(from_utf8(name), checksum.get<std::string>());
   return e;
 }
 
@@ -146,7 +146,7 @@ std::string format_manifest(const Manifest& manifest) {
                  {"settings", to_json(manifest.settings)}}},
                {"sequences", Json::array()}};
   for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1) + "\n";
 }
 
 Manifest read_manifest(const std::filesystem::path& path) {
@@ -155,17 +155,17 @@ Manifest read_manifest(const std::filesystem::path& path) {
     const Json json = Json::parse(text);
     const Json& run = json.at("run");
     Manifest manifest;
-    manifest.version = run.at("version");
-    manifest.target = run.at("target");
+    manifest.version = run.at("version").get<std::string>();
+    manifest.target = run.at("target").get<std::string>();
     manifest.seed = run.at("seed");
     manifest.samples = run.at("samples");
-    manifest.method = run.value("method", "");
-    manifest.options = run.at("options");
-    manifest.reading = from_utf8(run.value("reading", ""));
+    manifest.method = run.value("method", "").get<std::string>();
+    manifest.options = run.at("options").get<std::string>();
+    manifest.reading = from_utf8(run.value("reading", "").get<std::string>());
     manifest.settings = named_values(run.at("settings"));
-    for (const auto& e : json.at("sequences")) manifest.sequences.push_back(entry_of(e));
+    for (const Json& e : json.at("sequences").elements()) manifest.sequences.push_back(entry_of(e));
     return manifest;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const JsonError& error) {
     throw DataError(path.string(), "", "the manifest of a run", error.what());
   }
 }

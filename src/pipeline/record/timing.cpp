@@ -25,16 +25,14 @@ std::string format_timing(const std::vector<Timing>& timings, const std::vector<
 std::vector<Timing> read_timing(const std::filesystem::path& path) {
   std::vector<Timing> timings;
   if (!std::filesystem::exists(path)) return timings;
-  const Json json = Json::parse(read_file(path), nullptr, false);
-  if (json.is_discarded() || !json.contains("sequences")) return timings;
-  for (const auto& t : json["sequences"]) {
-    Timing timing;
-    timing.name = from_utf8(t.value("name", ""));
-    timing.seconds = t.value("seconds", 0.0);
-    timing.planning_seconds = t.value("planning_seconds", 0.0);
-    timing.training_seconds = t.value("training_seconds", 0.0);
-    timing.threads = t.value("threads", 0);
-    timings.push_back(timing);
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const Json& t : json.at("sequences").elements())
+      timings.push_back({from_utf8(t.value("name", "").get<std::string>()), t.value("seconds", 0.0),
+                         t.value("planning_seconds", 0.0), t.value("training_seconds", 0.0),
+                         t.value("threads", 0)});
+  } catch (const JsonError&) {
+    timings.clear();
   }
   return timings;
 }
