@@ -6,7 +6,7 @@
 #include "core/npz.h"
 #include "pipeline/audit/audit_file.h"
 #include "pipeline/audit/pose_files.h"
-#include "pipeline/preparation.h"
+#include "pipeline/inputs.h"
 #include "pipeline/record/outputs.h"
 #include "pipeline/record/progress.h"
 #include "shared_arguments.h"
@@ -87,7 +87,8 @@ int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
 int audit(const Arguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
-  const std::vector<std::string> inputs = pipeline::expand_inputs(a.inputs, &std::cerr);
+  const std::vector<std::string> inputs =
+      pipeline::paths_of(pipeline::find_motions(a.inputs, {}, &std::cerr));
   claim_outputs(a, inputs);
   return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
 }

@@ -8,9 +8,9 @@
 
 #include "commands.h"
 #include "pipeline/configurations.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
-#include "pipeline/record/run_folder.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -25,20 +25,19 @@ struct Arguments {
   bool force = false;
 };
 
-/// The files named, and the motions of the folders named, each once and in order of their paths.
-std::vector<std::string> motion_files(const std::vector<std::string>& inputs) {
-  std::vector<std::string> files;
-  for (const std::string& file : pipeline::expand_inputs(inputs, &std::cerr))
-    files.push_back(std::filesystem::path(file).lexically_normal().string());
-  std::sort(files.begin(), files.end());
-  files.erase(std::unique(files.begin(), files.end()), files.end());
-  return files;
+/// The files named, and the motions of the folders named, in order of their paths.
+std::vector<pipeline::MotionInput> sorted_motions(const std::vector<std::string>& names) {
+  std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(names, {}, &std::cerr);
+  for (pipeline::MotionInput& input : inputs)
+    input.path = std::filesystem::path(input.path).lexically_normal().string();
+  std::sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  return inputs;
 }
 
 int cluster(const Arguments& a) {
   std::vector<pipeline::options::NamedFeatures> motions;
-  const std::vector<std::string> files = motion_files(a.inputs);
-  const std::vector<std::string> names = pipeline::record::unique_names(files);
+  const std::vector<pipeline::MotionInput> inputs = sorted_motions(a.inputs);
+  const std::vector<std::string> files = pipeline::paths_of(inputs), names = pipeline::unique_names(inputs);
   pipeline::record::Outputs(files, a.force).claim(a.out, pipeline::record::kJsonOpening);
   bool all_good = true;
   for (std::size_t i = 0; i < files.size(); ++i) {

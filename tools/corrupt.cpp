@@ -6,9 +6,10 @@
 #include <optional>
 
 #include "commands.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/outputs.h"
-#include "pipeline/record/run_folder.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -42,14 +43,15 @@ pipeline::CorruptConfig checked_config(const Arguments& a) {
 
 int corrupt(const Arguments& a) {
   const pipeline::CorruptConfig config = checked_config(a);
-  const std::vector<std::string> files = pipeline::expand_inputs(a.inputs, &std::cerr);
-  const std::vector<std::string> names = pipeline::record::unique_names(files);
-  pipeline::record::Outputs outputs(files, a.force);
+  const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
+  const std::vector<std::string> names = pipeline::unique_names(inputs);
+  pipeline::record::Outputs outputs(pipeline::paths_of(inputs), a.force);
   for (const std::string& name : names)
     for (const char* part : {"truth", "noisy"}) outputs.claim(a.out / part / (name + ".npz"));
+  const pipeline::record::FolderLock lock(a.out);
   std::size_t written = 0;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string& file = files[i];
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& file = inputs[i].path;
     try {
       pipeline::tell_decisions(file, pipeline::corrupt_file(file, names[i], a.out, config), std::cerr);
       ++written;

@@ -7,9 +7,10 @@
 #include <memory>
 
 #include "commands.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/outputs.h"
-#include "pipeline/record/run_folder.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -32,11 +33,11 @@ void print(const std::string& name, const motion::fit::FitReport& r) {
 }
 
 /// Where every input goes, claimed before any work.
-std::vector<std::filesystem::path> claimed_outputs(const std::vector<std::string>& files,
+std::vector<std::filesystem::path> claimed_outputs(const std::vector<pipeline::MotionInput>& inputs,
                                                    const Arguments& a) {
-  pipeline::record::Outputs outputs(files, a.force);
+  pipeline::record::Outputs outputs(pipeline::paths_of(inputs), a.force);
   std::vector<std::filesystem::path> paths;
-  for (const std::string& name : pipeline::record::unique_names(files)) {
+  for (const std::string& name : pipeline::unique_names(inputs)) {
     paths.push_back(a.out / (name + ".npz"));
     outputs.claim(paths.back());
   }
@@ -44,9 +45,9 @@ std::vector<std::filesystem::path> claimed_outputs(const std::vector<std::string
 }
 
 int fit(const Arguments& a) {
-  const std::vector<std::string> files = pipeline::expand_inputs(a.inputs, &std::cerr);
-  const std::vector<std::filesystem::path> outputs = claimed_outputs(files, a);
-  std::filesystem::create_directories(a.out);
+  const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
+  const std::vector<std::filesystem::path> outputs = claimed_outputs(inputs, a);
+  const pipeline::record::FolderLock lock(a.out);
   std::printf(
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n"
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n",
@@ -54,15 +55,16 @@ int fit(const Arguments& a) {
       "largest", "", "% box", "% box", "scale", "deg", "beta", "% box", "frames", "frames", "points", "mm",
       "mm");
   bool all_good = true;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string& file = files[i];
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& file = inputs[i].path;
     try {
       motion::fit::FitReport report;
       const motion::Clip clip = motion::import::read_motion(file, a.read);
       pipeline::tell_decisions(file, clip, std::cerr);
+      std::filesystem::create_directories(outputs[i].parent_path());
       motion::write_clip(outputs[i], (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(
                                          clip, a.config, &report));
-      print(outputs[i].stem().string(), report);
+      print(outputs[i].lexically_relative(a.out).replace_extension().generic_string(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << error.what() << '\n';

@@ -1,10 +1,12 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "motion/synth/set.h"
 #include "pipeline/audit/feasibility.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/outputs.h"
 #include "pipeline/record/progress.h"
 #include "shared_arguments.h"
@@ -75,6 +77,8 @@ int synth(const Arguments& a) {
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
   const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
   claim_outputs(a);
+  std::optional<pipeline::record::FolderLock> lock;
+  if (const auto& folder = a.out.empty() ? a.data_set : a.out; !folder.empty()) lock.emplace(folder);
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
     motion::synth::write_synthetic_data(a.data_set);

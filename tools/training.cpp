@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "numbers.h"
-#include "pipeline/preparation.h"
+#include "pipeline/inputs.h"
 #include "pipeline/run_outputs.h"
 #include "shared_arguments.h"
 
@@ -130,8 +130,11 @@ int with_context(
 
 pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
                                         const std::function<pipeline::record::RunOutcome()>& once) {
-  const std::vector<std::string> files = pipeline::expand_inputs(run.inputs, &context.messages);
+  const std::vector<pipeline::MotionInput> inputs =
+      pipeline::find_motions(run.inputs, run.out, &context.messages);
+  const std::vector<std::string> files = pipeline::paths_of(inputs);
   if (!run.out.empty()) {
+    for (const pipeline::MotionInput& input : inputs) run.names[input.path] = input.name;
     run.inputs = files;
     return once();
   }

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/npz.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/folder_lock.h"
 #include "pipeline/record/json.h"
@@ -26,9 +27,11 @@ struct Motions {
   bool all_good = true;
 };
 
-Motions read_motions(const std::vector<std::string>& files, const PretrainConfig& config,
+Motions read_motions(const std::vector<MotionInput>& inputs, const PretrainConfig& config,
                      const record::RunContext& context) {
   Motions motions;
+  const std::vector<std::string> files = paths_of(inputs);
+  std::set<std::string> taken;
   context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
@@ -37,10 +40,9 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
           prepare_motion(files[i], config.read, config.fit ? Correction::kKeypoints : Correction::kPoses);
       tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
-      std::set<std::string> taken;
-      for (const auto& named : motions.features) taken.insert(named.name);
-      motions.features.push_back(
-          {record::unique_name(files[i], taken), motion::motion_features(motion.reference)});
+      const std::string name = record::unique_name(inputs[i].name, taken);
+      motions.features.push_back({name, motion::motion_features(motion.reference)});
+      taken.insert(name);
       motions.references.push_back(std::move(motion.reference));
     } catch (const std::exception& error) {
       reason = error.what();
@@ -222,7 +224,8 @@ std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<
 }
 
 record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context) {
-  const std::vector<std::string> files = expand_inputs(config.inputs, &context.messages);
+  const std::vector<MotionInput> inputs = find_motions(config.inputs, config.out, &context.messages);
+  const std::vector<std::string> files = paths_of(inputs);
   const record::RunFolder folder{config.out};
   claim_options(folder, files, config.force);
   const record::FolderLock lock(folder.root);
@@ -234,7 +237,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   folder.create();
   write_file_atomically(folder.manifest(), record::Json({{"run", record}}).dump(1) + "\n");
 
-  const Motions motions = read_motions(files, config, context);
+  const Motions motions = read_motions(inputs, config, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
   const options::Clusters clusters = options::cluster_motions(motions.features, config.clusters);
   options::write_clusters(config.out / "clusters.json", clusters);

@@ -20,6 +20,7 @@
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/folder_lock.h"
+#include "pipeline/record/journal.h"
 #include "pipeline/record/timing.h"
 #include "pipeline/reference_needs.h"
 #include "pipeline/report/run_report.h"
@@ -29,7 +30,9 @@
 namespace mimicx::pipeline {
 namespace {
 
-constexpr double kReportSeconds = 30.0;  ///< between reports while a run goes on
+/// Between reports while a run goes on: s, and in parts of the time that the last one took. A report reads
+/// all motions; so it costs a hundredth of the time, however many there are.
+constexpr double kReportSeconds = 30.0, kReportShare = 100.0;
 
 struct RunState {
   const RunConfig& config;
@@ -40,6 +43,7 @@ struct RunState {
   std::vector<record::Timing> timings;
   std::vector<std::string> inputs = {};           ///< as the manifest spells them
   std::map<std::string, std::string> names = {};  ///< of the inputs, in the folder
+  record::Journal journal{folder.journal()};
 };
 
 record::Manifest manifest_of(const RunConfig& config, const Method& method) {
@@ -72,9 +76,27 @@ record::Manifest open_manifest(const RunConfig& config, const Method& method,
   return there;
 }
 
-void write_records(const RunState& run) {
+/// The run as its folder knows it, or a new one.
+RunState open_run(const RunConfig& config, const Method& method, const record::RunContext& context,
+                  const record::RunFolder& folder) {
+  RunState run{config,
+               method,
+               context,
+               folder,
+               open_manifest(config, method, folder),
+               record::read_timing(folder.timing())};
+  if (std::filesystem::exists(folder.manifest()))
+    record::replay_journal(folder.journal(), run.manifest, run.timings);
+  run.inputs = as_recorded(config.inputs, run.manifest);
+  run.names = sequence_names(run.inputs, config.names, run.manifest);
+  return run;
+}
+
+/// Everything that is known, in manifest and times instead of the journal.
+void write_records(RunState& run) {
   write_file_atomically(run.folder.manifest(), record::format_manifest(run.manifest));
   write_file_atomically(run.folder.timing(), record::format_timing(run.timings, run.manifest.sequences));
+  run.journal.clear();
 }
 
 record::Timing& timing_of(RunState& run, const std::string& name) {
@@ -214,7 +236,7 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
                     record::SequenceEntry& entry) {
   const record::RunFolder& folder = run.folder;
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
-  output::write_reference(folder.reference(entry.name), motion.input, motion.reference);
+  output::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
   if (!motion.needs.frames.empty())
     record::write_feasibility(with_parents(folder.feasibility(entry.name)),
                               frame_feasibility(motion.needs, made.help));
@@ -312,14 +334,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context) {
   const record::RunFolder folder{config.out};
   const record::FolderLock lock(folder.root);
-  RunState run{config,
-               method,
-               context,
-               folder,
-               open_manifest(config, method, folder),
-               record::read_timing(folder.timing())};
-  run.inputs = as_recorded(config.inputs, run.manifest);
-  run.names = sequence_names(run.inputs, run.manifest);
+  RunState run = open_run(config, method, context, folder);
   std::vector<std::string> protect = config.protect;
   protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
   record::Outputs outputs(protect, config.force);
@@ -327,10 +342,13 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   folder.create();
   write_records(run);
   bool all_good = true;
-  double reported = record::steady_seconds();
+  double next_report = record::steady_seconds() + kReportSeconds;
   const auto report = [&] {
+    const double begun = record::steady_seconds();
+    write_records(run);
     report::write_report(folder, run.manifest);
-    reported = record::steady_seconds();
+    const double now = record::steady_seconds();
+    next_report = now + std::max(kReportSeconds, kReportShare * (now - begun));
   };
   const auto interrupted = [&](const std::string& name) {
     write_records(run);
@@ -343,16 +361,18 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     if (i > 0 && context.should_stop()) return interrupted(input);
     record::SequenceEntry entry;
     std::size_t told = 0;
+    bool kept = false;
     try {
-      if (begin_entry(run, input, entry) && do_sequence(run, entry, told)) return interrupted(entry.name);
+      kept = !begin_entry(run, input, entry);
+      if (!kept && do_sequence(run, entry, told)) return interrupted(entry.name);
     } catch (const std::exception& error) {
       entry.ok = false;
       entry.reason = error.what();
       entry.output.clear();  // so that the same command tries again
     }
     run.manifest.put(entry);
-    write_records(run);
-    if (i + 1 == run.inputs.size() || record::steady_seconds() - reported > kReportSeconds) report();
+    if (!kept) run.journal.append(entry, timing_of(run, entry.name));
+    if (i + 1 == run.inputs.size() || record::steady_seconds() > next_report) report();
     context.progress.finish(result_line(entry));
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';

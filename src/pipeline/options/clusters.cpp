@@ -175,7 +175,8 @@ Clusters read_clusters(const std::filesystem::path& path) {
     if (!settings.at("clusters").is_null()) out.settings.clusters = settings.at("clusters").get<int>();
     out.settings.seed = settings.at("seed");
     for (const record::Json& branch : json.at("tree").elements()) out.tree.push_back(branch_of(branch));
-    for (const record::Json& cluster : json.at("clusters").elements()) out.clusters.push_back(cluster_of(cluster));
+    for (const record::Json& cluster : json.at("clusters").elements())
+      out.clusters.push_back(cluster_of(cluster));
     if (out.clusters.empty()) throw DataError(path.string(), "clusters", "at least one", "none");
     return out;
   } catch (const record::JsonError& error) {

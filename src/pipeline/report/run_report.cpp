@@ -16,6 +16,8 @@
 namespace mimicx::pipeline::report {
 namespace {
 
+/// Motions that one page holds: each takes a tenth of a megabyte per hundred frames.
+constexpr std::size_t kMostShown = 200;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string with_unit(const std::string& metric) {
@@ -158,11 +160,35 @@ ReportSequence sequence_or_reason(const record::RunFolder& folder, const record:
   }
 }
 
+/// Which of the entries are shown with their motions: those that are no success first.
+std::vector<bool> shown(const std::vector<record::SequenceEntry>& entries) {
+  std::vector<bool> show(entries.size());
+  std::size_t count = 0;
+  for (const bool ok : {false, true})
+    for (std::size_t i = 0; i < entries.size() && count < kMostShown; ++i)
+      if (entries[i].ok == ok && !entries[i].output.empty()) show[i] = true, ++count;
+  return show;
+}
+
+/// What the manifest says of a motion that a page of so many leaves out.
+record::SequenceEntry without_motion(record::SequenceEntry entry) {
+  if (entry.output.empty()) return entry;
+  entry.notes.insert(entry.notes.begin(), "not shown: this page has the motions of " +
+                                              std::to_string(kMostShown) +
+                                              " files, those that are no success first");
+  entry.output.clear();
+  return entry;
+}
+
 }  // namespace
 
 void write_report(const record::RunFolder& folder, const record::Manifest& manifest) {
   std::vector<ReportSequence> sequences;
-  for (const auto& entry : manifest.sequences) sequences.push_back(sequence_or_reason(folder, entry));
+  const std::vector<bool> show = shown(manifest.sequences);
+  for (std::size_t i = 0; i < show.size(); ++i) {
+    const record::SequenceEntry& entry = manifest.sequences[i];
+    sequences.push_back(sequence_or_reason(folder, show[i] ? entry : without_motion(entry)));
+  }
   write_file_atomically(folder.report(), format_report(sequences));
 }
 
