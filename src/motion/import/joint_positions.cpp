@@ -125,7 +125,8 @@ PerJoint<SkeletonJoint> joints_of(const Character& character, const PerFrame<Pos
       throw DataError(path, "", std::string(kBodyNames[b]) + " and its parent at different places",
                       "both at one");
     const Vector3d rest = parent < 0 ? Vector3d::Zero() : character.joint_offset[b].normalized();
-    joints.push_back({std::string(kBodyNames[b]), parent, length * rest});
+    // Called otherwise than ours: retarget.h takes a skeleton of our own for a file of ours, y up and exact.
+    joints.push_back({parent < 0 ? "root" : std::string(kBodyNames[b]), parent, length * rest});
   }
   return joints;
 }
