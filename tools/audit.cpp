@@ -38,7 +38,7 @@ int audit_forces(const Arguments& a, const std::vector<std::string>& inputs) {
   std::cout << pipeline::audit::audit_table_head();
   for (const std::string& path : inputs) {
     try {
-      files.push_back({path, pipeline::audit::audit_file(path, false)});
+      files.push_back({path, pipeline::audit::audit_file(path, false, a.config.read)});
       for (const pipeline::audit::Audit& audit : files.back().audits) {
         std::cout << pipeline::audit::format_audit(path, audit);
         all_good = all_good && audit.failures.empty();

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/file.h"
 #include "motion/import/motion_file.h"
 #include "motion/resample.h"
 #include "pipeline/output/qpos.h"
@@ -27,7 +28,7 @@ int convert(const Arguments& a) {
   motion::Clip clip = motion::import::read_motion(a.in, a.read);
   if (a.rate == "30") clip = motion::resampled(clip, 30.0);
   pipeline::tell_decisions(a.in.string(), clip, std::cerr);
-  if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
+  make_folder(a.out.parent_path());
   if (a.out.stem().extension() == ".qpos" && motion::import::lower_suffix(a.out) == ".npz")
     pipeline::output::write_qpos(a.out, clip);
   else

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/file.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
@@ -42,7 +43,7 @@ int export_mjcf(const Arguments& a) {
   pipeline::record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
-  if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
+  make_folder(a.out.parent_path());
   write_file_atomically(a.out, physics::to_mjcf(character, physics::SimulationConfig{}));
   return kAllGood;
 }

@@ -1,4 +1,5 @@
 #include "motion/fit/fit.h"
+#include "core/file.h"
 #include "motion/clip_file.h"
 #include "motion/fit/poses.h"
 
@@ -61,7 +62,7 @@ int fit(const Arguments& a) {
       motion::fit::FitReport report;
       const motion::Clip clip = motion::import::read_motion(file, a.read);
       pipeline::tell_decisions(file, clip, std::cerr);
-      std::filesystem::create_directories(outputs[i].parent_path());
+      make_folder(outputs[i].parent_path());
       motion::write_clip(outputs[i], (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(
                                          clip, a.config, &report));
       print(outputs[i].lexically_relative(a.out).replace_extension().generic_string(), report);

@@ -22,6 +22,12 @@ std::ptrdiff_t usable_among(const std::vector<std::string>& names) {
                        [](const std::string& name) { return motion::place_of_keypoint(name).has_value(); });
 }
 
+/// A member that comes along, as the file calls it.
+std::string name_of_member(const std::string& key) {
+  if (key == "poses_rest") return "poses[66:]";
+  return key == "betas_rest" ? "betas[10:]" : key;
+}
+
 void describe_file(const motion::Clip& clip) {
   for (const auto& decision : clip.decisions) std::printf("decided      %s\n", decision.c_str());
   std::printf("frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
@@ -37,7 +43,7 @@ void describe_file(const motion::Clip& clip) {
     std::printf("keypoints    none\n");
   if (!clip.passthrough.empty()) {
     std::printf("passed on   ");
-    for (const auto& [key, array] : clip.passthrough) std::printf(" %s", key.c_str());
+    for (const auto& [key, array] : clip.passthrough) std::printf(" %s", name_of_member(key).c_str());
     std::printf("\n");
   }
 }

@@ -4,7 +4,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "arguments.h"
 #include "commands.h"
@@ -50,6 +52,12 @@ int main(int argc, char** argv) {
   } catch (const mimicx::pipeline::record::OutputRefused& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kWrongUsage;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "mimicx: " << error.path1().string() << ": " << error.code().message() << '\n';
+    return mimicx::tools::kSomeFailed;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "mimicx: there is not enough memory for this\n";
+    return mimicx::tools::kSomeFailed;
   } catch (const std::exception& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kSomeFailed;

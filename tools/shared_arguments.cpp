@@ -18,6 +18,7 @@ void add_read_arguments(Command& command, motion::import::ReadConfig& read) {
   command.existing("--smplx", read.smplx, "your SMPLX_NEUTRAL.npz: gives SMPL-X betas their joints");
   command.existing("--joint-map", read.joint_map,
                    "more joint names for BVH skeletons: a text file, docs/formats.md");
+  command.flag("--verbose", read.verbose, "tell every decision about a file, not three lines of them");
 }
 
 void add_threads(Command& command, int& threads) {

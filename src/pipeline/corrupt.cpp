@@ -1,5 +1,6 @@
 #include "pipeline/corrupt.h"
 
+#include "core/file.h"
 #include "motion/clip_file.h"
 #include "motion/import/plausibility.h"
 #include "motion/resample.h"
@@ -38,7 +39,7 @@ motion::Clip corrupt_file(const std::filesystem::path& file, const std::string& 
       motion::synth::estimate(truth, config.estimate, motion::synth::clip_seed(config.seed, name));
   const auto write = [&](const char* part, const motion::Clip& clip) {
     const std::filesystem::path path = directory / part / (name + ".npz");
-    std::filesystem::create_directories(path.parent_path());
+    make_folder(path.parent_path());
     motion::write_clip(path, clip);
   };
   write("truth", truth);

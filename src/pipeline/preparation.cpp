@@ -78,7 +78,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::i
 }
 
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out) {
-  for (const auto* lines : {&clip.decisions, &clip.warnings})
+  for (const auto* lines : {clip.summary.empty() ? &clip.decisions : &clip.summary, &clip.warnings})
     for (const std::string& line : *lines) out << file << ": " << line << '\n';
 }
 

@@ -42,7 +42,8 @@ enum class Correction {
 PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
                               Correction correction, int threads = 1);
 
-/// Prints what reading decided and what it warns of, a line each, behind the file's name.
+/// Prints what reading decided, many decisions in their summary, and what it warns of, a line each, behind
+/// the file's name.
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);
 
 }  // namespace mimicx::pipeline

@@ -105,6 +105,12 @@ void claim_options(const record::RunFolder& folder, const std::vector<std::strin
   claim(folder.root / "options.npz", {});
 }
 
+std::string short_text(const record::Json& json) {
+  constexpr std::size_t kMost = 60;
+  const std::string text = json.dump();
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
 /// What a file holds; null where it is no JSON.
 record::Json json_or_null(const std::filesystem::path& path) {
   try {
@@ -114,16 +120,26 @@ record::Json json_or_null(const std::filesystem::path& path) {
   }
 }
 
+/// The first member, by its path, in which two records differ: "settings/gamma is 0.9 there, 0.92 here".
+std::string first_difference(const record::Json& there, const record::Json& here) {
+  if (!there.is_object() || !here.is_object())
+    return there == here ? "" : " is " + short_text(there) + " there, " + short_text(here) + " here";
+  for (const auto& [name, value] : here.items())
+    if (const std::string found = first_difference(there.value(name, nullptr), value); !found.empty())
+      return name + (found.starts_with(' ') ? "" : "/") + found;
+  return {};
+}
+
 /// How the run in the folder ended, where it is this one and its options are there to the last byte.
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs
 std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
                                                    const record::Json& record) {
   if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
   const record::Json there = json_or_null(folder.manifest());
-  if (!there.is_object() || there.value("run", nullptr) != record)
-    throw std::invalid_argument(folder.root.string() +
-                                " holds a pre-training of other settings or inputs: give another folder, or "
-                                "remove it first");
+  const std::string difference = first_difference(there.value("run", nullptr), record);
+  if (!difference.empty())
+    throw std::invalid_argument(folder.root.string() + " holds another pre-training (" + difference +
+                                "): give another folder, or remove it first");
   const std::filesystem::path options = folder.root / "options.npz";
   if (!std::filesystem::exists(options) || there.value("checksum", "") != record::file_checksum(options))
     return std::nullopt;
@@ -173,8 +189,10 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   options::Option option;
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
-    context.progress.start(name + ", encoder", 0.0, config.encoder.steps, "steps");
-    option.encoder = make_encoder(clips, config.encoder, training.seed, losses,
+    nn::AutoEncoderConfig encoder = config.encoder;
+    encoder.steps = encoder_steps(encoder, samples);
+    context.progress.start(name + ", encoder", 0.0, encoder.steps, "steps");
+    option.encoder = make_encoder(clips, encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
   }
   for (auto& clip : clips) clip = options::encoded_for(clip, {&option});
@@ -212,6 +230,10 @@ NamedValues settings_of(const PretrainConfig& config) {
   for (const auto& [name, value] : settings.items())
     values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
   return values;
+}
+
+int encoder_steps(const nn::AutoEncoderConfig& config, std::int64_t samples) {
+  return static_cast<int>(std::clamp<std::int64_t>(samples / 10, 100, std::max(config.steps, 100)));
 }
 
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions) {

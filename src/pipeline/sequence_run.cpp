@@ -8,13 +8,16 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "core/file.h"
 #include "core/npz.h"
 #include "motion/clip_file.h"
 #include "pipeline/audit/audit.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/pose_verdict.h"
 #include "pipeline/audit/substeps.h"
+#include "pipeline/failure.h"
 #include "pipeline/kept_files.h"
 #include "pipeline/output/clean_copy.h"
 #include "pipeline/output/motion_output.h"
@@ -29,6 +32,8 @@
 
 namespace mimicx::pipeline {
 namespace {
+
+constexpr std::size_t kDifferencesSaid = 4;  ///< between the settings of two runs
 
 /// Between reports while a run goes on: s, and in parts of the time that the last one took. A report reads
 /// all motions; so it costs a hundredth of the time, however many there are.
@@ -68,12 +73,17 @@ record::Manifest open_manifest(const RunConfig& config, const Method& method,
   record::Manifest manifest = manifest_of(config, method);
   if (!std::filesystem::exists(folder.manifest())) return manifest;
   record::Manifest there = record::read_manifest(folder.manifest());
-  if (!there.same_settings(manifest))
-    throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + there.method +
-                                ", seed " + std::to_string(there.seed) + ", " +
-                                std::to_string(there.samples) + " samples, " + there.version + " for " +
-                                there.target + "): give another folder, or remove it first");
-  return there;
+  if (there.samples > 0 && there.samples < manifest.samples && manifest.differences(there, true).empty())
+    there.samples = manifest.samples;  // the trainings go on
+  const std::vector<std::string> differences = manifest.differences(there);
+  if (differences.empty()) return there;
+  std::string said;
+  for (std::size_t k = 0; k < std::min(differences.size(), kDifferencesSaid); ++k)
+    said += (k > 0 ? "; " : "") + differences[k];
+  if (differences.size() > kDifferencesSaid)
+    said += "; and " + std::to_string(differences.size() - kDifferencesSaid) + " more";
+  throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + said +
+                              "): give another folder, or remove it first");
 }
 
 /// The run as its folder knows it, or a new one.
@@ -123,12 +133,18 @@ void restore_files(const RunState& run, const record::SequenceEntry& entry,
     if (!fit && !reference) continue;
     if (!motion)
       motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads);
-    std::filesystem::create_directories(file.parent_path());
+    make_folder(file.parent_path());
     if (fit)
       motion::write_clip(file, motion->fitted);
     else
       output::write_reference(file, motion->input, motion->reference);
   }
+}
+
+/// Whether a training ended because its budget did, and there is more of it now.
+bool goes_on(const RunState& run, const record::SequenceEntry& there) {
+  return there.samples > 0 && there.samples < run.method.samples &&
+         (there.ending == record::Ending::kBudget || !there.ok);
 }
 
 /// Fills what is known of an input before any work. @return false where its earlier result still stands
@@ -144,6 +160,7 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
       (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
       (!run.config.gains || there->ending != record::Ending::kFollowed || has(run.folder.gains(entry.name)));
   if (!complete || !there->finished() || there->input_checksum != entry.input_checksum) return true;
+  if (goes_on(run, *there)) return true;
   const std::vector<std::string> damaged = damaged_files(run.folder, *there);
   if (std::find(damaged.begin(), damaged.end(), there->output) != damaged.end()) {
     run.context.messages << entry.name << ": " << there->output << " is damaged: made again\n";
@@ -181,7 +198,9 @@ JudgedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry)
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
   judge_reference(motion.needs, entry);
-  for (const auto* lines : {&entry.decisions, &entry.notes})
+  const std::vector<std::string>& summary = motion.input.summary;
+  for (const auto* lines :
+       {summary.empty() ? &std::as_const(entry.decisions) : &summary, &std::as_const(entry.notes)})
     for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
   return motion;
 }
@@ -227,7 +246,7 @@ void judge_sequence(const Method& method, const motion::Reference& reference, co
 }
 
 std::filesystem::path with_parents(const std::filesystem::path& file) {
-  std::filesystem::create_directories(file.parent_path());
+  make_folder(file.parent_path());
   return file;
 }
 
@@ -258,6 +277,10 @@ bool do_sequence(RunState& run, record::SequenceEntry& entry, std::size_t& told)
   const double started = record::steady_seconds();
   const JudgedMotion motion = prepare_sequence(run, entry);
   told = entry.notes.size();
+  if (const record::SequenceEntry* there = run.manifest.find(entry.input);
+      there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
+    entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
+                          " samples; one begun with more would explore longer, and be another");
   entry.input_metrics = score_input(motion.input, motion.reference);
   const SimulatedSequence made = run.method.simulate(
       motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
@@ -374,6 +397,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     if (!kept) run.journal.append(entry, timing_of(run, entry.name));
     if (i + 1 == run.inputs.size() || record::steady_seconds() > next_report) report();
     context.progress.finish(result_line(entry));
+    for (const std::string& line : what_next(entry, folder)) context.messages << "  " << line << '\n';
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';
     const bool copied = copied_clean(run, entry);

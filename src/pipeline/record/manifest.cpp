@@ -1,25 +1,46 @@
 #include "pipeline/record/manifest.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "pipeline/record/names.h"
 #include "pipeline/record/sequence_json.h"
+#include "pipeline/record/table.h"
 
 namespace mimicx::pipeline::record {
 namespace {
 
-bool same(const NamedValues& a, const NamedValues& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+/// Every setting by its name, as text.
+std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
+  std::vector<std::pair<std::string, std::string>> texts = {{"version", m.version},
+                                                            {"instruction set", m.target},
+                                                            {"method", m.method},
+                                                            {"seed", std::to_string(m.seed)},
+                                                            {"samples", std::to_string(m.samples)},
+                                                            {"options", m.options},
+                                                            {"reading", m.reading}};
+  for (const auto& [name, value] : m.settings) texts.emplace_back(name, format_number(value));
+  return texts;
 }
 
 }  // namespace
 
-bool Manifest::same_settings(const Manifest& other) const {
-  return version == other.version && target == other.target && seed == other.seed &&
-         samples == other.samples && method == other.method && options == other.options &&
-         reading == other.reading && same(settings, other.settings);
+std::vector<std::string> Manifest::differences(const Manifest& there, bool but_samples) const {
+  std::vector<std::string> found;
+  std::map<std::string, std::string> others;
+  for (const auto& [name, text] : texts_of(there)) others[name] = text;
+  const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
+  for (const auto& [name, text] : texts_of(*this)) {
+    const std::string other = others.contains(name) ? others.at(name) : "not set";
+    if (other != text && !(but_samples && name == "samples"))
+      found.push_back(name + " is " + shown(other) + " there, " + shown(text) + " here");
+    others.erase(name);
+  }
+  for (const auto& [name, text] : others)
+    found.push_back(name + " is " + shown(text) + " there, not set here");
+  return found;
 }
 
 const SequenceEntry* Manifest::find(const std::string& input) const {

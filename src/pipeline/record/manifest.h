@@ -68,8 +68,10 @@ struct Manifest {
   std::string reading;       ///< what the user said of the files (ReadConfig::text)
   std::vector<SequenceEntry> sequences;
 
-  /// Whether the results of `other` may stand beside those of this run.
-  bool same_settings(const Manifest& other) const;
+  /// In what a run differs from another, so that their results may not stand side by side: "seed is 1 here, 2
+  /// there" each; empty where they may.
+  /// @param but_samples  the budget apart
+  std::vector<std::string> differences(const Manifest& there, bool but_samples = false) const;
   /// The entry of an input, or nullptr.
   const SequenceEntry* find(const std::string& input) const;
   /// Replaces the entry of the same input, or appends.

@@ -10,11 +10,7 @@
 namespace mimicx::pipeline::record {
 
 void RunFolder::create() const {
-  for (const char* part : {"motions", "references"}) {
-    std::error_code error;
-    std::filesystem::create_directories(root / part, error);
-    if (error) throw DataError((root / part).string(), "", "a folder that can be made", error.message());
-  }
+  for (const char* part : {"motions", "references"}) make_folder(root / part);
 }
 
 bool holds_run(const std::filesystem::path& folder) {

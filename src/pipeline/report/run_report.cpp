@@ -1,8 +1,10 @@
 #include "pipeline/report/run_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/npz.h"
@@ -26,10 +28,23 @@ std::string with_unit(const std::string& metric) {
   return metric;
 }
 
+/// "preparation: floor shift 0.32 mm" of floor_shift_mm: names in records have their unit last.
 std::string note_of(const std::string& step, const std::pair<std::string, double>& value) {
+  static const std::map<std::string, std::string> kUnits = {
+      {"mm", "mm"}, {"deg", "degrees"}, {"N", "N"}, {"Nm", "N m"}, {"J", "J"}, {"percent", "%"}};
+  std::string words = value.first, unit;
+  const std::size_t last = words.rfind('_');
+  if (const auto found = kUnits.find(words.substr(last + 1));
+      last != std::string::npos && found != kUnits.end()) {
+    unit = " " + found->second;
+    words.resize(last);
+  }
+  if (words.ends_with("_worst")) words.replace(words.size() - 6, 6, "_largest at frame");
+  std::replace(words.begin(), words.end(), '_', ' ');
+  const bool whole = unit.empty() && value.second == std::trunc(value.second);
   char text[32];
-  std::snprintf(text, sizeof text, " %.2f", value.second);
-  return step + ": " + value.first + text;
+  std::snprintf(text, sizeof text, whole ? " %.0f" : " %.2f", value.second);
+  return step + ": " + words + text + unit;
 }
 
 /// "options: 1 from frame 0, 3 from frame 42"
