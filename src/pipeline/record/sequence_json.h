@@ -2,8 +2,7 @@
 #pragma once
 
 #include "pipeline/record/json.h"
-#include "pipeline/record/manifest.h"
-#include "pipeline/record/timing.h"
+#include "pipeline/record/sequence_entry.h"
 
 namespace mimicx::pipeline::record {
 
