@@ -51,7 +51,8 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 
 # Headers that nearly every file reads are parsed once for all libraries and once for all tests, which saves a
 # third of the build time. Every file still includes what it needs: tools/test runs clang-tidy without them.
-set(MIMICX_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <array> <functional> <string> <vector>)
+set(MIMICX_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <filesystem> <functional> <map>
+  <memory> <optional> <set> <span> <stdexcept> <string> <vector>)
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cpp CONTENT "// Compiles the common headers.\n")
 add_library(mimicx_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cpp)
 target_link_libraries(mimicx_common_headers PRIVATE mimicx_settings OpenMP::OpenMP_CXX)

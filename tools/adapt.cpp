@@ -1,7 +1,5 @@
 #include "pipeline/adapt.h"
 
-#include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 #include <system_error>
 
@@ -13,7 +11,7 @@ namespace {
 
 struct Arguments {
   pipeline::AdaptConfig config = pipeline::adapt_configuration();
-  std::string options;
+  std::filesystem::path options;
   std::vector<std::string> settings;
 };
 
@@ -42,32 +40,27 @@ int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
   });
 }
 
-void declare_adapt(CLI::App& app, Action& action) {
+void declare_adapt(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand(
-      "adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each");
-  static const std::map<std::string, pipeline::AdaptMethod> kMethods = {
-      {"auto", pipeline::AdaptMethod::kAuto},
-      {"plan", pipeline::AdaptMethod::kPlan},
-      {"paper", pipeline::AdaptMethod::kPaper}};
-  command
-      ->add_option(
-          "--method", a->config.method,
-          "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
-          "fine-tuned, minutes per motion; auto (default): the plan, and only where it fails the paper's "
-          "method, whose training then takes minutes; the better of the two is kept")
-      ->transform(CLI::CheckedTransformer(kMethods))
-      ->option_text("TEXT:{auto,plan,paper}");
-  add_run_arguments(*command, a->config.run, a->settings);
-  add_training_arguments(*command, a->config.training, "--budget-samples");
-  add_fit_arguments(*command, a->config.run);
-  add_gains_argument(*command, a->config.run);
-  command->add_option(
-      "--options", a->options,
-      "trained options: a file, or a folder with options.npz; default: those in data/options");
-  add_arrangement_arguments(*command, a->config.arrangement);
-  command->callback(
-      [a, &action] { action = [a] { return adapt_motions(a->config, a->options, a->settings); }; });
+  Command command =
+      line.add("adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each",
+               "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
+               "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
+  command.choice("--method", a->config.method,
+                 {{"auto", pipeline::AdaptMethod::kAuto},
+                  {"plan", pipeline::AdaptMethod::kPlan},
+                  {"paper", pipeline::AdaptMethod::kPaper}},
+                 "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
+                 "fine-tuned, minutes per motion; auto: the plan, and only where it fails the paper's "
+                 "method, whose training then takes minutes; the better of the two is kept");
+  add_run_arguments(command, a->config.run, a->settings);
+  add_training_arguments(command, a->config.training, "--budget-samples");
+  add_fit_arguments(command, a->config.run);
+  add_gains_argument(command, a->config.run);
+  command.path("--options", a->options,
+               "trained options: a file, or a folder with options.npz; default: those in data/options");
+  add_arrangement_arguments(command, a->config.arrangement);
+  command.action([a] { return adapt_motions(a->config, a->options, a->settings); });
 }
 
 }  // namespace mimicx::tools

@@ -1,39 +1,159 @@
-/// Arguments that several subcommands share.
+/// The command line, declared: what a subcommand may be told, where that goes, how it is explained.
+///
+///     Command command = line.add("plan", "Clean motions by optimal control",
+///                                "mimicx plan clip.bvh              # clip.clean.bvh beside it\n"
+///                                "mimicx plan mocap/ --out out/run  # a folder, and a report");
+///     command.files("FILE", a->inputs, "motions and folders of them");
+///     command.path("--out", a->out, "folder of the run").required();
+///     command.number("--samples", a->samples, kFromZero, "training budget per motion");
+///     command.one_of("--rate", a->rate, {"30", "input"}, "frame rate of the copies");
+///     command.action([a] { return plan(*a); });
+///
+/// A value is written where it was declared when the line is parsed, so it must outlive `CommandLine::run`.
+/// What it holds before is the default, which the help prints where it is one that could be asked for. Names
+/// with dashes are options, others are positional. What is wrong with a value is said in one line: the
+/// option, what was expected, what was found.
+///
+/// This header hides the command-line library, which is slow to compile: arguments.cpp alone reads it.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <string>
-
-#include "motion/import/motion_file.h"
-#include "pipeline/options/clusters.h"
+#include <utility>
+#include <vector>
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace mimicx::tools {
 
-/// --up, --scale, --fps …: what the user knows better than the files.
-void add_read_arguments(CLI::App& command, motion::import::ReadConfig& read);
+/// The work of a subcommand. @return the exit status
+using Action = std::function<int()>;
 
-/// --threads; default: all there are.
-void add_threads(CLI::App& command, int& threads);
+/// The numbers that an option takes; never NaN or an infinity.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+  bool above = false;  ///< `least` itself is none of them
+};
+inline constexpr Range kAnyNumber{}, kFromZero{0.0}, kFromOne{1.0},
+    kPositive{0.0, std::numeric_limits<double>::infinity(), true};
 
-/// A whole number that must not be negative. Both return what is wrong with it, or nothing.
-std::string refuse_negative(const std::string& number);
-/// A path that must not be the empty text.
-std::string refuse_empty_path(const std::string& path);
+/// An argument that was declared, to say more of it.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+  Option& required();
+  /// Refused beside the other one.
+  Option& excludes(const Option& other);
+  /// Refused without the other one.
+  Option& needs(const Option& other);
+  /// The default that the help prints.
+  Option& defaults_to(const std::string& text);
 
-/// --force.
-void add_force(CLI::App& command, bool& force);
+ private:
+  CLI::Option* option_;
+};
 
-/// A longer description in the command's own help than in the list of commands.
-void set_own_help(CLI::App& command, const std::string& help);
+/// A subcommand. Every function declares an argument.
+class Command {
+ public:
+  Command(CLI::App* app, Action* action) : app_(app), action_(action) {}
 
-/// --seed; the default is the value that is there.
-void add_seed(CLI::App& command, std::uint64_t& seed);
+  /// What happens where the user asks for this subcommand.
+  void action(Action work);
 
-/// --radius or --clusters.
-void add_cluster_arguments(CLI::App& command, pipeline::options::ClusterConfig& clusters);
+  Option file(const std::string& name, std::filesystem::path& file, const std::string& help);
+  /// One file or more.
+  Option files(const std::string& name, std::vector<std::string>& files, const std::string& help);
+  /// Not the empty text.
+  Option path(const std::string& name, std::filesystem::path& path, const std::string& help);
+  /// Of a file that is there.
+  Option existing(const std::string& name, std::filesystem::path& path, const std::string& help);
+  /// One or more behind one name.
+  Option paths(const std::string& name, std::vector<std::string>& paths, const std::string& help);
+
+  /// Whole numbers may be written as 3M or 500k.
+  Option number(const std::string& name, int& value, const Range& range, const std::string& help);
+  Option number(const std::string& name, std::int64_t& value, const Range& range, const std::string& help);
+  Option number(const std::string& name, std::uint64_t& value, const Range& range, const std::string& help);
+  Option number(const std::string& name, double& value, const Range& range, const std::string& help);
+  Option number(const std::string& name, std::optional<int>& value, const Range& range,
+                const std::string& help);
+  Option number(const std::string& name, std::optional<std::int64_t>& value, const Range& range,
+                const std::string& help);
+  Option number(const std::string& name, std::optional<double>& value, const Range& range,
+                const std::string& help);
+  /// Separated by commas.
+  Option numbers(const std::string& name, std::vector<double>& values, const Range& range,
+                 const std::string& help);
+
+  /// @param no  the name that makes the value false; empty: none
+  Option flag(const std::string& yes, bool& value, const std::string& help, const std::string& no = {});
+
+  /// Any text, and again for the next one. @param form  what it looks like, for the help
+  Option texts(const std::string& name, std::vector<std::string>& values, const std::string& form,
+               const std::string& help);
+  /// Any texts, separated by commas.
+  Option list(const std::string& name, std::vector<std::string>& values, const std::string& form,
+              const std::string& help);
+  /// Some of `names`, separated by commas.
+  Option some_of(const std::string& name, std::vector<std::string>& values,
+                 const std::vector<std::string>& names, const std::string& help);
+  Option one_of(const std::string& name, std::string& value, const std::vector<std::string>& names,
+                const std::string& help);
+  /// One of several values by their names.
+  template <class T>
+  Option choice(const std::string& name, T& value, const std::vector<std::pair<std::string, T>>& choices,
+                const std::string& help) {
+    std::vector<std::string> names;
+    std::string now;
+    for (const auto& [text, meant] : choices) {
+      names.push_back(text);
+      if (meant == value) now = text;
+    }
+    return choose(
+        name, names, now, [&value, choices](std::size_t i) { value = choices[i].second; }, help);
+  }
+
+ private:
+  Option choose(const std::string& name, const std::vector<std::string>& names, const std::string& now,
+                const std::function<void(std::size_t)>& take, const std::string& help);
+
+  CLI::App* app_;
+  Action* action_;
+};
+
+/// The whole line: `PROGRAM [--version] COMMAND ...`.
+class CommandLine {
+ public:
+  CommandLine(const std::string& program, const std::string& purpose, const std::string& examples,
+              const std::string& version, const std::string& footer);
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+  ~CommandLine();
+
+  /// @param purpose   one line, for the list of commands
+  /// @param examples  lines that stand at the head of the command's own help
+  /// @param more      what else stands there
+  Command add(const std::string& name, const std::string& purpose, const std::string& examples,
+              const std::string& more = {});
+
+  /// Parses, prints help or what is wrong with the line, or does the action of the command asked for.
+  /// @return the exit status: kWrongUsage where the line is wrong
+  int run(int argc, const char* const* argv);
+
+ private:
+  struct Heads;
+  std::shared_ptr<Heads> heads_;
+  std::unique_ptr<CLI::App> app_;
+  Action action_;
+};
 
 }  // namespace mimicx::tools

@@ -1,32 +1,25 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <optional>
 
-#include "arguments.h"
 #include "commands.h"
 #include "core/npz.h"
 #include "pipeline/audit/audit_file.h"
 #include "pipeline/audit/pose_files.h"
-#include "pipeline/preparation.h"
+#include "pipeline/inputs.h"
 #include "pipeline/record/outputs.h"
 #include "pipeline/record/progress.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
-
-constexpr const char* kPurpose = "Do the forces in a file explain the motion in it?";
-constexpr const char* kHelp =
-    "  mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
-    "  mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?\n\n"
-    "Do the forces in a file explain the motion in it?";
 
 constexpr double kProgressPeriod = 2.0;  // s
 
 struct Arguments {
   std::vector<std::string> inputs;
   bool poses = false;
-  std::string json, csv, frames_csv;
+  std::filesystem::path json, csv, frames_csv;
   pipeline::audit::PoseFilesConfig config;
   double reach_mm = 20.0;
   bool force = false;
@@ -45,7 +38,7 @@ int audit_forces(const Arguments& a, const std::vector<std::string>& inputs) {
   std::cout << pipeline::audit::audit_table_head();
   for (const std::string& path : inputs) {
     try {
-      files.push_back({path, pipeline::audit::audit_file(path, false)});
+      files.push_back({path, pipeline::audit::audit_file(path, false, a.config.read)});
       for (const pipeline::audit::Audit& audit : files.back().audits) {
         std::cout << pipeline::audit::format_audit(path, audit);
         all_good = all_good && audit.failures.empty();
@@ -94,34 +87,34 @@ int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
 int audit(const Arguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
-  const std::vector<std::string> inputs = pipeline::expand_inputs(a.inputs, &std::cerr);
+  const std::vector<std::string> inputs =
+      pipeline::paths_of(pipeline::find_motions(a.inputs, {}, &std::cerr));
   claim_outputs(a, inputs);
   return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
 }
 
 }  // namespace
 
-void declare_audit(CLI::App& app, Action& action) {
+void declare_audit(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("audit", kPurpose);
-  set_own_help(*command, kHelp);
-  command->add_option("FILE", a->inputs, "motions and physics steps, and folders of them")->required();
-  auto* poses = command->add_flag(
+  Command command = line.add(
+      "audit", "Do the forces in a file explain the motion in it? Could any?",
+      "mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
+      "mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?");
+  command.files("FILE", a->inputs, "motions and physics steps, and folders of them");
+  const Option poses = command.flag(
       "--poses", a->poses,
       "look at the poses alone: what would have to push from outside, after the best forces that a floor can "
       "give. Reads every motion format");
-  command->add_option("--csv", a->csv, "with --poses: a row per motion")->needs(poses);
-  command->add_option("--frames-csv", a->frames_csv, "with --poses: a row per frame")->needs(poses);
-  command->add_option("--json", a->json, "also write every value here; without --poses every row, too");
-  command
-      ->add_option("--reach-mm", a->reach_mm,
-                   "with --poses: up to which a point over the floor can push on it")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  add_read_arguments(*command, a->config.read);
-  add_threads(*command, a->config.threads);
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return audit(*a); }; });
+  command.path("--csv", a->csv, "with --poses: a row per motion").needs(poses);
+  command.path("--frames-csv", a->frames_csv, "with --poses: a row per frame").needs(poses);
+  command.path("--json", a->json, "also write every value here; without --poses every row, too");
+  command.number("--reach-mm", a->reach_mm, {0.0, 1000.0},
+                 "with --poses: up to which a point over the floor can push on it");
+  add_read_arguments(command, a->config.read);
+  add_threads(command, a->config.threads);
+  add_force(command, a->force);
+  command.action([a] { return audit(*a); });
 }
 
 }  // namespace mimicx::tools

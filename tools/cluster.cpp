@@ -1,45 +1,43 @@
 #include "motion/prepare.h"
 #include "pipeline/options/clusters.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "pipeline/configurations.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
-#include "pipeline/record/run_folder.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct Arguments {
   std::vector<std::string> inputs;
-  std::string out;
+  std::filesystem::path out;
   pipeline::options::ClusterConfig config{pipeline::pretrain_configuration("small").clusters.radius,
                                           std::nullopt, 0};
   motion::import::ReadConfig read;
   bool force = false;
 };
 
-/// The files named, and the motions of the folders named, each once and in order of their paths.
-std::vector<std::string> motion_files(const std::vector<std::string>& inputs) {
-  std::vector<std::string> files;
-  for (const std::string& file : pipeline::expand_inputs(inputs, &std::cerr))
-    files.push_back(std::filesystem::path(file).lexically_normal().string());
-  std::sort(files.begin(), files.end());
-  files.erase(std::unique(files.begin(), files.end()), files.end());
-  return files;
+/// The files named, and the motions of the folders named, in order of their paths.
+std::vector<pipeline::MotionInput> sorted_motions(const std::vector<std::string>& names) {
+  std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(names, {}, &std::cerr);
+  for (pipeline::MotionInput& input : inputs)
+    input.path = std::filesystem::path(input.path).lexically_normal().string();
+  std::sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  return inputs;
 }
 
 int cluster(const Arguments& a) {
   std::vector<pipeline::options::NamedFeatures> motions;
-  const std::vector<std::string> files = motion_files(a.inputs);
-  const std::vector<std::string> names = pipeline::record::unique_names(files);
+  const std::vector<pipeline::MotionInput> inputs = sorted_motions(a.inputs);
+  const std::vector<std::string> files = pipeline::paths_of(inputs), names = pipeline::unique_names(inputs);
   pipeline::record::Outputs(files, a.force).claim(a.out, pipeline::record::kJsonOpening);
   bool all_good = true;
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -68,18 +66,18 @@ int cluster(const Arguments& a) {
 
 }  // namespace
 
-void declare_cluster(CLI::App& app, Action& action) {
+void declare_cluster(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("cluster", "Sort motions into clusters of similar ones");
-  command->add_option("FILE", a->inputs, "motions and folders of them")->required();
-  command->add_option("--out", a->out, "where to write the clusters: .json")
-      ->check(refuse_empty_path)
-      ->required();
-  add_read_arguments(*command, a->read);
-  add_cluster_arguments(*command, a->config);
-  add_seed(*command, a->config.seed);
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return cluster(*a); }; });
+  Command command = line.add("cluster", "Sort motions into clusters of similar ones",
+                             "mimicx cluster DIR --out clusters.json                # as pretrain would\n"
+                             "mimicx cluster DIR --out clusters.json --clusters 5   # exactly five");
+  command.files("FILE", a->inputs, "motions and folders of them");
+  command.path("--out", a->out, "where to write the clusters: .json").required();
+  add_read_arguments(command, a->read);
+  add_cluster_arguments(command, a->config);
+  add_seed(command, a->config.seed);
+  add_force(command, a->force);
+  command.action([a] { return cluster(*a); });
 }
 
 }  // namespace mimicx::tools

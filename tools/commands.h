@@ -1,16 +1,10 @@
 /// The subcommands of `mimicx`, a file each: what the command line may ask for, and the work.
 ///
-/// `declare_X` adds the subcommand X to the command line. Where the user asks for X, `action` becomes its
-/// work, which returns the exit status. A command prints results on standard output, progress and complaints
-/// on standard error.
+/// `declare_X` adds the subcommand X to the command line, with its work, which returns the exit status. A
+/// command prints results on standard output, progress and complaints on standard error.
 #pragma once
 
-#include <functional>
 #include <stdexcept>
-
-namespace CLI {
-class App;
-}
 
 namespace mimicx::tools {
 
@@ -24,22 +18,22 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-using Action = std::function<int()>;
+class CommandLine;
 
-void declare_run(CLI::App& app, Action& action);
-void declare_plan(CLI::App& app, Action& action);
-void declare_pretrain(CLI::App& app, Action& action);
-void declare_adapt(CLI::App& app, Action& action);
-void declare_imitate(CLI::App& app, Action& action);
-void declare_evaluate(CLI::App& app, Action& action);
-void declare_cluster(CLI::App& app, Action& action);
-void declare_fit(CLI::App& app, Action& action);
-void declare_info(CLI::App& app, Action& action);
-void declare_convert(CLI::App& app, Action& action);
-void declare_corrupt(CLI::App& app, Action& action);
-void declare_audit(CLI::App& app, Action& action);
-void declare_export_mjcf(CLI::App& app, Action& action);
-void declare_synth(CLI::App& app, Action& action);
-void declare_config(CLI::App& app, Action& action);
+void declare_run(CommandLine& line);
+void declare_plan(CommandLine& line);
+void declare_pretrain(CommandLine& line);
+void declare_adapt(CommandLine& line);
+void declare_imitate(CommandLine& line);
+void declare_evaluate(CommandLine& line);
+void declare_cluster(CommandLine& line);
+void declare_fit(CommandLine& line);
+void declare_info(CommandLine& line);
+void declare_convert(CommandLine& line);
+void declare_corrupt(CommandLine& line);
+void declare_audit(CommandLine& line);
+void declare_export_mjcf(CommandLine& line);
+void declare_synth(CommandLine& line);
+void declare_config(CommandLine& line);
 
 }  // namespace mimicx::tools

@@ -1,22 +1,22 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "pipeline/configurations.h"
 
 namespace mimicx::tools {
 
-void declare_config(CLI::App& app, Action& action) {
+void declare_config(CommandLine& line) {
   const auto json = std::make_shared<bool>(false);
-  auto* command = app.add_subcommand(
-      "config", "Every setting of imitate, adapt and pretrain, by the name that manifests and --set use");
-  command->add_flag("--json", *json, "print JSON instead of a table");
-  command->callback([json, &action] {
-    action = [json] {
-      std::cout << (*json ? pipeline::configurations_json() : pipeline::format_configurations());
-      return kAllGood;
-    };
+  Command command = line.add(
+      "config", "Every setting of imitate, adapt and pretrain, by the name that manifests and --set use",
+      "mimicx config          # a table\n"
+      "mimicx config --json   # the same for programs");
+  command.flag("--json", *json, "print JSON instead of a table");
+  command.action([json] {
+    std::cout << (*json ? pipeline::configurations_json() : pipeline::format_configurations());
+    return kAllGood;
   });
 }
 

@@ -1,14 +1,14 @@
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
+#include "core/file.h"
 #include "motion/import/motion_file.h"
 #include "motion/resample.h"
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -28,7 +28,7 @@ int convert(const Arguments& a) {
   motion::Clip clip = motion::import::read_motion(a.in, a.read);
   if (a.rate == "30") clip = motion::resampled(clip, 30.0);
   pipeline::tell_decisions(a.in.string(), clip, std::cerr);
-  if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
+  make_folder(a.out.parent_path());
   if (a.out.stem().extension() == ".qpos" && motion::import::lower_suffix(a.out) == ".npz")
     pipeline::output::write_qpos(a.out, clip);
   else
@@ -38,20 +38,19 @@ int convert(const Arguments& a) {
 
 }  // namespace
 
-void declare_convert(CLI::App& app, Action& action) {
+void declare_convert(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("convert", "Write a motion in another format, chosen by the suffix");
-  command->add_option("IN", a->in, "motion")->required();
-  command
-      ->add_option("OUT", a->out,
-                   "where to write it: " + motion::import::written_suffixes() + "; .qpos.npz: for MuJoCo")
-      ->required();
-  add_read_arguments(*command, a->read);
-  command->add_option("--rate", a->rate, "frame rate of OUT: input or 30")
-      ->check(CLI::IsMember({"input", "30"}))
-      ->capture_default_str();
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return convert(*a); }; });
+  Command command =
+      line.add("convert", "Write a motion in another format, chosen by the suffix",
+               "mimicx convert clip.bvh clip.npz                   # AMASS layout\n"
+               "mimicx convert clip.npz clip.qpos.npz --rate 30    # MuJoCo, 30 frames per second");
+  command.file("IN", a->in, "motion");
+  command.file("OUT", a->out,
+               "where to write it: " + motion::import::written_suffixes() + "; .qpos.npz: for MuJoCo");
+  add_read_arguments(command, a->read);
+  command.one_of("--rate", a->rate, {"input", "30"}, "frame rate of OUT");
+  add_force(command, a->force);
+  command.action([a] { return convert(*a); });
 }
 
 }  // namespace mimicx::tools

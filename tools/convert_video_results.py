@@ -55,6 +55,29 @@ def vectors(m):
     return (q[:, 1:] * 2 * np.arctan2(sine, q[:, :1]) / np.maximum(sine, 1e-12)).reshape(*shape, 3)
 
 
+class Wrong(Exception):
+    """Which file is wrong, what was expected in it, what was found."""
+
+    def __init__(self, path, expected, found):
+        super().__init__(f"{path}: expected {expected}, found {found}")
+
+
+def kind_of(data):
+    if isinstance(data, dict):
+        return "a dictionary of " + (", ".join(str(key) for key in list(data)[:6]) or "nothing")
+    return f"an array of shape {np.shape(data)}" if isinstance(data, np.ndarray) else f"a {type(data).__name__}"
+
+
+def read(path, what):
+    """The data in a file. `what` is expected of it, in words."""
+    if not os.path.isfile(path):
+        raise Wrong(path, what, "a folder" if os.path.isdir(path) else "no such file")
+    try:
+        return load(path)
+    except Exception as error:  # whatever a damaged pickle or archive leads to
+        raise Wrong(path, what, f"a file that cannot be read ({type(error).__name__}: {error})") from error
+
+
 class Track:
     """One person: rotation vectors (T, 3J) and pelvis (T, 3) in the world (y up), and in front of the camera."""
 
@@ -100,38 +123,78 @@ def tram(data, camera):
                  frames)
 
 
+RESULTS = "results of GVHMR (hmr4d_results.pt), WHAM (wham_output.pkl) or TRAM (the folder of a video)"
+
+
+def checked(path, make, *data):
+    """make(*data), or what is missing in the file."""
+    try:
+        return make(*data)
+    except KeyError as error:
+        raise Wrong(path, f"{error} in {RESULTS}", kind_of(data[0])) from error
+    except (IndexError, TypeError, AttributeError, ValueError) as error:
+        raise Wrong(path, RESULTS, f"{kind_of(data[0])} ({error})") from error
+
+
 def tracks_of(path):
     """{person: Track}"""
     if os.path.isdir(path):
         files = sorted(glob.glob(os.path.join(path, "hps", "*.npy")), key=lambda f: (len(f), f))
-        camera = load(os.path.join(path, "camera.npy"))
-        return {os.path.basename(f)[:-4].split("_")[-1]: tram(load(f), camera) for f in files}
-    data = load(path)
+        if not files:
+            raise Wrong(path, RESULTS, "a folder without hps/*.npy")
+        camera = read(os.path.join(path, "camera.npy"), "TRAM's camera")
+        return {os.path.basename(f)[:-4].split("_")[-1]: checked(f, tram, read(f, "TRAM's person"), camera)
+                for f in files}
+    data = read(path, RESULTS)
+    if not isinstance(data, dict):
+        raise Wrong(path, RESULTS, kind_of(data) + (
+            ": keypoints? They go behind --keypoints" if np.ndim(data) == 3 and np.shape(data)[2] == 3 else ""))
     if "smpl_params_global" in data:
-        return {0: gvhmr(data)}
-    return {0: wham(data)} if "pose_world" in data else {person: wham(one) for person, one in data.items()}
+        return {0: checked(path, gvhmr, data)}
+    if "pose_world" in data:
+        return {0: checked(path, wham, data)}
+    if not data or not all(isinstance(one, dict) for one in data.values()):
+        raise Wrong(path, RESULTS, kind_of(data))
+    return {person: checked(path, wham, one) for person, one in data.items()}
 
 
-def keypoints_of(data, person, frames):
+def keypoints_of(path, data, person, frames):
     """(T, K, 3) of a track's frames. `data`: of the track, of the whole video, or by person as WHAM's tracker has it;
     a frame that has none gets zeros."""
-    at = None
+    expected, at = "keypoints (T, K, 3): u, v in pixels and confidence", None
     if isinstance(data, dict):
+        if "keypoints" not in data and person not in data:
+            raise Wrong(path, f"{expected}, or a person {person}", kind_of(data))
         data = data if "keypoints" in data else data[person]
+        if not isinstance(data, dict) or "keypoints" not in data:
+            raise Wrong(path, expected + " of a person", kind_of(data))
         data, at = data["keypoints"], data.get("frame_id")
-    points = np.asarray(data, float)
+    points = np.asarray(data)
+    if points.ndim != 3 or points.shape[2] != 3 or points.dtype.kind not in "fiu":
+        raise Wrong(path, expected, kind_of(points))
+    points = points.astype(float)
     if at is None and len(points) == len(frames):
         return points
     at = np.arange(len(points)) if at is None else np.asarray(at, int).reshape(-1)
-    out = np.zeros((len(frames), *points.shape[1:]))
+    if len(at) != len(points):
+        raise Wrong(path, f"a frame_id for each of {len(points)} frames", str(len(at)))
     seen = np.isin(frames, at)
+    if not seen.any() or (len(at) == at[-1] + 1 and not seen[-1]):
+        raise Wrong(path, f"keypoints of the {len(frames)} frames of the track (frames {frames[0]} to {frames[-1]} of "
+                    "the video), or of the whole video", f"{len(points)} frames")
+    out = np.zeros((len(frames), *points.shape[1:]))
     out[seen] = points[np.searchsorted(at, frames[seen])]
     return out
 
 
 def slam_of(path, frames):
     """Turns (T, 3, 3), camera to SLAM's world, and places (T, 3) up to a scale: DPVO's x y z, quaternion x y z w."""
-    rows = np.asarray(load(path), float)[frames]
+    expected, rows = "a camera's path (T, 7): place and quaternion x y z w", read(path, "a camera's path")
+    if np.ndim(rows) != 2 or np.shape(rows)[1] < 7:
+        raise Wrong(path, expected, kind_of(rows))
+    if len(rows) <= frames.max():
+        raise Wrong(path, f"{expected} for {frames.max() + 1} frames", f"{len(rows)}")
+    rows = np.asarray(rows, float)[frames]
     x, y, z, w = (rows[:, 3:7] / np.linalg.norm(rows[:, 3:7], axis=1, keepdims=True)).T
     half = np.arctan2(np.sqrt(x * x + y * y + z * z), w)
     return matrices(np.stack([x, y, z], 1) * (2 * half / np.maximum(np.sin(half), 1e-12))[:, None]), rows[:, :3]
@@ -219,9 +282,9 @@ def main():
         tracks = {person: track for person, track in tracks.items() if str(person) == a.person}
     if a.keypoints and not (a.static or a.slam or a.moving or os.path.isdir(a.results)):
         parser.error("--keypoints needs a camera: --static where it stood still, --slam FILE, or else --moving")
-    data, written = load(a.keypoints) if a.keypoints else None, 0
+    data, written = read(a.keypoints, "keypoints (T, K, 3)") if a.keypoints else None, 0
     for person, track in tracks.items():
-        points = keypoints_of(data, person, track.frames) if a.keypoints else None
+        points = keypoints_of(a.keypoints, data, person, track.frames) if a.keypoints else None
         intrinsics = intrinsics_of(track, a.size, parser) if a.keypoints else None
         pieces = track.pieces()
         for first, last in pieces:
@@ -236,11 +299,13 @@ def main():
             written += 1
             print(f"{name}: {what}, {track.model}" + (", with keypoints" if a.keypoints else ""))
     if not written:
-        raise ValueError("no person in it" + (f" is called {a.person}" if a.person is not None else ""))
+        raise Wrong(a.results, "a person" + (f" called {a.person}" if a.person is not None else ""), "none")
 
 
 if __name__ == "__main__":
     try:
         main()
-    except Exception as error:  # whatever a damaged file leads to: one line
-        sys.exit(f"convert_video_results.py: {sys.argv[1] if len(sys.argv) > 1 else ''}: {error}")
+    except Wrong as wrong:
+        sys.exit(f"convert_video_results.py: {wrong}")
+    except Exception as error:  # whatever else a damaged file leads to: one line
+        sys.exit(f"convert_video_results.py: {' '.join(sys.argv[1:3])}: {type(error).__name__}: {error}")

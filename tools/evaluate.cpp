@@ -1,15 +1,14 @@
 #include "pipeline/evaluate.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "core/npz.h"
 #include "pipeline/protocol.h"
 #include "pipeline/record/outputs.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -18,19 +17,16 @@ struct Arguments {
   std::filesystem::path truth, json;
   std::vector<std::string> motions;
   std::string protocol;  ///< empty: our own metrics
+  motion::import::ReadConfig read;
   bool force = false;
 };
 
-/// The motions of all folders named; a folder that is none has none.
+/// The motions of all files and folders named. @throws DataError where one of these holds none
 std::vector<std::string> files_to_read(const Arguments& a) {
-  std::vector<std::string> files;
-  const auto add = [&](const std::filesystem::path& folder) {
-    if (!std::filesystem::is_directory(folder)) return;
-    for (const std::string& name : pipeline::npz_names(folder))
-      files.push_back((folder / (name + ".npz")).string());
-  };
-  add(a.truth);
-  for (const std::string& folder : a.motions) add(folder);
+  std::vector<std::string> files, named = a.motions;
+  named.push_back(a.truth.string());
+  for (const std::string& path : named)
+    for (const auto& [name, file] : pipeline::named_motions(path)) files.push_back(file.string());
   return files;
 }
 
@@ -41,7 +37,7 @@ int evaluate_published(const Arguments& a) {
   std::vector<pipeline::ProtocolTable> tables;
   bool all_good = true;
   for (const std::string& folder : a.motions) {
-    tables.push_back(pipeline::evaluate_protocol(protocol, a.truth, folder));
+    tables.push_back(pipeline::evaluate_protocol(protocol, a.truth, folder, a.read));
     for (const pipeline::ProtocolRow& row : tables.back().rows) {
       if (row.reason.empty()) continue;
       std::cerr << folder << '/' << row.name << ": left out: " << row.reason << '\n';
@@ -57,7 +53,7 @@ int evaluate(const Arguments& a) {
   pipeline::record::Outputs(files_to_read(a), a.force).claim(a.json, pipeline::record::kJsonOpening);
   if (!a.protocol.empty()) return evaluate_published(a);
   if (a.motions.size() > 1) {
-    const pipeline::Comparison comparison = pipeline::compare_folders(a.truth, a.motions);
+    const pipeline::Comparison comparison = pipeline::compare_folders(a.truth, a.motions, a.read);
     std::cout << pipeline::format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
     const bool none = comparison.evaluations.front().motions.empty();
@@ -65,7 +61,7 @@ int evaluate(const Arguments& a) {
     if (!a.json.empty()) write_file_atomically(a.json, pipeline::comparison_json(comparison));
     return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
-  const pipeline::Evaluation evaluation = pipeline::evaluate_folders(a.truth, a.motions.front());
+  const pipeline::Evaluation evaluation = pipeline::evaluate_folders(a.truth, a.motions.front(), a.read);
   std::cout << pipeline::format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
   if (!a.json.empty()) write_file_atomically(a.json, pipeline::evaluation_json(evaluation));
@@ -76,24 +72,25 @@ int evaluate(const Arguments& a) {
 
 }  // namespace
 
-void declare_evaluate(CLI::App& app, Action& action) {
+void declare_evaluate(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("evaluate", "Score motions against their truth, pairing files by name");
-  command->add_option("--truth", a->truth, "folder of true motions")->required();
+  Command command =
+      line.add("evaluate", "Score motions against their truth, pairing files by name",
+               "mimicx evaluate --truth truth --motions out/run/motions         # a row per motion\n"
+               "mimicx evaluate --truth truth --motions noisy out/run/motions   # means, side by side");
+  command.path("--truth", a->truth, "true motions: a folder, or one file").required();
   command
-      ->add_option(
-          "--motions", a->motions,
-          "folder of motions to score; several folders are compared by their means over the motions that all "
-          "of them hold")
-      ->required();
-  command
-      ->add_option("--protocol", a->protocol,
-                   "the columns of a published protocol instead: phc, pmr or emdb, docs/metrics.md")
-      ->check(CLI::IsMember(motion::protocol_names()));
-  command->add_option("--json", a->json, "also write every value, its count and its definition here")
-      ->check(refuse_empty_path);
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return evaluate(*a); }; });
+      .paths("--motions", a->motions,
+             "motions to score: a folder, or one file; several are compared by their means over the motions "
+             "that "
+             "all of them hold")
+      .required();
+  command.one_of("--protocol", a->protocol, motion::protocol_names(),
+                 "the columns of a published protocol instead, docs/metrics.md");
+  command.path("--json", a->json, "also write every value, its count and its definition here");
+  add_read_arguments(command, a->read);
+  add_force(command, a->force);
+  command.action([a] { return evaluate(*a); });
 }
 
 }  // namespace mimicx::tools

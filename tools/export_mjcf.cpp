@@ -1,15 +1,15 @@
 #include "physics/mjcf.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
+#include "core/file.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -43,27 +43,27 @@ int export_mjcf(const Arguments& a) {
   pipeline::record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
-  if (a.out.has_parent_path()) std::filesystem::create_directories(a.out.parent_path());
+  make_folder(a.out.parent_path());
   write_file_atomically(a.out, physics::to_mjcf(character, physics::SimulationConfig{}));
   return kAllGood;
 }
 
 }  // namespace
 
-void declare_export_mjcf(CLI::App& app, Action& action) {
+void declare_export_mjcf(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("export-mjcf", "Write the character of a shape as a MuJoCo model");
-  command->add_option("OUT", a->out, "where to write it: .xml")->required();
-  auto* betas = command
-                    ->add_option("--betas", a->betas,
-                                 "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0")
-                    ->delimiter(',')
-                    ->check(CLI::Range(-5.0, 5.0));
-  command->add_option("--motion", a->motion, "take the body of this motion: that of its qpos by `convert`")
-      ->excludes(betas);
-  add_read_arguments(*command, a->read);
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return export_mjcf(*a); }; });
+  Command command = line.add("export-mjcf", "Write the character of a shape as a MuJoCo model",
+                             "mimicx export-mjcf body.xml --motion clip.npz   # the body of a motion\n"
+                             "mimicx export-mjcf tall.xml --betas 2,-1        # a shape");
+  command.file("OUT", a->out, "where to write it: .xml");
+  const Option betas =
+      command.numbers("--betas", a->betas, {-5.0, 5.0},
+                      "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0");
+  command.path("--motion", a->motion, "take the body of this motion: that of its qpos by `convert`")
+      .excludes(betas);
+  add_read_arguments(command, a->read);
+  add_force(command, a->force);
+  command.action([a] { return export_mjcf(*a); });
 }
 
 }  // namespace mimicx::tools

@@ -1,17 +1,18 @@
 #include "motion/fit/fit.h"
+#include "core/file.h"
 #include "motion/clip_file.h"
 #include "motion/fit/poses.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/outputs.h"
-#include "pipeline/record/run_folder.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -33,11 +34,11 @@ void print(const std::string& name, const motion::fit::FitReport& r) {
 }
 
 /// Where every input goes, claimed before any work.
-std::vector<std::filesystem::path> claimed_outputs(const std::vector<std::string>& files,
+std::vector<std::filesystem::path> claimed_outputs(const std::vector<pipeline::MotionInput>& inputs,
                                                    const Arguments& a) {
-  pipeline::record::Outputs outputs(files, a.force);
+  pipeline::record::Outputs outputs(pipeline::paths_of(inputs), a.force);
   std::vector<std::filesystem::path> paths;
-  for (const std::string& name : pipeline::record::unique_names(files)) {
+  for (const std::string& name : pipeline::unique_names(inputs)) {
     paths.push_back(a.out / (name + ".npz"));
     outputs.claim(paths.back());
   }
@@ -45,9 +46,9 @@ std::vector<std::filesystem::path> claimed_outputs(const std::vector<std::string
 }
 
 int fit(const Arguments& a) {
-  const std::vector<std::string> files = pipeline::expand_inputs(a.inputs, &std::cerr);
-  const std::vector<std::filesystem::path> outputs = claimed_outputs(files, a);
-  std::filesystem::create_directories(a.out);
+  const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
+  const std::vector<std::filesystem::path> outputs = claimed_outputs(inputs, a);
+  const pipeline::record::FolderLock lock(a.out);
   std::printf(
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n"
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n",
@@ -55,15 +56,16 @@ int fit(const Arguments& a) {
       "largest", "", "% box", "% box", "scale", "deg", "beta", "% box", "frames", "frames", "points", "mm",
       "mm");
   bool all_good = true;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string& file = files[i];
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::string& file = inputs[i].path;
     try {
       motion::fit::FitReport report;
       const motion::Clip clip = motion::import::read_motion(file, a.read);
       pipeline::tell_decisions(file, clip, std::cerr);
+      make_folder(outputs[i].parent_path());
       motion::write_clip(outputs[i], (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(
                                          clip, a.config, &report));
-      print(outputs[i].stem().string(), report);
+      print(outputs[i].lexically_relative(a.out).replace_extension().generic_string(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << error.what() << '\n';
@@ -75,24 +77,24 @@ int fit(const Arguments& a) {
 
 }  // namespace
 
-void declare_fit(CLI::App& app, Action& action) {
+void declare_fit(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("fit", "Move motions onto their 2D keypoints, where they have any");
-  command->add_option("FILE", a->inputs, "motions and folders of them")->required();
-  command->add_option("--out", a->out, "folder for the fitted motions")->check(refuse_empty_path)->required();
-  add_read_arguments(*command, a->read);
-  command->add_flag("--poses", a->poses,
-                    "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
+  Command command = line.add("fit", "Move motions onto their 2D keypoints, where they have any",
+                             "mimicx fit DIR --out fitted             # the fit alone, no simulation\n"
+                             "mimicx fit DIR --out planted --poses    # no keypoints: feet, floor, balance");
+  command.files("FILE", a->inputs, "motions and folders of them");
+  command.path("--out", a->out, "folder for the fitted motions").required();
+  add_read_arguments(command, a->read);
+  command.flag("--poses", a->poses,
+               "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
   const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
-    command->add_option(name, sigma, "standard error of " + what + "; 0: it is exact")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
+    command.number(name, sigma, kFromZero, "standard error of " + what + "; 0: it is exact");
   };
   add_sigma("--focal-sigma", a->config.focal_sigma, "the focal length in the file, relative");
   add_sigma("--tilt-sigma", a->config.tilt_sigma, "the camera's tilt in the file, degrees");
   add_sigma("--beta-sigma", a->config.beta_sigma, "each entry of the shape in the file");
-  add_force(*command, a->force);
-  command->callback([a, &action] { action = [a] { return fit(*a); }; });
+  add_force(command, a->force);
+  command.action([a] { return fit(*a); });
 }
 
 }  // namespace mimicx::tools

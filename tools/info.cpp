@@ -1,13 +1,12 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "motion/import/motion_file.h"
 #include "motion/keypoint_names.h"
 #include "motion/prepare.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -21,6 +20,12 @@ struct Arguments {
 std::ptrdiff_t usable_among(const std::vector<std::string>& names) {
   return std::count_if(names.begin(), names.end(),
                        [](const std::string& name) { return motion::place_of_keypoint(name).has_value(); });
+}
+
+/// A member that comes along, as the file calls it.
+std::string name_of_member(const std::string& key) {
+  if (key == "poses_rest") return "poses[66:]";
+  return key == "betas_rest" ? "betas[10:]" : key;
 }
 
 void describe_file(const motion::Clip& clip) {
@@ -38,7 +43,7 @@ void describe_file(const motion::Clip& clip) {
     std::printf("keypoints    none\n");
   if (!clip.passthrough.empty()) {
     std::printf("passed on   ");
-    for (const auto& [key, array] : clip.passthrough) std::printf(" %s", key.c_str());
+    for (const auto& [key, array] : clip.passthrough) std::printf(" %s", name_of_member(key).c_str());
     std::printf("\n");
   }
 }
@@ -73,13 +78,14 @@ int info(const Arguments& a) {
 
 }  // namespace
 
-void declare_info(CLI::App& app, Action& action) {
+void declare_info(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command =
-      app.add_subcommand("info", "What a motion file holds, what reading decides, what preparation does");
-  command->add_option("FILE", a->file, "motion")->required();
-  add_read_arguments(*command, a->read);
-  command->callback([a, &action] { action = [a] { return info(*a); }; });
+  Command command = line.add("info", "What a motion file holds, what reading decides, what preparation does",
+                             "mimicx info clip.bvh           # axes, unit, frame rate, floor, body\n"
+                             "mimicx info clip.bvh --up z    # what changes where you know better");
+  command.file("FILE", a->file, "motion");
+  add_read_arguments(command, a->read);
+  command.action([a] { return info(*a); });
 }
 
 }  // namespace mimicx::tools

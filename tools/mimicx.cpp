@@ -1,11 +1,14 @@
 /// `mimicx`: one binary, a subcommand per task (commands.h).
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 
+#include "arguments.h"
 #include "commands.h"
 #include "pipeline/record/outputs.h"
 
@@ -13,24 +16,18 @@ namespace mimicx::tools {
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app("Physically plausible human motion from noisy motion.");
-  app.name("mimicx");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET);
-  app.footer(
+  CommandLine line(
+      "mimicx", "Physically plausible human motion from noisy motion.",
+      "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
+      "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores",
+      std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET,
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
-  Action action;
   for (const auto declare :
        {declare_run, declare_plan, declare_pretrain, declare_adapt, declare_imitate, declare_evaluate,
         declare_cluster, declare_fit, declare_info, declare_convert, declare_corrupt, declare_audit,
         declare_export_mjcf, declare_synth, declare_config})
-    declare(app, action);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kAllGood : kWrongUsage;  // --help and --version end here as well
-  }
-  return action();
+    declare(line);
+  return line.run(argc, argv);
 }
 
 /// Whether everything that was printed has arrived.
@@ -43,6 +40,7 @@ bool is_told() {
 }  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away ends no work; what is lost is said below
   try {
     const int status = mimicx::tools::run(argc, argv);
     if (mimicx::tools::is_told()) return status;
@@ -54,6 +52,12 @@ int main(int argc, char** argv) {
   } catch (const mimicx::pipeline::record::OutputRefused& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kWrongUsage;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "mimicx: " << error.path1().string() << ": " << error.code().message() << '\n';
+    return mimicx::tools::kSomeFailed;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "mimicx: there is not enough memory for this\n";
+    return mimicx::tools::kSomeFailed;
   } catch (const std::exception& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kSomeFailed;

@@ -1,6 +1,5 @@
 #include "pipeline/plan.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "commands.h"
@@ -23,14 +22,16 @@ int plan(Arguments a) {
 
 }  // namespace
 
-void declare_plan(CLI::App& app, Action& action) {
+void declare_plan(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand(
-      "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out");
-  add_run_arguments(*command, a->config.run, a->settings);
-  add_fit_arguments(*command, a->config.run);
-  add_gains_argument(*command, a->config.run);
-  command->callback([a, &action] { action = [a] { return plan(*a); }; });
+  Command command = line.add(
+      "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out",
+      "mimicx plan clip.bvh                    # clip.clean.bvh beside it, after seconds\n"
+      "mimicx plan DIR --out out/run --gains   # every motion in a folder, with feedback gains");
+  add_run_arguments(command, a->config.run, a->settings);
+  add_fit_arguments(command, a->config.run);
+  add_gains_argument(command, a->config.run);
+  command.action([a] { return plan(*a); });
 }
 
 }  // namespace mimicx::tools

@@ -1,11 +1,10 @@
 #include "pipeline/pretrain.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
-#include "arguments.h"
 #include "commands.h"
+#include "shared_arguments.h"
 #include "training.h"
 
 namespace mimicx::tools {
@@ -36,33 +35,32 @@ int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::str
       [&](const pipeline::record::RunContext& context) { return pipeline::pretrain(config, context); });
 }
 
-void declare_pretrain(CLI::App& app, Action& action) {
+void declare_pretrain(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command = app.add_subcommand("pretrain", "Train an option policy for every cluster of motions");
-  command->add_option("DIR", a->config.inputs, "motions and folders of them")->required();
+  Command command =
+      line.add("pretrain", "Train an option policy for every cluster of motions",
+               "mimicx pretrain DIR --out out/options                              # hours\n"
+               "mimicx pretrain DIR --out out/options --clusters 5 --samples 20M   # five options, sooner");
+  command.files("DIR", a->config.inputs, "motions and folders of them");
+  command.path("--out", a->config.out, "folder of the options; the same command continues what is there")
+      .required();
   command
-      ->add_option("--out", a->config.out, "folder of the options; the same command continues what is there")
-      ->check(refuse_empty_path)
-      ->required();
-  command->add_option("--samples", a->samples, "training budget of all options together, in character steps")
-      ->check(CLI::NonNegativeNumber)
-      ->default_str(std::to_string(a->config.training.samples));
-  add_cluster_arguments(*command, a->config.clusters);
-  add_read_arguments(*command, a->config.read);
-  command
-      ->add_option("--preset", a->preset,
-                   "sizes of the networks: small or paper, as `mimicx config` lists them")
-      ->check(CLI::IsMember({"small", "paper"}))
-      ->capture_default_str();
-  add_seed(*command, a->config.training.seed);
-  add_force(*command, a->config.force);
-  add_threads(*command, a->config.threads);
-  command->add_flag("--encoder,!--no-encoder", a->config.use_encoder,
-                    "policies see their reference through a denoising encoder (default)");
-  command->add_flag("--fit,!--no-fit", a->config.fit,
-                    "move motions onto their keypoints first, where they have any (default)");
-  add_settings(*command, a->settings);
-  command->callback([a, &action] { action = [a] { return pretrain_options(preset_of(*a), a->settings); }; });
+      .number("--samples", a->samples, kFromZero,
+              "training budget of all options together, in character steps")
+      .defaults_to(std::to_string(a->config.training.samples));
+  add_cluster_arguments(command, a->config.clusters);
+  add_read_arguments(command, a->config.read);
+  command.one_of("--preset", a->preset, {"small", "paper"},
+                 "sizes of the networks, as `mimicx config` lists them");
+  add_seed(command, a->config.training.seed);
+  add_force(command, a->config.force);
+  add_threads(command, a->config.threads);
+  command.flag("--encoder", a->config.use_encoder,
+               "policies see their reference through a denoising encoder (default)", "--no-encoder");
+  command.flag("--fit", a->config.fit,
+               "move motions onto their keypoints first, where they have any (default)", "--no-fit");
+  add_settings(command, a->settings);
+  command.action([a] { return pretrain_options(preset_of(*a), a->settings); });
 }
 
 }  // namespace mimicx::tools

@@ -1,10 +1,9 @@
 // `mimicx run`: pretrain on a folder, then adapt all of it.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
+#include "shared_arguments.h"
 #include "training.h"
 
 namespace mimicx::tools {
@@ -32,31 +31,25 @@ int run_all_stages(Arguments a) {
 
 }  // namespace
 
-void declare_run(CLI::App& app, Action& action) {
+void declare_run(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command =
-      app.add_subcommand("run", "All stages on a folder: pretrain options on it, then adapt all of it");
-  command->add_option("DIR", a->in, "folder of motions")->required();
-  command->add_option("--out", a->out, "where the folders of the two stages go: options/ and clean/")
-      ->check(refuse_empty_path)
-      ->required();
-  command
-      ->add_option("--pretrain-samples", a->pretrain.training.samples,
-                   "training budget of all options together, in character steps")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  add_cluster_arguments(*command, a->pretrain.clusters);
-  add_read_arguments(*command, a->pretrain.read);
-  command
-      ->add_option("--budget-samples", a->adapt.training.samples,
-                   "fine-tuning budget per motion, in character steps")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  add_arrangement_arguments(*command, a->adapt.arrangement);
-  add_seed(*command, a->pretrain.training.seed);
-  add_force(*command, a->pretrain.force);
-  add_threads(*command, a->pretrain.threads);
-  command->callback([a, &action] { action = [a] { return run_all_stages(*a); }; });
+  Command command =
+      line.add("run", "All stages on a folder: pretrain options on it, then adapt all of it",
+               "mimicx run DIR --out out/all                                               # hours\n"
+               "mimicx run DIR --out out/try --pretrain-samples 1M --budget-samples 200k   # a first look");
+  command.file("DIR", a->in, "folder of motions");
+  command.path("--out", a->out, "where the folders of the two stages go: options/ and clean/").required();
+  command.number("--pretrain-samples", a->pretrain.training.samples, kFromZero,
+                 "training budget of all options together, in character steps");
+  add_cluster_arguments(command, a->pretrain.clusters);
+  add_read_arguments(command, a->pretrain.read);
+  command.number("--budget-samples", a->adapt.training.samples, kFromZero,
+                 "fine-tuning budget per motion, in character steps");
+  add_arrangement_arguments(command, a->adapt.arrangement);
+  add_seed(command, a->pretrain.training.seed);
+  add_force(command, a->pretrain.force);
+  add_threads(command, a->pretrain.threads);
+  command.action([a] { return run_all_stages(*a); });
 }
 
 }  // namespace mimicx::tools

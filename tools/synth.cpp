@@ -1,15 +1,15 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
+#include <optional>
 
-#include "arguments.h"
 #include "commands.h"
 #include "motion/synth/set.h"
 #include "pipeline/audit/feasibility.h"
+#include "pipeline/record/folder_lock.h"
 #include "pipeline/record/outputs.h"
 #include "pipeline/record/progress.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -77,6 +77,8 @@ int synth(const Arguments& a) {
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
   const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
   claim_outputs(a);
+  std::optional<pipeline::record::FolderLock> lock;
+  if (const auto& folder = a.out.empty() ? a.data_set : a.out; !folder.empty()) lock.emplace(folder);
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
     motion::synth::write_synthetic_data(a.data_set);
@@ -89,44 +91,35 @@ int synth(const Arguments& a) {
 
 }  // namespace
 
-void declare_synth(CLI::App& app, Action& action) {
+void declare_synth(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
-  auto* command =
-      app.add_subcommand("synth", "Write synthetic motions: truth/ and noisy/, a file per motion");
+  Command command = line.add("synth", "Write synthetic motions: truth/ and noisy/, a file per motion",
+                             "mimicx synth --out set                                  # one of each kind\n"
+                             "mimicx synth --out set --kinds walk,jump --clips 20     # ten of each of two");
   motion::synth::SynthSetConfig& set = a->set;
-  auto* out = command->add_option("--out", a->out, "folder to write to")->check(refuse_empty_path);
-  command->add_option("--clips", set.clips, "number of motions, the kinds in turn; default: one of each kind")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--kinds", set.kinds, "kinds to make, separated by commas; default: all")
-      ->delimiter(',')
-      ->check(CLI::IsMember(motion::synth::synthetic_kinds()));
-  command->add_option("--noise", set.noise, "what estimates it for noisy/: gvhmr, vibe, or none (exact)")
-      ->check(CLI::IsMember({"gvhmr", "vibe", "none"}))
-      ->capture_default_str();
-  command->add_option("--camera", set.camera, "how well its camera is known: calibrated, perturbed or wild")
-      ->check(CLI::IsMember({"calibrated", "perturbed", "wild"}))
-      ->capture_default_str();
-  static const std::map<std::string, motion::KeypointSet> kSets = {
-      {"joints22", motion::KeypointSet::kJoints22},
-      {"coco17", motion::KeypointSet::kCoco17},
-      {"coco133", motion::KeypointSet::kCoco133}};
+  const Option out = command.path("--out", a->out, "folder to write to");
+  command.number("--clips", set.clips, kFromOne,
+                 "number of motions, the kinds in turn; default: one of each kind");
+  command.some_of("--kinds", set.kinds, motion::synth::synthetic_kinds(),
+                  "kinds to make, separated by commas; default: all");
+  command.one_of("--noise", set.noise, {"gvhmr", "vibe", "none"},
+                 "what estimates it for noisy/; none: exact");
+  command.one_of("--camera", set.camera, {"calibrated", "perturbed", "wild"}, "how well its camera is known");
+  command.choice("--keypoints", set.keypoints,
+                 {{"joints22", motion::KeypointSet::kJoints22},
+                  {"coco17", motion::KeypointSet::kCoco17},
+                  {"coco133", motion::KeypointSet::kCoco133}},
+                 "which points are detected");
+  command.number("--seed", set.seed, kFromZero,
+                 "seed of the first motion of every kind; 101 and up: training split");
   command
-      ->add_option("--keypoints", set.keypoints,
-                   "which points are detected: joints22 (default), coco17 or coco133")
-      ->transform(CLI::CheckedTransformer(kSets));
-  command
-      ->add_option("--seed", set.seed, "seed of the first motion of every kind; 101 and up: training split")
-      ->check(refuse_negative)
-      ->capture_default_str();
-  command
-      ->add_option("--data-set", a->data_set,
-                   "write the project's own small set, test/ and train/, to this folder instead")
-      ->excludes(out);
-  add_force(*command, a->force);
-  command->add_flag(
-      "--report", a->report,
-      "print the forces and torques that each motion of the set demands; --out may be left out");
-  command->callback([a, &action] { action = [a] { return synth(*a); }; });
+      .path("--data-set", a->data_set,
+            "write the project's own small set, test/ and train/, to this folder instead")
+      .excludes(out);
+  add_force(command, a->force);
+  command.flag("--report", a->report,
+               "print the forces and torques that each motion of the set demands; --out may be left out");
+  command.action([a] { return synth(*a); });
 }
 
 }  // namespace mimicx::tools

@@ -1,14 +1,13 @@
 #include "training.h"
 
-#include <CLI/CLI.hpp>
-#include <charconv>
 #include <csignal>
 #include <iostream>
 
-#include "arguments.h"
 #include "commands.h"
-#include "pipeline/preparation.h"
+#include "numbers.h"
+#include "pipeline/inputs.h"
 #include "pipeline/run_outputs.h"
+#include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
@@ -39,26 +38,20 @@ int status_of(pipeline::record::RunOutcome outcome) {
 
 }  // namespace
 
-void add_settings(CLI::App& command, std::vector<std::string>& settings) {
-  command
-      .add_option("--set", settings,
-                  "NAME=NUMBER: change a setting by the name that `mimicx config` lists, for experiments; "
-                  "repeatable")
-      ->take_all();
+void add_settings(Command& command, std::vector<std::string>& settings) {
+  command.texts("--set", settings, "NAME=NUMBER",
+                "change a setting by the name that `mimicx config` lists, for experiments; repeatable");
 }
 
 void for_each_setting(const std::vector<std::string>& settings,
                       const std::function<void(const std::string& name, double value)>& apply,
                       const std::function<void()>& check) {
   for (const std::string& setting : settings) {
-    const auto equals = setting.find('=');
-    double value = 0.0;
-    const char* end = setting.data() + setting.size();
-    if (equals == std::string::npos || equals + 1 == setting.size() ||
-        std::from_chars(setting.data() + equals + 1, end, value).ptr != end)
-      throw UsageError("--set: expected NAME=NUMBER, found '" + setting + "'");
+    const auto equals = std::min(setting.find('='), setting.size() - 1);
+    const std::optional<double> value = number_of(setting.substr(equals + 1));
+    if (!value) throw UsageError("--set: expected NAME=NUMBER, found '" + setting + "'");
     try {
-      apply(setting.substr(0, equals), value);
+      apply(setting.substr(0, equals), *value);
     } catch (const std::invalid_argument& error) {
       throw UsageError("--set " + setting + ": " + error.what());
     }
@@ -70,70 +63,56 @@ void for_each_setting(const std::vector<std::string>& settings,
   }
 }
 
-void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<std::string>& settings) {
-  command.add_option("FILE", run.inputs, "motions and folders of them")->required();
-  command
-      .add_option("--out", run.out,
-                  "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
-                  "every input, and its clean motion beside it as NAME.clean.EXT")
-      ->check(refuse_empty_path);
+void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<std::string>& settings) {
+  command.files("FILE", run.inputs, "motions and folders of them");
+  command.path("--out", run.out,
+               "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
+               "every input, and its clean motion beside it as NAME.clean.EXT");
   add_read_arguments(command, run.read);
-  command
-      .add_option_function<std::string>(
-          "--rate", [&run](const std::string& rate) { run.input_rate = rate == "input"; },
-          "frame rate of the clean copies in the inputs' own formats: 30 (default) or input")
-      ->check(CLI::IsMember({"30", "input"}));
-  command.add_flag("--substeps", run.substeps,
-                   "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
+  command.choice("--rate", run.input_rate, {{"30", false}, {"input", true}},
+                 "frame rate of the clean copies in the inputs' own formats");
+  command.flag("--substeps", run.substeps,
+               "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
   add_force(command, run.force);
   add_threads(command, run.threads);
-  command
-      .add_option(
-          "--limit-seconds", run.limit_seconds,
-          "safety stop per motion: ends its plan or training early, makes the result depend on the machine, "
-          "and is recorded as such")
-      ->check(CLI::PositiveNumber);
+  command.number("--limit-seconds", run.limit_seconds, kPositive,
+                 "safety stop per motion: ends its plan or training early, makes the result depend on the "
+                 "machine, and is recorded as such");
   add_settings(command, settings);
 }
 
-void add_training_arguments(CLI::App& command, pipeline::TrainingConfig& training,
+void add_training_arguments(Command& command, pipeline::TrainingConfig& training,
                             const std::string& samples) {
-  command.add_option(samples, training.samples, "training budget per motion, in character steps")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  command.number(samples, training.samples, kFromZero, "training budget per motion, in character steps");
   add_seed(command, training.seed);
 }
 
-void add_as_is(CLI::App& command, pipeline::RunConfig& run) {
-  command.add_flag("--as-is", run.as_is,
-                   "follow the poses as they are: no fit and no repair of any kind, whatever --fit says");
+void add_as_is(Command& command, pipeline::RunConfig& run) {
+  command.flag("--as-is", run.as_is,
+               "follow the poses as they are: no fit and no repair of any kind, whatever --fit says");
 }
 
-void add_fit_arguments(CLI::App& command, pipeline::RunConfig& run) {
-  command.add_flag(
-      "--fit,!--no-fit", run.fit,
-      "move motions onto their keypoints first, where they have any (default); --no-fit: do not "
-      "look at keypoints at all, correct the motion by its feet, the floor and balance alone, as "
-      "where a file has no keypoints");
+void add_fit_arguments(Command& command, pipeline::RunConfig& run) {
+  command.flag(
+      "--fit", run.fit,
+      "move motions onto their keypoints first, where they have any (default); --no-fit: do not look "
+      "at keypoints at all, correct the motion by its feet, the floor and balance alone, as where a "
+      "file has no keypoints",
+      "--no-fit");
   add_as_is(command, run);
 }
 
-void add_gains_argument(CLI::App& command, pipeline::RunConfig& run) {
-  command.add_flag("--gains", run.gains,
-                   "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
+void add_gains_argument(Command& command, pipeline::RunConfig& run) {
+  command.flag("--gains", run.gains,
+               "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
 }
 
-void add_arrangement_arguments(CLI::App& command, pipeline::options::ArrangementConfig& arrangement) {
-  command
-      .add_option("--switch-penalty", arrangement.switch_penalty, "w_p of Eq. 4, in rewards; not positive")
-      ->check(CLI::Range(-1e9, 0.0))
-      ->capture_default_str();
-  command
-      .add_option("--rescue-reward", arrangement.rescue_reward,
-                  "where the options run side by side, one whose reward falls under this goes on from the "
-                  "state of the best")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement) {
+  command.number("--switch-penalty", arrangement.switch_penalty, {kAnyNumber.least, 0.0},
+                 "w_p of Eq. 4, in rewards");
+  command.number("--rescue-reward", arrangement.rescue_reward, {0.0, 1.0},
+                 "where the options run side by side, one whose reward falls under this goes on from the "
+                 "state of the best");
 }
 
 int with_context(
@@ -151,8 +130,11 @@ int with_context(
 
 pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
                                         const std::function<pipeline::record::RunOutcome()>& once) {
-  const std::vector<std::string> files = pipeline::expand_inputs(run.inputs, &context.messages);
+  const std::vector<pipeline::MotionInput> inputs =
+      pipeline::find_motions(run.inputs, run.out, &context.messages);
+  const std::vector<std::string> files = pipeline::paths_of(inputs);
   if (!run.out.empty()) {
+    for (const pipeline::MotionInput& input : inputs) run.names[input.path] = input.name;
     run.inputs = files;
     return once();
   }

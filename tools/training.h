@@ -7,16 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "pipeline/configurations.h"
-
-namespace CLI {
-class App;
-}
 
 namespace mimicx::tools {
 
 /// --set NAME=NUMBER, repeatable.
-void add_settings(CLI::App& command, std::vector<std::string>& settings);
+void add_settings(Command& command, std::vector<std::string>& settings);
 /// Calls apply(name, value) for every NAME=NUMBER, then check().
 /// @throws UsageError for what is no NAME=NUMBER, and where apply or check throw std::invalid_argument
 void for_each_setting(const std::vector<std::string>& settings,
@@ -32,18 +29,17 @@ void apply_settings(const std::vector<std::string>& settings, Config& config) {
 }
 
 /// The arguments of every run over motions.
-void add_run_arguments(CLI::App& command, pipeline::RunConfig& run, std::vector<std::string>& settings);
+void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<std::string>& settings);
 /// Those of a run that trains. @param samples  name of the argument for the budget
-void add_training_arguments(CLI::App& command, pipeline::TrainingConfig& training,
-                            const std::string& samples);
+void add_training_arguments(Command& command, pipeline::TrainingConfig& training, const std::string& samples);
 /// --as-is.
-void add_as_is(CLI::App& command, pipeline::RunConfig& run);
+void add_as_is(Command& command, pipeline::RunConfig& run);
 /// --fit, the default, --no-fit and --as-is.
-void add_fit_arguments(CLI::App& command, pipeline::RunConfig& run);
+void add_fit_arguments(Command& command, pipeline::RunConfig& run);
 /// --gains.
-void add_gains_argument(CLI::App& command, pipeline::RunConfig& run);
+void add_gains_argument(Command& command, pipeline::RunConfig& run);
 /// --switch-penalty and --rescue-reward.
-void add_arrangement_arguments(CLI::App& command, pipeline::options::ArrangementConfig& arrangement);
+void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement);
 
 /// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a
 /// second one ends the program. @return the exit status

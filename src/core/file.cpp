@@ -40,6 +40,12 @@ std::error_code last_error() { return {errno == 0 ? EIO : errno, std::generic_ca
 
 }  // namespace
 
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!path.empty()) std::filesystem::create_directories(path, error);
+  if (error) throw DataError(path.string(), "", "a folder that can be made", error.message());
+}
+
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
   temporary_ += ".mimicx-tmp";  // no file of a user's is called so
   errno = 0;

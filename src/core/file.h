@@ -18,6 +18,9 @@ inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
 ///         `max_bytes` (nothing is read then)
 std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes = kMaxFileBytes);
 
+/// Makes a folder and those around it, where they are not there. @throws DataError when it cannot
+void make_folder(const std::filesystem::path& path);
+
 /// A file that grows under a temporary name beside `path` and gets its name when it is whole: a reader sees
 /// the old file or the new one. Without `finish` the temporary file is gone with the object.
 class AtomicFile {

@@ -42,7 +42,19 @@ Quaterniond rotation_z(double angle) {
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 Quaterniond rotation_between(const Vector3d& from, const Vector3d& to) {
-  return Quaterniond::FromTwoVectors(from, to);
+  const Vector3d a = from.normalized(), b = to.normalized();
+  const double cosine = b.dot(a);
+  constexpr double kOpposite = -1.0 + 1e-12;  // Eigen's FromTwoVectors solves for the axis there, by an SVD
+  Quaterniond q;
+  if (cosine < kOpposite) {
+    q.w() = 0.0;
+    q.vec() = a.unitOrthogonal();
+    return q;
+  }
+  const double s = std::sqrt((1.0 + cosine) * 2.0);
+  q.vec() = a.cross(b) * (1.0 / s);
+  q.w() = s * 0.5;
+  return q;
 }
 
 Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis) {

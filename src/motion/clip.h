@@ -39,6 +39,7 @@ struct Clip {
   std::vector<std::pair<std::string, NpyArray>> passthrough;  ///< members the program does not use
   std::vector<std::string> warnings;   ///< one line each, e.g. a foreign beta that was set aside
   std::vector<std::string> decisions;  ///< what reading decided, one line each
+  std::vector<std::string> summary;    ///< of many decisions, in three lines for people; else empty
   /// Joints of the file's own body where they are known: J(β) of a licensed model. They replace the standard
   /// body and the mean J0.
   std::optional<RestJoints> rest_joints;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "core/units.h"
@@ -140,6 +141,25 @@ double self_depth(const Character& character, const BodyPoses& poses) {
   return depth.count == 0 ? 0.0 : depth.times(1.0).value;
 }
 
+std::string in_words(std::string_view body) {
+  std::string words(body);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string rounded(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+/// "300 frames at 30 fps"
+std::string lasting(const MotionSamples& samples) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%d frames at %.4g fps", samples.frames(), samples.fps);
+  return text;
+}
+
 }  // namespace
 
 MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
@@ -186,7 +206,7 @@ Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth)
   judge_physics(motion, m);
   if (!truth) return m;
   if (truth->frames() != motion.frames() || truth->fps != motion.fps)
-    throw std::invalid_argument("evaluate_motion: truth and motion differ in length or frame rate");
+    throw std::invalid_argument("the truth has " + lasting(*truth) + ", the motion " + lasting(motion));
   for (const MotionSamples* s : {&motion, truth})
     for (const auto& points : s->surface)
       if (points.size() < kFootPoints) throw std::invalid_argument("evaluate_motion: a surface without feet");
@@ -199,10 +219,14 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
   Success s;
   const int frames = std::min(simulated.frames(), reference.frames());
   Mean mpjpe;
+  int worst_frame = 0, worst_body = 0;
   for (int t = 0; t < frames; ++t)
     for (int j = 0; j < kBodies; ++j) {
       const Vector3d &p = simulated.joints[t][j], &g = reference.joints[t][j];
-      s.max_distance_m = std::max(s.max_distance_m, (p - g).norm());
+      if (const double distance = (p - g).norm(); distance > s.max_distance_m) {
+        s.max_distance_m = distance;
+        worst_frame = t, worst_body = j;
+      }
       mpjpe.add(((p - simulated.joints[t][0]) - (g - reference.joints[t][0])).norm());
     }
   s.mpjpe_mm = mpjpe.times(kMm).value;
@@ -210,9 +234,11 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
     s.reason = "only " + std::to_string(frames) + " of " + std::to_string(reference.frames()) +
                " frames were simulated";
   else if (!(s.max_distance_m <= kMaxBodyDistance))
-    s.reason = "a body was " + std::to_string(s.max_distance_m) + " m from its reference (limit 0.5 m)";
+    s.reason = "the " + in_words(kBodyNames[worst_body]) + " was " + rounded(s.max_distance_m, 2) +
+               " m from its reference at frame " + std::to_string(worst_frame) + " (limit 0.5 m)";
   else if (!(s.mpjpe_mm <= kMaxMpjpe))
-    s.reason = "MPJPE to the reference is " + std::to_string(s.mpjpe_mm) + " mm (limit 60 mm)";
+    s.reason = "the joints are " + rounded(s.mpjpe_mm, 1) +
+               " mm from the reference's in the mean (MPJPE, limit 60 mm)";
   s.success = s.reason.empty();
   return s;
 }

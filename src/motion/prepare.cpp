@@ -56,7 +56,10 @@ void note_oddities(const PerFrame<BodyPoses>& poses, double fps, double floor_sh
   if (lying > kOddLyingShare)
     notes.push_back(text("lying or upside down in %.0f %% of the frames: is z up?", 100.0 * lying));
   if (std::abs(floor_shift) > kOddFloorShift)
-    notes.push_back(text("moved %.2f m up to the floor: is the translation in metres, z up?", floor_shift));
+    notes.push_back(text(floor_shift < 0.0
+                             ? "moved %.2f m down to the floor: is the translation in metres, z up?"
+                             : "moved %.2f m up to the floor: is the translation in metres, z up?",
+                         std::abs(floor_shift)));
 }
 
 void forward(Reference& reference) {

@@ -1,5 +1,6 @@
 #include "pipeline/corrupt.h"
 
+#include "core/file.h"
 #include "motion/clip_file.h"
 #include "motion/import/plausibility.h"
 #include "motion/resample.h"
@@ -36,10 +37,13 @@ motion::Clip corrupt_file(const std::filesystem::path& file, const std::string& 
   truth.name = name;
   const motion::Clip noisy =
       motion::synth::estimate(truth, config.estimate, motion::synth::clip_seed(config.seed, name));
-  std::filesystem::create_directories(directory / "truth");
-  std::filesystem::create_directories(directory / "noisy");
-  motion::write_clip(directory / "truth" / (name + ".npz"), truth);
-  motion::write_clip(directory / "noisy" / (name + ".npz"), noisy);
+  const auto write = [&](const char* part, const motion::Clip& clip) {
+    const std::filesystem::path path = directory / part / (name + ".npz");
+    make_folder(path.parent_path());
+    motion::write_clip(path, clip);
+  };
+  write("truth", truth);
+  write("noisy", noisy);
   return input;
 }
 

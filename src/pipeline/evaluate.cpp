@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 
 #include "core/error.h"
-#include "motion/clip_file.h"
+#include "pipeline/inputs.h"
 #include "pipeline/record/json.h"
 
 namespace mimicx::pipeline {
@@ -17,11 +16,12 @@ motion::MotionSamples samples_of(const motion::Clip& clip) {
   return motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps);
 }
 
-EvaluatedMotion evaluate_file(const std::filesystem::path& truth, const std::filesystem::path& motion) {
+EvaluatedMotion evaluate_file(const std::string& name, const Pair& files,
+                              const motion::import::ReadConfig& read) {
   EvaluatedMotion result;
-  result.name = motion.stem().string();
+  result.name = name;
   try {
-    const PairedMotion pair = read_pair(truth, motion);
+    const PairedMotion pair = read_pair(files, read);
     result.frames = pair.evaluated.frames();
     result.metrics = motion::evaluate_motion(pair.evaluated, &pair.truth);
     result.ok = true;
@@ -62,34 +62,41 @@ record::Json to_json(const EvaluatedMotion& m) {
 
 }  // namespace
 
-std::vector<std::string> npz_names(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) throw DataError(folder.string(), "", "a folder", "none");
-  std::vector<std::string> names;
-  for (const auto& file : std::filesystem::directory_iterator(folder))
-    if (file.path().extension() == ".npz") names.push_back(file.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
+std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path) {
+  std::map<std::string, std::filesystem::path> named;
+  for (const MotionInput& input : find_motions({path.string()})) {
+    const bool clean = input.name.ends_with(".clean");
+    named.emplace(clean ? input.name.substr(0, input.name.size() - 6) : input.name, input.path);
+  }
+  return named;
 }
 
-std::vector<std::string> motion_names(const std::filesystem::path& folder) {
-  std::vector<std::string> names = npz_names(folder);
-  if (names.empty()) throw DataError(folder.string(), "", "motions (.npz)", "none");
-  return names;
+std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions) {
+  std::map<std::string, Pair> pairs;
+  for (const auto& [name, path] : named_motions(motions)) pairs[name].motion = path;
+  const bool two_files = !std::filesystem::is_directory(truth) && !std::filesystem::is_directory(motions);
+  if (two_files)
+    pairs.begin()->second.truth = truth;
+  else
+    for (const auto& [name, path] : named_motions(truth)) pairs[name].truth = path;
+  return pairs;
 }
 
-PairedMotion read_pair(const std::filesystem::path& truth, const std::filesystem::path& motion) {
-  if (!std::filesystem::exists(truth))
-    throw DataError(truth.string(), "", "the truth of " + motion.stem().string(), "no file");
-  return {samples_of(motion::read_clip(motion)), samples_of(motion::read_clip(truth))};
+PairedMotion read_pair(const Pair& pair, const motion::import::ReadConfig& read) {
+  if (pair.truth.empty())
+    throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
+  return {samples_of(motion::import::read_motion(pair.motion, read)),
+          samples_of(motion::import::read_motion(pair.truth, read))};
 }
 
-Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions) {
+Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions,
+                            const motion::import::ReadConfig& read) {
   Evaluation evaluation;
-  const std::vector<std::string> names = motion_names(motions);
-  for (const auto& name : npz_names(truth))
-    if (!std::binary_search(names.begin(), names.end(), name)) evaluation.unmatched.push_back(name);
-  for (const auto& name : names)
-    evaluation.motions.push_back(evaluate_file(truth / (name + ".npz"), motions / (name + ".npz")));
+  for (const auto& [name, pair] : paired(truth, motions))
+    if (pair.motion.empty())
+      evaluation.unmatched.push_back(name);
+    else
+      evaluation.motions.push_back(evaluate_file(name, pair, read));
   return evaluation;
 }
 
@@ -105,12 +112,13 @@ double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& met
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders) {
+Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders,
+                           const motion::import::ReadConfig& read) {
   Comparison comparison;
   std::map<std::string, std::size_t> evaluated;  // in how many folders
   for (const std::string& folder : folders) {
     comparison.labels.push_back(folder);
-    comparison.evaluations.push_back(evaluate_folders(truth, folder));
+    comparison.evaluations.push_back(evaluate_folders(truth, folder, read));
     for (const EvaluatedMotion& m : comparison.evaluations.back().motions) {
       evaluated[m.name] += m.ok ? 1 : 0;
       if (!m.ok) comparison.failures.push_back(folder + "/" + m.name + ": " + m.reason);

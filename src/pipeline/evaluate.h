@@ -1,14 +1,17 @@
 /// `mimicx evaluate`: motions against their truth, file by file.
 ///
-/// Pairs are files of the same name in two folders. Both sides go through forward kinematics with their own
-/// shape and free joints: nothing is prepared, moved or resampled, so that every row of a table has been
-/// treated alike. The mean of a metric is taken over the files that have a value of it.
+/// Pairs are files of the same name in two folders, of any format that is read, or two files. Both sides go
+/// through forward kinematics with their own shape and free joints: nothing is prepared, moved or resampled,
+/// so that every row of a table has been treated alike. The mean of a metric is taken over the files that
+/// have a value of it.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "motion/import/motion_file.h"
 #include "motion/metrics.h"
 
 namespace mimicx::pipeline {
@@ -17,13 +20,20 @@ namespace mimicx::pipeline {
 struct PairedMotion {
   motion::MotionSamples evaluated, truth;
 };
-/// @throws DataError for a file that is not there or cannot be read
-PairedMotion read_pair(const std::filesystem::path& truth, const std::filesystem::path& motion);
+/// A motion and the file of its truth, which is empty where there is none.
+struct Pair {
+  std::filesystem::path truth, motion;
+};
+/// @throws DataError for a truth that is not there, and a file that cannot be read
+PairedMotion read_pair(const Pair& pair, const motion::import::ReadConfig& read);
 
-/// The names of a folder's .npz files without suffix, sorted. @throws DataError for a path that is no folder
-std::vector<std::string> npz_names(const std::filesystem::path& folder);
-/// The same of a folder that must hold some. @throws DataError where there is none
-std::vector<std::string> motion_names(const std::filesystem::path& folder);
+/// The files of a folder, or a file by itself, by their names: places in the folder without suffix
+/// (pipeline/inputs.h); "walk" also for walk.clean.bvh.
+std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path);
+
+/// Truths and motions by their names; a truth and a motion that are files themselves go together, whatever
+/// they are called. Entries may lack either. @throws DataError where there is no motion
+std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions);
 
 struct EvaluatedMotion {
   std::string name;  ///< file name without suffix
@@ -38,8 +48,9 @@ struct Evaluation {
   std::vector<std::string> unmatched;    ///< truths without a motion of their name
 };
 
-/// @throws DataError for a path that is no folder, and where `motions` holds no .npz
-Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions);
+/// @throws DataError for a path that is not there, and where `motions` holds none
+Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions,
+                            const motion::import::ReadConfig& read = {});
 
 /// Mean over the evaluated motions; NaN where none has a value.
 double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& metric);
@@ -52,7 +63,8 @@ struct Comparison {
   std::vector<std::string> failures;    ///< of those that could not be evaluated: "folder/name: why"
 };
 /// @throws DataError as `evaluate_folders`
-Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders);
+Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders,
+                           const motion::import::ReadConfig& read = {});
 /// A line of means per folder.
 std::string format_comparison(const Comparison& comparison);
 /// {"rows": [{folder, mean}], "motions": [names], "left_out", "definitions"}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/file.h"
 #include "core/units.h"
 #include "pipeline/certainty.h"
 #include "pipeline/output/plan_file.h"
@@ -71,7 +72,7 @@ void leave_gains(const motion::Reference& reference, const control::PlanConfig& 
   const auto gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
                                              config.gain_config, watch.control());
   if (gains.empty()) return;  // it was told to stop
-  std::filesystem::create_directories(file.parent_path());
+  make_folder(file.parent_path());
   output::write_gains(file, gains);
 }
 
@@ -127,7 +128,7 @@ SimulatedSequence plan_sequence(const motion::Reference& reference, const Planni
   if (!stored) {
     stored = make(reference, config.simulation, settings, watch);
     if (!watch.interrupted) {
-      std::filesystem::create_directories(job.folder.plan(job.name).parent_path());
+      make_folder(job.folder.plan(job.name).parent_path());
       output::write_plan(job.folder.plan(job.name), *stored);
     }
   }

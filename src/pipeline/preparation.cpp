@@ -1,10 +1,5 @@
 #include "pipeline/preparation.h"
 
-#include <algorithm>
-#include <set>
-#include <stdexcept>
-#include <system_error>
-
 #include "motion/fit/poses.h"
 #include "motion/prepare.h"
 
@@ -48,27 +43,6 @@ motion::PreparationConfig preparing(Correction correction) {
   return config;
 }
 
-/// "in: left out: notes.txt, walk.clean.npz (no motions, or made by an earlier run)"
-void tell_skipped(const std::string& folder, std::vector<std::string> names, std::ostream& out) {
-  if (names.empty()) return;
-  std::sort(names.begin(), names.end());
-  out << folder << ": left out: ";
-  for (std::size_t i = 0; i < names.size(); ++i) out << (i > 0 ? ", " : "") << names[i];
-  out << " (no motions, or made by an earlier run)\n";
-}
-
-/// Every file once, as it was spelled first.
-std::vector<std::string> each_once(const std::vector<std::string>& files) {
-  std::vector<std::string> once;
-  std::set<std::filesystem::path> seen;
-  for (const std::string& file : files) {
-    std::error_code error;
-    const std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
-    if (seen.insert(error ? std::filesystem::path(file) : path).second) once.push_back(file);
-  }
-  return once;
-}
-
 }  // namespace
 
 PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
@@ -104,35 +78,8 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::i
 }
 
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out) {
-  for (const auto* lines : {&clip.decisions, &clip.warnings})
+  for (const auto* lines : {clip.summary.empty() ? &clip.decisions : &clip.summary, &clip.warnings})
     for (const std::string& line : *lines) out << file << ": " << line << '\n';
-}
-
-std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs, std::ostream* messages) {
-  std::vector<std::string> files;
-  for (const std::string& input : inputs) {
-    std::error_code error;
-    const bool folder = std::filesystem::is_directory(input, error);
-    const auto entries =
-        folder ? std::filesystem::directory_iterator(input, error) : std::filesystem::directory_iterator();
-    if (!folder || error) {  // what cannot be looked into stands for itself: reading it says why
-      files.push_back(input);
-      continue;
-    }
-    const std::size_t before = files.size();
-    std::vector<std::string> skipped;
-    for (auto at = entries; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
-      const bool taken =
-          motion::import::is_motion_file(at->path()) && at->path().stem().extension() != ".clean";
-      (taken ? files : skipped).push_back(taken ? at->path().string() : at->path().filename().string());
-    }
-    if (messages != nullptr) tell_skipped(input, skipped, *messages);
-    if (files.size() == before && inputs.size() == 1)
-      throw DataError(input, "", "motion files in this folder", "none");
-    if (error || files.size() == before) files.push_back(input);
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
-  }
-  return each_once(files);
 }
 
 }  // namespace mimicx::pipeline

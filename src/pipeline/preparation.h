@@ -42,16 +42,8 @@ enum class Correction {
 PreparedMotion prepare_motion(const std::filesystem::path& path, const motion::import::ReadConfig& read,
                               Correction correction, int threads = 1);
 
-/// Prints what reading decided and what it warns of, a line each, behind the file's name.
+/// Prints what reading decided, many decisions in their summary, and what it warns of, a line each, behind
+/// the file's name.
 void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out);
-
-/// The motions that files and folders name: a folder stands for its motion files, sorted by name, but not for
-/// clean copies (NAME.clean.EXT) that an earlier run left there. A file that is named twice, in whatever
-/// spelling, is there once.
-/// A folder without motion files, or one that may not be read, stays in the list: reading it then says why.
-/// @param messages  gets a line per folder that names what of it is left out; null: nobody is told
-/// @throws DataError where the only input is a folder without motion files
-std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs,
-                                       std::ostream* messages = nullptr);
 
 }  // namespace mimicx::pipeline

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/npz.h"
+#include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/folder_lock.h"
 #include "pipeline/record/json.h"
@@ -26,9 +27,11 @@ struct Motions {
   bool all_good = true;
 };
 
-Motions read_motions(const std::vector<std::string>& files, const PretrainConfig& config,
+Motions read_motions(const std::vector<MotionInput>& inputs, const PretrainConfig& config,
                      const record::RunContext& context) {
   Motions motions;
+  const std::vector<std::string> files = paths_of(inputs);
+  std::set<std::string> taken;
   context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
@@ -37,10 +40,9 @@ Motions read_motions(const std::vector<std::string>& files, const PretrainConfig
           prepare_motion(files[i], config.read, config.fit ? Correction::kKeypoints : Correction::kPoses);
       tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
-      std::set<std::string> taken;
-      for (const auto& named : motions.features) taken.insert(named.name);
-      motions.features.push_back(
-          {record::unique_name(files[i], taken), motion::motion_features(motion.reference)});
+      const std::string name = record::unique_name(inputs[i].name, taken);
+      motions.features.push_back({name, motion::motion_features(motion.reference)});
+      taken.insert(name);
       motions.references.push_back(std::move(motion.reference));
     } catch (const std::exception& error) {
       reason = error.what();
@@ -103,20 +105,45 @@ void claim_options(const record::RunFolder& folder, const std::vector<std::strin
   claim(folder.root / "options.npz", {});
 }
 
+std::string short_text(const record::Json& json) {
+  constexpr std::size_t kMost = 60;
+  const std::string text = json.dump();
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
+/// What a file holds; null where it is no JSON.
+record::Json json_or_null(const std::filesystem::path& path) {
+  try {
+    return record::Json::parse(read_file(path));
+  } catch (const record::JsonError&) {
+    return nullptr;
+  }
+}
+
+/// The first member, by its path, in which two records differ: "settings/gamma is 0.9 there, 0.92 here".
+std::string first_difference(const record::Json& there, const record::Json& here) {
+  if (!there.is_object() || !here.is_object())
+    return there == here ? "" : " is " + short_text(there) + " there, " + short_text(here) + " here";
+  for (const auto& [name, value] : here.items())
+    if (const std::string found = first_difference(there.value(name, nullptr), value); !found.empty())
+      return name + (found.starts_with(' ') ? "" : "/") + found;
+  return {};
+}
+
 /// How the run in the folder ended, where it is this one and its options are there to the last byte.
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs
 std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
                                                    const record::Json& record) {
   if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
-  const record::Json there = record::Json::parse(read_file(folder.manifest()), nullptr, false);
-  if (!there.is_object() || there.value("run", record::Json()) != record)
-    throw std::invalid_argument(folder.root.string() +
-                                " holds a pre-training of other settings or inputs: give another folder, or "
-                                "remove it first");
+  const record::Json there = json_or_null(folder.manifest());
+  const std::string difference = first_difference(there.value("run", nullptr), record);
+  if (!difference.empty())
+    throw std::invalid_argument(folder.root.string() + " holds another pre-training (" + difference +
+                                "): give another folder, or remove it first");
   const std::filesystem::path options = folder.root / "options.npz";
   if (!std::filesystem::exists(options) || there.value("checksum", "") != record::file_checksum(options))
     return std::nullopt;
-  for (const record::Json& input : there.at("inputs"))
+  for (const record::Json& input : there.at("inputs").elements())
     if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
   return record::RunOutcome::kAllGood;
 }
@@ -162,8 +189,10 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   options::Option option;
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
-    context.progress.start(name + ", encoder", 0.0, config.encoder.steps, "steps");
-    option.encoder = make_encoder(clips, config.encoder, training.seed, losses,
+    nn::AutoEncoderConfig encoder = config.encoder;
+    encoder.steps = encoder_steps(encoder, samples);
+    context.progress.start(name + ", encoder", 0.0, encoder.steps, "steps");
+    option.encoder = make_encoder(clips, encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
   }
   for (auto& clip : clips) clip = options::encoded_for(clip, {&option});
@@ -197,10 +226,14 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
 
 NamedValues settings_of(const PretrainConfig& config) {
   NamedValues values;
-  const record::Json settings = settings_json(config);  // items() looks into it, so it has to live that long
+  const record::Json settings = settings_json(config);  // items() looks into it
   for (const auto& [name, value] : settings.items())
     values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
   return values;
+}
+
+int encoder_steps(const nn::AutoEncoderConfig& config, std::int64_t samples) {
+  return static_cast<int>(std::clamp<std::int64_t>(samples / 10, 100, std::max(config.steps, 100)));
 }
 
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions) {
@@ -213,7 +246,8 @@ std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<
 }
 
 record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context) {
-  const std::vector<std::string> files = expand_inputs(config.inputs, &context.messages);
+  const std::vector<MotionInput> inputs = find_motions(config.inputs, config.out, &context.messages);
+  const std::vector<std::string> files = paths_of(inputs);
   const record::RunFolder folder{config.out};
   claim_options(folder, files, config.force);
   const record::FolderLock lock(folder.root);
@@ -225,7 +259,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   folder.create();
   write_file_atomically(folder.manifest(), record::Json({{"run", record}}).dump(1) + "\n");
 
-  const Motions motions = read_motions(files, config, context);
+  const Motions motions = read_motions(inputs, config, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
   const options::Clusters clusters = options::cluster_motions(motions.features, config.clusters);
   options::write_clusters(config.out / "clusters.json", clusters);

@@ -39,6 +39,10 @@ struct PretrainConfig {
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const PretrainConfig& config);
 
+/// Steps of an option's encoder: those of the settings, fewer where its policy gets under ten times as many
+/// samples, and at least 100.
+int encoder_steps(const nn::AutoEncoderConfig& config, std::int64_t samples);
+
 /// Samples of every option: in proportion to the square root of the number of its motions, since what a
 /// policy learns on one motion helps it on the next. @param motions  of every option, ≥ 1
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
+#include "core/error.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/record/json.h"
 
@@ -14,13 +14,14 @@ namespace {
 /// Whether the protocol's first column is a success rate.
 bool has_success(motion::Protocol protocol) { return protocol == motion::Protocol::kPhc; }
 
-ProtocolRow row_of(motion::Protocol protocol, const std::filesystem::path& truth,
-                   const std::filesystem::path& motion) {
+ProtocolRow row_of(motion::Protocol protocol, const std::string& name, const Pair& files,
+                   const motion::import::ReadConfig& read) {
   ProtocolRow row;
-  row.name = motion.stem().string();
+  row.name = name;
   row.values.resize(motion::protocol_columns(protocol).size());
   try {
-    const PairedMotion pair = read_pair(truth, motion);
+    if (files.motion.empty()) throw DataError(files.truth.string(), "", "a motion for this truth", "none");
+    const PairedMotion pair = read_pair(files, read);
     row.frames = pair.evaluated.frames();
     row.values = motion::evaluate_by(protocol, pair.evaluated, pair.truth);
   } catch (const std::exception& error) {
@@ -63,15 +64,13 @@ record::Json to_json(const std::vector<motion::ProtocolColumn>& columns,
 }  // namespace
 
 ProtocolTable evaluate_protocol(motion::Protocol protocol, const std::filesystem::path& truth,
-                                const std::filesystem::path& motions) {
+                                const std::filesystem::path& motions,
+                                const motion::import::ReadConfig& read) {
   ProtocolTable table;
   table.protocol = protocol;
   table.folder = motions.string();
-  const std::vector<std::string> names = motion_names(motions), truths = npz_names(truth);
-  std::set<std::string> all(names.begin(), names.end());
-  all.insert(truths.begin(), truths.end());
-  for (const std::string& name : all)
-    table.rows.push_back(row_of(protocol, truth / (name + ".npz"), motions / (name + ".npz")));
+  for (const auto& [name, pair] : paired(truth, motions))
+    table.rows.push_back(row_of(protocol, name, pair, read));
   return table;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/import/motion_file.h"
 #include "motion/protocol.h"
 
 namespace mimicx::pipeline {
@@ -26,9 +27,10 @@ struct ProtocolTable {
   std::vector<ProtocolRow> rows;  ///< a row per truth or motion, by name
 };
 
-/// @throws DataError for a path that is no folder, and where `motions` holds no .npz
+/// @throws DataError for a path that is not there, and where `motions` holds none
 ProtocolTable evaluate_protocol(motion::Protocol protocol, const std::filesystem::path& truth,
-                                const std::filesystem::path& motions);
+                                const std::filesystem::path& motions,
+                                const motion::import::ReadConfig& read = {});
 
 /// Over the samples of all rows that have values. @param succeeded  only of those that are a success
 std::vector<motion::MetricValue> pooled_row(const ProtocolTable& table, bool succeeded = false);

@@ -38,6 +38,7 @@ std::vector<std::string> as_recorded(const std::vector<std::string>& inputs,
 }
 
 std::map<std::string, std::string> sequence_names(const std::vector<std::string>& inputs,
+                                                  const std::map<std::string, std::string>& wanted,
                                                   const record::Manifest& manifest) {
   std::map<std::string, std::string> names;
   std::set<std::string> taken;
@@ -45,8 +46,13 @@ std::map<std::string, std::string> sequence_names(const std::vector<std::string>
     names[entry.input] = entry.name;
     taken.insert(entry.name);
   }
-  for (const std::string& input : inputs)
-    if (!names.contains(input)) taken.insert(names[input] = record::unique_name(input, taken));
+  for (const std::string& input : inputs) {
+    if (names.contains(input)) continue;
+    const auto found = wanted.find(input);
+    const std::string name =
+        found == wanted.end() ? std::filesystem::path(input).stem().string() : found->second;
+    taken.insert(names[input] = record::unique_name(name, taken));
+  }
   return names;
 }
 
@@ -57,7 +63,9 @@ void claim_run(const record::RunFolder& folder, const std::map<std::string, std:
     if (std::filesystem::is_directory(path, none)) return;  // its sequence fails, and says why
     continued ? outputs.claim_own(path) : outputs.claim(path);
   };
-  for (const std::filesystem::path& path : {folder.manifest(), folder.timing(), folder.report()}) claim(path);
+  for (const std::filesystem::path& path :
+       {folder.manifest(), folder.journal(), folder.timing(), folder.report()})
+    claim(path);
   for (const auto& [input, name] : names) {
     for (const std::filesystem::path& path : folder.files_of(name)) claim(path);
     claim(folder.clean(name, output::clean_suffix(input)));

@@ -24,7 +24,9 @@ std::vector<std::string> as_recorded(const std::vector<std::string>& inputs,
                                      const record::Manifest& manifest);
 
 /// Names of the inputs inside the folder: those of the manifest, else new ones in order.
+/// @param wanted  what inputs shall be called; others by their file names
 std::map<std::string, std::string> sequence_names(const std::vector<std::string>& inputs,
+                                                  const std::map<std::string, std::string>& wanted,
                                                   const record::Manifest& manifest);
 
 /// Claims everything that a run writes into its folder. In a folder that holds a run already, every file of

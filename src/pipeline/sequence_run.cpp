@@ -8,18 +8,22 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "core/file.h"
 #include "core/npz.h"
 #include "motion/clip_file.h"
 #include "pipeline/audit/audit.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/pose_verdict.h"
 #include "pipeline/audit/substeps.h"
+#include "pipeline/failure.h"
 #include "pipeline/kept_files.h"
 #include "pipeline/output/clean_copy.h"
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/folder_lock.h"
+#include "pipeline/record/journal.h"
 #include "pipeline/record/timing.h"
 #include "pipeline/reference_needs.h"
 #include "pipeline/report/run_report.h"
@@ -29,7 +33,11 @@
 namespace mimicx::pipeline {
 namespace {
 
-constexpr double kReportSeconds = 30.0;  ///< between reports while a run goes on
+constexpr std::size_t kDifferencesSaid = 4;  ///< between the settings of two runs
+
+/// Between reports while a run goes on: s, and in parts of the time that the last one took. A report reads
+/// all motions; so it costs a hundredth of the time, however many there are.
+constexpr double kReportSeconds = 30.0, kReportShare = 100.0;
 
 struct RunState {
   const RunConfig& config;
@@ -40,6 +48,7 @@ struct RunState {
   std::vector<record::Timing> timings;
   std::vector<std::string> inputs = {};           ///< as the manifest spells them
   std::map<std::string, std::string> names = {};  ///< of the inputs, in the folder
+  record::Journal journal{folder.journal()};
 };
 
 record::Manifest manifest_of(const RunConfig& config, const Method& method) {
@@ -64,17 +73,40 @@ record::Manifest open_manifest(const RunConfig& config, const Method& method,
   record::Manifest manifest = manifest_of(config, method);
   if (!std::filesystem::exists(folder.manifest())) return manifest;
   record::Manifest there = record::read_manifest(folder.manifest());
-  if (!there.same_settings(manifest))
-    throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + there.method +
-                                ", seed " + std::to_string(there.seed) + ", " +
-                                std::to_string(there.samples) + " samples, " + there.version + " for " +
-                                there.target + "): give another folder, or remove it first");
-  return there;
+  if (there.samples > 0 && there.samples < manifest.samples && manifest.differences(there, true).empty())
+    there.samples = manifest.samples;  // the trainings go on
+  const std::vector<std::string> differences = manifest.differences(there);
+  if (differences.empty()) return there;
+  std::string said;
+  for (std::size_t k = 0; k < std::min(differences.size(), kDifferencesSaid); ++k)
+    said += (k > 0 ? "; " : "") + differences[k];
+  if (differences.size() > kDifferencesSaid)
+    said += "; and " + std::to_string(differences.size() - kDifferencesSaid) + " more";
+  throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + said +
+                              "): give another folder, or remove it first");
 }
 
-void write_records(const RunState& run) {
+/// The run as its folder knows it, or a new one.
+RunState open_run(const RunConfig& config, const Method& method, const record::RunContext& context,
+                  const record::RunFolder& folder) {
+  RunState run{config,
+               method,
+               context,
+               folder,
+               open_manifest(config, method, folder),
+               record::read_timing(folder.timing())};
+  if (std::filesystem::exists(folder.manifest()))
+    record::replay_journal(folder.journal(), run.manifest, run.timings);
+  run.inputs = as_recorded(config.inputs, run.manifest);
+  run.names = sequence_names(run.inputs, config.names, run.manifest);
+  return run;
+}
+
+/// Everything that is known, in manifest and times instead of the journal.
+void write_records(RunState& run) {
   write_file_atomically(run.folder.manifest(), record::format_manifest(run.manifest));
   write_file_atomically(run.folder.timing(), record::format_timing(run.timings, run.manifest.sequences));
+  run.journal.clear();
 }
 
 record::Timing& timing_of(RunState& run, const std::string& name) {
@@ -101,12 +133,18 @@ void restore_files(const RunState& run, const record::SequenceEntry& entry,
     if (!fit && !reference) continue;
     if (!motion)
       motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads);
-    std::filesystem::create_directories(file.parent_path());
+    make_folder(file.parent_path());
     if (fit)
       motion::write_clip(file, motion->fitted);
     else
       output::write_reference(file, motion->input, motion->reference);
   }
+}
+
+/// Whether a training ended because its budget did, and there is more of it now.
+bool goes_on(const RunState& run, const record::SequenceEntry& there) {
+  return there.samples > 0 && there.samples < run.method.samples &&
+         (there.ending == record::Ending::kBudget || !there.ok);
 }
 
 /// Fills what is known of an input before any work. @return false where its earlier result still stands
@@ -122,6 +160,7 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
       (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
       (!run.config.gains || there->ending != record::Ending::kFollowed || has(run.folder.gains(entry.name)));
   if (!complete || !there->finished() || there->input_checksum != entry.input_checksum) return true;
+  if (goes_on(run, *there)) return true;
   const std::vector<std::string> damaged = damaged_files(run.folder, *there);
   if (std::find(damaged.begin(), damaged.end(), there->output) != damaged.end()) {
     run.context.messages << entry.name << ": " << there->output << " is damaged: made again\n";
@@ -159,7 +198,9 @@ JudgedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry)
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
   judge_reference(motion.needs, entry);
-  for (const auto* lines : {&entry.decisions, &entry.notes})
+  const std::vector<std::string>& summary = motion.input.summary;
+  for (const auto* lines :
+       {summary.empty() ? &std::as_const(entry.decisions) : &summary, &std::as_const(entry.notes)})
     for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
   return motion;
 }
@@ -206,7 +247,7 @@ void judge_sequence(const Method& method, const motion::Reference& reference, co
 }
 
 std::filesystem::path with_parents(const std::filesystem::path& file) {
-  std::filesystem::create_directories(file.parent_path());
+  make_folder(file.parent_path());
   return file;
 }
 
@@ -215,7 +256,7 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
                     record::SequenceEntry& entry) {
   const record::RunFolder& folder = run.folder;
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
-  output::write_reference(folder.reference(entry.name), motion.input, motion.reference);
+  output::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
   if (!motion.needs.frames.empty())
     record::write_feasibility(with_parents(folder.feasibility(entry.name)),
                               frame_feasibility(motion.needs, made.help));
@@ -239,6 +280,10 @@ bool do_sequence(RunState& run, record::SequenceEntry& entry, std::size_t& told)
   const double started = record::steady_seconds();
   const JudgedMotion motion = prepare_sequence(run, entry);
   told = entry.notes.size();
+  if (const record::SequenceEntry* there = run.manifest.find(entry.input);
+      there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
+    entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
+                          " samples; one begun with more would explore longer, and be another");
   entry.input_metrics = score_input(motion.input, motion.reference);
   const SimulatedSequence made = run.method.simulate(
       motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
@@ -315,14 +360,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context) {
   const record::RunFolder folder{config.out};
   const record::FolderLock lock(folder.root);
-  RunState run{config,
-               method,
-               context,
-               folder,
-               open_manifest(config, method, folder),
-               record::read_timing(folder.timing())};
-  run.inputs = as_recorded(config.inputs, run.manifest);
-  run.names = sequence_names(run.inputs, run.manifest);
+  RunState run = open_run(config, method, context, folder);
   std::vector<std::string> protect = config.protect;
   protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
   record::Outputs outputs(protect, config.force);
@@ -330,10 +368,13 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   folder.create();
   write_records(run);
   bool all_good = true;
-  double reported = record::steady_seconds();
+  double next_report = record::steady_seconds() + kReportSeconds;
   const auto report = [&] {
+    const double begun = record::steady_seconds();
+    write_records(run);
     report::write_report(folder, run.manifest);
-    reported = record::steady_seconds();
+    const double now = record::steady_seconds();
+    next_report = now + std::max(kReportSeconds, kReportShare * (now - begun));
   };
   const auto interrupted = [&](const std::string& name) {
     write_records(run);
@@ -346,17 +387,20 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     if (i > 0 && context.should_stop()) return interrupted(input);
     record::SequenceEntry entry;
     std::size_t told = 0;
+    bool kept = false;
     try {
-      if (begin_entry(run, input, entry) && do_sequence(run, entry, told)) return interrupted(entry.name);
+      kept = !begin_entry(run, input, entry);
+      if (!kept && do_sequence(run, entry, told)) return interrupted(entry.name);
     } catch (const std::exception& error) {
       entry.ok = false;
       entry.reason = error.what();
       entry.output.clear();  // so that the same command tries again
     }
     run.manifest.put(entry);
-    write_records(run);
-    if (i + 1 == run.inputs.size() || record::steady_seconds() - reported > kReportSeconds) report();
+    if (!kept) run.journal.append(entry, timing_of(run, entry.name));
+    if (i + 1 == run.inputs.size() || record::steady_seconds() > next_report) report();
     context.progress.finish(result_line(entry));
+    for (const std::string& line : what_next(entry, folder)) context.messages << "  " << line << '\n';
     for (std::size_t k = told; k < entry.notes.size(); ++k)
       context.messages << "  " << entry.notes[k] << '\n';
     const bool copied = copied_clean(run, entry);

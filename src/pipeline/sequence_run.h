@@ -5,10 +5,11 @@
 /// plans (plan.h), `adapt` plans, or arranges trained options and fine-tunes them (adapt.h). Everything
 /// around it is here, once for all.
 ///
-/// One input after the other; an input that fails is recorded with its reason and the others go on. The
-/// manifest is written after every input, so the same command continues a run that was interrupted: finished
-/// inputs are kept, a begun one is handed to the method again, and the files end up the same bytes as if
-/// nothing had happened. Every success is also written in its input's own format (clean_copy.h).
+/// One input after the other; an input that fails is recorded with its reason and the others go on. Every
+/// input is recorded when it is done (record/journal.h), so the same command continues a run that was
+/// interrupted: finished inputs are kept, a begun one is handed to the method again, and the files end up the
+/// same bytes as if nothing had happened. Every success is also written in its input's own format
+/// (clean_copy.h).
 ///
 /// What it never does: open any ground truth.
 #pragma once
@@ -16,6 +17,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +35,8 @@ namespace mimicx::pipeline {
 /// The settings that every run has, whatever its method.
 struct RunConfig {
   std::vector<std::string> inputs;  ///< as given; recorded as such
+  /// What inputs shall be called in the folder ("CMU/01/walk"); others go by their file names.
+  std::map<std::string, std::string> names = {};
   std::filesystem::path out;
   motion::import::ReadConfig read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/file.h"
 #include "core/npz.h"
 #include "core/parallel.h"
 #include "pipeline/training_log.h"
@@ -89,8 +90,7 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
 void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& environment,
           const TrainingConfig& config, const TrainingFiles& files, const Best& best, record::Ending ending,
           const record::Table& log) {
-  for (const auto* file : {&files.log, &files.falls, &files.checkpoint})
-    std::filesystem::create_directories(file->parent_path());
+  for (const auto* file : {&files.log, &files.falls, &files.checkpoint}) make_folder(file->parent_path());
   write_file_atomically(files.log, record::format_csv(log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;
@@ -176,6 +176,8 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   if (trainer.samples() == 0)  // the agents to start from compete, too
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
   if (config.samples == 0) ending = record::Ending::kBudget;
+  if (ending == record::Ending::kBudget && trainer.samples() < config.samples)
+    ending = record::Ending::kNone;  // there is more budget than the checkpoint had
   while (ending == record::Ending::kNone) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
     if (stats.samples >= config.samples) ending = record::Ending::kBudget;

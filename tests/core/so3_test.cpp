@@ -83,6 +83,9 @@ TEST(So3, TheAngleBetweenIsThatOfTheRotationBetween) {
     EXPECT_LT((turn * a.normalized() - b.normalized()).norm(), 1e-12);
     EXPECT_NEAR(log_map(turn).norm(), angle_between(a, b), 1e-12);
     EXPECT_NEAR(log_map(turn).dot(a), 0.0, 1e-12);  // no twist on the way
+    EXPECT_EQ(turn.coeffs(), Quaterniond::FromTwoVectors(a, b).coeffs()) << "what Eigen makes of it";
+    const Quaterniond half = rotation_between(a, -2.0 * a);
+    EXPECT_LT((half * a + a).norm(), 1e-6 * a.norm());
   }
   for (const double angle : {0.0, 1e-9, kPi - 1e-9, kPi})
     EXPECT_NEAR(angle_between(Vector3d::UnitX(), {3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.0}), angle,

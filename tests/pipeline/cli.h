@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "motion/import/world.h"
 #include "pipeline/standing_clip.h"
@@ -18,8 +20,9 @@ struct Call {
   std::string text;  ///< both streams
 };
 
-inline Call mimicx(const std::string& arguments) {
-  FILE* pipe = popen((std::string(MIMICX_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
+/// What a shell makes of a line.
+inline Call shell(const std::string& line) {
+  FILE* pipe = popen(line.c_str(), "r");
   Call call{-1, {}};
   char buffer[4096];
   while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) call.text.append(buffer, n);
@@ -28,9 +31,26 @@ inline Call mimicx(const std::string& arguments) {
   return call;
 }
 
+inline Call mimicx(const std::string& arguments) {
+  std::string line = MIMICX_BINARY;
+  line.append(" ").append(arguments).append(" 2>&1");
+  return shell(line);
+}
+
 inline bool says(const Call& call, const std::string& words) {
   return call.text.find(words) != std::string::npos;
 }
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+inline constexpr const char* kCommands[] = {"run",     "plan",    "pretrain", "adapt",       "imitate",
+                                            "fit",     "cluster", "evaluate", "info",        "convert",
+                                            "corrupt", "audit",   "synth",    "export-mjcf", "config"};
 
 struct Cli : testing::Test {
   std::string path(const std::string& name) const { return (folder.path / name).string(); }

@@ -189,8 +189,10 @@ TEST_F(CliOutputs, ANameThatIsNoUtf8PassesThroughEveryRecord) {
 
 TEST_F(CliOutputs, ASecondProcessOnOneFolderIsRefusedInOneLine) {
   const record::FolderLock lock(path("run"));
-  for (const char* command : {"imitate ", "plan ", "pretrain "}) {
-    const Call call = mimicx(command + path("in/w.npz") + " --threads 1 --out " + path("run"));
+  for (const std::string& command :
+       {"imitate " + path("in/w.npz"), "plan " + path("in/w.npz"), "pretrain " + path("in/w.npz"),
+        "fit " + path("in/w.npz"), "corrupt " + path("in/w.npz"), std::string("synth --kinds wave")}) {
+    const Call call = mimicx(command + " --out " + path("run"));
     EXPECT_EQ(call.status, 2) << call.text;
     EXPECT_EQ(call.text, "mimicx: " + path("run") + ": another mimicx is writing to this folder\n");
   }

@@ -108,13 +108,6 @@ TEST_F(Cli, CorruptSaysInALineWhatItLeavesOutAndDoesTheRest) {
   EXPECT_TRUE(std::filesystem::exists(path("b/noisy/good.npz")));
 }
 
-TEST_F(Cli, CorruptBeginsItsHelpWithExamples) {
-  const Call help = mimicx("corrupt --help");
-  EXPECT_EQ(help.status, 0);
-  EXPECT_LT(help.text.find("mimicx corrupt mocap/ --out bench"), help.text.find("Usage:"));
-  EXPECT_LT(help.text.find("mimicx corrupt walk.bvh --noise gvhmr,drift=0"), help.text.find("Usage:"));
-}
-
 TEST_F(Cli, CorruptKnowsItsNoises) {
   motion::write_clip(path("x.npz"), standing_clip(20));
   const std::string start = "corrupt " + path("x.npz") + " --out " + path("b") + " --noise ";

@@ -334,6 +334,37 @@ def check_a_camera_path():
         assert np.linalg.norm(-E[:3, :3].T @ E[:3, 3] - y_to_z @ eye) < 0.03
 
 
+def check_which_file_is_wrong_and_how():
+    with open("results.pkl", "wb") as file:
+        pickle.dump(GVHMR, file)
+    with open("half.pkl", "wb") as file:
+        file.write(pickle.dumps(GVHMR)[:999])
+    with open("lacking.pkl", "wb") as file:
+        pickle.dump({key: value for key, value in GVHMR.items() if key != "smpl_params_incam"}, file)
+    np.save("points.npy", POINTS)
+    np.save("flat.npy", POINTS[:, :, :2])
+    np.save("short.npy", POINTS[:4])
+    np.save("path.npy", np.zeros((3, 7)))
+    os.makedirs("empty", exist_ok=True)
+    points = "--keypoints", "points.npy", "--static"
+    for arguments, said in (
+            (("points.npy", *points), "points.npy: expected results of GVHMR"),
+            (("points.npy", *points), "found an array of shape (7, 17, 3): keypoints? They go behind --keypoints"),
+            (("results.pkl", "--keypoints", "results.pkl", "--static"), "results.pkl: expected keypoints (T, K, 3)"),
+            (("results.pkl", "--keypoints", "flat.npy", "--static"), "flat.npy: expected keypoints (T, K, 3)"),
+            (("results.pkl", "--keypoints", "flat.npy", "--static"), "found an array of shape (7, 17, 2)"),
+            (("results.pkl", "--keypoints", "short.npy", "--static"), "short.npy: expected keypoints of the 7 frames"),
+            (("results.pkl", "--keypoints", "short.npy", "--static"), "found 4 frames"),
+            (("results.pkl", "--keypoints", "none.npy", "--static"), "none.npy: expected keypoints (T, K, 3), found"),
+            (("results.pkl", "--keypoints", "points.npy", "--slam", "path.npy"), "path.npy: expected a camera's path"),
+            (("half.pkl",), "half.pkl: expected results of GVHMR"),
+            (("half.pkl",), "cannot be read (UnpicklingError"),
+            (("lacking.pkl",), "lacking.pkl: expected 'smpl_params_incam' in results"),
+            (("empty",), "empty: expected results of GVHMR"), (("none.pkl",), "found no such file")):
+        status, complaint, _ = convert(*arguments)
+        assert status == 1 and said in complaint and len(complaint.splitlines()) == 1, (arguments, said, complaint)
+
+
 def check_refusals():
     class Evil:
         def __reduce__(self):
@@ -355,6 +386,6 @@ def check_refusals():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for check in (check_plain_pickle, check_torch_zip, check_joblib, check_several_people, check_tram,
-                  check_a_static_camera, check_a_camera_path, check_refusals):
+                  check_a_static_camera, check_a_camera_path, check_which_file_is_wrong_and_how, check_refusals):
         check()
         print(check.__name__, "ok")

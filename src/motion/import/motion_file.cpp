@@ -8,12 +8,14 @@
 #include <system_error>
 
 #include "core/file.h"
+#include "core/npy_header.h"
 #include "motion/clip_file.h"
 #include "motion/import/body_model.h"
 #include "motion/import/bvh.h"
 #include "motion/import/bvh_write.h"
 #include "motion/import/clip_checks.h"
 #include "motion/import/deepmimic.h"
+#include "motion/import/joint_positions.h"
 #include "motion/import/motionx.h"
 #include "motion/import/plausibility.h"
 #include "motion/import/retarget.h"
@@ -24,6 +26,7 @@ namespace {
 
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
 constexpr std::string_view kHierarchy = "hierarchy";  // in any case
+constexpr std::size_t kHeaderBytes = 1024;            ///< an npy header fits in
 constexpr std::size_t kFirstBytes = 64;               ///< bytes that tell a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
 constexpr double kFloorWorthSaying = 0.05;  ///< m
@@ -182,6 +185,26 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+/// "0.0254 m" as people call it.
+std::string unit_name(double metres) {
+  for (const auto& [name, size] : {std::pair("metres", 1.0), {"centimetres", 0.01}, {"millimetres", 0.001}})
+    if (std::abs(metres / size - 1.0) < 1e-6) return name;
+  return "unit " + short_number(metres) + " m";
+}
+
+/// What was decided of a foreign skeleton, in three lines.
+std::vector<std::string> summary_of(const std::string& format, const RetargetReport& report, bool standard,
+                                    double fps) {
+  const std::string rate = short_number(fps) + " frames per second, ";
+  if (report.own) return {format + " of this program: " + rate + "y up, metres"};
+  return {format + ": " + rate + axis_name(report.up) + " up, " + unit_name(report.scale),
+          std::string(standard ? "standard body" : "body shape fitted") + ", joints " +
+              short_number(report.mean_residual_mm) +
+              " mm from the skeleton's in the mean; neutral pose: " + report.neutral,
+          "moved " + short_number(std::abs(report.lift)) + " m " + (report.lift < 0.0 ? "down" : "up") +
+              " to the floor; --verbose tells every decision"};
+}
+
 /// A motion of a foreign skeleton on our body, axes and unit settled.
 Clip retargeted(const SkeletonMotion& motion, const std::string& format, const ReadConfig& o) {
   RetargetConfig config;
@@ -189,13 +212,35 @@ Clip retargeted(const SkeletonMotion& motion, const std::string& format, const R
   config.scale = o.scale.value_or(0.0);
   config.up = o.up;
   config.joint_map = o.joint_map;
-  Clip clip = retarget(motion, config);
+  RetargetReport report;
+  Clip clip = retarget(motion, config, &report);
   clip.decisions.insert(clip.decisions.begin(), "format: " + format);
+  if (!o.verbose) clip.summary = summary_of(format, report, o.standard_body, o.fps.value_or(clip.fps));
   return clip;
+}
+
+/// The shape that an npy header tells; empty where it is damaged.
+std::vector<std::size_t> header_shape(const std::string& bytes) {
+  try {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    return parse_npy_header(data, bytes.size(), "", "").shape;
+  } catch (const std::exception&) {  // reading the file says what is wrong
+    return {};
+  }
+}
+
+/// Results of video estimators are pickles, alone or in torch's archives, and never read here.
+bool is_pickled(const std::string& bytes, const std::filesystem::path& path) {
+  const std::string suffix = lower_case(path.extension().string());
+  return suffix == ".pt" || suffix == ".pth" || suffix == ".pkl" || bytes.starts_with("\x80");
 }
 
 Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& o) {
   const std::string name = path.stem().string();
+  if (is_pickled(bytes, path))
+    throw DataError(path.string(), "", "a motion (npz, npy, BVH or DeepMimic)",
+                    "a pickle of Python's: of GVHMR, WHAM or TRAM, tools/convert_video_results.py makes a "
+                    "motion of it");
   switch (recognise(bytes)) {
     case MotionFormat::kNpz: {
       Clip clip = clip_from(parse_npz(bytes, path.string()), name);
@@ -204,7 +249,10 @@ Clip read_any(const std::string& bytes, const std::filesystem::path& path, const
     }
     case MotionFormat::kNpy: {
       const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-      return motionx_from(parse_npy(data, bytes.size(), path.string(), ""), name, path.string(), !o.scale);
+      const NpyArray array = parse_npy(data, bytes.size(), path.string(), "");
+      if (!is_positions(array.shape)) return motionx_from(array, name, path.string(), !o.scale);
+      return retargeted(skeleton_of_positions(array, name, path.string()),
+                        array.shape.size() == 2 ? "HumanML3D features" : "joint positions", o);
     }
     case MotionFormat::kBvh:
       return retargeted(parse_bvh(bytes, path), "BVH", o);
@@ -258,14 +306,17 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
   Clip clip = read_any(bytes, path, config);
   mend_angles(path.string(), clip);
   const MotionFormat format = recognise(bytes);
-  const bool skeleton = format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
+  const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));
+  const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
   const bool believed = !skeleton && (clip.body_model == "mimicx" || clip.rest_joints.has_value());
   if (!skeleton) {
     choose_body(config, clip);
     settle_scale(config, believed, clip);
     settle_up(config, believed, format == MotionFormat::kNpy ? 'y' : 'z', clip);
   }
+  const double fps = clip.fps;
   settle_fps(config, believed, clip);
+  const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_floor(config, believed, clip);
   if (!believed) leave_out_t_pose(clip);
   name_jumps(clip);
@@ -273,7 +324,16 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
   require_near(path, clip);
   require_in_view(path.string(), clip);
+  if (relabelled) clip.summary.clear();
   return clip;
+}
+
+bool holds_positions(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kHeaderBytes, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return recognise(start) == MotionFormat::kNpy && is_positions(header_shape(start));
 }
 
 bool is_motion_file(const std::filesystem::path& path) {

@@ -1,7 +1,8 @@
 /// Motions as people have them on disk: the format is recognised from the content, foreign conventions end
 /// here, and everything that was decided on the way stands in `Clip::decisions`.
 ///
-/// Formats: AMASS-like npz (clip.h), Motion-X npy (motionx.h), BVH (bvh.h), DeepMimic JSON (deepmimic.h).
+/// Formats: AMASS-like npz (clip.h), Motion-X npy (motionx.h), joint positions npy (joint_positions.h), BVH
+/// (bvh.h), DeepMimic JSON (deepmimic.h).
 /// Traps and thresholds: docs/formats.md.
 ///
 /// Files of our own layout (body_model "mimicx") are believed: z up, metres. What the user says
@@ -26,6 +27,7 @@ struct ReadConfig {
   bool standard_body = false;   ///< ignore the file's body shape
   std::filesystem::path smplx;  ///< licensed SMPL-X model: gives the body its joints where betas are SMPL-X's
   std::filesystem::path joint_map;  ///< more joint names for foreign skeletons
+  bool verbose = false;             ///< no summary of the decisions: all of them are told
 
   /// Everything that was set, in one line; empty: nothing. Settings that read alike have equal lines.
   std::string text() const;
@@ -40,6 +42,9 @@ Clip read_motion(const std::filesystem::path& path, const ReadConfig& config = {
 
 /// The same from bytes in memory. @param path  for messages; its stem is the motion's name
 Clip motion_from(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& config = {});
+
+/// Whether the content of a file is joint positions alone: there is no writing it back.
+bool holds_positions(const std::filesystem::path& path);
 
 /// Whether a folder's entry is taken for a motion: by its suffix; a .txt by its content.
 bool is_motion_file(const std::filesystem::path& path);

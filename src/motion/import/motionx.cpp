@@ -31,7 +31,11 @@ void require_layout(const NpyArray& array, const std::string& path) {
   if (array.shape.size() == 2 && array.shape[1] == kMotionxColumns && array.shape[0] > 0) return;
   std::string shape;
   for (const std::size_t n : array.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(n);
-  throw DataError(path, "", "a Motion-X array of shape (frames, 322)", "shape (" + shape + ")");
+  throw DataError(
+      path, "",
+      "a Motion-X array of shape (frames, 322), joint positions (frames, 22, 3) or HumanML3D's features "
+      "(frames, 263)",
+      "shape (" + shape + ")");
 }
 
 void read_betas(const MatrixXd& values, Clip& clip) {

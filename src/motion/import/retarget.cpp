@@ -265,8 +265,9 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   solve(character, calibration, source.frames, report.leg_ratio, clip);
   level_soles(source.neutral_stands, calibration, clip);
   solve(character, calibration, source.frames, report.leg_ratio, clip);
-  const double lift = put_on_floor(clip);
-  measure(clip, source, lift, report);
+  report.lift = put_on_floor(clip);
+  report.neutral = source.neutral_name;
+  measure(clip, source, report.lift, report);
   clip.decisions.push_back(sentence(
       config.standard_body
           ? "standard body: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the mean"
@@ -291,7 +292,8 @@ Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config, Retarg
   clip.decisions = motion.decisions;
   RetargetReport local;
   const bool as_is = !config.standard_body && config.scale == 0.0 && !config.up && config.joint_map.empty();
-  if (!(as_is && take_own_skeleton(motion, clip))) retarget_foreign(motion, config, local, clip);
+  local.own = as_is && take_own_skeleton(motion, clip);
+  if (!local.own) retarget_foreign(motion, config, local, clip);
   for (int t = 0; t < clip.frames(); ++t) {
     bool finite = clip.trans[t].allFinite();
     for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();

@@ -39,6 +39,9 @@ struct RetargetReport {
   double scale = 1.0;                 ///< metres per file unit
   char up = 'y';                      ///< the file's up axis, as in the settings
   double leg_ratio = 1.0;             ///< the character's legs over the skeleton's
+  double lift = 0.0;                  ///< by which the motion was moved up onto the floor, m
+  std::string neutral;                ///< "the rest pose"
+  bool own = false;                   ///< a skeleton of `write_bvh`, taken over as it is: nothing was found
 };
 
 /// @return a clip of body model "mimicx", z up, metres, at the file's frame rate, standing on z = 0

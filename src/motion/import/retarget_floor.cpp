@@ -1,6 +1,7 @@
 #include "motion/import/retarget_floor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <span>
@@ -88,7 +89,7 @@ double put_on_floor(Clip& clip) {
   const double lift = -ranked(heights, static_cast<int>(heights.size() / (stands ? 2 : 20)));
   for (Vector3d& trans : clip.trans) trans.z() += lift;
   char text[64];
-  std::snprintf(text, sizeof text, "floor: moved by %+.3f m", lift);
+  std::snprintf(text, sizeof text, "floor: moved %.3f m %s", std::abs(lift), lift < 0.0 ? "down" : "up");
   clip.decisions.emplace_back(text);
   return lift;
 }

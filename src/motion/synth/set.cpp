@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/file.h"
 #include "motion/clip_file.h"
 
 namespace mimicx::motion::synth {
@@ -86,8 +87,8 @@ SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config)
 void write_synth_set(const std::filesystem::path& directory, const SynthSetConfig& config,
                      const std::function<void(std::size_t index, const Clip& truth)>& written) {
   const std::vector<SynthConfig> clips = clips_of_set(config);
-  std::filesystem::create_directories(directory / "truth");
-  std::filesystem::create_directories(directory / "noisy");
+  make_folder(directory / "truth");
+  make_folder(directory / "noisy");
   for (std::size_t i = 0; i < clips.size(); ++i) {
     const SynthPair pair = make_synth_pair(clips[i], config);
     const std::string file = pair.truth.name + ".npz";

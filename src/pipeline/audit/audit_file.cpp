@@ -62,16 +62,22 @@ SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
   return motion;
 }
 
-std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone) {
-  const Npz npz = read_npz(path);
-  if (holds_substeps(npz)) {
-    const SubstepMotion motion = read_substeps(npz);
-    return {audit_steps(motion), audit_replayed_steps(motion)};
+std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
+                              const motion::import::ReadConfig& read) {
+  const std::string bytes = read_file(path);
+  if (motion::import::recognise(bytes) == motion::import::MotionFormat::kNpz) {
+    const Npz npz = parse_npz(bytes, path.string());
+    if (holds_substeps(npz)) {
+      const SubstepMotion motion = read_substeps(npz);
+      return {audit_steps(motion), audit_replayed_steps(motion)};
+    }
+    if (npz.has("joint_torques") && !poses_alone)
+      return {audit_frames(simulated_frames(motion::clip_from(npz, path.stem().string()), npz),
+                           physics::SimulationConfig{})};
   }
-  const motion::Clip clip = motion::read_clip(path);
-  if (npz.has("joint_torques") && !poses_alone)
-    return {audit_frames(simulated_frames(clip, npz), physics::SimulationConfig{})};
-  if (clip.frames() < 3) throw DataError(npz.path, "", "at least 3 frames", std::to_string(clip.frames()));
+  const motion::Clip clip = motion::import::motion_from(bytes, path, read);
+  if (clip.frames() < 3)
+    throw DataError(path.string(), "", "at least 3 frames", std::to_string(clip.frames()));
   return {audit_poses(clip)};
 }
 

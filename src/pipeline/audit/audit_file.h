@@ -5,14 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "motion/import/motion_file.h"
 #include "pipeline/audit/audit.h"
 
 namespace mimicx::pipeline::audit {
 
 /// Physics steps: as recorded and replayed. A motion with forces: its frames. Any other: its poses alone.
+/// Motions of every format that `convert` reads.
 /// @param poses_alone  look at nothing but the poses, whatever a motion holds besides
+/// @param read         of motions without forces
 /// @throws DataError naming file and member, also where a motion has torques but not all that belongs to them
-std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone);
+std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
+                              const motion::import::ReadConfig& read = {});
 
 /// A motion that has its forces beside it.
 /// @param npz  the archive that the clip was read from

@@ -72,7 +72,7 @@ ClusterBranch branch_of(const record::Json& json) {
 
 MotionCluster cluster_of(const record::Json& json) {
   MotionCluster cluster;
-  cluster.description = json.at("description");
+  cluster.description = json.at("description").get<std::string>();
   cluster.members = json.at("members").get<std::vector<std::string>>();
   cluster.centre = unnamed(json.at("centre"));
   cluster.diameter = json.at("diameter");
@@ -174,11 +174,12 @@ Clusters read_clusters(const std::filesystem::path& path) {
     out.settings.radius = settings.at("radius");
     if (!settings.at("clusters").is_null()) out.settings.clusters = settings.at("clusters").get<int>();
     out.settings.seed = settings.at("seed");
-    for (const auto& branch : json.at("tree")) out.tree.push_back(branch_of(branch));
-    for (const auto& cluster : json.at("clusters")) out.clusters.push_back(cluster_of(cluster));
+    for (const record::Json& branch : json.at("tree").elements()) out.tree.push_back(branch_of(branch));
+    for (const record::Json& cluster : json.at("clusters").elements())
+      out.clusters.push_back(cluster_of(cluster));
     if (out.clusters.empty()) throw DataError(path.string(), "clusters", "at least one", "none");
     return out;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const record::JsonError& error) {
     throw DataError(path.string(), "", "clusters of motions", error.what());
   }
 }

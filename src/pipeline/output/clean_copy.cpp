@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/file.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 
@@ -30,7 +31,8 @@ std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
 
 std::string clean_suffix(const std::filesystem::path& input) {
   const std::string suffix = motion::import::lower_suffix(input);
-  return motion::import::is_written(suffix) ? suffix : ".npz";
+  const bool written = motion::import::is_written(suffix) && !motion::import::holds_positions(input);
+  return written ? suffix : ".npz";
 }
 
 motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like) {
@@ -49,7 +51,7 @@ std::string write_clean_copy(const std::filesystem::path& motion, const std::fil
   motion::Clip clean = motion::read_clip(motion);
   if (input_rate && original.fps != clean.fps) clean = at_rate_of(clean, original);
   const std::string body = settle_body(original, clean);
-  if (copy.has_parent_path()) std::filesystem::create_directories(copy.parent_path());
+  make_folder(copy.parent_path());
   motion::import::write_motion(copy, clean);
   return body;
 }

@@ -7,15 +7,13 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/error.h"
+#include "core/file.h"
 #include "pipeline/record/outputs.h"
 
 namespace mimicx::pipeline::record {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw DataError(folder.string(), "", "a folder that can be made", error.message());
+  make_folder(folder);
   descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0)
     throw DataError(folder.string(), "", "a folder", std::generic_category().message(errno));

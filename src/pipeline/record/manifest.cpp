@@ -1,124 +1,46 @@
 #include "pipeline/record/manifest.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string_view>
+#include <map>
 
-#include "core/containers.h"
 #include "core/error.h"
-#include "pipeline/record/json.h"
+#include "core/file.h"
 #include "pipeline/record/names.h"
-#include "pipeline/record/run_folder.h"
+#include "pipeline/record/sequence_json.h"
+#include "pipeline/record/table.h"
 
 namespace mimicx::pipeline::record {
 namespace {
 
-constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
-                                                 "limit-seconds", "followed", "lost"};
-
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
-Json to_json(const NamedValues& values) {
-  Json json = Json::object();
-  for (const auto& [name, value] : values) json[name] = number(value);
-  return json;
-}
-
-Json to_json(const FileChecksums& files) {
-  Json json = Json::object();
-  for (const auto& [name, checksum] : files) json[to_utf8(name)] = checksum;
-  return json;
-}
-
-NamedValues named_values(const Json& json) {
-  NamedValues values;
-  for (const auto& [name, value] : json.items()) values.emplace_back(name, number(value));
-  return values;
-}
-
-Json to_json(const SequenceEntry& e) {
-  return {{"name", to_utf8(e.name)},
-          {"input", to_utf8(e.input)},
-          {"input_checksum", e.input_checksum},
-          {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
-          {"status", e.ok ? "ok" : "failed"},
-          {"reason", e.reason},
-          {"method", e.method},
-          {"ending", kEndings[static_cast<int>(e.ending)]},
-          {"frames", e.frames},
-          {"fps", e.fps},
-          {"seed", e.seed},
-          {"samples", e.samples},
-          {"reward_before", number(e.reward_before)},
-          {"reward_after", number(e.reward_after)},
-          {"arrangement", e.arrangement},
-          {"plan", to_json(e.plan)},
-          {"policy", to_json(e.policy)},
-          {"fit", to_json(e.fit)},
-          {"input_metrics", to_json(e.input_metrics)},
-          {"metrics_before", to_json(e.metrics_before)},
-          {"ok_before", e.ok_before},
-          {"metrics", to_json(e.metrics)},
-          {"audit", to_json(e.audit)},
-          {"preparation", to_json(e.preparation)},
-          {"feasibility", to_json(e.feasibility)},
-          {"decisions", e.decisions},
-          {"notes", e.notes},
-          {"files", to_json(e.files)}};
-}
-
-Ending ending_of(const std::string& name) {
-  const auto found = std::find(kEndings.begin(), kEndings.end(), name);
-  return static_cast<Ending>(found - kEndings.begin());
-}
-
-SequenceEntry entry_of(const Json& json) {
-  SequenceEntry e;
-  e.name = from_utf8(json.at("name"));
-  e.input = from_utf8(json.at("input"));
-  e.input_checksum = json.at("input_checksum");
-  if (!json.at("output").is_null()) e.output = from_utf8(json.at("output"));
-  e.ok = json.at("status") == "ok";
-  e.reason = json.at("reason");
-  e.method = json.value("method", "");
-  e.ending = ending_of(json.at("ending"));
-  e.frames = json.at("frames");
-  e.fps = json.at("fps");
-  e.seed = json.at("seed");
-  e.samples = json.at("samples");
-  e.reward_before = number(json.at("reward_before"));
-  e.reward_after = number(json.at("reward_after"));
-  e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
-  if (json.contains("plan")) e.plan = named_values(json.at("plan"));
-  if (json.contains("policy")) e.policy = named_values(json.at("policy"));  // as below
-  e.fit = named_values(json.at("fit"));
-  e.metrics_before = named_values(json.at("metrics_before"));
-  e.ok_before = json.at("ok_before");
-  e.input_metrics = named_values(json.at("input_metrics"));
-  e.metrics = named_values(json.at("metrics"));
-  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // older manifests have none
-  e.preparation = named_values(json.at("preparation"));
-  if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above
-  e.decisions = json.value("decisions", std::vector<std::string>{});
-  e.notes = json.at("notes").get<std::vector<std::string>>();
-  if (json.contains("files"))  // as above
-    for (const auto& [name, checksum] : json.at("files").items())
-      e.files.emplace_back(from_utf8(name), checksum);
-  return e;
-}
-
-bool same(const NamedValues& a, const NamedValues& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+/// Every setting by its name, as text.
+std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
+  std::vector<std::pair<std::string, std::string>> texts = {{"version", m.version},
+                                                            {"instruction set", m.target},
+                                                            {"method", m.method},
+                                                            {"seed", std::to_string(m.seed)},
+                                                            {"samples", std::to_string(m.samples)},
+                                                            {"options", m.options},
+                                                            {"reading", m.reading}};
+  for (const auto& [name, value] : m.settings) texts.emplace_back(name, format_number(value));
+  return texts;
 }
 
 }  // namespace
 
-bool Manifest::same_settings(const Manifest& other) const {
-  return version == other.version && target == other.target && seed == other.seed &&
-         samples == other.samples && method == other.method && options == other.options &&
-         reading == other.reading && same(settings, other.settings);
+std::vector<std::string> Manifest::differences(const Manifest& there, bool but_samples) const {
+  std::vector<std::string> found;
+  std::map<std::string, std::string> others;
+  for (const auto& [name, text] : texts_of(there)) others[name] = text;
+  const auto shown = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
+  for (const auto& [name, text] : texts_of(*this)) {
+    const std::string other = others.contains(name) ? others.at(name) : "not set";
+    if (other != text && !(but_samples && name == "samples"))
+      found.push_back(name + " is " + shown(other) + " there, " + shown(text) + " here");
+    others.erase(name);
+  }
+  for (const auto& [name, text] : others)
+    found.push_back(name + " is " + shown(text) + " there, not set here");
+  return found;
 }
 
 const SequenceEntry* Manifest::find(const std::string& input) const {
@@ -148,7 +70,7 @@ std::string format_manifest(const Manifest& manifest) {
                  {"settings", to_json(manifest.settings)}}},
                {"sequences", Json::array()}};
   for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1) + "\n";
 }
 
 Manifest read_manifest(const std::filesystem::path& path) {
@@ -157,17 +79,17 @@ Manifest read_manifest(const std::filesystem::path& path) {
     const Json json = Json::parse(text);
     const Json& run = json.at("run");
     Manifest manifest;
-    manifest.version = run.at("version");
-    manifest.target = run.at("target");
+    manifest.version = run.at("version").get<std::string>();
+    manifest.target = run.at("target").get<std::string>();
     manifest.seed = run.at("seed");
     manifest.samples = run.at("samples");
-    manifest.method = run.value("method", "");
-    manifest.options = run.at("options");
-    manifest.reading = from_utf8(run.value("reading", ""));
+    manifest.method = run.value("method", "").get<std::string>();
+    manifest.options = run.at("options").get<std::string>();
+    manifest.reading = from_utf8(run.value("reading", "").get<std::string>());
     manifest.settings = named_values(run.at("settings"));
-    for (const auto& e : json.at("sequences")) manifest.sequences.push_back(entry_of(e));
+    for (const Json& e : json.at("sequences").elements()) manifest.sequences.push_back(entry_of(e));
     return manifest;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const JsonError& error) {
     throw DataError(path.string(), "", "the manifest of a run", error.what());
   }
 }

@@ -5,32 +5,22 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "pipeline/record/outputs.h"
 
 namespace mimicx::pipeline::record {
 
 void RunFolder::create() const {
-  for (const char* part : {"motions", "references"}) {
-    std::error_code error;
-    std::filesystem::create_directories(root / part, error);
-    if (error) throw DataError((root / part).string(), "", "a folder that can be made", error.message());
-  }
+  for (const char* part : {"motions", "references"}) make_folder(root / part);
 }
 
-std::string unique_name(const std::filesystem::path& input, const std::set<std::string>& taken) {
-  const std::string stem = input.stem().string();
-  std::string name = stem;
-  for (int n = 2; taken.contains(name); ++n) name = stem + "-" + std::to_string(n);
+bool holds_run(const std::filesystem::path& folder) {
+  return is_own_file(folder / "manifest.json", "{\n \"run\"");
+}
+
+std::string unique_name(const std::string& wanted, const std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (int n = 2; taken.contains(name); ++n) name = wanted + "-" + std::to_string(n);
   return name;
-}
-
-std::vector<std::string> unique_names(const std::vector<std::string>& inputs) {
-  std::vector<std::string> names;
-  std::set<std::string> taken;
-  for (const std::string& input : inputs) {
-    names.push_back(unique_name(input, taken));
-    taken.insert(names.back());
-  }
-  return names;
 }
 
 std::string file_checksum(const std::filesystem::path& path) {

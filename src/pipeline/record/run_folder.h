@@ -1,6 +1,7 @@
 /// Where the files of a run stand, and how its inputs are named and told apart.
 ///
 ///     DIR/manifest.json          what was done with every input
+///     DIR/journal.jsonl          the same of what was done since, while the run goes on (journal.h)
 ///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
 ///     DIR/report.html            the run to look at
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
@@ -33,6 +34,7 @@ struct RunFolder {
   std::filesystem::path root;
 
   std::filesystem::path manifest() const { return root / "manifest.json"; }
+  std::filesystem::path journal() const { return root / "journal.jsonl"; }
   std::filesystem::path timing() const { return root / "timing.json"; }
   std::filesystem::path report() const { return root / "report.html"; }
   std::filesystem::path reference(const std::string& name) const {
@@ -87,12 +89,12 @@ struct RunFolder {
   void create() const;
 };
 
-/// Name of an input inside the folder: its file name without suffix, numbered from the second of the same
-/// name on ("walk", "walk-2"). @param taken  names given before
-std::string unique_name(const std::filesystem::path& input, const std::set<std::string>& taken);
+/// Whether a folder is that of a run, of whatever command.
+bool holds_run(const std::filesystem::path& folder);
 
-/// The names of several inputs, in order.
-std::vector<std::string> unique_names(const std::vector<std::string>& inputs);
+/// A name inside the folder, numbered from the second of the same name on ("walk", "walk-2").
+/// @param taken  names given before
+std::string unique_name(const std::string& wanted, const std::set<std::string>& taken);
 
 /// 64-bit FNV-1a of a file's bytes in hexadecimal: tells an input that changed. Not cryptographic.
 /// @throws DataError when the file cannot be read.

@@ -1,22 +1,20 @@
 #include "pipeline/record/timing.h"
 
+#include <map>
+
 #include "core/file.h"
-#include "pipeline/record/json.h"
-#include "pipeline/record/names.h"
+#include "pipeline/record/sequence_json.h"
 
 namespace mimicx::pipeline::record {
 
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences) {
+  std::map<std::string, std::int64_t> samples;
+  for (const SequenceEntry& e : sequences) samples[e.name] = e.samples;
   Json list = Json::array();
-  for (const auto& t : timings) {
-    Json json = {{"name", to_utf8(t.name)},
-                 {"seconds", t.seconds},
-                 {"planning_seconds", t.planning_seconds},
-                 {"training_seconds", t.training_seconds},
-                 {"threads", t.threads}};
-    for (const auto& e : sequences)
-      if (e.name == t.name && t.training_seconds > 0.0)
-        json["samples_per_second"] = static_cast<double>(e.samples) / t.training_seconds;
+  for (const Timing& t : timings) {
+    Json json = to_json(t);
+    if (const auto found = samples.find(t.name); found != samples.end() && t.training_seconds > 0.0)
+      json["samples_per_second"] = static_cast<double>(found->second) / t.training_seconds;
     list.push_back(json);
   }
   return Json({{"sequences", list}}).dump(1) + "\n";
@@ -25,16 +23,11 @@ std::string format_timing(const std::vector<Timing>& timings, const std::vector<
 std::vector<Timing> read_timing(const std::filesystem::path& path) {
   std::vector<Timing> timings;
   if (!std::filesystem::exists(path)) return timings;
-  const Json json = Json::parse(read_file(path), nullptr, false);
-  if (json.is_discarded() || !json.contains("sequences")) return timings;
-  for (const auto& t : json["sequences"]) {
-    Timing timing;
-    timing.name = from_utf8(t.value("name", ""));
-    timing.seconds = t.value("seconds", 0.0);
-    timing.planning_seconds = t.value("planning_seconds", 0.0);
-    timing.training_seconds = t.value("training_seconds", 0.0);
-    timing.threads = t.value("threads", 0);
-    timings.push_back(timing);
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const Json& t : json.at("sequences").elements()) timings.push_back(timing_of(t));
+  } catch (const JsonError&) {
+    timings.clear();
   }
   return timings;
 }

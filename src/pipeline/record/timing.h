@@ -6,18 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/record/manifest.h"
+#include "pipeline/record/sequence_entry.h"
 
 namespace mimicx::pipeline::record {
 
-/// Wall-clock record of one sequence, summed over interruptions.
-struct Timing {
-  std::string name;
-  double seconds = 0.0;           ///< of all work on it
-  double planning_seconds = 0.0;  ///< of planning
-  double training_seconds = 0.0;  ///< of training
-  int threads = 0;
-};
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
 /// Empty when there is no such file or it is unreadable: times are a convenience.
 std::vector<Timing> read_timing(const std::filesystem::path& path);

@@ -107,7 +107,7 @@ std::string format_report(const std::vector<ReportSequence>& sequences) {
   record::Json data = {{"sequences", record::Json::array()}};
   for (const auto& s : sequences) data["sequences"].push_back(to_json(s));
   // A "</script>" in a file name must not end the element that holds the data.
-  std::string text = data.dump(-1, ' ', false, record::Json::error_handler_t::replace);
+  std::string text = data.dump();
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
     text.replace(at, 2, "<\\/");
   return std::string(kReportPageBefore) + text + std::string(kReportPageAfter);

@@ -1,8 +1,10 @@
 #include "pipeline/report/run_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/npz.h"
@@ -16,6 +18,8 @@
 namespace mimicx::pipeline::report {
 namespace {
 
+/// Motions that one page holds: each takes a tenth of a megabyte per hundred frames.
+constexpr std::size_t kMostShown = 200;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string with_unit(const std::string& metric) {
@@ -24,10 +28,23 @@ std::string with_unit(const std::string& metric) {
   return metric;
 }
 
+/// "preparation: floor shift 0.32 mm" of floor_shift_mm: names in records have their unit last.
 std::string note_of(const std::string& step, const std::pair<std::string, double>& value) {
+  static const std::map<std::string, std::string> kUnits = {
+      {"mm", "mm"}, {"deg", "degrees"}, {"N", "N"}, {"Nm", "N m"}, {"J", "J"}, {"percent", "%"}};
+  std::string words = value.first, unit;
+  const std::size_t last = words.rfind('_');
+  if (const auto found = kUnits.find(words.substr(last + 1));
+      last != std::string::npos && found != kUnits.end()) {
+    unit = " " + found->second;
+    words.resize(last);
+  }
+  if (words.ends_with("_worst")) words.replace(words.size() - 6, 6, "_largest at frame");
+  std::replace(words.begin(), words.end(), '_', ' ');
+  const bool whole = unit.empty() && value.second == std::trunc(value.second);
   char text[32];
-  std::snprintf(text, sizeof text, " %.2f", value.second);
-  return step + ": " + value.first + text;
+  std::snprintf(text, sizeof text, whole ? " %.0f" : " %.2f", value.second);
+  return step + ": " + words + text + unit;
 }
 
 /// "options: 1 from frame 0, 3 from frame 42"
@@ -158,11 +175,35 @@ ReportSequence sequence_or_reason(const record::RunFolder& folder, const record:
   }
 }
 
+/// Which of the entries are shown with their motions: those that are no success first.
+std::vector<bool> shown(const std::vector<record::SequenceEntry>& entries) {
+  std::vector<bool> show(entries.size());
+  std::size_t count = 0;
+  for (const bool ok : {false, true})
+    for (std::size_t i = 0; i < entries.size() && count < kMostShown; ++i)
+      if (entries[i].ok == ok && !entries[i].output.empty()) show[i] = true, ++count;
+  return show;
+}
+
+/// What the manifest says of a motion that a page of so many leaves out.
+record::SequenceEntry without_motion(record::SequenceEntry entry) {
+  if (entry.output.empty()) return entry;
+  entry.notes.insert(entry.notes.begin(), "not shown: this page has the motions of " +
+                                              std::to_string(kMostShown) +
+                                              " files, those that are no success first");
+  entry.output.clear();
+  return entry;
+}
+
 }  // namespace
 
 void write_report(const record::RunFolder& folder, const record::Manifest& manifest) {
   std::vector<ReportSequence> sequences;
-  for (const auto& entry : manifest.sequences) sequences.push_back(sequence_or_reason(folder, entry));
+  const std::vector<bool> show = shown(manifest.sequences);
+  for (std::size_t i = 0; i < show.size(); ++i) {
+    const record::SequenceEntry& entry = manifest.sequences[i];
+    sequences.push_back(sequence_or_reason(folder, show[i] ? entry : without_motion(entry)));
+  }
   write_file_atomically(folder.report(), format_report(sequences));
 }
 

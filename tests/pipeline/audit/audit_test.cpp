@@ -9,6 +9,7 @@
 #include "pipeline/audit/audit_file.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/configurations.h"
+#include "pipeline/inputs.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/preparation.h"
 #include "pipeline/temporary_folder.h"
@@ -284,12 +285,12 @@ TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
 }
 
 TEST_F(CleanedAndRaw, EveryNoisyMotionOfTheTestSplitFailsAndEveryTruthPasses) {
-  for (const std::string& path : expand_inputs({split("noisy", "x").parent_path().string()})) {
+  for (const std::string& path : paths_of(find_motions({split("noisy", "x").parent_path().string()}))) {
     const Audit raw = audit_file(path, false).at(0);
     EXPECT_TRUE(fails_with(raw, "mean unexplained root force")) << path;
     EXPECT_TRUE(fails_with(raw, "of the frames; lowest point")) << path;
   }
-  for (const std::string& path : expand_inputs({split("truth", "x").parent_path().string()}))
+  for (const std::string& path : paths_of(find_motions({split("truth", "x").parent_path().string()})))
     EXPECT_EQ(all_failures(audit_file(path, false).at(0)), "") << path;
 }
 

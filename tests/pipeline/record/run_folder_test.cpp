@@ -11,9 +11,9 @@ namespace mimicx::pipeline::record {
 namespace {
 
 TEST(RunFolder, InputsOfOneFileNameGetNamesOfTheirOwn) {
-  EXPECT_EQ(unique_name("a/walk.npz", {}), "walk");
-  EXPECT_EQ(unique_name("b/walk.npz", {"walk"}), "walk-2");
-  EXPECT_EQ(unique_name("c/walk.npz", {"walk", "walk-2"}), "walk-3");
+  EXPECT_EQ(unique_name("walk", {}), "walk");
+  EXPECT_EQ(unique_name("walk", {"walk"}), "walk-2");
+  EXPECT_EQ(unique_name("walk", {"walk", "walk-2"}), "walk-3");
 }
 
 TEST(RunFolder, TheChecksumIsFnv1aAndSeesOneChangedBit) {

@@ -1,0 +1,36 @@
+/// `journal.jsonl`: what a run did since its manifest was written, a line per motion.
+///
+/// The manifest of 10,000 motions is 60 MB; writing all of it after every motion would cost more than the
+/// motions. While a run goes on it appends; at its end the manifest has everything, and the journal is gone.
+/// A process that was killed leaves it, and the same command takes it up: a last line that was cut off is not
+/// believed.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "pipeline/record/manifest.h"
+#include "pipeline/record/timing.h"
+
+namespace mimicx::pipeline::record {
+
+class Journal {
+ public:
+  /// Of a file that the first `append` begins anew.
+  explicit Journal(const std::filesystem::path& path) : path_(path) {}
+
+  /// @throws DataError where it cannot be written
+  void append(const SequenceEntry& entry, const Timing& timing);
+  /// The manifest has it all: removes the file.
+  void clear();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+/// Puts the entries and times of a journal into those that were written before it. No file, no entries.
+void replay_journal(const std::filesystem::path& path, Manifest& manifest, std::vector<Timing>& timings);
+
+}  // namespace mimicx::pipeline::record

@@ -1,0 +1,146 @@
+#include "motion/import/joint_positions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/npy.h"
+#include "core/random.h"
+#include "motion/import/motion_file.h"
+#include "motion/import/world.h"
+#include "motion/resample.h"
+#include "motion/synth/synth.h"
+
+namespace mimicx::motion::import {
+namespace {
+
+/// A synthetic motion at 20 fps.
+Clip truth(const std::string& kind) {
+  synth::SynthConfig config;
+  config.kind = kind;
+  config.seed = 3;
+  Clip clip = resampled(synth::synthesize(config), 20.0);
+  clip.keypoints.reset();
+  return clip;
+}
+
+/// Joints of every frame, y up, times `scale`.
+NpyArray positions_of(const Clip& clip, double scale = 1.0) {
+  const Quaterniond to_y_up = rotation_to_z_up('y').conjugate();
+  std::vector<double> values;
+  for (const BodyPoses& pose : poses_of(clip))
+    for (int b = 0; b < kBodies; ++b)
+      for (const double x : Vector3d(scale * (to_y_up * pose.p_WB[b]))) values.push_back(x);
+  const auto frames = static_cast<std::size_t>(clip.frames());
+  return NpyArray::from_double({frames, kBodies, 3}, values.data());
+}
+
+/// HumanML3D's features of positions, by its definition: what the reader must undo.
+NpyArray features_of(const NpyArray& positions, double normalised = 1.0) {
+  const Eigen::MatrixXd rows = to_matrix(positions);
+  const auto joint = [&](Eigen::Index t, int b) { return Vector3d(rows.row(t).segment<3>(3 * b)); };
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows.rows(), kHumanMl3dFeatures);
+  std::vector<Quaterniond> to_heading;  // takes the direction faced to z
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    Vector3d forward = (joint(t, kLeftHip) - joint(t, kRightHip)).cross(Vector3d::UnitY());
+    forward.y() = 0.0;
+    to_heading.push_back(rotation_between(forward, Vector3d::UnitZ()));
+  }
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    const auto next = std::min(t + 1, rows.rows() - 1);
+    const Quaterniond turn =
+        to_heading[static_cast<std::size_t>(next)] * to_heading[static_cast<std::size_t>(t)].conjugate();
+    out(t, 0) = std::atan2(turn.y(), turn.w());
+    const Vector3d step = to_heading[static_cast<std::size_t>(next)] * (joint(next, 0) - joint(t, 0));
+    out(t, 1) = step.x();
+    out(t, 2) = step.z();
+    out(t, 3) = joint(t, 0).y();
+    for (int b = 1; b < kBodies; ++b) {
+      Vector3d local = joint(t, b);
+      local.x() -= joint(t, 0).x();
+      local.z() -= joint(t, 0).z();
+      out.row(t).segment<3>(4 + 3 * (b - 1)) = to_heading[static_cast<std::size_t>(t)] * local;
+    }
+  }
+  return from_matrix(normalised * out);
+}
+
+Clip read(const NpyArray& array, const ReadConfig& config = {}) {
+  return motion_from(format_npy(array), "motion.npy", config);
+}
+
+/// Mean distance of the joints that mean the same, best turned about the vertical and moved, mm.
+double distance(const Clip& a, const Clip& b) {
+  const auto p = poses_of(a), q = poses_of(b);
+  Eigen::Matrix3Xd from(3, 0), to(3, 0);
+  for (int t = 0; t < p.count(); ++t)
+    for (const int body : {kLeftHip, kRightHip, kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle, kLeftShoulder,
+                           kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist}) {
+      from.conservativeResize(3, from.cols() + 1), to.conservativeResize(3, to.cols() + 1);
+      from.col(from.cols() - 1) = p[t].p_WB[body], to.col(to.cols() - 1) = q[t].p_WB[body];
+    }
+  const Vector3d middle_from = from.rowwise().mean(), middle_to = to.rowwise().mean();
+  from.colwise() -= middle_from, to.colwise() -= middle_to;
+  const double angle =
+      std::atan2((from.row(0).cwiseProduct(to.row(1)) - from.row(1).cwiseProduct(to.row(0))).sum(),
+                 (from.row(0).cwiseProduct(to.row(0)) + from.row(1).cwiseProduct(to.row(1))).sum());
+  return 1000.0 * (rotation_z(angle).toRotationMatrix() * from - to).colwise().norm().mean();
+}
+
+TEST(JointPositions, TheirMotionIsTheOneTheyCameFrom) {
+  for (const char* kind : {"walk", "squat", "punch", "kick", "dance"}) {
+    const Clip exact = truth(kind), clip = read(positions_of(exact));
+    EXPECT_EQ(clip.fps, 20.0);
+    ASSERT_EQ(clip.frames(), exact.frames());
+    EXPECT_LT(distance(clip, exact), 25.0) << kind;
+  }
+}
+
+TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
+  const Clip exact = truth("walk");
+  ReadConfig config;
+  config.fps = 30.0;
+  const Clip clip = read(positions_of(exact, 100.0), config);
+  EXPECT_LT(distance(clip, exact), 25.0);
+  EXPECT_EQ(clip.fps, 30.0);
+}
+
+TEST(JointPositions, HumanMl3dsFeaturesGiveTheSameMotion) {
+  for (const char* kind : {"walk_turn", "turn_in_place"}) {
+    const Clip exact = truth(kind), clip = read(features_of(positions_of(exact)));
+    EXPECT_LT(distance(clip, exact), 25.0) << kind;
+    EXPECT_EQ(clip.summary.at(0), "HumanML3D features: 20 frames per second, y up, metres");
+  }
+}
+
+TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
+  const Clip exact = truth("squat"), clip = read(positions_of(exact));
+  for (const int knee : {kLeftKnee, kRightKnee})
+    for (int t = 0; t < clip.frames(); ++t) {
+      const Vector3d r = clip.rotations[t][knee];
+      if (r.norm() < 0.5) continue;
+      EXPECT_GT(std::abs(r.normalized().dot(hinge_axis(knee))), 0.97) << t;
+    }
+}
+
+TEST(JointPositions, WhatIsNoMotionIsRefusedInOneLine) {
+  const NpyArray positions = positions_of(truth("walk"));
+  EXPECT_THROW(read(features_of(positions, -1.0)), DataError) << "normalised features";
+  NpyArray collapsed = positions;
+  std::fill(collapsed.bytes.begin(), collapsed.bytes.end(), std::uint8_t{0});
+  EXPECT_THROW(read(collapsed), DataError);
+  std::vector<double> values = positions.to_double();
+  values[100] = std::nan("");
+  EXPECT_THROW(read(NpyArray::from_double(positions.shape, values.data())), DataError);
+  EXPECT_THROW(read(NpyArray::from_double({0, kBodies, 3}, values.data())), DataError);
+  Random random(3);
+  for (double& value : values) value = random.uniform(-1.0, 1.0);
+  try {
+    read(NpyArray::from_double(positions.shape, values.data()));
+  } catch (const DataError&) {
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::motion::import

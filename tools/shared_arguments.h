@@ -1,0 +1,27 @@
+/// Arguments that several subcommands share.
+#pragma once
+
+#include <cstdint>
+
+#include "arguments.h"
+#include "motion/import/motion_file.h"
+#include "pipeline/options/clusters.h"
+
+namespace mimicx::tools {
+
+/// --up, --scale, --fps …: what the user knows better than the files.
+void add_read_arguments(Command& command, motion::import::ReadConfig& read);
+
+/// --threads; default: all there are.
+void add_threads(Command& command, int& threads);
+
+/// --force.
+void add_force(Command& command, bool& force);
+
+/// --seed; the default is the value that is there.
+void add_seed(Command& command, std::uint64_t& seed);
+
+/// --radius or --clusters.
+void add_cluster_arguments(Command& command, pipeline::options::ClusterConfig& clusters);
+
+}  // namespace mimicx::tools
