@@ -75,6 +75,10 @@ void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<s
                "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
   add_force(command, run.force);
   add_threads(command, run.threads);
+  run.jobs = 0;
+  command.number("--jobs", run.jobs, kFromZero,
+                 "motions done side by side, each by its share of the threads; the results are the same; "
+                 "0: as many as threads");
   command.number("--limit-seconds", run.limit_seconds, kPositive,
                  "safety stop per motion: ends its plan or training early, makes the result depend on the "
                  "machine, and is recorded as such");

@@ -5,18 +5,17 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "core/file.h"
 #include "core/npz.h"
+#include "core/parallel.h"
 #include "motion/clip_file.h"
-#include "pipeline/audit/audit.h"
-#include "pipeline/audit/audit_summary.h"
-#include "pipeline/audit/pose_verdict.h"
-#include "pipeline/audit/substeps.h"
 #include "pipeline/failure.h"
 #include "pipeline/kept_files.h"
 #include "pipeline/output/clean_copy.h"
@@ -29,6 +28,7 @@
 #include "pipeline/report/run_report.h"
 #include "pipeline/run_outputs.h"
 #include "pipeline/scores.h"
+#include "pipeline/sequence_result.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -49,6 +49,14 @@ struct RunState {
   std::vector<std::string> inputs = {};           ///< as the manifest spells them
   std::map<std::string, std::string> names = {};  ///< of the inputs, in the folder
   record::Journal journal{folder.journal()};
+};
+
+/// One motion at work: the run, and what is this motion's own. Several work side by side; then `run` is only
+/// read, but for what `publish` changes under its lock.
+struct Worker {
+  const RunState& run;
+  record::RunContext context;
+  int threads;
 };
 
 record::Manifest manifest_of(const RunConfig& config, const Method& method) {
@@ -102,8 +110,22 @@ RunState open_run(const RunConfig& config, const Method& method, const record::R
   return run;
 }
 
+/// Puts the entries of this command's inputs behind all others, in the inputs' order, whichever was done
+/// first.
+void order_entries(RunState& run) {
+  std::map<std::string, std::size_t> place;
+  for (const std::string& input : run.inputs) place.emplace(input, place.size() + 1);
+  const auto place_of = [&](const record::SequenceEntry& entry) {
+    const auto found = place.find(entry.input);
+    return found == place.end() ? std::size_t{0} : found->second;
+  };
+  std::stable_sort(run.manifest.sequences.begin(), run.manifest.sequences.end(),
+                   [&](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
+}
+
 /// Everything that is known, in manifest and times instead of the journal.
 void write_records(RunState& run) {
+  order_entries(run);
   write_file_atomically(run.folder.manifest(), record::format_manifest(run.manifest));
   write_file_atomically(run.folder.timing(), record::format_timing(run.timings, run.manifest.sequences));
   run.journal.clear();
@@ -122,17 +144,18 @@ Correction correction_of(const RunConfig& config) {
 }
 
 /// Makes fit and reference of a finished sequence again where they are damaged; of other files it says so.
-void restore_files(const RunState& run, const record::SequenceEntry& entry,
+void restore_files(const Worker& worker, const record::SequenceEntry& entry,
                    const std::vector<std::string>& damaged) {
+  const RunState& run = worker.run;
   std::optional<PreparedMotion> motion;  // made once, where a file needs it
   for (const std::string& name : damaged) {
     const std::filesystem::path file = run.folder.root / name;
     const bool fit = file == run.folder.fit(entry.name), reference = file == run.folder.reference(entry.name);
-    run.context.messages << entry.name << ": " << name << " is gone or damaged"
-                         << (fit || reference ? ": made again\n" : ", and is not made again\n");
+    worker.context.messages << entry.name << ": " << name << " is gone or damaged"
+                            << (fit || reference ? ": made again\n" : ", and is not made again\n");
     if (!fit && !reference) continue;
     if (!motion)
-      motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads);
+      motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads);
     make_folder(file.parent_path());
     if (fit)
       motion::write_clip(file, motion->fitted);
@@ -147,9 +170,11 @@ bool goes_on(const RunState& run, const record::SequenceEntry& there) {
          (there.ending == record::Ending::kBudget || !there.ok);
 }
 
-/// Fills what is known of an input before any work. @return false where its earlier result still stands
-bool begin_entry(const RunState& run, const std::string& input, record::SequenceEntry& entry) {
-  const record::SequenceEntry* there = run.manifest.find(input);
+/// Fills what is known of an input before any work. @param there  its earlier result, or null
+/// @return false where that still stands
+bool begin_entry(const Worker& worker, const std::string& input, const record::SequenceEntry* there,
+                 record::SequenceEntry& entry) {
+  const RunState& run = worker.run;
   entry.input = input;
   entry.name = run.names.at(input);
   entry.seed = run.method.seed;
@@ -163,33 +188,20 @@ bool begin_entry(const RunState& run, const std::string& input, record::Sequence
   if (goes_on(run, *there)) return true;
   const std::vector<std::string> damaged = damaged_files(run.folder, *there);
   if (std::find(damaged.begin(), damaged.end(), there->output) != damaged.end()) {
-    run.context.messages << entry.name << ": " << there->output << " is damaged: made again\n";
+    worker.context.messages << entry.name << ": " << there->output << " is damaged: made again\n";
     return true;
   }
   entry = *there;
-  restore_files(run, entry, damaged);
+  restore_files(worker, entry, damaged);
   return false;
 }
 
-/// What the reference asks for that no body can do, into the entry.
-void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry) {
-  if (needs.frames.empty()) return;
-  const audit::PoseVerdict verdict = audit::verdict_on(needs);
-  entry.feasibility = verdict.values;
-  if (verdict.longest.wrong != audit::Wrong::kNothing)
-    entry.notes.push_back("the reference is not feasible: " + verdict.words);
-}
-
-/// A prepared motion and what its reference asks for that no body has.
-struct JudgedMotion : PreparedMotion {
-  audit::PoseNeeds needs;
-};
-
 /// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
 /// sees a wrong axis there can stop the run.
-JudgedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry) {
-  JudgedMotion motion{
-      prepare_motion(entry.input, run.config.read, correction_of(run.config), run.config.threads), {}};
+JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
+  const RunState& run = worker.run;
+  JudgedMotion motion{prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads),
+                      {}};
   motion.needs = needs_of(motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
@@ -201,103 +213,64 @@ JudgedMotion prepare_sequence(const RunState& run, record::SequenceEntry& entry)
   const std::vector<std::string>& summary = motion.input.summary;
   for (const auto* lines :
        {summary.empty() ? &std::as_const(entry.decisions) : &summary, &std::as_const(entry.notes)})
-    for (const auto& line : *lines) run.context.messages << entry.name << ": " << line << '\n';
+    for (const auto& line : *lines) worker.context.messages << entry.name << ": " << line << '\n';
   return motion;
 }
 
-/// Whether the recorded forces explain the motion, into the entry.
-void audit_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
-                    const rl::tracking::TrackingRollout& rollout, record::SequenceEntry& entry) {
-  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
-  for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
-  const audit::Audit audit = audit::audit_frames(motion, simulation);
-  entry.audit = audit::summary_of(audit);
-  for (const std::string& failure : audit.failures) entry.notes.push_back("audit: " + failure);
-}
+/// What became of a motion.
+struct Done {
+  record::SequenceEntry entry;
+  std::size_t told = 0;      ///< notes of the entry that were said already
+  bool kept = false;         ///< the earlier result stands
+  bool interrupted = false;  ///< nothing to record but the time
+  record::Timing timing;     ///< of this time
+};
 
-/// Scores and audit of what the method made, into the entry.
-void judge_sequence(const Method& method, const motion::Reference& reference, const SimulatedSequence& made,
-                    record::SequenceEntry& entry) {
-  entry.method = made.method;
-  entry.plan = made.plan;
-  entry.policy = made.policy;
-  append(entry.feasibility, help_values(made.help, reference.character.total_mass()));
-  entry.samples = made.samples;
-  entry.ending = made.ending;
-  entry.arrangement = made.arrangement;
-  entry.notes.insert(entry.notes.end(), made.notes.begin(), made.notes.end());
-  if (made.before) {
-    const Scores before = score_simulated(reference, *made.before);
-    entry.reward_before = made.before->mean_reward;
-    entry.metrics_before = before.values;
-    entry.ok_before = before.success;
-  }
-  const Scores after = score_simulated(reference, made.after);
-  entry.reward_after = made.after.mean_reward;
-  entry.metrics = after.values;
-  entry.ok = after.success;
-  entry.reason = after.reason;
-  if (!made.reason.empty()) {
-    if (entry.ok)
-      entry.notes.push_back(made.reason);
-    else
-      entry.reason = made.reason + "; " + after.reason;
-  }
-  audit_sequence(reference, method.simulation, made.after, entry);
-}
-
-std::filesystem::path with_parents(const std::filesystem::path& file) {
-  make_folder(file.parent_path());
-  return file;
-}
-
-/// Fit, reference and its feasibility, simulated motion and, where wanted, its physics steps.
-void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
-                    record::SequenceEntry& entry) {
-  const record::RunFolder& folder = run.folder;
-  if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
-  output::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
-  if (!motion.needs.frames.empty())
-    record::write_feasibility(with_parents(folder.feasibility(entry.name)),
-                              frame_feasibility(motion.needs, made.help));
-  const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
-  std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
-  output::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
-  std::filesystem::remove(folder.substeps(entry.name));
-  if (run.config.substeps)
-    audit::write_substeps(
-        with_parents(folder.substeps(entry.name)),
-        {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
-  std::filesystem::remove(folder.policy(entry.name));
-  if (made.taught) output::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
-  entry.output = output;
-  entry.files = checksums_of(folder, entry);
-}
-
-/// Prepare → simulate → judge and write. @param told  notes of the entry that were said already
-/// @return whether the sequence was interrupted
-bool do_sequence(RunState& run, record::SequenceEntry& entry, std::size_t& told) {
+/// Prepare → simulate → judge and write.
+void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done& done) {
+  const RunState& run = worker.run;
+  record::SequenceEntry& entry = done.entry;
   const double started = record::steady_seconds();
-  const JudgedMotion motion = prepare_sequence(run, entry);
-  told = entry.notes.size();
-  if (const record::SequenceEntry* there = run.manifest.find(entry.input);
-      there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
+  const JudgedMotion motion = prepare_sequence(worker, entry);
+  done.told = entry.notes.size();
+  if (there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
     entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
                           " samples; one begun with more would explore longer, and be another");
   entry.input_metrics = score_input(motion.input, motion.reference);
   const SimulatedSequence made = run.method.simulate(
       motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
-                         run.config.threads, run.config.limit_seconds, motion.needs, run.context});
-  record::Timing& timing = timing_of(run, entry.name);
-  timing.planning_seconds += made.planning_seconds;
-  timing.training_seconds += made.training_seconds;
-  timing.threads = run.config.threads;
+                         worker.threads, run.config.limit_seconds, motion.needs, worker.context});
+  done.timing.planning_seconds = made.planning_seconds;
+  done.timing.training_seconds = made.training_seconds;
+  done.interrupted = made.interrupted;
   if (!made.interrupted) {
-    judge_sequence(run.method, motion.reference, made, entry);
-    write_sequence(run, motion, made, entry);
+    judge_sequence(motion.reference, run.method.simulation, made, entry);
+    write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, entry);
   }
-  timing.seconds += record::steady_seconds() - started;
-  return made.interrupted;
+  done.timing.seconds = record::steady_seconds() - started;
+}
+
+/// All the work on one input, whatever goes wrong with it. @param there  its earlier result, or null
+Done work_on(const Worker& worker, const std::string& input, const record::SequenceEntry* there) {
+  Done done;
+  try {
+    done.kept = !begin_entry(worker, input, there, done.entry);
+    if (!done.kept) do_sequence(worker, there, done);
+  } catch (const std::exception& error) {
+    done.entry.ok = false;
+    done.entry.reason = error.what();
+    done.entry.output.clear();  // so that the same command tries again
+  }
+  return done;
+}
+
+/// Adds this time's seconds to those of the motion.
+void add_timing(RunState& run, const std::string& name, const record::Timing& now, int threads) {
+  record::Timing& timing = timing_of(run, name);
+  timing.seconds += now.seconds;
+  timing.planning_seconds += now.planning_seconds;
+  timing.training_seconds += now.training_seconds;
+  timing.threads = threads;
 }
 
 /// "walk: ok, reward 0.912, gMPJPE 3.1 mm, MPJPE 2.8 mm"
@@ -347,6 +320,91 @@ bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
   }
 }
 
+/// The motions of a run, one after the other or several side by side. What a motion comes to does not depend
+/// on which; what is said of it is said when it is done, all at once, where several are at work.
+class SideBySide {
+ public:
+  SideBySide(RunState& run, int jobs) : run_(run), jobs_(jobs) {
+    if (jobs_ > 1)
+      run_.context.progress.start("motions", 0.0, static_cast<double>(run_.inputs.size()), "motions");
+  }
+
+  /// Works on input `i`, unless the run was asked to stop.
+  void on(int i) {
+    const std::string& input = run_.inputs[static_cast<std::size_t>(i)];
+    std::optional<record::SequenceEntry> there;
+    {
+      const std::lock_guard guard(mutex_);
+      if (stopped_) return;
+      if (i > 0 && ask()) return interrupted(run_.names.at(input));
+      if (const record::SequenceEntry* entry = run_.manifest.find(input)) there = *entry;
+    }
+    std::ostringstream said;
+    record::Progress silent(said, false, [] { return 0.0; });
+    const bool alone = jobs_ == 1;
+    const auto should_stop = [this] {
+      const std::lock_guard guard(mutex_);
+      return ask();
+    };
+    const Worker worker{
+        run_,
+        {alone ? run_.context.progress : silent, alone ? run_.context.messages : said, should_stop},
+        std::max(1, run_.config.threads / jobs_)};
+    const Done done = work_on(worker, input, there ? &*there : nullptr);
+    const std::lock_guard guard(mutex_);
+    if (!alone) run_.context.messages << said.str();
+    publish(input, done, worker);
+  }
+
+  record::RunOutcome outcome() {
+    if (stopped_) return record::RunOutcome::kInterrupted;
+    report();
+    return all_good_ ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
+  }
+
+ private:
+  bool ask() { return stopped_ = stopped_ || run_.context.should_stop(); }
+
+  void interrupted(const std::string& name) {
+    stopped_ = true;
+    write_records(run_);
+    if (!run_.manifest.sequences.empty()) report();
+    run_.context.progress.finish(name + ": interrupted; the same command continues");
+  }
+
+  void report() {
+    const double begun = record::steady_seconds();
+    write_records(run_);
+    report::write_report(run_.folder, run_.manifest);
+    const double now = record::steady_seconds();
+    next_report_ = now + std::max(kReportSeconds, kReportShare * (now - begun));
+  }
+
+  void publish(const std::string& input, const Done& done, const Worker& worker) {
+    const record::SequenceEntry& entry = done.entry;
+    if (!done.kept) add_timing(run_, run_.names.at(input), done.timing, worker.threads);
+    if (done.interrupted) return interrupted(entry.name);
+    run_.manifest.put(entry);
+    if (!done.kept) run_.journal.append(entry, timing_of(run_, entry.name));
+    if (record::steady_seconds() > next_report_) report();
+    run_.context.progress.finish(result_line(entry));
+    for (const std::string& line : what_next(entry, run_.folder))
+      run_.context.messages << "  " << line << '\n';
+    for (std::size_t k = done.told; k < entry.notes.size(); ++k)
+      run_.context.messages << "  " << entry.notes[k] << '\n';
+    const bool copied = copied_clean(run_, entry);
+    all_good_ = all_good_ && entry.ok && copied;
+    if (jobs_ > 1) run_.context.progress.update(++finished_, "");
+  }
+
+  RunState& run_;
+  const int jobs_;
+  std::mutex mutex_;
+  bool stopped_ = false, all_good_ = true;
+  int finished_ = 0;
+  double next_report_ = record::steady_seconds() + kReportSeconds;
+};
+
 }  // namespace
 
 NamedValues settings_of(const RunConfig& config) {
@@ -367,46 +425,11 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
   folder.create();
   write_records(run);
-  bool all_good = true;
-  double next_report = record::steady_seconds() + kReportSeconds;
-  const auto report = [&] {
-    const double begun = record::steady_seconds();
-    write_records(run);
-    report::write_report(folder, run.manifest);
-    const double now = record::steady_seconds();
-    next_report = now + std::max(kReportSeconds, kReportShare * (now - begun));
-  };
-  const auto interrupted = [&](const std::string& name) {
-    write_records(run);
-    if (!run.manifest.sequences.empty()) report();
-    context.progress.finish(name + ": interrupted; the same command continues");
-    return record::RunOutcome::kInterrupted;
-  };
-  for (std::size_t i = 0; i < run.inputs.size(); ++i) {
-    const std::string& input = run.inputs[i];
-    if (i > 0 && context.should_stop()) return interrupted(input);
-    record::SequenceEntry entry;
-    std::size_t told = 0;
-    bool kept = false;
-    try {
-      kept = !begin_entry(run, input, entry);
-      if (!kept && do_sequence(run, entry, told)) return interrupted(entry.name);
-    } catch (const std::exception& error) {
-      entry.ok = false;
-      entry.reason = error.what();
-      entry.output.clear();  // so that the same command tries again
-    }
-    run.manifest.put(entry);
-    if (!kept) run.journal.append(entry, timing_of(run, entry.name));
-    if (i + 1 == run.inputs.size() || record::steady_seconds() > next_report) report();
-    context.progress.finish(result_line(entry));
-    for (const std::string& line : what_next(entry, folder)) context.messages << "  " << line << '\n';
-    for (std::size_t k = told; k < entry.notes.size(); ++k)
-      context.messages << "  " << entry.notes[k] << '\n';
-    const bool copied = copied_clean(run, entry);
-    all_good = all_good && entry.ok && copied;
-  }
-  return all_good ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
+  const int count = static_cast<int>(run.inputs.size());
+  const int jobs = std::clamp(config.jobs > 0 ? config.jobs : config.threads, 1, std::max(count, 1));
+  SideBySide work(run, jobs);
+  parallel_for(count, jobs, [&](int i) { work.on(i); });
+  return work.outcome();
 }
 
 }  // namespace mimicx::pipeline

@@ -5,11 +5,11 @@
 /// plans (plan.h), `adapt` plans, or arranges trained options and fine-tunes them (adapt.h). Everything
 /// around it is here, once for all.
 ///
-/// One input after the other; an input that fails is recorded with its reason and the others go on. Every
-/// input is recorded when it is done (record/journal.h), so the same command continues a run that was
-/// interrupted: finished inputs are kept, a begun one is handed to the method again, and the files end up the
-/// same bytes as if nothing had happened. Every success is also written in its input's own format
-/// (clean_copy.h).
+/// One input after the other, or several side by side with the same results; an input that fails is recorded
+/// with its reason and the others go on. Every input is recorded when it is done (record/journal.h), so the
+/// same command continues a run that was interrupted: finished inputs are kept, a begun one is handed to the
+/// method again, and the files end up the same bytes as if nothing had happened. Every success is also
+/// written in its input's own format (clean_copy.h).
 ///
 /// What it never does: open any ground truth.
 #pragma once
@@ -48,6 +48,7 @@ struct RunConfig {
   bool fit = false;    ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
   bool as_is = false;  ///< correct nothing (Correction::kNone), whatever `fit` says
   int threads = 1;
+  int jobs = 1;  ///< motions done side by side, each by its share of the threads; 0: as many as threads
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
 };
 
