@@ -1,6 +1,7 @@
-// How well the stored feedback gains hold their plans: pushes of the pelvis, once a second, in random
-// directions. Reads a folder of `mimicx plan --gains`.
-//   bench_pushes RUN [SPEED]     SPEED: change of the pelvis' velocity by one push, m/s; default 0.1
+// How well stored feedback gains hold their plans, and taught policies their motions: pushes of the pelvis in
+// random directions. Reads a folder of `mimicx plan --gains` or `mimicx adapt`.
+//   bench_pushes RUN [SPEED [FRAMES]]     SPEED: change of the pelvis' velocity by one push, m/s; default 0.1
+//                                         FRAMES: from push to push; default 30, a second
 // Exit status: 0 done, 1 a file could not be read, 2 usage.
 #include <algorithm>
 #include <cstdio>
@@ -12,7 +13,9 @@
 
 #include "motion/clip_file.h"
 #include "pipeline/output/plan_file.h"
+#include "pipeline/output/policy_file.h"
 #include "pipeline/record/run_folder.h"
+#include "teaching/lessons.h"
 
 namespace mimicx::tools {
 namespace {
@@ -27,12 +30,26 @@ control::PushResult pushed(const pipeline::record::RunFolder& run, const std::st
                               pipeline::output::read_gains(run.gains(name)), test);
 }
 
-void print_all(const pipeline::record::RunFolder& run, const control::PushTest& test) {
+control::PushResult pushed_policy(const pipeline::record::RunFolder& run, const std::string& name,
+                                  const control::PushTest& test) {
+  const pipeline::output::StoredPolicy policy = pipeline::output::read_policy(run.policy(name));
+  rl::tracking::TrackingConfig task;
+  task.simulation = policy.simulation;
+  return teaching::test_pushes(rl::tracking::make_tracking_clip(policy.motion, task), task, policy.agent,
+                               test);
+}
+
+/// A line for every motion that has a file in the folder of that name, and a last one; none without a folder.
+template <class Pushed>
+void print_all(const pipeline::record::RunFolder& run, const char* kind, const control::PushTest& test,
+               const Pushed& pushed) {
+  if (!std::filesystem::exists(run.root / kind)) return;
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(run.root / "gains"))
+  for (const auto& entry : std::filesystem::directory_iterator(run.root / kind))
     names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
-  std::printf("%-40s followed of %d   frames kept   (pushes of %g m/s)\n", "motion", test.trials, test.speed);
+  std::printf("%-40s followed of %d   frames kept   (pushes of %g m/s every %d frames)\n", kind, test.trials,
+              test.speed, test.every);
   int held = 0;
   for (const std::string& name : names) {
     const control::PushResult result = pushed(run, name, test);
@@ -46,13 +63,17 @@ void print_all(const pipeline::record::RunFolder& run, const control::PushTest& 
 }  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
-  const double speed = argc == 3 ? std::strtod(argv[2], nullptr) : 0.1;
-  if (argc < 2 || argc > 3 || argv[1][0] == '-' || !(speed > 0.0)) {
-    std::fprintf(stderr, "usage: bench_pushes RUN [SPEED]\n");
+  const double speed = argc >= 3 ? std::strtod(argv[2], nullptr) : 0.1;
+  const int every = argc == 4 ? std::atoi(argv[3]) : 30;
+  if (argc < 2 || argc > 4 || argv[1][0] == '-' || !(speed > 0.0) || every < 1) {
+    std::fprintf(stderr, "usage: bench_pushes RUN [SPEED [FRAMES]]\n");
     return 2;
   }
   try {
-    mimicx::tools::print_all(mimicx::pipeline::record::RunFolder{argv[1]}, {.speed = speed});
+    const mimicx::pipeline::record::RunFolder run{argv[1]};
+    const mimicx::control::PushTest test{.speed = speed, .every = every};
+    mimicx::tools::print_all(run, "gains", test, mimicx::tools::pushed);
+    mimicx::tools::print_all(run, "policies", test, mimicx::tools::pushed_policy);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_pushes: %s\n", error.what());

@@ -23,12 +23,14 @@ Trajectory piece(const Trajectory& motion, int first, int last) {
 }  // namespace
 
 List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
-                                     const GainConfig& config, const PlanControl& control) {
+                                     const GainConfig& config, const PlanControl& control,
+                                     List<Eigen::MatrixXf>* curvature) {
   Cost soft = cost;
   soft.weights.residual = config.residual;
   soft.weights.change = config.change;
   const int n = motion.size();
   List<Eigen::MatrixXf> gains(n);
+  if (curvature) *curvature = List<Eigen::MatrixXf>(n);
   List<FrameModel> models;
   StageCost stage;
   RiccatiScratch<float> scratch;
@@ -38,13 +40,17 @@ List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, con
     if (control.should_stop && control.should_stop()) return {};
     const int first = std::max(0, last - config.block);
     const Trajectory block = piece(motion, first, last);
-    build_models(system, soft, block, config.linearisation, control.threads, models);
-    if (last == n) value = last_value(models.back().cost);
-    for (int t = last - 1; t >= first; --t) {
-      const FrameModel& model = models[t - first];
-      const SweepResult step = sweep_frame(system, soft, motion, t, model, 0.0, value, law, stage, scratch);
+    build_models(system, soft, block, config.linearisation, control.threads, models, [&](int k) {
+      const int t = first + k;
+      if (t == n - 1) value = last_value(models.back().cost);
+      const SweepResult step =
+          sweep_frame(system, soft, motion, t, models[k], 0.0, value, law, stage, scratch);
+      if (curvature) {
+        const Eigen::MatrixXd Quu = stage.H.bottomRightCorner(system.controls(), system.controls());
+        (*curvature)[t] = Eigen::MatrixXd(Quu.selfadjointView<Eigen::Lower>()).cast<float>();
+      }
       gains[t] = step.positive ? law.K : Eigen::MatrixXf::Zero(system.controls(), kMemory);
-    }
+    });
   }
   return gains;
 }

@@ -22,9 +22,11 @@ struct GainConfig {
 };
 
 /// K_t [controls][kMemory] of every control of a roll-out.
+/// @param curvature  where not null: Q_uu of every control, [controls][controls], what a wrong one costs
 /// @return none where it was told to stop
 List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, const Trajectory& motion,
-                                     const GainConfig& config, const PlanControl& control);
+                                     const GainConfig& config, const PlanControl& control,
+                                     List<Eigen::MatrixXf>* curvature = nullptr);
 
 /// Pushes of the pelvis, horizontal, in random directions.
 struct PushTest {

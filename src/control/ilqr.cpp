@@ -16,7 +16,8 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
                 const StateQuadratic& state, StageCost& out) {
   const CostWeights& weights = cost.weights;
   const int controls = system.controls(), u = kMemory, w = kTangent;
-  out.H.setZero(kMemory + controls, kMemory + controls);
+  out.H.resize(kMemory + controls, kMemory + controls);
+  out.H.triangularView<Eigen::Lower>().setZero();
   out.g.setZero(kMemory + controls);
   if (t > 0) {  // the first state is given
     out.g.head(kTangent) = state.gradient;
@@ -43,18 +44,24 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
 }  // namespace
 
 void build_models(const System& system, const Cost& cost, const Trajectory& trajectory,
-                  const Linearisation& how, int threads, List<FrameModel>& models) {
+                  const Linearisation& how, int threads, List<FrameModel>& models,
+                  const std::function<void(int t)>& sweep) {
   const int n = trajectory.size();
   models.resize(n + 1);
-  // As many chunks whatever the threads; each keeps its scratch and takes every kChunks-th frame.
-  constexpr int kChunks = 8;
-  parallel_for(kChunks, threads, [&](int chunk) {
-    const auto scratch = std::make_unique<LinearisationScratch>();
-    for (int t = chunk; t <= n; t += kChunks) {
-      models[t].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[t]);
-      if (t == n) models[t].cost.scale(cost.last_weight(trajectory.begin + t));
-      if (t < n) models[t].F = linearise(system, trajectory.point(t), how, *scratch);
-    }
+  const auto build_cost = [&](int t) {
+    models[t].cost = state_quadratic(system, cost, trajectory.begin + t, trajectory.x[t]);
+  };
+  build_cost(n);
+  models[n].cost.scale(cost.last_weight(trajectory.begin + n));
+  List<std::unique_ptr<LinearisationScratch>> scratch(std::max(threads, 1));  // one per worker
+  const auto build = [&](int k, int worker) {
+    const int t = n - 1 - k;
+    if (!scratch[worker]) scratch[worker] = std::make_unique<LinearisationScratch>();
+    build_cost(t);
+    models[t].F = linearise(system, trajectory.point(t), how, *scratch[worker]);
+  };
+  parallel_chain(n, threads, build, [&](int k) {
+    if (sweep) sweep(n - 1 - k);
   });
 }
 
@@ -75,24 +82,43 @@ SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory
   return riccati_step(model.F, gap, kDofs, regularisation, stage, value, law, scratch);
 }
 
-void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const List<FrameModel>& models, double regularisation, Sweep& out) {
-  const int n = trajectory.size();
-  out.laws.resize(n);
-  out.positive = true;
-  out.decrease = 0;
-  ValueFunction value = last_value(models[n].cost);
-  StageCost stage;
-  RiccatiScratch<float> scratch;
-  for (int t = n - 1; t >= 0; --t) {
+namespace {
+
+/// A sweep under way, from the last frame to the first.
+struct Backwards {
+  const System& system;
+  const Cost& cost;
+  const Trajectory& trajectory;
+  const List<FrameModel>& models;
+  double regularisation;
+  Sweep& out;
+  ValueFunction value = {};
+  StageCost stage = {};
+  RiccatiScratch<float> scratch = {};
+
+  /// Frame t, after t + 1. Where Q_uu is not positive, the sweep ends: nothing is done for the frames before.
+  void frame(int t) {
+    const int n = trajectory.size();
+    if (t == n - 1) {
+      out.laws.resize(n);
+      out.positive = true;
+      out.decrease = 0;
+      value = last_value(models[n].cost);
+    }
+    if (!out.positive) return;
     const SweepResult step = sweep_frame(system, cost, trajectory, t, models[t], regularisation, value,
                                          out.laws[t], stage, scratch);
-    if (!step.positive) {
-      out.positive = false;
-      return;
-    }
-    out.decrease += step.decrease;
+    out.positive = step.positive;
+    if (step.positive) out.decrease += step.decrease;
   }
+};
+
+}  // namespace
+
+void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
+                const List<FrameModel>& models, double regularisation, Sweep& out) {
+  Backwards sweep{system, cost, trajectory, models, regularisation, out};
+  for (int t = trajectory.size() - 1; t >= 0; --t) sweep.frame(t);
 }
 
 Array<float, kLanes> step_lengths() {
@@ -130,9 +156,13 @@ void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, in
 Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
                   double trusted, List<FrameModel>& models, Sweep& sweep, double& regularisation,
                   Trajectory& trajectory) {
-  if (fresh) build_models(system, cost, trajectory, how, threads, models);
+  if (fresh) {
+    Backwards backwards{system, cost, trajectory, models, regularisation, sweep};
+    build_models(system, cost, trajectory, how, threads, models, [&](int t) { backwards.frame(t); });
+  } else {
+    sweep_back(system, cost, trajectory, models, regularisation, sweep);
+  }
   const auto harder = [&] { regularisation = std::max(8.0 * regularisation, 0.05); };
-  sweep_back(system, cost, trajectory, models, regularisation, sweep);
   Iteration result;
   if (!sweep.positive) {
     harder();

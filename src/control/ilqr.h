@@ -18,8 +18,11 @@ struct FrameModel {
 
 /// Models of frames first … n of a trajectory: F of all but the last, costs of all. Frames in parallel, same
 /// bytes for any number of threads.
+/// @param sweep  called with t = n − 1, …, 0, one after the other, as soon as the models of t and of the
+///               frames behind it are there: it runs beside the models of the frames before; may be empty
 void build_models(const System& system, const Cost& cost, const Trajectory& trajectory,
-                  const Linearisation& how, int threads, List<FrameModel>& models);
+                  const Linearisation& how, int threads, List<FrameModel>& models,
+                  const std::function<void(int t)>& sweep = {});
 
 struct Sweep {
   List<Feedback> laws;    ///< [n]

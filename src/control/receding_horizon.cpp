@@ -4,30 +4,20 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 
 #include "control/shooting.h"
 
 namespace mimicx::control {
 namespace {
 
-/// A way to solve a window.
-struct Variant {
-  int longer;  ///< frames added to the horizon
-  std::optional<Derivatives> derivatives;
-  double steps;  ///< factor on the steps of differences
-};
-/// The usual one first.
-constexpr Array<Variant, 5> kVariants = {{{{0, std::nullopt, 1.0},
-                                           {12, std::nullopt, 1.0},
-                                           {-5, std::nullopt, 1.0},
-                                           {0, Derivatives::kSmoothed, 1.0},
-                                           {0, Derivatives::kColumns, 1.0}}}};
+/// Frames that a window is longer than usual: what is tried at one place, in this order.
+constexpr Array<int, 3> kLonger = {0, 12, -5};
 
 /// What stays the same from window to window.
 struct Task {
   const System& system;
   const Cost& cost;
+  const Linearisation& how;
   const HorizonConfig& config;
   int threads;
 };
@@ -87,13 +77,12 @@ bool is_good(const HorizonConfig& o, const Trajectory& plan, int done, bool firs
 }
 
 /// Improves the window by some iterations, and cuts off what does not fit together after them.
-void solve_window(const Task& task, const Linearisation& how, bool first, Window& window,
-                  HorizonResult& result) {
+void solve_window(const Task& task, bool first, Window& window, HorizonResult& result) {
   Trajectory& plan = window.plan;
   double regularisation = 0.0;
   bool fresh = true;
   for (int i = 0; !is_good(task.config, plan, i, first); ++i) {
-    const Iteration done = improve(task.system, task.cost, how, task.threads, fresh, task.config.trusted,
+    const Iteration done = improve(task.system, task.cost, task.how, task.threads, fresh, task.config.trusted,
                                    window.models, window.sweep, regularisation, plan);
     ++result.iterations;
     if (fresh) result.linearised += plan.size();
@@ -104,10 +93,6 @@ void solve_window(const Task& task, const Linearisation& how, bool first, Window
   if (plan.gaps.empty()) return;
   shorten(plan, frames_without_gap(plan));
   roll_plain(task.system, task.cost, plan);
-}
-
-Linearisation with_variant(const Linearisation& how, const Variant& variant) {
-  return {variant.derivatives.value_or(how.derivatives), how.steps.scaled(variant.steps)};
 }
 
 /// Notes where a window was lost: at the first frame that is too far, or behind its end where it was cut.
@@ -133,17 +118,17 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
   result.lost_distance = distance;
 }
 
-/// Where the search stands in the list of variants.
+/// Where the search stands in the list of lengths.
 struct Search {
-  std::size_t variant = 0;
-  int until = 0;       ///< frame to which the variant is used
+  int variant = 0;     ///< in kLonger
+  int until = 0;       ///< frame to which it is used
   Trajectory longest;  ///< motion so far
 
   /// Goes on after a loss in the window at `begin`. @return false when nothing is left to try
   bool next(const HorizonConfig& config, int begin, int earliest, int frames, HorizonResult& result) {
     Trajectory& motion = result.motion;
-    const bool exhausted =
-        (begin <= until && variant + 1 >= kVariants.size()) || result.linearised > config.budget * frames;
+    const bool exhausted = (begin <= until && variant + 1 >= static_cast<int>(kLonger.size())) ||
+                           result.linearised > config.budget * frames;
     if (motion.size() > longest.size()) longest = motion;
     if (exhausted || result.backtracks >= config.backtracks) {
       motion = longest;
@@ -168,7 +153,7 @@ void roll_plain(const System& system, const Cost& cost, Trajectory& motion) {
 HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
                                 const HorizonConfig& config, const PlanControl& control, Trajectory start,
                                 int end, const Trajectory& guess) {
-  const Task task{system, cost, config, control.threads};
+  const Task task{system, cost, how, config, control.threads};
   HorizonResult result;
   result.motion = std::move(start);
   Trajectory& motion = result.motion;
@@ -183,10 +168,9 @@ HorizonResult follow_in_windows(const System& system, const Cost& cost, const Li
     }
     const int begin = motion.begin + motion.size();
     if (begin >= search.until) search.variant = 0;
-    const Variant& variant = kVariants[search.variant];
-    const int n = std::min(config.horizon + variant.longer, end - begin);
+    const int n = std::min(config.horizon + kLonger[search.variant], end - begin);
     window.plan = first_guess(task, motion, window.plan, n, guess);
-    solve_window(task, with_variant(how, variant), motion.size() == earliest, window, result);
+    solve_window(task, motion.size() == earliest, window, result);
     const int planned = window.plan.size();
     if (planned < std::min(n, 2 * config.commit) || !(window.plan.worst <= config.lost)) {
       note_loss(task, window.plan, result);

@@ -2,11 +2,10 @@
 ///
 /// A window of some frames starts at the state that the motion has reached, is improved by a few iterations
 /// of iLQR, and its first frames are committed; the next window starts there with the rest as its first
-/// guess. Near failure results are chaotic: a body that is about to fall can be caught by one choice of
-/// difference steps and horizon and not by another. So a window that loses the reference goes back some
-/// frames and tries the next of a fixed list of variants, until the list or the budget is used up; then the
-/// motion ends there. Source: receding horizon as in Tassa, Erez, Todorov (2012), §III; backtracking and
-/// variants are our own.
+/// guess. Near failure results are chaotic: a body that is about to fall can be caught by one length of the
+/// window and not by another. So a window that loses the reference goes back some frames and is tried longer,
+/// then shorter, until these or the budget are used up; then the motion ends there. Source: receding horizon
+/// as in Tassa, Erez, Todorov (2012), §III; backtracking and lengths are our own.
 #pragma once
 
 #include "control/ilqr.h"

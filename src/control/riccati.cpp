@@ -1,6 +1,8 @@
 #include "control/riccati.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <type_traits>
 
 namespace mimicx::control {
 namespace {
@@ -13,25 +15,50 @@ void add_lower(const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& term, 
     sum.col(j).tail(n - j) += term.col(j).tail(n - j).template cast<double>();
 }
 
+/// Copies the lower triangle onto the upper one, square by square: whole columns would miss the cache.
+void mirror(Eigen::MatrixXd& V) {
+  constexpr Eigen::Index kSquare = 16;
+  const auto n = V.cols();
+  for (Eigen::Index j = 0; j < n; j += kSquare) {
+    const auto columns = std::min(kSquare, n - j), below = j + columns;
+    auto square = V.block(j, j, columns, columns);
+    square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
+    for (Eigen::Index i = below; i < n; i += kSquare) {
+      const auto rows = std::min(kSquare, n - i);
+      V.block(j, i, columns, rows) = V.block(i, j, rows, columns).transpose();
+    }
+  }
+}
+
+/// F as it is, or in the scalar of the products.
+template <class Real>
+const auto& in_scalar(const DynamicsRef& F, RiccatiScratch<Real>& s) {
+  if constexpr (std::is_same_v<Real, float>)
+    return F;
+  else
+    return s.F = F.cast<Real>();
+}
+
 /// Adds the value of where (z, u) leads to, ½ (x', w')ᵀ V (x', w') + …, to the cost of the frame.
 template <class Real>
-void add_value_of_next(const ValueFunction& next, const DynamicsRef& F, const Eigen::VectorXd& gap,
+void add_value_of_next(const ValueFunction& next, const DynamicsRef& dynamics, const Eigen::VectorXd& gap,
                        int memory, StageCost& Q, RiccatiScratch<Real>& s) {
+  const auto& F = in_scalar<Real>(dynamics, s);
   const auto state = F.rows(), z = state + memory, all = F.cols();
   Eigen::VectorXd v = next.v;
   if (gap.size() > 0) v.noalias() += next.V.leftCols(state) * gap;
   for (Eigen::Index row = 0; row < state; ++row)
-    Q.g.noalias() += v[row] * F.row(row).transpose().cast<double>();
-  s.F = F.cast<Real>();
-  s.V = next.V.leftCols(state).cast<Real>();
-  s.VF.noalias() = s.V * s.F;  // rows of x' and of w'
-  s.FVF.setZero(all, all);
-  s.FVF.template triangularView<Eigen::Lower>() += s.F.transpose() * s.VF.topRows(state);
+    Q.g.noalias() += v[row] * dynamics.row(row).transpose().template cast<double>();
+  s.V = next.V.leftCols(state).template cast<Real>();
+  s.VF.noalias() = s.V * F;  // rows of x' and of w'
+  s.FVF.resize(all, all);
+  s.FVF.template triangularView<Eigen::Lower>() = F.transpose() * s.VF.topRows(state);
   add_lower<Real>(s.FVF, Q.H);
   if (memory == 0) return;
-  // w' is u itself: its rows of VF fall onto the rows of u, and by symmetry onto the columns.
+  // w' is u itself: its rows of VF fall onto the rows of u, and by symmetry onto the columns;
+  // only the lower triangle counts.
   const auto of_w = s.VF.bottomRows(memory);
-  Q.H.middleRows(z, memory) += of_w.template cast<double>();
+  Q.H.block(z, 0, memory, z + memory) += of_w.leftCols(z + memory).template cast<double>();
   Q.H.block(z, z, all - z, memory) += of_w.rightCols(all - z).transpose().template cast<double>();
   Q.H.block(z, z, memory, memory) += next.V.bottomRightCorner(memory, memory);
   Q.g.segment(z, memory) += v.tail(memory);
@@ -60,11 +87,14 @@ SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int m
   law.K = -s.K.template cast<float>();
   law.k = (-(inverse.transpose() * y)).cast<float>();
   result.decrease = 0.5 * y.squaredNorm();
-  s.YtY.setZero(z, z);
+  s.YtY.resize(z, z);
+  s.YtY.template triangularView<Eigen::Lower>().setZero();
   s.YtY.template selfadjointView<Eigen::Lower>().rankUpdate(s.Y.transpose(), Real(-1));
-  value.V = cost.H.topLeftCorner(z, z);
-  add_lower<Real>(s.YtY, value.V);
-  value.V.triangularView<Eigen::StrictlyUpper>() = value.V.transpose();
+  value.V.resize(z, z);
+  for (Eigen::Index j = 0; j < z; ++j)
+    value.V.col(j).tail(z - j) =
+        cost.H.col(j).segment(j, z - j) + s.YtY.col(j).tail(z - j).template cast<double>();
+  mirror(value.V);
   value.v = cost.g.head(z);
   value.v.noalias() -= s.Y.transpose().template cast<double>() * y;
   return result;

@@ -7,21 +7,6 @@
 namespace mimicx::control {
 namespace {
 
-using LaneMemory = Eigen::Matrix<float, kMemory, kLanes, Eigen::RowMajor>;
-
-/// z − z̄ of every lane; far away the law is meaningless anyway, and infinities must not spread.
-void memory_difference(const State<P>& x, const LaneControls& before, const State<double>& nominal_x,
-                       const Control& nominal_before, LaneMemory& out) {
-  constexpr float kFarthest = 10.0f;
-  const Tangent<P> d = difference(x, in_all_lanes<P>(nominal_x));
-  for (int k = 0; k < kTangent; ++k)
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const float value = d[k][lane];
-      out(k, lane) = std::isfinite(value) ? std::clamp(value, -kFarthest, kFarthest) : 0.0f;
-    }
-  for (int k = 0; k < kDofs; ++k) out.row(kTangent + k) = before.row(k).array() - nominal_before[k];
-}
-
 /// Controls of every lane under the law of one frame.
 LaneControls controls_of(const System& system, const Control& nominal, const Feedback* law,
                          const LaneMemory& dz, const Array<float, kLanes>& alpha) {
@@ -44,6 +29,20 @@ Control lane_of(const LaneControls& u, int lane) {
 
 }  // namespace
 
+LaneMemory memory_difference(const State<P>& x, const LaneControls& before, const State<double>& nominal_x,
+                             const Control& nominal_before) {
+  constexpr float kFarthest = 10.0f;
+  LaneMemory out;
+  const Tangent<P> d = difference(x, in_all_lanes<P>(nominal_x));
+  for (int k = 0; k < kTangent; ++k)
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float value = d[k][lane];
+      out(k, lane) = std::isfinite(value) ? std::clamp(value, -kFarthest, kFarthest) : 0.0f;
+    }
+  for (int k = 0; k < kDofs; ++k) out.row(kTangent + k) = before.row(k).array() - nominal_before[k];
+  return out;
+}
+
 Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
              std::span<const Feedback> laws, const Array<float, kLanes>& alpha, const State<P>& x0,
              Data<P>& scratch, const RollConfig& config) {
@@ -62,7 +61,7 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
     const int frame = nominal.begin + t;
     if (config.disturbance) config.disturbance(frame, x);
     const Feedback* law = laws.empty() ? nullptr : &laws[static_cast<std::size_t>(t)];
-    if (law != nullptr) memory_difference(x, before, nominal.x[t], nominal.previous(t), dz);
+    if (law != nullptr) dz = memory_difference(x, before, nominal.x[t], nominal.previous(t));
     const LaneControls u = controls_of(system, nominal.u[t], law, dz, alpha);
     for (int lane = 0; lane < kLanes; ++lane) {
       set_target(

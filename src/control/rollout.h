@@ -28,6 +28,13 @@ struct Trajectory {
 /// Controls of all lanes.
 using LaneControls = Eigen::Matrix<float, kMaxControls, kLanes, Eigen::RowMajor>;
 
+/// z − z̄ of all lanes.
+using LaneMemory = Eigen::Matrix<float, kMemory, kLanes, Eigen::RowMajor>;
+
+/// z − z̄ of every lane; far away a law is meaningless anyway, and infinities must not spread.
+LaneMemory memory_difference(const State<P>& x, const LaneControls& before, const State<double>& nominal_x,
+                             const Control& nominal_before);
+
 /// kLanes roll-outs side by side.
 struct Fan {
   List<State<P>> x;                  ///< [n + 1]

@@ -2,7 +2,9 @@
 
 #include <omp.h>
 
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 
 #include "core/containers.h"
 
@@ -20,6 +22,76 @@ void parallel_for(int chunks, int threads, const std::function<void(int)>& body)
   }
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
+}
+
+namespace {
+
+/// What the workers of a chain share.
+class Chain {
+ public:
+  Chain(int n, const std::function<void(int, int)>& item, const std::function<void(int)>& link)
+      : n_(n), item_(item), link_(link), ready_(n, false), errors_(n) {}
+
+  void work(int worker) {
+    std::unique_lock lock(mutex_);
+    while (next_link_ < n_) {
+      if (!linking_ && ready_[next_link_]) {
+        linking_ = true;
+        if (!broken_) call(lock, next_link_, [&] { link_(next_link_); });
+        linking_ = false;
+        ++next_link_;
+      } else if (next_item_ < n_) {
+        const int i = next_item_++;
+        call(lock, i, [&] { item_(i, worker); });
+        ready_[i] = true;
+      } else {
+        changed_.wait(lock);
+        continue;
+      }
+      changed_.notify_all();
+    }
+  }
+  void rethrow() const {
+    for (const auto& error : errors_)
+      if (error) std::rethrow_exception(error);
+  }
+
+ private:
+  /// Without the lock.
+  template <class F>
+  void call(std::unique_lock<std::mutex>& lock, int i, const F& f) {
+    lock.unlock();
+    std::exception_ptr error;
+    try {
+      f();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    lock.lock();
+    if (!error) return;
+    errors_[i] = error;
+    broken_ = true;
+  }
+
+  const int n_;
+  const std::function<void(int, int)>& item_;
+  const std::function<void(int)>& link_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  List<char> ready_;  ///< [n] items that have ended
+  List<std::exception_ptr> errors_;
+  int next_item_ = 0, next_link_ = 0;
+  bool linking_ = false, broken_ = false;
+};
+
+}  // namespace
+
+void parallel_chain(int n, int threads, const std::function<void(int, int)>& item,
+                    const std::function<void(int)>& link) {
+  Chain chain(n > 0 ? n : 0, item, link);
+#pragma omp parallel num_threads(threads > 0 ? threads : 1)
+  chain.work(omp_get_thread_num());
+  chain.rethrow();
 }
 
 int available_threads() { return omp_get_num_procs(); }

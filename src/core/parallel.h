@@ -14,6 +14,15 @@ namespace mimicx {
 /// rethrown.
 void parallel_for(int chunks, int threads, const std::function<void(int chunk)>& body);
 
+/// Calls item(i, worker) for i = 0 .. n-1 on up to `threads` threads, and link(i) for i = 0 .. n-1 in this
+/// order, one at a time: after item(i) and link(i-1). So a chain of steps runs beside the work that the later
+/// ones need. Where a link follows its item closely, both may be on different threads.
+/// @param item  worker: 0 .. threads-1, for scratch; no two items of a worker run at once
+/// An exception leaves the region after every item has ended; no link behind it begins. That of the lowest
+/// item is rethrown.
+void parallel_chain(int n, int threads, const std::function<void(int i, int worker)>& item,
+                    const std::function<void(int i)>& link);
+
 /// Number of processors this process may use.
 int available_threads();
 

@@ -31,13 +31,15 @@ void adam_step(Adam<S>& adam, std::span<Matrix<S>* const> parameters, std::span<
   const S first_correction = static_cast<S>(1.0 / (1.0 - adam.beta1_power));
   const S second_correction = static_cast<S>(1.0 / (1.0 - adam.beta2_power));
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto g = gradients[k].array();
-    auto m = adam.first[k].array();
-    auto v = adam.second[k].array();
-    m = adam.beta1 * m + (S(1) - adam.beta1) * g;
-    v = adam.beta2 * v + (S(1) - adam.beta2) * (g * g);
-    parameters[k]->array() -=
-        step_size * (m * first_correction) / ((v * second_correction).sqrt() + adam.epsilon);
+    const S* g = gradients[k].data();
+    S* m = adam.first[k].data();
+    S* v = adam.second[k].data();
+    S* x = parameters[k]->data();
+    for (Eigen::Index i = 0; i < parameters[k]->size(); ++i) {
+      m[i] = adam.beta1 * m[i] + (S(1) - adam.beta1) * g[i];
+      v[i] = adam.beta2 * v[i] + (S(1) - adam.beta2) * (g[i] * g[i]);
+      x[i] -= step_size * (m[i] * first_correction) / (std::sqrt(v[i] * second_correction) + adam.epsilon);
+    }
   }
 }
 

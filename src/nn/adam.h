@@ -1,5 +1,8 @@
 /// Adam (Kingma & Ba, ICLR 2015, Algorithm 1), and clipping of a gradient by its norm.
 ///
+/// The root is the processor's own, which is exact by IEEE 754. Eigen's would be taken from an approximate
+/// instruction, whose bits differ between makers of processors.
+///
 /// Deviation: the powers β₁ᵗ and β₂ᵗ are carried along as products instead of being computed by `pow`,
 /// whose bits differ between libraries.
 #pragma once

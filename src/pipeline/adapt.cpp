@@ -6,6 +6,7 @@
 #include "pipeline/choice.h"
 #include "pipeline/plan.h"
 #include "pipeline/plan_sequence.h"
+#include "pipeline/teach_sequence.h"
 #include "pipeline/train_sequence.h"
 
 namespace mimicx::pipeline {
@@ -37,11 +38,39 @@ SequenceJob after_seconds(const SequenceJob& job, double seconds) {
   return rest;
 }
 
+/// A plan that was followed teaches a policy; the better of the two roll-outs stays.
+SimulatedSequence teach_after(const AdaptConfig& config, const motion::Reference& reference,
+                              const control::Plan& plan, const Candidate& planned, SimulatedSequence made,
+                              const SequenceJob& job) {
+  TaughtPolicy taught =
+      teach_sequence(reference, plan, config.teaching, config.plan.weights, config.training, job);
+  made.interrupted = taught.interrupted;
+  made.training_seconds = taught.seconds;
+  if (taught.interrupted) return made;
+  made.policy = taught.values;
+  made.samples = taught.samples;
+  if (!taught.note.empty()) made.notes.push_back(taught.note);
+  if (!taught.policy) return made;
+  const Candidate learned = candidate_of(reference, taught.alone);
+  const bool keep_plan = !better(learned, planned);
+  made.notes.push_back("plan: " + in_words(planned) + "; policy: " + in_words(learned) + "; written: the " +
+                       (keep_plan ? "plan" : "policy"));
+  if (!keep_plan) {
+    made.method = "policy";
+    made.after = std::move(taught.alone);
+  }
+  made.taught = std::move(taught.policy);
+  return made;
+}
+
 SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion::Reference& reference,
                                     const SequenceJob& job) {
-  SimulatedSequence plan = plan_sequence(reference, planning_of(config), job);
+  control::Plan found;
+  SimulatedSequence plan = plan_sequence(reference, planning_of(config), job, &found);
   if (plan.interrupted) return plan;
   const Candidate planned = candidate_of(reference, plan.after);
+  if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)
+    return teach_after(config, reference, found, planned, std::move(plan), job);
   if (planned.success) return plan;
   SimulatedSequence trained = fine_tune(config, reference, after_seconds(job, plan.planning_seconds));
   trained.planning_seconds = plan.planning_seconds;
@@ -86,12 +115,16 @@ NamedValues settings_of(const AdaptConfig& config) {
   append(settings, settings_of(config.run));
   append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
                     {"rescue_reward", config.arrangement.rescue_reward}});
-  if (config.method == AdaptMethod::kAuto) append(settings, plan_settings(config.plan));
+  if (config.method == AdaptMethod::kAuto) {
+    append(settings, plan_settings(config.plan));
+    append(settings, teaching_settings(config.teaching));
+  }
   return settings;
 }
 
 void apply_setting(AdaptConfig& config, const std::string& name, double value) {
   if (config.method != AdaptMethod::kPaper && change_setting(config.plan, name, value)) return;
+  if (config.method == AdaptMethod::kAuto && change_setting(config.teaching, name, value)) return;
   if (config.method != AdaptMethod::kPlan) return apply_setting(config.training, name, value);
   PlanningConfig planning = planning_of(config);
   apply_setting(planning, name, value);
@@ -101,6 +134,7 @@ void apply_setting(AdaptConfig& config, const std::string& name, double value) {
 void check(const AdaptConfig& config) {
   if (config.method != AdaptMethod::kPaper) check(planning_of(config));
   if (config.method != AdaptMethod::kPlan) check(config.training);
+  if (config.method == AdaptMethod::kAuto) check(config.teaching);
 }
 
 record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context) {

@@ -3,8 +3,9 @@
 /// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion.
 /// *Paper*: trained options are arranged over the motion, and those that act are fine-tuned jointly; minutes.
 ///                                                                     docs/method.md §8, §9
-/// *Auto*: the plan, and where its roll-out is no success the paper's method with its whole budget; the
-/// better of the two roll-outs is written (choice.h), and the manifest says which.
+/// *Auto*: the plan, and a policy that it teaches (teach_sequence.h); where the plan's roll-out is no success
+/// the paper's method with its whole budget. The better of the roll-outs is written (choice.h), and the
+/// manifest says which.
 #pragma once
 
 #include <memory>
@@ -12,6 +13,7 @@
 #include "pipeline/options/arrangement.h"
 #include "pipeline/planning.h"
 #include "pipeline/sequence_run.h"
+#include "pipeline/teaching.h"
 #include "pipeline/training.h"
 
 namespace mimicx::pipeline {
@@ -22,6 +24,7 @@ struct AdaptConfig {
   AdaptMethod method = AdaptMethod::kAuto;
   RunConfig run;
   MotionPlanConfig plan;    ///< simulated as `training` says
+  TeachingConfig teaching;
   TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   options::ArrangementConfig arrangement;
   std::shared_ptr<const options::OptionSet> options;  ///< to start from; not looked at by the plan alone
@@ -30,7 +33,7 @@ struct AdaptConfig {
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const AdaptConfig& config);
 
-/// Changes a setting of the plan, or one of the training, by its name.
+/// Changes a setting of the plan, of teaching, or of the training, by its name.
 /// @throws std::invalid_argument as those of planning.h and training_config.h
 void apply_setting(AdaptConfig& config, const std::string& name, double value);
 /// @throws std::invalid_argument naming a setting that the method cannot have

@@ -118,7 +118,7 @@ record::Ending ending_of(const control::Plan& plan) {
 }  // namespace
 
 SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
-                                const SequenceJob& job) {
+                                const SequenceJob& job, control::Plan* planned) {
   SimulatedSequence made;
   made.method = "plan";
   Watch watch{job};
@@ -144,6 +144,7 @@ SimulatedSequence plan_sequence(const motion::Reference& reference, const Planni
   if (made.ending == record::Ending::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);
+  if (planned) *planned = std::move(stored->plan);
   return made;
 }
 

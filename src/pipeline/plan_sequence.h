@@ -13,7 +13,8 @@
 namespace mimicx::pipeline {
 
 /// The result is interrupted where the job's context stopped the plan.
+/// @param planned  where not null: the plan itself
 SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
-                                const SequenceJob& job);
+                                const SequenceJob& job, control::Plan* planned = nullptr);
 
 }  // namespace mimicx::pipeline

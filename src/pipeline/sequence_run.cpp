@@ -220,6 +220,7 @@ void judge_sequence(const Method& method, const motion::Reference& reference, co
                     record::SequenceEntry& entry) {
   entry.method = made.method;
   entry.plan = made.plan;
+  entry.policy = made.policy;
   append(entry.feasibility, help_values(made.help, reference.character.total_mass()));
   entry.samples = made.samples;
   entry.ending = made.ending;
@@ -267,6 +268,8 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
     audit::write_substeps(
         with_parents(folder.substeps(entry.name)),
         {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
+  std::filesystem::remove(folder.policy(entry.name));
+  if (made.taught) output::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
   entry.output = output;
   entry.files = checksums_of(folder, entry);
 }

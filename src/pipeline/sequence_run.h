@@ -24,6 +24,7 @@
 
 #include "motion/import/motion_file.h"
 #include "pipeline/audit/pose_needs.h"
+#include "pipeline/output/policy_file.h"
 #include "pipeline/record/manifest.h"
 #include "pipeline/record/run_context.h"
 #include "pipeline/record/run_folder.h"
@@ -74,6 +75,9 @@ struct SimulatedSequence {
   rl::tracking::TrackingRollout after;                  ///< the result
   std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option}; empty without options
   NamedValues plan = {};                                ///< what planning it took
+  NamedValues policy = {};                          ///< how the policy does that the plan has taught; or none
+  std::optional<output::StoredPolicy> taught = {};  ///< that policy, to be written
+  std::vector<rl::Agent> agents = {};               ///< of a training
   PerFrame<Vector6d> help = {};         ///< moment and force that a plan's soft stage was left with; or none
   std::string reason = {};              ///< why it is no success, or may be none, where the method knows
   std::vector<std::string> notes = {};  ///< for the manifest

@@ -66,6 +66,25 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
   EXPECT_EQ(std::memcmp(one.plan.x.data(), two.plan.x.data(), one.plan.x.size() * sizeof one.plan.x[0]), 0);
 }
 
+TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
+  Problem p;
+  List<FrameModel> after, beside;
+  build_models(p.system, p.cost, p.plan, {}, 1, after);
+  const auto same = [&](int t) {
+    EXPECT_EQ(beside[t].F, after[t].F);
+    EXPECT_EQ(beside[t].cost.gradient, after[t].cost.gradient);
+  };
+  int next = p.plan.size() - 1;
+  build_models(p.system, p.cost, p.plan, {}, 2, beside, [&](int t) {
+    EXPECT_EQ(t, next--);
+    if (t + 1 == p.plan.size()) {
+      EXPECT_EQ(beside[t + 1].cost.gradient, after[t + 1].cost.gradient);
+    }
+    same(t);
+  });
+  EXPECT_EQ(next, -1);
+}
+
 // The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
 TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
   Problem p;

@@ -42,6 +42,25 @@ TEST(Adam, FollowsTheScalarAlgorithmWithAChangingStepSize) {
     EXPECT_NEAR(i < 6 ? weight.data()[i] : bias.data()[i - 6], theta[i], 1e-13);
 }
 
+// Roots by an approximate instruction and a Newton step would differ between makers of processors.
+TEST(Adam, EveryRootIsTheCorrectlyRoundedOne) {
+  const Eigen::Index n = 1003;
+  Matrix<float> x = Matrix<float>::Zero(1, n);
+  const std::vector<Matrix<float>*> parameters = {&x};
+  auto adam = make_adam<float>(parameters);
+  std::vector<Matrix<float>> gradients = {Matrix<float>(1, n)};
+  for (Eigen::Index i = 0; i < n; ++i)
+    gradients[0](i) = std::ldexp(1.0f + 0.00083f * float(i), int(i % 19) - 9);
+  adam_step<float>(adam, parameters, gradients, 1.0f);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const float g = gradients[0](i), beta1 = 0.9f, beta2 = 0.999f;
+    const float m = (1.0f - beta1) * g * float(1.0 / (1.0 - double{beta1}));
+    const float square = (1.0f - beta2) * (g * g) * float(1.0 / (1.0 - double{beta2}));
+    const float root = static_cast<float>(std::sqrt(static_cast<double>(square)));  // rounds correctly
+    ASSERT_EQ(x(i), 0.0f - m / (root + 1e-8f)) << i;
+  }
+}
+
 TEST(Adam, MinimisesAnIllConditionedConvexFunction) {
   Matrix<double> x = Matrix<double>::Constant(1, 3, 2.0);
   const Eigen::Array<double, 1, 3> curvature(1.0, 100.0, 0.01), optimum(0.5, -1.0, 1.5);

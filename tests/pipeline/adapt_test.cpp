@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "motion/clip_file.h"
+#include "pipeline/output/policy_file.h"
 #include "pipeline/plan.h"
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"
+#include "pipeline/scores.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -128,17 +130,83 @@ TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
   EXPECT_EQ(results_of(out("run")), results_of(out("plan")));
 }
 
-TEST_F(Adapt, ByItselfTakesThePlanWhereItSucceedsAndTrainsNothing) {
+/// A plan that teaches a small student quickly.
+AdaptConfig teaching_quickly(AdaptConfig config) {
+  config.method = AdaptMethod::kAuto;
+  config.teaching.student.hidden = 32;
+  config.teaching.student.rounds = 4;
+  config.teaching.student.least_steps = 40;
+  return config;
+}
+
+TEST_F(Adapt, APlanThatIsFollowedTeachesAPolicyAndNothingElseIsTrained) {
+  run(pretraining("options"));
+  const AdaptConfig config = teaching_quickly(adapting("run", "options"));
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
+  EXPECT_TRUE(entry.arrangement.empty());
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "training")) << "no PPO where the student follows";
+  EXPECT_EQ(value_of(entry.policy, "success"), 1.0);
+  EXPECT_GT(value_of(entry.policy, "lessons"), 0.0);
+  EXPECT_EQ(entry.samples, 0);
+  EXPECT_EQ(read_file(out("run") / "report.html").find("cannot be shown"), std::string::npos);
+  EXPECT_NE(entry.notes.back().find("; written: the "), std::string::npos) << entry.notes.back();
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));
+}
+
+TEST_F(Adapt, ThePolicyOnDiskDoesWhatTheManifestSays) {
+  run(pretraining("options"));
+  const AdaptConfig config = teaching_quickly(adapting("run", "options"));
+  run(config);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  const output::StoredPolicy policy = output::read_policy(out("run") / "policies" / "sway.npz");
+  rl::tracking::TrackingConfig task;
+  task.simulation = policy.simulation;
+  const Scores scores = score_simulated(
+      policy.motion, rl::tracking::roll_out(rl::tracking::make_tracking_clip(policy.motion, task), task,
+                                            rl::tracking::mean_action({policy.agent})));
+  EXPECT_NEAR(value_of(scores.values, "gMPJPE"), value_of(entry.policy, "gMPJPE"), 1e-9);
+}
+
+TEST_F(Adapt, WithoutTeachingIsThePlanAlone) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.method = AdaptMethod::kAuto;
+  config.teaching.teach = false;
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(entry.method, "plan");
-  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
   EXPECT_EQ(entry.samples, 0);
-  EXPECT_TRUE(entry.arrangement.empty());
-  EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "policies"));
+}
+
+TEST_F(Adapt, TeachingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
+  run(pretraining("options"));
+  AdaptConfig config = teaching_quickly(adapting("one", "options"));
+  run(config);
+  config.run.out = out("two");
+  config.run.threads = 2;
+  EXPECT_EQ(run(config, 60), record::RunOutcome::kInterrupted);
+  run(config);
+  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+}
+
+TEST_F(Adapt, AStudentThatFallsIsPolishedByPpo) {
+  run(pretraining("options"));
+  AdaptConfig config = teaching_quickly(adapting("run", "options"));
+  config.run.inputs = {(motions / "walk.npz").string()};
+  config.teaching.student.rounds = 1;
+  config.teaching.student.stages = 1;
+  config.teaching.student.step_size = config.teaching.student.last_step_size = 1.0;  // it learns nonsense
+  config.teaching.polish_samples = 3 * 64 * 8;
+  run(config);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(value_of(entry.policy, "polish_samples"), 3 * 64 * 8);
+  EXPECT_EQ(value_of(entry.policy, "success"), 0.0);
+  EXPECT_EQ(entry.method, "plan") << "the plan is followed all the same";
+  EXPECT_TRUE(entry.ok);
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "training" / "walk.csv"));
 }
 
 /// Plans that are given up at once.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "core/units.h"
 #include "motion/fit/projection.h"
 
@@ -121,8 +122,12 @@ FitLevels levels_of(const FitProblem& problem, const FitState& state, const PerF
   Evidence evidence;
   std::vector<Sum> sums;
   Sum all{square(problem.config.keypoint_sigma) * kToldCounts, kToldCounts};
+  List<std::vector<Seen>> of_points(problem.points.size());
+  parallel_for(of_points.count(), problem.config.threads, [&](int k) {
+    of_points[k] = seen_of(problem, state, motion, draws, weights, static_cast<std::size_t>(k));
+  });
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const std::vector<Seen> seen = seen_of(problem, state, motion, draws, weights, k);
+    const std::vector<Seen>& seen = of_points[k];
     Sum sum{0.0, 2.0 * static_cast<double>(seen.size())};
     for (const Seen& s : seen) sum.squares += square(before.keypoint[k]) * s.square;
     all.squares += sum.squares, all.count += sum.count;

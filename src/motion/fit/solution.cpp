@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
 #include "motion/fit/balance.h"
@@ -30,12 +31,16 @@ struct Evaluated {
 };
 
 Evaluated evaluate(const FitProblem& problem, const FitState& state) {
+  constexpr int kFrames = 32;  // a chunk
   const Character character = character_of(problem, state);
-  Evaluated e;
-  for (int t = 0; t < problem.frames(); ++t) {
-    e.motion.push_back(kinematics(problem, state, character, t));
-    e.feet.push_back(foot_positions(character, e.motion[t]));
-  }
+  const int frames = problem.frames();
+  Evaluated e{PerFrame<FrameKinematics>(frames), PerFrame<FootPositions>(frames)};
+  parallel_for((frames + kFrames - 1) / kFrames, problem.config.threads, [&](int chunk) {
+    for (int t = chunk * kFrames; t < std::min((chunk + 1) * kFrames, frames); ++t) {
+      e.motion[t] = kinematics(problem, state, character, t);
+      e.feet[t] = foot_positions(character, e.motion[t]);
+    }
+  });
   return e;
 }
 
@@ -132,17 +137,19 @@ void report_change(const Clip& before, const Clip& after, FitReport& report) {
     }
 }
 
-/// Draws of the error of the solution of a system that was solved.
-std::vector<BandSolution> draws_of(const BorderedBand& factored, Random& random) {
-  std::vector<BandSolution> draws;
-  for (int i = 0; i < kDraws; ++i) draws.push_back(draw(factored, random));
-  return draws;
-}
-
 Contacts contacts_of(const FitProblem& problem, const Evaluated& e, bool settled) {
   Contacts contacts = find_contacts(e.feet, problem.fps, settled || problem.poses_alone);
   if (problem.poses_alone) keep_level_soles(problem, e.motion, contacts);
   return contacts;
+}
+
+/// The Gauss-Newton step from a state, and draws of its error.
+SolutionWithDraws step_from(const FitProblem& problem, const FitState& state, const Evaluated& e,
+                            const Contacts& contacts, int draws, Random& random) {
+  NormalEquations equations = linearise(problem, state, e.motion, e.feet, contacts);
+  if (problem.poses_alone)
+    add_balance(problem, character_of(problem, state), e.motion, e.feet, contacts, equations.band);
+  return solve(equations.band, equations.border, draws, random, problem.config.threads);
 }
 
 /// Gauss-Newton with labels and contacts found anew before each step, levels after it.
@@ -154,15 +161,15 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   report.residual_before = residual_of(problem, state, e).rms;
   for (report.iterations = 0; report.iterations < problem.config.iterations;) {
     report.swapped_frames = order_labels(detected, predict(problem, state, e), problem);
-    const Contacts contacts = contacts_of(problem, e, report.iterations >= kUnsettled);
-    BorderedBand system = linearise(problem, state, e.motion, e.feet, contacts);
-    if (problem.poses_alone)
-      add_balance(problem, character_of(problem, state), e.motion, e.feet, contacts, system);
-    const double step = advance(solve(system, problem.config.threads), state);
+    const bool settled = report.iterations >= kUnsettled;
+    const Contacts contacts = contacts_of(problem, e, settled);
+    const bool levels = settled && problem.config.find_levels && !problem.points.empty();
+    const SolutionWithDraws found = step_from(problem, state, e, contacts, levels ? kDraws : 0, random);
+    const double step = advance(found, state);
+    e = {};  // memory
     e = evaluate(problem, state);
-    problem.settled = report.iterations >= kUnsettled;
-    if (problem.settled && problem.config.find_levels && !problem.points.empty())
-      problem.levels = levels_of(problem, state, e.motion, draws_of(system, random));
+    problem.settled = settled;
+    if (levels) problem.levels = levels_of(problem, state, e.motion, found.draws);
     ++report.iterations;
     if (step < kSmallestStep && report.iterations > kUnsettled) break;
   }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "motion/fit/detection_rows.h"
 #include "motion/fit/levels.h"
 #include "motion/fit/projection.h"
 
@@ -44,113 +46,55 @@ double cauchy(double squared_residual, double width) {
 }
 double information(double sigma) { return 1.0 / square(std::max(sigma, kFixed)); }
 
-/// Adds the terms of one linearisation to a system, term by term.
+/// The terms of one linearisation, each of which adds itself to a system.
 struct Assembler {
   const FitProblem& problem;
   const FitState& state;
   const PerFrame<FrameKinematics>& motion;
   const PerFrame<FootPositions>& feet;
   const Contacts& contacts;
-  BorderedBand& system;
-  PerFrame<std::vector<double>> weights;  ///< of the detections
-
-  /// Rows of a frame's detections, by the unknowns of the frame, the clip's, and the point's own offsets;
-  /// errors.
-  struct Rows {
-    Eigen::MatrixXd J, G, O;
-    VectorXd z;
-  };
-  Rows before, now;
+  Detections detections;
 
   double time_scale() const { return kReferenceFps / problem.fps; }
-  void look(int t);
-  void add_border(int t, const Eigen::MatrixXd& J, const Eigen::MatrixXd& G, const Eigen::MatrixXd& O,
-                  const VectorXd& r);
-  void keypoints(int t);
-  void globals();
-  void priors(int t);
-  void smoothness(int t);
-  template <int N>
-  void add_differences(const PerFrame<PointsJacobian<N>>& J, const DifferenceWeights<N>& w);
-  void acceleration();
-  void standing(int t);
-  void slipping();
+  void keypoints(int t, const DetectionRows& before, const DetectionRows& now, BorderedBand& system) const;
+  void globals(BorderedBand& system) const;
+  void priors(int t, BorderedBand& system) const;
+  void smoothness(int t, BorderedBand& system) const;
+  template <int N, class Jacobian>
+  void add_differences(const Jacobian& jacobian, const DifferenceWeights<N>& w, BorderedBand& system) const;
+  void acceleration(BorderedBand& system) const;
+  double standing_weight(int t, int i) const;
+  void standing(int t, BorderedBand& system) const;
+  void slipping(BorderedBand& system) const;
+  void border(int first, std::span<Eigen::MatrixXd> rows) const;
 };
 
-void Assembler::look(int t) {
-  std::swap(before, now);
-  const auto rows = static_cast<Eigen::Index>(2 * problem.points.size());
-  now.J.setZero(rows, kFrameUnknowns);
-  now.G.setZero(rows, kFirstOffset);
-  now.O.setZero(rows, kOffsets);
-  now.z.setZero(rows);
-  for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const double scale = weights[t][k];
-    if (scale <= 0.0) continue;
-    const SeenPoint point = see_closely(problem, state, motion, t, k);
-    const auto row = static_cast<Eigen::Index>(2 * k);
-    now.J.middleRows<2>(row) = scale * point.by_frame;
-    now.G.middleRows<2>(row) = scale * point.by_clip;
-    now.O.middleRows<2>(row) = scale * point.by_offset;
-    now.z.segment<2>(row) = scale * point.seen.error;
-  }
-}
-
 /// Projected joints against detections: what is new in the error of a frame after that of the frame before.
-void Assembler::keypoints(int t) {
-  look(t);
-  const auto rows = now.z.size();
-  VectorXd here = VectorXd::Ones(rows), kept = VectorXd::Zero(rows), own(rows);
-  const double correlation = correlation_of(problem);
-  const double grown = 1.0 / std::sqrt(1.0 - square(correlation));
-  const auto follows = [&](int after, std::size_t k) {
-    return after > 0 && after < problem.frames() && weights[after][k] > 0.0 && weights[after - 1][k] > 0.0;
-  };
-  for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(2 * k);
-    if (follows(t, k))
-      here.segment<2>(row).setConstant(grown), kept.segment<2>(row).setConstant(correlation * grown);
-    const double later = follows(t + 1, k) ? square(correlation * grown) : 0.0;
-    own.segment<2>(row) = here.segment<2>(row).array().square() + later;
-  }
-  system.diagonal[t].noalias() += now.J.transpose() * (own.asDiagonal() * now.J);
-  Eigen::MatrixXd G = here.asDiagonal() * now.G, O = here.asDiagonal() * now.O;
-  VectorXd r = here.cwiseProduct(now.z);
+void Assembler::keypoints(int t, const DetectionRows& before, const DetectionRows& now,
+                          BorderedBand& system) const {
+  const NewInFrame news = detections.news(t, before, now);
+  system.diagonal[t].noalias() += now.J.transpose() * (news.own.asDiagonal() * now.J);
   if (t > 0) {
-    G -= kept.asDiagonal() * before.G;
-    O -= kept.asDiagonal() * before.O;
-    r -= kept.cwiseProduct(before.z);
-    system.next[t - 1].noalias() -= now.J.transpose() * (here.cwiseProduct(kept).asDiagonal() * before.J);
-    add_border(t - 1, -(kept.asDiagonal() * before.J).eval(), G, O, r);
+    system.next[t - 1].noalias() -=
+        now.J.transpose() * (news.here.cwiseProduct(news.kept).asDiagonal() * before.J);
+    system.rhs[t - 1].noalias() += (news.kept.asDiagonal() * before.J).eval().transpose() * news.r;
   }
-  add_border(t, here.asDiagonal() * now.J, G, O, r);
-  system.corner.topLeftCorner<kFirstOffset, kFirstOffset>().noalias() += G.transpose() * G;
-  system.rhs_border.head<kFirstOffset>().noalias() -= G.transpose() * r;
+  system.rhs[t].noalias() -= (news.here.asDiagonal() * now.J).eval().transpose() * news.r;
+  system.corner.topLeftCorner<kFirstOffset, kFirstOffset>().noalias() += news.G.transpose() * news.G;
+  system.rhs_border.head<kFirstOffset>().noalias() -= news.G.transpose() * news.r;
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(2 * k);
     const int at = offset_of(k);
-    const Eigen::Matrix<double, kOffsets, 2> offsets = O.middleRows<2>(row).transpose();
-    const Eigen::Matrix<double, kOffsets, kFirstOffset> shared = offsets * G.middleRows<2>(row);
+    const Eigen::Matrix<double, kOffsets, 2> offsets = news.O.middleRows<2>(row).transpose();
+    const Eigen::Matrix<double, kOffsets, kFirstOffset> shared = offsets * news.G.middleRows<2>(row);
     system.corner.block<kOffsets, kFirstOffset>(at, 0) += shared;
     system.corner.block<kFirstOffset, kOffsets>(0, at) += shared.transpose();
     system.corner.block<kOffsets, kOffsets>(at, at) += offsets * offsets.transpose();
-    system.rhs_border.segment<kOffsets>(at) -= offsets * r.segment<2>(row);
+    system.rhs_border.segment<kOffsets>(at) -= offsets * news.r.segment<2>(row);
   }
 }
 
-/// What the rows J of a frame share with the clip's unknowns, and its right side.
-void Assembler::add_border(int t, const Eigen::MatrixXd& J, const Eigen::MatrixXd& G,
-                           const Eigen::MatrixXd& O, const VectorXd& r) {
-  system.border[t].leftCols<kFirstOffset>().noalias() += J.transpose() * G;
-  for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(2 * k);
-    system.border[t].middleCols<kOffsets>(offset_of(k)).noalias() +=
-        J.middleRows<2>(row).transpose() * O.middleRows<2>(row);
-  }
-  system.rhs[t].noalias() -= J.transpose() * r;
-}
-
-void Assembler::globals() {
+void Assembler::globals(BorderedBand& system) const {
   const FitConfig& o = problem.config;
   VectorXd weight(problem.globals());
   weight[kTilt] = o.told_weight * information(kDegree * o.tilt_sigma);
@@ -166,14 +110,14 @@ void Assembler::globals() {
   system.rhs_border -= weight.cwiseProduct(state.g);
 }
 
-void Assembler::priors(int t) {
+void Assembler::priors(int t, BorderedBand& system) const {
   const FrameVector weight = correction_levels(problem).size.array().square().inverse();
   system.diagonal[t].diagonal() += weight;
   system.rhs[t] -= weight.cwiseProduct(state.c[t]);
 }
 
 /// First and second differences of the corrections; what the input itself jitters is allowed on top.
-void Assembler::smoothness(int t) {
+void Assembler::smoothness(int t, BorderedBand& system) const {
   const CorrectionLevels level = correction_levels(problem);
   if (t + 1 < state.c.count()) {
     const FrameVector w = level.rate.array().square().inverse();
@@ -199,25 +143,31 @@ void Assembler::smoothness(int t) {
   }
 }
 
-/// Adds differences of points over frames: [frames] derivatives of the points' coordinates, and their
-/// weights.
-template <int N>
-void Assembler::add_differences(const PerFrame<PointsJacobian<N>>& J, const DifferenceWeights<N>& w) {
+/// Adds differences of points over frames, some frames at a time: the derivatives of all frames would take as
+/// much memory as a third of the system.
+/// @param jacobian  derivative of the points' coordinates in frame t, by that frame's unknowns
+template <int N, class Jacobian>
+void Assembler::add_differences(const Jacobian& jacobian, const DifferenceWeights<N>& w,
+                                BorderedBand& system) const {
   const int frames = problem.frames();
   constexpr int kFrames = 16;  // a chunk; every frame writes its own blocks
   parallel_for((frames + kFrames - 1) / kFrames, problem.config.threads, [&](int chunk) {
-    for (int t = chunk * kFrames; t < std::min((chunk + 1) * kFrames, frames); ++t) {
-      system.diagonal[t].noalias() += J[t].transpose() * (w.diagonal[t].asDiagonal() * J[t]);
-      if (t + 1 < frames) system.next[t].noalias() += J[t + 1].transpose() * (w.next[t].asDiagonal() * J[t]);
+    const int first = chunk * kFrames, last = std::min(first + kFrames, frames);
+    PerFrame<PointsJacobian<N>> chunk_of_J;  // and of the two frames behind it
+    for (int t = first; t < std::min(last + 2, frames); ++t) chunk_of_J.push_back(jacobian(t));
+    const auto J = [&](int t) -> const PointsJacobian<N>& { return chunk_of_J[t - first]; };
+    for (int t = first; t < last; ++t) {
+      system.diagonal[t].noalias() += J(t).transpose() * (w.diagonal[t].asDiagonal() * J(t));
+      if (t + 1 < frames) system.next[t].noalias() += J(t + 1).transpose() * (w.next[t].asDiagonal() * J(t));
       if (w.has_second && t + 2 < frames)
-        system.second[t].noalias() += J[t + 2].transpose() * (w.second[t].asDiagonal() * J[t]);
-      system.rhs[t].noalias() += J[t].transpose() * w.pull[t];
+        system.second[t].noalias() += J(t + 2).transpose() * (w.second[t].asDiagonal() * J(t));
+      system.rhs[t].noalias() += J(t).transpose() * w.pull[t];
     }
   });
 }
 
 /// Second differences of all joint positions. The shape's influence on accelerations is left out.
-void Assembler::acceleration() {
+void Assembler::acceleration(BorderedBand& system) const {
   const int frames = problem.frames();
   const double sigma = square(time_scale()) * problem.config.acceleration_sigma;
   DifferenceWeights<kBodies> weights(frames, true);
@@ -233,45 +183,82 @@ void Assembler::acceleration() {
       weights.pull[t].segment<3>(3 * b) += 2.0 * w * a;
       weights.pull[t + 1].segment<3>(3 * b) -= w * a;
     }
-  PerFrame<PointsJacobian<kBodies>> J(motion.size());
-  for (int t = 0; t < frames; ++t)
+  const auto jacobian = [&](int t) {
+    PointsJacobian<kBodies> J;
     for (int b = 0; b < kBodies; ++b)
-      J[t].middleRows<3>(3 * b) = point_jacobian(motion[t], b, motion[t].poses.p_WB[b]);
-  add_differences<kBodies>(J, weights);
+      J.middleRows<3>(3 * b) = point_jacobian(motion[t], b, motion[t].poses.p_WB[b]);
+    return J;
+  };
+  add_differences<kBodies>(jacobian, weights, system);
 }
 
-/// Heights of the foot points: on the floor where they stand, not below it anywhere.
-void Assembler::standing(int t) {
-  for (int i = 0; i < kFootPoints; ++i) {
-    const double z = feet[t][i].z();
-    double w = 0.0;
-    if (contacts[t][i]) w += information(problem.config.floor_sigma) * cauchy(z * z, kFloorKernel);
-    if (z < 0.0) w += information(problem.config.penetration_sigma);
-    if (w == 0.0) continue;
+/// Weight of the height of a foot point: where it stands, and where it is below the floor. Else 0.
+double Assembler::standing_weight(int t, int i) const {
+  const double z = feet[t][i].z();
+  double w = 0.0;
+  if (contacts[t][i]) w += information(problem.config.floor_sigma) * cauchy(z * z, kFloorKernel);
+  if (z < 0.0) w += information(problem.config.penetration_sigma);
+  return w;
+}
+
+/// By the unknowns of the frame and by the shape: how high a foot point is.
+struct HeightJacobian {
+  Eigen::RowVectorXd J;
+  Eigen::Matrix<double, 1, kBetas> G;
+
+  HeightJacobian(const FitProblem& problem, const FrameKinematics& k, const FootPositions& feet, int i) {
     const auto& [body, by_beta] = problem.foot_points[i];
-    const Eigen::RowVectorXd J = point_jacobian(motion[t], body, feet[t][i]).row(2);
-    const Eigen::Matrix<double, 1, kBetas> G = (motion[t].by_beta[body] + motion[t].R[body] * by_beta).row(2);
+    J = point_jacobian(k, body, feet[i]).row(2);
+    G = (k.by_beta[body] + k.R[body] * by_beta).row(2);
+  }
+};
+
+/// Heights of the foot points: on the floor where they stand, not below it anywhere.
+void Assembler::standing(int t, BorderedBand& system) const {
+  for (int i = 0; i < kFootPoints; ++i) {
+    const double z = feet[t][i].z(), w = standing_weight(t, i);
+    if (w == 0.0) continue;
+    const auto [J, G] = HeightJacobian(problem, motion[t], feet[t], i);
     system.diagonal[t].noalias() += w * J.transpose() * J;
-    system.border[t].middleCols<kBetas>(kFirstBeta).noalias() += w * J.transpose() * G;
     system.corner.block<kBetas, kBetas>(kFirstBeta, kFirstBeta).noalias() += w * G.transpose() * G;
     system.rhs[t].noalias() -= w * z * J.transpose();
     system.rhs_border.segment<kBetas>(kFirstBeta).noalias() -= w * z * G.transpose();
   }
 }
 
+/// What frames share with the clip's unknowns: detections and heights.
+void Assembler::border(int first, std::span<Eigen::MatrixXd> rows) const {
+  DetectionRows before, now = first > 0 ? detections.rows(first - 1) : DetectionRows{};
+  const int end = first + static_cast<int>(rows.size());
+  for (int t = first; t <= std::min(end, problem.frames() - 1); ++t) {
+    std::swap(before, now);
+    now = detections.rows(t);
+    const NewInFrame news = detections.news(t, before, now);
+    const auto at = static_cast<std::size_t>(t - first);
+    if (t > first) detections.add_border(-(news.kept.asDiagonal() * before.J).eval(), news, rows[at - 1]);
+    if (t == end) break;
+    rows[at].setZero(kFrameUnknowns, problem.globals());
+    detections.add_border(news.here.asDiagonal() * now.J, news, rows[at]);
+    for (int i = 0; i < kFootPoints; ++i) {
+      const double w = standing_weight(t, i);
+      if (w == 0.0) continue;
+      const auto [J, G] = HeightJacobian(problem, motion[t], feet[t], i);
+      rows[at].middleCols<kBetas>(kFirstBeta).noalias() += w * J.transpose() * G;
+    }
+  }
+}
+
 /// A point that stands in this frame and the next does not move. The shape's influence is left out.
-void Assembler::slipping() {
+void Assembler::slipping(BorderedBand& system) const {
   const int frames = problem.frames();
   const double sigma = time_scale() * problem.config.slip_sigma;
   DifferenceWeights<kFootPoints> weights(frames, false);
-  PerFrame<PointsJacobian<kFootPoints>> J(motion.size(), PointsJacobian<kFootPoints>::Zero());
-  const auto stands_on = [&](int t, int i) { return contacts[t][i] && contacts[t + 1][i]; };
+  const auto stays = [&](int t, int i) {
+    return t >= 0 && t + 1 < frames && contacts[t][i] && contacts[t + 1][i];
+  };
   for (int t = 0; t < frames; ++t)
     for (int i = 0; i < kFootPoints; ++i) {
-      const bool stays = t + 1 < frames && stands_on(t, i);
-      if (stays || (t > 0 && stands_on(t - 1, i)))
-        J[t].middleRows<3>(3 * i) = point_jacobian(motion[t], problem.foot_points[i].body, feet[t][i]);
-      if (!stays) continue;
+      if (!stays(t, i)) continue;
       const Vector3d d = feet[t + 1][i] - feet[t][i];
       const double w = information(sigma) * cauchy(d.squaredNorm(), kSlipKernel * sigma);
       weights.diagonal[t].segment<3>(3 * i).array() += w;
@@ -280,27 +267,39 @@ void Assembler::slipping() {
       weights.pull[t].segment<3>(3 * i) += w * d;
       weights.pull[t + 1].segment<3>(3 * i) -= w * d;
     }
-  add_differences<kFootPoints>(J, weights);
+  const auto jacobian = [&](int t) {
+    PointsJacobian<kFootPoints> J = PointsJacobian<kFootPoints>::Zero();
+    for (int i = 0; i < kFootPoints; ++i)
+      if (stays(t, i) || stays(t - 1, i))
+        J.middleRows<3>(3 * i) = point_jacobian(motion[t], problem.foot_points[i].body, feet[t][i]);
+    return J;
+  };
+  add_differences<kFootPoints>(jacobian, weights, system);
 }
 
 }  // namespace
 
-BorderedBand linearise(const FitProblem& problem, const FitState& state,
-                       const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,
-                       const Contacts& contacts) {
+NormalEquations linearise(const FitProblem& problem, const FitState& state,
+                          const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,
+                          const Contacts& contacts) {
+  const Assembler terms{problem,  state,
+                        motion,   feet,
+                        contacts, {problem, state, motion, detection_weights(problem, state, motion)}};
   BorderedBand system(problem.frames(), kFrameUnknowns, problem.globals());
-  Assembler add{problem, state, motion, feet, contacts, system, detection_weights(problem, state, motion),
-                {},      {}};
-  add.globals();
+  terms.globals(system);
+  DetectionRows before, now;
   for (int t = 0; t < problem.frames(); ++t) {
-    add.keypoints(t);
-    add.priors(t);
-    add.smoothness(t);
-    add.standing(t);
+    std::swap(before, now);
+    now = terms.detections.rows(t);
+    terms.keypoints(t, before, now, system);
+    terms.priors(t, system);
+    terms.smoothness(t, system);
+    terms.standing(t, system);
   }
-  add.slipping();
-  if (problem.calms) add.acceleration();
-  return system;
+  terms.slipping(system);
+  if (problem.calms) terms.acceleration(system);
+  return {std::move(system),
+          [terms](int first, std::span<Eigen::MatrixXd> rows) { terms.border(first, rows); }};
 }
 
 }  // namespace mimicx::motion::fit

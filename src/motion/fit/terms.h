@@ -7,11 +7,17 @@
 
 namespace mimicx::motion::fit {
 
+/// A system and its border, which is made from what `linearise` was given: that must outlive it.
+struct NormalEquations {
+  BorderedBand band;
+  Border border;
+};
+
 /// Normal equations of all terms at a state, robust weights and contacts held fixed.
 /// @param motion, feet  kinematics and foot points of the state, [frames]
 /// @return left: half the Gauss-Newton Hessian JᵀJ; right: minus half the gradient, −Jᵀr
-BorderedBand linearise(const FitProblem& problem, const FitState& state,
-                       const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,
-                       const Contacts& contacts);
+NormalEquations linearise(const FitProblem& problem, const FitState& state,
+                          const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,
+                          const Contacts& contacts);
 
 }  // namespace mimicx::motion::fit

@@ -13,6 +13,7 @@
 ///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
 ///     DIR/plans/NAME.npz         the plan that the motion was simulated from, where there was one
 ///     DIR/gains/NAME.npz         feedback gains around it, where asked for
+///     DIR/policies/NAME.npz      a policy that the plan has taught to follow it, where there is one
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
@@ -51,6 +52,9 @@ struct RunFolder {
   }
   std::filesystem::path plan(const std::string& name) const { return root / "plans" / (name + ".npz"); }
   std::filesystem::path gains(const std::string& name) const { return root / "gains" / (name + ".npz"); }
+  std::filesystem::path policy(const std::string& name) const {
+    return root / "policies" / (name + ".npz");
+  }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");
@@ -69,6 +73,7 @@ struct RunFolder {
             substeps(name),
             plan(name),
             gains(name),
+            policy(name),
             log(name),
             falls(name),
             checkpoint(name)};

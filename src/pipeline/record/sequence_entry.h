@@ -24,7 +24,7 @@ struct SequenceEntry {
   FileChecksums files;         ///< what the sequence left, to tell whether it is still there
   bool ok = false;
   std::string reason;  ///< why it failed
-  std::string method;  ///< what made the motion: imitate, plan or paper
+  std::string method;  ///< what made the motion: imitate, plan, policy or paper
   Ending ending = Ending::kNone;
   int frames = 0;
   double fps = 0.0;
@@ -36,6 +36,7 @@ struct SequenceEntry {
   /// Which option acts from which frame on: {first frame, option}; empty for a training from scratch.
   std::vector<std::array<int, 2>> arrangement;
   NamedValues plan;            ///< what planning it took; empty where nothing was planned
+  NamedValues policy;          ///< what the policy took that the plan taught, and how it does alone; or empty
   NamedValues fit;             ///< what the keypoint fit did; empty without one
   NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
   NamedValues metrics;         ///< of the simulated motion, against the prepared reference

@@ -59,6 +59,7 @@ Json to_json(const SequenceEntry& e) {
           {"reward_after", number(e.reward_after)},
           {"arrangement", e.arrangement},
           {"plan", to_json(e.plan)},
+          {"policy", to_json(e.policy)},
           {"fit", to_json(e.fit)},
           {"input_metrics", to_json(e.input_metrics)},
           {"metrics_before", to_json(e.metrics_before)},
@@ -90,12 +91,13 @@ SequenceEntry entry_of(const Json& json) {
   e.reward_after = number(json.at("reward_after"));
   e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
   if (json.contains("plan")) e.plan = named_values(json.at("plan"));
+  if (json.contains("policy")) e.policy = named_values(json.at("policy"));  // older manifests have none
   e.fit = named_values(json.at("fit"));
   e.metrics_before = named_values(json.at("metrics_before"));
   e.ok_before = json.at("ok_before");
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
-  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // older manifests have none
+  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // as above
   e.preparation = named_values(json.at("preparation"));
   if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above
   e.decisions = json.value("decisions", Json::array()).get<std::vector<std::string>>();

@@ -45,4 +45,9 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& 
 physics::State<double> simulator_state(const motion::ReferenceFrame& frame);
 List<physics::State<double>> simulator_states(const motion::Reference& reference);
 
+/// What was simulated as a reference of its own: its velocities are the simulator's, not differences.
+/// @param of  name, body and rate
+motion::Reference reference_of_states(const motion::Reference& of,
+                                      const List<physics::State<double>>& states);
+
 }  // namespace mimicx::rl::tracking

@@ -72,6 +72,12 @@ void TrackingPack::copy_lane(int lane, const TrackingPack& other, int from) {
   saturated_[lane] = other.saturated_[from];
 }
 
+void TrackingPack::push(int lane, const Vector3d& change) {
+  const Vector3d v = physics::lane_of(state_.v_root, lane) + change;
+  physics::set_lane(state_.v_root, lane, v);
+  poses_[lane].frame.v_root = physics::lane_of(state_.v_root, lane);
+}
+
 void TrackingPack::observe(int lane, int option, float* out) const {
   const int next = frame(lane) + 1;
   const auto& betas = clip_->reference.character.betas;

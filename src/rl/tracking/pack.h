@@ -24,6 +24,8 @@ class TrackingPack {
   void reset(int lane, int frame);
   /// Puts `lane` into the state of the lane `from`, of this pack or another one on the same clip.
   void copy_lane(int lane, const TrackingPack& other, int from);
+  /// Changes the velocity of the lane's pelvis, world, m/s.
+  void push(int lane, const Vector3d& change);
   /// The lane's frame on the clip: its state belongs to this frame. 0 .. size()-1.
   int frame(int lane) const { return frames_[lane]; }
   /// s_t [state_size of the clip] as the option sees it.
@@ -45,6 +47,8 @@ class TrackingPack {
   int saturated_joints(int lane) const { return saturated_[lane]; }
   /// State of the lane as of the last reset or advance.
   const Pose& pose(int lane) const { return poses_[lane]; }
+  /// The same in the simulator's own numbers, all lanes.
+  const physics::State<P>& state() const { return state_; }
   const TrackingClip& clip() const { return *clip_; }
 
   /// Everything that determines the pack's future, as 32-bit floats (frames included).

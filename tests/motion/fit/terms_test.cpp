@@ -96,16 +96,20 @@ struct Dense {
   VectorXd rhs;
 };
 
-Dense dense_of(const BorderedBand& s) {
+Dense dense_of(const NormalEquations& equations) {
+  const BorderedBand& s = equations.band;
   const auto n = s.diagonal[0].rows(), m = s.corner.rows(),
              size = static_cast<Eigen::Index>(s.diagonal.size()) * n;
   Dense d{MatrixXd::Zero(size + m, size + m), VectorXd::Zero(size + m)};
+  std::vector<MatrixXd> border(s.diagonal.size());
+  equations.border(0, std::span(border).first(3));  // in pieces, as the solver asks for it
+  equations.border(3, std::span(border).subspan(3));
   for (std::size_t t = 0; t < s.diagonal.size(); ++t) {
     const auto at = static_cast<Eigen::Index>(t) * n;
     d.H.block(at, at, n, n) = s.diagonal[t];
     if (t + 1 < s.diagonal.size()) d.H.block(at + n, at, n, n) = s.next[t];
     if (t + 2 < s.diagonal.size()) d.H.block(at + 2 * n, at, n, n) = s.second[t];
-    d.H.block(size, at, m, n) = s.border[t].transpose();
+    d.H.block(size, at, m, n) = border[t].transpose();
     d.rhs.segment(at, n) = s.rhs[t];
   }
   d.H.bottomRightCorner(m, m) = s.corner;

@@ -1,0 +1,122 @@
+#include "teaching/lessons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+#include "rl/tracking/pack.h"
+
+namespace mimicx::teaching {
+namespace {
+
+using physics::kLanes;
+using rl::tracking::TrackingPack;
+
+enum RandomPurpose : std::uint64_t { kNoise = 0x7eac0, kPushes };
+
+/// The mean actions of an agent for the lanes of a pack.
+class Player {
+ public:
+  explicit Player(const rl::Agent& agent) : agent_(agent) {}
+
+  LaneActions act(const nn::Matrix<float>& states) {
+    LaneActions out;
+    nn::normalise(agent_.observations, states, normalised_);
+    nn::evaluate(agent_.actor, normalised_, workspace_, means_);
+    for (int lane = 0; lane < kLanes; ++lane) std::copy_n(means_.row(lane).data(), kDofs, out[lane].begin());
+    return out;
+  }
+
+ private:
+  const rl::Agent& agent_;
+  nn::Matrix<float> normalised_, means_;
+  nn::Workspace<float> workspace_;
+};
+
+nn::Matrix<float> observed(const TrackingPack& pack) {
+  nn::Matrix<float> states(kLanes, pack.clip().state_size());
+  for (int lane = 0; lane < kLanes; ++lane) pack.observe(lane, states.row(lane).data());
+  return states;
+}
+
+void write_down(const nn::Matrix<float>& states, const LaneActions& teacher, int frame, Lessons& out) {
+  out.states.insert(out.states.end(), states.data(), states.data() + states.size());
+  for (int lane = 0; lane < kLanes; ++lane) {
+    out.actions.insert(out.actions.end(), teacher[lane].begin(), teacher[lane].end());
+    out.frames.push_back(frame);
+  }
+}
+
+}  // namespace
+
+Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
+                     const LessonConfig& config, const rl::Agent* student, std::uint64_t seed,
+                     std::uint64_t key) {
+  TrackingPack pack(teacher.clip, task);
+  const auto scratch = std::make_unique<physics::Data<TrackingPack::P>>();
+  std::optional<Player> player;
+  if (student) player.emplace(*student);
+  Random noise(seed, {kNoise, key}), pushes(seed, {kPushes, key});
+  Lessons lessons;
+  LaneActions before{}, own{};
+  for (int t = 0; t < teacher.size(); ++t) {
+    for (int lane = 1; lane < kLanes && t % config.push_every == config.push_every / 2; ++lane)
+      pack.push(lane, config.push * Vector3d(pushes.normal(), pushes.normal(), 0.0));
+    const nn::Matrix<float> states = observed(pack);
+    const LaneActions advice = ask(teacher, t, pack.state(), before);
+    write_down(states, advice, t, lessons);
+    if (player) own = player->act(states);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Array<float, kDofs>& action = before[lane];
+      action = player && lane >= config.teacher_lanes ? own[lane] : advice[lane];
+      for (int k = 0; k < kDofs && lane > 0; ++k)
+        action[k] += static_cast<float>(config.action_noise * noise.normal());
+      pack.act(lane, action.data());
+    }
+    pack.advance(*scratch);
+    for (int lane = 1; lane < kLanes; ++lane) {
+      if (pack.worst_distance(lane) < config.off_path) continue;
+      pack.copy_lane(lane, pack, 0);
+      before[lane] = before[0];
+      ++lessons.put_back;
+    }
+  }
+  return lessons;
+}
+
+control::PushResult test_pushes(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                                const rl::tracking::TrackingConfig& task, const rl::Agent& agent,
+                                const control::PushTest& test) {
+  const auto scratch = std::make_unique<physics::Data<TrackingPack::P>>();
+  const int n = clip->size() - 1;
+  control::PushResult result;
+  for (int done = 0; done < test.trials; done += kLanes) {
+    TrackingPack pack(clip, task);
+    Player player(agent);
+    List<Random> random;
+    for (int lane = 0; lane < kLanes; ++lane)
+      random.emplace_back(test.seed,
+                          std::initializer_list<std::uint64_t>{static_cast<std::uint64_t>(done + lane)});
+    Array<int, kLanes> kept{};
+    kept.fill(n);
+    for (int t = 0; t < n; ++t) {
+      for (int lane = 0; lane < kLanes && t % test.every == test.every / 2; ++lane) {
+        const double angle = random[lane].uniform(0.0, 2.0 * std::numbers::pi);
+        pack.push(lane, test.speed * Vector3d(std::cos(angle), std::sin(angle), 0.0));
+      }
+      const LaneActions actions = player.act(observed(pack));
+      for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, actions[lane].data());
+      pack.advance(*scratch);
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (!(pack.worst_distance(lane) <= test.lost)) kept[lane] = std::min(kept[lane], t);
+    }
+    for (int lane = 0; lane < std::min(kLanes, test.trials - done); ++lane) {
+      result.followed += kept[lane] == n ? 1 : 0;
+      result.frames_kept += static_cast<double>(kept[lane]) / test.trials;
+    }
+  }
+  return result;
+}
+
+}  // namespace mimicx::teaching

@@ -1,0 +1,75 @@
+#include "teaching/regression.h"
+
+#include "core/parallel.h"
+#include "nn/gradient.h"
+
+namespace mimicx::teaching {
+namespace {
+
+void gather(const Lessons& lessons, std::span<const int> rows, int state_size, RegressionSlot& slot) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  slot.states.resize(n, state_size);
+  slot.actions.resize(n, kDofs);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(k)]);
+    std::copy_n(lessons.states.data() + row * static_cast<std::size_t>(state_size), state_size,
+                slot.states.row(k).data());
+    std::copy_n(lessons.actions.data() + row * kDofs, kDofs, slot.actions.row(k).data());
+  }
+}
+
+/// Gradient of the loss over the slot's rows, each of which counts `share`.
+void take_gradient(const Lessons& lessons, const List<Eigen::MatrixXf>& importance, std::span<const int> rows,
+                   const rl::Agent& agent, float share, RegressionSlot& slot) {
+  gather(lessons, rows, agent.actor.inputs(), slot);
+  nn::normalise(agent.observations, slot.states, slot.normalised);
+  nn::Tape<float>& tape = slot.tape;
+  tape.reset();
+  const auto parameters = nn::parameters_on_tape(tape, agent.actor);
+  const nn::Var means = nn::forward(tape, agent.actor, parameters, tape.refer(slot.normalised));
+  const nn::Matrix<float> error = tape.value(means) - slot.actions;
+  slot.pull.resize(error.rows(), error.cols());
+  slot.loss = 0.0;
+  for (Eigen::Index k = 0; k < error.rows(); ++k) {
+    const Eigen::MatrixXf& W = importance[lessons.frames[rows[static_cast<std::size_t>(k)]]];
+    slot.pull.row(k).noalias() = share * (error.row(k) * W);
+    slot.loss += 0.5 * static_cast<double>(error.row(k).dot(slot.pull.row(k)));
+  }
+  // W (μ − u) is dL/dμ: held constant, its product with μ has the loss's gradient.
+  const nn::Var total = nn::sum(tape, nn::multiply(tape, means, tape.refer(slot.pull)));
+  slot.gradient.clear();
+  for (const nn::Var g : nn::gradient(tape, total, std::span<const nn::Var>(parameters)))
+    slot.gradient.push_back(tape.value(g));
+}
+
+/// Part k of n nearly equal parts.
+std::span<const int> part(std::span<const int> rows, std::size_t k, std::size_t n) {
+  const std::size_t begin = rows.size() * k / n;
+  return rows.subspan(begin, rows.size() * (k + 1) / n - begin);
+}
+
+}  // namespace
+
+double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
+                       std::span<const int> rows, const RegressionConfig& config, double step_size,
+                       int threads, rl::Agent& agent, nn::Adam<float>& adam, RegressionScratch& scratch) {
+  if (scratch.slots.count() != config.slots) scratch.slots = List<RegressionSlot>(config.slots);
+  const float share = 1.0f / static_cast<float>(rows.size());
+  parallel_for(config.slots, threads, [&](int k) {
+    take_gradient(lessons, importance, part(rows, static_cast<std::size_t>(k), scratch.slots.size()), agent,
+                  share, scratch.slots[k]);
+  });
+  std::vector<nn::Matrix<float>>& gradient = scratch.slots.front().gradient;
+  double loss = scratch.slots.front().loss;
+  for (int k = 1; k < config.slots; ++k) {
+    loss += scratch.slots[k].loss;
+    for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] += scratch.slots[k].gradient[p];
+  }
+  nn::clip_gradient_norm<float>(std::span<nn::Matrix<float>>(gradient), config.gradient_norm);
+  const std::vector<nn::Matrix<float>*> parameters = nn::parameters(agent.actor);
+  nn::adam_step<float>(adam, parameters, std::span<const nn::Matrix<float>>(gradient),
+                       static_cast<float>(step_size));
+  return loss;
+}
+
+}  // namespace mimicx::teaching

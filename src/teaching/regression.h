@@ -1,0 +1,41 @@
+/// Regression of a policy onto lessons: gradient steps on minibatches.
+///
+///     L = ½ · mean (μ(s) − u)ᵀ W_t (μ(s) − u)
+///
+/// μ is the actor's mean action, u the teacher's, W_t what a wrong control costs at that frame
+/// (Teacher::importance): an error that the motion forgives counts little. Same bytes for any number of
+/// threads: a minibatch is cut into slots, which are added in their order.
+#pragma once
+
+#include <span>
+
+#include "nn/adam.h"
+#include "nn/tape.h"
+#include "teaching/lessons.h"
+
+namespace mimicx::teaching {
+
+struct RegressionConfig {
+  int minibatch = 256;         ///< rows
+  int slots = 2;               ///< parts of it whose gradients are taken side by side
+  double gradient_norm = 5.0;  ///< limit of the gradient
+};
+
+/// Buffers of one slot; nothing in them outlives a step.
+struct RegressionSlot {
+  nn::Tape<float> tape;
+  nn::Matrix<float> states, normalised, actions, pull;  ///< [rows × dim]
+  std::vector<nn::Matrix<float>> gradient;
+  double loss = 0.0;
+};
+
+struct RegressionScratch {
+  List<RegressionSlot> slots;
+};
+
+/// One step of Adam on rows of the lessons. @return L before the step
+double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
+                       std::span<const int> rows, const RegressionConfig& config, double step_size,
+                       int threads, rl::Agent& agent, nn::Adam<float>& adam, RegressionScratch& scratch);
+
+}  // namespace mimicx::teaching

@@ -1,0 +1,112 @@
+#include "teaching/student.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx::teaching {
+namespace {
+
+enum RandomPurpose : std::uint64_t { kRows = 0x57d0 };
+
+rl::Agent untaught(const rl::tracking::TrackingClip& clip, const StudentConfig& config) {
+  rl::AgentShape shape;
+  shape.observation_dim = clip.state_size();
+  shape.action_dim = kDofs;
+  shape.hidden = {config.hidden, config.hidden};
+  return rl::make_agent(shape, config.seed);
+}
+
+/// Appends lessons and drops the oldest beyond `most` rows.
+void add(const Lessons& fresh, int state_size, int most, Lessons& all) {
+  all.states.insert(all.states.end(), fresh.states.begin(), fresh.states.end());
+  all.actions.insert(all.actions.end(), fresh.actions.begin(), fresh.actions.end());
+  all.frames.insert(all.frames.end(), fresh.frames.begin(), fresh.frames.end());
+  const int extra = all.rows() - most;
+  if (extra <= 0) return;
+  all.states.erase(all.states.begin(), all.states.begin() + std::ptrdiff_t{extra} * state_size);
+  all.actions.erase(all.actions.begin(), all.actions.begin() + std::ptrdiff_t{extra} * kDofs);
+  all.frames.erase(all.frames.begin(), all.frames.begin() + extra);
+}
+
+/// Inputs are scaled by what the first lessons show.
+void see_first(const Lessons& lessons, rl::Agent& agent) {
+  const nn::Matrix<float> states =
+      Eigen::Map<const nn::Matrix<float>>(lessons.states.data(), lessons.rows(), agent.actor.inputs());
+  const nn::Moments moments = nn::moments_of(states);
+  nn::update(agent.observations, std::span<const nn::Moments>(&moments, 1));
+}
+
+/// The student that came closest to the motion by itself; one that fell came less close than any that did
+/// not.
+struct Best {
+  rl::Agent agent;
+  double distance = std::numeric_limits<double>::infinity();
+
+  void consider(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
+                const rl::Agent& candidate) {
+    const auto alone = rl::tracking::roll_out(teacher.clip, task, rl::tracking::mean_action({candidate}));
+    const double fell = alone.broken ? kFar : alone.worst_distance > kLost ? alone.worst_distance : 0.0;
+    const double score = alone.mean_position_error + fell;
+    if (score < distance) *this = {candidate, score};
+  }
+  bool followed() const { return distance < kLost; }
+
+  static constexpr double kLost = 0.5;  ///< a body farther than this is no success (docs/metrics.md), m
+  static constexpr double kFar = 100.0;
+};
+
+}  // namespace
+
+std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
+                               const StudentConfig& config, const control::PlanControl& control,
+                               const std::function<void(const RoundStats&, const rl::Agent&)>& watch) {
+  rl::Agent agent = untaught(*teacher.clip, config);
+  nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
+  Best best{agent};
+  RegressionScratch scratch;
+  Lessons all;
+  Random random(config.seed, {kRows});
+  const int steps =
+      std::max(config.least_steps, static_cast<int>(std::lround(config.steps_per_frame * teacher.size())));
+  List<int> rows(config.regression.minibatch);
+  int taken = 0;
+  for (int round = 0; round < config.stages * config.rounds; ++round) {
+    const int of_stage = round % config.rounds;
+    if (of_stage == 0 && best.followed()) break;
+    List<Lessons> fresh(config.packs);
+    parallel_for(config.packs, control.threads, [&](int pack) {
+      const auto key = static_cast<std::uint64_t>(round * config.packs + pack);
+      fresh[pack] =
+          take_lessons(teacher, task, config.lessons, round > 0 ? &agent : nullptr, config.seed, key);
+    });
+    RoundStats stats{round, 0, 0, 0.0};
+    for (const Lessons& lessons : fresh) {
+      add(lessons, agent.actor.inputs(), config.most_rows, all);
+      stats.put_back += lessons.put_back;
+      taken += lessons.rows();
+    }
+    stats.taken = taken;
+    if (round == 0) see_first(all, agent);
+    for (int step = 0; step < steps; ++step) {
+      if (control.should_stop && control.should_stop()) return {};
+      const double done = (of_stage + (step + 0.5) / steps) / config.rounds;
+      const double fall = (1.0 - done) * (1.0 - done);
+      for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(all.rows())));
+      stats.loss += regression_step(all, teacher.importance, rows, config.regression,
+                                    config.last_step_size + fall * (config.step_size - config.last_step_size),
+                                    control.threads, agent, adam, scratch) /
+                    steps;
+    }
+    if (2 * (of_stage + 1) > config.rounds) best.consider(teacher, task, agent);
+    if (control.progress) control.progress(round + 1, config.stages * config.rounds);
+    if (watch) watch(stats, agent);
+  }
+  return best.agent;
+}
+
+}  // namespace mimicx::teaching
