@@ -12,6 +12,14 @@ namespace {
 
 using Pretrain = PretrainedOptions;
 
+TEST(PretrainEncoders, AreTrainedNoLongerThanTheirPoliciesAreWorth) {
+  const nn::AutoEncoderConfig config;
+  EXPECT_EQ(encoder_steps(config, 10'000'000), config.steps);
+  EXPECT_EQ(encoder_steps(config, 10 * config.steps), config.steps);
+  EXPECT_EQ(encoder_steps(config, 2000), 200);
+  EXPECT_EQ(encoder_steps(config, 0), 100);
+}
+
 TEST(ShareSamples, GoBySquareRootsAndSpendTheBudget) {
   const auto shares = share_samples(700, {1, 4, 16});
   EXPECT_EQ(shares, (std::vector<std::int64_t>{100, 200, 400}));

@@ -70,6 +70,7 @@ class Json {
 
   /// The member; a new null where there is none. Null becomes an object.
   Json& operator[](const std::string& name);
+  Json& operator[](const char* name) { return (*this)[std::string(name)]; }
   /// @throws JsonError where there is none
   const Json& at(const std::string& name) const;
   /// The member, or `otherwise` where there is none.
