@@ -23,7 +23,7 @@ enum class AdaptMethod { kAuto, kPlan, kPaper };
 struct AdaptConfig {
   AdaptMethod method = AdaptMethod::kAuto;
   RunConfig run;
-  MotionPlanConfig plan;    ///< simulated as `training` says
+  MotionPlanConfig plan;  ///< simulated as `training` says
   TeachingConfig teaching;
   TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   options::ArrangementConfig arrangement;
