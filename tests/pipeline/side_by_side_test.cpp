@@ -1,0 +1,85 @@
+// Several motions of a run at once: the same results as one after the other.
+#include <gtest/gtest.h>
+
+#include "motion/clip_file.h"
+#include "pipeline/plan.h"
+#include "pipeline/results.h"
+#include "pipeline/small_run.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+struct SideBySide : testing::Test {
+  SideBySide() {
+    for (int k = 0; k < 5; ++k) {
+      inputs.push_back((folder.path / ("stand" + std::to_string(k) + ".npz")).string());
+      motion::write_clip(inputs.back(), standing_clip(40 - 5 * k));  // the first takes longest
+    }
+  }
+  PlanMotionsConfig planning(const std::string& name, int jobs) const {
+    PlanMotionsConfig config = plan_configuration();
+    config.run.inputs = inputs;
+    config.run.out = folder.path / name;
+    config.run.threads = 2;
+    config.run.jobs = jobs;
+    return config;
+  }
+  static Outcome run(const PlanMotionsConfig& config, int asked = -1) {
+    return run_in_context([&](const record::RunContext& context) { return plan_motions(config, context); },
+                          asked);
+  }
+  std::map<std::string, std::string> results(const std::string& name) const {
+    return results_of(folder.path / name);
+  }
+
+  TemporaryFolder folder;
+  std::vector<std::string> inputs;
+};
+
+TEST_F(SideBySide, IsTheSameBytesAsOneAfterTheOther) {
+  EXPECT_EQ(run(planning("one", 1)).value, record::RunOutcome::kAllGood);
+  EXPECT_EQ(run(planning("three", 3)).value, record::RunOutcome::kAllGood);
+  EXPECT_EQ(run(planning("auto", 0)).value, record::RunOutcome::kAllGood);
+  EXPECT_TRUE(results("one") == results("three"));
+  EXPECT_TRUE(results("one") == results("auto"));
+}
+
+TEST_F(SideBySide, GoesOnAfterAnInterruptionToTheSameBytes) {
+  run(planning("whole", 1));
+  for (const int asked : {2, 5, 9}) {
+    const std::string name = "halves" + std::to_string(asked);
+    EXPECT_EQ(run(planning(name, 2), asked).value, record::RunOutcome::kInterrupted);
+    EXPECT_EQ(run(planning(name, 2)).value, record::RunOutcome::kAllGood);
+    EXPECT_TRUE(results("whole") == results(name)) << asked;
+  }
+}
+
+TEST_F(SideBySide, AnInputThatFailsStopsNoOther) {
+  inputs[1] = (folder.path / "gone.npz").string();
+  EXPECT_EQ(run(planning("run", 2)).value, record::RunOutcome::kSomeFailed);
+  const record::Manifest manifest = record::read_manifest(folder.path / "run" / "manifest.json");
+  ASSERT_EQ(manifest.sequences.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(manifest.sequences[k].input, inputs[k]) << "in the inputs' order, whichever is done first";
+    EXPECT_EQ(manifest.sequences[k].ok, k != 1);
+  }
+}
+
+TEST_F(SideBySide, WhatIsSaidOfAMotionStaysTogether) {
+  const std::string said = run(planning("run", 3)).messages;
+  for (int k = 0; k < 5; ++k) {
+    const std::string name = "stand" + std::to_string(k);
+    const std::size_t first = said.find(name + ": "), last = said.rfind(name + ": ok");
+    ASSERT_NE(last, std::string::npos) << said;
+    for (int other = 0; other < 5; ++other) {
+      if (other == k) continue;
+      const std::size_t between = said.find("stand" + std::to_string(other) + ": ", first);
+      EXPECT_FALSE(between < last) << said;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::pipeline
