@@ -47,6 +47,7 @@ SimulatedSequence teach_after(const AdaptConfig& config, const motion::Reference
   made.interrupted = taught.interrupted;
   made.training_seconds = taught.seconds;
   if (taught.interrupted) return made;
+  if (taught.timed_out) made.ending = record::Ending::kLimitSeconds;
   made.policy = taught.values;
   made.samples = taught.samples;
   if (!taught.note.empty()) made.notes.push_back(taught.note);
@@ -69,10 +70,11 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion::Ref
   SimulatedSequence plan = plan_sequence(reference, planning_of(config), job, &found);
   if (plan.interrupted) return plan;
   const Candidate planned = candidate_of(reference, plan.after);
+  const SequenceJob rest = after_seconds(job, plan.planning_seconds);
   if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)
-    return teach_after(config, reference, found, planned, std::move(plan), job);
+    return teach_after(config, reference, found, planned, std::move(plan), rest);
   if (planned.success) return plan;
-  SimulatedSequence trained = fine_tune(config, reference, after_seconds(job, plan.planning_seconds));
+  SimulatedSequence trained = fine_tune(config, reference, rest);
   trained.planning_seconds = plan.planning_seconds;
   if (trained.interrupted) return trained;
   const Candidate learned = candidate_of(reference, trained.after);

@@ -12,12 +12,16 @@ namespace {
 struct Watch {
   const SequenceJob& job;
   double started = record::steady_seconds();
-  bool interrupted = false;
+  bool interrupted = false, timed_out = false;
 
   control::PlanControl control() {
     control::PlanControl control;
     control.threads = job.threads;
-    control.should_stop = [this] { return interrupted = interrupted || job.context.should_stop(); };
+    control.should_stop = [this] {
+      interrupted = interrupted || job.context.should_stop();
+      timed_out = job.limit_seconds > 0.0 && record::steady_seconds() - started > job.limit_seconds;
+      return interrupted || timed_out;
+    };
     return control;
   }
 };
@@ -89,8 +93,13 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   job.context.progress.start(job.name + ": policy", 0.0, config.student.stages * config.student.rounds,
                              "rounds");
   const auto teacher = teaching::make_teacher(reference, plan, teaching, task, control);
-  taught.interrupted = watch.interrupted;
-  if (taught.interrupted) return taught;
+  const auto stopped = [&] {
+    taught.interrupted = watch.interrupted;
+    taught.timed_out = watch.timed_out && !watch.interrupted;
+    if (taught.timed_out) taught.note = "no policy: its teaching was stopped by --limit-seconds";
+    return taught.interrupted || taught.timed_out;
+  };
+  if (stopped()) return taught;
   if (!teacher) {
     taught.note = "no policy: the plan cannot be repeated under feedback";
     return taught;
@@ -102,8 +111,7 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
                                    rows = stats.taken;
                                    rounds = stats.round + 1;
                                  });
-  taught.interrupted = watch.interrupted;
-  if (taught.interrupted) return taught;
+  if (stopped()) return taught;
   taught.values = {{"teacher_survives", teacher->followed},
                    {"lessons", static_cast<double>(rows)},
                    {"rounds", static_cast<double>(rounds)}};

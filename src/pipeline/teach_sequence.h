@@ -16,7 +16,8 @@
 namespace mimicx::pipeline {
 
 struct TaughtPolicy {
-  bool interrupted = false;                    ///< the job's context asked to stop: nothing below is filled
+  bool interrupted = false;  ///< the job's context asked to stop: nothing below is filled
+  bool timed_out = false;    ///< the job's seconds were over: there is a note, and nothing else
   std::optional<output::StoredPolicy> policy;  ///< none where the plan could not teach
   NamedValues values;                          ///< for the manifest: what it took, and how well it does alone
   rl::tracking::TrackingRollout alone;         ///< its roll-out, with rewards against the prepared reference

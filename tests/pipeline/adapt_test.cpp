@@ -192,6 +192,19 @@ TEST_F(Adapt, TeachingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
+TEST_F(Adapt, TeachingThatRunsOutOfSecondsSaysSo) {
+  run(pretraining("options"));
+  AdaptConfig config = teaching_quickly(adapting("run", "options"));
+  config.teaching.student.rounds = 100000;
+  config.run.limit_seconds = 2.0;  // the plan takes a twentieth of that
+  run(config);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::Ending::kLimitSeconds);
+  EXPECT_TRUE(entry.ok) << "the plan's motion is there all the same";
+  EXPECT_NE(entry.notes.back().find("--limit-seconds"), std::string::npos) << entry.notes.back();
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));
+}
+
 TEST_F(Adapt, AStudentThatFallsIsPolishedByPpo) {
   run(pretraining("options"));
   AdaptConfig config = teaching_quickly(adapting("run", "options"));
