@@ -4,7 +4,8 @@
 #include "pipeline/audit/pose_needs.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/manifest.h"
-#include "pipeline/sequence_run.h"
+#include "pipeline/record/run_folder.h"
+#include "pipeline/simulated_sequence.h"
 
 namespace mimicx::pipeline {
 

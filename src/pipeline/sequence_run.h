@@ -24,11 +24,10 @@
 
 #include "motion/import/motion_file.h"
 #include "pipeline/audit/pose_needs.h"
-#include "pipeline/output/policy_file.h"
 #include "pipeline/record/manifest.h"
 #include "pipeline/record/run_context.h"
 #include "pipeline/record/run_folder.h"
-#include "rl/tracking/rollout.h"
+#include "pipeline/simulated_sequence.h"
 
 namespace mimicx::pipeline {
 
@@ -63,25 +62,6 @@ struct SequenceJob {
   double limit_seconds = 0.0;     ///< safety stop; 0: none
   const audit::PoseNeeds& needs;  ///< of the reference; without frames under 3
   const record::RunContext& context;
-};
-
-/// What a method made of one motion.
-struct SimulatedSequence {
-  bool interrupted = false;  ///< the job's context asked to stop: only the seconds below are filled
-  std::string method;        ///< what made the result: imitate, plan or paper
-  double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
-  record::Ending ending = record::Ending::kNone;
-  std::int64_t samples = 0;
-  std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none
-  rl::tracking::TrackingRollout after;                  ///< the result
-  std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option}; empty without options
-  NamedValues plan = {};                                ///< what planning it took
-  NamedValues policy = {};                          ///< how the policy does that the plan has taught; or none
-  std::optional<output::StoredPolicy> taught = {};  ///< that policy, to be written
-  std::vector<rl::Agent> agents = {};               ///< of a training
-  PerFrame<Vector6d> help = {};         ///< moment and force that a plan's soft stage was left with; or none
-  std::string reason = {};              ///< why it is no success, or may be none, where the method knows
-  std::vector<std::string> notes = {};  ///< for the manifest
 };
 
 /// A way of making the humanoid follow a motion, with everything that its results depend on.

@@ -65,7 +65,8 @@ TEST(Lessons, WhoeverStraysIsPutBackOntoTheMotion) {
   // The root offset of a state, its last two numbers, is the distance from the next frame's reference: it
   // never grows beyond what a body may stray, plus what the reference moves in a frame.
   for (int row = 0; row < lessons.rows(); ++row)
-    for (const int entry : {1, 2}) EXPECT_LT(std::abs(state_of(lessons, row)[570 - entry]), 0.1f);
+    for (const int entry : {1, 2})
+      EXPECT_LT(std::abs(state_of(lessons, row)[std::size_t{570} - static_cast<std::size_t>(entry)]), 0.1f);
 }
 
 TEST(Lessons, AdviceDoesNotDependOnWhoActs) {

@@ -52,9 +52,7 @@ struct RunFolder {
   }
   std::filesystem::path plan(const std::string& name) const { return root / "plans" / (name + ".npz"); }
   std::filesystem::path gains(const std::string& name) const { return root / "gains" / (name + ".npz"); }
-  std::filesystem::path policy(const std::string& name) const {
-    return root / "policies" / (name + ".npz");
-  }
+  std::filesystem::path policy(const std::string& name) const { return root / "policies" / (name + ".npz"); }
   std::filesystem::path log(const std::string& name) const { return root / "training" / (name + ".csv"); }
   std::filesystem::path falls(const std::string& name) const {
     return root / "training" / (name + ".falls.csv");
