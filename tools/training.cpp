@@ -112,10 +112,20 @@ void add_gains_argument(Command& command, pipeline::RunConfig& run) {
 }
 
 void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement) {
+  using pipeline::options::Selector;
+  command.choice(
+      "--selector", arrangement.selector,
+      {{"dp", Selector::kDp},
+       {"beam", Selector::kBeam},
+       {"single", Selector::kSingle},
+       {"nearest", Selector::kNearest}},
+      "which option acts when; dp: Eq. 4 on the rewards of options side by side, the paper's; beam: "
+      "a search over real roll-outs; single: the best option alone; nearest: that of the nearest "
+      "cluster");
   command.number("--switch-penalty", arrangement.switch_penalty, {kAnyNumber.least, 0.0},
                  "w_p of Eq. 4, in rewards");
   command.number("--rescue-reward", arrangement.rescue_reward, {0.0, 1.0},
-                 "where the options run side by side, one whose reward falls under this goes on from the "
+                 "dp: where the options run side by side, one whose reward falls under this goes on from the "
                  "state of the best");
 }
 

@@ -38,7 +38,7 @@ void add_as_is(Command& command, pipeline::RunConfig& run);
 void add_fit_arguments(Command& command, pipeline::RunConfig& run);
 /// --gains.
 void add_gains_argument(Command& command, pipeline::RunConfig& run);
-/// --switch-penalty and --rescue-reward.
+/// --selector, --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement);
 
 /// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a

@@ -6,11 +6,33 @@
 #include "pipeline/choice.h"
 #include "pipeline/plan.h"
 #include "pipeline/plan_sequence.h"
+#include "pipeline/setting.h"
 #include "pipeline/teach_sequence.h"
 #include "pipeline/train_sequence.h"
 
 namespace mimicx::pipeline {
 namespace {
+
+/// Calls add(name, field) for every number of the arrangement.
+template <class Config, class Add>
+void for_each_arrangement_setting(Config& config, const Add& add) {
+  add("switch_penalty", config.switch_penalty);
+  add("rescue_reward", config.rescue_reward);
+  add("rescue_frames", config.rescue_frames);
+  add("beam_width", config.beam_width);
+  add("beam_stretch", config.beam_stretch);
+  add("selector", config.selector);
+}
+
+bool change_setting(options::ArrangementConfig& config, const std::string& name, double value) {
+  bool found = false;
+  for_each_arrangement_setting(config, [&](const char* known, auto& field) {
+    if (known != name) return;
+    assign(field, value);
+    found = true;
+  });
+  return found;
+}
 
 PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
@@ -26,7 +48,7 @@ SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& 
   made.method = "paper";
   made.arrangement = options::stretches_of(arranged.options);
   if (!arranged.breaks.empty())
-    made.notes.push_back("no option could follow at " + std::to_string(arranged.breaks.size()) +
+    made.notes.push_back("nothing that was tried could follow at " + std::to_string(arranged.breaks.size()) +
                          " frames, first at frame " + std::to_string(arranged.breaks.front()));
   return made;
 }
@@ -115,8 +137,9 @@ NamedValues settings_of(const AdaptConfig& config) {
     return settings_of(PlanMotionsConfig{config.run, planning_of(config)});
   NamedValues settings = settings_of(config.training);
   append(settings, settings_of(config.run));
-  append(settings, {{"switch_penalty", config.arrangement.switch_penalty},
-                    {"rescue_reward", config.arrangement.rescue_reward}});
+  for_each_arrangement_setting(config.arrangement, [&](const char* name, const auto& field) {
+    settings.emplace_back(name, number_of(field));
+  });
   if (config.method == AdaptMethod::kAuto) {
     append(settings, plan_settings(config.plan));
     append(settings, teaching_settings(config.teaching));
@@ -127,7 +150,10 @@ NamedValues settings_of(const AdaptConfig& config) {
 void apply_setting(AdaptConfig& config, const std::string& name, double value) {
   if (config.method != AdaptMethod::kPaper && change_setting(config.plan, name, value)) return;
   if (config.method == AdaptMethod::kAuto && change_setting(config.teaching, name, value)) return;
-  if (config.method != AdaptMethod::kPlan) return apply_setting(config.training, name, value);
+  if (config.method != AdaptMethod::kPlan) {
+    if (!change_setting(config.arrangement, name, value)) apply_setting(config.training, name, value);
+    return;
+  }
   PlanningConfig planning = planning_of(config);
   apply_setting(planning, name, value);
   config.training.tracking.simulation = planning.simulation;
@@ -136,6 +162,7 @@ void apply_setting(AdaptConfig& config, const std::string& name, double value) {
 void check(const AdaptConfig& config) {
   if (config.method != AdaptMethod::kPaper) check(planning_of(config));
   if (config.method != AdaptMethod::kPlan) check(config.training);
+  if (config.method != AdaptMethod::kPlan) check(config.arrangement);
   if (config.method == AdaptMethod::kAuto) check(config.teaching);
 }
 

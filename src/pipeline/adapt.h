@@ -33,7 +33,7 @@ struct AdaptConfig {
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const AdaptConfig& config);
 
-/// Changes a setting of the plan, of teaching, or of the training, by its name.
+/// Changes a setting of the plan, of teaching, of the arrangement, or of the training, by its name.
 /// @throws std::invalid_argument as those of planning.h and training_config.h
 void apply_setting(AdaptConfig& config, const std::string& name, double value);
 /// @throws std::invalid_argument naming a setting that the method cannot have

@@ -25,7 +25,7 @@ struct Row {
 // come from: docs/method.md §12 and docs/experiments.md. PPO for tracking takes many small iterations with a
 // generous KL, and a discount that looks 0.4 s ahead: what a pose error costs shows at once.
 // clang-format off
-constexpr Array<Row, 38> kTable = {{{
+constexpr Array<Row, 42> kTable = {{{
   //                      imitate    adapt      small      paper
   {"samples",            {4e6,       3e6,       80e6,      80e6}},    // per motion; of all options together
   {"seed",               {1,         1,         1,         1}},
@@ -67,6 +67,10 @@ constexpr Array<Row, 38> kTable = {{{
   {"fit",                {0,         1,         1,         1}},
   {"switch_penalty",     {kNone,     -1,        kNone,     kNone}},
   {"rescue_reward",      {kNone,     0.1,       kNone,     kNone}},
+  {"rescue_frames",      {kNone,     30,        kNone,     kNone}},
+  {"beam_width",         {kNone,     64,        kNone,     kNone}},
+  {"beam_stretch",       {kNone,     10,        kNone,     kNone}},
+  {"selector",           {kNone,     1,         kNone,     kNone}},    // 0 dp, 1 beam, 2 single, 3 nearest
   {"cluster_radius",     {kNone,     kNone,     3,         3}},
 }}};
 // clang-format on
@@ -128,7 +132,12 @@ AdaptConfig adapt_configuration() {
   AdaptConfig config;
   config.training = training(kAdapt);
   config.run.fit = value(kAdapt, "fit") != 0.0;
-  config.arrangement = {value(kAdapt, "switch_penalty"), value(kAdapt, "rescue_reward")};
+  config.arrangement = {.switch_penalty = value(kAdapt, "switch_penalty"),
+                        .rescue_reward = value(kAdapt, "rescue_reward"),
+                        .selector = static_cast<options::Selector>(value(kAdapt, "selector")),
+                        .rescue_frames = static_cast<int>(value(kAdapt, "rescue_frames")),
+                        .beam_width = static_cast<int>(value(kAdapt, "beam_width")),
+                        .beam_stretch = static_cast<int>(value(kAdapt, "beam_stretch"))};
   return config;
 }
 

@@ -50,6 +50,10 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "adapt " + a + out + " --switch-penalty nan",
                                        "adapt " + a + out + " --rescue-reward 1.5",
                                        "adapt " + a + out + " --rescue-reward nan",
+                                       "adapt " + a + out + " --selector best",
+                                       "adapt " + a + out + " --set selector=4",
+                                       "adapt " + a + out + " --set selector=0.5",
+                                       "adapt " + a + out + " --set beam_width=0",
                                        "run " + a + out + " --rescue-reward -1",
                                        std::string("plan"),
                                        "plan " + a + out + " --samples 1",
@@ -118,11 +122,14 @@ TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
 TEST_F(Cli, TheSelectorsNumbersAreRecorded) {
   motion::write_clip(path("a.npz"), standing_clip(20));
   mimicx("adapt " + path("a.npz") +
-         " --budget-samples 0 --threads 1 --switch-penalty -0.5 --rescue-reward 0.25" + " --out " +
-         path("out"));
+         " --budget-samples 0 --threads 1 --switch-penalty -0.5 --rescue-reward 0.25 --selector single" +
+         " --set rescue_frames=12 --set beam_width=3" + " --out " + path("out"));
   const auto manifest = nlohmann::json::parse(read_file(path("out/manifest.json")));
   EXPECT_EQ(manifest["run"]["settings"]["switch_penalty"], -0.5);
   EXPECT_EQ(manifest["run"]["settings"]["rescue_reward"], 0.25);
+  EXPECT_EQ(manifest["run"]["settings"]["selector"], 2);
+  EXPECT_EQ(manifest["run"]["settings"]["rescue_frames"], 12);
+  EXPECT_EQ(manifest["run"]["settings"]["beam_width"], 3);
 }
 
 TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipeline/options/clusters.h"
+#include "pipeline/options/search.h"
 #include "pipeline/options/selector.h"
 #include "pipeline/options/side_by_side.h"
 
@@ -17,6 +19,51 @@ std::vector<int> distinct(std::vector<int> numbers) {
   return numbers;
 }
 
+/// The option of every frame t that acts towards frame t + 1, where its reward is found. [frames − 1]
+struct Choice {
+  List<int> options;
+  std::vector<int> breaks;
+};
+
+Choice choose_by_programme(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                           const rl::tracking::TrackingConfig& tracking,
+                           const std::vector<const Option*>& options, const ArrangementConfig& config) {
+  const SideBySide rolled = roll_out_side_by_side(clip, tracking, options, config.rescue_reward);
+  const OptionRewards rewards = charge_rescues(rolled, config.rescue_frames);
+  return {select_options(OptionRewards(rewards.begin() + 1, rewards.end()), config.switch_penalty).options,
+          rolled.breaks};
+}
+
+Choice choose_by_search(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                        const rl::tracking::TrackingConfig& tracking,
+                        const std::vector<const Option*>& options, const SearchConfig& config) {
+  Found found = search_roll_outs(clip, tracking, options, config);
+  return {std::move(found.options), std::move(found.breaks)};
+}
+
+int nearest_option(const OptionSet& set, const motion::Reference& reference) {
+  Clusters clusters;
+  for (const TrainedOption& trained : set.options) {
+    clusters.clusters.emplace_back();
+    clusters.clusters.back().centre = trained.centre;
+  }
+  return nearest_cluster(clusters, motion::motion_features(reference));
+}
+
+Choice choose(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+              const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
+              const std::vector<const Option*>& options, const ArrangementConfig& config) {
+  const int acting = clip->size() - 1;
+  if (config.selector == Selector::kNearest)
+    return {List<int>(acting, nearest_option(set, clip->reference)), {}};
+  const auto encoded = encoded_for(clip, options);
+  if (config.selector == Selector::kDp) return choose_by_programme(encoded, tracking, options, config);
+  const bool single = config.selector == Selector::kSingle;
+  return choose_by_search(
+      encoded, tracking, options,
+      {single ? 1 : config.beam_width, single ? acting : config.beam_stretch, config.switch_penalty});
+}
+
 }  // namespace
 
 void check(const ArrangementConfig& config) {
@@ -24,6 +71,11 @@ void check(const ArrangementConfig& config) {
     throw std::invalid_argument("the switch penalty must be finite and at most 0");
   if (!(config.rescue_reward >= 0.0 && config.rescue_reward <= 1.0))
     throw std::invalid_argument("the rescue reward must be 0 to 1, as rewards are");
+  if (config.selector < Selector::kDp || config.selector > Selector::kNearest)
+    throw std::invalid_argument("the selector must be 0 (dp), 1 (beam), 2 (single) or 3 (nearest)");
+  if (config.rescue_frames < 0) throw std::invalid_argument("the rescue frames must be at least 0");
+  if (config.beam_width < 1 || config.beam_stretch < 1)
+    throw std::invalid_argument("the beam's width and stretch must be at least 1");
 }
 
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
@@ -32,16 +84,11 @@ ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& cl
   check(config);
   List<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
-  const SideBySide side_by_side =
-      roll_out_side_by_side(encoded_for(clip, all), tracking, all, config.rescue_reward);
+  Choice choice = choose(clip, tracking, set, all, config);
   ArrangedClip arranged;
-  arranged.breaks = side_by_side.breaks;
-
-  // The option of frame t acts towards frame t + 1, where its reward is found. Nothing is left to do in the
-  // last frame: it keeps the option of the frame before.
-  const auto& rewards = side_by_side.rewards;
-  arranged.options =
-      select_options(OptionRewards(rewards.begin() + 1, rewards.end()), config.switch_penalty).options;
+  arranged.breaks = std::move(choice.breaks);
+  arranged.options = std::move(choice.options);
+  // Nothing is left to do in the last frame: it keeps the option of the frame before.
   arranged.options.push_back(arranged.options.back());
 
   arranged.kept = distinct(arranged.options);

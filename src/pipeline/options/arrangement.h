@@ -1,8 +1,15 @@
 /// Which options of a set act in which frames of a motion, and the clip made ready for them.
 ///                                                                          docs/method.md §8, §9
-/// The options run side by side over the clip (side_by_side.h); from their rewards the selector takes the
-/// arrangement of largest value (selector.h). The options that occur in it are kept, in the order of the set,
-/// and numbered anew from 0: joint fine-tuning trains the policies that act and no others.
+/// A selector names the option of every frame:
+///
+///     dp       the options run side by side (side_by_side.h), rescues are paid for, and the arrangement of
+///              the largest total reward is taken (selector.h): the paper's
+///     beam     a search over real roll-outs (search.h)
+///     single   the option that does best when it acts alone from the first frame to the last
+///     nearest  the option whose cluster's centre is nearest to the motion's features; nothing is simulated
+///
+/// The options that occur are kept, in the order of the set, and numbered anew from 0: joint fine-tuning
+/// trains the policies that act and no others.
 #pragma once
 
 #include <array>
@@ -13,17 +20,24 @@
 
 namespace mimicx::pipeline::options {
 
+enum class Selector { kDp, kBeam, kSingle, kNearest };
+
 struct ArrangementConfig {
   double switch_penalty = 0.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
-  double rescue_reward = 0.0;   ///< σ: a character of less reward is put into the best one's state
+  double rescue_reward = 0.0;   ///< dp: σ; a character of less reward is put into the best one's state
+  Selector selector = Selector::kDp;
+  int rescue_frames = 0;  ///< dp: N, frames over which a reward fades towards a rescue; 0: rescues are free
+  int beam_width = 1;     ///< beam: states that are kept
+  int beam_stretch = 1;   ///< beam: frames for which an option acts at least
 };
 
-/// @throws std::invalid_argument unless the penalty is finite and at most 0, and σ in [0, 1]
+/// @throws std::invalid_argument unless the penalty is finite and at most 0, σ in [0, 1], the selector one
+/// of those above, N at least 0, and the beam's numbers at least 1
 void check(const ArrangementConfig& config);
 
 struct ArrangedClip {
   List<int> options;       ///< [frames] the option that acts, its number in the set
-  List<int> breaks;        ///< frames at which no option of the set could follow
+  List<int> breaks;        ///< frames at which nothing that was tried could follow
   List<int> kept;          ///< numbers in the set of the options that occur, ascending
   List<rl::Agent> agents;  ///< of the kept options
   std::shared_ptr<const rl::tracking::TrackingClip>
@@ -32,6 +46,7 @@ struct ArrangedClip {
 
 /// @param clip  as `make_tracking_clip` gives it: not encoded, without an arrangement
 /// @throws std::invalid_argument as `check`
+/// @throws DataError for `nearest` and a clip of fewer than 3 frames
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                      const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
                      const ArrangementConfig& config);

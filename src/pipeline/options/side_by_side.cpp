@@ -2,65 +2,53 @@
 
 #include <algorithm>
 
-#include "rl/tracking/rollout.h"
+#include "pipeline/options/characters.h"
 
 namespace mimicx::pipeline::options {
-namespace {
-
-/// Characters 0 … C − 1, kLanes to a pack.
-struct Characters {
-  List<rl::tracking::TrackingPack> packs;
-  rl::tracking::TrackingPack& pack(int c) { return packs[c / physics::kLanes]; }
-  static int lane(int c) { return c % physics::kLanes; }
-};
-
-/// Hands the best character's state to those that failed. @return false where all failed
-bool rescue(Characters& characters, const List<double>& rewards, double threshold) {
-  const auto best = static_cast<int>(std::max_element(rewards.begin(), rewards.end()) - rewards.begin());
-  if (!(rewards[best] >= threshold)) return false;
-  for (int c = 0; c < rewards.count(); ++c)
-    if (!(rewards[c] >= threshold))
-      characters.pack(c).copy_lane(Characters::lane(c), characters.pack(best), Characters::lane(best));
-  return true;
-}
-
-}  // namespace
 
 SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                                  const rl::tracking::TrackingConfig& config,
                                  const std::vector<const Option*>& options, double threshold) {
-  std::vector<rl::Agent> agents;
-  for (const Option* option : options) agents.push_back(option->agent);
-  const rl::tracking::MeanAction policy = rl::tracking::mean_action(agents);
+  const rl::tracking::MeanAction policy = mean_action_of(options);
   const int count = static_cast<int>(options.size());
-  Characters characters;
-  characters.packs.assign((options.size() + physics::kLanes - 1) / physics::kLanes,
-                          rl::tracking::TrackingPack(clip, config));
-  physics::Data<rl::tracking::TrackingPack::P> scratch;
-  List<float> state(clip->state_size());
-  Array<float, kDofs> action{};
+  List<int> own;  // character c acts by option c
+  for (int c = 0; c < count; ++c) own.push_back(c);
+  Characters characters(clip, config, count);
   SideBySide result;
   result.rewards.emplace_back(options.size(), 1.0);
+  result.rescued.emplace_back(options.size(), false);
   for (int t = 1; t < clip->size(); ++t) {
+    characters.advance(policy, own);
+    List<double> rewards;
+    List<bool> failed;
     for (int c = 0; c < count; ++c) {
-      rl::tracking::TrackingPack& pack = characters.pack(c);
-      pack.observe(Characters::lane(c), c, state.data());
-      policy(c, state.data(), action.data());
-      pack.act(Characters::lane(c), action.data());
+      rewards.push_back(characters.reward(c));
+      failed.push_back(!(rewards[c] >= threshold));
     }
-    for (rl::tracking::TrackingPack& pack : characters.packs) pack.advance(scratch);
-    List<double> rewards(options.size());
+    const auto best = static_cast<int>(std::max_element(rewards.begin(), rewards.end()) - rewards.begin());
+    if (failed[best]) result.breaks.push_back(t);
     for (int c = 0; c < count; ++c) {
-      const rl::tracking::TrackingPack& pack = characters.pack(c);
-      const bool fell = !(pack.worst_distance(Characters::lane(c)) <= config.terminate_distance);
-      rewards[c] = fell ? 0.0 : pack.reward(Characters::lane(c)).total;
+      if (failed[best])
+        characters.reset(c, t);
+      else if (failed[c])
+        characters.copy(c, characters, best);
     }
     result.rewards.push_back(rewards);
-    if (rescue(characters, rewards, threshold)) continue;
-    result.breaks.push_back(t);
-    for (int c = 0; c < count; ++c) characters.pack(c).reset(Characters::lane(c), t);
+    result.rescued.push_back(failed);
   }
   return result;
+}
+
+OptionRewards charge_rescues(const SideBySide& rolled, int frames) {
+  OptionRewards charged = rolled.rewards;
+  if (frames == 0) return charged;
+  List<int> to_rescue(charged.empty() ? 0 : charged.front().size(), frames);  // k, as far as it matters
+  for (int t = charged.count() - 1; t >= 0; --t)
+    for (int c = 0; c < to_rescue.count(); ++c) {
+      to_rescue[c] = rolled.rescued[t][c] ? 0 : std::min(to_rescue[c] + 1, frames);
+      charged[t][c] *= static_cast<double>(to_rescue[c]) / frames;
+    }
+  return charged;
 }
 
 }  // namespace mimicx::pipeline::options

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/options/constant_option.h"
 #include "pipeline/options/side_by_side.h"
+#include "pipeline/options/two_poses.h"
+#include "rl/tracking/rollout.h"
 #include "rl/tracking/tracking_fixture.h"
 
 namespace mimicx::pipeline::options {
@@ -101,6 +104,84 @@ TEST(Arrangement, ARescueAtAHigherRewardIsAnotherRollOut) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({0.3F});
   EXPECT_NE(arrange(clip, {}, set, {0.0, 1e-9}).breaks, arrange(clip, {}, set, {0.0, 0.9999}).breaks);
+}
+
+constexpr int kHalves = 60;
+
+ArrangementConfig selecting(Selector selector) {
+  return {.switch_penalty = -1.0,
+          .rescue_reward = 0.1,
+          .selector = selector,
+          .rescue_frames = 30,
+          .beam_width = 4,
+          .beam_stretch = 5};
+}
+
+/// One option is right in each half.
+ArrangedClip arrange_halves(Selector selector) {
+  const auto clip = rl::tracking::make_tracking_clip(two_poses(kHalves), absolute_actions());
+  return arrange(clip, absolute_actions(), options_of_halves(clip->reference), selecting(selector));
+}
+
+TEST(Arrangement, ProgrammeAndBeamFindTheSwitchBetweenTwoOptions) {
+  for (const Selector selector : {Selector::kDp, Selector::kBeam}) {
+    const auto stretches = stretches_of(arrange_halves(selector).options);
+    ASSERT_EQ(stretches.size(), 2u) << static_cast<int>(selector);
+    EXPECT_EQ(stretches[0][1], 1) << "hanging arms come first";
+    EXPECT_EQ(stretches[1][1], 0);
+    EXPECT_NEAR(stretches[1][0], kHalves / 2, 5) << static_cast<int>(selector);
+  }
+}
+
+TEST(Arrangement, FollowsBetterWithTheSwitchThanTheBestSingleOptionDoes) {
+  const auto reward_of = [](const ArrangedClip& arranged) {
+    return rl::tracking::roll_out(arranged.clip, absolute_actions(),
+                                  rl::tracking::mean_action(arranged.agents))
+        .mean_reward;
+  };
+  const ArrangedClip single = arrange_halves(Selector::kSingle);
+  EXPECT_EQ(single.kept.size(), 1u);
+  for (const Selector selector : {Selector::kDp, Selector::kBeam})
+    EXPECT_GT(reward_of(arrange_halves(selector)), 1.2 * reward_of(single));
+}
+
+TEST(Arrangement, SingleIsTheOptionWhoseOwnRollOutEarnsMost) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
+  const OptionSet set = set_of({1.5F, 0.05F, 0.0F, -0.1F});
+  const ArrangedClip arranged = arrange(clip, {}, set, selecting(Selector::kSingle));
+  int best = 0;
+  double most = 0.0;
+  for (int k = 0; k < set.options.count(); ++k) {
+    const double reward =
+        rl::tracking::roll_out(clip, {}, rl::tracking::mean_action({set.options[k].option.agent}))
+            .mean_reward;
+    if (reward > most) most = reward, best = k;
+  }
+  EXPECT_EQ(arranged.options, List<int>(30, best));
+}
+
+TEST(Arrangement, NearestIsTheOptionOfTheNearestCentre) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
+  OptionSet set = set_of({0.0F, 0.0F, 0.0F});
+  const motion::MotionFeatures features = motion::motion_features(clip->reference);
+  for (int k = 0; k < 3; ++k) {
+    set.options[k].centre = features;
+    set.options[k].centre[motion::kAcceleration] += std::abs(k - 1) + 0.5;
+  }
+  EXPECT_EQ(arrange(clip, {}, set, selecting(Selector::kNearest)).options, List<int>(30, 1));
+}
+
+TEST(Arrangement, RefusesNumbersThatCannotBe) {
+  const ArrangementConfig good = selecting(Selector::kBeam);
+  EXPECT_NO_THROW(check(good));
+  for (const auto& spoil : std::vector<void (*)(ArrangementConfig&)>{
+           [](ArrangementConfig& c) { c.rescue_frames = -1; }, [](ArrangementConfig& c) { c.beam_width = 0; },
+           [](ArrangementConfig& c) { c.beam_stretch = 0; },
+           [](ArrangementConfig& c) { c.selector = static_cast<Selector>(4); }}) {
+    ArrangementConfig config = good;
+    spoil(config);
+    EXPECT_THROW(check(config), std::invalid_argument);
+  }
 }
 
 TEST(Stretches, SayWhereEachOptionBegins) {

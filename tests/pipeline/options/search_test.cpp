@@ -1,0 +1,105 @@
+// The search against the roll-outs that it stands for.
+#include "pipeline/options/search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipeline/options/two_poses.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx::pipeline::options {
+namespace {
+
+using Clip = std::shared_ptr<const rl::tracking::TrackingClip>;
+
+/// Eq. 4 of what the options really earn when they act in turn.
+double value_of(const Clip& clip, const std::vector<const Option*>& options, const List<int>& acting,
+                double switch_penalty) {
+  auto arranged = std::make_shared<rl::tracking::TrackingClip>(*clip);
+  arranged->arrangement = acting;
+  arranged->arrangement.push_back(acting.back());
+  std::vector<rl::Agent> agents;
+  for (const Option* option : options) agents.push_back(option->agent);
+  const rl::tracking::TrackingRollout rolled =
+      rl::tracking::roll_out(arranged, absolute_actions(), rl::tracking::mean_action(agents));
+  EXPECT_LT(rolled.worst_distance, absolute_actions().terminate_distance) << "it should stand";
+  double value = 0.0;
+  for (int t = 0; t < acting.count(); ++t) {
+    value += rolled.rewards[static_cast<std::size_t>(t) + 1].total;
+    if (t > 0 && acting[t] != acting[t - 1]) value += switch_penalty;
+  }
+  return value;
+}
+
+struct Halves {
+  explicit Halves(int frames)
+      : clip(rl::tracking::make_tracking_clip(two_poses(frames), absolute_actions())),
+        set(options_of_halves(clip->reference)),
+        options{&set.options[0].option, &set.options[1].option} {}
+  Clip clip;
+  OptionSet set;
+  std::vector<const Option*> options;
+};
+
+TEST(Search, ItsValueIsThatOfTheRollOutOfWhatItFound) {
+  const Halves halves(40);
+  for (const int stretch : {1, 7, 39, 100}) {
+    const Found found = search_roll_outs(halves.clip, absolute_actions(), halves.options, {4, stretch, -0.5});
+    ASSERT_EQ(found.options.count(), 39);
+    EXPECT_NEAR(found.value, value_of(halves.clip, halves.options, found.options, -0.5), 1e-12) << stretch;
+    for (int t = 1; t < 39; ++t)
+      EXPECT_TRUE(found.options[t] == found.options[t - 1] || t % stretch == 0) << t;
+  }
+}
+
+TEST(Search, ABeamThatDropsNothingFindsTheBestOfAllArrangements) {
+  constexpr int kFrames = 25, kStretch = 4, kStretches = 6;
+  const Halves halves(kFrames);
+  double best = 0.0;
+  for (int bits = 0; bits < 1 << kStretches; ++bits) {
+    List<int> acting;
+    for (int t = 0; t < kFrames - 1; ++t) acting.push_back(bits >> (t / kStretch) & 1);
+    best = std::max(best, value_of(halves.clip, halves.options, acting, -0.25));
+  }
+  const Found found =
+      search_roll_outs(halves.clip, absolute_actions(), halves.options, {1 << kStretches, kStretch, -0.25});
+  EXPECT_NEAR(found.value, best, 1e-12);
+}
+
+TEST(Search, APathThatFallsIsDroppedHoweverMuchItEarnedBefore) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(60), {});
+  const Option falls = constant_option(rl::tracking::kStateSize, 1.5F),
+               stands = constant_option(rl::tracking::kStateSize, 0.0F);
+  const Found found = search_roll_outs(clip, {}, {&falls, &stands}, {1, 60, 0.0});
+  EXPECT_EQ(found.options, List<int>(59, 1));
+  EXPECT_TRUE(found.breaks.empty());
+}
+
+TEST(Search, WhereEveryPathFallsItGoesOnFromTheReferenceAndSaysWhere) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(60), {});
+  const Option falls = constant_option(rl::tracking::kStateSize, 1.5F);
+  const Found found = search_roll_outs(clip, {}, {&falls}, {3, 20, 0.0});
+  EXPECT_EQ(found.options, List<int>(59, 0));
+  EXPECT_FALSE(found.breaks.empty());
+  for (const int frame : found.breaks) EXPECT_TRUE(frame % 20 == 0 || frame == 59) << frame;
+  EXPECT_GT(found.value, 0.0);
+}
+
+TEST(Search, TiesGoToTheLowerIndex) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(20), {});
+  const Option option = constant_option(rl::tracking::kStateSize, 0.0F);
+  EXPECT_EQ(search_roll_outs(clip, {}, {&option, &option, &option}, {2, 5, 0.0}).options, List<int>(19, 0));
+}
+
+TEST(Search, RefusesNumbersThatCannotBe) {
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(5), {});
+  const Option option = constant_option(rl::tracking::kStateSize, 0.0F);
+  for (const SearchConfig& wrong : {SearchConfig{0, 1, 0.0}, SearchConfig{1, 0, 0.0}, SearchConfig{1, 1, 0.1},
+                                    SearchConfig{1, 1, std::nan("")}})
+    EXPECT_THROW(search_roll_outs(clip, {}, {&option}, wrong), std::invalid_argument);
+  EXPECT_THROW(search_roll_outs(clip, {}, {}, {1, 1, 0.0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mimicx::pipeline::options
