@@ -335,8 +335,7 @@ class SideBySide {
     std::optional<record::SequenceEntry> there;
     {
       const std::lock_guard guard(mutex_);
-      if (stopped_) return;
-      if (i > 0 && ask()) return interrupted(run_.names.at(input));
+      if (stopped_ || (i > 0 && ask())) return interrupted(run_.names.at(input));
       if (const record::SequenceEntry* entry = run_.manifest.find(input)) there = *entry;
     }
     std::ostringstream said;
@@ -356,8 +355,13 @@ class SideBySide {
     publish(input, done, worker);
   }
 
+  /// Writes what is known, once, when all work has ended.
   record::RunOutcome outcome() {
-    if (stopped_) return record::RunOutcome::kInterrupted;
+    if (stopped_) {
+      run_.manifest.sequences.empty() ? write_records(run_) : report();
+      run_.context.progress.finish(interrupted_ + ": interrupted; the same command continues");
+      return record::RunOutcome::kInterrupted;
+    }
     report();
     return all_good_ ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
   }
@@ -367,9 +371,7 @@ class SideBySide {
 
   void interrupted(const std::string& name) {
     stopped_ = true;
-    write_records(run_);
-    if (!run_.manifest.sequences.empty()) report();
-    run_.context.progress.finish(name + ": interrupted; the same command continues");
+    if (interrupted_.empty()) interrupted_ = name;
   }
 
   void report() {
@@ -401,6 +403,7 @@ class SideBySide {
   const int jobs_;
   std::mutex mutex_;
   bool stopped_ = false, all_good_ = true;
+  std::string interrupted_;  ///< the first motion that was not done
   int finished_ = 0;
   double next_report_ = record::steady_seconds() + kReportSeconds;
 };
