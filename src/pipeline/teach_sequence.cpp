@@ -37,19 +37,16 @@ SimulatedSequence polish(const teaching::Teacher& teacher, const rl::Agent& stud
   return train_sequence(teacher.clip, {student}, training, job);
 }
 
-/// How well the agent does alone on the motion that it was taught, and under pushes.
+/// How well the agent does alone on the motion that it was taught, and under pushes, into the values.
 void try_out(const teaching::Teacher& teacher, const TeachingConfig& config,
-             const rl::tracking::TrackingConfig& task, const rl::Agent& agent, bool substeps,
+             const rl::tracking::TrackingConfig& task, const rl::Agent& agent, const Scores& scores,
              TaughtPolicy& taught) {
-  taught.alone = rl::tracking::roll_out(teacher.clip, task, rl::tracking::mean_action({agent}), substeps);
-  const Scores scores = score_simulated(teacher.clip->reference, taught.alone);
   control::PushTest pushes = config.teacher.pushes;
   pushes.speed = 0.1;
   const auto held = teaching::test_pushes(teacher.clip, task, agent, pushes);
   taught.values.emplace_back("success", scores.success ? 1.0 : 0.0);
   for (const char* name : {"gMPJPE", "MPJPE", "Jitter"})
-    for (const auto& [key, value] : scores.values)
-      if (key == name) taught.values.emplace_back(name, value);
+    taught.values.emplace_back(name, value_of(scores.values, name));
   taught.values.emplace_back("pushes_survived", held.followed);
   taught.values.emplace_back("pushes_tried", pushes.trials);
   if (!scores.success) taught.note = "the policy alone does not follow the plan: " + scores.reason;
@@ -115,16 +112,22 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   taught.values = {{"teacher_survives", teacher->followed},
                    {"lessons", static_cast<double>(rows)},
                    {"rounds", static_cast<double>(rounds)}};
-  const auto alone = rl::tracking::roll_out(teacher->clip, task, rl::tracking::mean_action({*student}));
-  if (config.polish_samples > 0 && !score_simulated(teacher->clip->reference, alone).success) {
+  const auto alone = [&] {
+    return rl::tracking::roll_out(teacher->clip, task, rl::tracking::mean_action({*student}), job.substeps);
+  };
+  taught.alone = alone();
+  Scores scores = score_simulated(teacher->clip->reference, taught.alone);
+  if (config.polish_samples > 0 && !scores.success) {
     SimulatedSequence polished = polish(*teacher, *student, config, training, job);
     taught.interrupted = polished.interrupted;
     if (taught.interrupted) return taught;
     taught.samples = polished.samples;
     taught.values.emplace_back("polish_samples", static_cast<double>(polished.samples));
     student = polished.agents.front();
+    taught.alone = alone();
+    scores = score_simulated(teacher->clip->reference, taught.alone);
   }
-  try_out(*teacher, config, task, *student, job.substeps, taught);
+  try_out(*teacher, config, task, *student, scores, taught);
   taught.alone = seen_from(reference, task, std::move(taught.alone));
   taught.policy = output::StoredPolicy{teacher->clip->reference, plan.states, task.simulation, *student};
   taught.seconds = record::steady_seconds() - watch.started;
