@@ -72,7 +72,15 @@ void claim_outputs(const Arguments& a) {
   for (const auto& [split, set] : motion::synth::synthetic_splits()) claim(a.data_set / split, set);
 }
 
-int synth(const Arguments& a) {
+/// What may be asked for as kinds.
+std::vector<std::string> selections() {
+  std::vector<std::string> names = motion::synth::synthetic_kinds();
+  names.push_back("all");
+  return names;
+}
+
+int synth(Arguments a) {
+  if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = motion::synth::synthetic_kinds();
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
   const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
@@ -82,7 +90,7 @@ int synth(const Arguments& a) {
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
     motion::synth::write_synthetic_data(a.data_set);
-    std::cout << a.data_set.string() << ": test and train, " << motion::synth::synthetic_kinds().size()
+    std::cout << a.data_set.string() << ": test and train, " << motion::synth::basic_kinds().size()
               << " motions each, as truth and as a noisy estimate\n";
   }
   if (a.report) print_report(clips);
@@ -100,10 +108,12 @@ void declare_synth(CommandLine& line) {
   const Option out = command.path("--out", a->out, "folder to write to");
   command.number("--clips", set.clips, kFromOne,
                  "number of motions, the kinds in turn; default: one of each kind");
-  command.some_of("--kinds", set.kinds, motion::synth::synthetic_kinds(),
-                  "kinds to make, separated by commas; default: all");
-  command.one_of("--noise", set.noise, {"gvhmr", "vibe", "none"},
-                 "what estimates it for noisy/; none: exact");
+  command.some_of("--kinds", set.kinds, selections(),
+                  "kinds to make, separated by commas; all: every one; default: the first fourteen, those of "
+                  "data/synthetic");
+  command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
+                 "what estimates it for noisy/; none: exact; mixed: each clip by one of these, half of them "
+                 "without keypoints");
   command.one_of("--camera", set.camera, {"calibrated", "perturbed", "wild"}, "how well its camera is known");
   command.choice("--keypoints", set.keypoints,
                  {{"joints22", motion::KeypointSet::kJoints22},

@@ -18,7 +18,28 @@ const std::vector<SynthKind>& synth_kinds() {
                                                {"bow", 4.6, 6.0, plan_bow},
                                                {"turn_in_place", 5.5, 7.5, plan_turn_in_place},
                                                {"dance", 8.0, 10.0, plan_dance},
-                                               {"jog", 5.0, 6.5, plan_jog}};
+                                               {"jog", 5.0, 6.5, plan_jog},
+                                               {"walk_back", 5.0, 7.5, plan_walk_back},
+                                               {"walk_diagonal", 5.0, 7.5, plan_walk_diagonal},
+                                               {"walk_curve", 5.5, 8.0, plan_walk_curve},
+                                               {"walk_stop", 6.0, 9.0, plan_walk_stop},
+                                               {"shuffle", 5.0, 8.0, plan_shuffle},
+                                               {"turn_around", 5.5, 8.0, plan_turn_around},
+                                               {"walk_crouched", 6.5, 9.0, plan_walk_crouched},
+                                               {"balance", 6.0, 9.0, plan_balance},
+                                               {"kick_around", 5.5, 8.0, plan_kick_around},
+                                               {"march", 5.0, 7.5, plan_march},
+                                               {"crouch", 5.5, 8.0, plan_crouch},
+                                               {"sit", 5.0, 7.5, plan_sit},
+                                               {"pick_up", 5.5, 8.0, plan_pick_up},
+                                               {"lunge_around", 6.0, 9.0, plan_lunge_around},
+                                               {"reach", 5.0, 7.5, plan_reach},
+                                               {"talk", 5.0, 8.0, plan_talk},
+                                               {"stretch", 6.0, 9.0, plan_stretch},
+                                               {"arm_swings", 4.5, 6.5, plan_arm_swings},
+                                               {"jumps", 5.5, 8.0, plan_jumps},
+                                               {"martial", 6.5, 9.5, plan_martial},
+                                               {"free", 6.5, 10.0, plan_free}};
   return kinds;
 }
 

@@ -54,6 +54,7 @@ PerFrame<PlanFrame> plan_side_step(const PlanRequest& request);
 PerFrame<PlanFrame> plan_turn_in_place(const PlanRequest& request);
 // kinds/jump.cpp
 PerFrame<PlanFrame> plan_jump(const PlanRequest& request);
+PerFrame<PlanFrame> plan_jumps(const PlanRequest& request);
 // kinds/jog.cpp
 PerFrame<PlanFrame> plan_jog(const PlanRequest& request);
 // kinds/dance.cpp
@@ -62,5 +63,30 @@ PerFrame<PlanFrame> plan_dance(const PlanRequest& request);
 PerFrame<PlanFrame> plan_kick(const PlanRequest& request);
 PerFrame<PlanFrame> plan_punch(const PlanRequest& request);
 PerFrame<PlanFrame> plan_lunge(const PlanRequest& request);
+// kinds/everywhere.cpp
+PerFrame<PlanFrame> plan_walk_back(const PlanRequest& request);
+PerFrame<PlanFrame> plan_walk_diagonal(const PlanRequest& request);
+PerFrame<PlanFrame> plan_walk_curve(const PlanRequest& request);
+PerFrame<PlanFrame> plan_walk_stop(const PlanRequest& request);
+PerFrame<PlanFrame> plan_shuffle(const PlanRequest& request);
+PerFrame<PlanFrame> plan_turn_around(const PlanRequest& request);
+PerFrame<PlanFrame> plan_walk_crouched(const PlanRequest& request);
+// kinds/one_leg.cpp
+PerFrame<PlanFrame> plan_balance(const PlanRequest& request);
+PerFrame<PlanFrame> plan_kick_around(const PlanRequest& request);
+PerFrame<PlanFrame> plan_march(const PlanRequest& request);
+// kinds/low.cpp
+PerFrame<PlanFrame> plan_crouch(const PlanRequest& request);
+PerFrame<PlanFrame> plan_sit(const PlanRequest& request);
+PerFrame<PlanFrame> plan_pick_up(const PlanRequest& request);
+PerFrame<PlanFrame> plan_lunge_around(const PlanRequest& request);
+// kinds/gestures.cpp
+PerFrame<PlanFrame> plan_reach(const PlanRequest& request);
+PerFrame<PlanFrame> plan_talk(const PlanRequest& request);
+PerFrame<PlanFrame> plan_stretch(const PlanRequest& request);
+PerFrame<PlanFrame> plan_arm_swings(const PlanRequest& request);
+// kinds/phrases.cpp
+PerFrame<PlanFrame> plan_martial(const PlanRequest& request);
+PerFrame<PlanFrame> plan_free(const PlanRequest& request);
 
 }  // namespace mimicx::motion::synth

@@ -71,9 +71,35 @@ void add_swing(const FootSwing& swing, const FootTarget& from, double landed, do
                         {{at(0.50), 0.0}, {at(1.0), strike}, {swing.end + kRollDown, 0.0}});
 }
 
+/// From the floor to every place in the air and down again, at rest at each. It rises before it travels and
+/// arrives before it is put down.
+void add_raised_swing(const FootSwing& swing, const FootTarget& from, FootKnots& knots) {
+  constexpr double kClear = 0.06;  ///< s
+  const double out = swing.start + kClear, home = swing.end - kClear;
+  knots.x.push_back({out, from.place.x()});
+  knots.y.push_back({out, from.place.y()});
+  knots.yaw.insert(knots.yaw.end(), {{out, from.yaw}, {home, swing.yaw}});
+  knots.lift.push_back({swing.start, 0.0});
+  knots.heel_rise.push_back({swing.start, 0.0});
+  knots.toe_rise.push_back({swing.start, 0.0});
+  for (const FootVia& via : swing.through) {
+    knots.x.push_back({via.time, via.place.x()});
+    knots.y.push_back({via.time, via.place.y()});
+    knots.lift.push_back({via.time, via.lift});
+    knots.heel_rise.push_back({via.time, std::max(0.0, -via.pitch)});
+    knots.toe_rise.push_back({via.time, std::max(0.0, via.pitch)});
+  }
+  knots.x.push_back({home, swing.place.x()});
+  knots.y.push_back({home, swing.place.y()});
+  knots.lift.push_back({swing.end, 0.0});
+  knots.heel_rise.push_back({home, 0.0});
+  knots.toe_rise.push_back({home, 0.0});
+}
+
 /// Time left between a landing and the next start decides whether the load comes back to the middle.
 void add_rest(double landed, double next, double settle, double middle, std::vector<Knot>& knots) {
-  if (next - landed <= 2.0 * settle) return;
+  constexpr double kMoment = 1e-6;  ///< s
+  if (next - landed <= 2.0 * settle + kMoment) return;
   knots.push_back({landed + settle, middle});
   knots.push_back({next - settle, middle});
 }
@@ -109,7 +135,10 @@ FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& 
     double landed = -2.0 * settle;
     for (const FootSwing& swing : swings) {
       if (swing.side != side) continue;
-      add_swing(swing, from, landed, leg, knots);
+      if (swing.through.empty())
+        add_swing(swing, from, landed, leg, knots);
+      else
+        add_raised_swing(swing, from, knots);
       add_rest(landed, swing.start, settle, kMidFoot * forefoot, knots.pressure);
       knots.pressure.push_back({swing.start, kToeOff * forefoot});
       knots.pressure.push_back({swing.end, kHeelStrike * forefoot});

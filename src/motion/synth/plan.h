@@ -41,14 +41,23 @@ struct PlanFrame {
   bool flight = false;                                 ///< no foot touches the floor
 };
 
+/// A place in the air at which a foot comes to rest on its way.
+struct FootVia {
+  double time;            ///< s
+  Eigen::Vector2d place;  ///< as FootTarget's
+  double lift;            ///< m
+  double pitch = 0.0;     ///< toes up, rad; negative: heel up
+};
+
 /// One foot goes from where it stands to another place.
 struct FootSwing {
-  int side;                ///< 0 left, 1 right
-  double start, end;       ///< leaves and meets the floor, s
-  Eigen::Vector2d place;   ///< where it lands
-  double yaw = 0.0;        ///< how it lands
-  double clearance = 0.0;  ///< height of the sole at mid-swing, m
-  bool running = false;    ///< leaves and meets the floor with speed, and meets it flat
+  int side;                           ///< 0 left, 1 right
+  double start, end;                  ///< leaves and meets the floor, s
+  Eigen::Vector2d place;              ///< where it lands
+  double yaw = 0.0;                   ///< how it lands
+  double clearance = 0.0;             ///< height of the sole at mid-swing, m
+  bool running = false;               ///< leaves and meets the floor with speed, and meets it flat
+  std::vector<FootVia> through = {};  ///< where it rests in the air, in order of time; then no clearance
 };
 
 /// A foot's motion; `pressure` is where in the foot its share of the load acts, m ahead of the ankle.

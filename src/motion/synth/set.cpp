@@ -10,7 +10,7 @@
 namespace mimicx::motion::synth {
 namespace {
 
-constexpr std::uint64_t kSetNoiseStream = 0x53594E04;
+constexpr std::uint64_t kSetNoiseStream = 0x53594E04, kMixStream = 0x53594E05;
 
 /// The sum turns −0 into 0: the sign of a zero is a last-bit difference too.
 double on_grid(double value, double steps) { return std::round(value * steps) / steps + 0.0; }
@@ -32,7 +32,8 @@ void round_to_grid(Clip& clip) {
     extrinsics = extrinsics.unaryExpr([](double x) { return on_grid(x, kSteps); }).eval();
 }
 
-NoisePreset preset_of(const std::string& noise) {
+NoiseModel model_of(const std::string& noise) {
+  if (noise == "independent") return independent_preset();
   if (noise != "none") return noise_preset(noise + "-like");
   NoisePreset silent{};  // the time constants still have to be times
   silent.slow_tau = silent.depth_tau = silent.drift_tau = 1.0;
@@ -49,11 +50,24 @@ std::uint64_t noise_seed(const SynthConfig& clip) {
   return high << 32 | low;
 }
 
+/// How a clip errs of a set in which every clip errs in its own way.
+EstimateConfig mixed(const SynthSetConfig& set, std::uint64_t seed) {
+  Random random(seed, {kMixStream});
+  const double drawn = random.uniform();
+  EstimateConfig estimate{model_of(drawn < 0.3   ? "gvhmr"
+                                   : drawn < 0.6 ? "vibe"
+                                   : drawn < 0.9 ? "independent"
+                                                 : "none"),
+                          camera_error(set.camera), set.keypoints};
+  if (random.uniform() < 0.5) estimate.keypoints.reset();
+  return estimate;
+}
+
 }  // namespace
 
 std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config) {
   const std::vector<std::string> known = synthetic_kinds();
-  const std::vector<std::string>& kinds = config.kinds.empty() ? known : config.kinds;
+  const std::vector<std::string> kinds = config.kinds.empty() ? basic_kinds() : config.kinds;
   for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
     if (std::find(known.begin(), known.end(), *kind) == known.end())
       throw std::invalid_argument("unknown kind of motion '" + *kind + "'");
@@ -71,15 +85,15 @@ std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config) {
 }
 
 SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config) {
-  NoiseConfig noise;
-  noise.preset = preset_of(config.noise);
-  noise.camera = camera_error(config.camera);
-  noise.keypoints = config.keypoints;
-  noise.seed = noise_seed(clip);
+  const std::uint64_t seed = noise_seed(clip);
+  const EstimateConfig noise =
+      config.noise == "mixed"
+          ? mixed(config, seed)
+          : EstimateConfig{model_of(config.noise), camera_error(config.camera), config.keypoints};
   SynthPair pair;
   pair.truth = synthesize(clip);
   round_to_grid(pair.truth);
-  pair.noisy = add_noise(pair.truth, noise);
+  pair.noisy = estimate(pair.truth, noise, seed);
   round_to_grid(pair.noisy);
   return pair;
 }

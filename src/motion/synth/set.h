@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "motion/synth/noise.h"
+#include "motion/synth/estimate.h"
 #include "motion/synth/synth.h"
 
 namespace mimicx::motion::synth {
@@ -24,10 +24,13 @@ namespace mimicx::motion::synth {
 inline constexpr std::uint64_t kTestSeed = 1, kTrainingSeed = 101;  ///< first seeds of the two splits
 
 struct SynthSetConfig {
-  std::vector<std::string> kinds;    ///< empty: all of `synthetic_kinds()`
-  int clips = 0;                     ///< 0: one of each kind
-  std::uint64_t seed = kTestSeed;    ///< of the first clip of every kind
-  std::string noise = "gvhmr";       ///< "gvhmr", "vibe", or "none": exact motion, detected keypoints
+  std::vector<std::string> kinds;  ///< empty: `basic_kinds()`
+  int clips = 0;                   ///< 0: one of each kind
+  std::uint64_t seed = kTestSeed;  ///< of the first clip of every kind
+  /// "gvhmr", "vibe", "independent" (independent_noise.h); "none": exact motion, detected keypoints; "mixed":
+  /// every clip draws one of these four, in shares of 3 : 3 : 3 : 1, and loses its keypoints half of the
+  /// time.
+  std::string noise = "gvhmr";
   std::string camera = "perturbed";  ///< see `camera_error`
   KeypointSet keypoints = KeypointSet::kJoints22;
 };

@@ -29,6 +29,13 @@ std::vector<std::string> synthetic_kinds() {
   return names;
 }
 
+std::vector<std::string> basic_kinds() {
+  constexpr std::ptrdiff_t kBasicKinds = 14;
+  std::vector<std::string> names = synthetic_kinds();
+  names.erase(names.begin() + kBasicKinds, names.end());
+  return names;
+}
+
 std::string name_of(const SynthConfig& config) { return config.kind + "_" + std::to_string(config.seed); }
 
 Clip synthesize(const SynthConfig& config) {

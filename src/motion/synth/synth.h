@@ -31,6 +31,8 @@ struct SynthConfig {
 
 /// Names accepted as `SynthConfig::kind`, in a fixed order.
 std::vector<std::string> synthetic_kinds();
+/// Those of the set in the repository, data/synthetic, and of sets that name no kinds.
+std::vector<std::string> basic_kinds();
 
 /// kind_seed.
 std::string name_of(const SynthConfig& config);

@@ -59,7 +59,7 @@ double distance(const Clip& a, const Clip& b) {
 }
 
 TEST(ReadMotion, LeavesASoundFileAsItIs) {
-  for (const std::string& kind : synth::synthetic_kinds()) {
+  for (const std::string& kind : synth::basic_kinds()) {
     const Clip clip = foreign(kind), back = reread(clip);
     EXPECT_EQ(back.rotations, clip.rotations) << kind;
     EXPECT_EQ(back.trans, clip.trans) << kind;

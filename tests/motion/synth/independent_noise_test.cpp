@@ -291,9 +291,9 @@ TEST(IndependentNoise, TellsPanAndRollInPartsOfTheTilt) {
 
 TEST(IndependentNoise, LandsNearThePublishedErrorsOfAVideoEstimator) {
   std::map<std::string, double> mean;
-  const double clips = 4.0 * static_cast<double>(synthetic_kinds().size());
+  const double clips = 4.0 * static_cast<double>(basic_kinds().size());
   std::uint64_t seed = 0;
-  for (const std::string& kind : synthetic_kinds()) {
+  for (const std::string& kind : basic_kinds()) {
     const Clip& truth = test::truth_of(kind);
     const MotionSamples exact =
         sample_motion(make_character(truth.betas), test::poses_of_clip(truth), truth.fps);

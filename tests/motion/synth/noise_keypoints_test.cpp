@@ -23,7 +23,7 @@ TEST(Project, IsThePinholeCamera) {
 }
 
 TEST(PlaceCamera, SeesTheWholeMotionFromAPersonsHeight) {
-  for (const std::string& kind : synthetic_kinds())
+  for (const std::string& kind : basic_kinds())
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of(kind));
       const Camera camera = place_camera(poses, seed);

@@ -290,10 +290,10 @@ TEST(AddNoise, RefusesWhatItCannotUnderstand) {
 /// Mean metrics of noisy clips of every kind, six seeds each.
 std::map<std::string, double> mean_metrics(const std::string& preset) {
   constexpr int kTrials = 6;
-  const double clips = kTrials * static_cast<double>(synthetic_kinds().size());
+  const double clips = kTrials * static_cast<double>(basic_kinds().size());
   std::map<std::string, double> mean;
   std::uint64_t seed = 0;
-  for (const std::string& kind : synthetic_kinds()) {
+  for (const std::string& kind : basic_kinds()) {
     const Clip& truth = test::truth_of(kind);
     const MotionSamples exact =
         sample_motion(make_character(truth.betas), test::poses_of_clip(truth), truth.fps);

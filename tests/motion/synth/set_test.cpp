@@ -53,7 +53,7 @@ TEST(SynthSet, IsOneOfEachKindUnlessToldOtherwise) {
     kinds.push_back(clip.kind);
     EXPECT_EQ(clip.seed, kTestSeed);
   }
-  EXPECT_EQ(kinds, synthetic_kinds());
+  EXPECT_EQ(kinds, basic_kinds());
 }
 
 TEST(SynthSet, RefusesUnknownAndRepeatedKindsNoiseAndCameras) {
@@ -138,7 +138,7 @@ TEST(SyntheticData, IsRegeneratedByteForByte) {
   write_synthetic_data(fresh.path);
   const std::set<std::string> files = files_below(fresh.path);
   EXPECT_EQ(files, files_below(kept_data()));
-  EXPECT_EQ(files.size(), 4 * synthetic_kinds().size());
+  EXPECT_EQ(files.size(), 4 * basic_kinds().size());
   std::uintmax_t total = 0;
   for (const std::string& file : files) {
     EXPECT_TRUE(file_bytes(fresh.path / file) == file_bytes(kept_data() / file)) << file;
@@ -148,7 +148,7 @@ TEST(SyntheticData, IsRegeneratedByteForByte) {
 }
 
 TEST(SyntheticData, KeepsTheTruthOutOfTheNoisyFilesAndTheSplitsApart) {
-  for (const std::string& kind : synthetic_kinds()) {
+  for (const std::string& kind : basic_kinds()) {
     std::vector<Clip> truths;
     for (const auto& [split, seed] : {std::pair{"test", kTestSeed}, std::pair{"train", kTrainingSeed}}) {
       const std::string name = kind + "_" + std::to_string(seed);
