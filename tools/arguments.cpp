@@ -170,10 +170,13 @@ Option Command::file(const std::string& name, std::filesystem::path& file, const
 }
 
 Option Command::files(const std::string& name, std::vector<std::string>& files, const std::string& help) {
+  return optional_files(name, files, help).required();
+}
+
+Option Command::optional_files(const std::string& name, std::vector<std::string>& files,
+                               const std::string& help) {
   return Option(add_many(
-                    app_, name, "", true, [&files](const std::vector<std::string>& texts) { files = texts; },
-                    help))
-      .required();
+      app_, name, "", true, [&files](const std::vector<std::string>& texts) { files = texts; }, help));
 }
 
 Option Command::path(const std::string& name, std::filesystem::path& path, const std::string& help) {

@@ -72,6 +72,8 @@ class Command {
   Option file(const std::string& name, std::filesystem::path& file, const std::string& help);
   /// One file or more.
   Option files(const std::string& name, std::vector<std::string>& files, const std::string& help);
+  /// Any number of files.
+  Option optional_files(const std::string& name, std::vector<std::string>& files, const std::string& help);
   /// Not the empty text.
   Option path(const std::string& name, std::filesystem::path& path, const std::string& help);
   /// Of a file that is there.

@@ -27,7 +27,7 @@ control::PushResult pushed(const pipeline::record::RunFolder& run, const std::st
   const control::System system =
       control::make_system(character, stored.simulation, stored.reference, stored.fps);
   return control::test_pushes(system, control::make_cost(system, {}), control::trajectory_of(stored.plan),
-                              pipeline::output::read_gains(run.gains(name)), test);
+                              pipeline::output::read_gains(run.gains(name)).gains, test);
 }
 
 control::PushResult pushed_policy(const pipeline::record::RunFolder& run, const std::string& name,

@@ -23,6 +23,7 @@ class CommandLine;
 void declare_run(CommandLine& line);
 void declare_plan(CommandLine& line);
 void declare_pretrain(CommandLine& line);
+void declare_teach(CommandLine& line);
 void declare_adapt(CommandLine& line);
 void declare_imitate(CommandLine& line);
 void declare_evaluate(CommandLine& line);

@@ -141,6 +141,12 @@ AdaptConfig adapt_configuration() {
   return config;
 }
 
+TeachConfig teach_configuration() {
+  TeachConfig config;
+  config.planning = plan_configuration();
+  return config;
+}
+
 PretrainConfig pretrain_configuration(const std::string& preset) {
   if (preset != "small" && preset != "paper")
     throw std::invalid_argument("unknown preset '" + preset + "': small or paper");

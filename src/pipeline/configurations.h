@@ -20,12 +20,14 @@
 #include "pipeline/imitate.h"
 #include "pipeline/plan.h"
 #include "pipeline/pretrain.h"
+#include "pipeline/teach.h"
 
 namespace mimicx::pipeline {
 
 PlanMotionsConfig plan_configuration();
 ImitateConfig imitate_configuration();
 AdaptConfig adapt_configuration();
+TeachConfig teach_configuration();
 /// @param preset  "small" or "paper" @throws std::invalid_argument for another one
 PretrainConfig pretrain_configuration(const std::string& preset);
 

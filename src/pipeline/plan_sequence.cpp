@@ -69,11 +69,15 @@ void leave_gains(const motion::Reference& reference, const control::PlanConfig& 
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
   const control::System system = system_of(reference, stored);
   const control::Cost cost = control::make_cost(system, config.weights, config.certainty);
-  const auto gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
-                                             config.gain_config, watch.control());
-  if (gains.empty()) return;  // it was told to stop
+  List<Eigen::MatrixXf> curvature;
+  output::StoredGains feedback;
+  feedback.gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
+                                           config.gain_config, watch.control(), &curvature);
+  if (feedback.gains.empty()) return;  // it was told to stop
+  feedback.curvature = Eigen::MatrixXf::Zero(kDofs, kDofs);
+  for (const Eigen::MatrixXf& Q : curvature) feedback.curvature += Q / static_cast<float>(curvature.size());
   make_folder(file.parent_path());
-  output::write_gains(file, gains);
+  output::write_gains(file, feedback);
 }
 
 rl::tracking::TrackingRollout replay(const motion::Reference& reference, const output::StoredPlan& stored,

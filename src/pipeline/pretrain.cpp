@@ -10,11 +10,11 @@
 #include "core/error.h"
 #include "core/npz.h"
 #include "pipeline/inputs.h"
+#include "pipeline/options_folder.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/folder_lock.h"
 #include "pipeline/record/json.h"
 #include "pipeline/record/names.h"
-#include "pipeline/record/outputs.h"
 #include "pipeline/record/run_folder.h"
 
 namespace mimicx::pipeline {
@@ -91,61 +91,6 @@ record::Json run_record(const PretrainConfig& config, const std::vector<std::str
           {"settings", settings_json(config)},
           {"reading", record::to_utf8(config.read.text())},
           {"inputs", inputs}};
-}
-
-/// Claims what does not have an option's number in its name. In a folder of this run all of it is ours.
-void claim_options(const record::RunFolder& folder, const std::vector<std::string>& files, bool force) {
-  record::Outputs outputs(files, force);
-  const bool continued = std::filesystem::exists(folder.manifest());
-  const auto claim = [&](const std::filesystem::path& path, std::string_view opening) {
-    continued ? outputs.claim_own(path) : outputs.claim(path, opening);
-  };
-  claim(folder.manifest(), record::kJsonOpening);
-  claim(folder.root / "clusters.json", record::kJsonOpening);
-  claim(folder.root / "options.npz", {});
-}
-
-std::string short_text(const record::Json& json) {
-  constexpr std::size_t kMost = 60;
-  const std::string text = json.dump();
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
-}
-
-/// What a file holds; null where it is no JSON.
-record::Json json_or_null(const std::filesystem::path& path) {
-  try {
-    return record::Json::parse(read_file(path));
-  } catch (const record::JsonError&) {
-    return nullptr;
-  }
-}
-
-/// The first member, by its path, in which two records differ: "settings/gamma is 0.9 there, 0.92 here".
-std::string first_difference(const record::Json& there, const record::Json& here) {
-  if (!there.is_object() || !here.is_object())
-    return there == here ? "" : " is " + short_text(there) + " there, " + short_text(here) + " here";
-  for (const auto& [name, value] : here.items())
-    if (const std::string found = first_difference(there.value(name, nullptr), value); !found.empty())
-      return name + (found.starts_with(' ') ? "" : "/") + found;
-  return {};
-}
-
-/// How the run in the folder ended, where it is this one and its options are there to the last byte.
-/// @throws std::invalid_argument when the folder holds a run of other settings or inputs
-std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
-                                                   const record::Json& record) {
-  if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
-  const record::Json there = json_or_null(folder.manifest());
-  const std::string difference = first_difference(there.value("run", nullptr), record);
-  if (!difference.empty())
-    throw std::invalid_argument(folder.root.string() + " holds another pre-training (" + difference +
-                                "): give another folder, or remove it first");
-  const std::filesystem::path options = folder.root / "options.npz";
-  if (!std::filesystem::exists(options) || there.value("checksum", "") != record::file_checksum(options))
-    return std::nullopt;
-  for (const record::Json& input : there.at("inputs").elements())
-    if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
-  return record::RunOutcome::kAllGood;
 }
 
 nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::tracking::TrackingClip>>& clips,

@@ -44,11 +44,44 @@ void write_down(const nn::Matrix<float>& states, const LaneActions& teacher, int
   out.states.insert(out.states.end(), states.data(), states.data() + states.size());
   for (int lane = 0; lane < kLanes; ++lane) {
     out.actions.insert(out.actions.end(), teacher[lane].begin(), teacher[lane].end());
-    out.frames.push_back(frame);
+    out.weighed_by.push_back(frame);
   }
 }
 
+/// Largest distance of a lane's body from that of the teacher in lane 0, m; infinite where the simulation
+/// went wrong.
+double distance_from_teacher(const TrackingPack& pack, int lane) {
+  double worst = pack.worst_distance(lane);
+  if (!std::isfinite(worst)) return worst;
+  worst = 0.0;
+  for (int body = 0; body < kBodies; ++body)
+    worst = std::max(worst, (pack.pose(lane).p_WB[body] - pack.pose(0).p_WB[body]).norm());
+  return worst;
+}
+
 }  // namespace
+
+void append(const Lessons& more, Lessons& lessons) {
+  lessons.states.insert(lessons.states.end(), more.states.begin(), more.states.end());
+  lessons.actions.insert(lessons.actions.end(), more.actions.begin(), more.actions.end());
+  lessons.weighed_by.insert(lessons.weighed_by.end(), more.weighed_by.begin(), more.weighed_by.end());
+  lessons.put_back += more.put_back;
+}
+
+rl::Agent beginner(int state_size, const std::vector<int>& hidden, std::uint64_t seed) {
+  rl::AgentShape shape;
+  shape.observation_dim = state_size;
+  shape.action_dim = kDofs;
+  shape.hidden = hidden;
+  return rl::make_agent(shape, seed);
+}
+
+void scale_inputs(const Lessons& lessons, rl::Agent& agent) {
+  const nn::Matrix<float> states =
+      Eigen::Map<const nn::Matrix<float>>(lessons.states.data(), lessons.rows(), agent.actor.inputs());
+  const nn::Moments moments = nn::moments_of(states);
+  nn::update(agent.observations, std::span<const nn::Moments>(&moments, 1));
+}
 
 Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                      const LessonConfig& config, const rl::Agent* student, std::uint64_t seed,
@@ -76,7 +109,7 @@ Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig&
     }
     pack.advance(*scratch);
     for (int lane = 1; lane < kLanes; ++lane) {
-      if (pack.worst_distance(lane) < config.off_path) continue;
+      if (distance_from_teacher(pack, lane) < config.off_path) continue;
       pack.copy_lane(lane, pack, 0);
       before[lane] = before[0];
       ++lessons.put_back;

@@ -20,19 +20,28 @@ struct LessonConfig {
   double action_noise = 0.05;  ///< standard deviation on every entry of an action, rad
   double push = 0.15;          ///< standard deviation of a push of the pelvis in x and in y, m/s
   int push_every = 15;         ///< frames from push to push
-  double off_path = 0.3;       ///< a body farther from the motion is put back onto it, m
+  double off_path = 0.3;       ///< a body farther from the teacher's own is put back to it, m
   int teacher_lanes = 2;       ///< of a pack, that follow the teacher once there is a student
 };
 
 /// Rows of lessons.
 struct Lessons {
-  List<float> states;   ///< [rows][state_size] s_t, not normalised
-  List<float> actions;  ///< [rows][55] the teacher's, rad
-  List<int> frames;     ///< [rows]
-  int put_back = 0;     ///< how often a body was put back onto the motion
+  List<float> states;    ///< [rows][state_size] s_t, not normalised
+  List<float> actions;   ///< [rows][55] the teacher's, rad
+  List<int> weighed_by;  ///< [rows] which matrix says what a wrong action costs (regression.h): the frame
+  int put_back = 0;      ///< how often a body was put back onto the motion
 
-  int rows() const { return frames.count(); }
+  int rows() const { return weighed_by.count(); }
 };
+
+/// Behind the rows that are there.
+void append(const Lessons& more, Lessons& lessons);
+
+/// An agent that has learnt nothing: two or more hidden layers, mean actions near zero.
+rl::Agent beginner(int state_size, const std::vector<int>& hidden, std::uint64_t seed);
+
+/// The agent's inputs are scaled by what these lessons show.
+void scale_inputs(const Lessons& lessons, rl::Agent& agent);
 
 /// One pack goes through the motion once: frames × lanes rows.
 /// @param student  null: everybody follows the teacher

@@ -31,7 +31,7 @@ void take_gradient(const Lessons& lessons, const List<Eigen::MatrixXf>& importan
   slot.pull.resize(error.rows(), error.cols());
   slot.loss = 0.0;
   for (Eigen::Index k = 0; k < error.rows(); ++k) {
-    const Eigen::MatrixXf& W = importance[lessons.frames[rows[static_cast<std::size_t>(k)]]];
+    const Eigen::MatrixXf& W = importance[lessons.weighed_by[rows[static_cast<std::size_t>(k)]]];
     slot.pull.row(k).noalias() = share * (error.row(k) * W);
     slot.loss += 0.5 * static_cast<double>(error.row(k).dot(slot.pull.row(k)));
   }

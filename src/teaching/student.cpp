@@ -13,32 +13,14 @@ namespace {
 
 enum RandomPurpose : std::uint64_t { kRows = 0x57d0 };
 
-rl::Agent untaught(const rl::tracking::TrackingClip& clip, const StudentConfig& config) {
-  rl::AgentShape shape;
-  shape.observation_dim = clip.state_size();
-  shape.action_dim = kDofs;
-  shape.hidden = {config.hidden, config.hidden};
-  return rl::make_agent(shape, config.seed);
-}
-
 /// Appends lessons and drops the oldest beyond `most` rows.
 void add(const Lessons& fresh, int state_size, int most, Lessons& all) {
-  all.states.insert(all.states.end(), fresh.states.begin(), fresh.states.end());
-  all.actions.insert(all.actions.end(), fresh.actions.begin(), fresh.actions.end());
-  all.frames.insert(all.frames.end(), fresh.frames.begin(), fresh.frames.end());
+  append(fresh, all);
   const int extra = all.rows() - most;
   if (extra <= 0) return;
   all.states.erase(all.states.begin(), all.states.begin() + std::ptrdiff_t{extra} * state_size);
   all.actions.erase(all.actions.begin(), all.actions.begin() + std::ptrdiff_t{extra} * kDofs);
-  all.frames.erase(all.frames.begin(), all.frames.begin() + extra);
-}
-
-/// Inputs are scaled by what the first lessons show.
-void see_first(const Lessons& lessons, rl::Agent& agent) {
-  const nn::Matrix<float> states =
-      Eigen::Map<const nn::Matrix<float>>(lessons.states.data(), lessons.rows(), agent.actor.inputs());
-  const nn::Moments moments = nn::moments_of(states);
-  nn::update(agent.observations, std::span<const nn::Moments>(&moments, 1));
+  all.weighed_by.erase(all.weighed_by.begin(), all.weighed_by.begin() + extra);
 }
 
 /// The student that came closest to the motion by itself; one that fell came less close than any that did
@@ -65,7 +47,7 @@ struct Best {
 std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                                const StudentConfig& config, const control::PlanControl& control,
                                const std::function<void(const RoundStats&, const rl::Agent&)>& watch) {
-  rl::Agent agent = untaught(*teacher.clip, config);
+  rl::Agent agent = beginner(teacher.clip->state_size(), {config.hidden, config.hidden}, config.seed);
   nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
   Best best{agent};
   RegressionScratch scratch;
@@ -91,7 +73,7 @@ std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::Track
       taken += lessons.rows();
     }
     stats.taken = taken;
-    if (round == 0) see_first(all, agent);
+    if (round == 0) scale_inputs(all, agent);
     for (int step = 0; step < steps; ++step) {
       if (control.should_stop && control.should_stop()) return {};
       const double done = (of_stage + (step + 0.5) / steps) / config.rounds;

@@ -30,7 +30,7 @@ TEST(Lessons, TheFirstLaneShowsTheMotionItself) {
   ASSERT_EQ(lessons.rows(), teacher.size() * kLanes);
   for (int t = 0; t < teacher.size(); ++t) {
     const int row = t * kLanes;
-    EXPECT_EQ(lessons.frames[row], t);
+    EXPECT_EQ(lessons.weighed_by[row], t);
     for (int k = 0; k < kDofs; ++k)
       EXPECT_NEAR(lessons.actions[row * kDofs + k], teacher.motion.u[t][k], 1e-3f) << t << ' ' << k;
   }

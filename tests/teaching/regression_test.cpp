@@ -16,7 +16,7 @@ Lessons random_lessons(int rows, int frames, int state_size, const Label& label)
   for (int row = 0; row < rows; ++row) {
     for (int k = 0; k < state_size; ++k) lessons.states.push_back(static_cast<float>(random.normal()));
     for (int k = 0; k < kDofs; ++k) lessons.actions.push_back(label(row, k));
-    lessons.frames.push_back(row % frames);
+    lessons.weighed_by.push_back(row % frames);
   }
   return lessons;
 }

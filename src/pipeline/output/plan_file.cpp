@@ -76,29 +76,35 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
   write_npz(path, npz);
 }
 
-void write_gains(const std::filesystem::path& path, const std::vector<Eigen::MatrixXf>& gains) {
+void write_gains(const std::filesystem::path& path, const StoredGains& stored) {
   using Rows = Eigen::Matrix<float, kDofs, control::kMemory, Eigen::RowMajor>;
   std::vector<float> values;
-  values.reserve(gains.size() * Rows::SizeAtCompileTime);
-  for (const Eigen::MatrixXf& K : gains) {
+  values.reserve(stored.gains.size() * Rows::SizeAtCompileTime);
+  for (const Eigen::MatrixXf& K : stored.gains) {
     const Rows rows = K;
     values.insert(values.end(), rows.data(), rows.data() + rows.size());
   }
+  const Eigen::Matrix<float, kDofs, kDofs, Eigen::RowMajor> curvature = stored.curvature;
   Npz npz;
-  npz.set("gains", NpyArray::from_float({gains.size(), kDofs, control::kMemory}, values.data()));
+  npz.set("gains", NpyArray::from_float({stored.gains.size(), kDofs, control::kMemory}, values.data()));
+  npz.set("curvature", NpyArray::from_float({kDofs, kDofs}, curvature.data()));
   write_npz(path, npz);
 }
 
-std::vector<Eigen::MatrixXf> read_gains(const std::filesystem::path& path) {
+StoredGains read_gains(const std::filesystem::path& path) {
   const Npz npz = read_npz(path);
   const std::size_t count = rows_of(npz, "gains");
+  StoredGains stored;
   const std::vector<double> values = read_numbers(npz, "gains", count, kDofs * control::kMemory);
-  std::vector<Eigen::MatrixXf> gains(count, Eigen::MatrixXf(kDofs, control::kMemory));
+  stored.gains.assign(count, Eigen::MatrixXf(kDofs, control::kMemory));
   const double* at = values.data();
-  for (Eigen::MatrixXf& K : gains)
+  for (Eigen::MatrixXf& K : stored.gains)
     for (Eigen::Index r = 0; r < K.rows(); ++r)
       for (Eigen::Index c = 0; c < K.cols(); ++c) K(r, c) = static_cast<float>(*at++);
-  return gains;
+  const std::vector<double> curvature = read_numbers(npz, "curvature", kDofs, kDofs);
+  stored.curvature =
+      Eigen::Map<const Eigen::Matrix<double, kDofs, kDofs, Eigen::RowMajor>>(curvature.data()).cast<float>();
+  return stored;
 }
 
 StoredPlan read_plan(const std::filesystem::path& path) {

@@ -26,9 +26,14 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored);
 /// @throws DataError naming file and member that is not there, or not of its shape
 StoredPlan read_plan(const std::filesystem::path& path);
 
-/// @param gains  [frames − 1] K_t [55][177] (control/gains.h)
-void write_gains(const std::filesystem::path& path, const std::vector<Eigen::MatrixXf>& gains);
+/// The feedback around a plan.
+struct StoredGains {
+  std::vector<Eigen::MatrixXf> gains;  ///< [frames − 1] K_t [55][177] (control/gains.h)
+  Eigen::MatrixXf curvature;           ///< [55][55] mean over the frames of Q_uu, what a wrong control costs
+};
+
+void write_gains(const std::filesystem::path& path, const StoredGains& stored);
 /// @throws DataError as read_plan does
-std::vector<Eigen::MatrixXf> read_gains(const std::filesystem::path& path);
+StoredGains read_gains(const std::filesystem::path& path);
 
 }  // namespace mimicx::pipeline::output

@@ -1,0 +1,65 @@
+#include "pipeline/options_folder.h"
+
+#include <stdexcept>
+
+#include "core/file.h"
+#include "pipeline/record/outputs.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+std::string short_text(const record::Json& json) {
+  constexpr std::size_t kMost = 60;
+  const std::string text = json.dump();
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
+/// What a file holds; null where it is no JSON.
+record::Json json_or_null(const std::filesystem::path& path) {
+  try {
+    return record::Json::parse(read_file(path));
+  } catch (const record::JsonError&) {
+    return nullptr;
+  }
+}
+
+/// The first member, by its path, in which two records differ: "settings/gamma is 0.9 there, 0.92 here".
+std::string first_difference(const record::Json& there, const record::Json& here) {
+  if (!there.is_object() || !here.is_object())
+    return there == here ? "" : " is " + short_text(there) + " there, " + short_text(here) + " here";
+  for (const auto& [name, value] : here.items())
+    if (const std::string found = first_difference(there.value(name, nullptr), value); !found.empty())
+      return name + (found.starts_with(' ') ? "" : "/") + found;
+  return {};
+}
+
+}  // namespace
+
+void claim_options(const record::RunFolder& folder, const std::vector<std::string>& files, bool force) {
+  record::Outputs outputs(files, force);
+  const bool continued = std::filesystem::exists(folder.manifest());
+  const auto claim = [&](const std::filesystem::path& path, std::string_view opening) {
+    continued ? outputs.claim_own(path) : outputs.claim(path, opening);
+  };
+  claim(folder.manifest(), record::kJsonOpening);
+  claim(folder.root / "clusters.json", record::kJsonOpening);
+  claim(folder.root / "options.npz", {});
+}
+
+std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
+                                                   const record::Json& record) {
+  if (!std::filesystem::exists(folder.manifest())) return std::nullopt;
+  const record::Json there = json_or_null(folder.manifest());
+  const std::string difference = first_difference(there.value("run", nullptr), record);
+  if (!difference.empty())
+    throw std::invalid_argument(folder.root.string() + " holds another pre-training (" + difference +
+                                "): give another folder, or remove it first");
+  const std::filesystem::path options = folder.root / "options.npz";
+  if (!std::filesystem::exists(options) || there.value("checksum", "") != record::file_checksum(options))
+    return std::nullopt;
+  for (const record::Json& input : there.at("inputs").elements())
+    if (input.at("status") != "ok") return record::RunOutcome::kSomeFailed;
+  return record::RunOutcome::kAllGood;
+}
+
+}  // namespace mimicx::pipeline

@@ -1,0 +1,30 @@
+/// The folder of a set of options, whoever made them: trained by `mimicx pretrain` or taught by `mimicx
+/// teach`.
+///
+///     DIR/options.npz, DIR/clusters.json, DIR/manifest.json
+///
+/// It holds one run of one record of settings and inputs; the same command continues it or finds it done.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/record/json.h"
+#include "pipeline/record/run_context.h"
+#include "pipeline/record/run_folder.h"
+
+namespace mimicx::pipeline {
+
+/// Claims what does not have an option's number in its name. In a folder of this run all of it is ours.
+/// @param files  inputs, never to be overwritten
+/// @throws std::invalid_argument when something would be overwritten that no run made
+void claim_options(const record::RunFolder& folder, const std::vector<std::string>& files, bool force);
+
+/// How the run in the folder ended, where it is this one and its options are there to the last byte.
+/// @param record  what the results depend on
+/// @throws std::invalid_argument when the folder holds a run of other settings or inputs
+std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
+                                                   const record::Json& record);
+
+}  // namespace mimicx::pipeline

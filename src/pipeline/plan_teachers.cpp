@@ -1,0 +1,80 @@
+#include "pipeline/plan_teachers.h"
+
+#include "motion/clip_file.h"
+#include "pipeline/output/plan_file.h"
+#include "pipeline/output/simulation_settings.h"
+#include "pipeline/record/manifest.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+motion::Reference reference_in(const PlannedMotion& motion, const output::StoredPlan& stored) {
+  motion::Reference body;
+  body.name = motion.name;
+  body.fps = stored.fps;
+  body.character = motion::character_of(motion::read_clip(motion.run.reference(motion.name)));
+  return rl::tracking::reference_of_states(body, stored.reference);
+}
+
+/// The numbers of a simulation by name.
+NamedValues numbers_of(const physics::SimulationConfig& simulation) {
+  NamedValues numbers;
+  output::for_each_simulation_setting(simulation, [&](const std::string& name, const auto& field) {
+    numbers.emplace_back(name, static_cast<double>(field));
+  });
+  return numbers;
+}
+
+void require_simulation(const std::filesystem::path& file, const physics::SimulationConfig& there,
+                        const physics::SimulationConfig& here) {
+  const NamedValues found = numbers_of(there), expected = numbers_of(here);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (found[k] != expected[k])
+      throw DataError(file.string(), found[k].first, std::to_string(expected[k].second),
+                      std::to_string(found[k].second));
+}
+
+}  // namespace
+
+std::vector<PlannedMotion> planned_motions(const record::RunFolder& run) {
+  std::vector<PlannedMotion> motions;
+  for (const record::SequenceEntry& entry : record::read_manifest(run.manifest()).sequences) {
+    if (!std::filesystem::exists(run.plan(entry.name))) continue;
+    PlannedMotion motion{run, entry.name, entry.input, {}, entry.ending == record::Ending::kFollowed};
+    for (const auto& [file, checksum] : entry.files)
+      if (run.root / file == run.plan(entry.name)) motion.checksum = checksum;
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+std::vector<PlannedMotion> followed_plans(const record::RunFolder& run) {
+  std::vector<PlannedMotion> motions = planned_motions(run);
+  std::erase_if(motions, [&](const PlannedMotion& motion) {
+    return !motion.followed || !std::filesystem::exists(run.gains(motion.name));
+  });
+  return motions;
+}
+
+motion::Reference reference_of(const PlannedMotion& motion) {
+  return reference_in(motion, output::read_plan(motion.run.plan(motion.name)));
+}
+
+teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task) {
+  const output::StoredPlan stored = output::read_plan(motion.run.plan(motion.name));
+  require_simulation(motion.run.plan(motion.name), stored.simulation, task.simulation);
+  output::StoredGains feedback = output::read_gains(motion.run.gains(motion.name));
+  if (feedback.gains.size() != stored.plan.residuals.size())
+    throw DataError(motion.run.gains(motion.name).string(), "gains",
+                    std::to_string(stored.plan.residuals.size()) + " frames, as the plan has",
+                    std::to_string(feedback.gains.size()));
+  teaching::Teacher teacher;
+  teacher.clip = rl::tracking::make_tracking_clip(reference_in(motion, stored), task);
+  teacher.motion = control::trajectory_of(stored.plan);
+  teacher.gains = std::move(feedback.gains);
+  const float scale = feedback.curvature.trace() / static_cast<float>(kDofs);
+  teacher.importance = {Eigen::MatrixXf(feedback.curvature / scale)};
+  return teacher;
+}
+
+}  // namespace mimicx::pipeline

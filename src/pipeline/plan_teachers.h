@@ -1,0 +1,36 @@
+/// The plans in the folder of a run of `mimicx plan --gains` (or `adapt`), as teachers.
+///
+/// Such a teacher acts on the reference that was planned for, with all its errors, since that is what whoever
+/// follows unknown motions gets to see; what it shows is what a body can do with it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/record/run_folder.h"
+#include "teaching/teacher.h"
+
+namespace mimicx::pipeline {
+
+struct PlannedMotion {
+  record::RunFolder run;
+  std::string name;       ///< in that folder
+  std::string input;      ///< that it was planned for
+  std::string checksum;   ///< of the plan's file, as the run recorded it
+  bool followed = false;  ///< to the end
+};
+
+/// Motions of a run that were planned, in the order of its manifest.
+/// @throws DataError for a folder that is no run
+std::vector<PlannedMotion> planned_motions(const record::RunFolder& run);
+/// Those whose plan was followed to the end and that have gains.
+std::vector<PlannedMotion> followed_plans(const record::RunFolder& run);
+
+/// What was planned for.
+motion::Reference reference_of(const PlannedMotion& motion);
+
+/// @throws DataError naming file and member that is not there, not of its shape, or not the task's
+/// simulation
+teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task);
+
+}  // namespace mimicx::pipeline

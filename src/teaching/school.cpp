@@ -1,0 +1,149 @@
+#include "teaching/school.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "nn/checkpoint.h"
+
+namespace mimicx::teaching {
+namespace {
+
+enum RandomPurpose : std::uint64_t { kOrder = 0x5c00, kRows };
+
+/// Where β stands in the state (rl/tracking/state.h), but for policies with an encoder.
+constexpr int kShapeBegin = rl::tracking::kPoseFeatures;
+
+/// Numbers of the teachers that a round visits.
+std::vector<int> visited(const SchoolConfig& config, int count, int round) {
+  std::vector<int> order, out;
+  std::int64_t shuffled = -1;
+  for (int k = 0; k < config.packs; ++k) {
+    const std::int64_t place = std::int64_t{round} * config.packs + k;
+    if (place / count != shuffled) {
+      shuffled = place / count;
+      order.resize(static_cast<std::size_t>(count));
+      std::iota(order.begin(), order.end(), 0);
+      Random random(config.seed, {kOrder, static_cast<std::uint64_t>(shuffled)});
+      for (std::size_t i = order.size(); i > 1; --i)
+        std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+    }
+    out.push_back(order[static_cast<std::size_t>(place % count)]);
+  }
+  return out;
+}
+
+/// What a round has to teach: its lessons, and what a wrong action costs in each.
+struct Material {
+  Lessons lessons;
+  List<Eigen::MatrixXf> importance;  ///< [pack]
+};
+
+Material gather_material(const Teachers& teachers, int count, const rl::tracking::TrackingConfig& task,
+                         const SchoolConfig& config, int threads, const Pupil& pupil) {
+  const std::vector<int> numbers = visited(config, count, pupil.rounds);
+  Material material;
+  material.importance = List<Eigen::MatrixXf>(config.packs);
+  List<Lessons> taken(config.packs);
+  parallel_for(config.packs, threads, [&](int pack) {
+    const Teacher teacher = teachers(numbers[static_cast<std::size_t>(pack)]);
+    material.importance[pack] =
+        config.weigh ? teacher.importance.front() : Eigen::MatrixXf::Identity(kDofs, kDofs);
+    const auto key = static_cast<std::uint64_t>(pupil.rounds) * static_cast<std::uint64_t>(config.packs) +
+                     static_cast<std::uint64_t>(pack);
+    taken[pack] = take_lessons(teacher, task, config.lessons, pupil.rounds > 0 ? &pupil.agent : nullptr,
+                               config.seed, key);
+    std::fill(taken[pack].weighed_by.begin(), taken[pack].weighed_by.end(), pack);
+  });
+  int rows = 0;
+  for (const Lessons& lessons : taken) rows += lessons.rows();
+  material.lessons.states.reserve(static_cast<std::size_t>(rows) *
+                                  static_cast<std::size_t>(pupil.agent.actor.inputs()));
+  for (Lessons& lessons : taken) append(std::exchange(lessons, {}), material.lessons);
+  return material;
+}
+
+/// β as if it varied without bound: behind the normaliser it is zero, and no weight on it counts.
+void hide_shape(rl::Agent& agent) {
+  constexpr double kBoundless = 1e60;
+  agent.observations.moments.squares.segment(kShapeBegin, kBetas).setConstant(kBoundless);
+  nn::refresh(agent.observations);
+}
+
+/// Loshchilov and Hutter, "Decoupled weight decay regularization", ICLR 2019. Biases are let alone.
+void decay(nn::Mlp<float>& network, double share) {
+  for (nn::Matrix<float>* parameter : nn::parameters(network))
+    if (parameter->rows() > 1) *parameter *= static_cast<float>(1.0 - share);
+}
+
+double step_size_at(const SchoolConfig& config, double done) {
+  const double left = (1.0 - done) * (1.0 - done);
+  return config.last_step_size + left * (config.step_size - config.last_step_size);
+}
+
+}  // namespace
+
+Pupil new_pupil(const SchoolConfig& config, int state_size) {
+  Pupil pupil;
+  pupil.agent = beginner(state_size, config.hidden, config.seed);
+  pupil.adam = nn::make_adam<float>(nn::parameters(pupil.agent.actor));
+  return pupil;
+}
+
+std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,
+                                       const rl::tracking::TrackingConfig& task, const SchoolConfig& config,
+                                       const control::PlanControl& control, Pupil& pupil) {
+  const Material material = gather_material(teachers, count, task, config, control.threads, pupil);
+  Pupil next = pupil;
+  if (next.rounds == 0) {
+    scale_inputs(material.lessons, next.agent);
+    if (!config.see_shape) hide_shape(next.agent);
+  }
+  SchoolRound stats;
+  stats.round = next.rounds;
+  stats.lessons = material.lessons.rows();
+  stats.put_back = 1000.0 * material.lessons.put_back / stats.lessons;
+  const int steps =
+      std::max(1, static_cast<int>(std::lround(config.passes * stats.lessons / config.regression.minibatch)));
+  Random random(config.seed, {kRows, static_cast<std::uint64_t>(next.rounds)});
+  List<int> rows(config.regression.minibatch);
+  RegressionScratch scratch;
+  for (int step = 0; step < steps; ++step) {
+    if (control.should_stop && control.should_stop()) return {};
+    for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(stats.lessons)));
+    const double done = (next.rounds + (step + 0.5) / steps) / config.rounds;
+    const double step_size = step_size_at(config, std::min(done, 1.0));
+    stats.loss += regression_step(material.lessons, material.importance, rows, config.regression, step_size,
+                                  control.threads, next.agent, next.adam, scratch) /
+                  steps;
+    decay(next.agent.actor, step_size * config.decay);
+  }
+  ++next.rounds;
+  next.taken += stats.lessons;
+  pupil = std::move(next);
+  return stats;
+}
+
+void save(Npz& archive, const std::string& prefix, const Pupil& pupil) {
+  rl::save(archive, prefix + "agent.", pupil.agent);
+  nn::save(archive, prefix + "adam.", pupil.adam);
+  const auto number = [&](const char* name, double value) {
+    archive.set(prefix + name, NpyArray::from_double({1}, &value));
+  };
+  number("rounds", pupil.rounds);
+  number("taken", static_cast<double>(pupil.taken));
+}
+
+Pupil load_pupil(const Npz& archive, const std::string& prefix) {
+  Pupil pupil;
+  pupil.agent = rl::load_agent(archive, prefix + "agent.");
+  pupil.adam = nn::load_adam<float>(archive, prefix + "adam.");
+  pupil.rounds = static_cast<int>(whole_number_at(archive, prefix + "rounds"));
+  pupil.taken = whole_number_at(archive, prefix + "taken");
+  return pupil;
+}
+
+}  // namespace mimicx::teaching

@@ -1,0 +1,55 @@
+#include "pipeline/teach.h"
+
+#include <memory>
+
+#include "commands.h"
+#include "pipeline/inputs.h"
+#include "shared_arguments.h"
+#include "training.h"
+
+namespace mimicx::tools {
+namespace {
+
+struct Arguments {
+  pipeline::TeachConfig config = pipeline::teach_configuration();
+  std::vector<std::string> settings;
+};
+
+int teach(Arguments a) {
+  apply_settings(a.settings, a.config);
+  if (a.config.planning.run.inputs.empty() && a.config.plans.empty())
+    throw UsageError("teach: motions to plan are expected, or --plans");
+  return with_context([&](const pipeline::record::RunContext& context) {
+    pipeline::RunConfig& run = a.config.planning.run;
+    if (!run.inputs.empty()) {
+      const auto found = pipeline::find_motions(run.inputs, a.config.out, &context.messages);
+      run.inputs = pipeline::paths_of(found);
+    }
+    return pipeline::teach(a.config, context);
+  });
+}
+
+}  // namespace
+
+void declare_teach(CommandLine& line) {
+  const auto a = std::make_shared<Arguments>();
+  Command command =
+      line.add("teach", "Teach option policies by plans: one for every cluster of motions",
+               "mimicx teach DIR --out out/options                  # plan all of it, then teach\n"
+               "mimicx teach --plans out/run --out out/options      # by plans that are there");
+  pipeline::RunConfig& run = a->config.planning.run;
+  command.optional_files("FILE", run.inputs, "motions and folders of them, to plan first");
+  command.texts("--plans", a->config.plans, "DIR", "folder of a run of `mimicx plan --gains`; repeatable");
+  command.path("--out", a->config.out, "folder of the options; the same command continues what is there")
+      .required();
+  command.number("--clusters", a->config.clusters.clusters, kFromOne, "number of options");
+  add_read_arguments(command, run.read);
+  add_fit_arguments(command, run);
+  add_seed(command, a->config.school.seed);
+  add_force(command, run.force);
+  add_threads(command, run.threads);
+  add_settings(command, a->settings);
+  command.action([a] { return teach(*a); });
+}
+
+}  // namespace mimicx::tools
