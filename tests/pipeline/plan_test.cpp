@@ -141,7 +141,7 @@ TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
   const std::string gains = after.at("gains/stand.npz");
   after.erase("gains/stand.npz");
   EXPECT_EQ(after, before);
-  const std::vector<Eigen::MatrixXf> K = output::read_gains(out("run") / "gains" / "stand.npz");
+  const std::vector<Eigen::MatrixXf> K = output::read_gains(out("run") / "gains" / "stand.npz").gains;
   ASSERT_EQ(K.size(), 19u);
   for (const Eigen::MatrixXf& one : K) EXPECT_GT(one.norm(), 0.0f);
   config.run.out = out("at once");

@@ -97,11 +97,14 @@ TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
 }
 
 TEST_F(PlanFile, GainsComeBackToTheBitAndAreRefusedInAnotherShape) {
-  std::vector<Eigen::MatrixXf> gains;
-  for (int t = 0; t < 3; ++t) gains.push_back(Eigen::MatrixXf::Random(kDofs, control::kMemory));
-  write_gains(file, gains);
-  EXPECT_EQ(read_gains(file), gains);
-  EXPECT_EQ(read_npz(file).at("gains").to_double()[control::kMemory], static_cast<double>(gains[0](1, 0)));
+  StoredGains stored;
+  for (int t = 0; t < 3; ++t) stored.gains.push_back(Eigen::MatrixXf::Random(kDofs, control::kMemory));
+  stored.curvature = Eigen::MatrixXf::Random(kDofs, kDofs);
+  write_gains(file, stored);
+  EXPECT_EQ(read_gains(file).gains, stored.gains);
+  EXPECT_EQ(read_gains(file).curvature, stored.curvature);
+  EXPECT_EQ(read_npz(file).at("gains").to_double()[control::kMemory],
+            static_cast<double>(stored.gains[0](1, 0)));
   Npz npz;
   npz.set("gains", NpyArray::scalar(1.0));
   write_npz(file, npz);

@@ -1,0 +1,141 @@
+// Options taught by plans: from motions, or from plans that are there.
+#include "pipeline/teach.h"
+
+#include <gtest/gtest.h>
+
+#include "motion/clip_file.h"
+#include "pipeline/options/option_set.h"
+#include "pipeline/plan_teachers.h"
+#include "pipeline/results.h"
+#include "pipeline/small_run.h"
+#include "pipeline/standing_clip.h"
+#include "pipeline/temporary_folder.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+/// What the message of its exception says.
+template <class Work>
+std::string refusal(const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+struct Teach : testing::Test {
+  void SetUp() override {
+    std::filesystem::create_directories(folder.path / "motions");
+    for (int frames : {20, 24, 28})
+      motion::write_clip(folder.path / "motions" / ("stand" + std::to_string(frames) + ".npz"),
+                         standing_clip(frames));
+  }
+  TeachConfig teaching(const std::string& out) const {
+    TeachConfig config = teach_configuration();
+    for (int frames : {20, 24, 28})
+      config.planning.run.inputs.push_back(
+          (folder.path / "motions" / ("stand" + std::to_string(frames) + ".npz")).string());
+    config.out = folder.path / out;
+    config.school.hidden = {16, 16};
+    config.school.rounds = 3;
+    config.school.packs = 2;
+    config.school.regression.minibatch = 64;
+    config.planning.run.threads = 1;
+    return config;
+  }
+  static Outcome run(const TeachConfig& config, int asked = -1) {
+    return run_in_context([&](const record::RunContext& context) { return teach(config, context); }, asked);
+  }
+  std::filesystem::path out(const std::string& name) const { return folder.path / name; }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Teach, LeavesEveryFileTheDocumentationNamesAndOptionsThatAdaptReads) {
+  EXPECT_EQ(run(teaching("run")).value, record::RunOutcome::kAllGood);
+  const auto files = results_of(out("run"));
+  for (const char* name : {"options.npz", "clusters.json", "manifest.json", "training/option0.csv",
+                           "checkpoints/option0.npz", "plans/manifest.json", "plans/gains/stand20.npz"})
+    EXPECT_TRUE(files.contains(name)) << name;
+  const auto set = options::read_options(out("run"));
+  ASSERT_EQ(set->options.size(), 1u);
+  EXPECT_EQ(set->options[0].motions, 3);
+  EXPECT_FALSE(set->options[0].option.encoder.has_value());
+  EXPECT_GT(set->options[0].samples, 3 * 2 * 8 * 19);
+}
+
+TEST_F(Teach, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
+  run(teaching("one"));
+  TeachConfig config = teaching("two");
+  config.planning.run.threads = 2;
+  int interruptions = 0;
+  for (int asked : {1, 3, 7, 60, 100})
+    interruptions += run(config, asked).value == record::RunOutcome::kInterrupted ? 1 : 0;
+  EXPECT_GT(interruptions, 2);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  for (const auto& [name, bytes] : results_of(out("one")))
+    if (!name.starts_with("plans/")) {
+      EXPECT_TRUE(results_of(out("two")).at(name) == bytes) << name;
+    }
+}
+
+TEST_F(Teach, PlansThatAreThereTeachTheSame) {
+  run(teaching("run"));
+  TeachConfig config = teaching("again");
+  config.plans = {(out("run") / "plans").string()};
+  config.planning.run.inputs.clear();
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  EXPECT_EQ(read_file(out("again") / "options.npz"), read_file(out("run") / "options.npz"));
+}
+
+TEST_F(Teach, AFinishedOneIsKeptAndOneOfOtherSettingsIsRefused) {
+  run(teaching("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "options.npz");
+  EXPECT_NE(run(teaching("run")).messages.find("taught already"), std::string::npos);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "options.npz"), written);
+  TeachConfig config = teaching("run");
+  config.school.rounds = 4;
+  EXPECT_NE(refusal([&] { run(config); }).find("school_rounds"), std::string::npos);
+}
+
+TEST_F(Teach, AFolderWithoutPlansSaysWhatLeavesThem) {
+  TeachConfig config = teaching("run");
+  config.planning.run.inputs.clear();
+  PlanMotionsConfig plan = plan_configuration();
+  plan.run.inputs = {(folder.path / "motions" / "stand20.npz").string()};
+  plan.run.out = out("plans");
+  run_in_context([&](const record::RunContext& context) { return plan_motions(plan, context); });
+  config.plans = {out("plans").string()};
+  EXPECT_NE(refusal([&] { run(config); }).find("--gains"), std::string::npos);
+}
+
+TEST_F(Teach, ATeacherOnItsReferenceRepeatsItsPlan) {
+  run(teaching("run"));
+  const std::vector<PlannedMotion> motions = followed_plans({out("run") / "plans"});
+  ASSERT_EQ(motions.size(), 3u);
+  const teaching::Teacher teacher = read_teacher(motions[1], {});
+  std::size_t t = 0;
+  const auto made = rl::tracking::roll_out(teacher.clip, {}, [&](int, const float*, float* action) {
+    std::copy(teacher.motion.u[static_cast<int>(t)].begin(), teacher.motion.u[static_cast<int>(t)].end(),
+              action);
+    ++t;
+  });
+  ASSERT_EQ(static_cast<int>(made.poses.size()), teacher.motion.x.count());
+  for (std::size_t k = 0; k < made.poses.size(); ++k)
+    EXPECT_EQ(made.poses[k].frame.p_root.cast<float>(),
+              physics::to_eigen(teacher.motion.x[static_cast<int>(k)].p_root).cast<float>());
+  EXPECT_NEAR(teacher.importance.front().trace(), kDofs, 1e-2);
+}
+
+TEST_F(Teach, APlanOfAnotherSimulationIsRefused) {
+  run(teaching("run"));
+  rl::tracking::TrackingConfig task;
+  task.simulation.friction *= 0.5;
+  EXPECT_THROW(read_teacher(followed_plans({out("run") / "plans"}).front(), task), DataError);
+}
+
+}  // namespace
+}  // namespace mimicx::pipeline

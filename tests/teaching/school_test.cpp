@@ -1,0 +1,143 @@
+// Many motions teach one policy.
+#include "teaching/school.h"
+
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <set>
+
+#include "rl/tracking/rollout.h"
+#include "teaching/taught_motion.h"
+
+namespace mimicx::teaching {
+namespace {
+
+SchoolConfig quick() {
+  SchoolConfig config;
+  config.hidden = {32, 16};
+  config.rounds = 4;
+  config.packs = 2;
+  config.passes = 1.0;
+  config.regression.minibatch = 64;
+  return config;
+}
+
+/// Everybody is taught by the one teacher of the squat.
+Teacher squat(int) { return teacher_of_squat(); }
+
+Pupil taught(const SchoolConfig& config, int threads = 1) {
+  Pupil pupil = new_pupil(config);
+  for (int round = 0; round < config.rounds; ++round) {
+    EXPECT_TRUE(teach_round(squat, 3, {}, config, {.threads = threads}, pupil));
+  }
+  return pupil;
+}
+
+std::string bytes_of(const Pupil& pupil) {
+  Npz archive;
+  save(archive, "", pupil);
+  return format_npz(archive);
+}
+
+TEST(School, AFewRoundsTeachAMotion) {
+  SchoolConfig config = quick();
+  config.hidden = {64, 64};
+  config.rounds = 8;
+  config.packs = 4;
+  config.passes = 6.0;
+  const Pupil pupil = taught(config, 2);
+  const auto alone =
+      rl::tracking::roll_out(teacher_of_squat().clip, {}, rl::tracking::mean_action({pupil.agent}));
+  EXPECT_LT(alone.mean_position_error, 0.02);
+}
+
+TEST(School, VisitsEveryTeacherOnceBeforeAnyComesAgain) {
+  SchoolConfig config = quick();
+  config.packs = 3;
+  Pupil pupil = new_pupil(config);
+  std::mutex mutex;
+  std::vector<int> visited;
+  const Teachers teachers = [&](int k) {
+    const std::lock_guard guard(mutex);
+    visited.push_back(k);
+    return teacher_of_squat();
+  };
+  constexpr int kTeachers = 5;
+  std::vector<std::vector<int>> orders;
+  for (int round = 0; round < 5; ++round) teach_round(teachers, kTeachers, {}, config, {.threads = 1}, pupil);
+  ASSERT_EQ(visited.size(), 15u);
+  for (auto begin = visited.begin(); begin != visited.end(); begin += kTeachers) {
+    orders.emplace_back(begin, begin + kTeachers);
+    EXPECT_EQ(std::set<int>(begin, begin + kTeachers).size(), 5u);
+  }
+  EXPECT_TRUE(orders[0] != orders[1] || orders[1] != orders[2]) << "shuffled anew";
+}
+
+TEST(School, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
+  SchoolConfig config = quick();
+  const std::string one = bytes_of(taught(config, 1));
+  EXPECT_EQ(one, bytes_of(taught(config, 2)));
+  config.seed = 2;
+  EXPECT_NE(one, bytes_of(taught(config, 1)));
+}
+
+TEST(School, APupilThatWasSavedAndLoadedGoesOnWithTheSameBytes) {
+  const SchoolConfig config = quick();
+  Pupil pupil = new_pupil(config);
+  for (int round = 0; round < config.rounds; ++round) {
+    Npz archive;
+    save(archive, "x.", pupil);
+    pupil = load_pupil(archive, "x.");
+    teach_round(squat, 3, {}, config, {.threads = 1}, pupil);
+  }
+  EXPECT_EQ(bytes_of(pupil), bytes_of(taught(config)));
+}
+
+TEST(School, OneThatIsStoppedLeavesThePupilAsItWas) {
+  const SchoolConfig config = quick();
+  Pupil pupil = new_pupil(config);
+  teach_round(squat, 3, {}, config, {.threads = 1}, pupil);
+  const std::string before = bytes_of(pupil);
+  control::PlanControl control;
+  control.threads = 1;
+  control.should_stop = [] { return true; };
+  EXPECT_FALSE(teach_round(squat, 3, {}, config, control, pupil));
+  EXPECT_EQ(bytes_of(pupil), before);
+}
+
+/// What the agent does in the first frame of the squat on a body of which it is told another shape.
+nn::Matrix<float> first_action(const rl::Agent& agent, float beta) {
+  const rl::tracking::TrackingPack pack(teacher_of_squat().clip, {});
+  nn::Matrix<float> state(1, rl::tracking::kStateSize), normalised, action;
+  pack.observe(0, state.data());
+  state.middleCols(rl::tracking::kPoseFeatures, kBetas).setConstant(beta);
+  nn::normalise(agent.observations, state, normalised);
+  nn::Workspace<float> workspace;
+  nn::evaluate(agent.actor, normalised, workspace, action);
+  return action;
+}
+
+TEST(School, TheShapeOfTheBodyIsSeenOnlyWhereThatIsAskedFor) {
+  SchoolConfig config = quick();
+  config.rounds = 1;
+  const rl::Agent blind = taught(config).agent;
+  EXPECT_EQ(first_action(blind, 0.0f), first_action(blind, 3.0f));
+  config.see_shape = true;
+  const rl::Agent seeing = taught(config).agent;
+  EXPECT_NE(first_action(seeing, 0.0f), first_action(seeing, 3.0f));
+}
+
+TEST(School, DecayMakesWeightsSmallerAndLeavesBiases) {
+  SchoolConfig config = quick();
+  config.step_size = config.last_step_size = 1e-9;  // hardly learns
+  config.rounds = 1;
+  const nn::Mlp<float> before = new_pupil(config).agent.actor;
+  config.decay = 1.0 / 1e-9 * 1e-3;  // a thousandth per step
+  const nn::Mlp<float> after = taught(config).agent.actor;
+  EXPECT_LT(after.weights[0].norm(), 0.999f * before.weights[0].norm());
+  EXPECT_GT(after.weights[0].norm(), 0.9f * before.weights[0].norm());
+  EXPECT_LT((after.biases[0] - before.biases[0]).norm(), 1e-5f);
+}
+
+}  // namespace
+}  // namespace mimicx::teaching
