@@ -102,13 +102,19 @@ NamedValues with_budget(const TrainingConfig& config, const NamedValues& setting
 }
 
 /// All configurations, each in the order of its manifest.
-Array<NamedValues, 5> columns() {
+Array<NamedValues, 6> columns() {
   const ImitateConfig imitate = imitate_configuration();
   const AdaptConfig adapt = adapt_configuration();
   const PretrainConfig small = pretrain_configuration("small"), paper = pretrain_configuration("paper");
-  return {settings_of(plan_configuration()), with_budget(imitate.training, settings_of(imitate)),
-          with_budget(adapt.training, settings_of(adapt)), with_budget(small.training, settings_of(small)),
-          with_budget(paper.training, settings_of(paper))};
+  const TeachConfig teach = teach_configuration();
+  NamedValues taught = {{"seed", static_cast<double>(teach.school.seed)}};
+  append(taught, settings_of(teach));
+  return {settings_of(plan_configuration()),
+          with_budget(imitate.training, settings_of(imitate)),
+          with_budget(adapt.training, settings_of(adapt)),
+          with_budget(small.training, settings_of(small)),
+          with_budget(paper.training, settings_of(paper)),
+          taught};
 }
 
 std::string cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
@@ -160,7 +166,7 @@ PretrainConfig pretrain_configuration(const std::string& preset) {
 }
 
 std::vector<ConfigurationRow> configuration_rows() {
-  const Array<NamedValues, 5> all = columns();
+  const Array<NamedValues, 6> all = columns();
   std::vector<ConfigurationRow> rows;
   for (int column = 0; column < static_cast<int>(all.size()); ++column) {
     std::size_t next = 0;  // behind the setting that came last, so that a new one stands beside its like

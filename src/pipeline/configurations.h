@@ -5,6 +5,7 @@
 ///     adapt           the plan, and where it fails trained options, fine-tuned jointly   docs/method.md §9
 ///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
 ///     pretrain paper  the same with the paper's networks
+///     teach           options taught by plans                                           docs/teaching.md §5
 ///
 /// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
 /// (reward, starts, simulation), the encoder and the plan, which have one value for all, beside their meaning
@@ -31,13 +32,13 @@ TeachConfig teach_configuration();
 /// @param preset  "small" or "paper" @throws std::invalid_argument for another one
 PretrainConfig pretrain_configuration(const std::string& preset);
 
-inline constexpr Array<const char*, 5> kConfigurationNames = {"plan", "imitate", "adapt", "pretrain small",
-                                                              "pretrain paper"};
+inline constexpr Array<const char*, 6> kConfigurationNames = {"plan",           "imitate",        "adapt",
+                                                              "pretrain small", "pretrain paper", "teach"};
 
 /// A setting by the name that manifests record, in every configuration; NaN where one has no such setting.
 struct ConfigurationRow {
   std::string name;
-  Array<double, 5> values;  ///< in the order of kConfigurationNames
+  Array<double, 6> values;  ///< in the order of kConfigurationNames
 };
 std::vector<ConfigurationRow> configuration_rows();
 

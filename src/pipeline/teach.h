@@ -4,11 +4,12 @@
 /// clusters; then, cluster by cluster, one policy is taught by all plans of the cluster (teaching/school.h).
 /// Motions whose plan is lost teach nothing; they are named.
 ///
-///     DIR/options.npz              the set, as `mimicx pretrain` leaves it; policies see the reference
-///     itself DIR/clusters.json            which motion is in which cluster DIR/plans/                   the
-///     run that planned them; absent where all plans were made before DIR/training/optionK.csv     a row per
-///     round DIR/checkpoints/optionK.npz  the complete state of the teaching DIR/manifest.json inputs,
-///     settings, lessons
+///     DIR/options.npz              the set, as `mimicx pretrain` leaves it
+///     DIR/clusters.json            which motion is in which cluster
+///     DIR/plans/                   the run that planned them; absent where all were planned before
+///     DIR/training/optionK.csv     a row per round
+///     DIR/checkpoints/optionK.npz  the complete state of the teaching
+///     DIR/manifest.json            inputs, settings, lessons
 ///
 /// The same command continues an interrupted run; its files end up the same bytes as those of a run that was
 /// never interrupted, whatever the number of threads.

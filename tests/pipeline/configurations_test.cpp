@@ -52,6 +52,7 @@ TEST(Configurations, TheTableIsWhatManifestsRecord) {
   has_all(2, settings_of(adapt_configuration()), 2);
   has_all(3, settings_of(pretrain_configuration("small")), 2);
   has_all(4, settings_of(pretrain_configuration("paper")), 2);
+  has_all(5, settings_of(teach_configuration()), 1);
 }
 
 TEST(Configurations, ThePresetsDifferInTheirNetworksAlone) {
