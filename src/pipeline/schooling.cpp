@@ -24,6 +24,7 @@ void for_each_setting(Config& school, const Add& add) {
   add("school_last_step_size", school.last_step_size, 0, 1);
   add("school_decay", school.decay, 0, 1);
   add("school_weigh", school.weigh, 0, 1);
+  add("school_mirror", school.mirror, 0, 1);
   add("school_see_shape", school.see_shape, 0, 1);
   add("school_action_noise", school.lessons.action_noise, 0, 1);
   add("school_push", school.lessons.push, 0, 10);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "rl/tracking/mirror.h"
 #include "rl/tracking/pack.h"
 
 namespace mimicx::teaching {
@@ -48,6 +49,21 @@ void write_down(const nn::Matrix<float>& states, const LaneActions& teacher, int
   }
 }
 
+void reflect_rows(const rl::tracking::MirrorMap& map, nn::Matrix<float>& rows) {
+  Eigen::RowVectorXf in(rows.cols());
+  for (int k = 0; k < rows.rows(); ++k) {
+    in = rows.row(k);
+    rl::tracking::reflect(map, in.data(), rows.row(k).data());
+  }
+}
+
+LaneActions reflected(const rl::tracking::MirrorMap& map, const LaneActions& actions) {
+  LaneActions out;
+  for (int lane = 0; lane < kLanes; ++lane)
+    rl::tracking::reflect(map, actions[lane].data(), out[lane].data());
+  return out;
+}
+
 /// Largest distance of a lane's body from that of the teacher in lane 0, m; infinite where the simulation
 /// went wrong.
 double distance_from_teacher(const TrackingPack& pack, int lane) {
@@ -85,7 +101,10 @@ void scale_inputs(const Lessons& lessons, rl::Agent& agent) {
 
 Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                      const LessonConfig& config, const rl::Agent* student, std::uint64_t seed,
-                     std::uint64_t key) {
+                     std::uint64_t key, Side side) {
+  const bool mirrored = side == Side::kMirrored;
+  const rl::tracking::MirrorMap of_state = rl::tracking::mirror_of_state();
+  const rl::tracking::MirrorMap of_action = rl::tracking::mirror_of_action();
   TrackingPack pack(teacher.clip, task);
   const auto scratch = std::make_unique<physics::Data<TrackingPack::P>>();
   std::optional<Player> player;
@@ -96,10 +115,11 @@ Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig&
   for (int t = 0; t < teacher.size(); ++t) {
     for (int lane = 1; lane < kLanes && t % config.push_every == config.push_every / 2; ++lane)
       pack.push(lane, config.push * Vector3d(pushes.normal(), pushes.normal(), 0.0));
-    const nn::Matrix<float> states = observed(pack);
+    nn::Matrix<float> states = observed(pack);
+    if (mirrored) reflect_rows(of_state, states);
     const LaneActions advice = ask(teacher, t, pack.state(), before);
-    write_down(states, advice, t, lessons);
-    if (player) own = player->act(states);
+    write_down(states, mirrored ? reflected(of_action, advice) : advice, t, lessons);
+    if (player) own = mirrored ? reflected(of_action, player->act(states)) : player->act(states);
     for (int lane = 0; lane < kLanes; ++lane) {
       Array<float, kDofs>& action = before[lane];
       action = player && lane >= config.teacher_lanes ? own[lane] : advice[lane];

@@ -24,6 +24,9 @@ struct LessonConfig {
   int teacher_lanes = 2;       ///< of a pack, that follow the teacher once there is a student
 };
 
+/// In which world a lesson is written down: as it was, or as its mirror image (rl/tracking/mirror.h).
+enum class Side { kAsIs, kMirrored };
+
 /// Rows of lessons.
 struct Lessons {
   List<float> states;    ///< [rows][state_size] s_t, not normalised
@@ -46,9 +49,11 @@ void scale_inputs(const Lessons& lessons, rl::Agent& agent);
 /// One pack goes through the motion once: frames × lanes rows.
 /// @param student  null: everybody follows the teacher
 /// @param key  of the random numbers
+/// @param side  mirrored: the student sees and acts as in the mirrored motion, and its lessons are of that
+/// one
 Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                      const LessonConfig& config, const rl::Agent* student, std::uint64_t seed,
-                     std::uint64_t key);
+                     std::uint64_t key, Side side = Side::kAsIs);
 
 /// How well an agent keeps to the motion while it is pushed, by the rules of control/gains.h.
 control::PushResult test_pushes(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,

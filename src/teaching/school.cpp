@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "nn/checkpoint.h"
+#include "rl/tracking/mirror.h"
 
 namespace mimicx::teaching {
 namespace {
@@ -17,9 +18,15 @@ enum RandomPurpose : std::uint64_t { kOrder = 0x5c00, kRows };
 /// Where β stands in the state (rl/tracking/state.h), but for policies with an encoder.
 constexpr int kShapeBegin = rl::tracking::kPoseFeatures;
 
-/// Numbers of the teachers that a round visits.
-std::vector<int> visited(const SchoolConfig& config, int count, int round) {
-  std::vector<int> order, out;
+/// A teacher by its number, and in which world it is visited.
+struct Visit {
+  int teacher = 0;
+  Side side = Side::kAsIs;
+};
+
+List<Visit> visits(const SchoolConfig& config, int count, int round) {
+  List<int> order;
+  List<Visit> out;
   std::int64_t shuffled = -1;
   for (int k = 0; k < config.packs; ++k) {
     const std::int64_t place = std::int64_t{round} * config.packs + k;
@@ -28,12 +35,24 @@ std::vector<int> visited(const SchoolConfig& config, int count, int round) {
       order.resize(static_cast<std::size_t>(count));
       std::iota(order.begin(), order.end(), 0);
       Random random(config.seed, {kOrder, static_cast<std::uint64_t>(shuffled)});
-      for (std::size_t i = order.size(); i > 1; --i)
-        std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+      for (int i = count; i > 1; --i)
+        std::swap(order[i - 1], order[static_cast<int>(random.below(static_cast<std::uint32_t>(i)))]);
     }
-    out.push_back(order[static_cast<std::size_t>(place % count)]);
+    const int teacher = order[static_cast<int>(place % count)];
+    const bool mirrored = config.mirror && (shuffled + teacher) % 2 != 0;
+    out.push_back({teacher, mirrored ? Side::kMirrored : Side::kAsIs});
   }
   return out;
+}
+
+/// W of the mirrored motion. @param weights  [55][55]
+Eigen::MatrixXf mirrored(const Eigen::MatrixXf& weights) {
+  const rl::tracking::MirrorMap map = rl::tracking::mirror_of_action();
+  Eigen::MatrixXf image(kDofs, kDofs);
+  for (int i = 0; i < kDofs; ++i)
+    for (int j = 0; j < kDofs; ++j)
+      image(i, j) = map.sign[i] * map.sign[j] * weights(map.from[i], map.from[j]);
+  return image;
 }
 
 /// What a round has to teach: its lessons, and what a wrong action costs in each.
@@ -44,18 +63,20 @@ struct Material {
 
 Material gather_material(const Teachers& teachers, int count, const rl::tracking::TrackingConfig& task,
                          const SchoolConfig& config, int threads, const Pupil& pupil) {
-  const std::vector<int> numbers = visited(config, count, pupil.rounds);
+  const List<Visit> round = visits(config, count, pupil.rounds);
   Material material;
   material.importance = List<Eigen::MatrixXf>(config.packs);
   List<Lessons> taken(config.packs);
   parallel_for(config.packs, threads, [&](int pack) {
-    const Teacher teacher = teachers(numbers[static_cast<std::size_t>(pack)]);
-    material.importance[pack] =
-        config.weigh ? teacher.importance.front() : Eigen::MatrixXf::Identity(kDofs, kDofs);
+    const Teacher teacher = teachers(round[pack].teacher);
+    const Side side = round[pack].side;
+    Eigen::MatrixXf& importance = material.importance[pack];
+    importance = config.weigh ? teacher.importance.front() : Eigen::MatrixXf::Identity(kDofs, kDofs);
+    if (side == Side::kMirrored) importance = mirrored(importance);
     const auto key = static_cast<std::uint64_t>(pupil.rounds) * static_cast<std::uint64_t>(config.packs) +
                      static_cast<std::uint64_t>(pack);
     taken[pack] = take_lessons(teacher, task, config.lessons, pupil.rounds > 0 ? &pupil.agent : nullptr,
-                               config.seed, key);
+                               config.seed, key, side);
     std::fill(taken[pack].weighed_by.begin(), taken[pack].weighed_by.end(), pack);
   });
   int rows = 0;

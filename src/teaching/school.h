@@ -27,6 +27,7 @@ struct SchoolConfig {
   double last_step_size = 2e-5;
   double decay = 0.0;      ///< every step takes so many of its sizes off the weights (AdamW)
   bool weigh = true;       ///< errors count by Teacher::importance; otherwise all alike
+  bool mirror = true;      ///< every other time a motion is visited, in its mirror image
   bool see_shape = false;  ///< whether the pupil sees β; it can tell motions apart by it
   std::uint64_t seed = 1;
   LessonConfig lessons;

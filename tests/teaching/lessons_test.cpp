@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rl/tracking/mirror.h"
 #include "teaching/taught_motion.h"
 
 namespace mimicx::teaching {
@@ -67,6 +68,20 @@ TEST(Lessons, WhoeverStraysIsPutBackOntoTheMotion) {
   for (int row = 0; row < lessons.rows(); ++row)
     for (const int entry : {1, 2})
       EXPECT_LT(std::abs(state_of(lessons, row)[std::size_t{570} - static_cast<std::size_t>(entry)]), 0.1f);
+}
+
+TEST(Lessons, InTheMirrorAreTheMirrorImagesOfTheOthers) {
+  const Lessons as_is = take_lessons(teacher_of_squat(), {}, {}, nullptr, 1, 0);
+  const Lessons mirrored = take_lessons(teacher_of_squat(), {}, {}, nullptr, 1, 0, Side::kMirrored);
+  std::vector<float> state(rl::tracking::kStateSize), action(kDofs);
+  ASSERT_EQ(as_is.rows(), mirrored.rows());
+  for (int row = 0; row < as_is.rows(); ++row) {
+    rl::tracking::reflect(rl::tracking::mirror_of_state(), state_of(as_is, row).data(), state.data());
+    rl::tracking::reflect(rl::tracking::mirror_of_action(), as_is.actions.data() + row * kDofs,
+                          action.data());
+    ASSERT_TRUE(std::equal(state.begin(), state.end(), state_of(mirrored, row).begin())) << row;
+    ASSERT_TRUE(std::equal(action.begin(), action.end(), mirrored.actions.begin() + row * kDofs)) << row;
+  }
 }
 
 TEST(Lessons, AdviceDoesNotDependOnWhoActs) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 
+#include "rl/tracking/mirror.h"
 #include "rl/tracking/rollout.h"
 #include "teaching/taught_motion.h"
 
@@ -25,10 +26,10 @@ SchoolConfig quick() {
 /// Everybody is taught by the one teacher of the squat.
 Teacher squat(int) { return teacher_of_squat(); }
 
-Pupil taught(const SchoolConfig& config, int threads = 1) {
+Pupil taught(const SchoolConfig& config, int threads = 1, const Teachers& teacher = squat) {
   Pupil pupil = new_pupil(config);
   for (int round = 0; round < config.rounds; ++round) {
-    EXPECT_TRUE(teach_round(squat, 3, {}, config, {.threads = threads}, pupil));
+    EXPECT_TRUE(teach_round(teacher, 3, {}, config, {.threads = threads}, pupil));
   }
   return pupil;
 }
@@ -125,6 +126,48 @@ TEST(School, TheShapeOfTheBodyIsSeenOnlyWhereThatIsAskedFor) {
   config.see_shape = true;
   const rl::Agent seeing = taught(config).agent;
   EXPECT_NE(first_action(seeing, 0.0f), first_action(seeing, 3.0f));
+}
+
+/// How far an agent is from doing in the mirror what it does before it, over the states of some lessons.
+float asymmetry(const rl::Agent& agent, const Lessons& lessons) {
+  const int state_size = rl::tracking::kStateSize;
+  const auto act = [&](const nn::Matrix<float>& states) {
+    nn::Matrix<float> normalised, actions;
+    nn::normalise(agent.observations, states, normalised);
+    nn::Workspace<float> workspace;
+    nn::evaluate(agent.actor, normalised, workspace, actions);
+    return actions;
+  };
+  const nn::Matrix<float> states =
+      Eigen::Map<const nn::Matrix<float>>(lessons.states.data(), lessons.rows(), state_size);
+  nn::Matrix<float> images(states.rows(), states.cols());
+  for (int k = 0; k < lessons.rows(); ++k)
+    rl::tracking::reflect(rl::tracking::mirror_of_state(), states.row(k).data(), images.row(k).data());
+  const nn::Matrix<float> actions = act(states), of_images = act(images);
+  nn::Matrix<float> expected(actions.rows(), actions.cols());
+  for (int k = 0; k < lessons.rows(); ++k)
+    rl::tracking::reflect(rl::tracking::mirror_of_action(), actions.row(k).data(), expected.row(k).data());
+  return (of_images - expected).norm() / actions.norm();
+}
+
+/// The squat with one arm held to the side.
+Teacher one_sided(int) {
+  Teacher teacher = teacher_of_squat();
+  for (int t = 0; t < teacher.size(); ++t) teacher.motion.u[t][first_dof(kLeftShoulder) + 2] += 0.5f;
+  return teacher;
+}
+
+TEST(School, APupilThatAlsoSeesTheMirrorImageFavoursNoSide) {
+  SchoolConfig config = quick();
+  config.hidden = {64, 64};
+  config.rounds = 8;
+  config.packs = 4;
+  config.passes = 6.0;
+  const Lessons lessons = take_lessons(one_sided(0), {}, {}, nullptr, 77, 0);
+  config.mirror = false;
+  const float alone = asymmetry(taught(config, 1, one_sided).agent, lessons);
+  config.mirror = true;
+  EXPECT_LT(asymmetry(taught(config, 1, one_sided).agent, lessons), 0.7f * alone);
 }
 
 TEST(School, DecayMakesWeightsSmallerAndLeavesBiases) {
