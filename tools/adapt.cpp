@@ -35,7 +35,7 @@ int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
   if (config.method != pipeline::AdaptMethod::kPlan)
     config.options = pipeline::options::read_options(options.empty() ? shipped_options() : options);
   apply_settings(settings, config);
-  return with_context([&](const pipeline::record::RunContext& context) {
+  return with_context(config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });
   });
 }

@@ -15,7 +15,7 @@ struct Arguments {
 
 int imitate_motions(Arguments a) {
   apply_settings(a.settings, a.config.training);
-  return with_context([&](const pipeline::record::RunContext& context) {
+  return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(a.config.run, context, [&] { return pipeline::imitate(a.config, context); });
   });
 }

@@ -31,8 +31,9 @@ pipeline::PretrainConfig preset_of(const Arguments& a) {
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings) {
   config.clusters.seed = config.training.seed;
   apply_settings(settings, config.training);
-  return with_context(
-      [&](const pipeline::record::RunContext& context) { return pipeline::pretrain(config, context); });
+  return with_context(false, [&](const pipeline::record::RunContext& context) {
+    return pipeline::pretrain(config, context);
+  });
 }
 
 void declare_pretrain(CommandLine& line) {

@@ -19,7 +19,7 @@ int teach(Arguments a) {
   apply_settings(a.settings, a.config);
   if (a.config.planning.run.inputs.empty() && a.config.plans.empty())
     throw UsageError("teach: motions to plan are expected, or --plans");
-  return with_context([&](const pipeline::record::RunContext& context) {
+  return with_context(false, [&](const pipeline::record::RunContext& context) {
     pipeline::RunConfig& run = a.config.planning.run;
     if (!run.inputs.empty()) {
       const auto found = pipeline::find_motions(run.inputs, a.config.out, &context.messages);

@@ -73,6 +73,7 @@ void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<s
                  "frame rate of the clean copies in the inputs' own formats");
   command.flag("--substeps", run.substeps,
                "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
+  command.flag("--quiet", run.quiet, "tell only what went wrong");
   add_force(command, run.force);
   add_threads(command, run.threads);
   run.jobs = 0;
@@ -130,10 +131,12 @@ void add_arrangement_arguments(Command& command, pipeline::options::ArrangementC
 }
 
 int with_context(
+    bool quiet,
     const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work) {
   catch_interrupts();
   pipeline::record::Progress progress(std::cerr, pipeline::record::stderr_is_terminal(),
                                       pipeline::record::steady_seconds);
+  if (quiet) progress.silence();
   try {
     return status_of(
         work(pipeline::record::RunContext{progress, std::cerr, [] { return interrupted != 0; }}));

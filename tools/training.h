@@ -42,10 +42,10 @@ void add_gains_argument(Command& command, pipeline::RunConfig& run);
 void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement);
 
 /// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a
-/// second one ends the program. @return the exit status
+/// second one ends the program. @param quiet  no progress @return the exit status
 /// @throws UsageError for what the command line got wrong
 int with_context(
-    const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work);
+    bool quiet, const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work);
 
 /// Runs all inputs in the folder that was named; without one, every input in a folder beside it
 /// (NAME.mimicx), its clean motion beside it (NAME.clean.EXT).

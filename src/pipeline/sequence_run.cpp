@@ -27,6 +27,7 @@
 #include "pipeline/reference_needs.h"
 #include "pipeline/report/run_report.h"
 #include "pipeline/run_outputs.h"
+#include "pipeline/run_words.h"
 #include "pipeline/scores.h"
 #include "pipeline/sequence_result.h"
 
@@ -211,6 +212,7 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   entry.notes = motion.notes;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;
+  if (run.config.quiet) return motion;
   for (const auto* lines :
        {summary.empty() ? &std::as_const(entry.decisions) : &summary, &std::as_const(entry.notes)})
     for (const auto& line : *lines) worker.context.messages << entry.name << ": " << line << '\n';
@@ -273,24 +275,6 @@ void add_timing(RunState& run, const std::string& name, const record::Timing& no
   timing.threads = threads;
 }
 
-/// "walk: ok, reward 0.912, gMPJPE 3.1 mm, MPJPE 2.8 mm"
-std::string result_line(const record::SequenceEntry& entry) {
-  char text[64];
-  std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
-  if (!entry.reason.empty()) line += ", " + entry.reason;
-  if (std::isfinite(entry.reward_before))
-    std::snprintf(text, sizeof text, ", reward %.3f -> %.3f", entry.reward_before, entry.reward_after);
-  else
-    std::snprintf(text, sizeof text, ", reward %.3f", entry.reward_after);
-  if (!entry.output.empty()) line += text;
-  for (const auto& [name, value] : entry.metrics) {
-    if (name != "gMPJPE" && name != "MPJPE") continue;
-    std::snprintf(text, sizeof text, ", %s %.1f mm", name.c_str(), value);
-    line += text;
-  }
-  return line;
-}
-
 /// Writes a success in its input's own format, where the clean set does not have that format already. Where
 /// the sequence failed, a copy of that name from an earlier run is removed.
 void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
@@ -305,7 +289,8 @@ void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
   }
   const std::string body = output::write_clean_copy(run.folder.root / entry.output, input, run.config.read,
                                                     run.config.input_rate, copy);
-  if (run.config.beside) run.context.messages << "  clean motion: " << copy.string() << ", " << body << '\n';
+  if (run.config.beside && !run.config.quiet)
+    run.context.messages << "  clean motion: " << copy.string() << ", " << body << '\n';
 }
 
 /// Does `copy_clean` and tells what went wrong. The motion itself is written already; the same command tries
@@ -363,10 +348,21 @@ class SideBySide {
       return record::RunOutcome::kInterrupted;
     }
     report();
+    sum_up();
     return all_good_ ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
   }
 
  private:
+  void sum_up() {
+    if (run_.config.quiet || run_.inputs.size() < 2) return;
+    std::vector<record::SequenceEntry> entries;
+    for (const std::string& input : run_.inputs)
+      if (const record::SequenceEntry* entry = run_.manifest.find(input)) entries.push_back(*entry);
+    for (const std::string& line :
+         summary(entries, record::steady_seconds() - begun_, run_.folder.report().string()))
+      run_.context.messages << line << '\n';
+  }
+
   bool ask() { return stopped_ = stopped_ || run_.context.should_stop(); }
 
   void interrupted(const std::string& name) {
@@ -389,14 +385,20 @@ class SideBySide {
     run_.manifest.put(entry);
     if (!done.kept) run_.journal.append(entry, timing_of(run_, entry.name));
     if (record::steady_seconds() > next_report_) report();
-    run_.context.progress.finish(result_line(entry));
-    for (const std::string& line : what_next(entry, run_.folder))
-      run_.context.messages << "  " << line << '\n';
-    for (std::size_t k = done.told; k < entry.notes.size(); ++k)
-      run_.context.messages << "  " << entry.notes[k] << '\n';
+    tell(entry, done.told);
     const bool copied = copied_clean(run_, entry);
     all_good_ = all_good_ && entry.ok && copied;
     if (jobs_ > 1) run_.context.progress.update(++finished_, "");
+  }
+
+  /// @param told  notes that were told before
+  void tell(const record::SequenceEntry& entry, std::size_t told) {
+    if (run_.config.quiet && entry.ok) return;
+    run_.context.progress.finish(result_line(entry));
+    for (const std::string& line : what_next(entry, run_.folder))
+      run_.context.messages << "  " << line << '\n';
+    for (std::size_t k = told; k < entry.notes.size(); ++k)
+      run_.context.messages << "  " << entry.notes[k] << '\n';
   }
 
   RunState& run_;
@@ -405,6 +407,7 @@ class SideBySide {
   bool stopped_ = false, all_good_ = true;
   std::string interrupted_;  ///< the first motion that was not done
   int finished_ = 0;
+  const double begun_ = record::steady_seconds();
   double next_report_ = record::steady_seconds() + kReportSeconds;
 };
 

@@ -46,6 +46,7 @@ struct RunConfig {
   bool gains = false;     ///< also write the feedback gains of plans; finished ones get theirs, too
   bool fit = false;    ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
   bool as_is = false;  ///< correct nothing (Correction::kNone), whatever `fit` says
+  bool quiet = false;  ///< tell only what went wrong
   int threads = 1;
   int jobs = 1;  ///< motions done side by side, each by its share of the threads; 0: as many as threads
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none

@@ -42,6 +42,21 @@ TEST_F(Cli, AFailureSaysWhereItsMotionIsAndWhatToTryNext) {
   EXPECT_TRUE(says(call, "mimicx audit --poses '" + path("a.npz") + "'")) << call.text;
 }
 
+TEST_F(Cli, QuietTellsOnlyWhatWentWrong) {
+  motion::write_clip(path("good.npz"), standing_clip(30));
+  write_file_atomically(path("bad.npz"), "no archive");
+  const std::string inputs = "plan " + path("good.npz") + ' ' + path("bad.npz") + " --as-is --threads 1";
+  const Call told = mimicx(inputs + " --out " + path("told"));
+  ASSERT_EQ(told.status, 1) << told.text;
+  EXPECT_TRUE(says(told, "good: ok, ")) << told.text;
+  EXPECT_TRUE(says(told, "1 of 2 motions are ok")) << told.text;
+  EXPECT_TRUE(says(told, "  failed: bad")) << told.text;
+  const Call quiet = mimicx(inputs + " --quiet --out " + path("quiet"));
+  EXPECT_EQ(quiet.status, 1);
+  EXPECT_TRUE(quiet.text.starts_with("bad: failed, ")) << quiet.text;
+  EXPECT_FALSE(says(quiet, "good")) << quiet.text;
+}
+
 TEST_F(Cli, ABudgetThatEndedIsSaidAndMoreOfItContinuesTheSameTraining) {
   motion::write_clip(path("a.npz"), hovering_clip());
   const std::string command =

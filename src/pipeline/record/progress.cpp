@@ -36,7 +36,7 @@ void Progress::start(const std::string& label, double done, double total, const 
 
 void Progress::update(double done, const std::string& detail) {
   const double now = now_();
-  if (now < next_) return;
+  if (silent_ || now < next_) return;
   done = std::min(done, total_);  // a last iteration may draw more than was asked for
   next_ = now + (live_ ? kLivePeriod : kPlainPeriod);
   const double elapsed = now - started_;

@@ -20,6 +20,8 @@ class Progress {
   void start(const std::string& label, double done, double total, const std::string& unit = "samples");
   /// @param detail  what else is worth seeing, for example the mean reward
   void update(double done, const std::string& detail);
+  /// From now on nothing is shown but what `finish` says.
+  void silence() { silent_ = true; }
   /// Ends the job with a line of its own.
   void finish(const std::string& line);
 
@@ -27,7 +29,7 @@ class Progress {
   void write(const std::string& line);
 
   std::ostream& out_;
-  bool live_;
+  bool live_, silent_ = false;
   std::function<double()> now_;
   std::string label_, unit_;
   double total_ = 0.0, done_at_start_ = 0.0, started_ = 0.0;
