@@ -25,13 +25,7 @@ void for_each_arrangement_setting(Config& config, const Add& add) {
 }
 
 bool change_setting(options::ArrangementConfig& config, const std::string& name, double value) {
-  bool found = false;
-  for_each_arrangement_setting(config, [&](const char* known, auto& field) {
-    if (known != name) return;
-    assign(field, value);
-    found = true;
-  });
-  return found;
+  return change_one([&](const auto& add) { for_each_arrangement_setting(config, add); }, name, value);
 }
 
 PlanningConfig planning_of(const AdaptConfig& config) {
@@ -137,9 +131,8 @@ NamedValues settings_of(const AdaptConfig& config) {
     return settings_of(PlanMotionsConfig{config.run, planning_of(config)});
   NamedValues settings = settings_of(config.training);
   append(settings, settings_of(config.run));
-  for_each_arrangement_setting(config.arrangement, [&](const char* name, const auto& field) {
-    settings.emplace_back(name, number_of(field));
-  });
+  append(settings,
+         numbers_in([&](const auto& add) { for_each_arrangement_setting(config.arrangement, add); }));
   if (config.method == AdaptMethod::kAuto) {
     append(settings, plan_settings(config.plan));
     append(settings, teaching_settings(config.teaching));

@@ -6,6 +6,7 @@
 #include "core/file.h"
 #include "core/units.h"
 #include "pipeline/certainty.h"
+#include "pipeline/job_watch.h"
 #include "pipeline/output/plan_file.h"
 #include "pipeline/plan_loss.h"
 
@@ -29,27 +30,8 @@ control::System system_of(const motion::Reference& reference, const output::Stor
   return control::make_system(reference.character, stored.simulation, stored.reference, stored.fps);
 }
 
-/// The job's context and seconds, for the planner.
-struct Watch {
-  const SequenceJob& job;
-  double started = record::steady_seconds();
-  bool interrupted = false;  ///< the context asked to stop
-
-  control::PlanControl control() {
-    control::PlanControl control;
-    control.threads = job.threads;
-    control.should_stop = [this] {
-      interrupted = interrupted || job.context.should_stop();
-      return interrupted ||
-             (job.limit_seconds > 0.0 && record::steady_seconds() - started > job.limit_seconds);
-    };
-    control.progress = [this](int done, int) { job.context.progress.update(done, ""); };
-    return control;
-  }
-};
-
 output::StoredPlan make(const motion::Reference& reference, const physics::SimulationConfig& simulation,
-                        const control::PlanConfig& plan, Watch& watch) {
+                        const control::PlanConfig& plan, JobWatch& watch) {
   const SequenceJob& job = watch.job;
   job.context.progress.start(job.name + ": plan", 0.0, reference.size(), "frames");
   output::StoredPlan stored;
@@ -57,13 +39,15 @@ output::StoredPlan make(const motion::Reference& reference, const physics::Simul
   stored.fps = reference.fps;
   stored.simulation = simulation;
   stored.reference = rl::tracking::simulator_states(reference);
-  stored.plan = control::make_plan(system_of(reference, stored), plan, watch.control());
+  control::PlanControl control = watch.control();
+  control.progress = [&](int done, int) { job.context.progress.update(done, ""); };
+  stored.plan = control::make_plan(system_of(reference, stored), plan, control);
   return stored;
 }
 
 /// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
 void leave_gains(const motion::Reference& reference, const control::PlanConfig& config,
-                 const output::StoredPlan& stored, Watch& watch) {
+                 const output::StoredPlan& stored, JobWatch& watch) {
   const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
   std::filesystem::remove(file);
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
@@ -125,7 +109,7 @@ SimulatedSequence plan_sequence(const motion::Reference& reference, const Planni
                                 const SequenceJob& job, control::Plan* planned) {
   SimulatedSequence made;
   made.method = "plan";
-  Watch watch{job};
+  JobWatch watch{job};
   control::PlanConfig settings = config.plan;
   settings.certainty = certainty_of(reference, config.plan.plausible_acceleration);
   std::optional<output::StoredPlan> stored = finished_plan(job);

@@ -4,6 +4,7 @@
 #include "pipeline/output/plan_file.h"
 #include "pipeline/output/simulation_settings.h"
 #include "pipeline/record/manifest.h"
+#include "pipeline/setting.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -16,17 +17,11 @@ motion::Reference reference_in(const PlannedMotion& motion, const output::Stored
   return rl::tracking::reference_of_states(body, stored.reference);
 }
 
-/// The numbers of a simulation by name.
-NamedValues numbers_of(const physics::SimulationConfig& simulation) {
-  NamedValues numbers;
-  output::for_each_simulation_setting(simulation, [&](const std::string& name, const auto& field) {
-    numbers.emplace_back(name, static_cast<double>(field));
-  });
-  return numbers;
-}
-
 void require_simulation(const std::filesystem::path& file, const physics::SimulationConfig& there,
                         const physics::SimulationConfig& here) {
+  const auto numbers_of = [](const physics::SimulationConfig& simulation) {
+    return numbers_in([&](const auto& add) { output::for_each_simulation_setting(simulation, add); });
+  };
   const NamedValues found = numbers_of(there), expected = numbers_of(here);
   for (std::size_t k = 0; k < found.size(); ++k)
     if (found[k] != expected[k])

@@ -56,45 +56,31 @@ void for_each_setting(Config& config, const Add& add) {
 }  // namespace
 
 NamedValues plan_settings(const MotionPlanConfig& plan) {
-  NamedValues values;
-  for_each_setting(plan, [&](const char* name, const auto& field, double, double) {
-    values.emplace_back(name, number_of(field));
-  });
-  return values;
+  return numbers_in([&](const auto& add) { for_each_setting(plan, add); });
 }
 
 NamedValues planning_settings(const PlanningConfig& config) {
-  NamedValues values = plan_settings(config.plan);
-  output::for_each_simulation_setting(config.simulation, [&](const char* name, const auto& field) {
-    values.emplace_back(name, number_of(field));
+  return numbers_in([&](const auto& add) {
+    for_each_setting(config.plan, add);
+    output::for_each_simulation_setting(config.simulation, add);
   });
-  return values;
 }
 
 bool change_setting(MotionPlanConfig& plan, const std::string& name, double value) {
-  bool found = false;
-  for_each_setting(plan, [&](const char* known, auto& field, double, double) {
-    if (known != name) return;
-    assign(field, value);
-    found = true;
-  });
-  return found;
+  return change_one([&](const auto& add) { for_each_setting(plan, add); }, name, value);
 }
 
 void apply_setting(PlanningConfig& config, const std::string& name, double value) {
-  bool found = change_setting(config.plan, name, value);
-  output::for_each_simulation_setting(config.simulation, [&](const char* known, auto& field) {
-    if (known != name) return;
-    assign(field, value);
-    found = true;
-  });
-  if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
+  const auto visit = [&](const auto& add) {
+    for_each_setting(config.plan, add);
+    output::for_each_simulation_setting(config.simulation, add);
+  };
+  if (!change_one(visit, name, value))
+    throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
 void check(const MotionPlanConfig& plan) {
-  for_each_setting(plan, [](const char* name, const auto& field, double least, double most) {
-    require_range(name, number_of(field), least, most);
-  });
+  require_ranges([&](const auto& add) { for_each_setting(plan, add); });
 }
 
 void check(const PlanningConfig& config) {

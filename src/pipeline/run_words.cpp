@@ -49,7 +49,7 @@ std::string change(const Fault& fault, double before, double after) {
 
 /// Of the successes among entries. Empty where none has the metric.
 std::vector<double> successes(const std::vector<record::SequenceEntry>& entries,
-                       const NamedValues record::SequenceEntry::*values, const std::string& metric) {
+                              const NamedValues record::SequenceEntry::*values, const std::string& metric) {
   std::vector<double> out;
   for (const record::SequenceEntry& entry : entries) {
     const double value = value_of(entry.*values, metric);

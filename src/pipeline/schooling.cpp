@@ -65,27 +65,15 @@ void write_checkpoint(const record::RunFolder& folder, const std::string& name, 
 }  // namespace
 
 NamedValues school_settings(const teaching::SchoolConfig& school) {
-  NamedValues values;
-  for_each_setting(school, [&](const std::string& name, const auto& field, double, double) {
-    values.emplace_back(name, number_of(field));
-  });
-  return values;
+  return numbers_in([&](const auto& add) { for_each_setting(school, add); });
 }
 
 bool change_setting(teaching::SchoolConfig& school, const std::string& name, double value) {
-  bool found = false;
-  for_each_setting(school, [&](const std::string& known, auto& field, double, double) {
-    if (known != name) return;
-    assign(field, value);
-    found = true;
-  });
-  return found;
+  return change_one([&](const auto& add) { for_each_setting(school, add); }, name, value);
 }
 
 void check(const teaching::SchoolConfig& school) {
-  for_each_setting(school, [](const std::string& name, const auto& field, double least, double most) {
-    require_range(name, number_of(field), least, most);
-  });
+  require_ranges([&](const auto& add) { for_each_setting(school, add); });
 }
 
 std::optional<teaching::Pupil> teach_option(const std::vector<PlannedMotion>& motions,

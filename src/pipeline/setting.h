@@ -1,10 +1,15 @@
-/// One setting: a field of a configuration as the number that manifests and `--set` know.
+/// Settings: fields of a configuration as the numbers that manifests and `--set` know.
+///
+/// A configuration has one function that visits its fields: it calls add(name, field) or
+/// add(name, field, least, most) for every one. All else that is done with settings follows from it.
 #pragma once
 
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+
+#include "core/named_values.h"
 
 namespace mimicx::pipeline {
 
@@ -29,6 +34,37 @@ inline void require_range(const std::string& name, double value, double least, d
   char text[120];
   std::snprintf(text, sizeof text, "%s: expected %g to %g, found %g", name.c_str(), least, most, value);
   throw std::invalid_argument(text);
+}
+
+/// All numbers by name. @param visit  visit(add)
+template <class Visit>
+NamedValues numbers_in(const Visit& visit) {
+  NamedValues values;
+  visit([&](const std::string& name, const auto& field, auto...) {
+    values.emplace_back(name, number_of(field));
+  });
+  return values;
+}
+
+/// Changes the number of that name. @return whether there is one
+/// @throws std::invalid_argument as `assign`
+template <class Visit>
+bool change_one(const Visit& visit, const std::string& name, double value) {
+  bool found = false;
+  visit([&](const std::string& known, auto& field, auto...) {
+    if (known != name) return;
+    assign(field, value);
+    found = true;
+  });
+  return found;
+}
+
+/// @throws std::invalid_argument naming the first number that is out of its range
+template <class Visit>
+void require_ranges(const Visit& visit) {
+  visit([](const std::string& name, const auto& field, double least, double most) {
+    require_range(name, number_of(field), least, most);
+  });
 }
 
 }  // namespace mimicx::pipeline

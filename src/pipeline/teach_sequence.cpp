@@ -2,29 +2,12 @@
 
 #include <algorithm>
 
+#include "pipeline/job_watch.h"
 #include "pipeline/scores.h"
 #include "pipeline/train_sequence.h"
 
 namespace mimicx::pipeline {
 namespace {
-
-/// The job's context, for teacher and student.
-struct Watch {
-  const SequenceJob& job;
-  double started = record::steady_seconds();
-  bool interrupted = false, timed_out = false;
-
-  control::PlanControl control() {
-    control::PlanControl control;
-    control.threads = job.threads;
-    control.should_stop = [this] {
-      interrupted = interrupted || job.context.should_stop();
-      timed_out = job.limit_seconds > 0.0 && record::steady_seconds() - started > job.limit_seconds;
-      return interrupted || timed_out;
-    };
-    return control;
-  }
-};
 
 /// Goes on by PPO with what the student knows. Its steps begin small: the critic knows nothing yet.
 SimulatedSequence polish(const teaching::Teacher& teacher, const rl::Agent& student,
@@ -81,7 +64,7 @@ rl::tracking::TrackingRollout seen_from(const motion::Reference& reference,
 TaughtPolicy teach_sequence(const motion::Reference& reference, const control::Plan& plan,
                             const TeachingConfig& config, const control::CostWeights& weights,
                             const TrainingConfig& training, const SequenceJob& job) {
-  Watch watch{job};
+  JobWatch watch{job};
   TaughtPolicy taught;
   const rl::tracking::TrackingConfig& task = training.tracking;
   control::PlanControl control = watch.control();

@@ -40,27 +40,15 @@ void for_each_setting(Config& config, const Add& add) {
 }  // namespace
 
 NamedValues teaching_settings(const TeachingConfig& config) {
-  NamedValues values;
-  for_each_setting(config, [&](const char* name, const auto& field, double, double) {
-    values.emplace_back(name, number_of(field));
-  });
-  return values;
+  return numbers_in([&](const auto& add) { for_each_setting(config, add); });
 }
 
 bool change_setting(TeachingConfig& config, const std::string& name, double value) {
-  bool found = false;
-  for_each_setting(config, [&](const char* known, auto& field, double, double) {
-    if (known != name) return;
-    assign(field, value);
-    found = true;
-  });
-  return found;
+  return change_one([&](const auto& add) { for_each_setting(config, add); }, name, value);
 }
 
 void check(const TeachingConfig& config) {
-  for_each_setting(config, [](const char* name, const auto& field, double least, double most) {
-    require_range(name, number_of(field), least, most);
-  });
+  require_ranges([&](const auto& add) { for_each_setting(config, add); });
 }
 
 }  // namespace mimicx::pipeline

@@ -121,29 +121,16 @@ void check(const TrainingConfig& config) {
 }
 
 NamedValues settings_of(const TrainingConfig& config) {
-  NamedValues values;
-  for_each_setting(config, [&](const std::string& name, const auto& field) {
-    values.emplace_back(name, number_of(field));
-  });
-  return values;
+  return numbers_in([&](const auto& visit) { for_each_setting(config, visit); });
 }
 
 NamedValues settings_of(const rl::tracking::TrackingConfig& config) {
-  NamedValues values;
-  for_each_tracking_setting(config, [&](const std::string& name, const auto& field) {
-    values.emplace_back(name, number_of(field));
-  });
-  return values;
+  return numbers_in([&](const auto& visit) { for_each_tracking_setting(config, visit); });
 }
 
 void apply_setting(TrainingConfig& config, const std::string& name, double value) {
-  bool found = false;
-  for_each_setting(config, [&](const std::string& known, auto& field) {
-    if (known != name) return;
-    assign(field, value);
-    found = true;
-  });
-  if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
+  if (!change_one([&](const auto& visit) { for_each_setting(config, visit); }, name, value))
+    throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
 }  // namespace mimicx::pipeline
