@@ -5,9 +5,17 @@
 /// threads give the same bytes.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
 
 namespace mimicx {
+
+/// Chunk k of n nearly equal ones, in order.
+inline std::span<const int> part(std::span<const int> all, std::size_t k, std::size_t n) {
+  const std::size_t begin = all.size() * k / n;
+  return all.subspan(begin, all.size() * (k + 1) / n - begin);
+}
 
 /// Calls body(chunk) for chunk = 0 .. chunks-1 on up to `threads` threads, in no particular order.
 /// An exception leaves the region only after every chunk has ended; the one of the lowest chunk is

@@ -15,6 +15,9 @@
 
 namespace mimicx::motion {
 
+/// A body that is ever farther than this from its reference is no success, m.
+inline constexpr double kMaxBodyDistance = 0.5;
+
 /// What the metrics look at; one entry per frame.
 struct MotionSamples {
   PerFrame<PerBody<Vector3d>> joints;       ///< world positions, m

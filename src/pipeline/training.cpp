@@ -7,6 +7,7 @@
 #include "core/file.h"
 #include "core/npz.h"
 #include "core/parallel.h"
+#include "motion/metrics.h"
 #include "pipeline/training_log.h"
 #include "rl/tracking/environment.h"
 #include "rl/tracking/rollout.h"
@@ -43,14 +44,13 @@ struct Evaluation {
   double position_error = 0.0;  ///< m, mean over clips
 };
 
-constexpr double kLost = 0.5;  ///< a body farther than this from its reference is no success, m
-
 /// Mean position error, m; a body that strayed beyond the limit of success (docs/metrics.md) outweighs it.
 double score_of(const rl::tracking::TrackingRollout& rollout) {
   constexpr double kFarthest = 3.0;
   if (rollout.broken) return kFarthest;
-  return std::min(kFarthest, rollout.mean_position_error +
-                                 (rollout.worst_distance > kLost ? rollout.worst_distance : 0.0));
+  return std::min(kFarthest,
+                  rollout.mean_position_error +
+                      (rollout.worst_distance > motion::kMaxBodyDistance ? rollout.worst_distance : 0.0));
 }
 
 Evaluation evaluate(const Clips& clips, const rl::tracking::TrackingConfig& config,
@@ -143,7 +143,7 @@ std::function<void(std::int64_t, const std::string&)> progress_of_training(recor
 }
 
 int stall_age(int age, double score, double best_score) {
-  const bool followed = score < kLost;
+  const bool followed = score < motion::kMaxBodyDistance;
   return !followed || score < kBetter * best_score ? 0 : age + 1;
 }
 

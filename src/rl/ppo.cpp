@@ -70,12 +70,6 @@ void shuffle(std::vector<int>& order, Random random) {
     std::swap(order[left - 1], order[random.below(static_cast<std::uint32_t>(left))]);
 }
 
-/// Part k of n nearly equal parts of a span.
-std::span<const int> part(std::span<const int> rows, std::size_t k, std::size_t n) {
-  const std::size_t begin = rows.size() * k / n;
-  return rows.subspan(begin, rows.size() * (k + 1) / n - begin);
-}
-
 void gather(const RolloutBuffer& buffer, std::span<const int> rows, const AdvantageScale& scale,
             const ReturnScale& returns, GradientSlot& slot) {
   const Eigen::Index n = static_cast<Eigen::Index>(rows.size());

@@ -42,12 +42,6 @@ void take_gradient(const Lessons& lessons, const List<Eigen::MatrixXf>& importan
     slot.gradient.push_back(tape.value(g));
 }
 
-/// Part k of n nearly equal parts.
-std::span<const int> part(std::span<const int> rows, std::size_t k, std::size_t n) {
-  const std::size_t begin = rows.size() * k / n;
-  return rows.subspan(begin, rows.size() * (k + 1) / n - begin);
-}
-
 }  // namespace
 
 double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "motion/metrics.h"
 #include "rl/tracking/rollout.h"
 
 namespace mimicx::teaching {
@@ -32,13 +33,14 @@ struct Best {
   void consider(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                 const rl::Agent& candidate) {
     const auto alone = rl::tracking::roll_out(teacher.clip, task, rl::tracking::mean_action({candidate}));
-    const double fell = alone.broken ? kFar : alone.worst_distance > kLost ? alone.worst_distance : 0.0;
+    const double fell = alone.broken                                      ? kFar
+                        : alone.worst_distance > motion::kMaxBodyDistance ? alone.worst_distance
+                                                                          : 0.0;
     const double score = alone.mean_position_error + fell;
     if (score < distance) *this = {candidate, score};
   }
-  bool followed() const { return distance < kLost; }
+  bool followed() const { return distance < motion::kMaxBodyDistance; }
 
-  static constexpr double kLost = 0.5;  ///< a body farther than this is no success (docs/metrics.md), m
   static constexpr double kFar = 100.0;
 };
 

@@ -3,6 +3,7 @@
 
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
+#include "motion/synth/kinds/postures.h"
 
 namespace mimicx::motion::synth {
 namespace {
@@ -81,11 +82,6 @@ FeetTracks kicking_feet(const PlanRequest& request, const PerSide<FootTarget>& s
   return feet;
 }
 
-/// Hands in front of the chin, elbows low.
-void hold_guard(PlanFrame& frame) {
-  for (ArmPosture& arm : frame.arm) arm = {42.0 * kDegree, 14.0 * kDegree, 4.0 * kDegree, 112.0 * kDegree};
-}
-
 /// Both feet as in a step, the knees bent, one foot ahead.
 PerSide<FootTarget> fighting_stance(const PlanRequest& request, int lead) {
   auto feet = random_stance(request, 1.05, 1.25, 5.0, 9.0);
@@ -135,9 +131,7 @@ PerFrame<PlanFrame> plan_punch(const PlanRequest& request) {
   const int lead = static_cast<int>(random.below(2));
   const FeetTracks feet = standing_feet(request.character, fighting_stance(request, lead));
   const PlanFrame stand = standing_frame(request.character, feet);
-  PlanFrame guard = stand;
-  hold_guard(guard);
-  guard.pelvis.x() = guard.trunk.x() = 4.0 * kDegree;
+  PlanFrame guard = guard_posture(stand);
   guard.com_height = height_at(request.character, guard, random.uniform(24.0, 32.0));
   double t = random.uniform(0.25, 0.40);
   std::vector<PostureKey> keys = {{0.0, stand}, {t, stand}, {t + 0.8, guard}};
