@@ -10,6 +10,7 @@
 #include "motion/clip_file.h"
 #include "pipeline/output/plan_file.h"
 #include "pipeline/record/feasibility_file.h"
+#include "pipeline/report/words.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
@@ -83,9 +84,23 @@ TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
 TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
   run(planning("run", {stand}));
   const std::string page = read_file(out("run") / "report.html");
-  EXPECT_NE(page.find("\"title\":\"mean distance from the reference, mm\""), std::string::npos);
-  EXPECT_EQ(page.find("in training"), std::string::npos);
+  EXPECT_NE(page.find("\"words\":\"distance from the prepared reference\""), std::string::npos);
+  EXPECT_NE(page.find("\"name\":\"keypoints (Eq. 3)\""), std::string::npos) << "a factor of the reward";
+  for (const char* who : {"input", "reference", "cleaned"})
+    EXPECT_NE(page.find("\"who\":\"" + std::string(who) + "\",\"frames\":20,"), std::string::npos) << who;
+  EXPECT_EQ(page.find("falls in training"), std::string::npos);
   EXPECT_EQ(page.find("cannot be shown"), std::string::npos);
+}
+
+TEST_F(PlanMotions, TheReportHasWordsForEveryNumberOfTheManifest) {
+  run(planning("run", {stand}));
+  const record::SequenceEntry made = entry("run");
+  for (const auto& [group, values] :
+       {std::pair{"metrics", made.input_metrics}, std::pair{"metrics", made.metrics},
+        std::pair{"plan", made.plan}, std::pair{"preparation", made.preparation},
+        std::pair{"feasibility", made.feasibility}, std::pair{"audit", made.audit}})
+    for (const auto& [name, value] : values)
+      EXPECT_TRUE(report::has_words(group, name)) << group << ' ' << name;
 }
 
 TEST_F(PlanMotions, TheInputIsKeptAsItWasReadAndMadeAgainWhereItIsDamaged) {
