@@ -27,7 +27,11 @@ function short(value) {
 }
 
 // A number of an axis, which is round already.
-const tick_text = (value) => with_minus(Math.abs(value) >= 1e6 ? `${Number((value / 1e6).toPrecision(6))} M` : String(value));
+function tick_text(value) {
+  const size = Math.abs(value);
+  if (size >= 1e6) return with_minus(`${Number((value / 1e6).toPrecision(6))} M`);
+  return with_minus(size > 0 && size < 1e-3 ? value.toExponential() : String(value));
+}
 
 const with_unit = (text, unit) => unit ? `${text} ${unit}` : text;
 

@@ -9,7 +9,11 @@ function svg(tag, attributes, ...children) {
 
 // Round numbers from at most `low` to at least `high`, about `count` of them.
 function nice_ticks(low, high, count) {
-  if (!(high > low)) { low -= 0.5 * Math.abs(low) + 1e-6; high += 0.5 * Math.abs(high) + 1e-6; }
+  if (!(high > low)) {  // what does not change stands in the middle, or on zero
+    const room = Math.abs(low) || 1;
+    high = low < 0 ? 0 : low + room;
+    low = low < 0 ? low - room : 0;
+  }
   const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
   const step = power * [1, 2, 5, 10].find((f) => f * power >= raw * 0.999);
   const first = Math.floor(low / step + 1e-9), last = Math.ceil(high / step - 1e-9);

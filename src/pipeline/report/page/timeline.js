@@ -5,7 +5,7 @@
 const kinds = [
   {words: ['hovers', 'pulled'], colour: '--input', name: 'up or down'},
   {words: ['drifts', 'slips'], colour: '--cleaned', name: 'sideways'},
-  {words: ['turns', 'tips'], colour: '--line-3', name: 'a turn'},
+  {words: ['turns', 'tips'], colour: '--line-4', name: 'a turn'},
   {words: ['sunk'], colour: '--ink', name: 'in the floor'},
 ];
 const band = {row: 18, pointed: -1};
