@@ -68,6 +68,7 @@ void claim_run(const record::RunFolder& folder, const std::map<std::string, std:
     claim(path);
   for (const auto& [input, name] : names) {
     for (const std::filesystem::path& path : folder.files_of(name)) claim(path);
+    claim(folder.report_clip(name));
     claim(folder.clean(name, output::clean_suffix(input)));
   }
 }

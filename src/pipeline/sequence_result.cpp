@@ -71,6 +71,7 @@ void judge_sequence(const motion::Reference& reference, const physics::Simulatio
 void write_sequence(const record::RunFolder& folder, bool substeps,
                     const physics::SimulationConfig& simulation, const JudgedMotion& motion,
                     const SimulatedSequence& made, record::SequenceEntry& entry) {
+  output::write_input(with_parents(folder.input(entry.name)), motion.input);
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
   output::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
   if (!motion.needs.frames.empty())

@@ -144,21 +144,25 @@ Correction correction_of(const RunConfig& config) {
   return config.fit ? Correction::kKeypoints : Correction::kPoses;
 }
 
-/// Makes fit and reference of a finished sequence again where they are damaged; of other files it says so.
+/// Makes input, fit and reference of a finished sequence again where they are damaged; of other files it says
+/// so.
 void restore_files(const Worker& worker, const record::SequenceEntry& entry,
                    const std::vector<std::string>& damaged) {
   const RunState& run = worker.run;
   std::optional<PreparedMotion> motion;  // made once, where a file needs it
   for (const std::string& name : damaged) {
     const std::filesystem::path file = run.folder.root / name;
-    const bool fit = file == run.folder.fit(entry.name), reference = file == run.folder.reference(entry.name);
+    const bool input = file == run.folder.input(entry.name), fit = file == run.folder.fit(entry.name),
+               again = input || fit || file == run.folder.reference(entry.name);
     worker.context.messages << entry.name << ": " << name << " is gone or damaged"
-                            << (fit || reference ? ": made again\n" : ", and is not made again\n");
-    if (!fit && !reference) continue;
+                            << (again ? ": made again\n" : ", and is not made again\n");
+    if (!again) continue;
     if (!motion)
       motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads);
     make_folder(file.parent_path());
-    if (fit)
+    if (input)
+      output::write_input(file, motion->input);
+    else if (fit)
       motion::write_clip(file, motion->fitted);
     else
       output::write_reference(file, motion->input, motion->reference);

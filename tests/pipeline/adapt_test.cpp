@@ -8,6 +8,7 @@
 #include "pipeline/output/policy_file.h"
 #include "pipeline/plan.h"
 #include "pipeline/pretrained_options.h"
+#include "pipeline/report/words.h"
 #include "pipeline/results.h"
 #include "pipeline/scores.h"
 
@@ -151,6 +152,8 @@ TEST_F(Adapt, APlanThatIsFollowedTeachesAPolicyAndNothingElseIsTrained) {
   EXPECT_GT(value_of(entry.policy, "lessons"), 0.0);
   EXPECT_EQ(entry.samples, 0);
   EXPECT_EQ(read_file(out("run") / "report.html").find("cannot be shown"), std::string::npos);
+  for (const auto& [name, value] : entry.policy) EXPECT_TRUE(report::has_words("policy", name)) << name;
+  for (const auto& [name, value] : entry.fit) EXPECT_TRUE(report::has_words("fit", name)) << name;
   EXPECT_NE(entry.notes.back().find("; written: the "), std::string::npos) << entry.notes.back();
   EXPECT_TRUE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));
 }

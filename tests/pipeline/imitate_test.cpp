@@ -47,10 +47,10 @@ TEST_F(Imitate, LeavesEveryFileTheDocumentationNames) {
   run(small_run(out("run"), {stand}));
   const auto files = results_of(out("run"));
   for (const char* name :
-       {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz", "feasibility/stand.npz",
-        "training/stand.csv", "training/stand.falls.csv", "checkpoints/stand.npz"})
+       {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz", "references/stand.npz",
+        "feasibility/stand.npz", "training/stand.csv", "training/stand.falls.csv", "checkpoints/stand.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
-  EXPECT_EQ(files.size(), 8u);
+  EXPECT_EQ(files.size(), 9u);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "timing.json"));
   const record::Table log = record::read_csv(out("run") / "training" / "stand.csv");
   EXPECT_EQ(log.rows.size(), 6u);
@@ -69,7 +69,8 @@ TEST_F(Imitate, TheMotionHasAFrameForEveryFrameOfTheInput) {
                                                        {"range_torques", {20, 55}},
                                                        {"ground_wrenches", {20, 22, 6}},
                                                        {"self_contact_wrenches", {20, 22, 6}},
-                                                       {"reward", {20}}})
+                                                       {"reward", {20}},
+                                                       {"reward_factors", {20, 6}}})
     EXPECT_EQ(motion.at(name).shape, shape) << name;
 }
 

@@ -10,6 +10,7 @@
 #include "motion/clip_file.h"
 #include "pipeline/output/plan_file.h"
 #include "pipeline/record/feasibility_file.h"
+#include "pipeline/report/words.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
@@ -52,10 +53,10 @@ struct PlanMotions : testing::Test {
 TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
   EXPECT_EQ(run(planning("run", {stand})).value, record::RunOutcome::kAllGood);
   const auto files = results_of(out("run"));
-  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "references/stand.npz",
-                           "plans/stand.npz", "feasibility/stand.npz"})
+  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz",
+                           "references/stand.npz", "plans/stand.npz", "feasibility/stand.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
-  EXPECT_EQ(files.size(), 6u);
+  EXPECT_EQ(files.size(), 7u);
   EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
   const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
   EXPECT_EQ(motion.at("joint_torques").shape, (std::vector<std::size_t>{20, 55}));
@@ -83,9 +84,49 @@ TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
 TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
   run(planning("run", {stand}));
   const std::string page = read_file(out("run") / "report.html");
-  EXPECT_NE(page.find("\"title\":\"mean distance from the reference, mm\""), std::string::npos);
-  EXPECT_EQ(page.find("in training"), std::string::npos);
+  EXPECT_NE(page.find("\"words\":\"distance from the prepared reference\""), std::string::npos);
+  EXPECT_NE(page.find("\"name\":\"keypoints (Eq. 3)\""), std::string::npos) << "a factor of the reward";
+  for (const char* who : {"input", "reference", "cleaned"})
+    EXPECT_NE(page.find("\"who\":\"" + std::string(who) + "\",\"frames\":20,"), std::string::npos) << who;
+  EXPECT_EQ(page.find("falls in training"), std::string::npos);
   EXPECT_EQ(page.find("cannot be shown"), std::string::npos);
+}
+
+TEST_F(PlanMotions, TheReportHasWordsForEveryNumberOfTheManifest) {
+  run(planning("run", {stand}));
+  const record::SequenceEntry made = entry("run");
+  for (const auto& [group, values] :
+       {std::pair{"metrics", made.input_metrics}, std::pair{"metrics", made.metrics},
+        std::pair{"plan", made.plan}, std::pair{"preparation", made.preparation},
+        std::pair{"feasibility", made.feasibility}, std::pair{"audit", made.audit}})
+    for (const auto& [name, value] : values)
+      EXPECT_TRUE(report::has_words(group, name)) << group << ' ' << name;
+}
+
+TEST_F(PlanMotions, TheInputIsKeptAsItWasReadAndMadeAgainWhereItIsDamaged) {
+  run(planning("run", {stand}));
+  const std::filesystem::path kept = out("run") / "inputs" / "stand.npz";
+  const motion::Clip input = motion::read_clip(kept), given = motion::read_clip(stand);
+  EXPECT_EQ(input.trans, given.trans);
+  EXPECT_EQ(input.rotations, given.rotations);
+  const std::string bytes = read_file(kept), page = read_file(out("run") / "report.html");
+  std::filesystem::remove(kept);
+  run(planning("run", {stand}));
+  EXPECT_EQ(read_file(kept), bytes);
+  EXPECT_EQ(read_file(out("run") / "report.html"), page);
+}
+
+TEST_F(PlanMotions, TheRewardIsTheProductOfItsFactors) {
+  run(planning("run", {stand}));
+  const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
+  const std::vector<double> rewards = motion.at("reward").to_double(),
+                            factors = motion.at("reward_factors").to_double();
+  ASSERT_EQ(factors.size(), 6 * rewards.size());
+  for (std::size_t t = 0; t < rewards.size(); ++t) {
+    double product = 1.0;
+    for (std::size_t k = 0; k < 6; ++k) product *= factors[6 * t + k];
+    EXPECT_NEAR(product, rewards[t], 1e-12) << t;
+  }
 }
 
 TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {

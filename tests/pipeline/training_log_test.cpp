@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/named_values.h"
+#include "pipeline/report/words.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -65,6 +66,11 @@ TEST(TrainingLog, EveryValueStandsUnderItsName) {
     EXPECT_EQ(log.columns[k], expected[k].first);
     EXPECT_DOUBLE_EQ(log.rows[0][k], expected[k].second) << expected[k].first;
   }
+}
+
+TEST(TrainingLog, TheReportHasWordsForEveryColumn) {
+  for (const std::string& column : empty_training_log().columns)
+    EXPECT_TRUE(report::has_words("log", column.substr(0, column.find(':')))) << column;
 }
 
 }  // namespace

@@ -29,6 +29,13 @@ NpyArray rewards_member(const std::vector<rl::tracking::Reward>& rewards) {
   return NpyArray::from_double({values.size()}, values.data());
 }
 
+/// (T, 6): a column per factor, in the order of kRewardTermNames.
+NpyArray reward_factors_member(const std::vector<rl::tracking::Reward>& rewards) {
+  std::vector<double> values;
+  for (const auto& r : rewards) values.insert(values.end(), r.term.begin(), r.term.end());
+  return NpyArray::from_double({rewards.size(), rl::tracking::kRewardTerms}, values.data());
+}
+
 /// Members of the input at the frames that were simulated.
 motion::Passthrough members_for(const motion::Clip& input, double fps, std::size_t frames) {
   const motion::Clip resampled = motion::resampled(input, fps);
@@ -68,8 +75,16 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
                          {"range_torques", joints_member(ranges, kPrecision)},
                          {"ground_wrenches", wrenches_member(ground, kPrecision)},
                          {"self_contact_wrenches", wrenches_member(self, kPrecision)},
-                         {"reward", rewards_member(rollout.rewards)}};
+                         {"reward", rewards_member(rollout.rewards)},
+                         {"reward_factors", reward_factors_member(rollout.rewards)}};
   motion::write_clip(path, clip, extra);
+}
+
+void write_input(const std::filesystem::path& path, const motion::Clip& input) {
+  motion::Clip poses = input;
+  poses.keypoints.reset();
+  poses.passthrough.clear();
+  motion::write_clip(path, poses);
 }
 
 void write_reference(const std::filesystem::path& path, const motion::Clip& input,

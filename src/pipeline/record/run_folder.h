@@ -4,8 +4,10 @@
 ///     DIR/journal.jsonl          the same of what was done since, while the run goes on (journal.h)
 ///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
 ///     DIR/report.html            the run to look at
+///     DIR/report/NAME.js         its motions, where they are too many for one file
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
+///     DIR/inputs/NAME.npz        the poses of the inputs as they were read, in our world
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
 ///     DIR/feasibility/NAME.npz   what these ask for that no body has, frame by frame
 ///     DIR/substeps/NAME.npz      every physics step of the result, where asked for
@@ -37,6 +39,10 @@ struct RunFolder {
   std::filesystem::path journal() const { return root / "journal.jsonl"; }
   std::filesystem::path timing() const { return root / "timing.json"; }
   std::filesystem::path report() const { return root / "report.html"; }
+  std::filesystem::path report_clip(const std::string& name) const {
+    return root / "report" / (name + ".js");
+  }
+  std::filesystem::path input(const std::string& name) const { return root / "inputs" / (name + ".npz"); }
   std::filesystem::path reference(const std::string& name) const {
     return root / "references" / (name + ".npz");
   }
@@ -61,10 +67,12 @@ struct RunFolder {
     return root / "checkpoints" / (name + ".npz");
   }
 
-  /// Every file that a sequence may have, but the clean copy, which has its input's suffix.
+  /// Every file that a sequence may have, but its part of the report and the clean copy, which has its
+  /// input's suffix.
   std::vector<std::filesystem::path> files_of(const std::string& name) const {
     return {root / motion_name(name, true),
             root / motion_name(name, false),
+            input(name),
             reference(name),
             feasibility(name),
             fit(name),

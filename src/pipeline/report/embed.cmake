@@ -1,20 +1,25 @@
-# Joins report.html, report.css and report.js into one header of two raw strings: the page before and after
-# its data. Runs at configure time, and again whenever one of the three changes.
+# Joins page/index.html, page/style.css and the scripts of page/ into one header of raw strings: the page before and
+# after its data. Runs at configure time, and again whenever one of the files changes.
+set(REPORT_SCRIPTS base overview chart capsules player timeline clip main)  # in the order of their use
+
 function(embed_report_page folder output)
-  foreach(part css js)
-    file(READ ${folder}/report.${part} REPORT_${part})
-    string(TOUPPER ${part} upper)
-    set(REPORT_${upper} "${REPORT_${part}}")
+  set(files index.html style.css)
+  set(REPORT_JS "'use strict';\n")
+  foreach(script ${REPORT_SCRIPTS})
+    list(APPEND files ${script}.js)
+    file(READ ${folder}/${script}.js text)
+    string(APPEND REPORT_JS "${text}")
   endforeach()
+  file(READ ${folder}/style.css REPORT_CSS)
   set(REPORT_DATA "@REPORT_DATA@")
-  configure_file(${folder}/report.html ${output}.html @ONLY)
+  configure_file(${folder}/index.html ${output}.html @ONLY)
   file(READ ${output}.html page)
   string(FIND "${page}" "@REPORT_DATA@" at)
   string(SUBSTRING "${page}" 0 ${at} PAGE_BEFORE)
   string(LENGTH "@REPORT_DATA@" length)
   math(EXPR after "${at} + ${length}")
   string(SUBSTRING "${page}" ${after} -1 PAGE_AFTER)
-  configure_file(${folder}/report_page.h.in ${output} @ONLY)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-               ${folder}/report.html ${folder}/report.css ${folder}/report.js)
+  configure_file(${folder}/../report_page.h.in ${output} @ONLY)
+  list(TRANSFORM files PREPEND ${folder}/)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
 endfunction()

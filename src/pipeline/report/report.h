@@ -1,31 +1,56 @@
-/// `report.html`: what a run did, to look at. One file that needs no network: a player of the reference
-/// and the simulated motion drawn from the characters' capsules, the metrics, and the training curves.
+/// `report.html`: what a run did, to look at. A page that needs no network: a table of all clips, and for
+/// each of them a player of input, reference and cleaned motion, a timeline, plots and numbers in words.
 ///
-/// The page itself (HTML, CSS, JavaScript) stands in src/pipeline/report/ and is embedded at build time.
-/// Motions are embedded as the capsules' ends in whole millimetres (int16, base64): 352 bytes a frame, and a
-/// page that needs no rotations. It does not compute anything: numbers arrive as they are to be shown.
+/// The page itself (HTML, CSS, JavaScript) stands in src/pipeline/report/page and is embedded at build time.
+/// The clips' data are embedded in it, or stand in files beside it that the page loads when they are looked
+/// at (a page opened from a disk may load scripts, and nothing else; so these are scripts). Motions are the
+/// ends of the capsules in whole millimetres, two base64 digits a number: 273 bytes a frame, and a page that
+/// needs no rotations. The page does not compute anything: numbers arrive as they are to be shown.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "character/character.h"
 #include "pipeline/record/table.h"
+#include "pipeline/report/ground_forces.h"
+#include "pipeline/report/motion_curves.h"
+#include "pipeline/report/words.h"
 
 namespace mimicx::pipeline::report {
 
-/// A row of the metrics table: one value per column.
-struct ReportMetric {
-  std::string name;            ///< with its unit
-  std::vector<double> values;  ///< NaN: shown as a dash
+/// Whose motion, or whose curve; decides the colour.
+enum class Who { kInput, kReference, kCleaned, kTruth, kNobody };
+
+/// A motion of the player, at the clip's frame rate.
+struct ReportMotion {
+  Who who = Who::kCleaned;
+  Character character;
+  std::vector<BodyPoses> poses;
 };
 
-/// A curve over the clip's own time.
-struct ReportSeries {
-  std::string title;
-  double step = 0.0;  ///< seconds between values; the first is at 0
-  std::vector<double> values;
+struct ReportLine {
+  Who who = Who::kNobody;
+  std::string name;
+  std::vector<double> values;  ///< NaN: none
+};
+
+/// Lines over one axis.
+struct ReportChart {
+  Words words;
+  std::vector<ReportLine> lines;
+  double step = 0.0;           ///< s between values, the first at `start`; 0: they stand at `x`
+  double start = 0.0;          ///< s
+  std::vector<double> x = {};  ///< samples of a training
+};
+
+/// A row of the timeline.
+struct ReportBars {
+  std::string name, meaning;
+  bool flaw = false;  ///< of the input; else a contact
+  std::vector<Span> spans;
 };
 
 /// What the reference asks for that no body has, a value per frame.
@@ -34,29 +59,67 @@ struct ReportNeeds {
   std::vector<double> bar;                          ///< height of its bar in the band, in [0, 1]
 };
 
-struct ReportSequence {
-  std::string name;
-  std::string status;  ///< "ok" or "failed"
-  std::string reason;  ///< why it failed
+/// A number in words.
+struct ReportFact {
+  std::string group;
+  Words words;
+  double value = 0.0;
+};
+
+/// What is known of a clip when it is looked at.
+struct ReportClip {
   double fps = 30.0;
-  Character character;
-  std::vector<BodyPoses> reference;  ///< may be empty
-  std::vector<BodyPoses> simulated;  ///< may be empty
-  std::vector<std::string> metric_columns;
-  std::vector<ReportMetric> metrics;
-  std::vector<std::string> notes;  ///< one line each
+  std::vector<ReportMotion> motions;
+  std::vector<GroundForces> ground;  ///< of the cleaned motion, per frame; may be empty
+  double weight = 0.0;               ///< of its body, N
+  std::vector<ReportBars> bars;
   ReportNeeds needs;               ///< from outside, by the poses; may be empty
   std::vector<std::string> wrong;  ///< with each of these frames, in a word
   ReportNeeds help;                ///< left in a plan's soft stage; may be empty, and shorter than the motion
-  std::vector<ReportSeries> series;
-  /// A column per quantity, a row per iteration, with a column "samples". Columns named "title:part" share
-  /// one chart.
-  record::Table log;
+  std::vector<ReportChart> charts, training;
+  std::vector<ReportFact> facts;
+  std::vector<std::string> notes;  ///< one line each
 };
 
-std::string format_report(const std::vector<ReportSequence>& sequences);
+/// A row of the metrics, the same ones for all clips.
+struct ReportMetric {
+  std::string key;  ///< as in docs/metrics.md and the manifest
+  Words words;
+  std::string group;  ///< by what it is measured
+};
 
-/// Ends of every capsule in mm, [frame][body][2][3] little-endian int16, in base64. Exposed for its test.
+/// A line of the table of all clips.
+struct ReportRow {
+  std::string name;
+  bool ok = false;
+  std::string reason;   ///< why it is no success
+  std::string made_by;  ///< in words
+  int frames = 0;
+  double seconds = 0.0;  ///< of motion
+  double reward = 0.0;   ///< mean over the frames; NaN: none
+  /// [metric] of the input, before training, cleaned; NaN: none
+  std::vector<std::array<double, 3>> values;
+  bool embedded = true;  ///< its data is in the page; else in report/NAME.js
+};
+
+struct Report {
+  std::vector<std::pair<std::string, std::string>> run;  ///< what the run was, in words
+  std::vector<ReportMetric> metrics;
+  std::vector<ReportRow> rows;
+};
+
+/// A clip's data as JSON.
+std::string clip_json(const ReportClip& clip);
+/// The file of a clip beside the page: `mimicx_clip("NAME", DATA);`
+std::string clip_script(const std::string& name, const std::string& json);
+/// The page. @param clips  [row] what `clip_json` says of those that are embedded; else empty
+std::string format_report(const Report& report, const std::vector<std::string>& clips);
+
+/// [frame]: the pelvis (3 numbers of 3 digits), then the ends of every capsule from there, [body][2][3]
+/// numbers of 2 digits; mm. A number n of d digits is n + 2^(6d − 1) in base64 digits, the highest first.
+/// Exposed for its test.
 std::string encode_capsules(const Character& character, const std::vector<BodyPoses>& poses);
+/// Arrows of every frame, [frame][3][5] numbers of 3 digits: x and y of the point in mm, force in N.
+std::string encode_ground(const std::vector<GroundForces>& ground);
 
 }  // namespace mimicx::pipeline::report

@@ -1,0 +1,73 @@
+// One clip: its data, wherever that stands, and everything that is shown of it.
+
+const arrived = new Map();  // by index, what clips beside the page said
+const waiting = new Map();  // by name, what to do when it arrives
+
+// The files beside the page call this.
+function mimicx_clip(name, clip) {
+  const take = waiting.get(name);
+  waiting.delete(name);
+  if (take) take(clip);
+}
+
+function load_clip(index, take) {
+  const row = data.rows[index];
+  if (row.embedded) { take(JSON.parse($(`clip-${index}`).textContent)); return; }
+  if (arrived.has(index)) { take(arrived.get(index)); return; }
+  waiting.set(row.name, (clip) => { arrived.set(index, clip); take(clip); });
+  const path = `report/${row.name.split('/').map(encodeURIComponent).join('/')}.js`;
+  const missing = () => { $('clip-message').textContent = `${path} is not there: it belongs beside this page`; };
+  document.head.append(make('script', {src: path, onerror: missing}));
+}
+
+function metrics_table(row) {
+  const trained = row.values.some((v) => v[between] !== null);
+  const heads = ['', 'unit', 'input', ...(trained ? ['before training'] : []), 'cleaned'];
+  const body = groups.flatMap((group) => [
+    make('tr', {}, make('th', {colSpan: heads.length, className: 'group', scope: 'colgroup'}, group)),
+    ...data.metrics.map((m, k) => ({...m, values: row.values[k]})).filter((m) => m.group === group && known(m.values).length)
+        .map((m) => {
+          const better = better_of(m.values[before], m.values[after]);
+          const cell = (value, good) => make('td', {className: good ? 'better' : ''}, short(value));
+          return make('tr', {title: `${m.key}: ${m.meaning}`}, make('th', {scope: 'row'}, m.words), make('td', {}, m.unit),
+                      cell(m.values[before], better < 0), ...(trained ? [cell(m.values[between], false)] : []),
+                      cell(m.values[after], better > 0));
+        })]);
+  return [make('thead', {}, make('tr', {}, ...heads.map((h) => make('th', {scope: 'col'}, h)))), make('tbody', {}, ...body)];
+}
+
+function facts_list(facts) {
+  return [...new Set(facts.map((f) => f.group))].map((group) => make('details', {}, make('summary', {}, group),
+      make('table', {}, ...facts.filter((f) => f.group === group).map((f) =>
+          make('tr', {title: f.meaning}, make('th', {scope: 'row'}, f.words), make('td', {}, with_unit(short(f.value), f.unit)))))));
+}
+
+function show_loaded(index, clip) {
+  const row = data.rows[index];
+  player.index = index;
+  take_clip(clip);
+  $('clip-message').textContent = '';
+  $('stage').hidden = !clip.motions.length;
+  show_layers();
+  show_timeline();
+  $('charts').replaceChildren(...clip.charts.map((c) => chart_of(c, (t) => go_to_frame(Math.round(t * clip.fps)))));
+  $('training').hidden = !clip.training.length;
+  $('training-charts').replaceChildren(...clip.training.map((c) => chart_of(c)));
+  $('metrics').replaceChildren(...metrics_table(row));
+  $('facts').replaceChildren(...facts_list(clip.facts));
+  $('notes').replaceChildren(...clip.notes.map((text) => make('li', {}, text)));
+}
+
+function show_clip(index, ready) {
+  const row = data.rows[index];
+  $('clip-name').textContent = row.name;
+  $('clip').value = index;
+  $('status').textContent = row.ok ? `✓ cleaned, by ${row.made_by}` : `✗ failed: ${row.reason}`;
+  $('status').className = row.ok ? 'ok' : 'failed';
+  $('clip-message').textContent = 'loading …';
+  load_clip(index, (clip) => {
+    if (Number($('clip').value) !== index) return;  // another one was asked for meanwhile
+    show_loaded(index, clip);
+    if (ready) ready();
+  });
+}

@@ -1,0 +1,80 @@
+// The page as a whole: which of its two views is seen, keys, and the clock of the player.
+// report.html#2,30 opens the third clip at its frame 30; without anything behind it, all clips.
+
+function route() {
+  const [clip, frame] = location.hash.slice(1).split(',').map((text) => text === '' ? NaN : Number(text));
+  const one = clip >= 0 && clip < data.rows.length;
+  $('overview').hidden = one;
+  $('clip-view').hidden = !one;
+  document.body.classList.toggle('one', one);
+  if (!one) { set_playing(false); return; }
+  window.scrollTo(0, 0);
+  show_clip(clip, () => { if (frame >= 0) go_to_frame(frame); else set_playing(true); });
+}
+
+function tick(now) {
+  const step = Math.min((now - player.last) / 1000, 0.1);
+  player.last = now;
+  if (player.clip && !$('clip-view').hidden && player.frames) {
+    const length = player.frames / player.clip.fps;
+    if (player.playing) {
+      player.time = (player.time + step * Number($('speed').value)) % length;
+      player.stale = true;
+    }
+    if (player.stale) {
+      player.stale = false;
+      const frame = frame_of(player.time);
+      draw_scene($('view'));
+      update_timeline(frame);
+      for (const chart of $('charts').children) if (chart.at_time) chart.at_time(frame / player.clip.fps);
+    }
+  }
+  requestAnimationFrame(tick);
+}
+
+const go_to_clip = (index) => { location.hash = `#${Math.min(Math.max(index, 0), data.rows.length - 1)}`; };
+
+function on_key(e) {
+  const tag = e.target.tagName;
+  if (e.ctrlKey || e.metaKey || e.altKey || tag === 'SELECT' || (tag === 'INPUT' && e.target.type === 'search')) return;
+  if ($('clip-view').hidden || !player.clip) return;
+  const frame = frame_of(player.time), leap = e.shiftKey ? 10 : 1;
+  const keys = {
+    ' ': () => set_playing(!player.playing),
+    ArrowRight: () => go_to_frame(frame + leap),
+    ArrowLeft: () => go_to_frame(frame - leap),
+    Home: () => go_to_frame(0),
+    End: () => go_to_frame(player.frames - 1),
+    n: () => go_to_clip(player.index + 1),
+    p: () => go_to_clip(player.index - 1),
+    o: () => { $('placing').value = player.placing === 'over' ? 'beside' : 'over'; $('placing').onchange(); },
+    Escape: () => { location.hash = ''; },
+  };
+  present().forEach((who, i) => { keys[i + 1] = () => { player.shown[who] = !player.shown[who]; show_layers(); player.stale = true; }; });
+  if (!keys[e.key] || (e.key === ' ' && (tag === 'BUTTON' || tag === 'SUMMARY' || tag === 'INPUT'))) return;
+  keys[e.key]();
+  e.preventDefault();
+}
+
+function begin() {
+  read_tones();
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { read_tones(); if (player.clip && player.clip.needs) draw_band(); });
+  show_run();
+  show_overview();
+  data.rows.forEach((row, i) => $('clip').append(new Option(`${row.ok ? '' : '✗ '}${row.name}`, i)));
+  $('filter').oninput = () => { overview.filter = $('filter').value.toLowerCase(); show_table(); };
+  $('filter').hidden = data.rows.length < 8;
+  $('clip').onchange = () => go_to_clip(Number($('clip').value));
+  $('previous').onclick = () => go_to_clip(player.index - 1);
+  $('next').onclick = () => go_to_clip(player.index + 1);
+  $('play').onclick = () => set_playing(!player.playing);
+  $('placing').onchange = () => { player.placing = $('placing').value; player.stale = true; };
+  listen_to_view($('view'));
+  listen_to_timeline();
+  document.onkeydown = on_key;
+  window.onhashchange = route;
+  route();
+  requestAnimationFrame(tick);
+}
+
+begin();
