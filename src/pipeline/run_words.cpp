@@ -18,13 +18,15 @@ struct Fault {
   const char* name;
   const char* metric;
   const char* unit;
-  double visible;  ///< less is not worth a word
+  double scale;  ///< from the metric's unit to that one
+  int decimals;
+  double visible;  ///< less, in that unit, is not worth a word
 };
 
-constexpr std::array<Fault, 4> kFaults = {{{"sliding", "FS_gt", "mm a frame", 0.05},
-                                           {"sinking", "GP", "mm", 0.05},
-                                           {"floating", "Float_gt", "mm", 0.05},
-                                           {"jitter", "Jitter", "x 10 m/s^3", 0.5}}};
+constexpr std::array<Fault, 4> kFaults = {{{"sliding", "FS_gt", "mm a frame", 1.0, 1, 0.05},
+                                           {"sinking", "GP", "mm", 1.0, 1, 0.05},
+                                           {"floating", "Float_gt", "mm", 1.0, 1, 0.05},
+                                           {"jitter", "Jitter", "m/s^3", 10.0, 0, 5.0}}};
 
 double value_of(const NamedValues& values, const std::string& name) {
   for (const auto& [known, value] : values)
@@ -40,11 +42,18 @@ std::string format(const char* how, double number) {
 
 /// "sliding 1.7 -> 0.2 mm a frame"; empty where there is nothing to say.
 std::string change(const Fault& fault, double before, double after) {
+  before *= fault.scale;
+  after *= fault.scale;
   if (!std::isfinite(after)) return {};
   const bool known = std::isfinite(before);
   if (after < fault.visible && !(known && before >= fault.visible)) return {};
-  return std::string(fault.name) + ' ' + (known ? format("%.1f -> ", before) : "") + format("%.1f ", after) +
-         fault.unit;
+  char text[96];
+  if (known)
+    std::snprintf(text, sizeof text, "%s %.*f -> %.*f %s", fault.name, fault.decimals, before, fault.decimals,
+                  after, fault.unit);
+  else
+    std::snprintf(text, sizeof text, "%s %.*f %s", fault.name, fault.decimals, after, fault.unit);
+  return text;
 }
 
 /// Of the successes among entries. Empty where none has the metric.

@@ -30,7 +30,7 @@ record::SequenceEntry fallen(const std::string& name) {
 TEST(ResultLine, SaysWhatBecameBetterAndLeavesOutWhatWasNoFault) {
   EXPECT_EQ(result_line(walk()),
             "walk: ok, 12.0 mm from the reference, sliding 1.7 -> 0.2 mm a frame, floating 3.0 mm, "
-            "jitter 9.0 -> 0.4 x 10 m/s^3");
+            "jitter 90 -> 4 m/s^3");
 }
 
 TEST(ResultLine, OfAFailureSaysWhy) {
@@ -49,7 +49,7 @@ TEST(Summary, CountsAndNamesFailuresAndTakesTheirNumbersOutOfTheMedians) {
                                              "  in the median 20.0 mm from the reference, at most 20.0 mm",
                                              "  sliding 1.7 -> 0.2 mm a frame",
                                              "  floating 3.0 mm",
-                                             "  jitter 9.0 -> 0.4 x 10 m/s^3",
+                                             "  jitter 90 -> 4 m/s^3",
                                              "  failed: jump",
                                              "  to look at: out/report.html"};
   EXPECT_EQ(lines, expected);
