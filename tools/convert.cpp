@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "motion/import/motion_file.h"
 #include "motion/resample.h"
+#include "pipeline/exchange/exchange_file.h"
 #include "pipeline/output/qpos.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
@@ -13,23 +14,46 @@
 namespace mimicx::tools {
 namespace {
 
+namespace exchange = pipeline::exchange;
+
 struct Arguments {
   std::filesystem::path in, out;
   motion::import::ReadConfig read;
   std::string rate = "input";
+  exchange::ExchangeConfig exchange;
   bool force = false;
 };
 
-int convert(const Arguments& a) {
+std::string known_suffixes() { return ".npz, .npy, .bvh, " + exchange::exchanged_suffixes(); }
+
+/// @throws UsageError, or OutputRefused where the file is not to be overwritten
+void claim_output(const Arguments& a) {
+  pipeline::record::Outputs outputs({a.in.string()}, a.force);
+  if (exchange::is_exchanged(a.out)) {
+    const exchange::Opening opening = exchange::exchange_opening(a.out);
+    return outputs.claim(a.out, opening.text, opening.at);
+  }
   if (!motion::import::is_written(a.out.extension().string()))
-    throw UsageError(a.out.string() + ": motions are written as " + motion::import::written_suffixes() +
-                     ", not '" + a.out.extension().string() + "'");
-  pipeline::record::Outputs({a.in.string()}, a.force).claim(a.out, motion::import::written_opening(a.out));
+    throw UsageError(a.out.string() + ": motions are written as " + known_suffixes() + ", not '" +
+                     a.out.extension().string() + "'");
+  outputs.claim(a.out, motion::import::written_opening(a.out));
+}
+
+int convert(const Arguments& a) {
+  claim_output(a);
   motion::Clip clip = motion::import::read_motion(a.in, a.read);
-  if (a.rate == "30") clip = motion::resampled(clip, 30.0);
+  exchange::ExchangeConfig config = a.exchange;
+  if (!a.read.text().empty())
+    config.forces_lost = "one that is read in another way than it was simulated in (" + a.read.text() + ")";
+  if (a.rate == "30" && clip.fps != 30.0) {
+    clip = motion::resampled(clip, 30.0);
+    config.forces_lost = "one at another frame rate than it was simulated at (--rate 30)";
+  }
   pipeline::tell_decisions(a.in.string(), clip, std::cerr);
   make_folder(a.out.parent_path());
-  if (a.out.stem().extension() == ".qpos" && motion::import::lower_suffix(a.out) == ".npz")
+  if (exchange::is_exchanged(a.out))
+    exchange::write_exchange(a.out, clip, a.in.string(), config);
+  else if (a.out.stem().extension() == ".qpos" && motion::import::lower_suffix(a.out) == ".npz")
     pipeline::output::write_qpos(a.out, clip);
   else
     motion::import::write_motion(a.out, clip);
@@ -42,13 +66,20 @@ void declare_convert(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
   Command command =
       line.add("convert", "Write a motion in another format, chosen by the suffix",
-               "mimicx convert clip.bvh clip.npz                   # AMASS layout\n"
-               "mimicx convert clip.npz clip.qpos.npz --rate 30    # MuJoCo, 30 frames per second");
+               "mimicx convert clip.bvh clip.npz                       # AMASS layout\n"
+               "mimicx convert RUN/motions/walk.npz walk.glb --arrows  # a body with a skin, for any viewer",
+               ".npz: AMASS layout; .npy: Motion-X; .bvh: a skeleton; .qpos.npz: MuJoCo's numbers;\n"
+               ".glb: glTF, a body with a skin; .csv: a table. Of motions with forces (plan, adapt),\n"
+               "for OpenSim, .mot: the forces of the floor; .sto: the moments in the joints.");
   command.file("IN", a->in, "motion");
-  command.file("OUT", a->out,
-               "where to write it: " + motion::import::written_suffixes() + "; .qpos.npz: for MuJoCo");
+  command.file("OUT", a->out, "where to write it");
   add_read_arguments(command, a->read);
   command.one_of("--rate", a->rate, {"input", "30"}, "frame rate of OUT");
+  command.choice<exchange::Skin>(
+      "--skin", a->exchange.skin,
+      {{"mannequin", exchange::Skin::kMannequin}, {"shapes", exchange::Skin::kShapes}},
+      "of a .glb: one smooth skin, or the shapes that the simulator collides with");
+  command.flag("--arrows", a->exchange.arrows, "of a .glb: show the forces of the floor, 1 mm per newton");
   add_force(command, a->force);
   command.action([a] { return convert(*a); });
 }

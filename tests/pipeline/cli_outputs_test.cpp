@@ -37,6 +37,8 @@ struct CliOutputs : Cli {
             {"convert npy", "convert " + w + " " + mine + ".npy", "mine.npy"},
             {"convert bvh", "convert " + w + " " + mine + ".bvh", "mine.bvh"},
             {"convert qpos", "convert " + w + " " + mine + ".qpos.npz", "mine.qpos.npz"},
+            {"convert glb", "convert " + w + " " + mine + ".glb", "mine.glb"},
+            {"convert csv", "convert " + w + " " + mine + ".csv", "mine.csv"},
             {"export-mjcf", "export-mjcf " + mine + ".xml", "mine.xml"},
             {"cluster", "cluster " + path("in") + " --clusters 1 --out " + mine + ".json", "mine.json"},
             {"evaluate",

@@ -8,9 +8,10 @@
 namespace mimicx::pipeline::record {
 namespace {
 
-std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
+std::string bytes_at(const std::filesystem::path& path, std::size_t at, std::size_t count) {
   std::string bytes(count, '\0');
   std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(at));
   file.read(bytes.data(), static_cast<std::streamsize>(count));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
@@ -32,8 +33,8 @@ bool is_there(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool is_own_file(const std::filesystem::path& path, std::string_view opening) {
-  return opening.empty() ? is_own_archive(path) : first_bytes(path, opening.size()) == opening;
+bool is_own_file(const std::filesystem::path& path, std::string_view opening, std::size_t at) {
+  return opening.empty() ? is_own_archive(path) : bytes_at(path, at, opening.size()) == opening;
 }
 
 Outputs::Outputs(const std::vector<std::string>& inputs, bool force) : force_(force) {
@@ -44,10 +45,10 @@ Outputs::Outputs(const std::vector<std::string>& inputs, bool force) : force_(fo
   }
 }
 
-void Outputs::claim(const std::filesystem::path& path, std::string_view opening) {
+void Outputs::claim(const std::filesystem::path& path, std::string_view opening, std::size_t at) {
   if (path.empty()) return;
   claim_new(path);
-  if (force_ || !is_there(path) || is_own_file(path, opening)) return;
+  if (force_ || !is_there(path) || is_own_file(path, opening, at)) return;
   throw OutputRefused(path.string() +
                       " is there and is no such file of this program's: --force overwrites it");
 }

@@ -27,7 +27,8 @@ inline constexpr std::string_view kJsonOpening = "{\n \"made_by\": \"mimicx\"";
 
 /// Whether a file is one that this program wrote.
 /// @param opening  how such a file begins; empty: it is an archive
-bool is_own_file(const std::filesystem::path& path, std::string_view opening);
+/// @param at       the byte at which the opening stands, where lengths come before it
+bool is_own_file(const std::filesystem::path& path, std::string_view opening, std::size_t at = 0);
 
 class Outputs {
  public:
@@ -37,7 +38,7 @@ class Outputs {
   /// Claims a file to write. Empty paths stand for none and are claimed without a word.
   /// @throws OutputRefused where it is an input, claimed already, no regular file, or, unless forced, one
   /// that is not ours
-  void claim(const std::filesystem::path& path, std::string_view opening = {});
+  void claim(const std::filesystem::path& path, std::string_view opening = {}, std::size_t at = 0);
   /// The same of a file in a folder that is known to be ours: what is there may be replaced.
   void claim_own(const std::filesystem::path& path);
 

@@ -1,0 +1,71 @@
+#include "pipeline/exchange/recorded_forces.h"
+
+#include "pipeline/output/simulated_members.h"
+
+namespace mimicx::pipeline::exchange {
+namespace {
+
+constexpr const char *kGround = "ground_wrenches", *kTorques = "joint_torques";
+
+/// Where the floor is under a carrier: below the middle of its foot, or the pelvis.
+Vector3d under(Carrier carrier, const PerBody<Vector3d>& joints) {
+  Vector3d p = carrier == kOnTheRest     ? joints[kPelvis]
+               : carrier == kOnRightFoot ? Vector3d(0.5 * (joints[kRightAnkle] + joints[kRightFoot]))
+                                         : Vector3d(0.5 * (joints[kLeftAnkle] + joints[kLeftFoot]));
+  p.z() = 0.0;
+  return p;
+}
+
+/// @param wrench  moment about the world's origin, and force
+FloorForce floor_force(const Vector6d& wrench, const Vector3d& under) {
+  const Vector3d moment = wrench.head<3>();
+  FloorForce out;
+  out.force = wrench.tail<3>();
+  out.loaded = out.force.z() >= kLeastLoad;
+  // moment = point × force + free_moment · z has this one solution with z = 0.
+  out.point = out.loaded ? Vector3d(-moment.y() / out.force.z(), moment.x() / out.force.z(), 0.0) : under;
+  out.free_moment = (moment - out.point.cross(out.force)).z();
+  return out;
+}
+
+}  // namespace
+
+std::optional<RecordedForces> recorded_forces(const motion::Clip& clip) {
+  Npz npz;
+  npz.path = clip.name;
+  for (const auto& [name, array] : clip.passthrough)
+    if (name == kGround || name == kTorques) npz.set(name, array);
+  if (npz.members().empty()) return std::nullopt;
+  const auto rows = static_cast<std::size_t>(clip.frames());
+  const output::WrenchRows ground = output::read_wrenches(npz, kGround, rows);
+  const output::VectorRows torques = output::read_joints(npz, kTorques, rows);
+  return RecordedForces{{ground}, {torques}};
+}
+
+Carrier carrier_of(int body) {
+  if (body == kRightAnkle || body == kRightFoot) return kOnRightFoot;
+  return body == kLeftAnkle || body == kLeftFoot ? kOnLeftFoot : kOnTheRest;
+}
+
+List<FloorForces> floor_forces(const PerFrame<BodyPoses>& poses, const RecordedForces& forces) {
+  List<FloorForces> out;
+  for (int t = 1; t < poses.count(); ++t) {
+    PerBody<Vector3d> joints;
+    Array<Vector6d, kCarriers> wrench;
+    wrench.fill(Vector6d::Zero());
+    for (int b = 0; b < kBodies; ++b) {
+      joints[b] = 0.5 * (poses[t - 1].p_WB[b] + poses[t].p_WB[b]);
+      const Vector6d& own = forces.ground[t][b];
+      const Vector3d force = own.tail<3>();
+      wrench[carrier_of(b)].head<3>() += own.head<3>() + joints[b].cross(force);
+      wrench[carrier_of(b)].tail<3>() += force;
+    }
+    FloorForces row;
+    for (const Carrier c : {kOnRightFoot, kOnLeftFoot, kOnTheRest})
+      row[c] = floor_force(wrench[c], under(c, joints));
+    out.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace mimicx::pipeline::exchange

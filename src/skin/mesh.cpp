@@ -1,0 +1,34 @@
+#include "skin/mesh.h"
+
+namespace mimicx::skin {
+
+PerBody<Vector3d> bind_joints(const Character& character) {
+  PerBody<Quaterniond> rest;
+  rest.fill(Quaterniond::Identity());
+  return forward_kinematics(character, Vector3d::Zero(), rest).p_WB;
+}
+
+List<Vector3d> posed_vertices(const Mesh& mesh, const Character& character, const BodyPoses& poses) {
+  const PerBody<Vector3d> bind = bind_joints(character);
+  PerBody<Matrix3d> R_WB;
+  for (int b = 0; b < kBodies; ++b) R_WB[b] = poses.q_WB[b].toRotationMatrix();
+  List<Vector3d> posed;
+  posed.reserve(mesh.vertices.size());
+  for (int v = 0; v < mesh.vertices.count(); ++v) {
+    Vector3d p = Vector3d::Zero();
+    for (int k = 0; k < kInfluences; ++k) {
+      const int b = mesh.joints[v][k];
+      p += mesh.weights[v][k] * (poses.p_WB[b] + R_WB[b] * (mesh.vertices[v] - bind[b]));
+    }
+    posed.push_back(p);
+  }
+  return posed;
+}
+
+double enclosed_volume(const List<Vector3d>& vertices, const List<Triangle>& triangles) {
+  double six = 0.0;
+  for (const Triangle& t : triangles) six += vertices[t[0]].dot(vertices[t[1]].cross(vertices[t[2]]));
+  return six / 6.0;
+}
+
+}  // namespace mimicx::skin

@@ -1,0 +1,13 @@
+/// The shapes that the simulator collides with, as a mesh: what touches, exactly where.
+///
+/// The capsules of all bodies, and the balls that the feet and insteps have beside them, each in one piece
+/// that follows its own body. (Heels and tips of the toes touch the floor in points, which have no surface.)
+#pragma once
+
+#include "skin/mesh.h"
+
+namespace mimicx::skin {
+
+Mesh collision_shapes(const Character& character);
+
+}  // namespace mimicx::skin
