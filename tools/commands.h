@@ -35,6 +35,7 @@ void declare_corrupt(CommandLine& line);
 void declare_audit(CommandLine& line);
 void declare_export_mjcf(CommandLine& line);
 void declare_synth(CommandLine& line);
+void declare_merge(CommandLine& line);
 void declare_config(CommandLine& line);
 
 }  // namespace mimicx::tools

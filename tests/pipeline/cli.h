@@ -48,9 +48,9 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-inline constexpr const char* kCommands[] = {"run",     "plan",    "pretrain", "adapt",       "imitate",
-                                            "fit",     "cluster", "evaluate", "info",        "convert",
-                                            "corrupt", "audit",   "synth",    "export-mjcf", "config"};
+inline constexpr const char* kCommands[] = {
+    "run",  "plan",    "pretrain", "adapt", "imitate", "fit",         "cluster", "evaluate",
+    "info", "convert", "corrupt",  "audit", "synth",   "export-mjcf", "config",  "merge"};
 
 struct Cli : testing::Test {
   std::string path(const std::string& name) const { return (folder.path / name).string(); }
