@@ -104,10 +104,14 @@ std::string encode_capsules(const Character& character, const std::vector<BodyPo
 }
 
 std::string format_report(const std::vector<ReportSequence>& sequences) {
-  record::Json data = {{"sequences", record::Json::array()}};
-  for (const auto& s : sequences) data["sequences"].push_back(to_json(s));
+  return format_report(sequences.size(), [&](std::size_t i) { return sequences[i]; });
+}
+
+std::string format_report(std::size_t count, const std::function<ReportSequence(std::size_t)>& sequence) {
+  std::string text = "{\"sequences\":[";
+  for (std::size_t i = 0; i < count; ++i) text.append(i > 0 ? "," : "").append(to_json(sequence(i)).dump());
+  text += "]}";
   // A "</script>" in a file name must not end the element that holds the data.
-  std::string text = data.dump();
   for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
     text.replace(at, 2, "<\\/");
   return std::string(kReportPageBefore) + text + std::string(kReportPageAfter);

@@ -6,6 +6,8 @@
 /// page that needs no rotations. It does not compute anything: numbers arrive as they are to be shown.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +57,8 @@ struct ReportSequence {
 };
 
 std::string format_report(const std::vector<ReportSequence>& sequences);
+/// The same of sequences that are made one by one, so that 10,000 need not be held at once.
+std::string format_report(std::size_t count, const std::function<ReportSequence(std::size_t)>& sequence);
 
 /// Ends of every capsule in mm, [frame][body][2][3] little-endian int16, in base64. Exposed for its test.
 std::string encode_capsules(const Character& character, const std::vector<BodyPoses>& poses);

@@ -198,13 +198,12 @@ record::SequenceEntry without_motion(record::SequenceEntry entry) {
 }  // namespace
 
 void write_report(const record::RunFolder& folder, const record::Manifest& manifest) {
-  std::vector<ReportSequence> sequences;
   const std::vector<bool> show = shown(manifest.sequences);
-  for (std::size_t i = 0; i < show.size(); ++i) {
+  const std::string page = format_report(manifest.sequences.size(), [&](std::size_t i) {
     const record::SequenceEntry& entry = manifest.sequences[i];
-    sequences.push_back(sequence_or_reason(folder, show[i] ? entry : without_motion(entry)));
-  }
-  write_file_atomically(folder.report(), format_report(sequences));
+    return sequence_or_reason(folder, show[i] ? entry : without_motion(entry));
+  });
+  write_file_atomically(folder.report(), page);
 }
 
 }  // namespace mimicx::pipeline::report
