@@ -12,7 +12,7 @@ namespace {
 struct Arguments {
   pipeline::AdaptConfig config = pipeline::adapt_configuration();
   std::filesystem::path options;
-  std::vector<std::string> settings;
+  RunArguments more;
 };
 
 /// data/options of the source tree that holds this program, or of the folder it was started in.
@@ -53,14 +53,17 @@ void declare_adapt(CommandLine& line) {
                  "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
                  "fine-tuned, minutes per motion; auto: the plan, and only where it fails the paper's "
                  "method, whose training then takes minutes; the better of the two is kept");
-  add_run_arguments(command, a->config.run, a->settings);
+  add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);
   add_gains_argument(command, a->config.run);
   command.path("--options", a->options,
                "trained options: a file, or a folder with options.npz; default: those in data/options");
   add_arrangement_arguments(command, a->config.arrangement);
-  command.action([a] { return adapt_motions(a->config, a->options, a->settings); });
+  command.action([a] {
+    take_shard(a->more.shard, a->config.run);
+    return adapt_motions(a->config, a->options, a->more.settings);
+  });
 }
 
 }  // namespace mimicx::tools

@@ -250,6 +250,11 @@ Option Command::flag(const std::string& yes, bool& value, const std::string& hel
       no.empty() ? yes : yes + ",!" + no, [&value](std::int64_t count) { value = count > 0; }, help));
 }
 
+Option Command::text(const std::string& name, const std::function<void(const std::string&)>& take,
+                     const std::string& form, const std::string& help) {
+  return Option(add_single(app_, name, form, take, help));
+}
+
 Option Command::texts(const std::string& name, std::vector<std::string>& values, const std::string& form,
                       const std::string& help) {
   return Option(add_many(

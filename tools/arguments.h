@@ -99,6 +99,9 @@ class Command {
   /// @param no  the name that makes the value false; empty: none
   Option flag(const std::string& yes, bool& value, const std::string& help, const std::string& no = {});
 
+  /// A text that `take` understands. @param form  what it looks like, for the help
+  Option text(const std::string& name, const std::function<void(const std::string&)>& take,
+              const std::string& form, const std::string& help);
   /// Any text, and again for the next one. @param form  what it looks like, for the help
   Option texts(const std::string& name, std::vector<std::string>& values, const std::string& form,
                const std::string& help);

@@ -10,11 +10,12 @@ namespace {
 
 struct Arguments {
   pipeline::ImitateConfig config = pipeline::imitate_configuration();
-  std::vector<std::string> settings;
+  RunArguments more;
 };
 
 int imitate_motions(Arguments a) {
-  apply_settings(a.settings, a.config.training);
+  take_shard(a.more.shard, a.config.run);
+  apply_settings(a.more.settings, a.config.training);
   return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(a.config.run, context, [&] { return pipeline::imitate(a.config, context); });
   });
@@ -28,7 +29,7 @@ void declare_imitate(CommandLine& line) {
       "imitate", "Train a simulated character to follow each motion, from nothing",
       "mimicx imitate clip.npz                             # clip.clean.npz beside it, after minutes\n"
       "mimicx imitate DIR --fit --samples 3M --out out/run   # a folder, each on its keypoints first");
-  add_run_arguments(command, a->config.run, a->settings);
+  add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--samples");
   command.flag("--fit", a->config.run.fit, "move motions onto their keypoints first, where they have any");
   add_as_is(command, a->config.run);

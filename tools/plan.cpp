@@ -10,11 +10,12 @@ namespace {
 
 struct Arguments {
   pipeline::PlanMotionsConfig config = pipeline::plan_configuration();
-  std::vector<std::string> settings;
+  RunArguments more;
 };
 
 int plan(Arguments a) {
-  apply_settings(a.settings, a.config.planning);
+  take_shard(a.more.shard, a.config.run);
+  apply_settings(a.more.settings, a.config.planning);
   return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(a.config.run, context, [&] { return pipeline::plan_motions(a.config, context); });
   });
@@ -28,7 +29,7 @@ void declare_plan(CommandLine& line) {
       "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out",
       "mimicx plan clip.bvh                    # clip.clean.bvh beside it, after seconds\n"
       "mimicx plan DIR --out out/run --gains   # every motion in a folder, with feedback gains");
-  add_run_arguments(command, a->config.run, a->settings);
+  add_run_arguments(command, a->config.run, a->more);
   add_fit_arguments(command, a->config.run);
   add_gains_argument(command, a->config.run);
   command.action([a] { return plan(*a); });

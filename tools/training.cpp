@@ -1,11 +1,13 @@
 #include "training.h"
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 
 #include "commands.h"
 #include "numbers.h"
 #include "pipeline/inputs.h"
+#include "pipeline/record/shard.h"
 #include "pipeline/run_outputs.h"
 #include "shared_arguments.h"
 
@@ -63,7 +65,7 @@ void for_each_setting(const std::vector<std::string>& settings,
   }
 }
 
-void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<std::string>& settings) {
+void add_run_arguments(Command& command, pipeline::RunConfig& run, RunArguments& more) {
   command.files("FILE", run.inputs, "motions and folders of them");
   command.path("--out", run.out,
                "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
@@ -80,10 +82,25 @@ void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<s
   command.number("--jobs", run.jobs, kFromZero,
                  "motions done side by side, each by its share of the threads; the results are the same; "
                  "0: as many as threads");
+  command.text(
+      "--shard", [&more](const std::string& text) { more.shard = text; }, "I/N|whole",
+      "do part I of N (from 0 on) of the motions, for N machines with the same --out; then `mimicx merge`; "
+      "default: as the task of a Slurm array says, else whole");
   command.number("--limit-seconds", run.limit_seconds, kPositive,
                  "safety stop per motion: ends its plan or training early, makes the result depend on the "
                  "machine, and is recorded as such");
-  add_settings(command, settings);
+  add_settings(command, more.settings);
+}
+
+void take_shard(const std::string& asked, pipeline::RunConfig& run) try {
+  if (asked == "whole") return;
+  if (asked.empty() && run.out.empty()) return;  // each motion is a run of its own
+  run.shard = asked.empty()
+                  ? pipeline::record::shard_of_array([](const char* name) { return std::getenv(name); })
+                  : pipeline::record::parse_shard(asked);
+  if (run.out.empty()) throw UsageError("--shard: goes with --out, the folder that all parts share");
+} catch (const std::invalid_argument& error) {
+  throw UsageError(error.what());
 }
 
 void add_training_arguments(Command& command, pipeline::TrainingConfig& training,

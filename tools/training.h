@@ -28,8 +28,17 @@ void apply_settings(const std::vector<std::string>& settings, Config& config) {
       [&] { pipeline::check(config); });
 }
 
+/// What a run over motions is told beside its configuration.
+struct RunArguments {
+  std::vector<std::string> settings;  ///< NAME=NUMBER each
+  std::string shard;                  ///< I/N or "whole"; empty: what the environment says
+};
 /// The arguments of every run over motions.
-void add_run_arguments(Command& command, pipeline::RunConfig& run, std::vector<std::string>& settings);
+void add_run_arguments(Command& command, pipeline::RunConfig& run, RunArguments& more);
+/// The part of the run that is done here, as asked for; else, where there is an --out, that of the Slurm
+/// array whose task this is.
+/// @throws UsageError for what is no part
+void take_shard(const std::string& asked, pipeline::RunConfig& run);
 /// Those of a run that trains. @param samples  name of the argument for the budget
 void add_training_arguments(Command& command, pipeline::TrainingConfig& training, const std::string& samples);
 /// --as-is.

@@ -63,9 +63,9 @@ void claim_run(const record::RunFolder& folder, const std::map<std::string, std:
     if (std::filesystem::is_directory(path, none)) return;  // its sequence fails, and says why
     continued ? outputs.claim_own(path) : outputs.claim(path);
   };
-  for (const std::filesystem::path& path :
-       {folder.manifest(), folder.journal(), folder.timing(), folder.report()})
+  for (const std::filesystem::path& path : {folder.manifest(), folder.journal(), folder.timing()})
     claim(path);
+  if (!folder.is_part()) claim(folder.report());  // a part has none
   for (const auto& [input, name] : names) {
     for (const std::filesystem::path& path : folder.files_of(name)) claim(path);
     claim(folder.report_clip(name));

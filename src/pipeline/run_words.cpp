@@ -101,7 +101,7 @@ std::string result_line(const record::SequenceEntry& entry) {
 }
 
 std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entries, double seconds,
-                                 const std::string& report) {
+                                 const std::string& next) {
   const auto done = std::count_if(entries.begin(), entries.end(), [](const auto& entry) { return entry.ok; });
   std::vector<std::string> lines = {std::to_string(done) + " of " + std::to_string(entries.size()) +
                                     " motions are ok: " + duration_of_motions(entries) + " of motion in " +
@@ -118,7 +118,7 @@ std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entri
   }
   const std::string failed = failures(entries);
   if (!failed.empty()) lines.push_back("  failed: " + failed);
-  lines.push_back("  to look at: " + report);
+  lines.push_back("  " + next);
   return lines;
 }
 

@@ -14,8 +14,8 @@ namespace mimicx::pipeline {
 std::string result_line(const record::SequenceEntry& entry);
 
 /// At most eight lines on the motions of a run: how many came out, what became better in the median, which
-/// failed and where to look. @param seconds  that this command took
+/// failed. @param seconds  that this command took  @param next  what to do now
 std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entries, double seconds,
-                                 const std::string& report);
+                                 const std::string& next);
 
 }  // namespace mimicx::pipeline

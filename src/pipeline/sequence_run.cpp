@@ -7,7 +7,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -21,12 +20,10 @@
 #include "pipeline/output/clean_copy.h"
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
-#include "pipeline/record/folder_lock.h"
-#include "pipeline/record/journal.h"
-#include "pipeline/record/timing.h"
 #include "pipeline/reference_needs.h"
 #include "pipeline/report/run_report.h"
 #include "pipeline/run_outputs.h"
+#include "pipeline/run_state.h"
 #include "pipeline/run_words.h"
 #include "pipeline/scores.h"
 #include "pipeline/sequence_result.h"
@@ -34,23 +31,9 @@
 namespace mimicx::pipeline {
 namespace {
 
-constexpr std::size_t kDifferencesSaid = 4;  ///< between the settings of two runs
-
 /// Between reports while a run goes on: s, and in parts of the time that the last one took. A report reads
 /// all motions; so it costs a hundredth of the time, however many there are.
 constexpr double kReportSeconds = 30.0, kReportShare = 100.0;
-
-struct RunState {
-  const RunConfig& config;
-  const Method& method;
-  const record::RunContext& context;
-  record::RunFolder folder;
-  record::Manifest manifest;
-  std::vector<record::Timing> timings;
-  std::vector<std::string> inputs = {};           ///< as the manifest spells them
-  std::map<std::string, std::string> names = {};  ///< of the inputs, in the folder
-  record::Journal journal{folder.journal()};
-};
 
 /// One motion at work: the run, and what is this motion's own. Several work side by side; then `run` is only
 /// read, but for what `publish` changes under its lock.
@@ -59,85 +42,6 @@ struct Worker {
   record::RunContext context;
   int threads;
 };
-
-record::Manifest manifest_of(const RunConfig& config, const Method& method) {
-  record::Manifest manifest;
-  manifest.version = MIMICX_VERSION;
-  manifest.target = MIMICX_TARGET;
-  manifest.seed = method.seed;
-  manifest.samples = method.samples;
-  manifest.method = method.name;
-  manifest.settings = method.settings;
-  manifest.options = method.options;
-  manifest.reading = config.read.text();
-  return manifest;
-}
-
-/// The folder's own manifest where it is one of this run's settings; a new one where there is none.
-record::Manifest open_manifest(const RunConfig& config, const Method& method,
-                               const record::RunFolder& folder) {
-  std::set<std::string> seen;
-  for (const std::string& input : config.inputs)
-    if (!seen.insert(input).second) throw std::invalid_argument(input + " is given twice");
-  record::Manifest manifest = manifest_of(config, method);
-  if (!std::filesystem::exists(folder.manifest())) return manifest;
-  record::Manifest there = record::read_manifest(folder.manifest());
-  if (there.samples > 0 && there.samples < manifest.samples && manifest.differences(there, true).empty())
-    there.samples = manifest.samples;  // the trainings go on
-  const std::vector<std::string> differences = manifest.differences(there);
-  if (differences.empty()) return there;
-  std::string said;
-  for (std::size_t k = 0; k < std::min(differences.size(), kDifferencesSaid); ++k)
-    said += (k > 0 ? "; " : "") + differences[k];
-  if (differences.size() > kDifferencesSaid)
-    said += "; and " + std::to_string(differences.size() - kDifferencesSaid) + " more";
-  throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" + said +
-                              "): give another folder, or remove it first");
-}
-
-/// The run as its folder knows it, or a new one.
-RunState open_run(const RunConfig& config, const Method& method, const record::RunContext& context,
-                  const record::RunFolder& folder) {
-  RunState run{config,
-               method,
-               context,
-               folder,
-               open_manifest(config, method, folder),
-               record::read_timing(folder.timing())};
-  if (std::filesystem::exists(folder.manifest()))
-    record::replay_journal(folder.journal(), run.manifest, run.timings);
-  run.inputs = as_recorded(config.inputs, run.manifest);
-  run.names = sequence_names(run.inputs, config.names, run.manifest);
-  return run;
-}
-
-/// Puts the entries of this command's inputs behind all others, in the inputs' order, whichever was done
-/// first.
-void order_entries(RunState& run) {
-  std::map<std::string, std::size_t> place;
-  for (const std::string& input : run.inputs) place.emplace(input, place.size() + 1);
-  const auto place_of = [&](const record::SequenceEntry& entry) {
-    const auto found = place.find(entry.input);
-    return found == place.end() ? std::size_t{0} : found->second;
-  };
-  std::stable_sort(run.manifest.sequences.begin(), run.manifest.sequences.end(),
-                   [&](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
-}
-
-/// Everything that is known, in manifest and times instead of the journal.
-void write_records(RunState& run) {
-  order_entries(run);
-  write_file_atomically(run.folder.manifest(), record::format_manifest(run.manifest));
-  write_file_atomically(run.folder.timing(), record::format_timing(run.timings, run.manifest.sequences));
-  run.journal.clear();
-}
-
-record::Timing& timing_of(RunState& run, const std::string& name) {
-  for (auto& t : run.timings)
-    if (t.name == name) return t;
-  run.timings.push_back({name});
-  return run.timings.back();
-}
 
 Correction correction_of(const RunConfig& config) {
   if (config.as_is) return Correction::kNone;
@@ -362,8 +266,10 @@ class SideBySide {
     std::vector<record::SequenceEntry> entries;
     for (const std::string& input : run_.inputs)
       if (const record::SequenceEntry* entry = run_.manifest.find(input)) entries.push_back(*entry);
-    for (const std::string& line :
-         summary(entries, record::steady_seconds() - begun_, run_.folder.report().string()))
+    const std::string next = run_.folder.is_part()
+                                 ? "when all parts are done: mimicx merge " + run_.folder.root.string()
+                                 : "to look at: " + run_.folder.report().string();
+    for (const std::string& line : summary(entries, record::steady_seconds() - begun_, next))
       run_.context.messages << line << '\n';
   }
 
@@ -377,7 +283,7 @@ class SideBySide {
   void report() {
     const double begun = record::steady_seconds();
     write_records(run_);
-    report::write_report(run_.folder, run_.manifest);
+    if (!run_.folder.is_part()) report::write_report(run_.folder, run_.manifest);
     const double now = record::steady_seconds();
     next_report_ = now + std::max(kReportSeconds, kReportShare * (now - begun));
   }
@@ -426,9 +332,13 @@ NamedValues settings_of(const RunConfig& config) {
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context) {
-  const record::RunFolder folder{config.out};
-  const record::FolderLock lock(folder.root);
-  RunState run = open_run(config, method, context, folder);
+  const std::optional<record::ShardList> list = shard_list_of(config, method);
+  check_folder(config, list);
+  const record::RunFolder folder =
+      list ? record::shard_folder(config.out, *config.shard) : record::RunFolder{config.out};
+  const RunLocks locks(folder);
+  if (list) record::agree_on(*list, folder);
+  RunState run = open_run(config, method, context, folder, list);
   std::vector<std::string> protect = config.protect;
   protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
   record::Outputs outputs(protect, config.force);
@@ -436,6 +346,9 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   folder.create();
   write_records(run);
   const int count = static_cast<int>(run.inputs.size());
+  if (list)
+    context.messages << "shard " << config.shard->index << '/' << config.shard->count << ": " << count
+                     << " of " << list->inputs.size() << " motions\n";
   const int jobs = std::clamp(config.jobs > 0 ? config.jobs : config.threads, 1, std::max(count, 1));
   SideBySide work(run, jobs);
   parallel_for(count, jobs, [&](int i) { work.on(i); });

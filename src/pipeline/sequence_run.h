@@ -9,72 +9,15 @@
 /// with its reason and the others go on. Every input is recorded when it is done (record/journal.h), so the
 /// same command continues a run that was interrupted: finished inputs are kept, a begun one is handed to the
 /// method again, and the files end up the same bytes as if nothing had happened. Every success is also
-/// written in its input's own format (clean_copy.h).
+/// written in its input's own format (clean_copy.h). Several machines may each do a part (merge.h).
 ///
 /// What it never does: open any ground truth.
 #pragma once
 
-#include <array>
-#include <filesystem>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "motion/import/motion_file.h"
-#include "pipeline/audit/pose_needs.h"
 #include "pipeline/record/manifest.h"
-#include "pipeline/record/run_context.h"
-#include "pipeline/record/run_folder.h"
-#include "pipeline/simulated_sequence.h"
+#include "pipeline/run_config.h"
 
 namespace mimicx::pipeline {
-
-/// The settings that every run has, whatever its method.
-struct RunConfig {
-  std::vector<std::string> inputs;  ///< as given; recorded as such
-  /// What inputs shall be called in the folder ("CMU/01/walk"); others go by their file names.
-  std::map<std::string, std::string> names = {};
-  std::filesystem::path out;
-  motion::import::ReadConfig read;
-  bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
-  bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
-  bool force = false;       ///< overwrite files that no run made
-  std::vector<std::string> protect;  ///< inputs of the same command that belong to other runs
-  bool substeps = false;  ///< also write every physics step of the result; finished motions get theirs too
-  bool gains = false;     ///< also write the feedback gains of plans; finished ones get theirs, too
-  bool fit = false;    ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
-  bool as_is = false;  ///< correct nothing (Correction::kNone), whatever `fit` says
-  bool quiet = false;  ///< tell only what went wrong
-  int threads = 1;
-  int jobs = 1;  ///< motions done side by side, each by its share of the threads; 0: as many as threads
-  double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
-};
-
-/// One motion of a run, for the method that simulates it.
-struct SequenceJob {
-  std::string name;            ///< key of the sequence's files in the folder
-  std::string input_checksum;  ///< a checkpoint of another input is not taken up
-  record::RunFolder folder;
-  bool substeps = false;  ///< record every physics step of the result
-  bool gains = false;     ///< leave the feedback gains of a plan
-  int threads = 1;
-  double limit_seconds = 0.0;     ///< safety stop; 0: none
-  const audit::PoseNeeds& needs;  ///< of the reference; without frames under 3
-  const record::RunContext& context;
-};
-
-/// A way of making the humanoid follow a motion, with everything that its results depend on.
-struct Method {
-  std::string name;  ///< imitate, plan, paper or auto
-  std::uint64_t seed = 0;
-  std::int64_t samples = 0;              ///< budget per motion
-  NamedValues settings;                  ///< as the manifest lists them, those of the RunConfig among them
-  std::string options;                   ///< checksum of the trained options; empty without
-  physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
-  std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;
-};
 
 /// The settings of a run on which its results depend, whatever the method.
 NamedValues settings_of(const RunConfig& config);

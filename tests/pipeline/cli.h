@@ -49,8 +49,8 @@ inline std::vector<std::string> lines_of(const std::string& text) {
 }
 
 inline constexpr const char* kCommands[] = {
-    "run",  "plan",    "pretrain", "adapt", "imitate", "fit",   "cluster",     "evaluate",
-    "info", "convert", "corrupt",  "audit", "report",  "synth", "export-mjcf", "config"};
+    "run",     "plan",    "pretrain", "adapt",  "imitate", "fit",         "cluster", "evaluate", "info",
+    "convert", "corrupt", "audit",    "report", "synth",   "export-mjcf", "config",  "merge"};
 
 struct Cli : testing::Test {
   std::string path(const std::string& name) const { return (folder.path / name).string(); }

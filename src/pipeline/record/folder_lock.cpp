@@ -12,12 +12,15 @@
 
 namespace mimicx::pipeline::record {
 
-FolderLock::FolderLock(const std::filesystem::path& folder) {
+FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold, const std::string& file) {
   make_folder(folder);
-  descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const std::filesystem::path path = file.empty() ? folder : folder / file;
+  descriptor_ = file.empty() ? open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                             : open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
-    throw DataError(folder.string(), "", "a folder", std::generic_category().message(errno));
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    throw DataError(path.string(), "", file.empty() ? "a folder" : "a writable file",
+                    std::generic_category().message(errno));
+  if (flock(descriptor_, (hold == Hold::kAlone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
     return;  // some systems have no locks
   close(descriptor_);
   throw OutputRefused(folder.string() + ": another mimicx is writing to this folder");

@@ -12,6 +12,8 @@
 namespace mimicx::pipeline::record {
 namespace {
 
+constexpr std::size_t kDifferencesSaid = 4;  ///< between the settings of two runs
+
 /// Every setting by its name, as text.
 std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
   std::vector<std::pair<std::string, std::string>> texts = {{"version", m.version},
@@ -58,35 +60,70 @@ void Manifest::put(const SequenceEntry& entry) {
   sequences.push_back(entry);
 }
 
+void Manifest::order(const std::vector<std::string>& inputs) {
+  std::map<std::string, std::size_t> place;
+  for (const std::string& input : inputs) place.emplace(input, place.size() + 1);
+  const auto place_of = [&](const SequenceEntry& entry) {
+    const auto found = place.find(entry.input);
+    return found == place.end() ? std::size_t{0} : found->second;
+  };
+  std::stable_sort(sequences.begin(), sequences.end(),
+                   [&](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
+}
+
+std::string in_words(const std::vector<std::string>& differences) {
+  std::string said;
+  for (std::size_t k = 0; k < std::min(differences.size(), kDifferencesSaid); ++k)
+    said += (k > 0 ? "; " : "") + differences[k];
+  if (differences.size() > kDifferencesSaid)
+    said += "; and " + std::to_string(differences.size() - kDifferencesSaid) + " more";
+  return said;
+}
+
+Json run_json(const Manifest& manifest) {
+  return {{"version", manifest.version},
+          {"target", manifest.target},
+          {"seed", manifest.seed},
+          {"samples", manifest.samples},
+          {"method", manifest.method},
+          {"options", manifest.options},
+          {"reading", to_utf8(manifest.reading)},
+          {"settings", to_json(manifest.settings)}};
+}
+
+Manifest run_of(const Json& run) {
+  Manifest manifest;
+  manifest.version = run.at("version").get<std::string>();
+  manifest.target = run.at("target").get<std::string>();
+  manifest.seed = run.at("seed");
+  manifest.samples = run.at("samples");
+  manifest.method = run.value("method", "").get<std::string>();
+  manifest.options = run.at("options").get<std::string>();
+  manifest.reading = from_utf8(run.value("reading", "").get<std::string>());
+  manifest.settings = named_values(run.at("settings"));
+  return manifest;
+}
+
 std::string format_manifest(const Manifest& manifest) {
-  Json json = {{"run",
-                {{"version", manifest.version},
-                 {"target", manifest.target},
-                 {"seed", manifest.seed},
-                 {"samples", manifest.samples},
-                 {"method", manifest.method},
-                 {"options", manifest.options},
-                 {"reading", to_utf8(manifest.reading)},
-                 {"settings", to_json(manifest.settings)}}},
-               {"sequences", Json::array()}};
-  for (const auto& e : manifest.sequences) json["sequences"].push_back(to_json(e));
-  return json.dump(1) + "\n";
+  const Json json = {{"run", run_json(manifest)}, {"sequences", Json::array()}};
+  std::string text = json.dump(1);
+  if (manifest.sequences.empty()) return text + "\n";
+  text.resize(text.rfind(']'));  // entry by entry: the tree of 10,000 takes more memory than all else
+  for (const SequenceEntry& e : manifest.sequences) {
+    text += &e == &manifest.sequences.front() ? "\n  " : ",\n  ";
+    for (const char c : to_json(e).dump(1)) {
+      text += c;
+      if (c == '\n') text += "  ";
+    }
+  }
+  return text + "\n ]\n}\n";
 }
 
 Manifest read_manifest(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   try {
     const Json json = Json::parse(text);
-    const Json& run = json.at("run");
-    Manifest manifest;
-    manifest.version = run.at("version").get<std::string>();
-    manifest.target = run.at("target").get<std::string>();
-    manifest.seed = run.at("seed");
-    manifest.samples = run.at("samples");
-    manifest.method = run.value("method", "").get<std::string>();
-    manifest.options = run.at("options").get<std::string>();
-    manifest.reading = from_utf8(run.value("reading", "").get<std::string>());
-    manifest.settings = named_values(run.at("settings"));
+    Manifest manifest = run_of(json.at("run"));
     for (const Json& e : json.at("sequences").elements()) manifest.sequences.push_back(entry_of(e));
     return manifest;
   } catch (const JsonError& error) {

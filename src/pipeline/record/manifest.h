@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/named_values.h"
+#include "pipeline/record/json.h"
 #include "pipeline/record/sequence_entry.h"
 
 namespace mimicx::pipeline::record {
@@ -34,7 +35,16 @@ struct Manifest {
   const SequenceEntry* find(const std::string& input) const;
   /// Replaces the entry of the same input, or appends.
   void put(const SequenceEntry& entry);
+  /// Puts the entries of these inputs behind all others, in the order of the inputs.
+  void order(const std::vector<std::string>& inputs);
 };
+
+/// The first few of what `Manifest::differences` found, in a line.
+std::string in_words(const std::vector<std::string>& differences);
+
+/// Of all but the sequences; and back. @throws JsonError
+Json run_json(const Manifest& manifest);
+Manifest run_of(const Json& run);
 
 std::string format_manifest(const Manifest& manifest);
 /// @throws DataError when the file is not a manifest.

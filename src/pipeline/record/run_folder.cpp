@@ -1,6 +1,5 @@
 #include "pipeline/record/run_folder.h"
 
-#include <cstdint>
 #include <cstdio>
 #include <system_error>
 
@@ -14,7 +13,8 @@ void RunFolder::create() const {
 }
 
 bool holds_run(const std::filesystem::path& folder) {
-  return is_own_file(folder / "manifest.json", "{\n \"run\"");
+  return is_own_file(folder / "manifest.json", "{\n \"run\"") ||
+         is_own_file(folder / "shards" / "run.json", "{\n \"run\"");
 }
 
 std::string unique_name(const std::string& wanted, const std::set<std::string>& taken) {
@@ -23,11 +23,15 @@ std::string unique_name(const std::string& wanted, const std::set<std::string>& 
   return name;
 }
 
-std::string file_checksum(const std::filesystem::path& path) {
+std::uint64_t fnv1a(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (char c : read_file(path)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  for (char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+std::string file_checksum(const std::filesystem::path& path) {
   char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fnv1a(read_file(path))));
   return text;
 }
 

@@ -19,13 +19,18 @@
 ///     DIR/training/NAME.csv      a row per iteration
 ///     DIR/training/NAME.falls.csv  falls over the clip's own time
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
+///     DIR/shards/                of a run in parts (shard.h): what its parts agreed on, and a folder per
+///     part
+///                                with its manifest, journal and times; all else stands where it always does
 ///
 /// Files are written to a temporary name and renamed: a reader sees the old file or the new one.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/file.h"
@@ -34,10 +39,11 @@ namespace mimicx::pipeline::record {
 
 struct RunFolder {
   std::filesystem::path root;
+  std::filesystem::path records = {};  ///< of a part of the run: where manifest, journal and times stand
 
-  std::filesystem::path manifest() const { return root / "manifest.json"; }
-  std::filesystem::path journal() const { return root / "journal.jsonl"; }
-  std::filesystem::path timing() const { return root / "timing.json"; }
+  std::filesystem::path manifest() const { return record_root() / "manifest.json"; }
+  std::filesystem::path journal() const { return record_root() / "journal.jsonl"; }
+  std::filesystem::path timing() const { return record_root() / "timing.json"; }
   std::filesystem::path report() const { return root / "report.html"; }
   std::filesystem::path report_clip(const std::string& name) const {
     return root / "report" / (name + ".js");
@@ -90,19 +96,25 @@ struct RunFolder {
     return (success ? "motions/" : "rejected/") + name + ".npz";
   }
 
+  bool is_part() const { return !records.empty(); }
+  const std::filesystem::path& record_root() const { return is_part() ? records : root; }
+
   /// Makes the folders that every run fills; the others are made by those who fill them.
   /// @throws DataError when they cannot be made
   void create() const;
 };
 
-/// Whether a folder is that of a run, of whatever command.
+/// Whether a folder is that of a run, of whatever command, whole or in parts.
 bool holds_run(const std::filesystem::path& folder);
 
 /// A name inside the folder, numbered from the second of the same name on ("walk", "walk-2").
 /// @param taken  names given before
 std::string unique_name(const std::string& wanted, const std::set<std::string>& taken);
 
-/// 64-bit FNV-1a of a file's bytes in hexadecimal: tells an input that changed. Not cryptographic.
+/// 64-bit FNV-1a: the same number for the same bytes on every machine. Not cryptographic.
+std::uint64_t fnv1a(std::string_view bytes);
+
+/// `fnv1a` of a file's bytes in hexadecimal: tells an input that changed.
 /// @throws DataError when the file cannot be read.
 std::string file_checksum(const std::filesystem::path& path);
 

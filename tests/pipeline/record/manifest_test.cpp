@@ -51,6 +51,28 @@ TEST(Manifest, ReadsBackAsTheSameBytes) {
   EXPECT_TRUE(std::isnan(back.sequences.at(0).metrics.at(1).second));
 }
 
+TEST(Manifest, IsLaidOutAsOneDocumentHoweverManyEntriesItHas) {
+  Manifest m = example();
+  for (const std::size_t count : {0u, 1u, 3u}) {
+    m.sequences.resize(count, example().sequences[0]);
+    const std::string text = format_manifest(m);
+    EXPECT_EQ(Json::parse(text).dump(1) + "\n", text) << count;
+  }
+}
+
+TEST(Manifest, EntriesOfInputsAreOrderedBehindAllOthers) {
+  Manifest m = example();
+  for (const char* input : {"c", "b", "x", "a"}) {
+    SequenceEntry e;
+    e.input = input;
+    m.put(e);
+  }
+  m.order({"a", "b", "c", "not there"});
+  std::string inputs;
+  for (std::size_t i = 1; i < m.sequences.size(); ++i) inputs += m.sequences[i].input;
+  EXPECT_EQ(inputs, "xabc");
+}
+
 TEST(Manifest, KeepsOneEntryPerInput) {
   Manifest m = example();
   SequenceEntry again = m.sequences[0];

@@ -1,0 +1,89 @@
+#include "pipeline/merge.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "commands.h"
+#include "shared_arguments.h"
+
+namespace mimicx::tools {
+namespace {
+
+constexpr std::size_t kNamesSaid = 3;  ///< of motions that are missing
+
+struct Arguments {
+  std::filesystem::path out;
+  bool missing = false, json = false, force = false;
+};
+
+/// What is missing, and how it is done.
+void tell_missing(const Arguments& a, const pipeline::GatheredShards& gathered) {
+  const std::string out = a.out.string(), count = std::to_string(gathered.list.count),
+                    array = missing_array(gathered);
+  std::cerr << out << ": " << gathered.missing.size() << " of " << gathered.list.inputs.size()
+            << " motions are missing, of shards " << array << " of " << count << ":";
+  for (std::size_t i = 0; i < std::min(kNamesSaid, gathered.missing.size()); ++i)
+    std::cerr << (i > 0 ? ", " : " ") << gathered.missing[i].input.input;
+  if (gathered.missing.size() > kNamesSaid)
+    std::cerr << " and " << gathered.missing.size() - kNamesSaid << " more";
+  std::cerr << "\n  the run's command with --shard " << gathered.missing.front().shard << '/' << count
+            << " and so on does them; under Slurm: sbatch --array=" << array
+            << " tools/slurm/mimicx.sbatch, and what stood behind it\n";
+}
+
+void print_missing(const pipeline::GatheredShards& gathered) {
+  if (gathered.missing.empty()) return;
+  std::cout << "--array=" << missing_array(gathered) << '\n';
+  for (const pipeline::MissingInput& missing : gathered.missing) std::cout << missing.input.input << '\n';
+}
+
+std::string merged_line(const Arguments& a, const pipeline::GatheredShards& gathered) {
+  const auto& entries = gathered.manifest.sequences;
+  const auto ok = std::count_if(entries.begin(), entries.end(), [](const auto& e) { return e.ok; });
+  return a.out.string() + ": " + std::to_string(entries.size()) + " motions of " +
+         std::to_string(gathered.list.count) + " shards, " + std::to_string(ok) + " ok, " +
+         std::to_string(static_cast<std::ptrdiff_t>(entries.size()) - ok) + " failed; look at " +
+         (a.out / "report.html").string() + "\n";
+}
+
+int merge(const Arguments& a) try {
+  const pipeline::RunLocks locks = pipeline::lock_shards(a.out);
+  pipeline::GatheredShards gathered = pipeline::gather_shards(a.out);
+  if (a.json) std::cout << pipeline::merge_json(gathered);
+  if (a.missing && !a.json) print_missing(gathered);
+  if (!gathered.missing.empty()) {
+    if (!a.missing) tell_missing(a, gathered);
+    return kSomeFailed;
+  }
+  if (a.missing) return kAllGood;
+  const std::string line = merged_line(a, gathered);
+  pipeline::write_merged(a.out, std::move(gathered), a.force);
+  std::cerr << line;
+  return kAllGood;
+} catch (const std::invalid_argument& error) {
+  throw UsageError(error.what());
+}
+
+}  // namespace
+
+void declare_merge(CommandLine& line) {
+  const auto a = std::make_shared<Arguments>();
+  Command command =
+      line.add("merge", "Put the parts of a run together that several machines did (--shard I/N)",
+               "mimicx merge out/run             # manifest and report, as of a run on one machine\n"
+               "mimicx merge out/run --missing   # which shards and files are still to be done",
+               "Exit status: 0 all is there, 1 something is missing: nothing is written then.");
+  command.file("OUT", a->out, "folder of the run");
+  command.flag(
+      "--missing", a->missing,
+      "write nothing: print what is missing, a line as Slurm's sbatch takes it (--array=3,5-7), then "
+      "the files");
+  command.flag("--json", a->json, "print numbers, and what is missing, as JSON");
+  add_force(command, a->force);
+  command.action([a] { return merge(*a); });
+}
+
+}  // namespace mimicx::tools
