@@ -71,19 +71,20 @@ TEST_F(CliShards, AnyNumberInAnyOrderMergesIntoTheBytesOfTheRunOnOneMachine) {
 }
 
 TEST_F(CliShards, AKilledOneGoesOnAndTheBytesAreTheSame) {
+  motion::write_clip(path("in/2/a.npz"), standing_clip(90));  // long after the first of its part is done
   ASSERT_EQ(mimicx(plan("whole")).status, 1);
-  const std::string journal = path("parts/shards/000-of-002/journal.jsonl");
-  mimicx(shard("parts", 0, 2) + " 2>&1 & while [ ! -s " + journal +
+  const std::string journal = path("parts/shards/001-of-002/journal.jsonl");
+  mimicx(shard("parts", 1, 2) + " 2>&1 & while [ ! -s " + journal +
          " ] && kill -0 $! 2>/dev/null; do sleep 0.005; done; kill -9 $!; wait $!");
   ASSERT_TRUE(std::filesystem::exists(journal)) << "it was killed in its middle";
-  EXPECT_LE(mimicx(shard("parts", 1, 2)).status, 1);
+  EXPECT_LE(mimicx(shard("parts", 0, 2)).status, 1);
   const Call early = mimicx("merge " + path("parts"));
   EXPECT_EQ(early.status, 1) << early.text;
-  EXPECT_TRUE(says(early, "are missing, of shards 0 of 2")) << early.text;
-  EXPECT_TRUE(says(early, "--shard 0/2")) << early.text;
+  EXPECT_TRUE(says(early, "are missing, of shards 1 of 2")) << early.text;
+  EXPECT_TRUE(says(early, "--shard 1/2")) << early.text;
   EXPECT_FALSE(std::filesystem::exists(path("parts/manifest.json")))
       << "nothing is written before all is there";
-  EXPECT_LE(mimicx(shard("parts", 0, 2)).status, 1);
+  EXPECT_LE(mimicx(shard("parts", 1, 2)).status, 1);
   EXPECT_EQ(mimicx("merge " + path("parts")).status, 0);
   EXPECT_EQ(merged("parts"), results_of(path("whole")));
 }
