@@ -53,6 +53,13 @@ void for_each_setting(Config& config, const Add& add) {
   add("plan_plausible_acceleration", config.plausible_acceleration, 0, 1e9);
 }
 
+/// Those of the plan and of the simulation that it is made in.
+template <class Config, class Add>
+void for_each_planning_setting(Config& config, const Add& add) {
+  for_each_setting(config.plan, add);
+  output::for_each_simulation_setting(config.simulation, add);
+}
+
 }  // namespace
 
 NamedValues plan_settings(const MotionPlanConfig& plan) {
@@ -60,10 +67,7 @@ NamedValues plan_settings(const MotionPlanConfig& plan) {
 }
 
 NamedValues planning_settings(const PlanningConfig& config) {
-  return numbers_in([&](const auto& add) {
-    for_each_setting(config.plan, add);
-    output::for_each_simulation_setting(config.simulation, add);
-  });
+  return numbers_in([&](const auto& add) { for_each_planning_setting(config, add); });
 }
 
 bool change_setting(MotionPlanConfig& plan, const std::string& name, double value) {
@@ -71,11 +75,7 @@ bool change_setting(MotionPlanConfig& plan, const std::string& name, double valu
 }
 
 void apply_setting(PlanningConfig& config, const std::string& name, double value) {
-  const auto visit = [&](const auto& add) {
-    for_each_setting(config.plan, add);
-    output::for_each_simulation_setting(config.simulation, add);
-  };
-  if (!change_one(visit, name, value))
+  if (!change_one([&](const auto& add) { for_each_planning_setting(config, add); }, name, value))
     throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 

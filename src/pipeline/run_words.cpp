@@ -28,12 +28,6 @@ constexpr std::array<Fault, 4> kFaults = {{{"sliding", "FS_gt", "mm a frame", 1.
                                            {"floating", "Float_gt", "mm", 1.0, 1, 0.05},
                                            {"jitter", "Jitter", "m/s^3", 10.0, 0, 5.0}}};
 
-double value_of(const NamedValues& values, const std::string& name) {
-  for (const auto& [known, value] : values)
-    if (known == name) return value;
-  return std::nan("");
-}
-
 std::string format(const char* how, double number) {
   char text[64];
   std::snprintf(text, sizeof text, how, number);

@@ -23,6 +23,16 @@ SchoolConfig quick() {
   return config;
 }
 
+/// Enough to learn the squat.
+SchoolConfig thorough() {
+  SchoolConfig config = quick();
+  config.hidden = {64, 64};
+  config.rounds = 8;
+  config.packs = 4;
+  config.passes = 6.0;
+  return config;
+}
+
 /// Everybody is taught by the one teacher of the squat.
 Teacher squat(int) { return teacher_of_squat(); }
 
@@ -41,12 +51,7 @@ std::string bytes_of(const Pupil& pupil) {
 }
 
 TEST(School, AFewRoundsTeachAMotion) {
-  SchoolConfig config = quick();
-  config.hidden = {64, 64};
-  config.rounds = 8;
-  config.packs = 4;
-  config.passes = 6.0;
-  const Pupil pupil = taught(config, 2);
+  const Pupil pupil = taught(thorough(), 2);
   const auto alone =
       rl::tracking::roll_out(teacher_of_squat().clip, {}, rl::tracking::mean_action({pupil.agent}));
   EXPECT_LT(alone.mean_position_error, 0.02);
@@ -158,11 +163,7 @@ Teacher one_sided(int) {
 }
 
 TEST(School, APupilThatAlsoSeesTheMirrorImageFavoursNoSide) {
-  SchoolConfig config = quick();
-  config.hidden = {64, 64};
-  config.rounds = 8;
-  config.packs = 4;
-  config.passes = 6.0;
+  SchoolConfig config = thorough();
   const Lessons lessons = take_lessons(one_sided(0), {}, {}, nullptr, 77, 0);
   config.mirror = false;
   const float alone = asymmetry(taught(config, 1, one_sided).agent, lessons);

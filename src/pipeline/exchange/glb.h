@@ -18,15 +18,14 @@ enum class BufferUse { kAnimation = 0, kVertices = 34962, kIndices = 34963 };
 
 class Glb {
  public:
-  /// Its JSON begins with this, at byte kGlbJsonAt of the file.
+  /// Its JSON begins with this, at byte kJsonAt of the file.
   static constexpr std::string_view kJsonOpening = R"({"asset":{"version":"2.0","generator":"mimicx")";
   static constexpr std::size_t kJsonAt = 20;
 
   Glb();
 
-  /// @param type  "SCALAR", "VEC3", "VEC4", "MAT4" @param with_range  least and largest value, as positions
-  /// and
-  ///              times must have them
+  /// @param type        "SCALAR", "VEC3", "VEC4", "MAT4"
+  /// @param with_range  least and largest value, as positions and times must have them
   /// @return the number of the accessor
   int add(const std::vector<float>& values, const std::string& type, BufferUse use, bool with_range = false);
   int add(const std::vector<std::uint8_t>& values, const std::string& type, BufferUse use);
