@@ -21,9 +21,9 @@ FloorForce floor_force(const Vector6d& wrench, const Vector3d& under) {
   const Vector3d moment = wrench.head<3>();
   FloorForce out;
   out.force = wrench.tail<3>();
-  out.loaded = out.force.z() >= kLeastLoad;
+  out.loaded = out.force.z() >= output::kLeastLoad;
   // moment = point × force + free_moment · z has this one solution with z = 0.
-  out.point = out.loaded ? Vector3d(-moment.y() / out.force.z(), moment.x() / out.force.z(), 0.0) : under;
+  out.point = out.loaded ? output::centre_of_pressure(wrench) : under;
   out.free_moment = (moment - out.point.cross(out.force)).z();
   return out;
 }
@@ -42,24 +42,12 @@ std::optional<RecordedForces> recorded_forces(const motion::Clip& clip) {
   return RecordedForces{{ground}, {torques}};
 }
 
-Carrier carrier_of(int body) {
-  if (body == kRightAnkle || body == kRightFoot) return kOnRightFoot;
-  return body == kLeftAnkle || body == kLeftFoot ? kOnLeftFoot : kOnTheRest;
-}
-
 List<FloorForces> floor_forces(const PerFrame<BodyPoses>& poses, const RecordedForces& forces) {
   List<FloorForces> out;
   for (int t = 1; t < poses.count(); ++t) {
     PerBody<Vector3d> joints;
-    Array<Vector6d, kCarriers> wrench;
-    wrench.fill(Vector6d::Zero());
-    for (int b = 0; b < kBodies; ++b) {
-      joints[b] = 0.5 * (poses[t - 1].p_WB[b] + poses[t].p_WB[b]);
-      const Vector6d& own = forces.ground[t][b];
-      const Vector3d force = own.tail<3>();
-      wrench[carrier_of(b)].head<3>() += own.head<3>() + joints[b].cross(force);
-      wrench[carrier_of(b)].tail<3>() += force;
-    }
+    for (int b = 0; b < kBodies; ++b) joints[b] = 0.5 * (poses[t - 1].p_WB[b] + poses[t].p_WB[b]);
+    const Array<Vector6d, kCarriers> wrench = output::floor_wrenches(forces.ground[t], joints);
     FloorForces row;
     for (const Carrier c : {kOnRightFoot, kOnLeftFoot, kOnTheRest})
       row[c] = floor_force(wrench[c], under(c, joints));

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "motion/clip.h"
+#include "pipeline/output/floor_load.h"
 
 namespace mimicx::pipeline::exchange {
 
@@ -26,21 +27,16 @@ struct RecordedForces {
 /// @throws DataError naming clip and member where only some of it is there, or not of its shape
 std::optional<RecordedForces> recorded_forces(const motion::Clip& clip);
 
-/// What carries the body: feet with their toes, and everything else.
-enum Carrier : int { kOnRightFoot, kOnLeftFoot, kOnTheRest };
-inline constexpr int kCarriers = 3;
-Carrier carrier_of(int body);
+using output::Carrier, output::carrier_of, output::kCarriers, output::kOnLeftFoot, output::kOnRightFoot,
+    output::kOnTheRest;
 
 struct FloorForce {
   Vector3d force = Vector3d::Zero();  ///< on the body, N
   Vector3d point = Vector3d::Zero();  ///< centre of pressure, z = 0, m; where not loaded, under the carrier
   double free_moment = 0;             ///< about the vertical through the point, N·m
-  bool loaded = false;                ///< pressed with at least kLeastLoad
+  bool loaded = false;                ///< pressed with at least output::kLeastLoad
 };
 using FloorForces = Array<FloorForce, kCarriers>;
-
-/// Upward force under which there is no telling where it acts, N.
-inline constexpr double kLeastLoad = 1.0;
 
 /// [frames − 1] of the intervals between frames. Joint centres are taken midway between its two frames.
 List<FloorForces> floor_forces(const PerFrame<BodyPoses>& poses, const RecordedForces& forces);

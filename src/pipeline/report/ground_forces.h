@@ -1,10 +1,5 @@
 /// The floor's forces on a simulated body as arrows: one per foot and one for all else, each at its centre of
-/// pressure.
-///
-/// Wrenches (n_i; f_i) about the bodies' joint centres p_i, world axes, sum to f = Σ f_i and, about the
-/// world's origin, n = Σ n_i + p_i × f_i. The point of the floor z = 0 about which n has no horizontal part
-/// is the centre of pressure (P. Sardain, G. Bessonnet, IEEE Trans. Syst. Man Cybern. A 34 (2004), §II):
-///     x = −n_y / f_z,  y = n_x / f_z.
+/// pressure (output/floor_load.h).
 #pragma once
 
 #include <vector>
