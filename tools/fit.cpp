@@ -8,11 +8,13 @@
 #include <memory>
 
 #include "commands.h"
+#include "pipeline/fitting.h"
 #include "pipeline/inputs.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/folder_lock.h"
 #include "pipeline/record/outputs.h"
 #include "shared_arguments.h"
+#include "training.h"
 
 namespace mimicx::tools {
 namespace {
@@ -23,6 +25,7 @@ struct Arguments {
   bool poses = false;
   motion::fit::FitConfig config;
   motion::import::ReadConfig read;
+  std::vector<std::string> settings;
   bool force = false;
 };
 
@@ -93,8 +96,12 @@ void declare_fit(CommandLine& line) {
   add_sigma("--focal-sigma", a->config.focal_sigma, "the focal length in the file, relative");
   add_sigma("--tilt-sigma", a->config.tilt_sigma, "the camera's tilt in the file, degrees");
   add_sigma("--beta-sigma", a->config.beta_sigma, "each entry of the shape in the file");
+  add_settings(command, a->settings);
   add_force(command, a->force);
-  command.action([a] { return fit(*a); });
+  command.action([a] {
+    apply_settings(a->settings, a->config);
+    return fit(*a);
+  });
 }
 
 }  // namespace mimicx::tools

@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "pipeline/configurations.h"
+#include "pipeline/fitting.h"
 
 namespace mimicx::tools {
 

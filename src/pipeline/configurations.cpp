@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "pipeline/fitting.h"
 #include "pipeline/record/json.h"
 #include "pipeline/record/table.h"
 
@@ -102,7 +103,7 @@ NamedValues with_budget(const TrainingConfig& config, const NamedValues& setting
 }
 
 /// All configurations, each in the order of its manifest.
-Array<NamedValues, 6> columns() {
+Array<NamedValues, 7> columns() {
   const ImitateConfig imitate = imitate_configuration();
   const AdaptConfig adapt = adapt_configuration();
   const PretrainConfig small = pretrain_configuration("small"), paper = pretrain_configuration("paper");
@@ -114,7 +115,8 @@ Array<NamedValues, 6> columns() {
           with_budget(adapt.training, settings_of(adapt)),
           with_budget(small.training, settings_of(small)),
           with_budget(paper.training, settings_of(paper)),
-          taught};
+          taught,
+          fit_settings({})};
 }
 
 std::string cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
@@ -166,7 +168,7 @@ PretrainConfig pretrain_configuration(const std::string& preset) {
 }
 
 std::vector<ConfigurationRow> configuration_rows() {
-  const Array<NamedValues, 6> all = columns();
+  const Array<NamedValues, 7> all = columns();
   std::vector<ConfigurationRow> rows;
   for (int column = 0; column < static_cast<int>(all.size()); ++column) {
     std::size_t next = 0;  // behind the setting that came last, so that a new one stands beside its like

@@ -6,11 +6,12 @@
 ///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
 ///     pretrain paper  the same with the paper's networks
 ///     teach           options taught by plans                                           docs/teaching.md §5
+///     fit             the keypoint fit, which all of them begin with          docs/method.md, "Keypoint fit"
 ///
 /// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
-/// (reward, starts, simulation), the encoder and the plan, which have one value for all, beside their meaning
-/// (rl/tracking/config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h, control/plan.h). The
-/// printed table has them, too.
+/// (reward, starts, simulation), the encoder, the plan and the fit, which have one value for all, beside
+/// their meaning (rl/tracking/config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h,
+/// control/plan.h, motion/fit/config.h). The printed table has them, too.
 #pragma once
 
 #include <string>
@@ -32,13 +33,13 @@ TeachConfig teach_configuration();
 /// @param preset  "small" or "paper" @throws std::invalid_argument for another one
 PretrainConfig pretrain_configuration(const std::string& preset);
 
-inline constexpr Array<const char*, 6> kConfigurationNames = {"plan",           "imitate",        "adapt",
-                                                              "pretrain small", "pretrain paper", "teach"};
+inline constexpr Array<const char*, 7> kConfigurationNames = {
+    "plan", "imitate", "adapt", "pretrain small", "pretrain paper", "teach", "fit"};
 
 /// A setting by the name that manifests record, in every configuration; NaN where one has no such setting.
 struct ConfigurationRow {
   std::string name;
-  Array<double, 6> values;  ///< in the order of kConfigurationNames
+  Array<double, 7> values;  ///< in the order of kConfigurationNames
 };
 std::vector<ConfigurationRow> configuration_rows();
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "pipeline/fitting.h"
+
 namespace mimicx::pipeline {
 namespace {
 
@@ -53,6 +55,7 @@ TEST(Configurations, TheTableIsWhatManifestsRecord) {
   has_all(3, settings_of(pretrain_configuration("small")), 2);
   has_all(4, settings_of(pretrain_configuration("paper")), 2);
   has_all(5, settings_of(teach_configuration()), 1);
+  has_all(6, fit_settings({}), 0);
 }
 
 TEST(Configurations, ThePresetsDifferInTheirNetworksAlone) {
