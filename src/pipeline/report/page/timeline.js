@@ -31,9 +31,9 @@ function bar_row(bars) {
 function option_row(stretches) {
   const track = make('div', {className: 'track options'});
   for (const [first, last, option] of stretches) {
-    const bar = make('i', {title: option_in_words(option)}, String(option));
-    bar.style.left = `${100 * share_of(first - 0.5)}%`;
-    bar.style.width = `${100 * share_of(last - first + 1)}%`;
+    const bar = make('i', {title: option_in_words(option)}, String(option)), from = Math.max(first - 0.5, 0);
+    bar.style.left = `${100 * share_of(from)}%`;
+    bar.style.width = `${100 * share_of(last + 0.5 - from)}%`;
     bar.style.background = cluster_colour(option);
     track.append(bar);
   }
