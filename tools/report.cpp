@@ -13,9 +13,18 @@ namespace mimicx::tools {
 namespace {
 
 struct Arguments {
-  std::filesystem::path run, truth;
+  std::filesystem::path run, truth, options;
   bool times = false;
 };
+
+/// `clusters.json` of a folder of options, or beside a file of them.
+std::filesystem::path clusters_of(const std::filesystem::path& options) {
+  const std::filesystem::path folder =
+      std::filesystem::is_directory(options) ? options : options.parent_path();
+  if (!std::filesystem::exists(folder / "clusters.json"))
+    throw UsageError("report: --options: expected a folder with clusters.json, found " + options.string());
+  return folder / "clusters.json";
+}
 
 int report(const Arguments& a) {
   const pipeline::record::RunFolder folder{a.run};
@@ -30,6 +39,7 @@ int report(const Arguments& a) {
   pipeline::record::Outputs({}, false).claim_own(folder.report());
   pipeline::report::ReportOptions options;
   options.times = a.times;
+  if (!a.options.empty()) options.clusters = clusters_of(a.options);
   if (!a.truth.empty()) options.truth = pipeline::named_motions(a.truth);
   bool all_good = true;
   for (const pipeline::record::SequenceEntry& entry : manifest.sequences) {
@@ -53,6 +63,9 @@ void declare_report(CommandLine& line) {
   command.file("RUN", a->run, "folder of a run");
   command.path("--truth", a->truth,
                "folder of true motions, of the clips' names, to show and to measure against");
+  command.path("--options", a->options,
+               "folder of trained options: maps the clips among the motions that these were trained on; "
+               "default: those that the run began from");
   command.flag("--times", a->times,
                "also say how long the work took; such a report is not the same bytes for every run");
   command.action([a] { return report(*a); });

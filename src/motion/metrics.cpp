@@ -12,9 +12,8 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kContactHeight = 0.005;  ///< m; a point at or under it touches the floor
-constexpr double kStaticMotion = 0.010;   ///< m/frame; a foot point of the truth under it stands
-constexpr double kMaxMpjpe = 60.0;        ///< mm
+constexpr double kStaticMotion = 0.010;  ///< m/frame; a foot point of the truth under it stands
+constexpr double kMaxMpjpe = 60.0;       ///< mm
 
 using Joints = PerBody<Vector3d>;
 

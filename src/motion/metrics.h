@@ -18,6 +18,9 @@ namespace mimicx::motion {
 /// A body that is ever farther than this from its reference is no success, m.
 inline constexpr double kMaxBodyDistance = 0.5;
 
+/// A point at this height or under it touches the floor, m.
+inline constexpr double kContactHeight = 0.005;
+
 /// What the metrics look at; one entry per frame.
 struct MotionSamples {
   PerFrame<PerBody<Vector3d>> joints;       ///< world positions, m

@@ -115,6 +115,7 @@ Method method_of(const AdaptConfig& config) {
   method.samples = config.training.samples;
   method.settings = settings_of(config);
   method.options = config.options->checksum;
+  method.clusters = config.options->clusters;
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
   method.name = plan_first ? "auto" : "paper";

@@ -62,6 +62,7 @@ struct Method {
   std::int64_t samples = 0;              ///< budget per motion
   NamedValues settings;                  ///< as the manifest lists them, those of the RunConfig among them
   std::string options;                   ///< checksum of the trained options; empty without
+  std::filesystem::path clusters;        ///< file of their clusters, for the report; empty: none
   physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
   std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;
 };

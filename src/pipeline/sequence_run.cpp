@@ -323,6 +323,12 @@ class SideBySide {
 
 }  // namespace
 
+/// The report shows which kinds of motion the options were trained on, also where these are gone.
+void keep_clusters(const Method& method, const record::RunFolder& folder) {
+  if (!method.clusters.empty() && !std::filesystem::exists(folder.clusters()))
+    write_file_atomically(folder.clusters(), read_file(method.clusters));
+}
+
 NamedValues settings_of(const RunConfig& config) {
   const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;
   return {{"fit", fit},
@@ -344,6 +350,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   record::Outputs outputs(protect, config.force);
   claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
   folder.create();
+  keep_clusters(method, folder);
   write_records(run);
   const int count = static_cast<int>(run.inputs.size());
   if (list)

@@ -11,7 +11,6 @@
 namespace mimicx::skin {
 namespace {
 
-constexpr double kCell = 0.016;   ///< of the lattice, m: finer than a thumb is wide
 constexpr double kReach = 0.012;  ///< how far away a body pulls at a vertex, m
 constexpr double kApart = 0.03;   ///< by how much nearer a leg must be to count in full, m
 constexpr double kLeast = 0.01;   ///< lighter weights are left out
@@ -59,9 +58,9 @@ void take_heaviest(const PerBody<double>& pull, Array<int, kInfluences>& joints,
 
 }  // namespace
 
-Mesh mannequin(const Character& character, int triangles) {
+Mesh mannequin(const Character& character, int triangles, double cell) {
   const Flesh flesh(character);
-  Surface surface = isosurface([&](const Vector3d& p) { return flesh.distance(p); }, flesh.bounds(), kCell);
+  Surface surface = isosurface([&](const Vector3d& p) { return flesh.distance(p); }, flesh.bounds(), cell);
   surface = simplified(surface, flesh, triangles);
   even_out(surface, flesh, 3);
   Mesh mesh;

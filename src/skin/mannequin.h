@@ -16,6 +16,10 @@ namespace mimicx::skin {
 
 inline constexpr int kMannequinTriangles = 12000;
 
-Mesh mannequin(const Character& character, int triangles = kMannequinTriangles);
+/// Edge of the lattice on which it is found, m: finer than a thumb is wide.
+inline constexpr double kMannequinCell = 0.016;
+
+/// @param cell  a coarser lattice will do for fewer triangles, and takes less time
+Mesh mannequin(const Character& character, int triangles = kMannequinTriangles, double cell = kMannequinCell);
 
 }  // namespace mimicx::skin

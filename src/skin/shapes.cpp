@@ -48,17 +48,20 @@ void add_capsule(int body, const Vector3d& a, const Vector3d& b, double radius, 
 
 }  // namespace
 
+std::vector<Capsule> collision_capsules(const Character& character) {
+  std::vector<Capsule> capsules(character.capsule.begin(), character.capsule.end());
+  for (const ContactPoint& point : character.contact_points) {
+    const bool of_a_foot = point.body == kLeftAnkle || point.body == kRightAnkle;
+    if (of_a_foot && point.radius > 0.0) capsules.push_back({point.body, point.p_B, point.p_B, point.radius});
+  }
+  return capsules;
+}
+
 Mesh collision_shapes(const Character& character) {
   const PerBody<Vector3d> joint = bind_joints(character);
   Mesh mesh;
-  for (const Capsule& c : character.capsule)
+  for (const Capsule& c : collision_capsules(character))
     add_capsule(c.body, joint[c.body] + c.a_B, joint[c.body] + c.b_B, c.radius, mesh);
-  for (const ContactPoint& point : character.contact_points) {
-    const bool of_a_foot = point.body == kLeftAnkle || point.body == kRightAnkle;
-    if (of_a_foot && point.radius > 0.0)
-      add_capsule(point.body, joint[point.body] + point.p_B, joint[point.body] + point.p_B, point.radius,
-                  mesh);
-  }
   return mesh;
 }
 

@@ -4,9 +4,14 @@
 /// that follows its own body. (Heels and tips of the toes touch the floor in points, which have no surface.)
 #pragma once
 
+#include <vector>
+
 #include "skin/mesh.h"
 
 namespace mimicx::skin {
+
+/// Capsules in their bodies' frames; a ball is one of no length.
+std::vector<Capsule> collision_capsules(const Character& character);
 
 Mesh collision_shapes(const Character& character);
 

@@ -30,6 +30,16 @@ TEST_F(Adapt, RecordsArrangementEndingAndWhatTheOptionsDidBefore) {
   EXPECT_TRUE(entry.fit.empty()) << "no keypoints, no fit";
 }
 
+TEST_F(Adapt, KeepsTheClustersOfItsOptionsAndShowsThemInTheReport) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  config.training.samples = 0;
+  run(config);
+  EXPECT_EQ(read_file(out("run") / "clusters.json"), read_file(out("options") / "clusters.json"));
+  const std::string page = read_file(out("run") / "report.html");
+  EXPECT_NE(page.find("\"options\":[["), std::string::npos) << "the stretches of the arrangement";
+}
+
 TEST_F(Adapt, WithoutABudgetIsTheOptionsThemselves) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");

@@ -56,6 +56,22 @@ TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
       EXPECT_GE(std::stoull(member.substr(member.rfind('_') + 1)), motion::synth::kTrainingSeed) << member;
 }
 
+/// They are those of a later fit than the training's (data/options/README.md), so the means are near the
+/// centres only.
+TEST(ShippedOptions, HaveTheFeaturesOfTheMotionsThatTheyWereTrainedOn) {
+  const options::Clusters clusters = options::read_clusters(kOptions / "clusters.json");
+  for (const options::MotionCluster& cluster : clusters.clusters) {
+    ASSERT_EQ(cluster.features.size(), cluster.members.size());
+    const motion::MotionFeatures centre = motion::scaled_features(cluster.centre);
+    for (int k = 0; k < motion::kFeatures; ++k) {
+      double mean = 0.0;
+      for (const motion::MotionFeatures& features : cluster.features)
+        mean += motion::scaled_features(features)[k] / static_cast<double>(cluster.features.size());
+      EXPECT_NEAR(mean, centre[k], 0.03) << motion::feature_names()[k];
+    }
+  }
+}
+
 TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
   const auto options = options::read_options(kOptions);
   for (const char* name : {"squat_1", "wave_1", "turn_in_place_1"}) {

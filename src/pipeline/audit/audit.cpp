@@ -7,6 +7,7 @@
 #include "physics/inverse_dynamics.h"
 #include "pipeline/audit/audit_summary.h"
 #include "pipeline/audit/feasibility.h"
+#include "pipeline/audit/torque_shares.h"
 
 namespace mimicx::pipeline::audit {
 namespace {
@@ -96,6 +97,8 @@ void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& 
 /// @param speed  of the joints, child's frame, rad/s
 void judge_joints(const Character& c, const rl::tracking::ActingForces& forces,
                   const PerBody<Vector3d>& required, const PerBody<Vector3d>& speed, AuditRow& row) {
+  PerBody<Vector3d> by_controller;
+  by_controller.fill(Vector3d::Zero());
   for (std::size_t i = 1; i < kBodies; ++i) {
     const int body = static_cast<int>(i);
     const auto along = [&](const Vector3d& v) {  // the part that a joint can feel
@@ -103,12 +106,14 @@ void judge_joints(const Character& c, const rl::tracking::ActingForces& forces,
     };
     const Vector3d torque = along(forces.joint_torque[i]), range = along(forces.range_torque[i]);
     row.torque_gap = std::max(row.torque_gap, (required[i] - torque).norm());
-    row.torque_share = std::max(row.torque_share, (torque - range).norm() / c.joint[i].torque_limit);
+    by_controller[i] = torque - range;
     const double power = torque.dot(speed[i]);
     row.power += power;
     row.positive += std::max(power, 0.0);
     row.total += std::abs(power);
   }
+  for (const double share : torque_shares(c, by_controller))
+    row.torque_share = std::max(row.torque_share, share);
 }
 
 physics::BodyWrenches external_of(const rl::tracking::ActingForces& forces) {

@@ -8,6 +8,7 @@
 #include "motion/surface.h"
 #include "pipeline/audit/body_loads.h"
 #include "pipeline/audit/floor_push.h"
+#include "pipeline/audit/torque_shares.h"
 
 namespace mimicx::pipeline::audit {
 namespace {
@@ -76,14 +77,6 @@ List<Push> possible_pushes(const Character& c, const PerFrame<FramePoints>& poin
     pushes.push_back({c.contact_points[i].body, p, Vector3d::Zero()});
   }
   return pushes;
-}
-
-PerBody<double> torque_shares(const Character& c, const PerBody<Vector3d>& moment) {
-  PerBody<double> shares{};
-  for (int b = 1; b < kBodies; ++b)
-    shares[b] =
-        (is_hinge(b) ? std::abs(moment[b].dot(hinge_axis(b))) : moment[b].norm()) / c.joint[b].torque_limit;
-  return shares;
 }
 
 PoseNeed need_at(const Character& c, const BodyPoses& poses, const RawNeed& wanted, double friction,

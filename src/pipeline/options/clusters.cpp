@@ -42,7 +42,10 @@ Points points_of(const std::vector<NamedFeatures>& motions) {
 
 MotionCluster cluster_of(const ClusterNode& leaf, const List<NamedFeatures>& motions) {
   MotionCluster cluster;
-  for (int member : leaf.members) cluster.members.push_back(motions[member].name);
+  for (int member : leaf.members) {
+    cluster.members.push_back(motions[member].name);
+    cluster.features.push_back(motions[member].features);
+  }
   for (std::size_t k = 0; k < motion::kFeatures; ++k)
     cluster.centre[k] = motion::feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
   cluster.diameter = leaf.diameter;
@@ -74,6 +77,12 @@ MotionCluster cluster_of(const record::Json& json) {
   MotionCluster cluster;
   cluster.description = json.at("description").get<std::string>();
   cluster.members = json.at("members").get<std::vector<std::string>>();
+  if (json.contains("features"))
+    for (const record::Json& features : json.at("features").elements())
+      cluster.features.push_back(features.get<motion::MotionFeatures>());
+  if (!cluster.features.empty() && cluster.features.size() != cluster.members.size())
+    throw record::JsonError("features of " + std::to_string(cluster.features.size()) + " of " +
+                            std::to_string(cluster.members.size()) + " members");
   cluster.centre = unnamed(json.at("centre"));
   cluster.diameter = json.at("diameter");
   return cluster;
@@ -150,11 +159,13 @@ std::string format_clusters(const Clusters& clusters) {
                             {"diameter", b.diameter}});
   for (std::size_t c = 0; c < clusters.clusters.size(); ++c) {
     const MotionCluster& cluster = clusters.clusters[c];
-    json["clusters"].push_back({{"id", c},
-                                {"description", cluster.description},
-                                {"diameter", cluster.diameter},
-                                {"members", cluster.members},
-                                {"centre", named(cluster.centre)}});
+    record::Json one = {{"id", c},
+                        {"description", cluster.description},
+                        {"diameter", cluster.diameter},
+                        {"members", cluster.members},
+                        {"centre", named(cluster.centre)}};
+    if (!cluster.features.empty()) one["features"] = cluster.features;
+    json["clusters"].push_back(std::move(one));
   }
   return record::document(json);
 }

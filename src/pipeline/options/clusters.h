@@ -5,8 +5,9 @@
 /// first, and do not depend on the order of the input.
 ///
 /// The file is JSON: {"settings", "units", "tree", "clusters"}; distances and diameters are in the features'
-/// units, centres in SI units under the features' names. It is refused by a program with other features or
-/// units, because its distances would mean something else there.
+/// units, centres in SI units under the features' names,
+/// features of the members in SI units, in the order of "units". It is refused by a program with other
+/// features or units, because its distances would mean something else there.
 #pragma once
 
 #include <cstdint>
@@ -32,10 +33,11 @@ struct ClusterConfig {
 };
 
 struct MotionCluster {
-  std::string description;           ///< what its motions are like, in words
-  std::vector<std::string> members;  ///< names, sorted
-  motion::MotionFeatures centre{};   ///< mean of their features, SI units
-  double diameter = 0.0;             ///< largest distance between two of them
+  std::string description;                ///< what its motions are like, in words
+  std::vector<std::string> members;       ///< names, sorted
+  List<motion::MotionFeatures> features;  ///< of the members, SI units; empty from files of older programs
+  motion::MotionFeatures centre{};        ///< mean of their features, SI units
+  double diameter = 0.0;                  ///< largest distance between two of them
 };
 
 struct ClusterBranch {

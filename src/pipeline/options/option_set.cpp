@@ -62,6 +62,8 @@ std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path)
     set->options.push_back(std::move(trained));
   }
   set->checksum = record::file_checksum(file);
+  if (const auto clusters = file.parent_path() / "clusters.json"; std::filesystem::exists(clusters))
+    set->clusters = clusters;
   return set;
 }
 

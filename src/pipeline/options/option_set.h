@@ -26,7 +26,8 @@ struct TrainedOption {
 
 struct OptionSet {
   List<TrainedOption> options;
-  std::string checksum;  ///< of the file; empty where it was not read from one
+  std::string checksum;            ///< of the file; empty where it was not read from one
+  std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty: there is none
 };
 
 void write_options(const std::filesystem::path& path, const OptionSet& set);

@@ -5,6 +5,7 @@
 ///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
 ///     DIR/report.html            the run to look at
 ///     DIR/report/NAME.js         its motions, where they are too many for one file
+///     DIR/clusters.json          the clusters of the options that it began from, for the report
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/inputs/NAME.npz        the poses of the inputs as they were read, in our world
@@ -45,6 +46,7 @@ struct RunFolder {
   std::filesystem::path journal() const { return record_root() / "journal.jsonl"; }
   std::filesystem::path timing() const { return record_root() / "timing.json"; }
   std::filesystem::path report() const { return root / "report.html"; }
+  std::filesystem::path clusters() const { return root / "clusters.json"; }
   std::filesystem::path report_clip(const std::string& name) const {
     return root / "report" / (name + ".js");
   }

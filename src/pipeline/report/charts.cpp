@@ -10,27 +10,15 @@ namespace mimicx::pipeline::report {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTouch = 0.005;     ///< m, as in docs/metrics.md
 constexpr double kLeastLoad = 0.02;  ///< of the weight, from which on a foot counts as loaded
 
-std::string title_of(Who who) {
-  constexpr Array<const char*, 5> kTitles = {"input", "prepared reference", "cleaned", "truth", ""};
-  return kTitles[static_cast<int>(who)];
-}
-
-/// What is measured of a motion, once for all charts.
-struct Measured {
-  Who who;
-  MotionCurves curves;
-};
-
 /// A line per motion.
-ReportChart over_motions(const std::vector<Measured>& motions, const Words& words,
+ReportChart over_motions(const ChartSources& sources, const Words& words,
                          std::vector<double> MotionCurves::*values, bool reference) {
   ReportChart chart{words, {}};
-  for (const Measured& m : motions)
-    if (reference || m.who != Who::kReference)
-      chart.lines.push_back({m.who, title_of(m.who), m.curves.*values});
+  for (const auto& [who, motion] : sources.motions)
+    if (reference || who != Who::kReference)
+      chart.lines.push_back({who, title_of(who), motion->curves.*values});
   return chart;
 }
 
@@ -102,9 +90,9 @@ ReportChart ground_chart(const ChartSources& sources) {
 ReportChart distance_chart(const ChartSources& sources) {
   ReportChart chart{{"distance from the prepared reference", "mm", "mean over the joints"}, {}};
   const motion::MotionSamples *reference = nullptr, *cleaned = nullptr;
-  for (const auto& [who, samples] : sources.motions) {
-    if (who == Who::kReference) reference = samples;
-    if (who == Who::kCleaned) cleaned = samples;
+  for (const auto& [who, motion] : sources.motions) {
+    if (who == Who::kReference) reference = &motion->samples;
+    if (who == Who::kCleaned) cleaned = &motion->samples;
   }
   if (reference && cleaned)
     chart.lines.push_back({Who::kCleaned, title_of(Who::kCleaned), joint_distances(*cleaned, *reference)});
@@ -114,24 +102,27 @@ ReportChart distance_chart(const ChartSources& sources) {
 /// Whether a foot's points touch the floor. @param foot  0 left, 1 right
 bool touches(const std::vector<Vector3d>& surface, std::size_t foot) {
   for (std::size_t i = 0; i < kFootPoints / 2; ++i)
-    if (surface[foot * (kFootPoints / 2) + i].z() <= kTouch) return true;
+    if (surface[foot * (kFootPoints / 2) + i].z() <= motion::kContactHeight) return true;
   return false;
 }
 
 }  // namespace
 
+std::string title_of(Who who) {
+  constexpr Array<const char*, 5> kTitles = {"input", "prepared reference", "cleaned", "truth", ""};
+  return kTitles[static_cast<int>(who)];
+}
+
 std::vector<ReportChart> charts_of(const ChartSources& sources) {
-  std::vector<Measured> motions;
-  for (const auto& [who, samples] : sources.motions) motions.push_back({who, curves_of(*samples)});
   std::vector<ReportChart> charts = {
-      over_motions(motions, {"height of the pelvis", "m", ""}, &MotionCurves::pelvis_height, true),
-      over_motions(motions, {"lowest point over the floor", "mm", "under 0: in the floor"},
+      over_motions(sources, {"height of the pelvis", "m", ""}, &MotionCurves::pelvis_height, true),
+      over_motions(sources, {"lowest point over the floor", "mm", "under 0: in the floor"},
                    &MotionCurves::lowest, false),
-      over_motions(motions,
+      over_motions(sources,
                    {"speed of what touches the floor", "mm/frame",
                     "FS of the frame; no line where nothing touches the floor"},
                    &MotionCurves::slide, false),
-      over_motions(motions, {"acceleration of the joints", "m/s²", "mean over the joints"},
+      over_motions(sources, {"acceleration of the joints", "m/s²", "mean over the joints"},
                    &MotionCurves::acceleration, false),
       unexplained_chart(sources),
       ground_chart(sources),
@@ -140,7 +131,7 @@ std::vector<ReportChart> charts_of(const ChartSources& sources) {
       distance_chart(sources)};
   std::erase_if(charts, [](const ReportChart& chart) { return chart.lines.empty(); });
   double fps = 30.0;
-  for (const auto& [who, samples] : sources.motions) fps = samples->fps;
+  for (const auto& [who, motion] : sources.motions) fps = motion->samples.fps;
   for (ReportChart& chart : charts) chart.step = 1.0 / fps;
   return charts;
 }
@@ -180,7 +171,7 @@ ReportChart falls_chart(const record::Table& falls, double fps) {
   return chart;
 }
 
-std::vector<ReportBars> bars_of(const motion::MotionSamples* input, const motion::MotionSamples& cleaned,
+std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotion& cleaned,
                                 const std::vector<GroundForces>& ground, double weight) {
   std::vector<ReportBars> bars;
   if (input) {
@@ -198,9 +189,9 @@ std::vector<ReportBars> bars_of(const motion::MotionSamples* input, const motion
   }
   for (const std::size_t foot : {std::size_t{0}, std::size_t{1}}) {
     std::vector<bool> stands;
-    for (int t = 0; t < cleaned.frames(); ++t)
+    for (int t = 0; t < cleaned.samples.frames(); ++t)
       stands.push_back(ground.empty()
-                           ? touches(cleaned.surface[t], foot)
+                           ? touches(cleaned.samples.surface[t], foot)
                            : ground[static_cast<std::size_t>(t)][foot].force.z() > kLeastLoad * weight);
     // The forces of frame 0 are those of no interval.
     if (stands.size() > 1 && !ground.empty()) stands[0] = stands[1];

@@ -1,6 +1,7 @@
 /// The plots and the bars of a clip: which lines, over what, in which words.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,13 +13,16 @@ namespace mimicx::pipeline::report {
 
 /// What there is to draw; null and empty where a run has none.
 struct ChartSources {
-  std::vector<std::pair<Who, const motion::MotionSamples*>> motions;  ///< at one frame rate
-  const audit::Audit* audit_of_input = nullptr;                       ///< by its poses alone
-  const audit::Audit* audit_of_cleaned = nullptr;                     ///< by its recorded forces
+  std::vector<std::pair<Who, const MeasuredMotion*>> motions;  ///< at one frame rate
+  const audit::Audit* audit_of_input = nullptr;                ///< by its poses alone
+  const audit::Audit* audit_of_cleaned = nullptr;              ///< by its recorded forces
   const std::vector<GroundForces>* ground = nullptr;
   double weight = 0.0;           ///< N
   const Npz* members = nullptr;  ///< of the cleaned motion: reward and its factors
 };
+
+/// Whose motion, in words.
+std::string title_of(Who who);
 
 /// Over the clip's time.
 std::vector<ReportChart> charts_of(const ChartSources& sources);
@@ -31,7 +35,7 @@ ReportChart falls_chart(const record::Table& falls, double fps);
 
 /// Where the input sinks, floats, slides and shakes; where the feet of the cleaned motion are pushed by the
 /// floor, or without recorded forces touch it. @param input  null: no flaws
-std::vector<ReportBars> bars_of(const motion::MotionSamples* input, const motion::MotionSamples& cleaned,
+std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotion& cleaned,
                                 const std::vector<GroundForces>& ground, double weight);
 
 }  // namespace mimicx::pipeline::report

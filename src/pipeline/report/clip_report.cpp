@@ -12,6 +12,7 @@
 #include "motion/import/motion_file.h"
 #include "motion/resample.h"
 #include "pipeline/audit/audit_file.h"
+#include "pipeline/audit/torque_shares.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/record/feasibility_file.h"
 #include "pipeline/report/charts.h"
@@ -81,13 +82,14 @@ motion::MotionSamples head_of(motion::MotionSamples samples, int frames) {
 /// A motion of the player with what is measured on it.
 struct Seen {
   ReportMotion motion;
-  motion::MotionSamples samples;
+  MeasuredMotion measured;
 };
 
 Seen seen(Who who, const motion::Clip& clip, double fps) {
   const motion::Clip at_rate = motion::resampled(clip, fps);
-  Seen s{{who, motion::character_of(at_rate), motion::poses_of(at_rate)}, {}};
-  s.samples = motion::sample_motion(s.motion.character, s.motion.poses, fps);
+  Seen s{{who, motion::character_of(at_rate), motion::poses_of(at_rate), {}}, {}};
+  s.measured = measured(motion::sample_motion(s.motion.character, s.motion.poses, fps));
+  for (const auto& surface : s.measured.samples.surface) s.motion.support.push_back(support_of(surface));
   return s;
 }
 
@@ -129,9 +131,9 @@ void compare_with_truth(const ClipFiles& files, const std::vector<ReportMetric>&
   for (const auto& [who, column] : {std::pair{Who::kInput, 0}, std::pair{Who::kCleaned, 2}}) {
     const Seen* motion = files.find(who);
     if (!motion) continue;
-    const int frames = std::min(motion->samples.frames(), truth->samples.frames());
-    const motion::MotionSamples same = head_of(truth->samples, frames);
-    const motion::Metrics m = motion::evaluate_motion(head_of(motion->samples, frames), &same);
+    const int frames = std::min(motion->measured.samples.frames(), truth->measured.samples.frames());
+    const motion::MotionSamples same = head_of(truth->measured.samples, frames);
+    const motion::Metrics m = motion::evaluate_motion(head_of(motion->measured.samples, frames), &same);
     for (std::size_t k = 0; k < metrics.size(); ++k)
       for (const motion::MetricDefinition& d : motion::metric_definitions())
         if (metrics[k].group == kTruth && metrics[k].key == kTruthKey + std::string(d.name))
@@ -199,6 +201,41 @@ void add_ground(const ClipFiles& files, ReportClip& clip) {
   clip.weight = kGravity * cleaned.character.total_mass();
 }
 
+/// Torques of the controllers, without what the joints' ranges do.
+void add_torques(const ClipFiles& files, ReportClip& clip) {
+  if (!files.members.has("joint_torques") || !files.members.has("range_torques")) return;
+  const ReportMotion& cleaned = files.find(Who::kCleaned)->motion;
+  output::VectorRows torques = output::read_joints(files.members, "joint_torques", cleaned.poses.size());
+  const output::VectorRows range = output::read_joints(files.members, "range_torques", cleaned.poses.size());
+  for (std::size_t t = 0; t < torques.size(); ++t) {
+    for (int b = 0; b < kBodies; ++b) torques[t][b] -= range[t][b];
+    clip.torques.push_back(audit::torque_shares(cleaned.character, torques[t]));
+  }
+}
+
+void add_camera(const ClipFiles& files, ReportClip& clip) {
+  clip.camera = camera_of(motion::resampled(files.cleaned, clip.fps));
+  if (!clip.camera) return;
+  ReportChart chart{{"distance from the keypoints", "px",
+                     "of the body's points, as the clip's camera sees them; each counts by its confidence"},
+                    {}};
+  for (const Seen& s : files.motions)
+    chart.lines.push_back(
+        {s.motion.who, title_of(s.motion.who), distances_from_seen(*clip.camera, s.motion.poses)});
+  chart.step = 1.0 / clip.fps;
+  clip.charts.push_back(chart);
+}
+
+/// Which option acts where.
+std::vector<ReportStretch> stretches_of(const record::SequenceEntry& entry) {
+  std::vector<ReportStretch> stretches;
+  for (const auto& [frame, option] : entry.arrangement) {
+    if (!stretches.empty()) stretches.back().last = frame - 1;
+    stretches.push_back({frame, entry.frames - 1, option});
+  }
+  return stretches;
+}
+
 /// Whether policies were trained for the motion, be it that a plan was written in the end.
 bool was_trained(const record::SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
 
@@ -212,16 +249,19 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].key == kRootForce && audits.input) made.row.values[k][0] = mean_force(*audits.input);
   add_ground(files, clip);
+  add_torques(files, clip);
+  clip.options = stretches_of(entry);
   ChartSources sources;
-  for (const Seen& s : files.motions) sources.motions.emplace_back(s.motion.who, &s.samples);
+  for (const Seen& s : files.motions) sources.motions.emplace_back(s.motion.who, &s.measured);
   sources.audit_of_input = audits.input ? &*audits.input : nullptr;
   sources.audit_of_cleaned = audits.cleaned ? &*audits.cleaned : nullptr;
   sources.ground = &clip.ground;
   sources.weight = clip.weight;
   sources.members = &files.members;
   clip.charts = charts_of(sources);
+  add_camera(files, clip);
   const Seen* input = files.find(Who::kInput);
-  clip.bars = bars_of(input ? &input->samples : nullptr, files.find(Who::kCleaned)->samples, clip.ground,
+  clip.bars = bars_of(input ? &input->measured : nullptr, files.find(Who::kCleaned)->measured, clip.ground,
                       clip.weight);
   for (const Seen& s : files.motions) clip.motions.push_back(s.motion);
   add_feasibility(folder.feasibility(entry.name), clip);

@@ -1,6 +1,6 @@
 # Joins page/index.html, page/style.css and the scripts of page/ into one header of raw strings: the page before and
 # after its data. Runs at configure time, and again whenever one of the files changes.
-set(REPORT_SCRIPTS base overview chart capsules player timeline clip main)  # in the order of their use
+set(REPORT_SCRIPTS base overview map chart body camera capsules marks skin player picture layers timeline clip main)  # in order
 
 function(embed_report_page folder output)
   set(files index.html style.css)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/units.h"
 
@@ -10,9 +11,8 @@ namespace mimicx::pipeline::report {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTouch = 0.005;  ///< m, as in docs/metrics.md
-constexpr double kSlide = 5.0;    ///< mm/frame
-constexpr double kShake = 2.0;    ///< m/s²
+constexpr double kSlide = 5.0;  ///< mm/frame
+constexpr double kShake = 2.0;  ///< m/s²
 
 using Points = std::vector<Vector3d>;
 
@@ -23,7 +23,7 @@ double way(const Points& now, const Points& next, const Points& floor_now, const
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = first; i < last; ++i) {
-    if (floor_now[i].z() > kTouch || floor_next[i].z() > kTouch) continue;
+    if (floor_now[i].z() > motion::kContactHeight || floor_next[i].z() > motion::kContactHeight) continue;
     sum += (next[i] - now[i]).head<2>().norm();
     ++count;
   }
@@ -61,6 +61,11 @@ MotionCurves curves_of(const motion::MotionSamples& motion) {
   return curves;
 }
 
+MeasuredMotion measured(motion::MotionSamples samples) {
+  MotionCurves curves = curves_of(samples);
+  return {std::move(samples), std::move(curves)};
+}
+
 std::vector<double> joint_distances(const motion::MotionSamples& a, const motion::MotionSamples& b) {
   std::vector<double> means(static_cast<std::size_t>(std::min(a.frames(), b.frames())));
   for (std::size_t t = 0; t < means.size(); ++t)
@@ -80,15 +85,16 @@ std::vector<Span> spans_of(const std::vector<bool>& frames) {
   return spans;
 }
 
-Flaws flaws_of(const motion::MotionSamples& input, const motion::MotionSamples& cleaned) {
-  const MotionCurves its = curves_of(input), good = curves_of(cleaned);
-  const int frames = std::min(input.frames(), cleaned.frames());
+Flaws flaws_of(const MeasuredMotion& input, const MeasuredMotion& cleaned) {
+  const MotionCurves &its = input.curves, &good = cleaned.curves;
+  const int frames = std::min(input.samples.frames(), cleaned.samples.frames());
   Flaws flaws;
   for (int t = 0; t < frames; ++t) {
     const auto k = static_cast<std::size_t>(t);
-    flaws.sinks.push_back(its.lowest[k] < -kMm * kTouch);
-    flaws.floats.push_back(its.lowest[k] > kMm * kTouch && good.lowest[k] <= kMm * kTouch);
-    flaws.slides.push_back(t + 1 < frames && foot_way(input, cleaned, t) >= kSlide);
+    flaws.sinks.push_back(its.lowest[k] < -kMm * motion::kContactHeight);
+    flaws.floats.push_back(its.lowest[k] > kMm * motion::kContactHeight &&
+                           good.lowest[k] <= kMm * motion::kContactHeight);
+    flaws.slides.push_back(t + 1 < frames && foot_way(input.samples, cleaned.samples, t) >= kSlide);
     flaws.shakes.push_back(its.acceleration[k] - good.acceleration[k] >= kShake);  // never of NaN
   }
   return flaws;

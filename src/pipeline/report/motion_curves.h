@@ -21,6 +21,13 @@ struct MotionCurves {
 };
 MotionCurves curves_of(const motion::MotionSamples& motion);
 
+/// A motion with its curves.
+struct MeasuredMotion {
+  motion::MotionSamples samples;
+  MotionCurves curves;
+};
+MeasuredMotion measured(motion::MotionSamples samples);
+
 /// Mean distance of the joints of two motions, as many frames as both have, mm.
 std::vector<double> joint_distances(const motion::MotionSamples& a, const motion::MotionSamples& b);
 
@@ -41,6 +48,6 @@ struct Flaws {
   std::vector<bool> shakes;  ///< the joints' mean acceleration is 2 m/s² or more above that of the cleaned
 };
 /// @param input, cleaned  at one frame rate; frames behind the end of either have no flaw
-Flaws flaws_of(const motion::MotionSamples& input, const motion::MotionSamples& cleaned);
+Flaws flaws_of(const MeasuredMotion& input, const MeasuredMotion& cleaned);
 
 }  // namespace mimicx::pipeline::report

@@ -2,33 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <string_view>
 
-#include "core/units.h"
 #include "pipeline/record/json.h"
+#include "pipeline/report/motion_data.h"
 #include "pipeline/report/report_page.h"
 
 namespace mimicx::pipeline::report {
 namespace {
-
-/// Whole numbers in base64 digits, the highest first: two are 12 bits, three 18.
-class Digits {
- public:
-  /// The nearest whole number, moved up by half of the range; what is too large is the largest there is.
-  void put(double value, int digits) {
-    static constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const double half = std::ldexp(1.0, 6 * digits - 1);
-    const auto number = static_cast<std::uint32_t>(std::clamp(std::round(value), -half, half - 1.0) + half);
-    for (int k = digits - 1; k >= 0; --k) text_ += kDigits[number >> (6 * k) & 63];
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-constexpr int kFar = 3, kNear = 2;  ///< digits of what is within 131 m, and within 2 m of the pelvis
 
 std::string_view name_of(Who who) {
   constexpr Array<std::string_view, 5> kNames = {"input", "reference", "cleaned", "truth", ""};
@@ -64,24 +45,14 @@ record::Json to_json(const ReportNeeds& needs) {
           {"bar", numbers(needs.bar)}};
 }
 
-/// Centres of mass of every frame in mm, [frame][3].
-std::string encode_centers(const ReportMotion& motion) {
-  Digits digits;
-  for (const BodyPoses& pose : motion.poses) {
-    const Vector3d center = center_of_mass(motion.character, pose);
-    for (int k = 0; k < 3; ++k) digits.put(kMm * center[k], kFar);
-  }
-  return digits.text();
-}
-
 record::Json to_json(const ReportMotion& motion) {
-  std::vector<double> radii;
-  for (const auto& c : motion.character.capsule) radii.push_back(c.radius);
-  return {{"who", name_of(motion.who)},
-          {"frames", motion.poses.size()},
-          {"radii", numbers(radii)},
-          {"ends", encode_capsules(motion.character, motion.poses)},
-          {"centers", encode_centers(motion)}};
+  record::Json json = {{"who", name_of(motion.who)},
+                       {"frames", motion.poses.size()},
+                       {"body", motion.body},
+                       {"poses", encode_poses(motion.poses)},
+                       {"centers", encode_centers(motion.character, motion.poses)}};
+  if (!motion.support.empty()) json["support"] = encode_support(motion.support, motion.poses);
+  return json;
 }
 
 record::Json to_json(const ReportChart& chart) {
@@ -127,30 +98,6 @@ std::string without_ends(std::string text) {
 
 }  // namespace
 
-std::string encode_capsules(const Character& character, const std::vector<BodyPoses>& poses) {
-  Digits digits;
-  for (const BodyPoses& pose : poses) {
-    const Vector3d pelvis = (kMm * pose.p_WB[kPelvis]).array().round();
-    for (int k = 0; k < 3; ++k) digits.put(pelvis[k], kFar);
-    for (int i = 0; i < kBodies; ++i)
-      for (const Vector3d& end_B : {character.capsule[i].a_B, character.capsule[i].b_B}) {
-        const Vector3d end_W = pose.p_WB[i] + pose.q_WB[i] * end_B;
-        for (int k = 0; k < 3; ++k) digits.put(kMm * end_W[k] - pelvis[k], kNear);
-      }
-  }
-  return digits.text();
-}
-
-std::string encode_ground(const std::vector<GroundForces>& ground) {
-  Digits digits;
-  for (const GroundForces& frame : ground)
-    for (const GroundForce& arrow : frame) {
-      for (int k = 0; k < 2; ++k) digits.put(kMm * arrow.point[k], kFar);
-      for (int k = 0; k < 3; ++k) digits.put(arrow.force[k], kFar);
-    }
-  return digits.text();
-}
-
 std::string clip_json(const ReportClip& clip) {
   record::Json json = {{"fps", clip.fps}, {"weight", rounded_number(clip.weight, kOfNumbers)}};
   const auto list = [&json](const char* name, const auto& all) {
@@ -170,6 +117,10 @@ std::string clip_json(const ReportClip& clip) {
     json["facts"].push_back(one);
   }
   if (!clip.ground.empty()) json["ground"] = encode_ground(clip.ground);
+  if (!clip.torques.empty()) json["torques"] = encode_torques(clip.torques);
+  if (clip.camera) json["camera"] = record::Json::parse(camera_json(*clip.camera));
+  for (const ReportStretch& s : clip.options)
+    json["options"].push_back(std::array<int, 3>{s.first, s.last, s.option});
   if (!clip.needs.force.empty()) {
     json["needs"] = to_json(clip.needs);
     json["needs"]["wrong"] = clip.wrong;
@@ -178,8 +129,12 @@ std::string clip_json(const ReportClip& clip) {
   return without_ends(json.dump());
 }
 
-std::string clip_script(const std::string& name, const std::string& json) {
-  return "mimicx_clip(" + without_ends(record::Json(name).dump()) + ", " + json + ");\n";
+std::string clip_script(const std::string& name, const std::string& json,
+                        const std::map<int, std::string>& bodies) {
+  std::string list;
+  for (const auto& [number, body] : bodies)
+    list += (list.empty() ? "\"" : ", \"") + std::to_string(number) + "\": " + body;
+  return "mimicx_clip(" + without_ends(record::Json(name).dump()) + ", " + json + ", {" + list + "});\n";
 }
 
 std::string format_report(const Report& report, const std::vector<std::string>& clips) {
@@ -192,12 +147,15 @@ std::string format_report(const Report& report, const std::vector<std::string>& 
     metrics.push_back(one);
   }
   for (const ReportRow& row : report.rows) rows.push_back(to_json(row));
-  const record::Json all = {{"run", run}, {"metrics", metrics}, {"rows", rows}};
+  record::Json all = {{"run", run}, {"metrics", metrics}, {"rows", rows}};
+  if (!report.map.empty()) all["map"] = record::Json::parse(report.map);
   std::string page = std::string(kReportPageBefore) + without_ends(all.dump());
-  for (std::size_t k = 0; k < clips.size(); ++k)
-    if (!clips[k].empty())
-      page +=
-          "</script>\n<script type=\"application/json\" id=\"clip-" + std::to_string(k) + "\">" + clips[k];
+  const auto add = [&page](const std::string& id, const std::string& json) {
+    if (!json.empty()) page += "</script>\n<script type=\"application/json\" id=\"" + id + "\">" + json;
+  };
+  add("skin", report.skin);
+  for (const auto& [number, body] : report.bodies) add("body-" + std::to_string(number), body);
+  for (std::size_t k = 0; k < clips.size(); ++k) add("clip-" + std::to_string(k), clips[k]);
   return page + std::string(kReportPageAfter);
 }
 

@@ -3,20 +3,25 @@
 ///
 /// The page itself (HTML, CSS, JavaScript) stands in src/pipeline/report/page and is embedded at build time.
 /// The clips' data are embedded in it, or stand in files beside it that the page loads when they are looked
-/// at (a page opened from a disk may load scripts, and nothing else; so these are scripts). Motions are the
-/// ends of the capsules in whole millimetres, two base64 digits a number: 273 bytes a frame, and a page that
-/// needs no rotations. The page does not compute anything: numbers arrive as they are to be shown.
+/// at (a page opened from a disk may load scripts, and nothing else; so these are scripts). Motions are
+/// rotations of bodies (motion_data.h), 141 bytes a frame; bones, shapes and skins stand there once per body
+/// (bodies.h). The page poses and draws them, and computes nothing else: numbers arrive as they are to be
+/// shown.
 #pragma once
 
 #include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "character/character.h"
 #include "pipeline/record/table.h"
+#include "pipeline/report/camera.h"
 #include "pipeline/report/ground_forces.h"
 #include "pipeline/report/motion_curves.h"
+#include "pipeline/report/support.h"
 #include "pipeline/report/words.h"
 
 namespace mimicx::pipeline::report {
@@ -29,6 +34,8 @@ struct ReportMotion {
   Who who = Who::kCleaned;
   Character character;
   std::vector<BodyPoses> poses;
+  std::vector<Polygon> support;  ///< [frame] what it stands on; may be empty
+  int body = -1;                 ///< its number in the page (bodies.h)
 };
 
 struct ReportLine {
@@ -59,6 +66,11 @@ struct ReportNeeds {
   std::vector<double> bar;                          ///< height of its bar in the band, in [0, 1]
 };
 
+/// Frames in which one option acts, `first` to `last`.
+struct ReportStretch {
+  int first = 0, last = 0, option = 0;
+};
+
 /// A number in words.
 struct ReportFact {
   std::string group;
@@ -70,8 +82,11 @@ struct ReportFact {
 struct ReportClip {
   double fps = 30.0;
   std::vector<ReportMotion> motions;
-  std::vector<GroundForces> ground;  ///< of the cleaned motion, per frame; may be empty
-  double weight = 0.0;               ///< of its body, N
+  std::vector<GroundForces> ground;      ///< of the cleaned motion, per frame; may be empty
+  double weight = 0.0;                   ///< of its body, N
+  std::vector<PerBody<double>> torques;  ///< of its joints, 1 = the bound; per frame, may be empty
+  std::optional<ReportCamera> camera;    ///< that saw it, where one did
+  std::vector<ReportStretch> options;    ///< that made it; empty without any
   std::vector<ReportBars> bars;
   ReportNeeds needs;               ///< from outside, by the poses; may be empty
   std::vector<std::string> wrong;  ///< with each of these frames, in a word
@@ -106,20 +121,18 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> run;  ///< what the run was, in words
   std::vector<ReportMetric> metrics;
   std::vector<ReportRow> rows;
+  std::string skin;  ///< what all skins have in common (ReportBodies::skin_json); empty: nothing to show
+  std::string map;   ///< of the motions and the clusters of the options (map_json); empty: none
+  std::map<int, std::string> bodies;  ///< of the clips in the page, by number, as JSON
 };
 
 /// A clip's data as JSON.
 std::string clip_json(const ReportClip& clip);
-/// The file of a clip beside the page: `mimicx_clip("NAME", DATA);`
-std::string clip_script(const std::string& name, const std::string& json);
+/// The file of a clip beside the page: `mimicx_clip("NAME", DATA, {"NUMBER": BODY, …});`
+/// @param bodies  as JSON, those of its motions
+std::string clip_script(const std::string& name, const std::string& json,
+                        const std::map<int, std::string>& bodies);
 /// The page. @param clips  [row] what `clip_json` says of those that are embedded; else empty
 std::string format_report(const Report& report, const std::vector<std::string>& clips);
-
-/// [frame]: the pelvis (3 numbers of 3 digits), then the ends of every capsule from there, [body][2][3]
-/// numbers of 2 digits; mm. A number n of d digits is n + 2^(6d − 1) in base64 digits, the highest first.
-/// Exposed for its test.
-std::string encode_capsules(const Character& character, const std::vector<BodyPoses>& poses);
-/// Arrows of every frame, [frame][3][5] numbers of 3 digits: x and y of the point in mm, force in N.
-std::string encode_ground(const std::vector<GroundForces>& ground);
 
 }  // namespace mimicx::pipeline::report

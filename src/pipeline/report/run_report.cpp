@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <stdexcept>
 
 #include "core/file.h"
+#include "motion/clip_file.h"
+#include "motion/prepare.h"
 #include "pipeline/record/timing.h"
+#include "pipeline/report/bodies.h"
 #include "pipeline/report/clip_report.h"
+#include "pipeline/report/cluster_map.h"
 
 namespace mimicx::pipeline::report {
 namespace {
@@ -51,6 +57,45 @@ std::vector<std::pair<std::string, std::string>> run_in_words(const record::RunF
   return run;
 }
 
+/// The clusters of the options, and where the motions of the run are among them.
+struct MotionMap {
+  options::Clusters clusters;
+  ClusterMap map;
+
+  /// By the prepared reference, as options are chosen by it. One that is gone or too short is left out.
+  void add(const record::RunFolder& folder, const record::SequenceEntry& entry, int row) {
+    const std::filesystem::path file = folder.reference(entry.name);
+    if (entry.output.empty() || !std::filesystem::exists(file)) return;
+    try {
+      const motion::PreparationConfig as_it_is{
+          .separate = false, .level_feet = false, .ground = false, .bridge_flagged = false};
+      const motion::MotionFeatures features =
+          motion::motion_features(motion::prepare_reference(motion::read_clip(file), as_it_is, nullptr));
+      map.clips.push_back({map.place(features), options::nearest_cluster(clusters, features), "", row});
+    } catch (const DataError&) {
+      return;
+    }
+  }
+};
+
+/// Empty where no options are known, or features of their motions; what cannot be read is said among the
+/// facts of the run.
+std::optional<MotionMap> map_for(const record::RunFolder& folder, const ReportOptions& options,
+                                 std::vector<std::pair<std::string, std::string>>& run) {
+  const std::filesystem::path file = options.clusters.empty() ? folder.clusters() : options.clusters;
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  try {
+    MotionMap map{options::read_clusters(file), {}};
+    map.map = map_of(map.clusters);
+    return map;
+  } catch (const std::invalid_argument&) {
+    run.emplace_back("no map of the motions", "the options' clusters.json does not have their features");
+  } catch (const DataError&) {
+    run.emplace_back("no map of the motions", "the options' clusters.json cannot be read");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void write_report(const record::RunFolder& folder, const record::Manifest& manifest,
@@ -62,21 +107,29 @@ void write_report(const record::RunFolder& folder, const record::Manifest& manif
   report.run = run_in_words(folder, manifest, options.times);
   report.metrics = report_metrics(!options.truth.empty());
   std::vector<std::string> clips;
+  ReportBodies bodies;
+  std::optional<MotionMap> map = map_for(folder, options, report.run);
   for (const record::SequenceEntry& entry : entries) {
     const auto truth = options.truth.find(entry.name);
     ReportedClip made = report_clip(folder, entry, report.metrics,
                                     truth == options.truth.end() ? std::filesystem::path() : truth->second);
+    for (ReportMotion& motion : made.clip.motions) motion.body = bodies.take(motion.character);
     std::string json = clip_json(made.clip);
     if (beside && has_motion(entry)) {
       const std::filesystem::path file = folder.report_clip(entry.name);
       make_folder(file.parent_path());
-      write_file_atomically(file, clip_script(entry.name, json));
+      write_file_atomically(file, clip_script(entry.name, json, bodies.texts()));
       json.clear();
+      bodies.forget();
     }
+    if (map) map->add(folder, entry, static_cast<int>(report.rows.size()));
     made.row.embedded = !json.empty();
     report.rows.push_back(made.row);
     clips.push_back(std::move(json));
   }
+  if (map) report.map = map_json(map->map);
+  report.skin = bodies.skin_json();
+  report.bodies = bodies.texts();
   write_file_atomically(folder.report(), format_report(report, clips));
 }
 

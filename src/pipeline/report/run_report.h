@@ -16,6 +16,7 @@ inline constexpr std::ptrdiff_t kMostEmbedded = 50;
 
 struct ReportOptions {
   std::map<std::string, std::filesystem::path> truth;  ///< files of the truth, by the clips' names
+  std::filesystem::path clusters;  ///< of the options, for the map; empty: DIR/clusters.json, where that is
   bool times = false;  ///< also say how long it took: wall-clock times, which no two runs have in common
 };
 

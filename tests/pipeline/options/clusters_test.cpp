@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/file.h"
 #include "core/random.h"
 #include "pipeline/options/words.h"
 #include "pipeline/temporary_folder.h"
@@ -112,6 +113,37 @@ TEST(Clusters, FileReadsBackAsTheSameBytes) {
   EXPECT_EQ(format_clusters(back), format_clusters(clusters));
   EXPECT_EQ(back.clusters[1].centre, clusters.clusters[1].centre);
   EXPECT_EQ(back.settings.clusters, 3);
+}
+
+TEST(Clusters, KeepTheFeaturesOfTheirMembers) {
+  TemporaryFolder folder;
+  const std::vector<NamedFeatures> motions = some_motions();
+  write_clusters(folder.path / "c.json", cluster_motions(motions, three()));
+  std::size_t found = 0;
+  for (const MotionCluster& cluster : read_clusters(folder.path / "c.json").clusters) {
+    ASSERT_EQ(cluster.features.size(), cluster.members.size());
+    for (std::size_t i = 0; i < cluster.members.size(); ++i)
+      for (const NamedFeatures& motion : motions)
+        if (motion.name == cluster.members[i]) {
+          EXPECT_EQ(motion.features, cluster.features[static_cast<int>(i)]) << motion.name;
+          ++found;
+        }
+  }
+  EXPECT_EQ(found, motions.size());
+}
+
+TEST(Clusters, OlderFilesHaveNoFeaturesOfMembers) {
+  TemporaryFolder folder;
+  Clusters clusters = cluster_motions(some_motions(), three());
+  for (MotionCluster& cluster : clusters.clusters) cluster.features.clear();
+  write_clusters(folder.path / "c.json", clusters);
+  EXPECT_EQ(read_file(folder.path / "c.json").find("features"), std::string::npos);
+  for (const MotionCluster& cluster : read_clusters(folder.path / "c.json").clusters)
+    EXPECT_TRUE(cluster.features.empty());
+  clusters.clusters[0].features.resize(1);  // of one member alone
+  clusters.clusters[0].features[0].fill(0.0);
+  write_clusters(folder.path / "c.json", clusters);
+  EXPECT_THROW(read_clusters(folder.path / "c.json"), DataError);
 }
 
 TEST(Clusters, FilesOfOtherUnitsOrNoneAreRefused) {

@@ -68,10 +68,14 @@ TEST(MotionCurves, TheMeanSlideIsTheMetric) {
   EXPECT_NEAR(sum / (kFrames - 1), motion::evaluate_motion(glide, nullptr).fs.value, 1e-9);
 }
 
+Flaws flaws(const motion::MotionSamples& input, const motion::MotionSamples& cleaned) {
+  return flaws_of(measured(input), measured(cleaned));
+}
+
 TEST(Flaws, OfAMotionThatIsTheCleanedOneAreNone) {
   const motion::MotionSamples still = moved(nowhere);
-  const Flaws flaws = flaws_of(still, still);
-  for (const auto* frames : {&flaws.sinks, &flaws.floats, &flaws.slides, &flaws.shakes}) {
+  const Flaws none = flaws(still, still);
+  for (const auto* frames : {&none.sinks, &none.floats, &none.slides, &none.shakes}) {
     EXPECT_EQ(frames->size(), static_cast<std::size_t>(kFrames));
     EXPECT_EQ(count(*frames), 0);
   }
@@ -80,19 +84,19 @@ TEST(Flaws, OfAMotionThatIsTheCleanedOneAreNone) {
 TEST(Flaws, EachIsFoundWhereItIsAndNoOther) {
   const motion::MotionSamples still = moved(nowhere);
   const auto third = [](int t) { return t >= 4 && t < 8; };
-  const Flaws sunk = flaws_of(moved([](int) { return Vector3d(0.0, 0.0, -0.02); }), still);
+  const Flaws sunk = flaws(moved([](int) { return Vector3d(0.0, 0.0, -0.02); }), still);
   EXPECT_EQ(count(sunk.sinks), kFrames);
   EXPECT_EQ(count(sunk.floats), 0);
-  const Flaws afloat = flaws_of(moved([](int) { return Vector3d(0.0, 0.0, 0.02); }), still);
+  const Flaws afloat = flaws(moved([](int) { return Vector3d(0.0, 0.0, 0.02); }), still);
   EXPECT_EQ(count(afloat.floats), kFrames);
   EXPECT_EQ(count(afloat.sinks), 0);
   // 6 mm to the next frame during frames 4 … 7, at one speed: accelerations at the two ends alone, 5.4 m/s².
   const Flaws slid =
-      flaws_of(moved([](int t) { return Vector3d(0.006 * std::clamp(t - 4, 0, 4), 0.0, 0.0); }), still);
+      flaws(moved([](int t) { return Vector3d(0.006 * std::clamp(t - 4, 0, 4), 0.0, 0.0); }), still);
   for (int t = 0; t < kFrames; ++t) EXPECT_EQ(slid.slides[static_cast<std::size_t>(t)], third(t)) << t;
   EXPECT_EQ(count(slid.shakes), 2);
   const Flaws shaken =
-      flaws_of(moved([&](int t) { return Vector3d(third(t) && t % 2 == 0 ? 0.004 : 0.0, 0.0, 0.0); }), still);
+      flaws(moved([&](int t) { return Vector3d(third(t) && t % 2 == 0 ? 0.004 : 0.0, 0.0, 0.0); }), still);
   EXPECT_EQ(spans_of(shaken.shakes).size(), 1u);
   EXPECT_EQ(count(shaken.slides), 0);
 }
@@ -100,13 +104,13 @@ TEST(Flaws, EachIsFoundWhereItIsAndNoOther) {
 // A true jump is in the air where the cleaned one is, too.
 TEST(Flaws, AJumpDoesNotFloat) {
   const auto jump = [](int t) { return Vector3d(0.0, 0.0, t > 3 && t < 9 ? 0.3 : 0.0); };
-  EXPECT_EQ(count(flaws_of(moved(jump), moved(jump)).floats), 0);
-  EXPECT_EQ(count(flaws_of(moved(jump), moved(nowhere)).floats), 5);
+  EXPECT_EQ(count(flaws(moved(jump), moved(jump)).floats), 0);
+  EXPECT_EQ(count(flaws(moved(jump), moved(nowhere)).floats), 5);
 }
 
 TEST(Flaws, EndWhereTheShorterMotionDoes) {
-  EXPECT_EQ(flaws_of(moved(nowhere), moved(nowhere, 5)).sinks.size(), 5u);
-  EXPECT_EQ(flaws_of(moved(nowhere, 5), moved(nowhere)).slides.size(), 5u);
+  EXPECT_EQ(flaws(moved(nowhere), moved(nowhere, 5)).sinks.size(), 5u);
+  EXPECT_EQ(flaws(moved(nowhere, 5), moved(nowhere)).slides.size(), 5u);
 }
 
 TEST(Spans, AreTheStretchesOfTrueFrames) {

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "motion/clip_file.h"
+#include "motion/features.h"
 #include "pipeline/evaluate.h"
+#include "pipeline/options/clusters.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
@@ -87,10 +91,20 @@ TEST(RunReport, FiftyMotionsAreOneFileAndMoreStandBesideIt) {
   EXPECT_EQ(count(page, kEmbedded), 0u);
   EXPECT_LT(page.size(), one.size() / 2);
   const std::string script = read_file(few.run.report_clip("clip 7"));
-  const std::string opening = "mimicx_clip(\"clip 7\", ";
+  const std::string opening = "mimicx_clip(";
   ASSERT_TRUE(script.starts_with(opening));
-  EXPECT_EQ(nlohmann::json::parse(script.substr(opening.size(), script.size() - opening.size() - 3)),
-            element(one, "clip-7"));
+  const auto told =
+      nlohmann::json::parse("[" + script.substr(opening.size(), script.size() - opening.size() - 3) + "]");
+  EXPECT_EQ(told[0], "clip 7");
+  nlohmann::json same = told[1];
+  for (auto& motion : same["motions"]) motion["body"] = 0;
+  EXPECT_EQ(same, element(one, "clip-7"));
+  ASSERT_EQ(told[2].size(), 1u) << "all wear the standard body";
+  EXPECT_EQ(told[2].begin().value(), element(one, "body-0"));
+  EXPECT_EQ(told[2].begin().key(), std::to_string(told[1]["motions"][0]["body"].get<int>()));
+  EXPECT_EQ(count(one, "id=\"body-"), 1u);
+  EXPECT_EQ(count(page, "id=\"body-"), 0u);
+  EXPECT_EQ(element(page, "skin"), element(one, "skin"));
 }
 
 TEST(RunReport, AThousandInputsThatCouldNotBeReadAreOneFile) {
@@ -167,6 +181,85 @@ TEST(RunReport, ATruthThatCannotBeReadIsSaid) {
   const nlohmann::json clip = element(run.page(options), "clip-0");
   EXPECT_EQ(clip["motions"].size(), 3u);
   EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("the truth cannot be shown: "));
+}
+
+/// Clusters of stiff bodies that stand, travel and rise.
+options::Clusters some_clusters() {
+  std::vector<options::NamedFeatures> motions;
+  for (int i = 0; i < 6; ++i) {
+    motion::MotionFeatures f{};
+    f[motion::kRootHeight] = 0.9 + 0.01 * i;
+    for (int j = 0; j < kBodies; ++j) f[motion::kPlanarVelocity + j] = i % 2 == 0 ? 0.0 : 1.0 + 0.1 * i;
+    motions.push_back({"motion " + std::to_string(i), f});
+  }
+  options::ClusterConfig settings;
+  settings.clusters = 2;
+  return options::cluster_motions(motions, settings);
+}
+
+TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
+  Folder run(2);
+  EXPECT_FALSE(element(run.page(), "data").contains("map"));
+  options::write_clusters(run.run.clusters(), some_clusters());
+  const nlohmann::json map = element(run.page(), "data")["map"];
+  EXPECT_EQ(map["trained"].size(), 6u);
+  ASSERT_EQ(map["clips"].size(), 2u);
+  for (int row = 0; row < 2; ++row) {
+    EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][3], row);
+    EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][2], 0) << "who stands is with the calm ones";
+  }
+  ReportOptions others;
+  others.clusters = run.folder.path / "others.json";
+  options::write_clusters(others.clusters, some_clusters());
+  std::filesystem::remove(run.run.clusters());
+  EXPECT_EQ(element(run.page(others), "data")["map"], map);
+}
+
+TEST(RunReport, ClustersThatCannotBeReadAreSaidAndCostTheMapAlone) {
+  Folder run(1);
+  options::Clusters older = some_clusters();
+  for (auto& cluster : older.clusters) cluster.features.clear();
+  for (const auto& [text, reason] :
+       {std::pair<std::string, std::string>{"{}", "the options' clusters.json cannot be read"},
+        {options::format_clusters(older), "the options' clusters.json does not have their features"}}) {
+    write_file_atomically(run.run.clusters(), text);
+    const std::string page = run.page();
+    const nlohmann::json data = element(page, "data");
+    EXPECT_FALSE(data.contains("map"));
+    EXPECT_EQ(data["run"].back()["name"], "no map of the motions");
+    EXPECT_EQ(data["run"].back()["value"], reason);
+    EXPECT_FALSE(element(page, "clip-0")["motions"].empty());
+  }
+}
+
+TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
+  Folder run(1);
+  record::SequenceEntry entry = run.manifest.sequences[0];
+  entry.arrangement = {{0, 2}, {4, 1}};
+  run.manifest.put(entry);
+  motion::Clip clip = raised(0.001);
+  clip.keypoints.emplace();
+  clip.keypoints->names = {"pelvis"};
+  clip.keypoints->uvc.assign(kFrames, {Vector3d(10.0, 20.0, 0.5)});
+  clip.keypoints->intrinsics << 100, 0, 10, 0, 100, 20, 0, 0, 1;
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topRows<3>() << 1, 0, 0, 0, 0, 0, -1, 0.9, 0, 1, 0, 4.0;
+  clip.keypoints->extrinsics.assign(1, pose);
+  Folder::write(run.run.root / entry.output, clip);
+  const nlohmann::json shown = element(run.page(), "clip-0");
+  EXPECT_EQ(shown["options"], (std::vector<std::vector<int>>{{0, 3, 2}, {4, 5, 1}}));
+  EXPECT_EQ(shown["camera"]["extrinsics"].size(), 1u);
+  const auto& charts = shown["charts"];
+  const bool told = std::any_of(charts.begin(), charts.end(), [](const auto& chart) {
+    return chart["title"]["words"] == "distance from the keypoints" && chart["lines"].size() == 3u;
+  });
+  EXPECT_TRUE(told);
+  // A body that stands 50 mm higher is seen 50 / 4000 · 100 px higher.
+  for (const auto& chart : charts)
+    if (chart["title"]["words"] == "distance from the keypoints") {
+      const double input = chart["lines"][0]["values"][0], cleaned = chart["lines"][2]["values"][0];
+      EXPECT_NEAR(std::abs(input - cleaned), 0.1 * 49.0 / 4.0, 0.05);
+    }
 }
 
 TEST(RunReport, WallClockTimesAreThereOnlyWhereTheyAreAskedFor) {

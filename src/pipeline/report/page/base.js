@@ -69,11 +69,12 @@ function decode_numbers(text, sizes) {
   return numbers;
 }
 
-// Ends of capsules in mm, [frame][body][2][3]: they come from the pelvis, which comes first in every frame.
-function decode_ends(text, bodies) {
-  const count = 6 * bodies, raw = decode_numbers(text, [3, 3, 3, ...Array(count).fill(2)]);
-  const frames = raw.length / (count + 3), ends = new Int32Array(frames * count);
-  for (let t = 0; t < frames; ++t)
-    for (let k = 0; k < count; ++k) ends[t * count + k] = raw[t * (count + 3) + 3 + k] + raw[t * (count + 3) + k % 3];
-  return ends;
+// Numbers that are never negative, all of one size.
+const decode_counts = (text, size) => decode_numbers(text, [size]).map((n) => n + 2 ** (6 * size - 1));
+
+// The same one by one.
+function reader_of(text) {
+  let at = 0;
+  const read = (size) => decode_numbers(text.slice(at, at += size), [size])[0];
+  return {number: read, count: (size) => read(size) + 2 ** (6 * size - 1)};
 }

@@ -1,19 +1,4 @@
-// Drawing in perspective: floor, capsules and their shadows, arrows. Canvas 2D, farthest first.
-
-// Where a camera that looks at `centre` sees a point: {x, y, depth, scale}, scale in pixels per metre.
-function camera(centre, view, width, height) {
-  const cy = Math.cos(view.yaw), sy = Math.sin(view.yaw), cp = Math.cos(view.pitch), sp = Math.sin(view.pitch);
-  const forward = [-cy * cp, -sy * cp, -sp], right = [-sy, cy, 0], up = [-cy * sp, -sy * sp, cp];
-  const eye = centre.map((c, i) => c - view.distance * forward[i]);
-  const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-  const focal = 1.25 * Math.min(height, 1.1 * width);
-  return (p) => {
-    const d = [p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]], depth = dot(d, forward), s = focal / depth;
-    return {x: width / 2 + s * dot(d, right), y: height * 0.52 - s * dot(d, up), depth, scale: s};
-  };
-}
-
-const nearest = 0.15;  // m before the camera
+// Drawing in perspective: floor, capsules and their shadows. Canvas 2D, farthest first.
 
 function draw_floor(g, project, centre, tones) {
   const half = 9, x0 = Math.round(centre[0]), y0 = Math.round(centre[1]);
@@ -72,53 +57,5 @@ function draw_capsule(g, project, c, rgb, alpha) {
   g.fillStyle = shade;
   g.fill();
   g.strokeStyle = `rgba(${rgb.map((v) => Math.round(v * 0.45)).join()},${0.55 * alpha})`;
-  g.stroke();
-}
-
-function draw_arrow(g, project, from, to, colour) {
-  const a = project(from), b = project(to);
-  if (a.depth < nearest || b.depth < nearest) return;
-  const length = Math.hypot(b.x - a.x, b.y - a.y), angle = Math.atan2(b.y - a.y, b.x - a.x), head = Math.min(13, 0.5 * length);
-  for (const [wide, tone] of [[3, '#fff'], [0, colour]]) {  // a white rim, to be seen before a body
-    g.strokeStyle = g.fillStyle = tone;
-    g.lineWidth = 3 + wide;
-    g.beginPath();
-    g.moveTo(a.x, a.y);
-    g.lineTo(b.x - 0.7 * head * Math.cos(angle), b.y - 0.7 * head * Math.sin(angle));
-    g.stroke();
-    g.beginPath();
-    g.moveTo(b.x, b.y);
-    for (const side of [-0.4, 0.4]) g.lineTo(b.x - head * Math.cos(angle + side), b.y - head * Math.sin(angle + side));
-    g.closePath();
-    g.lineWidth = wide;
-    if (wide) g.stroke();
-    g.fill();
-  }
-}
-
-// A ball at a point of the air, its place on the floor and the line between.
-function draw_center(g, project, p, colour) {
-  const ball = project(p), foot = project([p[0], p[1], 0]);
-  if (ball.depth < nearest || foot.depth < nearest) return;
-  g.strokeStyle = g.fillStyle = colour;
-  g.lineWidth = 1.5;
-  g.setLineDash([4, 3]);
-  g.beginPath();
-  g.moveTo(ball.x, ball.y);
-  g.lineTo(foot.x, foot.y);
-  g.stroke();
-  g.setLineDash([]);
-  g.beginPath();
-  g.arc(ball.x, ball.y, 5, 0, 2 * Math.PI);
-  g.fill();
-  g.strokeStyle = '#fff';
-  g.stroke();
-  g.strokeStyle = colour;
-  g.lineWidth = 2;
-  g.beginPath();
-  g.moveTo(foot.x - 6, foot.y);
-  g.lineTo(foot.x + 6, foot.y);
-  g.moveTo(foot.x, foot.y - 4);
-  g.lineTo(foot.x, foot.y + 4);
   g.stroke();
 }

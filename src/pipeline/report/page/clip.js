@@ -4,17 +4,17 @@ const arrived = new Map();  // by index, what clips beside the page said
 const waiting = new Map();  // by name, what to do when it arrives
 
 // The files beside the page call this.
-function mimicx_clip(name, clip) {
+function mimicx_clip(name, clip, bodies) {
   const take = waiting.get(name);
   waiting.delete(name);
-  if (take) take(clip);
+  if (take) take(clip, bodies);
 }
 
 function load_clip(index, take) {
   const row = data.rows[index];
   if (row.embedded) { take(JSON.parse($(`clip-${index}`).textContent)); return; }
-  if (arrived.has(index)) { take(arrived.get(index)); return; }
-  waiting.set(row.name, (clip) => { arrived.set(index, clip); take(clip); });
+  if (arrived.has(index)) { take(...arrived.get(index)); return; }
+  waiting.set(row.name, (...what) => { arrived.set(index, what); take(...what); });
   const path = `report/${row.name.split('/').map(encodeURIComponent).join('/')}.js`;
   const missing = () => { $('clip-message').textContent = `${path} is not there: it belongs beside this page`; };
   document.head.append(make('script', {src: path, onerror: missing}));
@@ -42,10 +42,10 @@ function facts_list(facts) {
           make('tr', {title: f.meaning}, make('th', {scope: 'row'}, f.words), make('td', {}, with_unit(short(f.value), f.unit)))))));
 }
 
-function show_loaded(index, clip) {
+function show_loaded(index, clip, bodies) {
   const row = data.rows[index];
   player.index = index;
-  take_clip(clip);
+  take_clip(clip, bodies);
   $('clip-message').textContent = '';
   $('stage').hidden = !clip.motions.length;
   show_layers();
@@ -65,9 +65,9 @@ function show_clip(index, ready) {
   $('status').textContent = row.ok ? `✓ cleaned, by ${row.made_by}` : `✗ failed: ${row.reason}`;
   $('status').className = row.ok ? 'ok' : 'failed';
   $('clip-message').textContent = 'loading …';
-  load_clip(index, (clip) => {
+  load_clip(index, (clip, bodies) => {
     if (Number($('clip').value) !== index) return;  // another one was asked for meanwhile
-    show_loaded(index, clip);
+    show_loaded(index, clip, bodies);
     if (ready) ready();
   });
 }

@@ -26,6 +26,7 @@ function tick(now) {
       const frame = frame_of(player.time);
       draw_scene($('view'));
       update_timeline(frame);
+      update_ramp(frame);
       for (const chart of $('charts').children) if (chart.at_time) chart.at_time(frame / player.clip.fps);
     }
   }
@@ -47,6 +48,7 @@ function on_key(e) {
     End: () => go_to_frame(player.frames - 1),
     n: () => go_to_clip(player.index + 1),
     p: () => go_to_clip(player.index - 1),
+    c: () => { if (player.clip.camera) look_from(as_camera_saw() ? 'around' : 'camera'); },
     o: () => { $('placing').value = player.placing === 'over' ? 'beside' : 'over'; $('placing').onchange(); },
     Escape: () => { location.hash = ''; },
   };
@@ -61,6 +63,7 @@ function begin() {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { read_tones(); if (player.clip && player.clip.needs) draw_band(); });
   show_run();
   show_overview();
+  show_map();
   data.rows.forEach((row, i) => $('clip').append(new Option(`${row.ok ? '' : '✗ '}${row.name}`, i)));
   $('filter').oninput = () => { overview.filter = $('filter').value.toLowerCase(); show_table(); };
   $('filter').hidden = data.rows.length < 8;
@@ -68,6 +71,7 @@ function begin() {
   $('previous').onclick = () => go_to_clip(player.index - 1);
   $('next').onclick = () => go_to_clip(player.index + 1);
   $('play').onclick = () => set_playing(!player.playing);
+  $('from').onchange = () => look_from($('from').value);
   $('placing').onchange = () => { player.placing = $('placing').value; player.stale = true; };
   listen_to_view($('view'));
   listen_to_timeline();

@@ -1,9 +1,11 @@
-// The motions of one clip in one world: input where it was, reference, cleaned, truth; each can be switched off.
+// The motions of one clip in one world: input where it was, reference, cleaned, truth; each can be switched off. Seen from
+// anywhere, or as the clip's own camera saw them.
 
-const view = {yaw: 0.5, pitch: 0.16, distance: 3.7};
+const view = {yaw: 0.5, pitch: 0.16, distance: 3.3, pan: [0, 0], zoom: 1};
 const player = {clip: null, index: -1, frames: 0, time: 0, playing: false, last: 0, stale: true, motions: {}, ground: null,
-                shown: {input: true, reference: false, cleaned: true, truth: false}, forces: true, centers: false,
-                placing: 'beside'};
+                torques: null, seen: null, box: null,
+                shown: {input: true, reference: false, cleaned: true, truth: false}, placing: 'beside', from: 'around',
+                layers: {forces: true, balance: false, loads: false, shapes: false, keypoints: true}};
 const tones = {};
 
 // The colours of the style sheet as numbers, again whenever the scheme changes.
@@ -22,34 +24,25 @@ function frame_of(time) {
 }
 
 // Decodes a clip for the player. Frames past the end of a motion repeat its last one.
-function take_clip(clip) {
+// @param bodies  that came with it, by number
+function take_clip(clip, bodies) {
   player.clip = clip;
   player.motions = {};
-  for (const m of clip.motions)
-    player.motions[m.who] = {frames: m.frames, radii: m.radii, ends: decode_ends(m.ends, m.radii.length),
-                              centers: decode_numbers(m.centers, [3])};
+  for (const m of clip.motions) if (m.frames > 0) player.motions[m.who] = take_motion(m, bodies);
   player.ground = clip.ground ? decode_numbers(clip.ground, [3]) : null;
+  player.torques = clip.torques ? decode_numbers(clip.torques, [2]) : null;
+  player.seen = clip.camera ? decode_seen(clip.camera) : null;
+  player.box = clip.camera ? box_of_clip() : null;
   player.frames = Math.max(0, ...clip.motions.map((m) => m.frames));
   player.time = 0;
   player.stale = true;
+  Object.assign(view, {pan: [0, 0], zoom: 1});
 }
 
-// A capsule of a motion as {a, b, r}, m.
-function capsule(who, frame, body, offset) {
-  const m = player.motions[who], at = 6 * (Math.min(frame, m.frames - 1) * m.radii.length + body), s = 1e-3;
-  return {a: [m.ends[at] * s + offset[0], m.ends[at + 1] * s + offset[1], m.ends[at + 2] * s],
-          b: [m.ends[at + 3] * s + offset[0], m.ends[at + 4] * s + offset[1], m.ends[at + 5] * s], r: m.radii[body]};
-}
-
-const present = () => Object.keys(people).filter((who) => player.motions[who] && player.motions[who].frames > 0);
+const present = () => Object.keys(people).filter((who) => player.motions[who]);
 const visible = () => present().filter((who) => player.shown[who]);
-
-// Side by side means across the view, wherever the camera stands.
-function offset_of(who, shown) {
-  if (player.placing !== 'beside') return [0, 0];
-  const aside = 1.1 * (shown.indexOf(who) - (shown.length - 1) / 2);
-  return [-aside * Math.sin(view.yaw), aside * Math.cos(view.yaw)];
-}
+const as_camera_saw = () => player.from === 'camera' && player.clip.camera;
+const skins_shown = () => !player.layers.shapes && can_paint();
 
 function resize(canvas) {
   const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
@@ -57,7 +50,64 @@ function resize(canvas) {
   if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
   const g = canvas.getContext('2d');
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return {g, width, height};
+  return {g, width, height, ratio};
+}
+
+// Parts of the canvas, each with its camera, the motions in it, and where these stand. Side by side means across the view
+// around, and a picture for each of what a camera saw.
+function panels_of(width, height, shown, frame) {
+  const beside = player.placing === 'beside', count = Math.max(shown.length, 1);
+  if (as_camera_saw()) {
+    const groups = beside && shown.length ? shown.map((who) => [who]) : [shown];
+    return groups.map((group, k) => {
+      const part = {x: k * width / groups.length, y: 0, width: width / groups.length, height};
+      return {part, shown: group, offsets: group.map(() => [0, 0]), camera: clip_camera(player.clip.camera, frame, picture_shown(part), part)};
+    });
+  }
+  const part = {x: 0, y: 0, width, height}, leader = shown.includes('cleaned') ? 'cleaned' : shown[0] || present()[0];
+  if (!leader) return [];
+  const pelvis = point_of(player.motions[leader], frame, 0, [0, 0, 0]);
+  const offsets = shown.map((_, k) => {
+    const aside = beside ? 1.1 * (k - (count - 1) / 2) : 0;
+    return [-aside * Math.sin(view.yaw), aside * Math.cos(view.yaw)];
+  });
+  return [{part, shown, offsets, camera: orbit_camera([pelvis[0], pelvis[1], 0.85], view, part)}];
+}
+
+// Bodies over others can be seen through; so can one whose joints are looked at, and what a camera saw.
+function alpha_of(who, panel) {
+  if (player.layers.loads && player.torques && who === 'cleaned') return 0.45;
+  if (as_camera_saw() && player.layers.keypoints) return 0.6;
+  const leader = panel.shown.includes('cleaned') ? 'cleaned' : panel.shown[0];
+  return player.placing === 'over' && panel.shown.length > 1 && who !== leader ? 0.5 : 1;
+}
+
+const figures_of = (panel, frame) => panel.shown.map((who, k) =>
+    ({who, motion: player.motions[who], frame, offset: panel.offsets[k], rgb: tones[who], alpha: alpha_of(who, panel)}));
+
+// Sky, floor, shadows, and what bodies stand on.
+function draw_ground(g, panel, figures, frame) {
+  const {part, camera} = panel, sky = g.createLinearGradient(0, 0, 0, part.height);
+  tones.sky.forEach((tone, i) => sky.addColorStop(i, tone));
+  g.fillStyle = sky;
+  g.fillRect(part.x, part.y, part.width, part.height);
+  const first = figures[0] ? point_of(figures[0].motion, frame, 0, [0, 0, 0]) : [0, 0, 0];
+  draw_floor(g, camera.project, first, tones.floor);
+  g.beginPath();
+  for (const f of figures) for (const c of capsules_of(f.motion, frame, f.offset)) add_shadow(g, camera.project, c);
+  g.fillStyle = tones.shadow;
+  g.fill();
+  if (!player.layers.balance) return;
+  for (const f of figures)
+    if (f.motion.support) draw_support(g, camera.project, f.motion.support[Math.min(frame, f.motion.frames - 1)], f.offset, f.rgb);
+}
+
+function draw_shapes(g, panel, figures, frame) {
+  const parts = figures.flatMap((f) => capsules_of(f.motion, frame, f.offset).map((c) => ({c, f})));
+  for (const p of parts) p.depth = panel.camera.project(p.c.a).depth + panel.camera.project(p.c.b).depth;
+  parts.sort((p, q) => q.depth - p.depth);
+  g.lineWidth = 0.8;
+  for (const p of parts) draw_capsule(g, panel.camera.project, p.c, p.f.rgb, p.f.alpha);
 }
 
 function draw_forces(g, project, frame, offset) {
@@ -70,55 +120,65 @@ function draw_forces(g, project, frame, offset) {
   }
 }
 
-function draw_scene(canvas) {
-  const {g, width, height} = resize(canvas);
-  const sky = g.createLinearGradient(0, 0, 0, height);
-  tones.sky.forEach((tone, i) => sky.addColorStop(i, tone));
-  g.fillStyle = sky;
-  g.fillRect(0, 0, width, height);
-  const shown = visible(), frame = frame_of(player.time);
-  const leader = shown.includes('cleaned') ? 'cleaned' : shown[0] || present()[0];
-  if (!leader) return;
-  const pelvis = capsule(leader, frame, 0, [0, 0]);
-  const centre = [(pelvis.a[0] + pelvis.b[0]) / 2, (pelvis.a[1] + pelvis.b[1]) / 2, 0.85];
-  const project = camera(centre, view, width, height);
-  draw_floor(g, project, centre, tones.floor);
-  const parts = [];
-  g.beginPath();
-  for (const who of shown) {
-    for (let body = 0; body < player.motions[who].radii.length; ++body) {
-      const c = capsule(who, frame, body, offset_of(who, shown));
-      add_shadow(g, project, c);
-      const ghost = player.placing === 'over' && shown.length > 1 && who !== leader;
-      parts.push({c, who, alpha: ghost ? 0.5 : 1, depth: project(c.a).depth + project(c.b).depth});
-    }
-  }
-  g.fillStyle = tones.shadow;
-  g.fill();
-  parts.sort((p, q) => q.depth - p.depth);
-  g.lineWidth = 0.8;
-  for (const p of parts) draw_capsule(g, project, p.c, tones[p.who], p.alpha);
-  for (const who of player.centers ? shown : []) {
-    const m = player.motions[who], at = 3 * Math.min(frame, m.frames - 1), offset = offset_of(who, shown);
-    draw_center(g, project, [1e-3 * m.centers[at] + offset[0], 1e-3 * m.centers[at + 1] + offset[1], 1e-3 * m.centers[at + 2]],
-                `rgb(${tones[who].map((v) => Math.round(0.7 * v)).join()})`);
-  }
-  if (player.forces && player.ground && shown.includes('cleaned') && frame < player.motions.cleaned.frames)
-    draw_forces(g, project, frame, offset_of('cleaned', shown));
+// Torques of the joints of a frame, 1 = the bound. Those of frame 0 are those of no interval: the next ones stand for them.
+function loads_at(frame) {
+  const t = Math.min(Math.max(frame, 1), player.torques.length / body_count - 1);
+  return Array.from(player.torques.subarray(t * body_count, (t + 1) * body_count), (n) => 1e-3 * n);
 }
 
-// A box per motion to switch it on and off, with the height of its lowest point at the frame.
-function show_layers() {
-  const box = (name, on, change, color) => {
-    const input = make('input', {type: 'checkbox', checked: on, onchange: () => { change(input.checked); player.stale = true; }});
-    const label = make('label', {}, input, name);
-    if (color) { label.style.setProperty('--swatch', `var(--${color})`); label.className = 'who'; label.dataset.who = color; }
-    return label;
+function draw_marks(g, panel, figures, frame) {
+  const {project} = panel.camera;
+  for (const f of figures) {
+    const at = 3 * Math.min(frame, f.motion.frames - 1), {centers} = f.motion;
+    if (player.layers.balance)
+      draw_center(g, project, [1e-3 * centers[at] + f.offset[0], 1e-3 * centers[at + 1] + f.offset[1], 1e-3 * centers[at + 2]],
+                  `rgb(${f.rgb.map((v) => Math.round(0.7 * v)).join()})`);
+    if (f.who !== 'cleaned' || frame >= f.motion.frames) continue;
+    if (player.layers.loads && player.torques)
+      draw_loads(g, project, Array.from({length: body_count}, (_, b) => point_of(f.motion, frame, b, [0, 0, 0], f.offset)), loads_at(frame));
+    if (player.layers.forces && player.ground) draw_forces(g, project, frame, f.offset);
+  }
+}
+
+// The name of what is seen, where there is a picture for each.
+function draw_title(g, panel) {
+  g.font = '600 13px system-ui, sans-serif';
+  g.fillStyle = `rgb(${tones[panel.shown[0]].join()})`;
+  g.fillText(people[panel.shown[0]].name, panel.part.x + 10, 20);
+}
+
+function draw_scene(canvas) {
+  const {g, width, height, ratio} = resize(canvas);
+  const frame = frame_of(player.time), panels = panels_of(width, height, visible(), frame), skins = skins_shown();
+  const scenes = panels.map((panel) => ({panel, figures: figures_of(panel, frame)}));
+  const within = (part, draw) => {
+    g.save();
+    g.beginPath();
+    g.rect(part.x, part.y, part.width, part.height);
+    g.clip();
+    draw();
+    g.restore();
   };
-  const layers = present().map((who) => box(people[who].name, player.shown[who], (on) => { player.shown[who] = on; }, who));
-  if (player.ground) layers.push(box('forces of the floor', player.forces, (on) => { player.forces = on; }));
-  layers.push(box('centre of mass', player.centers, (on) => { player.centers = on; }));
-  $('layers').replaceChildren(...layers);
+  g.clearRect(0, 0, width, height);
+  if (skins) begin_painting(width, height, ratio);
+  for (const {panel, figures} of scenes) {
+    within(panel.part, () => {
+      draw_ground(g, panel, figures, frame);
+      if (!skins) draw_shapes(g, panel, figures, frame);
+    });
+    if (skins) paint_skins(figures, panel.camera, panel.part);
+  }
+  if (skins) g.drawImage(painter.canvas, 0, 0, width, height);
+  for (const {panel, figures} of scenes) {
+    within(panel.part, () => {
+      if (as_camera_saw()) {
+        draw_edge(g, panel.camera);
+        if (player.layers.keypoints) draw_seen(g, panel, frame);
+      }
+      draw_marks(g, panel, figures, frame);
+      if (panels.length > 1) draw_title(g, panel);
+    });
+  }
 }
 
 function set_playing(playing) {
@@ -131,21 +191,4 @@ function go_to_frame(frame) {
   set_playing(false);
   player.time = (Math.min(Math.max(frame, 0), Math.max(player.frames - 1, 0)) + 0.5) / player.clip.fps;
   player.stale = true;
-}
-
-function listen_to_view(canvas) {
-  const turned = () => { player.stale = true; };
-  canvas.onpointerdown = (e) => canvas.setPointerCapture(e.pointerId);
-  canvas.onpointermove = (e) => {
-    if (!e.buttons) return;
-    view.yaw -= 0.008 * e.movementX;
-    view.pitch = Math.min(1.5, Math.max(0.02, view.pitch + 0.006 * e.movementY));
-    turned();
-  };
-  canvas.addEventListener('wheel', (e) => {
-    e.preventDefault();
-    view.distance = Math.min(20, Math.max(1.2, view.distance * Math.exp(0.001 * e.deltaY)));
-    turned();
-  }, {passive: false});
-  new ResizeObserver(turned).observe(canvas);
 }

@@ -27,6 +27,20 @@ function bar_row(bars) {
   return [label, track];
 }
 
+// Which option acts, in the colours of the clusters that the options were made of.
+function option_row(stretches) {
+  const track = make('div', {className: 'track options'});
+  for (const [first, last, option] of stretches) {
+    const bar = make('i', {title: option_in_words(option)}, String(option)), from = Math.max(first - 0.5, 0);
+    bar.style.left = `${100 * share_of(from)}%`;
+    bar.style.width = `${100 * share_of(last + 0.5 - from)}%`;
+    bar.style.background = cluster_colour(option);
+    track.append(bar);
+  }
+  track.onclick = (e) => go_to_frame(frame_at(e, track));
+  return [make('span', {className: 'label', title: 'the trained option that acts'}, 'option'), track];
+}
+
 function frame_at(event, track) {
   const area = track.getBoundingClientRect();
   const frame = Math.round((event.clientX - area.left) / area.width * (player.frames - 1));
@@ -36,7 +50,7 @@ function frame_at(event, track) {
 function show_timeline() {
   const clip = player.clip;
   $('scrub').max = Math.max(player.frames - 1, 0);
-  $('bars').replaceChildren(...clip.bars.flatMap(bar_row));
+  $('bars').replaceChildren(...(clip.options ? option_row(clip.options) : []), ...clip.bars.flatMap(bar_row));
   $('needs').hidden = !clip.needs;
   band.pointed = -1;
   if (!clip.needs) return;

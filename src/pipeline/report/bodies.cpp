@@ -1,0 +1,98 @@
+#include "pipeline/report/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "pipeline/record/json.h"
+#include "pipeline/report/digits.h"
+#include "skin/mannequin.h"
+#include "skin/shapes.h"
+#include "skin/tailored.h"
+
+namespace mimicx::pipeline::report {
+namespace {
+
+constexpr double kCell = 0.026;         ///< of the lattice that the mannequin is made on, m
+constexpr double kVertexUnit = 0.4e-3;  ///< m
+constexpr double kFullWeight = 63.0;    ///< the largest digit
+constexpr double kLengthUnit = 1e-4;    ///< of bones and shapes, m
+
+double rounded(double metres) { return std::round(metres / kLengthUnit) * kLengthUnit; }
+
+void append(const Vector3d& p, record::Json& list) {
+  for (const double x : p) list.push_back(rounded(x));
+}
+
+/// Bones and collision shapes.
+record::Json body_json(const Character& character) {
+  record::Json offsets = record::Json::array(), shapes = record::Json::array();
+  for (const Vector3d& offset : character.joint_offset) {
+    record::Json one = record::Json::array();
+    append(offset, one);
+    offsets.push_back(one);
+  }
+  for (const Capsule& c : skin::collision_capsules(character)) {
+    record::Json one = record::Json::array();
+    one.push_back(c.body);
+    append(c.a_B, one);
+    append(c.b_B, one);
+    one.push_back(rounded(c.radius));
+    shapes.push_back(one);
+  }
+  return {{"offsets", offsets}, {"shapes", shapes}};
+}
+
+/// From the joint of the heaviest body: near enough for two digits.
+std::string encode_vertices(const skin::Mesh& mesh, const Character& character) {
+  const PerBody<Vector3d> joint = skin::bind_joints(character);
+  Digits digits;
+  for (int v = 0; v < mesh.vertices.count(); ++v)
+    for (const double x : Vector3d(mesh.vertices[v] - joint[mesh.joints[v][0]]))
+      digits.put(x / kVertexUnit, 2);
+  return digits.text();
+}
+
+}  // namespace
+
+int ReportBodies::take(const Character& character) {
+  record::Json json = body_json(character);
+  const auto [found, is_new] = numbers_.try_emplace(json.dump(), next_);
+  if (is_new) {
+    if (next_ == 0) skin_ = skin::mannequin(standard_, kReportTriangles, kCell);
+    json["vertices"] = encode_vertices(skin::tailored(skin_, standard_, character), character);
+    texts_[next_++] = json.dump();
+  }
+  return found->second;
+}
+
+void ReportBodies::forget() {
+  numbers_.clear();
+  texts_.clear();
+}
+
+std::string ReportBodies::skin_json() const {
+  if (next_ == 0) return "";
+  record::Json names = record::Json::array();
+  for (std::string_view name : kBodyNames) {
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    names.push_back(words);
+  }
+  Digits triangles, joints, weights;
+  for (const skin::Triangle& t : skin_.triangles)
+    for (const int v : t) triangles.put_count(v, 2);
+  for (int v = 0; v < skin_.vertices.count(); ++v)
+    for (int k = 0; k < skin::kInfluences; ++k) {
+      joints.put_count(skin_.joints[v][k], 1);
+      weights.put_count(kFullWeight * skin_.weights[v][k], 1);
+    }
+  const record::Json json = {{"parents", kParents},
+                             {"names", names},
+                             {"triangles", triangles.text()},
+                             {"joints", joints.text()},
+                             {"weights", weights.text()}};
+  return json.dump();
+}
+
+}  // namespace mimicx::pipeline::report

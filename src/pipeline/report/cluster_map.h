@@ -1,0 +1,50 @@
+/// A map of motions by what they are like: the two principal components of the features of the motions that
+/// options were trained on, with these motions, their clusters, and the clips of a run.
+///
+/// A point is a motion; near means alike. Distances are those of the clusters (motion::scaled_features) as
+/// far as two directions can show them: the directions are those in which the training motions differ most
+/// (I. T. Jolliffe, "Principal Component Analysis", 2002, ch. 1), and what a motion has across them is not
+/// seen.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/options/clusters.h"
+
+namespace mimicx::pipeline::report {
+
+/// A direction of the map.
+struct MapAxis {
+  Eigen::VectorXd
+      direction;       ///< unit, [kFeatures] of scaled features; the larger part of its entries is positive
+  double share = 0.0;  ///< of the motions' variance
+  std::string words;   ///< what a motion has more of, farther along: "more speed across the floor"
+};
+
+struct MapPoint {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< features' units, from the mean of the training motions
+  int cluster = 0;
+  std::string name;  ///< of a training motion
+  int row = -1;      ///< of the report, of a clip of the run
+};
+
+struct ClusterMap {
+  motion::MotionFeatures middle{};  ///< scaled features of the mean training motion
+  std::array<MapAxis, 2> axes;
+  std::vector<std::string> clusters;  ///< in words, by number
+  std::vector<MapPoint> trained;      ///< motions of the clusters
+  std::vector<MapPoint> clips;        ///< of the run, in the clusters nearest to them
+
+  Eigen::Vector2d place(const motion::MotionFeatures& features) const;
+};
+
+/// Without clips. @throws std::invalid_argument for fewer than three motions whose features are known
+ClusterMap map_of(const options::Clusters& clusters);
+
+/// `axes`: {words, share}; `clusters`: {words, motions}; `trained`: [x, y, cluster, name]; `clips`: [x, y,
+/// cluster, row].
+std::string map_json(const ClusterMap& map);
+
+}  // namespace mimicx::pipeline::report
