@@ -67,15 +67,14 @@ void write_report(const record::RunFolder& folder, const record::Manifest& manif
     ReportedClip made = report_clip(folder, entry, report.metrics,
                                     truth == options.truth.end() ? std::filesystem::path() : truth->second);
     std::string json = clip_json(made.clip);
-    if (beside && has_motion(entry)) {
+    made.row.embedded = !(beside && has_motion(entry));
+    if (!made.row.embedded) {
       const std::filesystem::path file = folder.report_clip(entry.name);
       make_folder(file.parent_path());
       write_file_atomically(file, clip_script(entry.name, json));
-      json.clear();
     }
-    made.row.embedded = !json.empty();
     report.rows.push_back(made.row);
-    clips.push_back(std::move(json));
+    clips.push_back(made.row.embedded ? std::move(json) : std::string());
   }
   write_file_atomically(folder.report(), format_report(report, clips));
 }
