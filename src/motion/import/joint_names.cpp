@@ -230,18 +230,15 @@ NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path
     if (found < 0)
       throw DataError(path.string(), place, "one of the 22 body names, e.g. left_knee",
                       "'" + printable(body) + "'");
-    int& entry = map[found];
-    for (std::size_t j = 0; j < motion.joints.size() && entry < 0; ++j)
-      if (motion.joints[j].name == printable(joint)) entry = static_cast<int>(j);
+    names.emplace_back(found, printable(joint));
   }
+  return names;
 }
-
-}  // namespace
 
 JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map) {
   JointMap map;
   map.fill(-1);
-  if (!user_map.empty()) apply_user_map(user_map, motion, map);
+  if (!user_map.empty()) apply_user_map(parse_joint_map(read_text(user_map), user_map), motion, map);
   find_by_name(motion, map);
   find_by_shape(motion, map);
   raise_neck(motion, map);
