@@ -24,7 +24,7 @@ endif()
 
 if(MIMICX_FUZZ)
   # The libraries, too: what libFuzzer does not see covered it cannot look for.
-  set(MIMICX_FUZZ_OPTIONS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  set(MIMICX_FUZZ_OPTIONS -fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow -fno-sanitize-recover=all)
   target_compile_options(mimicx_settings INTERFACE ${MIMICX_FUZZ_OPTIONS})
   target_link_options(mimicx_settings INTERFACE ${MIMICX_FUZZ_OPTIONS})
 endif()

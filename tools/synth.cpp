@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "character/body_words.h"
 #include "commands.h"
 #include "motion/synth/set.h"
 #include "pipeline/audit/feasibility.h"
@@ -52,8 +53,8 @@ void print_report(const std::vector<motion::synth::SynthConfig>& clips) {
   for (const motion::synth::SynthConfig& options : clips) {
     const motion::Clip clip = motion::synth::synthesize(options);
     const pipeline::audit::Feasibility f = pipeline::audit::feasibility(clip);
-    const std::string worst(kBodyNames[f.worst_joint]);
-    std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-12s %6d\n", clip.name.c_str(),
+    const std::string worst = body_in_words(f.worst_joint);
+    std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-14s %4d\n", clip.name.c_str(),
                 (clip.frames() - 1) / clip.fps, 100.0 * f.mean_force, 100.0 * f.max_force,
                 1e3 * f.mean_moment, 1e3 * f.max_moment, 100.0 * f.worst_torque, worst.c_str(),
                 f.frames_over_limit);

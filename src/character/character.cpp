@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "character/body_words.h"
 #include "character/standard_body.h"
 
 namespace mimicx {
@@ -313,7 +314,7 @@ Character make_character_of_joints(const RestJoints& joints) {
     offsets[i] = joints[i] - joints[kParents[i]];
     const double ratio = offsets[i].norm() / standard[i].norm();
     if (!(ratio > 1.0 / 3.0 && ratio < 3.0))
-      throw std::invalid_argument("the bone to " + std::string(kBodyNames[i]) +
+      throw std::invalid_argument("the bone to the " + body_in_words(i) +
                                   " is shorter than a third or longer than three times the standard one");
   }
   return assemble(offsets, nearest_betas(offsets));

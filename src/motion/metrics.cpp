@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "character/body_words.h"
 #include "core/units.h"
 #include "motion/segments.h"
 #include "motion/similarity.h"
@@ -139,12 +140,6 @@ double self_depth(const Character& character, const BodyPoses& poses) {
   return depth.count == 0 ? 0.0 : depth.times(1.0).value;
 }
 
-std::string in_words(std::string_view body) {
-  std::string words(body);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 std::string rounded(double value, int digits) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
@@ -232,7 +227,7 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
     s.reason = "only " + std::to_string(frames) + " of " + std::to_string(reference.frames()) +
                " frames were simulated";
   else if (!(s.max_distance_m <= kMaxBodyDistance))
-    s.reason = "the " + in_words(kBodyNames[worst_body]) + " was " + rounded(s.max_distance_m, 2) +
+    s.reason = "the " + body_in_words(worst_body) + " was " + rounded(s.max_distance_m, 2) +
                " m from its reference at frame " + std::to_string(worst_frame) + " (limit 0.5 m)";
   else if (!(s.mpjpe_mm <= kMaxMpjpe))
     s.reason = "the joints are " + rounded(s.mpjpe_mm, 1) +

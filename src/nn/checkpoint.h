@@ -5,7 +5,9 @@
 /// in a separator, like "actor.".
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/npz.h"
 #include "nn/adam.h"
@@ -28,5 +30,9 @@ template <class S>
 Adam<S> load_adam(const Npz& archive, const std::string& prefix);
 template <class S>
 Normaliser<S> load_normaliser(const Npz& archive, const std::string& prefix);
+
+/// So many whole numbers, of a member of any shape.
+/// @throws DataError naming archive and key, also for another number of them
+std::vector<std::int64_t> whole_numbers_at(const Npz& archive, const std::string& key, std::size_t count);
 
 }  // namespace mimicx::nn

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipeline/choice.h"
+#include "pipeline/job_watch.h"
 #include "pipeline/plan.h"
 #include "pipeline/plan_sequence.h"
 #include "pipeline/setting.h"
@@ -32,26 +33,38 @@ PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
 
+/// The job with what is left of its seconds after so many.
+SequenceJob after_seconds(const SequenceJob& job, double seconds) {
+  SequenceJob rest = job;
+  if (job.limit_seconds > 0.0) rest.limit_seconds = std::max(job.limit_seconds - seconds, 1e-9);
+  return rest;
+}
+
 SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& reference,
                             const SequenceJob& job) {
   const rl::tracking::TrackingConfig& tracking = config.training.tracking;
   const auto clip = rl::tracking::make_tracking_clip(reference, tracking);
+  JobWatch watch{job};
   const options::ArrangedClip arranged =
-      options::arrange(clip, tracking, *config.options, config.arrangement);
-  SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, config.training, job);
+      options::arrange(clip, tracking, *config.options, config.arrangement, watch.control().should_stop);
+  if (watch.interrupted) {
+    SimulatedSequence none;
+    none.interrupted = true;
+    return none;
+  }
+  const SequenceJob rest = after_seconds(job, record::steady_seconds() - watch.started);
+  SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, config.training, rest);
+  if (watch.timed_out) {
+    made.ending = record::Ending::kLimitSeconds;
+    made.notes.push_back("the search for options ended early, at frame " + std::to_string(arranged.searched) +
+                         " of " + std::to_string(clip->size()) + ": --limit-seconds");
+  }
   made.method = "paper";
   made.arrangement = options::stretches_of(arranged.options);
   if (!arranged.breaks.empty())
     made.notes.push_back("nothing that was tried could follow at " + std::to_string(arranged.breaks.size()) +
                          " frames, first at frame " + std::to_string(arranged.breaks.front()));
   return made;
-}
-
-/// The job with what the plan has left of its seconds.
-SequenceJob after_seconds(const SequenceJob& job, double seconds) {
-  SequenceJob rest = job;
-  if (job.limit_seconds > 0.0) rest.limit_seconds = std::max(job.limit_seconds - seconds, 1e-9);
-  return rest;
 }
 
 /// A plan that was followed teaches a policy; the better of the two roll-outs stays.

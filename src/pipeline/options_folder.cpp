@@ -46,6 +46,24 @@ void claim_options(const record::RunFolder& folder, const std::vector<std::strin
   claim(folder.root / "options.npz", {});
 }
 
+bool let_budget_grow(const record::RunFolder& folder, record::Json& record) {
+  if (!std::filesystem::exists(folder.manifest())) return false;
+  const record::Json there = json_or_null(folder.manifest()).value("run", nullptr);
+  try {
+    const auto before = there.at("samples").get<std::int64_t>(),
+               now = record.at("samples").get<std::int64_t>();
+    record::Json same = record;
+    same["samples"] = before;
+    if (before > now || !first_difference(there, same).empty()) return false;
+    record::Json earlier = there.value("earlier_samples", record::Json::array());
+    if (before < now) earlier.push_back(before);
+    if (!earlier.elements().empty()) record["earlier_samples"] = earlier;
+    return before < now;
+  } catch (const record::JsonError&) {
+    return false;  // no such run: `finished_outcome` says what it is
+  }
+}
+
 std::optional<record::RunOutcome> finished_outcome(const record::RunFolder& folder,
                                                    const record::Json& record) {
   if (!std::filesystem::exists(folder.manifest())) return std::nullopt;

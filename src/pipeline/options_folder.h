@@ -21,6 +21,13 @@ namespace mimicx::pipeline {
 /// @throws std::invalid_argument when something would be overwritten that no run made
 void claim_options(const record::RunFolder& folder, const std::vector<std::string>& files, bool force);
 
+/// Lets the budget of the run in the folder grow: where it is this one but for fewer `samples`, those go into
+/// the record's "earlier_samples", behind those that are there already. The training then spends every budget
+/// in turn, so that its bytes do not depend on how far the run before had come.
+/// @param record  what the results depend on; gets the earlier budgets of the run in the folder, if any
+/// @return whether it grows now
+bool let_budget_grow(const record::RunFolder& folder, record::Json& record);
+
 /// How the run in the folder ended, where it is this one and its options are there to the last byte.
 /// @param record  what the results depend on
 /// @throws std::invalid_argument when the folder holds a run of other settings or inputs

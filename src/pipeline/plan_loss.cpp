@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "character/body_words.h"
 #include "pipeline/audit/pose_verdict.h"
 
 namespace mimicx::pipeline {
@@ -39,8 +40,7 @@ std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& nee
                           const PerFrame<Vector6d>& help) {
   std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / needs.fps);
   if (loss.body >= 0)
-    text +=
-        print(": %s is %.2f m from its reference", std::string(kBodyNames[loss.body]).c_str(), loss.distance);
+    text += print(": the %s is %.2f m from its reference", body_in_words(loss.body).c_str(), loss.distance);
   if (needs.frames.empty()) return text;
   const int first = std::max(loss.frame - kFramesBefore, 0);
   text += "; " + needs_in_words(needs, first, std::min(loss.frame, needs.frames.count() - 1));

@@ -8,7 +8,7 @@
 
 namespace mimicx::pipeline {
 
-/// "the plan is lost at frame 132 (4.40 s): left_foot is 0.41 m from its reference; …", then what the
+/// "the plan is lost at frame 132 (4.40 s): the left foot is 0.41 m from its reference; …", then what the
 /// reference asks for within a second before that no body can do (pipeline/audit/pose_verdict.h), and how
 /// much help it took to pass (reference_needs.h). Where the poses ask for next to nothing, a body could
 /// follow, and it is the search that failed: the sentence says so.

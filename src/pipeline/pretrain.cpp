@@ -108,6 +108,20 @@ nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::trackin
   return nn::train_autoencoder(samples, config, seed, &stats, progress);
 }
 
+/// What every option gets of the run's budgets, the earlier ones first. [option][budget]
+/// @param motions  of every option
+std::vector<std::vector<std::int64_t>> budgets_of_options(const record::Json& record,
+                                                          const std::vector<int>& motions) {
+  auto budgets = record.value("earlier_samples", record::Json::array()).get<std::vector<std::int64_t>>();
+  budgets.push_back(record.at("samples").get<std::int64_t>());
+  std::vector<std::vector<std::int64_t>> shares(motions.size());
+  for (const std::int64_t budget : budgets) {
+    const std::vector<std::int64_t> share = share_samples(budget, motions);
+    for (std::size_t k = 0; k < shares.size(); ++k) shares[k].push_back(share[k]);
+  }
+  return shares;
+}
+
 /// An option after its training, and what the manifest says of it.
 struct OptionTraining {
   options::TrainedOption trained;
@@ -116,14 +130,14 @@ struct OptionTraining {
 };
 
 /// Encoder and policy of one cluster.
+/// @param budgets  samples of the option, ascending: each is spent before the next
 OptionTraining train_option(const PretrainConfig& config, const record::RunContext& context,
-                            const options::Clusters& clusters, int index, std::int64_t samples,
-                            const Motions& motions) {
+                            const options::Clusters& clusters, int index,
+                            const std::vector<std::int64_t>& budgets, const Motions& motions) {
   const options::MotionCluster& cluster = clusters.clusters[index];
   const std::string name = "option" + std::to_string(index);
   TrainingConfig training = config.training;
   training.seed += static_cast<std::uint64_t>(index);
-  training.samples = samples;
   std::vector<std::shared_ptr<const rl::tracking::TrackingClip>> clips;
   for (const std::string& member : cluster.members)
     for (std::size_t i = 0; i < motions.features.size(); ++i)
@@ -135,7 +149,7 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
     nn::AutoEncoderConfig encoder = config.encoder;
-    encoder.steps = encoder_steps(encoder, samples);
+    encoder.steps = encoder_steps(encoder, budgets.front());  // frozen: a policy goes on with what it knows
     context.progress.start(name + ", encoder", 0.0, encoder.steps, "steps");
     option.encoder = make_encoder(clips, encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
@@ -149,8 +163,13 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   control.threads = config.threads;
   control.should_stop = context.should_stop;
   const std::string label = name + " (" + std::to_string(clips.size()) + " motions)";
-  control.progress = progress_of_training(context.progress, label, training.samples);
-  const TrainingResult result = train(clips, {start}, training, files, control);
+  TrainingResult result;
+  for (const std::int64_t budget : budgets) {
+    training.samples = budget;
+    control.progress = progress_of_training(context.progress, label, budget);
+    result = train(clips, {start}, training, files, control);
+    if (result.interrupted) break;
+  }
   option.agent = result.agents.front();
   made.interrupted = result.interrupted;
   made.trained = {option, cluster.description, cluster.centre, static_cast<int>(clips.size()),
@@ -196,8 +215,12 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   const record::RunFolder folder{config.out};
   claim_options(folder, files, config.force);
   const record::FolderLock lock(folder.root);
-  const record::Json record = run_record(config, files);
-  if (const auto outcome = finished_outcome(folder, record)) {
+  record::Json record = run_record(config, files);
+  if (let_budget_grow(folder, record)) {
+    context.messages << folder.root.string() << ": goes on from a training of "
+                     << record.at("earlier_samples").elements().back().get<std::int64_t>()
+                     << " samples; one begun with more would explore longer, and be another\n";
+  } else if (const auto outcome = finished_outcome(folder, record)) {
     context.messages << folder.root.string() << ": these options are trained already\n";
     return *outcome;
   }
@@ -213,11 +236,12 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   std::vector<int> sizes;
   for (const options::MotionCluster& cluster : clusters.clusters)
     sizes.push_back(static_cast<int>(cluster.members.size()));
-  const List<std::int64_t> samples = share_samples(config.training.samples, sizes);
+  const std::vector<std::vector<std::int64_t>> budgets = budgets_of_options(record, sizes);
   options::OptionSet set;
   record::Json trained = record::Json::array();
   for (int index = 0; index < clusters.clusters.count(); ++index) {
-    OptionTraining made = train_option(config, context, clusters, index, samples[index], motions);
+    OptionTraining made =
+        train_option(config, context, clusters, index, budgets[static_cast<std::size_t>(index)], motions);
     if (made.interrupted) {
       context.progress.finish("interrupted; the same command continues");
       return record::RunOutcome::kInterrupted;

@@ -10,7 +10,9 @@
 ///     DIR/manifest.json            inputs, settings, samples and losses
 ///
 /// The same command continues an interrupted run; its files end up the same bytes as those of a run that was
-/// never interrupted.
+/// never interrupted. With more samples it goes on with what is there, encoders and all; the manifest then
+/// names the earlier budgets. They are spent one after the other, so the bytes depend on all budgets, and on
+/// nothing else: of one that was begun with the larger budget they differ (it explores longer).
 /// What it never does: open any ground truth.
 #pragma once
 

@@ -178,7 +178,8 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   if (config.samples == 0) ending = record::Ending::kBudget;
   if (ending == record::Ending::kBudget && trainer.samples() < config.samples)
     ending = record::Ending::kNone;  // there is more budget than the checkpoint had
-  while (ending == record::Ending::kNone) {
+  // A checkpoint of more samples than these is of a later budget, on its way (pretrain.h): nothing to add.
+  while (ending == record::Ending::kNone && trainer.samples() < config.samples) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
     if (stats.samples >= config.samples) ending = record::Ending::kBudget;
     TrainingLogRow row = {stats, environment.statistics(), environment.sharpness(), kNan, kNan};

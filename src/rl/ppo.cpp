@@ -327,9 +327,6 @@ void save(Npz& archive, const std::string& prefix, const Learner& learner) {
   archive.set(prefix + "samples", NpyArray::scalar_int(learner.samples));
 }
 
-namespace {
-
-/// Moments for every parameter of the network, of its shape.
 nn::Adam<float> load_moments(const Npz& archive, const std::string& prefix, nn::Mlp<float>& network) {
   nn::Adam<float> adam = nn::load_adam<float>(archive, prefix);
   const auto weights = parameters(network);
@@ -339,8 +336,6 @@ nn::Adam<float> load_moments(const Npz& archive, const std::string& prefix, nn::
   if (!fits) throw DataError(archive.path, prefix + "first", "moments of every parameter", "others");
   return adam;
 }
-
-}  // namespace
 
 Learner load_learner(const Npz& archive, const std::string& prefix) {
   Learner learner;

@@ -84,6 +84,9 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
 /// Reward, episode length, explained variance and saturation of a roll-out.
 void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationStats& stats);
 
+/// Adam's moments for every parameter of the network, of its shape. @throws DataError where they are others
+nn::Adam<float> load_moments(const Npz& archive, const std::string& prefix, nn::Mlp<float>& network);
+
 void save(Npz& archive, const std::string& prefix, const Learner& learner);
 /// @throws DataError naming archive and key
 Learner load_learner(const Npz& archive, const std::string& prefix);

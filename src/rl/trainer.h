@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "nn/checkpoint.h"
 #include "rl/environment.h"
 #include "rl/ppo.h"
 
@@ -109,14 +110,10 @@ class PpoTrainer {
     }
     iteration_ = whole_number_at(archive, prefix + "iteration");
     samples_ = whole_number_at(archive, prefix + "samples");
-    const std::vector<double> ages = archive.at(prefix + "ages").to_double();
     const auto size = static_cast<std::size_t>(buffer_.group_size);
-    if (ages.size() != size * buffer_.groups.size())
-      throw DataError(archive.path, prefix + "ages",
-                      std::to_string(size * buffer_.groups.size()) + " characters",
-                      std::to_string(ages.size()));
-    for (std::size_t i = 0; i < ages.size(); ++i)
-      buffer_.groups[i / size].ages[i % size] = static_cast<std::int64_t>(ages[i]);
+    const std::vector<std::int64_t> ages =
+        nn::whole_numbers_at(archive, prefix + "ages", size * buffer_.groups.size());
+    for (std::size_t i = 0; i < ages.size(); ++i) buffer_.groups[i / size].ages[i % size] = ages[i];
     environment_.load(archive, prefix + "environment.");
   }
 

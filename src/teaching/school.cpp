@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "nn/checkpoint.h"
+#include "rl/ppo.h"
 #include "rl/tracking/mirror.h"
 
 namespace mimicx::teaching {
@@ -161,7 +162,7 @@ void save(Npz& archive, const std::string& prefix, const Pupil& pupil) {
 Pupil load_pupil(const Npz& archive, const std::string& prefix) {
   Pupil pupil;
   pupil.agent = rl::load_agent(archive, prefix + "agent.");
-  pupil.adam = nn::load_adam<float>(archive, prefix + "adam.");
+  pupil.adam = rl::load_moments(archive, prefix + "adam.", pupil.agent.actor);
   pupil.rounds = static_cast<int>(whole_number_at(archive, prefix + "rounds"));
   pupil.taken = whole_number_at(archive, prefix + "taken");
   return pupil;

@@ -14,7 +14,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   if (seed % 4 != 0) return LLVMFuzzerMutate(data, size, max_size);
-  const std::string made = mimicx::fuzz::mutated_input(mimicx::fuzz::seeds(), seed, 0);
+  static const std::vector<std::string> seeds = mimicx::fuzz::seeds();
+  const std::string made = mimicx::fuzz::mutated_input(seeds, seed, 0);
   const std::size_t length = std::min(made.size(), max_size);
   std::copy_n(made.begin(), length, data);
   return length;

@@ -62,6 +62,46 @@ TEST_F(Adapt, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
+TEST_F(Adapt, MoreSamplesContinueTheSameTraining) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  run(config);
+  const std::string before = results_of(out("run")).at("training/sway.csv");
+  config.training.samples *= 2;
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  const std::string after = results_of(out("run")).at("training/sway.csv");
+  EXPECT_GT(after.size(), before.size());
+  EXPECT_TRUE(after.starts_with(before)) << "its rows stay as they were";
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.samples, config.training.samples);
+  config.training.seed += 1;
+  EXPECT_THROW(run(config), std::invalid_argument) << "the budget alone may grow";
+}
+
+// The search comes before the training: it must hear of an interrupt, and of the seconds that are over.
+TEST_F(Adapt, ABeamSearchIsInterruptedAndItsSecondsAreCounted) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("stopped", "options");
+  config.arrangement.selector = options::Selector::kBeam;
+  config.arrangement.beam_width = 3;
+  EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);
+  EXPECT_FALSE(std::filesystem::exists(out("stopped") / "checkpoints" / "sway.npz")) << "no training yet";
+  run(config);
+  config.run.out = out("whole");
+  run(config);
+  EXPECT_EQ(results_of(out("stopped")), results_of(out("whole")));
+  config.run.out = out("hasty");
+  config.run.limit_seconds = 1e-9;
+  run(config);
+  const record::SequenceEntry entry = record::read_manifest(out("hasty") / "manifest.json").sequences.at(0);
+  EXPECT_EQ(entry.ending, record::Ending::kLimitSeconds);
+  EXPECT_EQ(entry.arrangement, (std::vector<std::array<int, 2>>{{0, 0}}));
+  bool said = false;
+  for (const std::string& note : entry.notes)
+    said = said || note.find("the search for options ended early, at frame 0 of 25: --limit-seconds") == 0;
+  EXPECT_TRUE(said);
+}
+
 TEST_F(Adapt, EndingsAreToldApart) {
   run(pretraining("options"));
   AdaptConfig config = adapting("good", "options");

@@ -207,10 +207,11 @@ TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
   EXPECT_EQ(lost.output, "rejected/lean.npz");
   EXPECT_LT(value_of(lost.plan, "frames"), 45);
   for (const char* words :
-       {"the plan is lost at frame ", " is 0.", " m from its reference",
+       {"the plan is lost at frame ", ": the ", " is 0.", " m from its reference",
         "the reference is not feasible there: frames ", "the body tips over; ", " N m would have to hold it",
         "; with help the body passes frames 0-", " N m turn it", "limit 0.5 m"})
     EXPECT_NE(lost.reason.find(words), std::string::npos) << words << ": " << lost.reason;
+  EXPECT_EQ(lost.reason.find('_'), std::string::npos) << "names of our own: " << lost.reason;
   EXPECT_GT(value_of(lost.feasibility, "infeasible_share"), 0.1);
   EXPECT_EQ(value_of(done.feasibility, "infeasible_share"), 0.0);
   EXPECT_EQ(read_npz(out("run") / "rejected" / "lean.npz").at("poses").shape.at(0), 45u);

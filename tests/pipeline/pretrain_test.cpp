@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "pipeline/pretrained_options.h"
 #include "pipeline/results.h"
@@ -97,6 +98,68 @@ TEST_F(Pretrain, RefusesAFolderWhoseManifestIsNone) {
     std::ofstream(out("run") / "manifest.json") << text;
     EXPECT_THROW(run(pretraining("run")), std::invalid_argument) << text;
   }
+}
+
+/// Rows of a training's log, its head apart.
+std::vector<std::string> rows_of(const std::string& log) {
+  std::vector<std::string> rows;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) rows.push_back(line);
+  rows.erase(rows.begin());
+  return rows;
+}
+
+TEST_F(Pretrain, MoreSamplesContinueTheSameTrainings) {
+  PretrainConfig config = pretraining("run");
+  run(config);
+  auto before = results_of(out("run"));
+  config.training.samples *= 2;
+  const Outcome more =
+      run_in_context([&](const record::RunContext& context) { return pretrain(config, context); });
+  EXPECT_EQ(more.value, record::RunOutcome::kAllGood);
+  EXPECT_NE(more.messages.find("goes on from a training of 3072 samples"), std::string::npos);
+  auto after = results_of(out("run"));
+  EXPECT_EQ(after.at("clusters.json"), before.at("clusters.json"));
+  for (const char* option : {"training/option0.csv", "training/option1.csv"}) {
+    const std::vector<std::string> first = rows_of(before.at(option)), all = rows_of(after.at(option));
+    ASSERT_GT(all.size(), first.size()) << option;
+    for (std::size_t k = 0; k < first.size(); ++k) EXPECT_EQ(all[k], first[k]) << option << ' ' << k;
+  }
+  const auto there = options::read_options(out("run"));
+  EXPECT_GE(there->options[0].samples + there->options[1].samples, config.training.samples);
+  EXPECT_NE(after.at("manifest.json").find("\"earlier_samples\": [\n   3072\n  ]"), std::string::npos);
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "done already";
+  EXPECT_EQ(results_of(out("run")), after);
+  config.training.samples /= 2;
+  EXPECT_THROW(run(config), std::invalid_argument) << "it has more already";
+}
+
+TEST_F(Pretrain, WithMoreSamplesItMattersNotWhereTheEarlierCommandsStopped) {
+  PretrainConfig config = pretraining("one");
+  const auto with_samples = [&](int times) {
+    config.training.samples = times * small_training().samples;
+    return config;
+  };
+  run(with_samples(1));
+  run(with_samples(2));
+  config.out = out("two");
+  config.threads = 2;
+  EXPECT_EQ(run(with_samples(1), 2), record::RunOutcome::kInterrupted);  // in the first option
+  EXPECT_EQ(run(with_samples(2), 1),
+            record::RunOutcome::kInterrupted);  // before it has spent the first budget
+  EXPECT_EQ(run(with_samples(2), 6), record::RunOutcome::kInterrupted);
+  EXPECT_EQ(run(with_samples(2)), record::RunOutcome::kAllGood);
+  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+}
+
+TEST_F(Pretrain, MoreSamplesDoNotExcuseAnotherSetting) {
+  PretrainConfig config = pretraining("run");
+  run(config);
+  const auto before = results_of(out("run"));
+  config.training.samples *= 2;
+  config.training.seed += 1;
+  EXPECT_THROW(run(config), std::invalid_argument);
+  EXPECT_EQ(results_of(out("run")), before);
 }
 
 TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {

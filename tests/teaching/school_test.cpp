@@ -99,6 +99,16 @@ TEST(School, APupilThatWasSavedAndLoadedGoesOnWithTheSameBytes) {
   EXPECT_EQ(bytes_of(pupil), bytes_of(taught(config)));
 }
 
+TEST(School, MomentsOfAnotherNetworkAreRefused) {
+  SchoolConfig narrow, wide;
+  narrow.hidden = {2, 2}, wide.hidden = {2, 3};
+  Pupil pupil = new_pupil(narrow);
+  pupil.adam = new_pupil(wide).adam;
+  Npz archive;
+  save(archive, "x.", pupil);
+  EXPECT_THROW(load_pupil(archive, "x."), DataError);
+}
+
 TEST(School, OneThatIsStoppedLeavesThePupilAsItWas) {
   const SchoolConfig config = quick();
   Pupil pupil = new_pupil(config);

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "core/npz.h"
-
 namespace mimicx::motion::import {
 namespace {
 
@@ -52,7 +50,11 @@ RestJoints BodyModel::joints(const std::array<double, kBetas>& betas) const {
 }
 
 BodyModel read_body_model(const std::filesystem::path& path) {
-  const Npz npz = read_npz(path, kMaxBytes, {"v_template", "shapedirs", "J_regressor", "kintree_table"});
+  return body_model_from(
+      read_npz(path, kMaxBytes, {"v_template", "shapedirs", "J_regressor", "kintree_table"}));
+}
+
+BodyModel body_model_from(const Npz& npz) {
   check_tree(npz);
   const MatrixXd vertices = matrix_of(npz, "v_template", {1, 3});
   const auto count = static_cast<std::size_t>(vertices.rows());

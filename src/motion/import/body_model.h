@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "character/character.h"
+#include "core/npz.h"
 
 namespace mimicx::motion::import {
 
@@ -24,5 +25,6 @@ struct BodyModel {
 
 /// @throws DataError naming file and member
 BodyModel read_body_model(const std::filesystem::path& path);
+BodyModel body_model_from(const Npz& npz);
 
 }  // namespace mimicx::motion::import

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "character/body_words.h"
 #include "motion/import/text_input.h"
 
 namespace mimicx::motion::import {
@@ -48,8 +49,6 @@ constexpr std::array<std::array<int, 2>, 12> kNeeded = {{{kLeftHip, kPelvis},
                                                          {kRightElbow, kRightShoulder},
                                                          {kLeftWrist, kLeftElbow},
                                                          {kRightWrist, kRightElbow}}};
-
-std::string body_name(int body) { return std::string(kBodyNames[body]); }
 
 /// Lower-case parts of a name; a part that is a side by itself is taken out.
 std::vector<std::string> split(const std::string& name, Side& side) {
@@ -182,7 +181,7 @@ void check(const SkeletonMotion& motion, const JointMap& map) {
   const auto joint_name = [&](int joint) { return "'" + motion.joints[joint].name + "'"; };
   std::string missing;
   for (const auto& [body, above] : kNeeded)
-    if (map[body] < 0) missing += (missing.empty() ? "" : ", ") + body_name(body);
+    if (map[body] < 0) missing += (missing.empty() ? "" : ", ") + body_in_words(body);
   if (!missing.empty())
     throw DataError(
         motion.path, "skeleton",
@@ -192,15 +191,24 @@ void check(const SkeletonMotion& motion, const JointMap& map) {
     const int joint = map[body], parent = map[above];
     const std::vector<int> path = path_to_root(motion, joint);
     if (parent < 0 || joint == parent || std::find(path.begin(), path.end(), parent) == path.end())
-      throw DataError(motion.path, "skeleton",
-                      joint_name(joint) + ", taken for " + body_name(body) + ", below " + body_name(above),
-                      parent < 0 ? "no such joint" : joint_name(parent) + " elsewhere");
+      throw DataError(
+          motion.path, "skeleton",
+          joint_name(joint) + ", taken for " + body_in_words(body) + ", below " + body_in_words(above),
+          parent < 0 ? "no such joint" : joint_name(parent) + " elsewhere");
   }
 }
 
-/// The user's file: body = joint name.
-void apply_user_map(const std::filesystem::path& path, const SkeletonMotion& motion, JointMap& map) {
-  const std::string text = read_text(path);
+/// The first joint of the skeleton that the user names for a body.
+void apply_user_map(const NamedJoints& names, const SkeletonMotion& motion, JointMap& map) {
+  for (const auto& [body, joint] : names)
+    for (std::size_t j = 0; j < motion.joints.size() && map[body] < 0; ++j)
+      if (motion.joints[j].name == joint) map[body] = static_cast<int>(j);
+}
+
+}  // namespace
+
+NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path& path) {
+  NamedJoints names;
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -222,18 +230,15 @@ void apply_user_map(const std::filesystem::path& path, const SkeletonMotion& mot
     if (found < 0)
       throw DataError(path.string(), place, "one of the 22 body names, e.g. left_knee",
                       "'" + printable(body) + "'");
-    int& entry = map[found];
-    for (std::size_t j = 0; j < motion.joints.size() && entry < 0; ++j)
-      if (motion.joints[j].name == printable(joint)) entry = static_cast<int>(j);
+    names.emplace_back(found, printable(joint));
   }
+  return names;
 }
-
-}  // namespace
 
 JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map) {
   JointMap map;
   map.fill(-1);
-  if (!user_map.empty()) apply_user_map(user_map, motion, map);
+  if (!user_map.empty()) apply_user_map(parse_joint_map(read_text(user_map), user_map), motion, map);
   find_by_name(motion, map);
   find_by_shape(motion, map);
   raise_neck(motion, map);

@@ -16,6 +16,9 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "character/character.h"
 #include "motion/import/skeleton.h"
@@ -25,6 +28,11 @@ namespace mimicx::motion::import {
 /// Index of the joint that stands for each body, -1 where there is none. Hips, knees, ankles, shoulders,
 /// elbows and wrists, pelvis and chest (spine3) are always there. A wrist or foot may be an end site.
 using JointMap = PerBody<int>;
+
+/// The user's lines: which body, and the name of a joint that may stand for it.
+using NamedJoints = std::vector<std::pair<int, std::string>>;
+/// @param path  for messages @throws DataError naming the line that is not of this form
+NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path& path);
 
 /// @param user_map  a file of additional names; empty: none
 /// @throws DataError when a body that must be there is not, or hangs on the wrong joint

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "character/body_words.h"
 #include "character/character.h"
 #include "core/error.h"
 
@@ -122,8 +123,7 @@ PerJoint<SkeletonJoint> joints_of(const Character& character, const PerFrame<Pos
     for (const Positions& p : frames)
       length += parent < 0 ? 0.0 : (p[b] - p[parent]).norm() / static_cast<double>(frames.size());
     if (parent >= 0 && !(length > 0.0))
-      throw DataError(path, "", std::string(kBodyNames[b]) + " and its parent at different places",
-                      "both at one");
+      throw DataError(path, "", body_in_words(b) + " and its parent at different places", "both at one");
     const Vector3d rest = parent < 0 ? Vector3d::Zero() : character.joint_offset[b].normalized();
     // Called otherwise than ours: retarget.h takes a skeleton of our own for a file of ours, y up and exact.
     joints.push_back({parent < 0 ? "root" : std::string(kBodyNames[b]), parent, length * rest});

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "character/body_words.h"
 #include "core/units.h"
 #include "motion/import/body_fit.h"
 #include "motion/import/retarget_floor.h"
@@ -48,10 +49,9 @@ void check_bones(const SkeletonMotion& motion, const Source& source) {
   for (int t = 0; t < source.frames.count(); ++t) {
     const auto check = [&](int from, int to) {
       if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
-        throw DataError(
-            motion.path, "frame " + std::to_string(t + 1),
-            std::string(kBodyNames[from]) + " and " + std::string(kBodyNames[to]) + " at different places",
-            "both at one");
+        throw DataError(motion.path, "frame " + std::to_string(t + 1),
+                        body_in_words(from) + " and " + body_in_words(to) + " at different places",
+                        "both at one");
     };
     check(kLeftHip, kRightHip);
     check(kLeftShoulder, kRightShoulder);
@@ -206,7 +206,7 @@ std::string residuals_line(const RetargetReport& report) {
   std::string line;
   for (int b = 0; b < kBodies; ++b)
     if (!std::isnan(report.residual_mm[b]))
-      line += (line.empty() ? "residuals in mm: " : ", ") + std::string(kBodyNames[b]) +
+      line += (line.empty() ? "residuals in mm: " : ", ") + body_in_words(b) +
               sentence(" %.0f", report.residual_mm[b]);
   return line;
 }
@@ -246,7 +246,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   Source source = read_source(motion, config.joint_map);
   check_bones(motion, source);
   for (int b = 0; b < kBodies; ++b)
-    if (source.map[b] < 0 && b != kSpine1 && b != kSpine2) report.unmapped.emplace_back(kBodyNames[b]);
+    if (source.map[b] < 0 && b != kSpine1 && b != kSpine2) report.unmapped.push_back(body_in_words(b));
   drop_t_pose(source, clip);
   report.up = find_up(motion, source, config, clip);
   report.scale = find_scale(motion, source, config, clip);

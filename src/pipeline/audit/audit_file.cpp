@@ -64,7 +64,11 @@ SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
 
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
                               const motion::import::ReadConfig& read) {
-  const std::string bytes = read_file(path);
+  return audit_bytes(read_file(path), path, poses_alone, read);
+}
+
+std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::path& path, bool poses_alone,
+                               const motion::import::ReadConfig& read) {
   if (motion::import::recognise(bytes) == motion::import::MotionFormat::kNpz) {
     const Npz npz = parse_npz(bytes, path.string());
     if (holds_substeps(npz)) {

@@ -17,6 +17,9 @@ namespace mimicx::pipeline::audit {
 /// @throws DataError naming file and member, also where a motion has torques but not all that belongs to them
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
                               const motion::import::ReadConfig& read = {});
+/// The same from bytes in memory. @param path  for messages
+std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::path& path, bool poses_alone,
+                               const motion::import::ReadConfig& read = {});
 
 /// A motion that has its forces beside it.
 /// @param npz  the archive that the clip was read from

@@ -109,8 +109,8 @@ std::string format_poses(const PoseFile& file) {
   std::string name = std::filesystem::path(file.path).filename().string();
   name.resize(std::max<std::size_t>(name.size(), 28), ' ');
   std::string line = name + text + file.verdict.words;
-  if (!file.verdict.joints_over.empty())
-    line += "; torques over their bounds, frames: " + file.verdict.joints_over;
+  if (!file.verdict.over_in_words.empty())
+    line += "; torques over their bounds, frames: " + file.verdict.over_in_words;
   return line + '\n';
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "character/body_words.h"
 #include "core/units.h"
 
 namespace mimicx::pipeline::audit {
@@ -59,6 +60,13 @@ std::string joints_over(const PerBody<int>& over) {
   for (int b = 1; b < kBodies; ++b)
     if (over[b] > 0)
       text += print("%s%s:%d", text.empty() ? "" : " ", std::string(kBodyNames[b]).c_str(), over[b]);
+  return text;
+}
+
+std::string over_in_words(const PerBody<int>& over) {
+  std::string text;
+  for (int b = 1; b < kBodies; ++b)
+    if (over[b] > 0) text += (text.empty() ? "" : ", ") + body_in_words(b) + ' ' + std::to_string(over[b]);
   return text;
 }
 
@@ -165,6 +173,7 @@ PoseVerdict verdict_on(const PoseNeeds& needs) {
                           {"torque_max_share", sum.torque},
                           {"lowest_mm", kMm * sum.lowest}});
   verdict.joints_over = joints_over(sum.over);
+  verdict.over_in_words = over_in_words(sum.over);
   verdict.words = words_for(needs, sum, longest);
   return verdict;
 }

@@ -47,10 +47,11 @@ std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs);
 std::string in_words(const Stretch& stretch);
 
 struct PoseVerdict {
-  NamedValues values;       ///< for tables; units are in the names
-  Stretch longest;          ///< of no frames: frames() is 1 and `wrong` is kNothing
-  std::string joints_over;  ///< "left_knee:12 spine1:3": joints over their bounds and in how many frames
-  std::string words;        ///< one sentence
+  NamedValues values;         ///< for tables; units are in the names
+  Stretch longest;            ///< of no frames: frames() is 1 and `wrong` is kNothing
+  std::string joints_over;    ///< "left_knee:12 spine1:3": joints over their bounds and in how many frames
+  std::string over_in_words;  ///< the same for people: "left knee 12, spine1 3"
+  std::string words;          ///< one sentence
 };
 PoseVerdict verdict_on(const PoseNeeds& needs);
 

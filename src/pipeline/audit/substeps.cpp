@@ -7,6 +7,7 @@
 #include "pipeline/output/rows.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/output/simulation_settings.h"
+#include "pipeline/output/state_members.h"
 
 namespace mimicx::pipeline::audit {
 namespace {
@@ -97,11 +98,6 @@ void read_targets(const Npz& npz, std::vector<rl::tracking::Substep>& steps) {
   }
 }
 
-template <class T>
-void read_setting(const Npz& npz, const std::string& name, T& field) {
-  field = static_cast<T>(output::read_numbers(npz, name, 1, 1)[0]);
-}
-
 physics::Quat<double> to_simulator(const Quaterniond& q) { return physics::from_eigen(q.normalized()); }
 Vector6d to_eigen(const physics::Wrench<double>& w) {
   Vector6d out;
@@ -157,8 +153,7 @@ SubstepMotion read_substeps(const Npz& npz) {
   std::array<double, kBetas> shape{};
   std::copy(betas.begin(), betas.end(), shape.begin());
   motion.character = make_character(shape);
-  output::for_each_simulation_setting(
-      motion.simulation, [&](const std::string& name, auto& field) { read_setting(npz, name, field); });
+  motion.simulation = output::read_simulation(npz);
   const NpyArray& q = npz.at("q");
   if (q.shape.empty() || q.shape[0] < 2) throw DataError(npz.path, "q", "at least two states", "fewer");
   std::vector<motion::ReferenceFrame> states = read_states(npz, q.shape[0]);

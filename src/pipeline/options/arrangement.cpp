@@ -23,6 +23,7 @@ std::vector<int> distinct(std::vector<int> numbers) {
 struct Choice {
   List<int> options;
   std::vector<int> breaks;
+  int searched;  ///< frames
 };
 
 Choice choose_by_programme(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
@@ -31,14 +32,15 @@ Choice choose_by_programme(const std::shared_ptr<const rl::tracking::TrackingCli
   const SideBySide rolled = roll_out_side_by_side(clip, tracking, options, config.rescue_reward);
   const OptionRewards rewards = charge_rescues(rolled, config.rescue_frames);
   return {select_options(OptionRewards(rewards.begin() + 1, rewards.end()), config.switch_penalty).options,
-          rolled.breaks};
+          rolled.breaks, clip->size() - 1};
 }
 
 Choice choose_by_search(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                         const rl::tracking::TrackingConfig& tracking,
-                        const std::vector<const Option*>& options, const SearchConfig& config) {
-  Found found = search_roll_outs(clip, tracking, options, config);
-  return {std::move(found.options), std::move(found.breaks)};
+                        const std::vector<const Option*>& options, const SearchConfig& config,
+                        const std::function<bool()>& should_stop) {
+  Found found = search_roll_outs(clip, tracking, options, config, should_stop);
+  return {std::move(found.options), std::move(found.breaks), found.searched};
 }
 
 int nearest_option(const OptionSet& set, const motion::Reference& reference) {
@@ -52,16 +54,18 @@ int nearest_option(const OptionSet& set, const motion::Reference& reference) {
 
 Choice choose(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
               const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
-              const std::vector<const Option*>& options, const ArrangementConfig& config) {
+              const std::vector<const Option*>& options, const ArrangementConfig& config,
+              const std::function<bool()>& should_stop) {
   const int acting = clip->size() - 1;
   if (config.selector == Selector::kNearest)
-    return {List<int>(acting, nearest_option(set, clip->reference)), {}};
+    return {List<int>(acting, nearest_option(set, clip->reference)), {}, acting};
   const auto encoded = encoded_for(clip, options);
   if (config.selector == Selector::kDp) return choose_by_programme(encoded, tracking, options, config);
   const bool single = config.selector == Selector::kSingle;
   return choose_by_search(
       encoded, tracking, options,
-      {single ? 1 : config.beam_width, single ? acting : config.beam_stretch, config.switch_penalty});
+      {single ? 1 : config.beam_width, single ? acting : config.beam_stretch, config.switch_penalty},
+      should_stop);
 }
 
 }  // namespace
@@ -80,12 +84,13 @@ void check(const ArrangementConfig& config) {
 
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                      const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
-                     const ArrangementConfig& config) {
+                     const ArrangementConfig& config, const std::function<bool()>& should_stop) {
   check(config);
   List<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
-  Choice choice = choose(clip, tracking, set, all, config);
+  Choice choice = choose(clip, tracking, set, all, config, should_stop);
   ArrangedClip arranged;
+  arranged.searched = choice.searched;
   arranged.breaks = std::move(choice.breaks);
   arranged.options = std::move(choice.options);
   // Nothing is left to do in the last frame: it keeps the option of the frame before.

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,7 @@ void check(const ArrangementConfig& config);
 struct ArrangedClip {
   List<int> options;       ///< [frames] the option that acts, its number in the set
   List<int> breaks;        ///< frames at which nothing that was tried could follow
+  int searched = 0;        ///< frames before the selector was told to stop; else all but the last
   List<int> kept;          ///< numbers in the set of the options that occur, ascending
   List<rl::Agent> agents;  ///< of the kept options
   std::shared_ptr<const rl::tracking::TrackingClip>
@@ -45,11 +47,12 @@ struct ArrangedClip {
 };
 
 /// @param clip  as `make_tracking_clip` gives it: not encoded, without an arrangement
+/// @param should_stop  ends a search (beam, single) where it is: the option found last acts on; may be empty
 /// @throws std::invalid_argument as `check`
 /// @throws DataError for `nearest` and a clip of fewer than 3 frames
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                      const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
-                     const ArrangementConfig& config);
+                     const ArrangementConfig& config, const std::function<bool()>& should_stop = {});
 
 /// {first frame, option} of every stretch of frames in which one option acts.
 std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options);

@@ -174,8 +174,9 @@ void write_clusters(const std::filesystem::path& path, const Clusters& clusters)
   write_file_atomically(path, format_clusters(clusters));
 }
 
-Clusters read_clusters(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+Clusters read_clusters(const std::filesystem::path& path) { return parse_clusters(read_file(path), path); }
+
+Clusters parse_clusters(const std::string& text, const std::filesystem::path& path) {
   try {
     const record::Json json = record::Json::parse(text);
     if (unnamed(json.at("units")) != motion::feature_units())

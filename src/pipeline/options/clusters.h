@@ -68,5 +68,7 @@ std::string format_clusters(const Clusters& clusters);
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters);
 /// @throws DataError for a file that holds no clusters, or clusters of other features or units
 Clusters read_clusters(const std::filesystem::path& path);
+/// The same from its text. @param path  for messages
+Clusters parse_clusters(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace mimicx::pipeline::options

@@ -1,5 +1,7 @@
 #include "pipeline/options/option_set.h"
 
+#include <limits>
+
 #include "core/error.h"
 #include "pipeline/record/run_folder.h"
 
@@ -40,30 +42,42 @@ void write_options(const std::filesystem::path& path, const OptionSet& set) {
 
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path) {
   const std::filesystem::path file = std::filesystem::is_directory(path) ? path / "options.npz" : path;
-  const Npz archive = read_npz(file);
+  auto set = std::make_shared<OptionSet>(options_from(read_npz(file)));
+  set->checksum = record::file_checksum(file);
+  if (const auto clusters = file.parent_path() / "clusters.json"; std::filesystem::exists(clusters))
+    set->clusters = clusters;
+  return set;
+}
+
+OptionSet options_from(const Npz& archive) {
   const double count = number_at(archive, kCount);
   if (!(count >= 1.0 && count <= 1000.0))
     throw DataError(archive.path, kCount, "1 to 1000 options", std::to_string(count));
-  auto set = std::make_shared<OptionSet>();
+  OptionSet set;
   for (int k = 0; k < static_cast<int>(count); ++k) {
     const std::string prefix = prefix_of(k);
-    const auto number = [&](const char* key) { return number_at(archive, prefix + key); };
+    const auto whole = [&](const char* key, std::int64_t most) {
+      const std::int64_t value = whole_number_at(archive, prefix + key);
+      if (value < 0 || value > most)
+        throw DataError(archive.path, prefix + key, "a count", std::to_string(value));
+      return value;
+    };
     TrainedOption trained;
     trained.option = load_option(archive, prefix);
     check_shape(archive, prefix, trained.option);
     trained.description = text_at(archive, prefix + "description");
-    const std::vector<double> centre = archive.at(prefix + "centre").to_double();
+    const NpyArray& member = archive.at(prefix + "centre");
+    if (member.type == NpyArray::Type::kText)
+      throw DataError(archive.path, prefix + "centre", "numbers", "text");
+    const std::vector<double> centre = member.to_double();
     if (centre.size() != trained.centre.size())
       throw DataError(archive.path, prefix + "centre", std::to_string(trained.centre.size()) + " numbers",
                       std::to_string(centre.size()));
     std::copy(centre.begin(), centre.end(), trained.centre.begin());
-    trained.motions = static_cast<int>(number("motions"));
-    trained.samples = static_cast<std::int64_t>(number("samples"));
-    set->options.push_back(std::move(trained));
+    trained.motions = static_cast<int>(whole("motions", std::numeric_limits<int>::max()));
+    trained.samples = whole("samples", std::numeric_limits<std::int64_t>::max());
+    set.options.push_back(std::move(trained));
   }
-  set->checksum = record::file_checksum(file);
-  if (const auto clusters = file.parent_path() / "clusters.json"; std::filesystem::exists(clusters))
-    set->clusters = clusters;
   return set;
 }
 

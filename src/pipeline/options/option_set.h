@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/containers.h"
+#include "core/npz.h"
 #include "motion/features.h"
 #include "pipeline/options/option.h"
 
@@ -35,5 +36,7 @@ void write_options(const std::filesystem::path& path, const OptionSet& set);
 /// @throws DataError for a file without options, and for options that do not fit this program's states and
 /// actions
 std::shared_ptr<const OptionSet> read_options(const std::filesystem::path& path);
+/// The same from an archive; without a checksum.
+OptionSet options_from(const Npz& archive);
 
 }  // namespace mimicx::pipeline::options

@@ -34,16 +34,20 @@ List<Path> continued(const List<Path>& beam, int options, double switch_penalty)
 }
 
 /// Lets every path act by its last option. What comes after a fall earns nothing.
-void act(List<Path>& paths, Characters& characters, const rl::tracking::MeanAction& policy, int frames) {
+/// @return false where it was told to stop on the way
+bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanAction& policy, int frames,
+         const std::function<bool()>& should_stop) {
   List<int> options;
   for (const Path& path : paths) options.push_back(path.options.back());
   for (int i = 0; i < frames; ++i) {
+    if (should_stop && should_stop()) return false;
     characters.advance(policy, options);
     for (Path& path : paths) {
       path.fell = path.fell || characters.fell(path.character);
       if (!path.fell) path.value += characters.reward(path.character);
     }
   }
+  return true;
 }
 
 /// Keeps the best paths that stand; of none that does, the best, put onto the reference.
@@ -64,7 +68,8 @@ void prune(List<Path>& paths, Characters& characters, int width, int frame) {
 
 Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                        const rl::tracking::TrackingConfig& tracking,
-                       const std::vector<const Option*>& options, const SearchConfig& config) {
+                       const std::vector<const Option*>& options, const SearchConfig& config,
+                       const std::function<bool()>& should_stop) {
   if (options.empty()) throw std::invalid_argument("search_roll_outs: expected options, found none");
   if (config.width < 1 || config.stretch < 1 || !(config.switch_penalty <= 0.0))
     throw std::invalid_argument(
@@ -73,7 +78,8 @@ Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& 
   const int last = clip->size() - 1;
   List<Path> beam(1);
   Characters characters(clip, tracking, 1);
-  for (int frame = 0; frame < last;) {
+  int frame = 0;
+  while (frame < last) {
     const int frames = std::min(config.stretch, last - frame);
     List<Path> paths = continued(beam, static_cast<int>(options.size()), config.switch_penalty);
     Characters next(clip, tracking, paths.count());
@@ -81,14 +87,17 @@ Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& 
       next.copy(i, characters, paths[i].character);
       paths[i].character = i;
     }
-    act(paths, next, policy, frames);
+    if (!act(paths, next, policy, frames, should_stop)) break;
     frame += frames;
     prune(paths, next, config.width, frame);
     beam = std::move(paths);
     characters = std::move(next);
   }
-  Found found{{}, beam.front().value, beam.front().breaks};
-  for (int t = 0; t < last; ++t) found.options.push_back(beam.front().options[t / config.stretch]);
+  const Path& best = beam.front();
+  Found found{{}, best.value, best.breaks, frame};
+  for (int t = 0; t < last; ++t)
+    found.options.push_back(
+        frame == 0 ? 0 : best.options[std::min(t / config.stretch, best.options.count() - 1)]);
   return found;
 }
 

@@ -13,6 +13,8 @@
 /// are paths; and options change at the ends of stretches only.
 #pragma once
 
+#include <functional>
+
 #include "pipeline/options/option.h"
 
 namespace mimicx::pipeline::options {
@@ -27,13 +29,16 @@ struct Found {
   List<int> options;        ///< [frames − 1] the option that acts towards the next frame
   double value = 0.0;       ///< R of Eq. 4
   std::vector<int> breaks;  ///< frames at which every path had fallen
+  int searched = 0;  ///< frames: all, or those before it was told to stop; then the last option acts on
 };
 
 /// Ties go to the better parent, then to the lower index.
 /// @param clip  encoded for these options
+/// @param should_stop  asked before every frame; may be empty
 /// @throws std::invalid_argument without options, and for numbers out of range
 Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                        const rl::tracking::TrackingConfig& tracking,
-                       const std::vector<const Option*>& options, const SearchConfig& config);
+                       const std::vector<const Option*>& options, const SearchConfig& config,
+                       const std::function<bool()>& should_stop = {});
 
 }  // namespace mimicx::pipeline::options

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/npz.h"
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/output/simulation_settings.h"
 #include "pipeline/output/state_members.h"
@@ -91,8 +90,9 @@ void write_gains(const std::filesystem::path& path, const StoredGains& stored) {
   write_npz(path, npz);
 }
 
-StoredGains read_gains(const std::filesystem::path& path) {
-  const Npz npz = read_npz(path);
+StoredGains read_gains(const std::filesystem::path& path) { return gains_from(read_npz(path)); }
+
+StoredGains gains_from(const Npz& npz) {
   const std::size_t count = rows_of(npz, "gains");
   StoredGains stored;
   const std::vector<double> values = read_numbers(npz, "gains", count, kDofs * control::kMemory);
@@ -107,23 +107,26 @@ StoredGains read_gains(const std::filesystem::path& path) {
   return stored;
 }
 
-StoredPlan read_plan(const std::filesystem::path& path) {
-  const Npz npz = read_npz(path);
+StoredPlan read_plan(const std::filesystem::path& path) { return plan_from(read_npz(path)); }
+
+StoredPlan plan_from(const Npz& npz) {
   StoredPlan stored;
   control::Plan& plan = stored.plan;
-  const auto read = [&](const std::string& name, auto& field) {
-    field = static_cast<std::decay_t<decltype(field)>>(read_number(npz, name));
-  };
+  const auto read = [&](const std::string& name, auto& field) { read_into(npz, name, field); };
   plan.states = read_states(npz, "");
   read_rows(npz, "residuals", std::max<std::size_t>(plan.states.size(), 1) - 1, plan.residuals);
   stored.reference = read_states(npz, "reference_");
   plan.ending = ending_of(npz);
   for_each_number(plan, read);
-  if (npz.has("lost_frame")) for_each_loss_number(plan.loss.emplace(), read);
+  if (npz.has("lost_frame")) {
+    for_each_loss_number(plan.loss.emplace(), read);
+    if (plan.loss->body < -1 || plan.loss->body >= kBodies)
+      throw DataError(npz.path, "lost_body", "the number of a body", std::to_string(plan.loss->body));
+  }
   if (npz.has("soft_help")) read_rows(npz, "soft_help", rows_of(npz, "soft_help"), plan.soft_help);
   stored.input_checksum = read_text(npz, "input_checksum");
   read("fps", stored.fps);
-  for_each_simulation_setting(stored.simulation, read);
+  stored.simulation = read_simulation(npz);
   return stored;
 }
 

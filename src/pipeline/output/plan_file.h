@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "control/plan.h"
+#include "core/npz.h"
 
 namespace mimicx::pipeline::output {
 
@@ -25,6 +26,7 @@ struct StoredPlan {
 void write_plan(const std::filesystem::path& path, const StoredPlan& stored);
 /// @throws DataError naming file and member that is not there, or not of its shape
 StoredPlan read_plan(const std::filesystem::path& path);
+StoredPlan plan_from(const Npz& npz);
 
 /// The feedback around a plan.
 struct StoredGains {
@@ -35,5 +37,6 @@ struct StoredGains {
 void write_gains(const std::filesystem::path& path, const StoredGains& stored);
 /// @throws DataError as read_plan does
 StoredGains read_gains(const std::filesystem::path& path);
+StoredGains gains_from(const Npz& npz);
 
 }  // namespace mimicx::pipeline::output

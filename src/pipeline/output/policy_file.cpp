@@ -32,14 +32,13 @@ void write_policy(const std::filesystem::path& path, const motion::Clip& input, 
   write_npz(path, npz);
 }
 
-StoredPolicy read_policy(const std::filesystem::path& path) {
-  const motion::Clip clip = motion::read_clip(path);
-  const Npz npz = read_npz(path);
+StoredPolicy read_policy(const std::filesystem::path& path) { return policy_from(read_npz(path)); }
+
+StoredPolicy policy_from(const Npz& npz) {
+  const motion::Clip clip = motion::clip_from(npz, std::filesystem::path(npz.path).stem().string());
   StoredPolicy stored;
   stored.states = read_states(npz, kStatePrefix);
-  for_each_simulation_setting(stored.simulation, [&](const std::string& name, auto& field) {
-    field = static_cast<std::decay_t<decltype(field)>>(read_number(npz, name));
-  });
+  stored.simulation = read_simulation(npz);
   motion::Reference body;
   body.name = clip.name;
   body.fps = clip.fps;
@@ -48,7 +47,7 @@ StoredPolicy read_policy(const std::filesystem::path& path) {
   stored.agent = rl::load_agent(npz, kAgentPrefix);
   if (stored.agent.actor.inputs() != rl::tracking::kStateSize || stored.agent.actor.outputs() != kDofs)
     throw DataError(
-        path.string(), "policy.actor", "a network from 570 to 55 numbers",
+        npz.path, "policy.actor", "a network from 570 to 55 numbers",
         std::to_string(stored.agent.actor.inputs()) + " to " + std::to_string(stored.agent.actor.outputs()));
   return stored;
 }

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "core/npz.h"
 #include "motion/clip.h"
 #include "physics/model.h"
 #include "rl/policy.h"
@@ -25,5 +26,6 @@ struct StoredPolicy {
 void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored);
 /// @throws DataError naming file and member that is not there, or not of its shape
 StoredPolicy read_policy(const std::filesystem::path& path);
+StoredPolicy policy_from(const Npz& npz);
 
 }  // namespace mimicx::pipeline::output

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/npz.h"
 
 namespace mimicx::pipeline::record {
 namespace {
@@ -42,7 +41,10 @@ void write_feasibility(const std::filesystem::path& path, const FrameFeasibility
 }
 
 FrameFeasibility read_feasibility(const std::filesystem::path& path) {
-  const Npz npz = read_npz(path);
+  return feasibility_from(read_npz(path));
+}
+
+FrameFeasibility feasibility_from(const Npz& npz) {
   FrameFeasibility all;
   all.mass = number_at(npz, "mass");
   if (!(all.mass > 0.0)) throw DataError(npz.path, "mass", "a positive number", std::to_string(all.mass));

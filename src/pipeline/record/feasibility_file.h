@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/containers.h"
+#include "core/npz.h"
 #include "core/so3.h"
 
 namespace mimicx::pipeline::record {
@@ -26,5 +27,6 @@ struct FrameFeasibility {
 void write_feasibility(const std::filesystem::path& path, const FrameFeasibility& feasibility);
 /// @throws DataError naming file and member that is not there, or not of its shape
 FrameFeasibility read_feasibility(const std::filesystem::path& path);
+FrameFeasibility feasibility_from(const Npz& npz);
 
 }  // namespace mimicx::pipeline::record

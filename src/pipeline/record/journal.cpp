@@ -38,8 +38,11 @@ void Journal::clear() {
 }
 
 void replay_journal(const std::filesystem::path& path, Manifest& manifest, std::vector<Timing>& timings) {
-  if (!std::filesystem::exists(path)) return;
-  const std::string text = read_file(path);
+  if (std::filesystem::exists(path)) replay_lines(read_file(path), path, manifest, timings);
+}
+
+void replay_lines(const std::string& text, const std::filesystem::path& path, Manifest& manifest,
+                  std::vector<Timing>& timings) {
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) try {
       const Json line = Json::parse(text.substr(begin, end - begin));

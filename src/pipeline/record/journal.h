@@ -32,5 +32,8 @@ class Journal {
 
 /// Puts the entries and times of a journal into those that were written before it. No file, no entries.
 void replay_journal(const std::filesystem::path& path, Manifest& manifest, std::vector<Timing>& timings);
+/// The same from its text. @param path  for messages @throws DataError for a whole line that is no entry
+void replay_lines(const std::string& text, const std::filesystem::path& path, Manifest& manifest,
+                  std::vector<Timing>& timings);
 
 }  // namespace mimicx::pipeline::record

@@ -119,8 +119,9 @@ std::string format_manifest(const Manifest& manifest) {
   return text + "\n ]\n}\n";
 }
 
-Manifest read_manifest(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+Manifest read_manifest(const std::filesystem::path& path) { return parse_manifest(read_file(path), path); }
+
+Manifest parse_manifest(const std::string& text, const std::filesystem::path& path) {
   try {
     const Json json = Json::parse(text);
     Manifest manifest = run_of(json.at("run"));

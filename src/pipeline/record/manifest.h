@@ -49,5 +49,7 @@ Manifest run_of(const Json& run);
 std::string format_manifest(const Manifest& manifest);
 /// @throws DataError when the file is not a manifest.
 Manifest read_manifest(const std::filesystem::path& path);
+/// The same from its text. @param path  for messages
+Manifest parse_manifest(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace mimicx::pipeline::record

@@ -10,13 +10,6 @@
 namespace mimicx::pipeline::record {
 namespace {
 
-std::string format_shard_list(const ShardList& list) {
-  Json inputs = Json::array();
-  for (const ListedInput& input : list.inputs)
-    inputs.push_back({{"name", to_utf8(input.name)}, {"input", to_utf8(input.input)}});
-  return Json({{"run", run_json(list.settings)}, {"shards", list.count}, {"inputs", inputs}}).dump(1) + "\n";
-}
-
 /// "motion 3 is a.npz there, b.npz here"
 std::string first_difference(const std::vector<ListedInput>& there, const std::vector<ListedInput>& here) {
   std::size_t k = 0;
@@ -34,9 +27,19 @@ std::filesystem::path shard_list_path(const std::filesystem::path& root) {
   return root / "shards" / "run.json";
 }
 
+std::string format_shard_list(const ShardList& list) {
+  Json inputs = Json::array();
+  for (const ListedInput& input : list.inputs)
+    inputs.push_back({{"name", to_utf8(input.name)}, {"input", to_utf8(input.input)}});
+  return Json({{"run", run_json(list.settings)}, {"shards", list.count}, {"inputs", inputs}}).dump(1) + "\n";
+}
+
 ShardList read_shard_list(const std::filesystem::path& root) {
   const std::filesystem::path path = shard_list_path(root);
-  const std::string text = read_file(path);
+  return parse_shard_list(read_file(path), path);
+}
+
+ShardList parse_shard_list(const std::string& text, const std::filesystem::path& path) {
   try {
     const Json json = Json::parse(text);
     ShardList list;

@@ -31,6 +31,9 @@ std::filesystem::path shard_list_path(const std::filesystem::path& root);
 
 /// @throws DataError where there is none
 ShardList read_shard_list(const std::filesystem::path& root);
+/// The same from its text. @param path  for messages
+ShardList parse_shard_list(const std::string& text, const std::filesystem::path& path);
+std::string format_shard_list(const ShardList& list);
 
 /// @throws std::invalid_argument saying in what the folder's list, which is there, differs from `mine`
 void compare(const ShardList& mine, const std::filesystem::path& root);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
-#include "core/error.h"
+#include "core/file.h"
 
 namespace mimicx::pipeline::record {
 namespace {
@@ -53,13 +53,15 @@ std::string format_csv(const Table& table) {
   return text;
 }
 
-Table read_csv(const std::filesystem::path& path) {
-  std::ifstream file(path);
+Table read_csv(const std::filesystem::path& path) { return parse_csv(read_file(path), path); }
+
+Table parse_csv(const std::string& text, const std::filesystem::path& path) {
+  std::istringstream lines(text);
   std::string line;
   Table table;
-  if (!std::getline(file, line)) throw DataError(path.string(), "line 1", "column names", "nothing");
+  if (!std::getline(lines, line)) throw DataError(path.string(), "line 1", "column names", "nothing");
   table.columns = split(line);
-  for (int number = 2; std::getline(file, line); ++number) {
+  for (int number = 2; std::getline(lines, line); ++number) {
     const std::string place = "line " + std::to_string(number);
     const auto fields = split(line);
     if (fields.size() != table.columns.size())

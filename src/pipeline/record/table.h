@@ -25,5 +25,7 @@ std::string format_number(double value);
 std::string format_csv(const Table& table);
 /// @throws DataError naming the file and the line of a row that is too short, too long or not a number.
 Table read_csv(const std::filesystem::path& path);
+/// The same from its text. @param path  for messages
+Table parse_csv(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace mimicx::pipeline::record

@@ -21,10 +21,13 @@ std::string format_timing(const std::vector<Timing>& timings, const std::vector<
 }
 
 std::vector<Timing> read_timing(const std::filesystem::path& path) {
+  return std::filesystem::exists(path) ? parse_timing(read_file(path)) : std::vector<Timing>();
+}
+
+std::vector<Timing> parse_timing(const std::string& text) {
   std::vector<Timing> timings;
-  if (!std::filesystem::exists(path)) return timings;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = Json::parse(text);
     for (const Json& t : json.at("sequences").elements()) timings.push_back(timing_of(t));
   } catch (const JsonError&) {
     timings.clear();

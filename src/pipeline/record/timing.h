@@ -13,5 +13,6 @@ namespace mimicx::pipeline::record {
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
 /// Empty when there is no such file or it is unreadable: times are a convenience.
 std::vector<Timing> read_timing(const std::filesystem::path& path);
+std::vector<Timing> parse_timing(const std::string& text);
 
 }  // namespace mimicx::pipeline::record

@@ -115,17 +115,16 @@ void write_report(const record::RunFolder& folder, const record::Manifest& manif
                                     truth == options.truth.end() ? std::filesystem::path() : truth->second);
     for (ReportMotion& motion : made.clip.motions) motion.body = bodies.take(motion.character);
     std::string json = clip_json(made.clip);
-    if (beside && has_motion(entry)) {
+    made.row.embedded = !(beside && has_motion(entry));
+    if (!made.row.embedded) {
       const std::filesystem::path file = folder.report_clip(entry.name);
       make_folder(file.parent_path());
       write_file_atomically(file, clip_script(entry.name, json, bodies.texts()));
-      json.clear();
       bodies.forget();
     }
     if (map) map->add(folder, entry, static_cast<int>(report.rows.size()));
-    made.row.embedded = !json.empty();
     report.rows.push_back(made.row);
-    clips.push_back(std::move(json));
+    clips.push_back(made.row.embedded ? std::move(json) : std::string());
   }
   if (map) report.map = map_json(map->map);
   report.skin = bodies.skin_json();

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "nn/checkpoint.h"
 
 namespace mimicx::rl::tracking {
 namespace {
@@ -194,11 +195,12 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
 
 void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   const auto numbers = [&](const std::string& name, std::size_t size) {
-    List<double> values = archive.at(prefix + name).to_double();
-    if (values.size() != size)
+    const NpyArray& array = archive.at(prefix + name);
+    const bool text = array.type == NpyArray::Type::kText;
+    if (text || array.size() != size)
       throw DataError(archive.path, prefix + name, std::to_string(size) + " numbers",
-                      std::to_string(values.size()));
-    return values;
+                      text ? "text" : std::to_string(array.size()));
+    return List<double>(array.to_double());
   };
   const auto clip_index = [&](double value) {
     if (!(value >= 0.0 && value < static_cast<double>(clips_.size())))
@@ -220,8 +222,7 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
           numbers(key + "pack" + std::to_string(p), group.packs[p].save().size());
       group.packs[p].load(std::vector<float>(values.begin(), values.end()));
     }
-    const std::vector<double> episodes = numbers(key + "episodes", group.episodes.size());
-    group.episodes.assign(episodes.begin(), episodes.end());
+    group.episodes = nn::whole_numbers_at(archive, prefix + key + "episodes", group.episodes.size());
     group.statistics.clear();
   }
   for (int c = 0; c < clips_.count(); ++c) {

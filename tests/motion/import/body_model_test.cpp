@@ -5,6 +5,7 @@
 
 #include "core/npz.h"
 #include "motion/import/motion_file.h"
+#include "motion/import/small_body_model.h"
 #include "motion/made_motions.h"
 #include "motion/prepare.h"
 #include "motion/scratch.h"
@@ -15,55 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::MatrixXd;
-using test::scratch;
-
-constexpr std::size_t kVertices = 60, kComponents = 16, kFileJoints = 55;
-
-/// A small model in the layout of SMPLX_NEUTRAL.npz: joint j is the mean of vertex j and vertex j + 1's
-/// opposite, so that joints are known without the reader's matrices.
-struct SmallModel {
-  MatrixXd vertices = MatrixXd::Zero(kVertices, 3);
-  std::vector<MatrixXd> directions;  ///< [component] (V, 3)
-  MatrixXd regressor = MatrixXd::Zero(kFileJoints, kVertices);
-
-  SmallModel() {
-    Random random(11, {2});
-    const Character body = make_character();
-    vertices.row(0) = Vector3d(0.01, -0.36, 0.02).transpose();
-    for (Index j = 1; j < kBodies; ++j)
-      vertices.row(j) = vertices.row(kParents[j]) + 1.1 * body.joint_offset[j].transpose();
-    for (std::size_t k = 0; k < kComponents; ++k) {
-      directions.emplace_back(kVertices, 3);
-      for (Index i = 0; i < directions.back().size(); ++i)
-        directions.back().data()[i] = 0.01 * random.normal();
-    }
-    for (Index j = 0; j < static_cast<Index>(kFileJoints); ++j) regressor(j, j) = 1.0;
-  }
-  Npz file() const {
-    std::vector<double> shapedirs;
-    for (Index v = 0; v < static_cast<Index>(kVertices); ++v)
-      for (Index axis = 0; axis < 3; ++axis)
-        for (const MatrixXd& d : directions) shapedirs.push_back(d(v, axis));
-    std::vector<std::int64_t> tree(2 * kFileJoints);
-    for (std::size_t j = 0; j < kFileJoints; ++j) {
-      tree[j] = j < kBodies ? kParents[j] : 20;
-      tree[kFileJoints + j] = static_cast<std::int64_t>(j);
-    }
-    tree[0] = 4294967295;  // what the real file has there: -1 as an unsigned number
-    Npz npz;
-    npz.set("v_template", from_matrix(vertices));
-    npz.set("shapedirs", NpyArray::from_double({kVertices, 3, kComponents}, shapedirs.data()));
-    npz.set("J_regressor", from_matrix(regressor));
-    npz.set("kintree_table", NpyArray::from_int64({2, kFileJoints}, tree.data()));
-    npz.set("weights", from_matrix(MatrixXd::Zero(kVertices, kFileJoints)));
-    return npz;
-  }
-  Vector3d joint(Index j, const std::array<double, kBetas>& betas) const {
-    Vector3d p = vertices.row(j).transpose();
-    for (std::size_t k = 0; k < kBetas; ++k) p += betas[k] * directions[k].row(j).transpose();
-    return p;
-  }
-};
+using test::scratch, test::SmallModel, test::kVertices, test::kComponents, test::kFileJoints;
 
 constexpr std::array<double, kBetas> kSomeBetas = {1.5, -0.5, 0.3, 0, 2, -1, 0.1, 0.2, -0.3, 0.7};
 

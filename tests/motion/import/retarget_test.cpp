@@ -252,9 +252,9 @@ TEST(Retarget, WhatHasNoJointIsSaidAndFollowsItsParent) {
   motion.joints[kLeftFoot].name = motion.joints[kRightFoot].name = "Other";
   RetargetReport report;
   const Clip clip = retarget(motion, {}, &report);
-  EXPECT_EQ(report.unmapped, (std::vector<std::string>{"left_foot", "right_foot", "head"}));
+  EXPECT_EQ(report.unmapped, (std::vector<std::string>{"left foot", "right foot", "head"}));
   EXPECT_TRUE(std::isnan(report.residual_mm[kHead]));
-  EXPECT_TRUE(says(clip.warnings, "no joint for left_foot, right_foot, head"));
+  EXPECT_TRUE(says(clip.warnings, "no joint for left foot, right foot, head"));
   for (const auto& rotations : clip.rotations) EXPECT_LT(rotations[kHead].norm(), 1e-6);
 }
 

@@ -263,6 +263,7 @@ TEST(PoseVerdict, StretchesAreFramesInARowNamedAfterWhatIsWrongInMostOfThem) {
   EXPECT_EQ(in_words(stretches[1]), "frame 8: the body tips over; 70 N m would have to hold it");
   const PoseVerdict verdict = verdict_on(needs);
   EXPECT_EQ(verdict.joints_over, "left_knee:1");
+  EXPECT_EQ(verdict.over_in_words, "left knee 1");
   EXPECT_NEAR(value_of(verdict.values, "infeasible_share"), 0.4, 1e-12);
   EXPECT_NEAR(value_of(verdict.values, "hovers_share"), 0.2, 1e-12);
   EXPECT_NEAR(value_of(verdict.values, "drifts_share"), 0.1, 1e-12);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "core/file.h"
 #include "core/npz.h"
@@ -57,6 +59,22 @@ TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
   wrong.options[1].option.encoder.reset();  // its policy is made for an encoded state
   write_options(folder.path / "wrong.npz", wrong);
   EXPECT_THROW(read_options(folder.path / "wrong.npz"), DataError);
+}
+
+TEST(OptionSet, CountsAndCentresThatAreNoneAreRefused) {
+  const TemporaryFolder folder;
+  write_options(folder.path / "options.npz", some_set());
+  const Npz sound = read_npz(folder.path / "options.npz");
+  for (const auto& [name, array] :
+       std::vector<std::pair<std::string, NpyArray>>{{"option0.motions", NpyArray::scalar(std::nan(""))},
+                                                     {"option0.motions", NpyArray::scalar(1e12)},
+                                                     {"option1.samples", NpyArray::scalar(-1.0)},
+                                                     {"option1.centre", NpyArray::scalar_text("here")}}) {
+    Npz damaged = sound;
+    damaged.set(name, array);
+    EXPECT_THROW(options_from(damaged), DataError) << name;
+  }
+  EXPECT_NO_THROW(options_from(sound));
 }
 
 }  // namespace

@@ -92,6 +92,31 @@ TEST(Search, TiesGoToTheLowerIndex) {
   EXPECT_EQ(search_roll_outs(clip, {}, {&option, &option, &option}, {2, 5, 0.0}).options, List<int>(19, 0));
 }
 
+// Told to stop in the third stretch it has found two, which are those it finds when it is let alone.
+TEST(Search, StopsWhereItIsToldTo) {
+  const Halves halves(40);
+  const SearchConfig config{4, 7, -0.5};
+  const Found whole = search_roll_outs(halves.clip, absolute_actions(), halves.options, config);
+  EXPECT_EQ(whole.searched, 39);
+  int asked = 0;
+  const Found part =
+      search_roll_outs(halves.clip, absolute_actions(), halves.options, config, [&] { return ++asked > 16; });
+  EXPECT_EQ(asked, 17) << "once for a frame, and not again";
+  EXPECT_EQ(part.searched, 14);
+  ASSERT_EQ(part.options.count(), 39);
+  for (int t = 14; t < 39; ++t) EXPECT_EQ(part.options[t], part.options[13]) << t;
+  const SearchConfig narrow{1, 7, -0.5};  // what a beam of one has kept it does not change any more
+  const Found greedy = search_roll_outs(halves.clip, absolute_actions(), halves.options, narrow);
+  asked = 0;
+  const Found begun =
+      search_roll_outs(halves.clip, absolute_actions(), halves.options, narrow, [&] { return ++asked > 16; });
+  for (int t = 0; t < 14; ++t) EXPECT_EQ(begun.options[t], greedy.options[t]) << t;
+  const Found none =
+      search_roll_outs(halves.clip, absolute_actions(), halves.options, config, [] { return true; });
+  EXPECT_EQ(none.searched, 0);
+  EXPECT_EQ(none.options, List<int>(39, 0));
+}
+
 TEST(Search, RefusesNumbersThatCannotBe) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(5), {});
   const Option option = constant_option(rl::tracking::kStateSize, 0.0F);

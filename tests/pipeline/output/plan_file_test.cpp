@@ -96,6 +96,32 @@ TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
   EXPECT_TRUE(same_bits(states, stored.plan.states));
 }
 
+// Numbers that the field cannot hold, that are no body's, or that would keep a simulation busy for ever.
+TEST_F(PlanFile, NumbersThatNoPlanHasAreRefusedByName) {
+  StoredPlan plan = planned(4);
+  plan.plan.loss = control::Loss{2, kLeftFoot, 0.41};
+  written(plan);
+  const Npz sound = read_npz(file);
+  for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"iterations", 0.5},
+                                                                               {"iterations", 1e12},
+                                                                               {"lost_body", 22},
+                                                                               {"lost_body", -2},
+                                                                               {"physics_passes", 0},
+                                                                               {"physics_passes", 2e9},
+                                                                               {"physics_rate", 0},
+                                                                               {"physics_rate", -240}}) {
+    Npz damaged = sound;
+    damaged.set(name, NpyArray::from_double({1}, &value));
+    try {
+      plan_from(damaged);
+      ADD_FAILURE() << name << " " << value;
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(plan_from(sound));
+}
+
 TEST_F(PlanFile, GainsComeBackToTheBitAndAreRefusedInAnotherShape) {
   StoredGains stored;
   for (int t = 0; t < 3; ++t) stored.gains.push_back(Eigen::MatrixXf::Random(kDofs, control::kMemory));

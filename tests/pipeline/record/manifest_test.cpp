@@ -6,43 +6,15 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "pipeline/record/example_manifest.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx::pipeline::record {
 namespace {
 
-Manifest example() {
-  Manifest m;
-  m.version = "0.1.0";
-  m.target = "x86-64-v3";
-  m.seed = 18446744073709551615u;
-  m.samples = 4000000;
-  m.settings = {{"gamma", 0.97}, {"sigma", 0.07}};
-  SequenceEntry e;
-  e.name = "walk";
-  e.input = "clips/walk \"slow\".npz";
-  e.input_checksum = "00ff";
-  e.output = "motions/walk.npz";
-  e.ok = true;
-  e.ending = Ending::kBudget;
-  e.frames = 150;
-  e.fps = 30.0;
-  e.seed = m.seed;
-  e.samples = 4000000;
-  e.reward_before = 0.1 + 0.2;
-  e.reward_after = 0.9;
-  e.metrics = {{"MPJPE", 17.3}, {"Float_gt", std::nan("")}};
-  e.audit = {{"root_force_max_N", 12.25}};
-  e.preparation = {{"floor_shift_mm", -12.5}};
-  e.feasibility = {{"infeasible_share", 0.25}};
-  e.notes = {"a note"};
-  m.put(e);
-  return m;
-}
-
 TEST(Manifest, ReadsBackAsTheSameBytes) {
   const TemporaryFolder folder;
-  const std::string text = format_manifest(example());
+  const std::string text = format_manifest(example_manifest());
   std::ofstream(folder.path / "manifest.json") << text;
   const Manifest back = read_manifest(folder.path / "manifest.json");
   EXPECT_EQ(format_manifest(back), text);
@@ -52,16 +24,16 @@ TEST(Manifest, ReadsBackAsTheSameBytes) {
 }
 
 TEST(Manifest, IsLaidOutAsOneDocumentHoweverManyEntriesItHas) {
-  Manifest m = example();
+  Manifest m = example_manifest();
   for (const std::size_t count : {0u, 1u, 3u}) {
-    m.sequences.resize(count, example().sequences[0]);
+    m.sequences.resize(count, example_manifest().sequences[0]);
     const std::string text = format_manifest(m);
     EXPECT_EQ(Json::parse(text).dump(1) + "\n", text) << count;
   }
 }
 
 TEST(Manifest, EntriesOfInputsAreOrderedBehindAllOthers) {
-  Manifest m = example();
+  Manifest m = example_manifest();
   for (const char* input : {"c", "b", "x", "a"}) {
     SequenceEntry e;
     e.input = input;
@@ -74,7 +46,7 @@ TEST(Manifest, EntriesOfInputsAreOrderedBehindAllOthers) {
 }
 
 TEST(Manifest, KeepsOneEntryPerInput) {
-  Manifest m = example();
+  Manifest m = example_manifest();
   SequenceEntry again = m.sequences[0];
   again.ok = false;
   again.reason = "fell";
@@ -85,7 +57,7 @@ TEST(Manifest, KeepsOneEntryPerInput) {
 }
 
 TEST(Manifest, AResultStandsUnlessItIsMissingOrHitTheSafetyStop) {
-  SequenceEntry e = example().sequences[0];
+  SequenceEntry e = example_manifest().sequences[0];
   EXPECT_TRUE(e.finished());
   e.ok = false;  // it fell: spending the same samples again gives the same fall
   EXPECT_TRUE(e.finished());
@@ -97,10 +69,10 @@ TEST(Manifest, AResultStandsUnlessItIsMissingOrHitTheSafetyStop) {
 }
 
 TEST(Manifest, EverySettingThatResultsDependOnIsCompared) {
-  const Manifest m = example();
-  EXPECT_TRUE(m.differences(example()).empty());
+  const Manifest m = example_manifest();
+  EXPECT_TRUE(m.differences(example_manifest()).empty());
   const auto differs = [&](auto change) {
-    Manifest other = example();
+    Manifest other = example_manifest();
     change(other);
     return m.differences(other).size() == 1;
   };
@@ -122,6 +94,18 @@ TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
     } catch (const DataError& error) {
       EXPECT_NE(std::string(error.what()).find("manifest.json"), std::string::npos);
     }
+  }
+}
+
+TEST(Manifest, AnEndingThatThereIsNotIsRefused) {
+  std::string text = format_manifest(example_manifest());
+  const std::string word = "\"ending\": \"budget\"";
+  text.replace(text.find(word), word.size(), "\"ending\": \"unheard of\"");
+  try {
+    parse_manifest(text, "manifest.json");
+    FAIL() << "its number would be behind the last of them";
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("'unheard of'"), std::string::npos) << error.what();
   }
 }
 

@@ -228,6 +228,32 @@ TEST(TrackingEnvironment, AStateThatLacksAnythingIsADataError) {
   }
 }
 
+TEST(TrackingEnvironment, TextAndPartsOfEpisodesAreNoState) {
+  const auto clip = make_tracking_clip(swaying_reference(30), {});
+  TrackingEnvironment environment({clip}, {}, physics::kLanes, physics::kLanes, 12);
+  Npz whole;
+  environment.save(whole, "e.");
+  const auto with = [&](const std::string& key, const NpyArray& array) {
+    Npz damaged = whole;
+    damaged.set(key, array);
+    return damaged;
+  };
+  std::vector<double> episodes = whole.at("e.group0.episodes").to_double();
+  EXPECT_THROW(environment.load(with("e.group0.episodes",
+                                     NpyArray::from_text(std::vector<std::string>(episodes.size(), "1"))),
+                                "e."),
+               DataError);
+  for (const double wrong : {0.5, 1e300, std::nan("")}) {
+    episodes[1] = wrong;
+    EXPECT_THROW(
+        environment.load(with("e.group0.episodes", NpyArray::from_double({episodes.size()}, episodes.data())),
+                         "e."),
+        DataError)
+        << wrong;
+  }
+  EXPECT_NO_THROW(environment.load(whole, "e."));
+}
+
 TEST(TrackingEnvironment, HasAsManyAgentsAsTheArrangementNames) {
   auto clip = std::make_shared<TrackingClip>(*make_tracking_clip(swaying_reference(24), {}));
   EXPECT_EQ(TrackingEnvironment({clip}, {}, physics::kLanes, physics::kLanes, 5).agents(), 1);
