@@ -1,8 +1,8 @@
 #include "pipeline/report/bodies.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "character/body_words.h"
 #include "core/units.h"
 #include "pipeline/record/json.h"
 #include "pipeline/report/digits.h"
@@ -74,11 +74,7 @@ void ReportBodies::forget() {
 std::string ReportBodies::skin_json() const {
   if (next_ == 0) return "";
   record::Json names = record::Json::array();
-  for (std::string_view name : kBodyNames) {
-    std::string words(name);
-    std::replace(words.begin(), words.end(), '_', ' ');
-    names.push_back(words);
-  }
+  for (int body = 0; body < kBodies; ++body) names.push_back(body_in_words(body));
   Digits triangles, joints, weights;
   for (const skin::Triangle& t : skin_.triangles)
     for (const int v : t) triangles.put_count(v, 2);
