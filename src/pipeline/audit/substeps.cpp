@@ -1,5 +1,7 @@
 #include "pipeline/audit/substeps.h"
 
+#include <cmath>
+
 #include <memory>
 
 #include "physics/lanes.h"
@@ -152,6 +154,9 @@ SubstepMotion read_substeps(const Npz& npz) {
   const std::vector<double> betas = output::read_numbers(npz, "betas", kBetas, 1);
   std::array<double, kBetas> shape{};
   std::copy(betas.begin(), betas.end(), shape.begin());
+  for (const double beta : shape)
+    if (std::abs(beta) > kMaxBeta)
+      throw DataError(npz.path, "betas", "shape parameters within ±5", std::to_string(beta));
   motion.character = make_character(shape);
   motion.simulation = output::read_simulation(npz);
   const NpyArray& q = npz.at("q");

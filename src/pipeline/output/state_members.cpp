@@ -1,5 +1,7 @@
 #include "pipeline/output/state_members.h"
 
+#include <stdexcept>
+
 #include "pipeline/output/simulation_settings.h"
 
 namespace mimicx::pipeline::output {
@@ -7,10 +9,6 @@ namespace {
 
 constexpr std::size_t kPositionNumbers = 3 + 4 * kBodies;
 constexpr std::size_t kVelocityNumbers = 3 + 3 * kBodies;
-
-/// Of simulations in files: what is far beyond any that was ever run would only keep a reader busy.
-constexpr double kLeastRate = 1.0, kMostRate = 1e6;  // Hz
-constexpr int kMostPasses = 1000;
 
 /// Calls visit(number) for every one of a state's positions, and for every one of its velocities.
 template <class StateType, class Visit>
@@ -63,14 +61,11 @@ physics::SimulationConfig read_simulation(const Npz& npz) {
   physics::SimulationConfig simulation;
   for_each_simulation_setting(simulation,
                               [&](const std::string& name, auto& field) { read_into(npz, name, field); });
-  const auto require = [&](const char* name, double value, double least, double most) {
-    if (!(value >= least && value <= most))
-      throw DataError(npz.path, name,
-                      "a number from " + std::to_string(least) + " to " + std::to_string(most),
-                      std::to_string(value));
-  };
-  require("physics_rate", simulation.rate, kLeastRate, kMostRate);
-  require("physics_passes", simulation.passes, 1, kMostPasses);
+  try {
+    physics::make_model<double>(make_character(), simulation);  // the simulator is the judge
+  } catch (const std::invalid_argument& error) {
+    throw DataError(npz.path, "", "the settings of a simulation", error.what());
+  }
   return simulation;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "character/body_words.h"
 #include "motion/import/body_fit.h"
 #include "motion/import/bvh.h"
 #include "motion/import/landmarks.h"
@@ -267,7 +268,7 @@ TEST(Retarget, TheResidualOfEveryComparedJointIsSaid) {
   ASSERT_NE(said, clip.decisions.end());
   int compared = 0;
   for (std::size_t b = 0; b < kBodies; ++b) {
-    const std::string name(kBodyNames[b]);
+    const std::string name = body_in_words(static_cast<int>(b));
     const bool measured = !std::isnan(report.residual_mm[b]);
     EXPECT_EQ(said->find(name + " ") != std::string::npos, measured) << name;
     if (!measured) continue;

@@ -124,6 +124,22 @@ TEST(Substeps, ADamagedFileIsNamed) {
   }
 }
 
+TEST(Substeps, ABodyOrASimulationThatCannotBeIsRefused) {
+  const TemporaryFolder folder;
+  SubstepMotion motion = Thrown().steps();
+  motion.steps.resize(2);
+  write_substeps(folder.path / "s.npz", motion);
+  const Npz sound = read_npz(folder.path / "s.npz");
+  for (const auto& [name, array] : std::vector<std::pair<std::string, NpyArray>>{
+           {"betas", from_matrix(Eigen::MatrixXd::Constant(kBetas, 1, 7.0))},
+           {"ground_damping", from_matrix(Eigen::MatrixXd::Constant(1, 1, -1.0))}}) {
+    Npz damaged = sound;
+    damaged.set(name, array);
+    EXPECT_THROW(read_substeps(damaged), DataError) << name;
+  }
+  EXPECT_NO_THROW(read_substeps(sound));
+}
+
 TEST(Audit, ViolentStepsExplainThemselvesAndToRoundingWhenReplayedInDouble) {
   const SubstepMotion motion = written_and_read(Thrown(240.0, 0.3).steps());
   const Audit recorded = audit_steps(motion), replayed = audit_replayed_steps(motion);
