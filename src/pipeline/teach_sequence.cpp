@@ -86,7 +86,9 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   }
   control.progress = [&](int done, int) { job.context.progress.update(done, ""); };
   int rows = 0, rounds = 0;
-  auto student = teaching::teach(*teacher, task, config.student, control,
+  teaching::StudentConfig lessons = config.student;
+  lessons.seed = training.seed;  // one seed for all that is learned in a run
+  auto student = teaching::teach(*teacher, task, lessons, control,
                                  [&](const teaching::RoundStats& stats, const rl::Agent&) {
                                    rows = stats.taken;
                                    rounds = stats.round + 1;

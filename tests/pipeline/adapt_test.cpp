@@ -245,6 +245,19 @@ TEST_F(Adapt, TeachingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(results_of(out("one")), results_of(out("two")));
 }
 
+TEST_F(Adapt, TheSeedIsThatOfTheLessonsToo) {
+  run(pretraining("options"));
+  const auto policy_of = [&](const std::string& folder, std::uint64_t seed) {
+    AdaptConfig config = teaching_quickly(adapting(folder, "options"));
+    config.training.seed = seed;
+    run(config);
+    return results_of(out(folder)).at("policies/sway.npz");
+  };
+  const std::string policy = policy_of("one", 1);
+  EXPECT_EQ(policy, policy_of("again", 1));
+  EXPECT_NE(policy, policy_of("two", 2));
+}
+
 TEST_F(Adapt, TeachingThatRunsOutOfSecondsSaysSo) {
   run(pretraining("options"));
   AdaptConfig config = teaching_quickly(adapting("run", "options"));
