@@ -34,6 +34,7 @@ void declare_convert(CommandLine& line);
 void declare_corrupt(CommandLine& line);
 void declare_audit(CommandLine& line);
 void declare_report(CommandLine& line);
+void declare_render(CommandLine& line);
 void declare_export_mjcf(CommandLine& line);
 void declare_synth(CommandLine& line);
 void declare_merge(CommandLine& line);

@@ -22,10 +22,10 @@ int run(int argc, char** argv) {
       "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores",
       std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET,
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
-  for (const auto declare :
-       {declare_run, declare_plan, declare_pretrain, declare_teach, declare_adapt, declare_imitate,
-        declare_merge, declare_evaluate, declare_cluster, declare_fit, declare_info, declare_convert,
-        declare_corrupt, declare_audit, declare_report, declare_export_mjcf, declare_synth, declare_config})
+  for (const auto declare : {declare_run, declare_plan, declare_pretrain, declare_teach, declare_adapt,
+                             declare_imitate, declare_merge, declare_evaluate, declare_cluster, declare_fit,
+                             declare_info, declare_convert, declare_render, declare_corrupt, declare_audit,
+                             declare_report, declare_export_mjcf, declare_synth, declare_config})
     declare(line);
   return line.run(argc, argv);
 }

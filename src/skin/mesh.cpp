@@ -25,6 +25,16 @@ List<Vector3d> posed_vertices(const Mesh& mesh, const Character& character, cons
   return posed;
 }
 
+List<Vector3d> vertex_normals(const List<Vector3d>& vertices, const List<Triangle>& triangles) {
+  List<Vector3d> normals(vertices.count(), Vector3d::Zero());
+  for (const Triangle& t : triangles) {
+    const Vector3d area = (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
+    for (const int v : t) normals[v] += area;
+  }
+  for (Vector3d& n : normals) n = n.norm() > 0.0 ? Vector3d(n.normalized()) : Vector3d(Vector3d::UnitZ());
+  return normals;
+}
+
 double enclosed_volume(const List<Vector3d>& vertices, const List<Triangle>& triangles) {
   double six = 0.0;
   for (const Triangle& t : triangles) six += vertices[t[0]].dot(vertices[t[1]].cross(vertices[t[2]]));

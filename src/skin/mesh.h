@@ -32,6 +32,10 @@ PerBody<Vector3d> bind_joints(const Character& character);
 /// The vertices in a pose, world, m.
 List<Vector3d> posed_vertices(const Mesh& mesh, const Character& character, const BodyPoses& poses);
 
+/// Outward normals of a mesh in any pose, unit length: of its triangles around every vertex, by their areas.
+/// Of a vertex whose triangles have no area: up.
+List<Vector3d> vertex_normals(const List<Vector3d>& vertices, const List<Triangle>& triangles);
+
 /// What a closed mesh encloses, m³; negative where its triangles face inward.
 double enclosed_volume(const List<Vector3d>& vertices, const List<Triangle>& triangles);
 

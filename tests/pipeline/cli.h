@@ -2,34 +2,17 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "motion/import/world.h"
+#include "pipeline/shell.h"
 #include "pipeline/standing_clip.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx::pipeline {
-
-struct Call {
-  int status;
-  std::string text;  ///< both streams
-};
-
-/// What a shell makes of a line.
-inline Call shell(const std::string& line) {
-  FILE* pipe = popen(line.c_str(), "r");
-  Call call{-1, {}};
-  char buffer[4096];
-  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) call.text.append(buffer, n);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) call.status = WEXITSTATUS(status);
-  return call;
-}
 
 inline Call mimicx(const std::string& arguments) {
   std::string line = MIMICX_BINARY;
@@ -49,8 +32,8 @@ inline std::vector<std::string> lines_of(const std::string& text) {
 }
 
 inline constexpr const char* kCommands[] = {
-    "run",     "plan",    "pretrain", "adapt",  "imitate", "fit",         "cluster", "evaluate", "info",
-    "convert", "corrupt", "audit",    "report", "synth",   "export-mjcf", "config",  "merge"};
+    "run",     "plan",    "pretrain", "adapt",  "imitate", "fit",   "cluster",     "evaluate", "info",
+    "convert", "corrupt", "audit",    "report", "render",  "synth", "export-mjcf", "config",   "merge"};
 
 struct Cli : testing::Test {
   std::string path(const std::string& name) const { return (folder.path / name).string(); }

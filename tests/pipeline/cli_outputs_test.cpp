@@ -39,6 +39,8 @@ struct CliOutputs : Cli {
             {"convert qpos", "convert " + w + " " + mine + ".qpos.npz", "mine.qpos.npz"},
             {"convert glb", "convert " + w + " " + mine + ".glb", "mine.glb"},
             {"convert csv", "convert " + w + " " + mine + ".csv", "mine.csv"},
+            {"render", "render " + w + " --skin shapes --frames 1 --size 60x60 --out " + mine + ".png",
+             "mine.png"},
             {"export-mjcf", "export-mjcf " + mine + ".xml", "mine.xml"},
             {"cluster", "cluster " + path("in") + " --clusters 1 --out " + mine + ".json", "mine.json"},
             {"evaluate",

@@ -41,6 +41,9 @@ using FloorForces = Array<FloorForce, kCarriers>;
 /// [frames − 1] of the intervals between frames. Joint centres are taken midway between its two frames.
 List<FloorForces> floor_forces(const PerFrame<BodyPoses>& poses, const RecordedForces& forces);
 
+/// Length of an arrow that shows a force.
+inline constexpr double kMetresPerNewton = 0.001;
+
 /// The middle of interval i (between frames i and i + 1), s.
 inline double middle_of_interval(int i, double fps) { return (i + 0.5) / fps; }
 

@@ -1,0 +1,20 @@
+/// Draws what was laid out.
+#pragma once
+
+#include <filesystem>
+
+#include "pipeline/picture/layout.h"
+#include "render/image.h"
+
+namespace mimicx::pipeline::picture {
+
+/// The same pixels for any number of threads.
+render::Image draw_page(const List<Performance>& performances, const Page& page, const Size& size,
+                        int threads);
+
+/// Writes the layout's one page as .png, or its pages as an animation, .webp. @param rate  pages per second
+/// @throws DataError when the file cannot be written, or is an animation and this build has no libwebp
+void write_picture(const std::filesystem::path& path, const List<Performance>& performances,
+                   const Layout& layout, double rate, int threads);
+
+}  // namespace mimicx::pipeline::picture

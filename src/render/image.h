@@ -1,0 +1,40 @@
+/// Pictures of 8-bit pixels.
+#pragma once
+
+#include <cstdint>
+
+#include "core/containers.h"
+#include "core/so3.h"
+
+namespace mimicx::render {
+
+/// Light of the three primaries, linear, 1 is white.
+using Colour = Eigen::Vector3f;
+
+/// What a screen is told: red, green, blue.
+struct Pixel {
+  std::uint8_t r = 0, g = 0, b = 0;
+  bool operator==(const Pixel&) const = default;
+};
+
+/// The square root stands for the screen's gamma of 2.2: it is rounded correctly by every processor, which
+/// powers are not.
+Pixel shown(const Colour& light);
+/// The light of a pixel, so that shown(light_of(p)) == p.
+Colour light_of(const Pixel& pixel);
+
+/// Rows from the top, pixels from the left.
+struct Image {
+  Image() = default;
+  Image(int w, int h, const Pixel& fill) : width(w), height(h), pixels(w * h, fill) {}
+  Pixel& at(int x, int y) { return pixels[y * width + x]; }
+  const Pixel& at(int x, int y) const { return pixels[y * width + x]; }
+
+  int width = 0, height = 0;
+  List<Pixel> pixels;  ///< [height · width]
+};
+
+/// Puts an image onto another one, its upper left corner at (x, y); all of it must lie inside.
+void paste(const Image& part, int x, int y, Image& onto);
+
+}  // namespace mimicx::render

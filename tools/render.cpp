@@ -1,0 +1,199 @@
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "core/file.h"
+#include "core/parallel.h"
+#include "motion/import/motion_file.h"
+#include "pipeline/picture/picture.h"
+#include "pipeline/picture/png.h"
+#include "pipeline/picture/webp.h"
+#include "pipeline/preparation.h"
+#include "pipeline/record/outputs.h"
+#include "shared_arguments.h"
+
+namespace mimicx::tools {
+namespace {
+
+namespace picture = pipeline::picture;
+namespace exchange = pipeline::exchange;
+
+constexpr int kMostPixels = 8192;  ///< along an edge: what a picture of reasonable size in memory has
+
+struct Arguments {
+  std::vector<std::string> files;
+  std::filesystem::path out;
+  std::optional<picture::Kind> kind;
+  std::vector<double> at;
+  std::vector<std::string> labels;
+  picture::PictureConfig picture;
+  exchange::Skin skin = exchange::Skin::kMannequin;
+  motion::import::ReadConfig read;
+  bool arrows = false, force = false;
+  int threads = 1;
+};
+
+/// "side", "front", "quarter" or degrees.
+void take_view(const std::string& text, double& degrees) {
+  if (text == "front")
+    degrees = 0.0;
+  else if (text == "quarter")
+    degrees = 45.0;
+  else if (text == "side")
+    degrees = 90.0;
+  else {
+    std::size_t end = 0;
+    try {
+      degrees = std::stod(text, &end);
+    } catch (const std::exception&) {
+      end = 0;
+    }
+    if (end == 0 || end != text.size() || !(std::abs(degrees) <= 360.0))
+      throw UsageError("--view: expected front, quarter, side or degrees from -360 to 360, found " + text);
+  }
+}
+
+/// "WIDTHxHEIGHT"
+void take_size(const std::string& text, std::optional<picture::Size>& size) {
+  picture::Size found;
+  char rest = 0;
+  const bool good = std::sscanf(text.c_str(), "%5dx%5d%c", &found.width, &found.height, &rest) == 2;
+  const auto fits = [](int edge) { return edge >= picture::kLeastCell && edge <= kMostPixels; };
+  if (!good || !fits(found.width) || !fits(found.height))
+    throw UsageError("--size: expected WIDTHxHEIGHT, each from " + std::to_string(picture::kLeastCell) +
+                     " to " + std::to_string(kMostPixels) + " pixels, found " + text);
+  size = found;
+}
+
+picture::Kind kind_of(const Arguments& a) {
+  const std::string suffix = a.out.extension().string();
+  if (suffix != ".png" && suffix != ".webp")
+    throw UsageError(a.out.string() + ": pictures are written as .png or .webp, not '" + suffix + "'");
+  const bool moves = suffix == ".webp";
+  const picture::Kind kind = a.kind.value_or(moves ? picture::Kind::kAnimation : picture::Kind::kStrip);
+  if ((kind == picture::Kind::kAnimation) != moves)
+    throw UsageError(a.out.string() + ": an animation is a .webp, every other picture a .png");
+  return kind;
+}
+
+void claim_output(const Arguments& a) {
+  pipeline::record::Outputs outputs(a.files, a.force);
+  if (kind_of(a) == picture::Kind::kAnimation)
+    outputs.claim(a.out, picture::kWebpEnding, pipeline::record::kAtTheEnd);
+  else
+    outputs.claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
+}
+
+/// Folder and name: motions of one name in several folders are the rule.
+std::string name_of(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path().filename();
+  return (folder.empty() ? file.filename() : folder / file.filename()).string();
+}
+
+List<picture::Performance> performances_of(const Arguments& a) {
+  const int count = static_cast<int>(a.files.size());
+  List<motion::Clip> clips;
+  for (const std::string& file : a.files) {
+    clips.push_back(motion::import::read_motion(file, a.read));
+    motion::require_usable(clips.back(), 1);
+    pipeline::tell_decisions(file, clips.back(), std::cerr);
+  }
+  List<picture::Performance> performances(count);
+  parallel_for(count, a.threads, [&](int k) {
+    const bool shows = a.arrows && a.read.text().empty();
+    performances[k] =
+        picture::performance_of(clips[k], a.skin, shows ? exchange::recorded_forces(clips[k]) : std::nullopt);
+    const auto i = static_cast<std::size_t>(k);
+    performances[k].label = a.labels.empty() ? name_of(a.files[i]) : a.labels[i];
+  });
+  return performances;
+}
+
+int render(const Arguments& a) {
+  picture::PictureConfig config = a.picture;
+  config.kind = kind_of(a);
+  config.at = a.at;
+  if (!a.labels.empty() && a.labels.size() != a.files.size())
+    throw UsageError("--labels: expected one for each of the " + std::to_string(a.files.size()) +
+                     " motions, found " + std::to_string(a.labels.size()));
+  if (config.kind == picture::Kind::kStill && config.at.size() > 1)
+    throw UsageError("--at: a still shows one moment, found " + std::to_string(config.at.size()));
+  if (config.kind == picture::Kind::kAnimation && !config.at.empty())
+    throw UsageError("--at: an animation shows all moments; --from and --to choose a part");
+  claim_output(a);
+  if (config.kind == picture::Kind::kAnimation) picture::require_webp(a.out.string());
+  const List<picture::Performance> performances = performances_of(a);
+  bool forces = false;
+  for (const picture::Performance& p : performances) forces |= !p.forces.empty();
+  if (a.arrows && !forces)
+    throw DataError(a.files.front(), "", "a motion with forces",
+                    a.read.text().empty()
+                        ? "none: mimicx plan makes a motion that has them"
+                        : "one that is read in another way than it was simulated in (" + a.read.text() + ")");
+  picture::Layout layout;
+  try {
+    layout = picture::lay_out(performances, config);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("render: ") + error.what());
+  }
+  make_folder(a.out.parent_path());
+  picture::write_picture(a.out, performances, layout, config.rate, a.threads);
+  std::printf("%s: %d x %d pixels, %d moments from %.2f to %.2f s\n", a.out.string().c_str(),
+              layout.size.width, layout.size.height, layout.moments.count(), layout.moments.front(),
+              layout.moments.back());
+  return kAllGood;
+}
+
+}  // namespace
+
+void declare_render(CommandLine& line) {
+  const auto a = std::make_shared<Arguments>();
+  Command command = line.add(
+      "render", "Draw motions: strips of moments, stills, animations",
+      "mimicx render noisy/jump.npz RUN/motions/jump.npz --out jump.png --arrows   # before and after\n"
+      "mimicx render clip.bvh --out clip.webp --view side                          # an animation",
+      "Several motions are shown at the same moments by the same camera, each with its name.\n"
+      "The floor's checks are half a metre; left arms and legs are lighter than right ones.");
+  command.files("FILE", a->files, "motions");
+  command.path("--out", a->out, "where to write it: .png, or .webp for an animation").required();
+  command.choice<std::optional<picture::Kind>>(
+      "--kind", a->kind,
+      {{"strip", picture::Kind::kStrip},
+       {"still", picture::Kind::kStill},
+       {"stroboscope", picture::Kind::kStroboscope},
+       {"animation", picture::Kind::kAnimation}},
+      "moments beside each other; one moment; many moments in one room; a film. Default: strip for .png, "
+      "animation for .webp");
+  const Option frames = command.number("--frames", a->picture.moments, {1.0, 200.0},
+                                       "how many moments a strip or a stroboscope shows");
+  command
+      .numbers("--at", a->at, kFromZero,
+               "the moments to show, s, separated by commas; default: evenly spread, of a still the one "
+               "whose pose "
+               "is farthest from the mean one")
+      .excludes(frames);
+  command.number("--from", a->picture.stretch.first, kFromZero, "show the motion from this time on, s");
+  command.number("--to", a->picture.stretch.last, kFromZero, "up to this time, s").defaults_to("its end");
+  command.text(
+      "--view", [a](const std::string& text) { take_view(text, a->picture.view); },
+      "front|quarter|side|DEGREES",
+      "where the camera stands: before the body as it looks at first, or so far around to its right side; "
+      "default: quarter, 45 degrees");
+  command.text(
+      "--size", [a](const std::string& text) { take_size(text, a->picture.size); }, "WIDTHxHEIGHT",
+      "of the whole picture, pixels; default: what the motion needs");
+  command.number("--rate", a->picture.rate, {1.0, 60.0}, "frames per second of an animation");
+  command.list("--labels", a->labels, "NAME,...", "what to call the motions; default: their files");
+  command.flag("--arrows", a->arrows, "show the forces of the floor, 1 mm per newton");
+  command.choice<exchange::Skin>(
+      "--skin", a->skin, {{"mannequin", exchange::Skin::kMannequin}, {"shapes", exchange::Skin::kShapes}},
+      "one smooth skin, or the shapes that the simulator collides with");
+  add_read_arguments(command, a->read);
+  add_threads(command, a->threads);
+  add_force(command, a->force);
+  command.action([a] { return render(*a); });
+}
+
+}  // namespace mimicx::tools
