@@ -330,6 +330,7 @@ TEST_F(Adapt, ATrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
   run(pretraining("options"));
   AdaptConfig config = hopeless(adapting("whole", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
+  config.arrangement.selector = options::Selector::kDp;  // a beam would ask in every frame whether to stop
   run(config);
   config.run.out = out("halves");
   config.run.threads = 2;
