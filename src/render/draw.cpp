@@ -49,7 +49,7 @@ Projected projected(const Solid& solid, const Camera& camera) {
 /// One triangle, sample by sample. @param corner  clockwise on the picture
 void draw_triangle(const Solid& solid, const Projected& on, const std::array<int, 3>& corner,
                    const Shading& shading, Samples& samples) {
-  const auto [a, b, c] = corner;
+  const int a = corner[0], b = corner[1], c = corner[2];
   const Vector3d nearness(on.nearness[a], on.nearness[b], on.nearness[c]);
   GridTriangle triangle = {on.corners[a], on.corners[b], on.corners[c]};
   for (GridPoint& p : triangle) p.y -= kSubSteps * samples.first;

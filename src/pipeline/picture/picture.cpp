@@ -23,7 +23,7 @@ render::Colour colour_of(int performance, int count) {
       {0.09F, 0.25F, 0.56F}, {0.48F, 0.23F, 0.10F}, {0.13F, 0.38F, 0.14F}, {0.36F, 0.13F, 0.42F}};
   if (count == 1) return colours[0];
   constexpr Array<int, 4> kOrder = {1, 0, 2, 3};
-  return colours[kOrder[performance % kOrder.size()]];
+  return colours[kOrder[performance % 4]];
 }
 
 render::Image draw_cell(const List<Performance>& performances, const Cell& cell, int threads) {
