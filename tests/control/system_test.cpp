@@ -50,6 +50,29 @@ TEST(System, ControlsHaveTheBytesOfTheTrackingTasksActions) {
   }
 }
 
+TEST(System, AStateInFloatsHasTheRoundingOfEveryNumber) {
+  const State<double> x = system_of(synthetic_reference("walk", 501, 3)).at(1);
+  const State<double> rounded = as_floats(x);
+  const auto expect_rounded = [](double found, double exact) {
+    volatile float to_float = static_cast<float>(exact);  // volatile: no compiler may leave the rounding out
+    EXPECT_EQ(found, static_cast<double>(to_float)) << exact;
+  };
+  const auto expect_vector = [&](const Vec3<double>& found, const Vec3<double>& exact) {
+    expect_rounded(found.x, exact.x);
+    expect_rounded(found.y, exact.y);
+    expect_rounded(found.z, exact.z);
+  };
+  expect_vector(rounded.p_root, x.p_root);
+  expect_vector(rounded.v_root, x.v_root);
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    expect_vector(rounded.omega[i], x.omega[i]);
+    expect_rounded(rounded.q[i].w, x.q[i].w);
+    expect_rounded(rounded.q[i].x, x.q[i].x);
+    expect_rounded(rounded.q[i].y, x.q[i].y);
+    expect_rounded(rounded.q[i].z, x.q[i].z);
+  }
+}
+
 TEST(System, HelpAcceleratesThePelvisAndIsIgnoredInAHardSystem) {
   System system = system_of(synthetic_reference("stand", 501, 5));
   const auto scratch = std::make_unique<Data<P>>();
