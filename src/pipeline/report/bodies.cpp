@@ -1,7 +1,5 @@
 #include "pipeline/report/bodies.h"
 
-#include <cmath>
-
 #include "character/body_words.h"
 #include "core/units.h"
 #include "pipeline/record/json.h"
@@ -16,12 +14,10 @@ namespace {
 constexpr double kCell = 0.026;         ///< of the lattice that the mannequin is made on, m
 constexpr double kVertexUnit = 0.4e-3;  ///< m
 constexpr double kFullWeight = 63.0;    ///< the largest digit
-constexpr double kLengthUnit = 1e-4;    ///< of bones and shapes, m
-
-double rounded(double metres) { return std::round(metres / kLengthUnit) * kLengthUnit; }
+constexpr double kPerMetre = 1e4;       ///< of bones and shapes
 
 void append(const Vector3d& p, record::Json& list) {
-  for (const double x : p) list.push_back(rounded(x));
+  for (const double x : p) list.push_back(rounded(x, kPerMetre));
 }
 
 /// Bones and collision shapes.
@@ -37,7 +33,7 @@ record::Json body_json(const Character& character) {
     one.push_back(c.body);
     append(c.a_B, one);
     append(c.b_B, one);
-    one.push_back(rounded(c.radius));
+    one.push_back(rounded(c.radius, kPerMetre));
     shapes.push_back(one);
   }
   return {{"offsets", offsets}, {"shapes", shapes}};

@@ -1,6 +1,5 @@
 #include "pipeline/report/camera.h"
 
-#include <cmath>
 #include <limits>
 
 #include "motion/keypoint_names.h"
@@ -11,6 +10,7 @@ namespace mimicx::pipeline::report {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPerUnit = 1e8;          ///< of what is written of the camera: more than anybody sees
 constexpr double kTenths = 10.0;          ///< of a pixel
 constexpr double kFullConfidence = 63.0;  ///< the largest digit
 
@@ -22,9 +22,6 @@ int next_up(const std::vector<SeenPoint>& points, std::size_t k) {
       if (up != k && points[up].body == body && points[up].p_B.isZero()) return static_cast<int>(up);
   return -1;
 }
-
-/// Eight digits of a number are more than anybody sees.
-double rounded(double value) { return std::round(1e8 * value) / 1e8; }
 
 }  // namespace
 
@@ -74,20 +71,20 @@ std::vector<double> distances_from_seen(const ReportCamera& camera, const std::v
 
 std::string camera_json(const ReportCamera& camera) {
   const Matrix3d& K = camera.intrinsics;
-  record::Json json = {{"fx", rounded(K(0, 0))},          {"fy", rounded(K(1, 1))},
-                       {"cx", rounded(K(0, 2))},          {"cy", rounded(K(1, 2))},
-                       {"skew", rounded(K(0, 1))},        {"bones", camera.bones},
-                       {"points", record::Json::array()}, {"extrinsics", record::Json::array()}};
+  record::Json json = {{"fx", rounded(K(0, 0), kPerUnit)},   {"fy", rounded(K(1, 1), kPerUnit)},
+                       {"cx", rounded(K(0, 2), kPerUnit)},   {"cy", rounded(K(1, 2), kPerUnit)},
+                       {"skew", rounded(K(0, 1), kPerUnit)}, {"bones", camera.bones},
+                       {"points", record::Json::array()},    {"extrinsics", record::Json::array()}};
   for (const SeenPoint& point : camera.points) {
     record::Json one = record::Json::array();
     one.push_back(point.body);
-    for (const double x : point.p_B) one.push_back(rounded(x));
+    for (const double x : point.p_B) one.push_back(rounded(x, kPerUnit));
     json["points"].push_back(one);
   }
   for (const Eigen::Matrix4d& pose : camera.extrinsics) {
     record::Json one = record::Json::array();
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column) one.push_back(rounded(pose(row, column)));
+      for (int column = 0; column < 4; ++column) one.push_back(rounded(pose(row, column), kPerUnit));
     json["extrinsics"].push_back(one);
   }
   Digits seen;

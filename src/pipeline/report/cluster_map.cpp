@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "pipeline/record/json.h"
+#include "pipeline/report/digits.h"
 
 namespace mimicx::pipeline::report {
 namespace {
@@ -45,8 +45,7 @@ std::string words_of(const Eigen::VectorXd& direction) {
   return text;
 }
 
-/// Four digits are more than a map shows.
-double rounded(double value) { return std::round(1e4 * value) / 1e4; }
+constexpr double kPerUnit = 1e4;  ///< more than a map shows
 
 }  // namespace
 
@@ -90,10 +89,10 @@ std::string map_json(const ClusterMap& map) {
                        {"trained", record::Json::array()},
                        {"clips", record::Json::array()}};
   for (const MapAxis& axis : map.axes)
-    json["axes"].push_back({{"words", axis.words}, {"share", rounded(axis.share)}});
+    json["axes"].push_back({{"words", axis.words}, {"share", rounded(axis.share, kPerUnit)}});
   const auto add = [&json](const char* list, const MapPoint& point, const record::Json& who) {
     record::Json one = record::Json::array();
-    for (const double x : point.at) one.push_back(rounded(x));
+    for (const double x : point.at) one.push_back(rounded(x, kPerUnit));
     one.push_back(point.cluster);
     one.push_back(who);
     json[list].push_back(one);

@@ -20,4 +20,6 @@ void Digits::put_count(double value, int digits) {
   for (int k = digits - 1; k >= 0; --k) text_ += kDigits[number >> (6 * k) & 63];
 }
 
+double rounded(double value, double per_unit) { return std::round(per_unit * value) / per_unit; }
+
 }  // namespace mimicx::pipeline::report

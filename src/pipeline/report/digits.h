@@ -20,4 +20,7 @@ class Digits {
   std::string text_;
 };
 
+/// To so many steps per unit (10000: four decimals): shorter in a page, and nobody sees the rest.
+double rounded(double value, double per_unit);
+
 }  // namespace mimicx::pipeline::report
