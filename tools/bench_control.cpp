@@ -13,6 +13,7 @@
 #include <string>
 
 #include "control/ilqr.h"
+#include "core/elementary.h"
 #ifdef MIMICX_HAVE_MUJOCO
 #include "oracles/mujoco_character.h"
 #endif
@@ -31,7 +32,7 @@ physics::State<double> swaying(int frame) {
   x.q.fill({1.0, 0.0, 0.0, 0.0});
   x.omega.fill(physics::zero3<double>());
   x.v_root = physics::zero3<double>();
-  x.p_root = {0.0, 0.0, 0.951 - 0.784 * (1.0 - std::cos(0.5 * knee))};
+  x.p_root = {0.0, 0.0, 0.951 - 0.784 * (1.0 - cos(0.5 * knee))};
   const auto turn = [&](int body, const Vector3d& r) {
     x.q[body] = physics::from_eigen(Quaterniond(exp_map(r)));
   };
@@ -41,8 +42,8 @@ physics::State<double> swaying(int frame) {
     turn(kLeftKnee + side, {knee, 0, 0});
     turn(kLeftAnkle + side, {-0.5 * knee, 0, 0});
   }
-  turn(kLeftShoulder, {0, 0, -1.2 + 0.3 * std::sin(phase)});
-  turn(kRightShoulder, {0, 0, 1.2 - 0.3 * std::sin(phase)});
+  turn(kLeftShoulder, {0, 0, -1.2 + 0.3 * sin(phase)});
+  turn(kRightShoulder, {0, 0, 1.2 - 0.3 * sin(phase)});
   return x;
 }
 

@@ -15,6 +15,7 @@
 #include "control/fixtures.h"
 #include "control/plan.h"
 #include "control/shooting.h"
+#include "core/elementary.h"
 #include "core/file.h"
 #include "core/units.h"
 #include "line_plot.h"
@@ -86,8 +87,8 @@ std::string lqr_figure() {
   for (int k = 0; k <= 60; ++k) {
     const double t = 0.1 * k;
     for (Curve* curve : {&place, &speed}) curve->x.push_back(t);
-    place.y.push_back(std::exp(-t) * (std::cos(t) + std::sin(t)));
-    speed.y.push_back(-2.0 * std::exp(-t) * std::sin(t));
+    place.y.push_back(exp(-t) * (cos(t) + sin(t)));
+    speed.y.push_back(-2.0 * exp(-t) * sin(t));
   }
   Curve fine_place{"dots: frames of ⅛ s", Style::kDots, 4, {}, {}}, fine_speed{"", Style::kDots, 4, {}, {}};
   add_motion(eighth, 6.0, fine_place, fine_speed);

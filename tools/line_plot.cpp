@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/elementary.h"
+
 namespace mimicx::tools {
 namespace {
 
@@ -29,7 +31,7 @@ struct Axis {
   std::vector<double> ticks = {};
 
   bool shows(double value) const { return std::isfinite(value) && (!log || value > 0.0); }
-  double scaled(double value) const { return log ? std::log10(value) : value; }
+  double scaled(double value) const { return log ? log10(value) : value; }
   void include(double value) {
     if (!shows(value)) return;
     low = std::min(low, scaled(value));
@@ -42,14 +44,14 @@ struct Axis {
     if (!(high > low)) high = low + 1.0;
     double step = 1.0;
     if (!log) {
-      const double power = std::pow(10.0, std::floor(std::log10((high - low) / 4.0)));
+      const double power = pow(10.0, static_cast<int>(std::floor(log10((high - low) / 4.0))));
       const double rest = (high - low) / 4.0 / power;
       step = power * (rest < 1.5 ? 1.0 : rest < 3.5 ? 2.0 : 5.0);
     }
     low = step * std::floor(low / step + 1e-9);
     high = step * std::ceil(high / step - 1e-9);
     for (int k = 0; low + k * step < high + 0.5 * step; ++k)
-      ticks.push_back(log ? std::pow(10.0, low + k) : low + k * step);
+      ticks.push_back(log ? pow(10.0, static_cast<int>(low) + k) : low + k * step);
   }
 };
 

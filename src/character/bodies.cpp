@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/error.h"
+
 namespace mimicx {
 
 const PerBody<std::string_view> kBodyNames = {
@@ -26,7 +28,7 @@ Vector3d hinge_axis(int body) {
     case kRightElbow:
       return Vector3d::UnitY();
     default:
-      throw std::invalid_argument("hinge_axis: body has no hinge");
+      raise(std::invalid_argument("hinge_axis: body has no hinge"));
   }
 }
 

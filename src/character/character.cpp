@@ -8,6 +8,7 @@
 
 #include "character/body_words.h"
 #include "character/standard_body.h"
+#include "core/error.h"
 
 namespace mimicx {
 namespace {
@@ -293,6 +294,8 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
 
 }  // namespace
 
+std::string_view name_of_beta(int k) { return shape_components()[static_cast<std::size_t>(k)].name; }
+
 double Character::total_mass() const {
   double sum = 0.0;
   for (double m : mass) sum += m;
@@ -302,7 +305,7 @@ double Character::total_mass() const {
 Character make_character(const std::array<double, kBetas>& betas) {
   for (double b : betas)
     if (!(std::abs(b) <= kMaxBeta))
-      throw std::invalid_argument("make_character: every |beta| must be at most 5");
+      raise(std::invalid_argument("make_character: every |beta| must be at most 5"));
   return assemble(offsets_of(betas), betas);
 }
 
@@ -314,8 +317,8 @@ Character make_character_of_joints(const RestJoints& joints) {
     offsets[i] = joints[i] - joints[kParents[i]];
     const double ratio = offsets[i].norm() / standard[i].norm();
     if (!(ratio > 1.0 / 3.0 && ratio < 3.0))
-      throw std::invalid_argument("the bone to the " + body_in_words(i) +
-                                  " is shorter than a third or longer than three times the standard one");
+      raise(std::invalid_argument("the bone to the " + body_in_words(i) +
+                                  " is shorter than a third or longer than three times the standard one"));
   }
   return assemble(offsets, nearest_betas(offsets));
 }
@@ -323,7 +326,7 @@ Character make_character_of_joints(const RestJoints& joints) {
 Vector3d rest_pelvis(std::string_view body_model) {
   if (body_model == "mimicx" || body_model == "smplx") return {0.003, -0.351, 0.012};
   if (body_model == "smplh" || body_model == "smpl") return {-0.002, -0.223, 0.028};
-  throw std::invalid_argument("rest_pelvis: unknown body model '" + std::string(body_model) + "'");
+  raise(std::invalid_argument("rest_pelvis: unknown body model '" + std::string(body_model) + "'"));
 }
 
 BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,

@@ -59,6 +59,8 @@ struct Character {
 };
 
 inline constexpr double kMaxBeta = 5.0;
+/// What β_k changes, in words: "leg length".
+std::string_view name_of_beta(int k);
 
 /// The character of a shape. β = 0 is the standard body (1.72 m, 70 kg).
 /// @throws std::invalid_argument unless every |β_k| ≤ `kMaxBeta`.

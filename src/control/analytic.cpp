@@ -6,6 +6,7 @@
 
 #include "control/analytic_math.h"
 #include "control/analytic_step.h"
+#include "core/error.h"
 #include "physics/pd_target.h"
 
 namespace mimicx::control {
@@ -133,7 +134,7 @@ void write(const AdjointData<T>& d, int first, int lanes, FrameDerivative<T>& ou
 template <class T>
 void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_help,
                          FrameScratch<T>& scratch, FrameDerivative<T>& out) {
-  if (frame.substeps < 1) throw std::invalid_argument("a control frame needs at least one physics step");
+  if (frame.substeps < 1) raise(std::invalid_argument("a control frame needs at least one physics step"));
   roll_out(model, frame, scratch.data, scratch.substeps, out.end, out.wrong);
   const int columns = with_help ? kFrameColumnsWithHelp : kFrameColumns;
   out.F.resize(kTangent, columns);

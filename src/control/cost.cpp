@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/error.h"
+
 namespace mimicx::control {
 namespace {
 
@@ -33,11 +35,11 @@ void check(const CostWeights& w) {
   const auto bad = [](double value) { return !(value >= 0.0 && std::isfinite(value)); };
   for (double value : {w.position, w.root_rotation, w.joint_rotation, w.root_velocity, w.root_spin,
                        w.joint_velocity, w.residual, w.change, w.help, w.help_spin})
-    if (bad(value)) throw std::invalid_argument("weights of the cost must not be negative");
+    if (bad(value)) raise(std::invalid_argument("weights of the cost must not be negative"));
   for (std::size_t i = 0; i < kBodies; ++i)
     if (bad(w.body_position[i]) || bad(w.body_rotation[i]))
-      throw std::invalid_argument("factors of bodies must not be negative");
-  if (!(w.residual > 0.0)) throw std::invalid_argument("the weight of residuals must be positive");
+      raise(std::invalid_argument("factors of bodies must not be negative"));
+  if (!(w.residual > 0.0)) raise(std::invalid_argument("the weight of residuals must be positive"));
 }
 
 }  // namespace
@@ -82,7 +84,7 @@ double Cost::tangent_weight(int frame, int k) const {
 Cost make_cost(const System& system, const CostWeights& weights, List<Certainty> certainty) {
   check(weights);
   if (!certainty.empty() && certainty.size() != system.reference.size())
-    throw std::invalid_argument("certainty and reference must have the same number of frames");
+    raise(std::invalid_argument("certainty and reference must have the same number of frames"));
   Cost cost;
   cost.weights = weights;
   cost.certainty = std::move(certainty);
@@ -91,7 +93,7 @@ Cost make_cost(const System& system, const CostWeights& weights, List<Certainty>
 
 Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal) {
   if (goal.size() != system.reference.size())
-    throw std::invalid_argument("goal and reference must have the same number of frames");
+    raise(std::invalid_argument("goal and reference must have the same number of frames"));
   Cost out{cost.weights, std::move(goal), {}, cost.certainty};
   for (const State<double>& x : out.goal) out.p_WB.push_back(poses_of(system, x).p_WB);
   return out;

@@ -1,10 +1,10 @@
 #include "control/gains.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/random.h"
 
 namespace mimicx::control {
@@ -72,7 +72,7 @@ PushResult test_pushes(const System& system, const Cost& cost, const Trajectory&
       if (frame % test.every != test.every / 2) return;
       for (int lane = 0; lane < kLanes; ++lane) {
         const double angle = random[lane].uniform(0.0, 2.0 * std::numbers::pi);
-        const Vector3d push = test.speed * Vector3d(std::cos(angle), std::sin(angle), 0.0);
+        const Vector3d push = test.speed * Vector3d(cos(angle), sin(angle), 0.0);
         set_lane(x.v_root, lane, Vector3d(physics::lane_of(x.v_root, lane) + push));
       }
     };

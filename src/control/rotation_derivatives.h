@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/so3.h"
 
 namespace mimicx::control {
@@ -41,7 +42,8 @@ inline ExpCoefficients exp_coefficients(double square) {
             1.0 / 6.0 - x / 120.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0)))};
   }
   const double angle = std::sqrt(square);
-  return {(1.0 - std::cos(angle)) / square, (angle - std::sin(angle)) / (square * angle)};
+  const auto [sine, cosine] = sin_cos(angle);
+  return {(1.0 - cosine) / square, (angle - sine) / (square * angle)};
 }
 
 /// exp(r) = 1 + (1 − θ² b) [r]× + a [r]×² and J_r = 1 − a [r]× + b [r]×².
@@ -61,7 +63,7 @@ inline Matrix3d right_jacobian(const Vector3d& r) { return exp_and_jacobian(r).j
 inline Matrix3d inverse_right_jacobian(const Vector3d& r) {
   const double square = r.squaredNorm(), angle = std::sqrt(square);
   const double b = square < 1e-4 ? 1.0 / 12.0 + square / 720.0 + square * square / 30240.0
-                                 : 1.0 / square - 0.5 / (angle * std::tan(0.5 * angle));
+                                 : 1.0 / square - 0.5 / (angle * tan(0.5 * angle));
   return Matrix3d::Identity() + 0.5 * skew(r) + b * skew_product(r, r);
 }
 

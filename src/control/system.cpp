@@ -3,14 +3,16 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/error.h"
+
 namespace mimicx::control {
 
 System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
                    double fps) {
-  if (reference.size() < 2) throw std::invalid_argument("a reference needs at least 2 frames");
+  if (reference.size() < 2) raise(std::invalid_argument("a reference needs at least 2 frames"));
   const double substeps = config.rate / fps;
   if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
-    throw std::invalid_argument("the physics rate must be a multiple of the reference's frame rate");
+    raise(std::invalid_argument("the physics rate must be a multiple of the reference's frame rate"));
   System system;
   system.model = make_model<float>(character, config);
   system.exact_model = make_model<double>(character, config);

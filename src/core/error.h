@@ -2,6 +2,8 @@
 ///
 /// `DataError` is for bad data: a file, a place in it, what was expected and what was found, in one
 /// line. A wrong argument of a function is `std::invalid_argument`, a programmer's slip is `assert`.
+///
+/// The rooms that a bare build has (docs/porting.md) say `raise(error)` instead of `throw error`.
 #pragma once
 
 #include <stdexcept>
@@ -20,5 +22,22 @@ class DataError : public std::runtime_error {
       : std::runtime_error(path + (place.empty() ? "" : ": " + place) + ": expected " + expected +
                            ", found " + found) {}
 };
+
+#ifdef __cpp_exceptions
+/// Throws it.
+template <class Error>
+[[noreturn]] void raise(const Error& error) {
+  throw error;
+}
+#else
+/// Told the message of an error in a build without exceptions; must not return. The program defines it.
+[[noreturn]] void stop(const char* message);
+
+/// Stops with its message.
+template <class Error>
+[[noreturn]] void raise(const Error& error) {
+  stop(error.what());
+}
+#endif
 
 }  // namespace mimicx

@@ -23,7 +23,7 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw fail("a readable file", std::generic_category().message(errno));
-  std::string content(size, '\0');
+  std::string content(static_cast<std::size_t>(size), '\0');
   in.read(content.data(), static_cast<std::streamsize>(size));
   content.resize(static_cast<std::size_t>(in.gcount()));
   return content;

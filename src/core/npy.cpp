@@ -6,6 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "core/bits.h"
+#include "core/error.h"
 #include "core/npy_header.h"
 
 namespace mimicx {
@@ -42,7 +44,7 @@ float half_to_float(std::uint16_t h) {
     return sign ? -value : value;
   }
   const std::uint32_t wide = exponent == 31 ? 255 : exponent + 112;
-  return std::bit_cast<float>(sign | (wide << 23) | (fraction << 13));
+  return mimicx::bit_cast<float>(sign | (wide << 23) | (fraction << 13));
 }
 
 template <class T>
@@ -50,7 +52,7 @@ T load(const std::uint8_t* p, bool big_endian) {
   std::array<std::uint8_t, sizeof(T)> raw;
   std::memcpy(raw.data(), p, sizeof(T));
   if (big_endian) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<T>(raw);
+  return mimicx::bit_cast<T>(raw);
 }
 
 template <class T>
@@ -102,7 +104,7 @@ std::string read_text(const std::uint8_t* p, const NpyFileType& t, const std::st
     for (std::size_t k = 0; k < t.bytes; k += 4) {
       const auto c = load<std::uint32_t>(p + k, t.big_endian);
       if (c > 0x10FFFF || (c >= 0xD800 && c < 0xE000))
-        throw DataError(path, place, "text", "an invalid code point");
+        raise(DataError(path, place, "text", "an invalid code point"));
       append_utf8(out, c);
     }
   }
@@ -134,7 +136,7 @@ void read_number(const std::uint8_t* p, const NpyFileType& t, std::uint8_t* out,
   else
     store(out, load<std::uint64_t>(p, big));
   if (is('u', 8) && load<std::int64_t>(out, false) < 0)
-    throw DataError(path, place, "values under 2^63", "a larger one");
+    raise(DataError(path, place, "values under 2^63", "a larger one"));
 }
 
 /// Offset (in elements) in a fortran-ordered block of the element with C-order index `i`.
@@ -183,14 +185,14 @@ NpyArray parse_npy(const std::uint8_t* data, std::size_t size, const std::string
   for (const std::size_t n : header.shape) {
     if (count == 0) break;
     if (n > max_bytes / per_item / count)
-      throw DataError(path, place, "at most " + std::to_string(max_bytes) + " bytes", "a larger array");
+      raise(DataError(path, place, "at most " + std::to_string(max_bytes) + " bytes", "a larger array"));
     count *= n;
   }
   if (t.bytes == 0 && count > kMaxEmptyTexts)
-    throw DataError(path, place, "text of one character or more", std::to_string(count) + " empty elements");
+    raise(DataError(path, place, "text of one character or more", std::to_string(count) + " empty elements"));
   if (count * t.bytes != size - start)
-    throw DataError(path, place, std::to_string(count * t.bytes) + " bytes of elements",
-                    std::to_string(size - start));
+    raise(DataError(path, place, std::to_string(count * t.bytes) + " bytes of elements",
+                    std::to_string(size - start)));
   NpyArray array;
   array.type = t.type;
   array.shape = header.shape;

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/error.h"
+
 namespace mimicx {
 namespace {
 
@@ -54,7 +56,7 @@ std::vector<double> NpyArray::to_double() const {
     case Type::kText:
       break;
   }
-  throw std::invalid_argument("NpyArray::to_double: the array holds text");
+  raise(std::invalid_argument("NpyArray::to_double: the array holds text"));
 }
 
 NpyArray NpyArray::from_double(std::vector<std::size_t> shape, const double* values) {

@@ -1,12 +1,15 @@
 #include "core/npy_header.h"
 
 #include <cstring>
+#include <utility>
+
+#include "core/error.h"
 
 namespace mimicx {
 namespace {
 
 constexpr std::size_t kMaxDimensions = 32;  // NumPy's own limit
-constexpr std::size_t kMaxItems = std::size_t{1} << 40;
+constexpr std::uint64_t kMaxItems = std::uint64_t{1} << 40;
 
 using Type = NpyArray::Type;
 
@@ -21,12 +24,12 @@ NpyFileType file_type_of(const std::string& descr, const std::string& path, cons
   std::size_t at = 0;
   if (!descr.empty() && std::string_view("<>|=").find(descr[0]) != std::string_view::npos)
     t.big_endian = descr[at++] == '>';
-  if (at >= descr.size()) throw unsupported();
+  if (at >= descr.size()) raise(unsupported());
   t.kind = descr[at++];
   std::size_t count = 0;
   for (; at < descr.size() && descr[at] >= '0' && descr[at] <= '9' && count < (1u << 24); ++at)
     count = 10 * count + static_cast<std::size_t>(descr[at] - '0');
-  if (at != descr.size() || count >= (1u << 24)) throw unsupported();
+  if (at != descr.size() || count >= (1u << 24)) raise(unsupported());
   t.bytes = t.kind == 'U' ? 4 * count : count;
   const auto is = [&](char kind, std::size_t bytes) { return t.kind == kind && t.bytes == bytes; };
   if (is('f', 8))
@@ -44,7 +47,7 @@ NpyFileType file_type_of(const std::string& descr, const std::string& path, cons
   else if (t.kind == 'U' || t.kind == 'S')
     t.type = Type::kText;
   else
-    throw unsupported();
+    raise(unsupported());
   return t;
 }
 
@@ -63,7 +66,7 @@ class HeaderParser {
       expect(':');
       if (key == "descr") {
         if (peek() != '\'' && peek() != '"')
-          throw UnsupportedArray(path_, place_, "numbers or text", "an array of records");
+          raise(UnsupportedArray(path_, place_, "numbers or text", "an array of records"));
         header.element = file_type_of(quoted(), path_, place_);
         has_descr = true;
       } else if (key == "fortran_order") {
@@ -83,7 +86,7 @@ class HeaderParser {
 
  private:
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
-    throw DataError(path_, place_, expected, found);
+    raise(DataError(path_, place_, expected, found));
   }
   char peek() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\t')) ++at_;
@@ -127,14 +130,16 @@ class HeaderParser {
     return values;
   }
   std::size_t number() {
-    std::size_t value = 0, digits = 0;
+    std::uint64_t value = 0;
+    std::size_t digits = 0;
     for (char c = peek(); c >= '0' && c <= '9'; c = at_ < text_.size() ? text_[at_] : '\0', ++digits) {
-      value = 10 * value + static_cast<std::size_t>(c - '0');
-      if (value > kMaxItems) fail("a shape that fits into memory", "a dimension over 2^40");
+      value = 10 * value + static_cast<std::uint64_t>(c - '0');
+      if (value > kMaxItems || !std::in_range<std::size_t>(value))
+        fail("a shape that fits into memory", "a dimension over 2^40");
       ++at_;
     }
     if (digits == 0) fail("a number in the shape", "something else");
-    return value;
+    return static_cast<std::size_t>(value);
   }
 
   std::string_view text_;
@@ -148,14 +153,14 @@ class HeaderParser {
 NpyHeader parse_npy_header(const std::uint8_t* data, std::size_t size, const std::string& path,
                            const std::string& place) {
   if (size < 12 || std::memcmp(data, kNpyMagic.data(), kNpyMagic.size()) != 0)
-    throw DataError(path, place, "an npy array", "other content");
+    raise(DataError(path, place, "an npy array", "other content"));
   const int version = data[6];
   if (version < 1 || version > 3)
-    throw DataError(path, place, "npy version 1, 2 or 3", "version " + std::to_string(version));
+    raise(DataError(path, place, "npy version 1, 2 or 3", "version " + std::to_string(version)));
   std::size_t length = 0;
   for (int i = version == 1 ? 1 : 3; i >= 0; --i) length = (length << 8) | data[8 + i];
   const std::size_t start = version == 1 ? 10 : 12;
-  if (length > size - start) throw DataError(path, place, "a complete npy header", "the end of the data");
+  if (length > size - start) raise(DataError(path, place, "a complete npy header", "the end of the data"));
   NpyHeader header = HeaderParser({reinterpret_cast<const char*>(data) + start, length}, path, place).parse();
   header.start = start + length;
   return header;

@@ -1,41 +1,24 @@
 #include "core/npz.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #ifdef MIMICX_WITH_ZLIB
 #include <zlib.h>
+#else
+#include "core/inflate.h"
 #endif
+
+#include "core/zip_format.h"
 
 namespace mimicx {
 namespace {
 
-constexpr std::uint32_t kLocalHeader = 0x04034b50, kCentralHeader = 0x02014b50, kEndOfDirectory = 0x06054b50;
-constexpr std::size_t kLocalBytes = 30, kCentralBytes = 46, kEndBytes = 22;
-constexpr std::uint64_t kSaturated32 = 0xFFFFFFFF;
-constexpr std::uint16_t kStored = 0, kDeflated = 8;
-constexpr std::uint32_t kDosDate = (0u << 9) | (1u << 5) | 1u;  ///< 1980-01-01; the time is 00:00
-constexpr std::size_t kAlwaysUnpacked = std::size_t{1} << 28;   ///< bytes, whatever the archive's own size
-constexpr std::size_t kMostRatio = 100;                         ///< of larger archives
-constexpr std::size_t kMaxDeflateRatio = 1032;                  ///< of the deflate format itself
-
-std::uint32_t crc32_of(const std::uint8_t* data, std::size_t size) {
-  static const auto table = [] {
-    std::array<std::uint32_t, 256> t{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t c = i;
-      for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ (c & 1 ? 0xEDB88320u : 0u);
-      t[i] = c;
-    }
-    return t;
-  }();
-  std::uint32_t c = 0xFFFFFFFF;
-  for (std::size_t i = 0; i < size; ++i) c = table[(c ^ data[i]) & 0xFF] ^ (c >> 8);
-  return ~c;
-}
+constexpr std::size_t kAlwaysUnpacked = std::size_t{1} << 28;  ///< bytes, whatever the archive's own size
+constexpr std::size_t kMostRatio = 100;                        ///< of larger archives
+constexpr std::size_t kMaxDeflateRatio = 1032;                 ///< of the deflate format itself
 
 /// Bounds-checked little-endian reads from the archive.
 class Bytes {
@@ -56,7 +39,7 @@ class Bytes {
   }
   [[noreturn]] void fail(const std::string& place, const std::string& expected,
                          const std::string& found) const {
-    throw DataError(path_, place, expected, found);
+    raise(DataError(path_, place, expected, found));
   }
   const std::string& path() const { return path_; }
 
@@ -140,30 +123,35 @@ std::vector<Entry> read_directory(const Bytes& bytes) {
 }
 
 #ifdef MIMICX_WITH_ZLIB
-std::vector<std::uint8_t> inflated(const std::uint8_t* packed, const Entry& e, const Bytes& bytes) {
-  if (e.unpacked / kMaxDeflateRatio > e.packed + 1)
-    bytes.fail(e.name, "a size deflate can reach", std::to_string(e.unpacked) + " bytes");
+/// None where the data is damaged.
+std::optional<std::vector<std::uint8_t>> unpacked(const std::uint8_t* packed, const Entry& e) {
   std::vector<std::uint8_t> out(e.unpacked);
   z_stream stream{};
-  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::runtime_error("zlib: inflateInit2 failed");
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) raise(std::runtime_error("zlib: inflateInit2 failed"));
   // zlib counts in 32 bits; both sizes were checked to be under 4 GiB.
   stream.next_in = const_cast<Bytef*>(packed);
   stream.avail_in = static_cast<uInt>(e.packed);
   std::uint8_t nothing = 0;
   stream.next_out = out.empty() ? &nothing : out.data();
   stream.avail_out = static_cast<uInt>(e.unpacked);
-  const int status = inflate(&stream, Z_FINISH);
+  const int status = ::inflate(&stream, Z_FINISH);
   const auto produced = stream.total_out;
   inflateEnd(&stream);
-  if (status != Z_STREAM_END || produced != e.unpacked)
-    bytes.fail(e.name, std::to_string(e.unpacked) + " bytes after inflating", "damaged data");
+  if (status != Z_STREAM_END || produced != e.unpacked) return std::nullopt;
   return out;
 }
 #else
-std::vector<std::uint8_t> inflated(const std::uint8_t*, const Entry& e, const Bytes& bytes) {
-  bytes.fail(e.name, "a stored member", "a deflated one (this build has no zlib)");
+std::optional<std::vector<std::uint8_t>> unpacked(const std::uint8_t* packed, const Entry& e) {
+  return inflate({packed, static_cast<std::size_t>(e.packed)}, static_cast<std::size_t>(e.unpacked));
 }
 #endif
+
+std::vector<std::uint8_t> inflated(const std::uint8_t* packed, const Entry& e, const Bytes& bytes) {
+  if (e.unpacked / kMaxDeflateRatio > e.packed + 1)
+    bytes.fail(e.name, "a size deflate can reach", std::to_string(e.unpacked) + " bytes");
+  if (auto out = unpacked(packed, e)) return std::move(*out);
+  bytes.fail(e.name, std::to_string(e.unpacked) + " bytes after inflating", "damaged data");
+}
 
 std::vector<std::uint8_t> read_member(const Bytes& bytes, const Entry& e) {
   if (e.flags & 1) bytes.fail(e.name, "a plain member", "an encrypted one");
@@ -187,76 +175,7 @@ std::vector<std::uint8_t> read_member(const Bytes& bytes, const Entry& e) {
   return out;
 }
 
-void put(std::string& out, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out += static_cast<char>((value >> (8 * i)) & 0xFF);
-}
-
-/// The fields that local and central header share, from "version needed" to the length of the extra field.
-std::string common_fields(const std::string& name, const std::string& content) {
-  const bool ascii =
-      std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
-  std::string out;
-  put(out, 20, 2);                    // version needed: 2.0
-  put(out, ascii ? 0 : 1u << 11, 2);  // flags: the name is UTF-8
-  put(out, kStored, 2);
-  put(out, 0, 2);  // time
-  put(out, kDosDate, 2);
-  put(out, crc32_of(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()), 4);
-  put(out, content.size(), 4);
-  put(out, content.size(), 4);
-  put(out, name.size(), 2);
-  put(out, 0, 2);
-  return out;
-}
-
 }  // namespace
-
-bool Npz::has(const std::string& key) const {
-  return std::any_of(members_.begin(), members_.end(), [&](const auto& m) { return m.first == key; });
-}
-
-const NpyArray& Npz::at(const std::string& key) const {
-  for (const auto& [name, array] : members_)
-    if (name == key) return array;
-  for (const auto& [name, why] : unsupported_)
-    if (name == key) throw why;
-  std::string names;
-  for (const auto& [name, array] : members_) names += (names.empty() ? "" : ", ") + name;
-  throw DataError(path, "", "member '" + key + "'", names.empty() ? "none at all" : "only " + names);
-}
-
-void Npz::set(const std::string& key, NpyArray array) {
-  for (auto& [name, old] : members_)
-    if (name == key) {
-      old = std::move(array);
-      return;
-    }
-  members_.emplace_back(key, std::move(array));
-}
-
-double number_at(const Npz& archive, const std::string& key) {
-  const NpyArray& array = archive.at(key);
-  if (array.type == NpyArray::Type::kText) throw DataError(archive.path, key, "a number", "text");
-  if (array.size() != 1)
-    throw DataError(archive.path, key, "one number", std::to_string(array.size()) + " of them");
-  return array.to_double().front();
-}
-
-std::int64_t whole_number_at(const Npz& archive, const std::string& key) {
-  const double value = number_at(archive, key);
-  if (!(std::abs(value) <= 0x1p53) || value != std::floor(value))
-    throw DataError(archive.path, key, "a whole number", std::to_string(value));
-  return static_cast<std::int64_t>(value);
-}
-
-const std::string& text_at(const Npz& archive, const std::string& key) {
-  const NpyArray& array = archive.at(key);
-  if (array.text.size() != 1)
-    throw DataError(
-        archive.path, key, "one text",
-        array.type == NpyArray::Type::kText ? std::to_string(array.text.size()) + " of them" : "numbers");
-  return array.text.front();
-}
 
 Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_bytes,
               const std::vector<std::string>& keys) {
@@ -272,7 +191,7 @@ Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_
     if (!keys.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
     if (e.unpacked > left)
       bytes.fail(e.name, "at most " + std::to_string(most) + " bytes after unpacking", "more");
-    left -= e.unpacked;
+    left -= static_cast<std::size_t>(e.unpacked);
     const std::vector<std::uint8_t> content = read_member(bytes, e);
     try {
       archive.set(key, parse_npy(content.data(), content.size(), path, key, max_bytes));
@@ -285,35 +204,6 @@ Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_
 
 Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes, const std::vector<std::string>& keys) {
   return parse_npz(read_file(path), path.string(), max_bytes, keys);
-}
-
-std::string format_npz(const Npz& archive) {
-  std::string out, directory;
-  for (const auto& [key, array] : archive.members()) {
-    const std::string name = key + ".npy", content = format_npy(array);
-    const std::string fields = common_fields(name, content);
-    put(directory, kCentralHeader, 4);
-    put(directory, (3u << 8) | 20, 2);  // made on Unix, version 2.0
-    directory += fields;
-    put(directory, 0, 2 + 2 + 2);       // comment length, disk, internal attributes
-    put(directory, 0100644u << 16, 4);  // a plain file, rw-r--r--
-    put(directory, out.size(), 4);
-    directory += name;
-    put(out, kLocalHeader, 4);
-    out += fields + name + content;
-    if (out.size() + directory.size() >= kSaturated32 || archive.members().size() >= 0xFFFF)
-      throw std::invalid_argument("format_npz: archives of 4 GiB or 65535 members are not written");
-  }
-  const std::uint64_t count = archive.members().size(), start = out.size();
-  out += directory;
-  put(out, kEndOfDirectory, 4);
-  put(out, 0, 2 + 2);  // this disk, disk of the directory
-  put(out, count, 2);
-  put(out, count, 2);
-  put(out, directory.size(), 4);
-  put(out, start, 4);
-  put(out, 0, 2);  // comment
-  return out;
 }
 
 void write_npz(const std::filesystem::path& path, const Npz& archive) {

@@ -1,8 +1,7 @@
 /// NumPy archives: read what NumPy writes, write what NumPy opens.
 ///
-/// An npz file is a zip of npy members, stored or deflated. Written archives are stored, carry a fixed
-/// time stamp and keep the order of their members, so that equal content means equal bytes; they are
-/// written to a temporary name and renamed. Deflated members need zlib (absent in the core-only build).
+/// An npz file is a zip of npy members, stored or deflated. Archives are written (npz_archive.h) to a
+/// temporary name and renamed. Deflated members need zlib (absent in the core-only build).
 ///
 /// Format: PKWARE APPNOTE 6.3 (zip); the members are those of npy.h. What it does not do: encrypted or split
 /// archives, archives of 4 GiB and more.
@@ -10,41 +9,13 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/file.h"
 #include "core/npy.h"
+#include "core/npz_archive.h"
 
 namespace mimicx {
-
-/// Members in file order. Members of an unsupported kind (AMASS files carry such) do not make the others
-/// unreadable: they are listed apart, and asking for one says why it is not there.
-class Npz {
- public:
-  bool has(const std::string& key) const;
-  /// @throws DataError naming the archive and the key when it is absent, UnsupportedArray when it is there
-  ///         but of a kind that is not read.
-  const NpyArray& at(const std::string& key) const;
-  /// Adds, or replaces in place.
-  void set(const std::string& key, NpyArray array);
-  const std::vector<std::pair<std::string, NpyArray>>& members() const { return members_; }
-  void set_unsupported(const std::string& key, UnsupportedArray why) { unsupported_.emplace_back(key, why); }
-  const std::vector<std::pair<std::string, UnsupportedArray>>& unsupported() const { return unsupported_; }
-  std::string path;  ///< where it came from, for messages
-
- private:
-  std::vector<std::pair<std::string, NpyArray>> members_;
-  std::vector<std::pair<std::string, UnsupportedArray>> unsupported_;
-};
-
-/// The only number of a member.
-/// @throws DataError when the member is absent, text, or not exactly one element
-double number_at(const Npz& archive, const std::string& key);
-/// The same for a whole number. @throws DataError where it has a fraction, too, or is beyond 2^53
-std::int64_t whole_number_at(const Npz& archive, const std::string& key);
-/// The only text of a member. @throws DataError when the member is absent or not exactly one text
-const std::string& text_at(const Npz& archive, const std::string& key);
 
 /// Members whose name does not end in ".npy" are not arrays and are left out.
 /// @param keys  which members to read; none: all
@@ -56,7 +27,5 @@ Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes = kMaxMemb
 Npz parse_npz(const std::string& bytes, const std::string& path, std::size_t max_bytes = kMaxMemberBytes,
               const std::vector<std::string>& keys = {});
 void write_npz(const std::filesystem::path& path, const Npz& archive);
-/// The bytes `write_npz` writes.
-std::string format_npz(const Npz& archive);
 
 }  // namespace mimicx

@@ -1,6 +1,8 @@
 #include "core/parallel.h"
 
+#ifdef _OPENMP
 #include <omp.h>
+#endif
 
 #include <condition_variable>
 #include <exception>
@@ -9,8 +11,20 @@
 #include "core/containers.h"
 
 namespace mimicx {
+namespace {
 
-void parallel_for(int chunks, int threads, const std::function<void(int)>& body) {
+// A compiler that does not know OpenMP reads past its pragmas: all work is done by the caller, in order.
+#ifdef _OPENMP
+int this_thread() { return omp_get_thread_num(); }
+int processors() { return omp_get_num_procs(); }
+#else
+int this_thread() { return 0; }
+int processors() { return 1; }
+#endif
+
+}  // namespace
+
+void parallel_for(int chunks, [[maybe_unused]] int threads, const std::function<void(int)>& body) {
   List<std::exception_ptr> errors(chunks > 0 ? chunks : 0);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : 1)
   for (int chunk = 0; chunk < chunks; ++chunk) {
@@ -86,14 +100,14 @@ class Chain {
 
 }  // namespace
 
-void parallel_chain(int n, int threads, const std::function<void(int, int)>& item,
+void parallel_chain(int n, [[maybe_unused]] int threads, const std::function<void(int, int)>& item,
                     const std::function<void(int)>& link) {
   Chain chain(n > 0 ? n : 0, item, link);
 #pragma omp parallel num_threads(threads > 0 ? threads : 1)
-  chain.work(omp_get_thread_num());
+  chain.work(this_thread());
   chain.rethrow();
 }
 
-int available_threads() { return omp_get_num_procs(); }
+int available_threads() { return processors(); }
 
 }  // namespace mimicx

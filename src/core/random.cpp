@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace mimicx {
 
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> k) {
@@ -53,7 +55,7 @@ std::uint32_t Random::below(std::uint32_t n) {
 double Random::normal() {
   for (;;) {
     const double x = uniform(-1.0, 1.0), y = uniform(-1.0, 1.0), s = x * x + y * y;
-    if (s > 0.0 && s < 1.0) return x * std::sqrt(-2.0 * std::log(s) / s);
+    if (s > 0.0 && s < 1.0) return x * std::sqrt(-2.0 * log(s) / s);
   }
 }
 

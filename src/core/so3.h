@@ -27,6 +27,12 @@ Vector6d rotation_6d(const Quaterniond& q);
 double heading_angle(const Quaterniond& q_WB);
 /// Rotation about the world's vertical.
 Quaterniond rotation_z(double angle);
+/// Rotation about a unit axis.
+Quaterniond rotation_about(const Vector3d& axis, double angle);
+/// From a to b the shorter way at constant angular velocity; share 0 is a, 1 is b.
+Quaterniond slerp(const Quaterniond& a, double share, const Quaterniond& b);
+/// Angle of the rotation from a to b, in [0, π].
+double angle_between(const Quaterniond& a, const Quaterniond& b);
 /// Angle of two directions of any length, in [0, π], exact near both ends.
 double angle_between(const Vector3d& a, const Vector3d& b);
 /// The shortest rotation from one direction to another, of any lengths.

@@ -1,9 +1,9 @@
 #include "motion/hinge.h"
 
 #include <algorithm>
-#include <cmath>
 #include <complex>
 
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace mimicx::motion {
@@ -30,7 +30,7 @@ double hinge_angle(const Quaterniond& q, const Vector3d& axis) {
 /// Angle in (-π, π] about the unit axis that turns `from` to `to`, both seen along the axis.
 double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
   const Vector3d a = from - axis.dot(from) * axis, b = to - axis.dot(to) * axis;
-  return std::atan2(axis.dot(a.cross(b)), a.dot(b));
+  return atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
 /// The flexing angle at which the scalar product of the bones is `dot`.  docs/method.md, "Hinges", (1)
@@ -38,8 +38,8 @@ double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& t
 double solve_hinge(const Vector3d& a, const Vector3d& b, const Vector3d& axis, double dot) {
   const double axial = axis.dot(a) * axis.dot(b);
   const double along = a.dot(b) - axial, across = a.dot(axis.cross(b));
-  const double cosine = std::clamp((dot - axial) / std::hypot(along, across), -1.0, 1.0);
-  return std::atan2(across, along) + std::acos(cosine);
+  const double cosine = std::clamp((dot - axial) / hypot(along, across), -1.0, 1.0);
+  return atan2(across, along) + acos(cosine);
 }
 
 double smooth_step(double x) {
@@ -52,7 +52,9 @@ double smooth_step(double x) {
 double blended_swivel(double exact, double bend, double hinged_bend) {
   const double pull =
       kStraightWeight * (1.0 - smooth_step((bend - kStraightFrom) / (kStraightUntil - kStraightFrom)));
-  return std::arg(std::sin(bend) * std::sin(hinged_bend) * std::polar(1.0, exact) + pull);
+  const double size = sin(bend) * sin(hinged_bend);
+  const auto [sine, cosine] = sin_cos(exact);
+  return atan2(size * sine, size * cosine + pull);
 }
 
 /// One limb of one frame.  docs/method.md, "Hinges", (2)
@@ -63,7 +65,7 @@ void convert_limb(const Character& character, const Limb& limb, const PerBody<Qu
   const int A = limb.upper, B = limb.hinge, C = limb.end, P = kParents[A];
   const Vector3d axis = hinge_axis(B);
   const Quaterniond twist = twist_about(q[B], axis);
-  if (q[B].angularDistance(twist) < kAlreadyHinge) {
+  if (angle_between(q[B], twist) < kAlreadyHinge) {
     q[B] = exp_map(hinge_angle(twist, axis) * axis);
     return;
   }
@@ -74,7 +76,7 @@ void convert_limb(const Character& character, const Limb& limb, const PerBody<Qu
   const Quaterniond aimed = rotation_between(R[A] * chain, line) * R[A];
   const double exact = angle_about(line, aimed * a, u);
   const double swivel = blended_swivel(exact, angle_between(u, v), angle_between(a, bend * b));
-  const Quaterniond upper = (Quaterniond(Eigen::AngleAxisd(swivel, line)) * aimed).normalized();
+  const Quaterniond upper = (rotation_about(line, swivel) * aimed).normalized();
   q[A] = R[P].conjugate() * upper;
   q[B] = bend;
   q[C] = (upper * bend).conjugate() * R[C];

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <set>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion {
 namespace {
 
@@ -96,7 +98,7 @@ void check_extrinsics(const std::string& path, const Keypoints& k) {
       throw DataError(path, place, "a rotation and a translation, world to camera", found);
     };
     const Matrix3d R = E.topLeftCorner<3, 3>();
-    const double volume = R.determinant(), scale = std::cbrt(std::abs(volume));
+    const double volume = R.determinant(), scale = pow(std::abs(volume), 1.0 / 3.0);
     if ((E.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > kNoRotation)
       fail("a last row that is not 0 0 0 1 (a transposed matrix?)");
     if (!(scale > 0.0) ||

@@ -1,7 +1,6 @@
 #include "motion/limb_glitches.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace mimicx::motion {
 namespace {
@@ -76,7 +75,7 @@ void bridge_limb_glitches(Clip& clip, const List<LimbGlitch>& glitches) {
       if (kLimbOf[body] != glitch.limb) continue;
       const Quaterniond a = exp_map(clip.rotations[before][body]), b = exp_map(clip.rotations[after][body]);
       for (int t = glitch.first; t <= glitch.last; ++t)
-        clip.rotations[t][body] = log_map(a.slerp(static_cast<double>(t - before) / (after - before), b));
+        clip.rotations[t][body] = log_map(slerp(a, static_cast<double>(t - before) / (after - before), b));
     }
   }
 }

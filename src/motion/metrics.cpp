@@ -1,11 +1,11 @@
 #include "motion/metrics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
 #include "character/body_words.h"
+#include "core/elementary.h"
 #include "core/units.h"
 #include "motion/segments.h"
 #include "motion/similarity.h"
@@ -115,7 +115,7 @@ void judge_physics(const MotionSamples& motion, Metrics& m) {
   m.gp_max = gp_max.times(kMm);
   m.floating = floating.times(kMm);
   m.self_pen = self_pen.times(kMm);
-  m.jitter = jitter.times(std::pow(motion.fps, 3) / 10.0);
+  m.jitter = jitter.times(pow(motion.fps, 3) / 10.0);
 }
 
 void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {

@@ -70,7 +70,7 @@ NpyArray between_rows(const std::string& name, const NpyArray& array, std::size_
     if (!turns || at.share == 0.0) continue;
     for (Eigen::Index c = 0; c < columns; c += 3) {
       const Vector3d first = a.segment<3>(c), second = b.segment<3>(c);
-      row.segment<3>(c) = log_map(exp_map(first).slerp(at.share, exp_map(second)));
+      row.segment<3>(c) = log_map(slerp(exp_map(first), at.share, exp_map(second)));
     }
   }
   std::vector<std::size_t> shape = array.shape;

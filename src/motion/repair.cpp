@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/quantile.h"
 
 namespace mimicx::motion {
@@ -30,7 +31,7 @@ double implausibility(const PerFrame<BodyPoses>& poses, const PerFrame<PerBody<Q
   double worst = 0.0;
   for (int j = 0; j < kBodies; ++j) {
     worst = std::max(worst, (poses[b].p_WB[j] - poses[a].p_WB[j]).norm() / seconds / kMaxJointSpeed);
-    worst = std::max(worst, q[a][j].angularDistance(q[b][j]) / seconds / kMaxJointRate);
+    worst = std::max(worst, angle_between(q[a][j], q[b][j]) / seconds / kMaxJointRate);
   }
   return worst;
 }
@@ -59,7 +60,7 @@ PerFrame<double> smoothed(const PerFrame<double>& x, double sigma) {
   for (int i = 0; i < x.count(); ++i) {
     double sum = 0.0, weights = 0.0;
     for (int k = std::max(0, i - radius); k <= std::min(x.count() - 1, i + radius); ++k) {
-      const double u = (k - i) / sigma, weight = std::exp(-0.5 * u * u);
+      const double u = (k - i) / sigma, weight = exp(-0.5 * u * u);
       sum += weight * x[k];
       weights += weight;
     }
@@ -121,7 +122,7 @@ void bridge_glitches(Clip& clip, const PerFrame<bool>& flagged) {
     if (flagged[after]) after = before;
     if (flagged[before]) return;
     const double share = after == before ? 0.0 : static_cast<double>(t - before) / (after - before);
-    for (int j = 0; j < kBodies; ++j) clip.rotations[t][j] = log_map(q[before][j].slerp(share, q[after][j]));
+    for (int j = 0; j < kBodies; ++j) clip.rotations[t][j] = log_map(slerp(q[before][j], share, q[after][j]));
     clip.trans[t] = (1.0 - share) * clip.trans[before] + share * clip.trans[after];
   }
 }

@@ -1,7 +1,6 @@
 #include "motion/resample.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "motion/passthrough.h"
@@ -34,7 +33,7 @@ Vector3d interpolate_keypoint(const Vector3d& a, const Vector3d& b, double share
 Eigen::Matrix4d interpolate_pose(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b, double share) {
   const Quaterniond p(Matrix3d(a.topLeftCorner<3, 3>())), q(Matrix3d(b.topLeftCorner<3, 3>()));
   Eigen::Matrix4d pose = (1.0 - share) * a + share * b;
-  pose.topLeftCorner<3, 3>() = p.slerp(share, q).toRotationMatrix();
+  pose.topLeftCorner<3, 3>() = slerp(p, share, q).toRotationMatrix();
   return pose;
 }
 
@@ -61,7 +60,7 @@ Clip resampled(const Clip& clip, double fps) {
   }
   for (int k = 0; k < out.frames(); ++k) {
     const auto [t, n, share] = locate(k * ratio, frames);
-    for (int j = 0; j < kBodies; ++j) out.rotations[k][j] = log_map(q[t][j].slerp(share, q[n][j]));
+    for (int j = 0; j < kBodies; ++j) out.rotations[k][j] = log_map(slerp(q[t][j], share, q[n][j]));
     out.trans[k] = (1.0 - share) * clip.trans[t] + share * clip.trans[n];
     if (!out.keypoints) continue;
     const auto &a = clip.keypoints->uvc[t], &b = clip.keypoints->uvc[n];

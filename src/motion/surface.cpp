@@ -1,9 +1,10 @@
 #include "motion/surface.h"
 
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <span>
+
+#include "core/elementary.h"
 
 namespace mimicx::motion {
 namespace {
@@ -19,8 +20,8 @@ void add_cap(std::vector<SurfacePoint>& points, int body, const Vector3d& end, c
     const double latitude = ring * std::numbers::pi / 4.0;
     for (int k = 0; k < kRingPoints; ++k) {
       const double longitude = 2.0 * std::numbers::pi * (k + 0.5 * ring) / kRingPoints;
-      const Vector3d around = std::cos(longitude) * side + std::sin(longitude) * other;
-      points.push_back({body, end + radius * (std::cos(latitude) * around + std::sin(latitude) * outward)});
+      const Vector3d around = cos(longitude) * side + sin(longitude) * other;
+      points.push_back({body, end + radius * (cos(latitude) * around + sin(latitude) * outward)});
     }
   }
   points.push_back({body, end + radius * outward});

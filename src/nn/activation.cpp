@@ -1,8 +1,6 @@
 #include "nn/activation.h"
 
 #include <array>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace mimicx::nn {
@@ -18,10 +16,10 @@ std::string_view to_string(Activation activation) {
   return kNames[static_cast<std::size_t>(activation)].second;
 }
 
-Activation activation_from_string(std::string_view name) {
+std::optional<Activation> activation_from_string(std::string_view name) {
   for (const auto& [activation, known] : kNames)
     if (known == name) return activation;
-  throw std::invalid_argument("activation '" + std::string(name) + "': expected linear, relu, elu or tanh");
+  return std::nullopt;
 }
 
 }  // namespace mimicx::nn

@@ -4,6 +4,7 @@
 /// The arithmetic is in elementwise.h.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace mimicx::nn {
@@ -12,7 +13,7 @@ enum class Activation { kLinear, kRelu, kElu, kTanh };
 
 /// "linear", "relu", "elu", "tanh".
 std::string_view to_string(Activation activation);
-/// @throws std::invalid_argument for any other name.
-Activation activation_from_string(std::string_view name);
+/// Nothing for any other name.
+std::optional<Activation> activation_from_string(std::string_view name);
 
 }  // namespace mimicx::nn

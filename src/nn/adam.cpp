@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/error.h"
+
 namespace mimicx::nn {
 
 template <class S>
@@ -19,11 +21,11 @@ template <class S>
 void adam_step(Adam<S>& adam, std::span<Matrix<S>* const> parameters, std::span<const Matrix<S>> gradients,
                S step_size) {
   if (parameters.size() != gradients.size() || parameters.size() != adam.first.size())
-    throw std::invalid_argument("adam_step: parameters, gradients and moments differ in number");
+    raise(std::invalid_argument("adam_step: parameters, gradients and moments differ in number"));
   for (std::size_t k = 0; k < parameters.size(); ++k)
     for (const Matrix<S>* other : {&gradients[k], static_cast<const Matrix<S>*>(&adam.first[k])})
       if (parameters[k]->rows() != other->rows() || parameters[k]->cols() != other->cols())
-        throw std::invalid_argument("adam_step: a parameter and its gradient or moments differ in shape");
+        raise(std::invalid_argument("adam_step: a parameter and its gradient or moments differ in shape"));
 
   ++adam.steps;
   adam.beta1_power *= double(adam.beta1);

@@ -41,7 +41,8 @@ AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderCon
   double first = 0.0, last = 0.0;
   for (int step = 0; step < config.steps; ++step) {
     for (Eigen::Index row = 0; row < clean.rows(); ++row) {
-      clean.row(row) = clean_samples.row(random.below(static_cast<std::uint32_t>(samples.rows())));
+      clean.row(row) = clean_samples.row(
+          static_cast<Eigen::Index>(random.below(static_cast<std::uint32_t>(samples.rows()))));
       for (Eigen::Index k = 0; k < features; ++k)
         corrupted(row, k) = clean(row, k) + static_cast<float>(config.corruption * random.normal());
     }

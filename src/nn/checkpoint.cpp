@@ -32,12 +32,13 @@ NpyArray to_npy(const Matrix<S>& matrix) {
 std::vector<double> checked(const Npz& archive, const std::string& key, NpyArray::Type type,
                             const std::vector<std::size_t>& shape) {
   const NpyArray& array = archive.at(key);
-  if (array.type != type) throw DataError(archive.path, key, "the element type it was saved with", "another");
+  if (array.type != type)
+    raise(DataError(archive.path, key, "the element type it was saved with", "another"));
   if (array.shape != shape)
-    throw DataError(archive.path, key, "shape " + shape_text(shape), shape_text(array.shape));
+    raise(DataError(archive.path, key, "shape " + shape_text(shape), shape_text(array.shape)));
   std::vector<double> values = array.to_double();
   if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
-    throw DataError(archive.path, key, "finite numbers", "one that is not");
+    raise(DataError(archive.path, key, "finite numbers", "one that is not"));
   return values;
 }
 
@@ -57,12 +58,12 @@ std::vector<std::int64_t> whole_numbers_at(const Npz& archive, const std::string
   const NpyArray& array = archive.at(key);
   const bool text = array.type == NpyArray::Type::kText;
   if (text || array.size() != count)
-    throw DataError(archive.path, key, std::to_string(count) + " numbers",
-                    text ? "text" : std::to_string(array.size()));
+    raise(DataError(archive.path, key, std::to_string(count) + " numbers",
+                    text ? "text" : std::to_string(array.size())));
   std::vector<std::int64_t> whole;
   for (const double value : array.to_double()) {
     if (!(std::abs(value) <= 0x1p53) || value != std::floor(value))
-      throw DataError(archive.path, key, "whole numbers", std::to_string(value));
+      raise(DataError(archive.path, key, "whole numbers", std::to_string(value)));
     whole.push_back(static_cast<std::int64_t>(value));
   }
   return whole;
@@ -87,16 +88,16 @@ Mlp<S> load_mlp(const Npz& archive, const std::string& prefix) {
   const NpyArray& sizes = archive.at(prefix + "sizes");
   for (const double size : checked(archive, prefix + "sizes", NpyArray::Type::kInt64, {sizes.size()})) {
     if (!(size >= 1 && size <= 1 << 20))
-      throw DataError(archive.path, prefix + "sizes", "layer widths from 1 to 2^20", std::to_string(size));
+      raise(DataError(archive.path, prefix + "sizes", "layer widths from 1 to 2^20", std::to_string(size)));
     mlp.sizes.push_back(static_cast<int>(size));
   }
   if (mlp.sizes.size() < 2)
-    throw DataError(archive.path, prefix + "sizes", "at least two sizes", std::to_string(mlp.sizes.size()));
-  try {
-    mlp.activation = activation_from_string(text_at(archive, prefix + "activation"));
-  } catch (const std::invalid_argument& error) {
-    throw DataError(archive.path, prefix + "activation", "the name of an activation", error.what());
-  }
+    raise(DataError(archive.path, prefix + "sizes", "at least two sizes", std::to_string(mlp.sizes.size())));
+  const std::string& name = text_at(archive, prefix + "activation");
+  const auto activation = activation_from_string(name);
+  if (!activation)
+    raise(DataError(archive.path, prefix + "activation", "linear, relu, elu or tanh", "'" + name + "'"));
+  mlp.activation = *activation;
   for (std::size_t layer = 0; layer + 1 < mlp.sizes.size(); ++layer) {
     const Index in = mlp.sizes[layer], out = mlp.sizes[layer + 1];
     mlp.weights.push_back(matrix_at<S>(archive, numbered(prefix + "weight", layer), in, out));
@@ -132,7 +133,7 @@ Adam<S> load_adam(const Npz& archive, const std::string& prefix) {
   for (std::size_t k = 0; archive.has(numbered(prefix + "first", k)); ++k) {
     const auto& shape = archive.at(numbered(prefix + "first", k)).shape;
     if (shape.size() != 2)
-      throw DataError(archive.path, numbered(prefix + "first", k), "two dimensions", shape_text(shape));
+      raise(DataError(archive.path, numbered(prefix + "first", k), "two dimensions", shape_text(shape)));
     const auto rows = static_cast<Index>(shape[0]), cols = static_cast<Index>(shape[1]);
     adam.first.push_back(matrix_at<S>(archive, numbered(prefix + "first", k), rows, cols));
     adam.second.push_back(matrix_at<S>(archive, numbered(prefix + "second", k), rows, cols));

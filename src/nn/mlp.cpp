@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/error.h"
 #include "nn/elementwise.h"
 #include "nn/gemm.h"
 
@@ -22,7 +23,7 @@ Activation layer_activation(const Mlp<S>& mlp, int layer) {
 template <class S>
 Mlp<S> make_mlp(const std::vector<int>& sizes, Activation activation, S last_scale, Random& random) {
   if (sizes.size() < 2 || std::any_of(sizes.begin(), sizes.end(), [](int n) { return n < 1; }))
-    throw std::invalid_argument("make_mlp: expected at least two sizes, each at least 1");
+    raise(std::invalid_argument("make_mlp: expected at least two sizes, each at least 1"));
   Mlp<S> mlp{sizes, activation, {}, {}};
   for (std::size_t layer = 0; layer + 1 < sizes.size(); ++layer) {
     const bool last = layer + 2 == sizes.size();

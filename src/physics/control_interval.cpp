@@ -42,9 +42,12 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
                                          const Wrench<T>*);
 
 MIMICX_INSTANTIATE(double)
+#ifndef MIMICX_BARE  // tests compare the widths
 MIMICX_INSTANTIATE(Pack<8>)
 MIMICX_INSTANTIATE(Pack<16>)
-#if !defined(__AVX2__)
+#endif
+#if MIMICX_LANES == 4
+MIMICX_INSTANTIATE(Pack<1>)  // for processors without vector registers
 MIMICX_INSTANTIATE(Pack<4>)
 #endif
 

@@ -1,8 +1,10 @@
 #include "physics/model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+
+#include "core/elementary.h"
+#include "core/error.h"
 
 namespace mimicx::physics {
 namespace {
@@ -14,13 +16,13 @@ Vec3<Real> convert(const Vector3d& v) {
 
 void check(const SimulationConfig& o) {
   if (!(o.rate >= 30.0 && o.rate <= 10000.0))
-    throw std::invalid_argument("simulation rate must be 30..10000 Hz");
-  if (o.passes < 1 || o.passes > 20) throw std::invalid_argument("simulation passes must be 1..20");
+    raise(std::invalid_argument("simulation rate must be 30..10000 Hz"));
+  if (o.passes < 1 || o.passes > 20) raise(std::invalid_argument("simulation passes must be 1..20"));
   for (double positive : {o.ground_stiffness, o.ground_damping, o.slip_speed, o.max_speed, o.max_joint_speed})
     if (!(positive > 0.0))
-      throw std::invalid_argument("contact parameters and largest speeds must be positive");
+      raise(std::invalid_argument("contact parameters and largest speeds must be positive"));
   for (double value : {o.friction, o.self_stiffness, o.self_damping, o.limit_stiffness, o.limit_damping})
-    if (!(value >= 0.0)) throw std::invalid_argument("contact parameters must not be negative");
+    if (!(value >= 0.0)) raise(std::invalid_argument("contact parameters must not be negative"));
 }
 
 template <class Real>
@@ -37,7 +39,8 @@ void fill_joints(const Character& c, Model<Real>& m) {
     const Quaterniond q = exp_map(centre);
     m.range_centre[i] = {static_cast<Real>(q.w()), static_cast<Real>(q.x()), static_cast<Real>(q.y()),
                          static_cast<Real>(q.z())};
-    m.range_inverse[i] = convert<Real>((2.0 * (0.5 * j.half_range.array()).sin()).inverse().matrix());
+    m.range_inverse[i] = convert<Real>(
+        Vector3d(j.half_range.unaryExpr([](double half) { return 1.0 / (2.0 * sin(0.5 * half)); })));
   }
 }
 
@@ -66,7 +69,7 @@ template <class Real>
 Model<Real> make_model(const Character& c, const SimulationConfig& config) {
   check(config);
   if (c.contact_points.count() > kMaxContacts)
-    throw std::invalid_argument("make_model: too many contact points");
+    raise(std::invalid_argument("make_model: too many contact points"));
   Model<Real> m{};
   m.config = config;
   m.dt = static_cast<Real>(1.0 / config.rate);

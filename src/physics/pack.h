@@ -11,7 +11,9 @@
 ///
 /// Rounding: +, −, ·, / and sqrt are IEEE-exact per lane and `fma` is fused wherever the target has it, so
 /// the bits of a lane depend neither on N nor on the position of the lane. They do differ from the double
-/// version: compare those two by tolerance.
+/// version: compare those two by tolerance. In portable arithmetic (MIMICX_ARITHMETIC of the build,
+/// docs/porting.md) nothing is fused anywhere and packs have 4 lanes, so that all machines give the same
+/// bits.
 #pragma once
 
 #include <cmath>
@@ -22,18 +24,28 @@
 
 namespace mimicx::physics {
 
-/// Lanes of the pack that training uses on this target.
-#if defined(__AVX512F__)
-inline constexpr int kLanes = 16;
-#elif defined(__AVX2__)
-inline constexpr int kLanes = 8;
-#else
-inline constexpr int kLanes = 4;
+#if defined(__FMA__) && !defined(MIMICX_PORTABLE_ARITHMETIC)
+#define MIMICX_FUSED 1
 #endif
+#if defined(__AVX512F__) && !defined(MIMICX_PORTABLE_ARITHMETIC)
+#define MIMICX_LANES 16
+#elif defined(__AVX2__) && !defined(MIMICX_PORTABLE_ARITHMETIC)
+#define MIMICX_LANES 8
+#else
+#define MIMICX_LANES 4
+#endif
+
+/// Lanes of the pack that training uses on this target.
+inline constexpr int kLanes = MIMICX_LANES;
 
 /// The compiler's vector types, one specialisation per width (GCC ignores a width that depends on N).
 template <int N>
 struct VectorTypes;
+template <>
+struct VectorTypes<1> {
+  typedef float Values __attribute__((vector_size(4)));
+  typedef std::int32_t Mask __attribute__((vector_size(4)));
+};
 template <>
 struct VectorTypes<4> {
   typedef float Values __attribute__((vector_size(16)));
@@ -90,11 +102,11 @@ struct Pack {
 
 template <int N>
 Pack<N> fma(Pack<N> a, Pack<N> b, Pack<N> c) {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && defined(MIMICX_FUSED)
   if constexpr (N == 16)
     return Pack<N>((typename Pack<N>::Values)_mm512_fmadd_ps((__m512)a.v, (__m512)b.v, (__m512)c.v));
 #endif
-#if defined(__FMA__)
+#if defined(MIMICX_FUSED)
   if constexpr (N == 8)
     return Pack<N>((typename Pack<N>::Values)_mm256_fmadd_ps((__m256)a.v, (__m256)b.v, (__m256)c.v));
   for (int i = 0; i < N; ++i) c.v[i] = __builtin_fmaf(a.v[i], b.v[i], c.v[i]);
@@ -150,7 +162,7 @@ bool any(Mask mask) {
 
 // The same vocabulary for one double.
 inline double fma(double a, double b, double c) {
-#if defined(__FMA__)
+#if defined(MIMICX_FUSED)
   return __builtin_fma(a, b, c);
 #else
   return a * b + c;

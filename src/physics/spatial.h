@@ -5,6 +5,7 @@
 /// the passes short (docs/physics.md §2). Products that feed a sum are fused explicitly.
 #pragma once
 
+#include "core/elementary.h"
 #include "core/so3.h"
 #include "physics/pack.h"
 
@@ -233,7 +234,7 @@ inline Quat<double> exp_map(const Vec3<double>& r) {
 /// 11 in 2w − 1 is accurate to float rounding; no square root, no quotient 0/0.
 inline double log_scale(double w) {
   const double sine = std::sqrt(std::max(0.0, 1.0 - w * w));
-  return sine < 1e-5 ? 2.0 + sine * sine / 3.0 : 2.0 * std::atan2(sine, w) / sine;
+  return sine < 1e-5 ? 2.0 + sine * sine / 3.0 : 2.0 * atan2(sine, w) / sine;
 }
 template <int N>
 Pack<N> log_scale(Pack<N> w) {

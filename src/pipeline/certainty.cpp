@@ -1,8 +1,8 @@
 #include "pipeline/certainty.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/elementary.h"
 #include "motion/limb_glitches.h"
 
 namespace mimicx::pipeline {
@@ -16,7 +16,7 @@ List<control::Certainty> certainty_of(const motion::Reference& reference, double
     for (int limb = 0; limb < kLimbs; ++limb) a[limb] = motion::limb_acceleration(reference.poses, limb, t);
     for (int body = 0; body < kBodies; ++body) {
       const double excess = a[kLimbOf[body]] * reference.fps * reference.fps / plausible;
-      const auto c = static_cast<float>(excess > 1.0 ? std::pow(excess, -4.0) : 1.0);
+      const auto c = static_cast<float>(excess > 1.0 ? pow(excess, -4) : 1.0);
       for (int near : {t - 1, t, t + 1}) certainty[near][body] = std::min(certainty[near][body], c);
     }
   }

@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/build.h"
 #include "core/npz.h"
 #include "core/parallel.h"
 #include "motion/features.h"
@@ -47,7 +48,7 @@ record::Json run_record(const TeachConfig& config, const std::vector<PlannedMoti
   for (const PlannedMotion& motion : motions)
     inputs.push_back({{"input", record::to_utf8(motion.input)}, {"checksum", motion.checksum}});
   return {{"version", MIMICX_VERSION},
-          {"target", MIMICX_TARGET},
+          {"target", kArithmetic},
           {"seed", config.school.seed},
           {"settings", settings},
           {"inputs", inputs}};

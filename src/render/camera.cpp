@@ -1,8 +1,9 @@
 #include "render/camera.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+
+#include "core/elementary.h"
 
 namespace mimicx::render {
 namespace {
@@ -27,8 +28,8 @@ Wedge wedge_around(const List<Vector3d>& points, int axis, double tangent) {
 }  // namespace
 
 Matrix3d axes_of(const Look& look) {
-  const double c = std::cos(look.elevation), s = std::sin(look.elevation);
-  const Vector3d away = -Vector3d(c * std::cos(look.azimuth), c * std::sin(look.azimuth), s);
+  const double c = cos(look.elevation), s = sin(look.elevation);
+  const Vector3d away = -Vector3d(c * cos(look.azimuth), c * sin(look.azimuth), s);
   const Vector3d right = away.cross(Vector3d::UnitZ()).normalized();
   Matrix3d R_CW;
   R_CW << right.transpose(), away.cross(right).transpose(), away.transpose();
@@ -42,7 +43,7 @@ Camera framing(const List<Vector3d>& points, const Look& look, const Canvas& can
   Camera camera;
   camera.R_CW = axes_of(look);
   camera.centre = {0.5 * canvas.width, 0.5 * canvas.height};
-  camera.focal = std::max(camera.centre.x(), camera.centre.y()) / std::tan(0.5 * kFieldOfView);
+  camera.focal = std::max(camera.centre.x(), camera.centre.y()) / tan(0.5 * kFieldOfView);
   List<Vector3d> turned;
   double nearest = 1e300;
   for (const Vector3d& p : points) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/elementary.h"
 #include "render/raster.h"
 
 namespace mimicx::render {
@@ -14,7 +15,7 @@ namespace {
 /// Point k of n that cover the unit disc evenly: H. Vogel's sunflower, Math. Biosciences 44 (1979).
 Eigen::Vector2d on_disc(int k, int n) {
   const double angle = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
-  return std::sqrt((k + 0.5) / n) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  return std::sqrt((k + 0.5) / n) * Eigen::Vector2d(cos(angle), sin(angle));
 }
 
 /// Where the light from that direction throws a point, in cells.

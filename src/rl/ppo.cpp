@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "nn/checkpoint.h"
@@ -100,7 +101,7 @@ void accumulate(const nn::Tape<float>& tape, std::span<const nn::Var> gradient, 
 void measure_policy(const nn::Matrix<float>& means, const nn::Matrix<float>& log_density, double sigma,
                     double clip, GradientSlot& slot) {
   const auto log_ratio = (log_density - slot.old_log_density).array();
-  const float high = static_cast<float>(std::log1p(clip)), low = static_cast<float>(std::log1p(-clip));
+  const float high = static_cast<float>(log1p(clip)), low = static_cast<float>(log1p(-clip));
   slot.sums.clipped += static_cast<double>((log_ratio > high || log_ratio < low).count());
   for (Eigen::Index k = 0; k < means.rows(); ++k)
     slot.sums.kl += 0.5 * double{(means.row(k) - slot.old_means.row(k)).squaredNorm()} / (sigma * sigma);

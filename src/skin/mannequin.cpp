@@ -1,9 +1,9 @@
 #include "skin/mannequin.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "core/elementary.h"
 #include "skin/flesh.h"
 #include "skin/isosurface.h"
 #include "skin/simplify.h"
@@ -35,7 +35,7 @@ PerBody<double> pull_of_bodies(const Flesh& flesh, const Vector3d& p) {
     for (int other = 1; other < kLimbs; ++other)
       if (other != l) nearest_other = std::min(nearest_other, limb[other]);
     const double alone = l == 0 ? 1.0 : smooth_step((nearest_other - limb[l]) / kApart);
-    pull[b] = alone * std::exp(-distance[b] * distance[b] / (kReach * kReach));
+    pull[b] = alone * exp(-distance[b] * distance[b] / (kReach * kReach));
   }
   return pull;
 }

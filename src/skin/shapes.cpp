@@ -1,7 +1,8 @@
 #include "skin/shapes.h"
 
-#include <cmath>
 #include <numbers>
+
+#include "core/elementary.h"
 
 namespace mimicx::skin {
 namespace {
@@ -26,8 +27,8 @@ void add_capsule(int body, const Vector3d& a, const Vector3d& b, double radius, 
     const double latitude = 0.5 * std::numbers::pi * step / kRings;
     for (int k = 0; k < kAround; ++k) {
       const double longitude = 2.0 * std::numbers::pi * k / kAround;
-      const Vector3d out = std::cos(longitude) * side + std::sin(longitude) * other;
-      add(centre, std::cos(latitude) * out + std::sin(latitude) * along);
+      const Vector3d out = cos(longitude) * side + sin(longitude) * other;
+      add(centre, cos(latitude) * out + sin(latitude) * along);
     }
     ++rings;
   };

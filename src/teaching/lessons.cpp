@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "rl/tracking/mirror.h"
 #include "rl/tracking/pack.h"
@@ -113,8 +114,10 @@ Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig&
   Lessons lessons;
   LaneActions before{}, own{};
   for (int t = 0; t < teacher.size(); ++t) {
-    for (int lane = 1; lane < kLanes && t % config.push_every == config.push_every / 2; ++lane)
-      pack.push(lane, config.push * Vector3d(pushes.normal(), pushes.normal(), 0.0));
+    for (int lane = 1; lane < kLanes && t % config.push_every == config.push_every / 2; ++lane) {
+      const double x = pushes.normal(), y = pushes.normal();
+      pack.push(lane, config.push * Vector3d(x, y, 0.0));
+    }
     nn::Matrix<float> states = observed(pack);
     if (mirrored) reflect_rows(of_state, states);
     const LaneActions advice = ask(teacher, t, pack.state(), before);
@@ -156,7 +159,7 @@ control::PushResult test_pushes(const std::shared_ptr<const rl::tracking::Tracki
     for (int t = 0; t < n; ++t) {
       for (int lane = 0; lane < kLanes && t % test.every == test.every / 2; ++lane) {
         const double angle = random[lane].uniform(0.0, 2.0 * std::numbers::pi);
-        pack.push(lane, test.speed * Vector3d(std::cos(angle), std::sin(angle), 0.0));
+        pack.push(lane, test.speed * Vector3d(cos(angle), sin(angle), 0.0));
       }
       const LaneActions actions = player.act(observed(pack));
       for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, actions[lane].data());

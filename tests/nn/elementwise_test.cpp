@@ -39,7 +39,7 @@ TYPED_TEST(Elementwise, ErrorsStayWithinTheDocumentedBounds) {
   const auto exp_exact = [](long double x) { return std::exp(x); };
   const auto expm1_exact = [](long double x) { return std::expm1(x); };
   const auto tanh_exact = [](long double x) { return std::tanh(x); };
-  const S limit = ExpConstants<S>::kLimit;
+  const S limit = ActivationLimits<S>::kExp;
   for (const S range : {S(1e-3), S(1), S(10), limit}) {
     EXPECT_LT(worst_error(-range, range, exp_ours, exp_exact), 2.0) << range;
     EXPECT_LT(worst_error(-range, range, expm1_ours, expm1_exact), 3.0) << range;
@@ -50,7 +50,7 @@ TYPED_TEST(Elementwise, ErrorsStayWithinTheDocumentedBounds) {
 TYPED_TEST(Elementwise, ExtremesSaturateAndNanStaysNan) {
   using S = TypeParam;
   const S infinity = std::numeric_limits<S>::infinity(), nan = std::numeric_limits<S>::quiet_NaN();
-  EXPECT_EQ(exp_value(infinity), exp_value(ExpConstants<S>::kLimit));
+  EXPECT_EQ(exp_value(infinity), exp_value(ActivationLimits<S>::kExp));
   EXPECT_TRUE(std::isfinite(exp_value(infinity)));
   EXPECT_GT(exp_value(-infinity), S(0));
   EXPECT_EQ(exp_value(S(0)), S(1));
@@ -94,7 +94,7 @@ TYPED_TEST(Elementwise, SumsOfEveryLengthAreExactForSmallIntegers) {
 TEST(ActivationNames, GoThereAndBackAndRefuseOthers) {
   for (const auto kind : {Activation::kLinear, Activation::kRelu, Activation::kElu, Activation::kTanh})
     EXPECT_EQ(activation_from_string(to_string(kind)), kind);
-  EXPECT_THROW(activation_from_string("sine"), std::invalid_argument);
+  EXPECT_FALSE(activation_from_string("sine"));
 }
 
 }  // namespace

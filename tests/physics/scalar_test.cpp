@@ -33,7 +33,7 @@ TYPED_TEST(PackTest, OperationsAreIeeeExactInEveryLane) {
       EXPECT_EQ(product[i], a[i] * b[i]);
       EXPECT_EQ(quotient[i], a[i] / b[i]);
       EXPECT_EQ(root[i], std::sqrt(a[i] * a[i]));
-#if defined(__FMA__)
+#if defined(MIMICX_FUSED)
       EXPECT_EQ(fused[i], std::fma(a[i], b[i], c[i]));
 #else
       EXPECT_EQ(fused[i], a[i] * b[i] + c[i]);

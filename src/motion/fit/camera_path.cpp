@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/so3.h"
 #include "core/units.h"
 #include "motion/fit/jitter.h"
@@ -27,7 +28,7 @@ Eigen::Matrix4d mean_around(const PerFrame<Eigen::Matrix4d>& path, int t, double
   Vector3d eye = Vector3d::Zero();
   double sum = 0.0;
   for (int i = t - reach; i <= t + reach; ++i) {
-    const double w = std::exp(-0.5 * std::pow((i - t) / sigma, 2));
+    const double w = exp(-0.5 * pow((i - t) / sigma, 2));
     const Eigen::Vector4d q = turn_of(path[i]).coeffs();
     turn += w * (q.dot(middle.coeffs()) < 0.0 ? Eigen::Vector4d(-q) : q);
     eye += w * eye_of(path[i]);

@@ -1,6 +1,6 @@
 #include "motion/fit/kinematics.h"
 
-#include <cmath>
+#include "core/elementary.h"
 
 namespace mimicx::motion::fit {
 namespace {
@@ -17,8 +17,8 @@ Matrix3d right_jacobian(const Vector3d& c) {
   const Matrix3d x = cross_matrix(c);
   if (angle < 1e-4) return Matrix3d::Identity() - 0.5 * x + x * x / 6.0;
   const double square = angle * angle;
-  return Matrix3d::Identity() - (1.0 - std::cos(angle)) / square * x +
-         (angle - std::sin(angle)) / (square * angle) * x * x;
+  return Matrix3d::Identity() - (1.0 - cos(angle)) / square * x +
+         (angle - sin(angle)) / (square * angle) * x * x;
 }
 
 }  // namespace

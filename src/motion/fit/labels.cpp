@@ -1,7 +1,8 @@
 #include "motion/fit/labels.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/elementary.h"
 
 namespace mimicx::motion::fit {
 namespace {
@@ -40,7 +41,7 @@ bool prefers_swap(const std::vector<Vector3d>& detected, const std::vector<Eigen
     const double confidence = std::min(detected[k].z(), detected[m].z());  // both must be seen
     const auto cost = [&](std::size_t from) {
       const double distance = (detected[from].head<2>() - predicted[k] - offset).norm() / box;
-      return confidence * std::pow(std::min(distance, kFar), 2);
+      return confidence * pow(std::min(distance, kFar), 2);
     };
     keep += cost(k);
     swapped += cost(m);

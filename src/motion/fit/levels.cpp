@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "motion/fit/projection.h"
@@ -44,8 +45,8 @@ std::vector<Seen> seen_of(const FitProblem& problem, const FitState& state,
   std::vector<Seen> seen;
   for (int t = 0; t < problem.frames(); ++t)
     if (const double w = weights[t][k]; w > 0.0)
-      seen.push_back({std::log(problem.uvc[t][k].z()),
-                      square(w) * expected_square(problem, state, motion, draws, t, k)});
+      seen.push_back(
+          {log(problem.uvc[t][k].z()), square(w) * expected_square(problem, state, motion, draws, t, k)});
   return seen;
 }
 
@@ -72,7 +73,7 @@ void add_evidence(const std::vector<Seen>& seen, Evidence& evidence) {
 }  // namespace
 
 double correlation_of(const FitProblem& problem) {
-  return std::pow(problem.config.keypoint_correlation, kReferenceFps / problem.fps);
+  return pow(problem.config.keypoint_correlation, kReferenceFps / problem.fps);
 }
 
 CorrectionLevels correction_levels(const FitProblem& problem) {
@@ -81,8 +82,8 @@ CorrectionLevels correction_levels(const FitProblem& problem) {
   CorrectionLevels out;
   const auto fill = [&](int at, int count, double size, double rate, double bend, double jitter) {
     out.size.segment(at, count).setConstant(size * std::sqrt(o.prior_frames / scale));
-    out.rate.segment(at, count).setConstant(std::hypot(scale * rate, std::sqrt(2.0) * jitter));
-    out.bend.segment(at, count).setConstant(std::hypot(square(scale) * bend, std::sqrt(6.0) * jitter));
+    out.rate.segment(at, count).setConstant(hypot(scale * rate, std::sqrt(2.0) * jitter));
+    out.bend.segment(at, count).setConstant(hypot(square(scale) * bend, std::sqrt(6.0) * jitter));
   };
   fill(0, 3, o.root_position_sigma, o.root_rate, o.root_bend, problem.position_jitter);
   const double rate = kDegree * o.joint_rate, bend = kDegree * o.joint_bend;
@@ -104,7 +105,7 @@ PerFrame<std::vector<double>> detection_weights(const FitProblem& problem, const
       if (confidence <= 0.0) continue;
       const Projection seen = see(problem, state, motion, t, k);
       if (!seen.valid) continue;
-      const double plain = std::pow(confidence, level.confidence_power) / level.keypoint[k];
+      const double plain = pow(confidence, level.confidence_power) / level.keypoint[k];
       const double squares = seen.error.squaredNorm();
       const double kernel = problem.settled ? (kTail + 2.0) / (kTail + square(plain) * squares)
                                             : 1.0 / (1.0 + squares / square(problem.config.keypoint_kernel));

@@ -1,12 +1,13 @@
 #include "motion/fit/projection.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/elementary.h"
 
 namespace mimicx::motion::fit {
 namespace {
 
-Matrix3d turn_of(double tilt) { return Eigen::AngleAxisd(tilt, Vector3d::UnitX()).toRotationMatrix(); }
+Matrix3d turn_of(double tilt) { return rotation_about(Vector3d::UnitX(), tilt).toRotationMatrix(); }
 
 /// Velocity of a joint by central differences, m per frame.
 Vector3d velocity(const PerFrame<FrameKinematics>& motion, int t, int body) {
@@ -26,7 +27,7 @@ Projection project_point(const FitProblem& problem, const FitState& state, int t
   out.valid = p_C.z() > kClosest && problem.box[t] > 0.0;
   if (!out.valid) return out;
   Matrix3d K = problem.intrinsics;
-  K.topLeftCorner<2, 2>() *= std::exp(state.g[kLogFocal]);
+  K.topLeftCorner<2, 2>() *= exp(state.g[kLogFocal]);
   const Vector3d pixel = K * p_C;
   const Eigen::Vector2d uv = pixel.hnormalized();
   Eigen::Matrix<double, 2, 3> by_camera;  // of the pixel by p_C

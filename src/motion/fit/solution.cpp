@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
@@ -101,8 +102,8 @@ void correct_keypoints(const FitProblem& problem, const FitState& state, Keypoin
   for (int t = 0; t < keypoints.uvc.count(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k)
       keypoints.uvc[t][problem.points[k].column] = problem.uvc[t][k];
-  keypoints.intrinsics.topLeftCorner<2, 2>() *= std::exp(state.g[kLogFocal]);
-  const Matrix3d turn = Eigen::AngleAxisd(state.g[kTilt], Vector3d::UnitX()).toRotationMatrix();
+  keypoints.intrinsics.topLeftCorner<2, 2>() *= exp(state.g[kLogFocal]);
+  const Matrix3d turn = rotation_about(Vector3d::UnitX(), state.g[kTilt]).toRotationMatrix();
   for (Eigen::Matrix4d& extrinsics : keypoints.extrinsics)
     extrinsics.topRows<3>() = (turn * extrinsics.topRows<3>()).eval();
 }
@@ -194,7 +195,7 @@ Clip solved(const Clip& clip, FitProblem& problem, FitReport& report) {
   try {
     const FitState state = iterate(problem, report);
     const Clip fitted = result_of(clip, problem, state);
-    report.focal_scale = std::exp(state.g[kLogFocal]);
+    report.focal_scale = exp(state.g[kLogFocal]);
     report.tilt_deg = state.g[kTilt] / kDegree;
     report_levels(problem, state, report);
     report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();

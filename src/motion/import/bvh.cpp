@@ -140,8 +140,8 @@ void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, Sk
     }
     const Channel& channel = hierarchy.channels[c];
     if (channel.rotation)
-      rotation[channel.joint] = rotation[channel.joint] *
-                                Quaterniond(Eigen::AngleAxisd(kDegree * value, Vector3d::Unit(channel.axis)));
+      rotation[channel.joint] =
+          rotation[channel.joint] * rotation_about(Vector3d::Unit(channel.axis), kDegree * value);
     else
       translation[channel.joint][channel.axis] = value;
   }

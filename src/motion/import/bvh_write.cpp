@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace mimicx::motion::import {
@@ -25,14 +26,14 @@ double unwrapped(double angle, double near) { return angle - 360.0 * std::round(
 /// R = Rz(a) Ry(b) Rx(c) → (a, b, c) in degrees; of the two solutions, and all full turns, the one nearest to
 /// `near`, so that curves do not jump.
 Vector3d zyx_angles(const Matrix3d& R, const Vector3d& near) {
-  const double cosine = std::hypot(R(2, 1), R(2, 2)), b = std::atan2(-R(2, 0), cosine) / kDegree;
+  const double cosine = hypot(R(2, 1), R(2, 2)), b = atan2(-R(2, 0), cosine) / kDegree;
   double a, c;
   if (cosine > 1e-9) {
-    a = std::atan2(R(1, 0), R(0, 0)) / kDegree;
-    c = std::atan2(R(2, 1), R(2, 2)) / kDegree;
+    a = atan2(R(1, 0), R(0, 0)) / kDegree;
+    c = atan2(R(2, 1), R(2, 2)) / kDegree;
   } else {  // gimbal lock: only a ∓ c matters
     c = near.z();
-    const double turned = std::atan2(-R(0, 1), R(1, 1)) / kDegree;  // a − c for b = 90°, a + c for −90°
+    const double turned = atan2(-R(0, 1), R(1, 1)) / kDegree;  // a − c for b = 90°, a + c for −90°
     a = b > 0.0 ? turned + c : turned - c;
   }
   const auto nearest = [&](double x, double y, double z) {

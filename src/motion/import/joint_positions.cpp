@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "character/body_words.h"
 #include "character/character.h"
+#include "core/elementary.h"
 #include "core/error.h"
 
 namespace mimicx::motion::import {
@@ -40,7 +40,7 @@ PerFrame<Positions> positions_of_features(const Eigen::MatrixXd& rows, const std
   Vector3d root = Vector3d::Zero();
   for (Eigen::Index t = 0; t < rows.rows(); ++t) {
     if (t > 0) heading += rows(t - 1, kTurn);
-    const Quaterniond to_world(std::cos(heading), 0.0, -std::sin(heading), 0.0);
+    const Quaterniond to_world(cos(heading), 0.0, -sin(heading), 0.0);
     if (t > 0) root += to_world * Vector3d(rows(t - 1, kStep), 0.0, rows(t - 1, kStep + 1));
     root.y() = rows(t, kHeight);
     auto& p = frames.emplace_back();
@@ -75,8 +75,8 @@ Quaterniond with_hinge(const Quaterniond& q, int hinge, const Vector3d& upper, c
   const double shown = std::clamp((across.norm() - kStraight) / (kBent - kStraight), 0.0, 1.0);
   if (shown == 0.0) return q;
   const Vector3d flat = (now - now.dot(u) * u).normalized();
-  const double angle = std::atan2(flat.cross(across).dot(u), flat.dot(across));
-  return (Quaterniond(Eigen::AngleAxisd(shown * angle, u)) * q).normalized();
+  const double angle = atan2(flat.cross(across).dot(u), flat.dot(across));
+  return (rotation_about(u, shown * angle) * q).normalized();
 }
 
 struct Limb {
@@ -96,8 +96,8 @@ Rotations rotations_of(const Character& character, const Positions& p) {
   const Quaterniond chest = frame_of(p[kLeftShoulder] - p[kRightShoulder], shoulders - hips);
   for (int b = 1; b < kBodies; ++b) {
     q[b] = q[kParents[b]];
-    if (b == kSpine1) q[b] = q[kPelvis].slerp(1.0 / 3.0, chest);
-    if (b == kSpine2) q[b] = q[kPelvis].slerp(2.0 / 3.0, chest);
+    if (b == kSpine1) q[b] = slerp(q[kPelvis], 1.0 / 3.0, chest);
+    if (b == kSpine2) q[b] = slerp(q[kPelvis], 2.0 / 3.0, chest);
     if (b == kSpine3) q[b] = chest;
     for (const Limb& limb : kLimbs) {
       if (b == limb.upper) {

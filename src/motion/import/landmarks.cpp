@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/quantile.h"
 #include "motion/import/world.h"
 
@@ -28,7 +29,8 @@ double step_between(const Landmarks& a, const Landmarks& b) {
   double sum = 0.0;
   for (int j = 1; j < kBodies; ++j) {
     const int parent = kParents[j];
-    sum += (a.q[parent].conjugate() * a.q[j]).angularDistance(b.q[parent].conjugate() * b.q[j]);
+    sum += angle_between(Quaterniond(a.q[parent].conjugate() * a.q[j]),
+                         Quaterniond(b.q[parent].conjugate() * b.q[j]));
   }
   return sum / kJoints;
 }
@@ -76,7 +78,7 @@ double bend_of(const Landmarks& pose) {
   }
   for (const auto& [shoulder, elbow, wrist] : kArms) {
     const Vector3d arm = pose.direction(shoulder, elbow);
-    bend += 0.5 * (1.0 - arm.dot(pose.direction(elbow, wrist))) + std::pow(arm.dot(pose.forward()), 2);
+    bend += 0.5 * (1.0 - arm.dot(pose.direction(elbow, wrist))) + pow(arm.dot(pose.forward()), 2);
   }
   return bend;
 }
@@ -127,9 +129,7 @@ std::optional<Unit> unit_of(double length) {
                                            {"inches / 0.45", 0.0254 / 0.45}}};
   constexpr double kHumanLeg = 0.784, kShortest = 0.45, kLongest = 1.2;
   std::optional<Unit> best;
-  const auto distance = [&](const Unit& unit) {
-    return std::abs(std::log(unit.metres * length / kHumanLeg));
-  };
+  const auto distance = [&](const Unit& unit) { return std::abs(log(unit.metres * length / kHumanLeg)); };
   for (const Unit& unit : kUnits)
     if (unit.metres * length > kShortest && unit.metres * length < kLongest &&
         (!best || distance(unit) < distance(*best)))

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/quantile.h"
 #include "core/units.h"
 #include "motion/import/world.h"
@@ -205,7 +206,7 @@ std::optional<FallRate> rate_from_flights(const Clip& clip) {
   double sum = 0.0, weights = 0.0;
   for (const Flight& flight : flights) {
     // The uncertainty of the curvature falls with the fifth power of the length.
-    const double weight = std::pow(flight.frames, 5);
+    const double weight = pow(flight.frames, 5);
     sum += weight * flight.acceleration;
     weights += weight;
   }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion::import {
 namespace {
 
@@ -60,7 +62,7 @@ Quaterniond level_foot(const Character& character, const Landmarks& pose, int an
                        bool has_toes) {
   const Vector3d rest = has_toes ? character.joint_offset[toes] : Vector3d::UnitZ();
   Vector3d points = has_toes ? pose.direction(ankle, toes) : pose.forward();
-  if (std::hypot(points.x(), points.y()) < 0.1) points = pose.forward();
+  if (hypot(points.x(), points.y()) < 0.1) points = pose.forward();
   return aligned(Vector3d::UnitY(), rest, Vector3d::UnitZ(), points);
 }
 
@@ -73,8 +75,8 @@ JointRotations neutral_rotations(const Character& character, const Landmarks& po
   const Quaterniond chest = aligned(x, rest, pose.direction(kRightShoulder, kLeftShoulder), pose.trunk());
   for (int b = 1; b < kBodies; ++b) {
     q[b] = b == kSpine3 ? chest : q[kParents[b]];
-    if (b == kSpine1) q[b] = q[kPelvis].slerp(1.0 / 3.0, chest);
-    if (b == kSpine2) q[b] = q[kPelvis].slerp(2.0 / 3.0, chest);
+    if (b == kSpine1) q[b] = slerp(q[kPelvis], 1.0 / 3.0, chest);
+    if (b == kSpine2) q[b] = slerp(q[kPelvis], 2.0 / 3.0, chest);
     if (const int end = bone_end(b); end >= 0) {
       const Vector3d bone = bone_direction(character, b);
       q[b] = swung(q[b], bone, pose.direction(b, end)) * exp_map(twists[b] * bone);
@@ -89,8 +91,8 @@ JointRotations neutral_rotations(const Character& character, const Landmarks& po
 void solve_trunk(const Character& character, const Vector3d& direction, JointRotations& q) {
   const Trunk trunk = trunk_of(character);
   const auto& offset = character.joint_offset;
-  q[kSpine1] = q[kPelvis].slerp(1.0 / 3.0, q[kSpine3]);
-  q[kSpine2] = q[kPelvis].slerp(2.0 / 3.0, q[kSpine3]);
+  q[kSpine1] = slerp(q[kPelvis], 1.0 / 3.0, q[kSpine3]);
+  q[kSpine2] = slerp(q[kPelvis], 2.0 / 3.0, q[kSpine3]);
   const Vector3d fixed = q[kPelvis] * (offset[kSpine1] - trunk.hips) + q[kSpine3] * trunk.shoulders;
   const Vector3d bends = q[kSpine1] * offset[kSpine2] + q[kSpine2] * offset[kSpine3];
   // fixed + Q · bends = reach · direction: a sphere and a ray; out of reach, the nearest point of the ray.
@@ -149,7 +151,7 @@ Twists measure_twists(const Character& character, const Calibration& calibration
     double best = std::numeric_limits<double>::infinity();
     for (int tenths = -900; tenths <= 900; ++tenths) {
       const double angle = tenths * std::numbers::pi / 1800.0;
-      const Eigen::Vector2d cs(std::cos(angle), std::sin(angle));
+      const Eigen::Vector2d cs(cos(angle), sin(angle));
       const double cost = cs.dot(squares * cs) - 2.0 * products.dot(cs) - 2.0 * pull * cs.x();
       if (cost >= best) continue;
       best = cost;

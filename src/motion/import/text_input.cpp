@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/file.h"
+#include "core/number_text.h"
 
 namespace mimicx::motion::import {
 namespace {
@@ -51,8 +53,9 @@ std::string printable(std::string_view word) {
 
 bool parse_number(std::string_view word, double& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  const std::optional<double> number = number_from(word);
+  value = number.value_or(0.0);
+  return number && std::isfinite(value);
 }
 
 TextInput::TextInput(std::string_view text, std::string path, std::string_view marks)

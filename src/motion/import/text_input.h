@@ -1,7 +1,7 @@
 /// Text files read word by word, with the line of every word for messages. Lines end in \n, \r\n or \r, in
 /// any mixture; other control characters and bytes outside ASCII are ordinary characters of a word.
 ///
-/// What it does not do: no locale (numbers are read by `std::from_chars`), no encodings but UTF-8.
+/// What it does not do: no locale (numbers are read by `number_from`), no encodings but UTF-8.
 #pragma once
 
 #include <filesystem>

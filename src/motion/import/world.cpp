@@ -46,7 +46,7 @@ void shift_world(const Vector3d& shift, Clip& clip) {
 
 Quaterniond rotation_to_z_up(char axis) {
   const auto turn = [](double quarters, const Vector3d& about) {
-    return Quaterniond(Eigen::AngleAxisd(quarters * std::numbers::pi / 2, about));
+    return rotation_about(about, quarters * std::numbers::pi / 2);
   };
   switch (axis) {
     case 'x':

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/elementary.h"
 #include "core/units.h"
 #include "motion/synth/noise_streams.h"
 
@@ -94,7 +95,7 @@ PerFrame<Vector3d> followed(const PerFrame<BodyPoses>& truth, double fps) {
     Vector3d sum = Vector3d::Zero();
     double weights = 0.0;
     for (int k = -radius; k <= radius; ++k) {
-      const double weight = std::exp(-0.5 * k * k / (frames * frames));
+      const double weight = exp(-0.5 * k * k / (frames * frames));
       sum += weight * truth[std::clamp(t + k, 0, truth.count() - 1)].p_WB[kPelvis];
       weights += weight;
     }
@@ -136,8 +137,7 @@ Camera place_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed) {
   Camera camera;
   camera.intrinsics = drawn_intrinsics(random);
   for (; distance < kFarthest; distance += kDistanceStep) {
-    const Vector3d eye(target.x() + distance * std::cos(around), target.y() + distance * std::sin(around),
-                       height);
+    const Vector3d eye(target.x() + distance * cos(around), target.y() + distance * sin(around), height);
     camera.extrinsics = look_at(eye, target);
     if (in_picture(camera, truth)) return camera;
   }
@@ -159,8 +159,7 @@ CameraPath carry_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed, do
                            tremor = unsteady(hands, frames, kTremor, kTremorTau, fps);
   const Vector3d centre = 0.5 * (aim.front() + aim.back());
   for (; distance < kFarthest; distance += kDistanceStep) {
-    const Vector3d place(centre.x() + distance * std::cos(around), centre.y() + distance * std::sin(around),
-                         height);
+    const Vector3d place(centre.x() + distance * cos(around), centre.y() + distance * sin(around), height);
     camera.extrinsics.clear();
     for (int t = 0; t < frames; ++t) {
       const Vector3d eye = place + Vector3d(walk[t].x(), walk[t].y(), 0.0) + sway[t];

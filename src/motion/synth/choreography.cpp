@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/elementary.h"
 #include "motion/synth/balance.h"
 
 namespace mimicx::motion::synth {
@@ -44,7 +45,7 @@ void Choreography::pose(const PlanFrame& posture, double seconds) {
 void Choreography::raise(int side, const std::vector<Raise>& places, const std::vector<PlanFrame>& postures,
                          double down) {
   const FootTarget& home = feet_[side];
-  const Eigen::Vector2d ahead(std::cos(home.yaw), std::sin(home.yaw)),
+  const Eigen::Vector2d ahead(cos(home.yaw), sin(home.yaw)),
       outward = (side == 0 ? 1.0 : -1.0) * Eigen::Vector2d(-ahead.y(), ahead.x());
   FootSwing swing{side, now_, now_, home.place, home.yaw};
   for (std::size_t k = 0; k < places.size(); ++k) {

@@ -1,8 +1,9 @@
 #include "motion/synth/detected_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "core/elementary.h"
 
 namespace mimicx::motion::synth {
 namespace {
@@ -14,7 +15,7 @@ Vector3d place_on_head(const std::string& name) {
   if (name == "nose") return {0.0, 0.055, 0.100};
   if (name.starts_with("face-")) {
     const double angle = std::stod(name.substr(5));  // anywhere on an oval
-    return {0.06 * std::cos(angle), 0.05 + 0.08 * std::sin(angle), 0.085};
+    return {0.06 * cos(angle), 0.05 + 0.08 * sin(angle), 0.085};
   }
   return name.ends_with("eye") ? Vector3d(side_of(name) * 0.032, 0.085, 0.080)
                                : Vector3d(side_of(name) * 0.075, 0.065, 0.005);

@@ -1,8 +1,9 @@
 #include "motion/synth/estimate.h"
 
-#include <charconv>
+#include <optional>
 #include <stdexcept>
 
+#include "core/number_text.h"
 #include "motion/synth/noise_amplitudes.h"
 
 namespace mimicx::motion::synth {
@@ -17,11 +18,9 @@ NoiseModel model_of_name(const std::string& name) {
 }
 
 double number_of(const std::string& word, const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::invalid_argument("noise '" + word + "': a number is needed behind the =");
-  return value;
+  const std::optional<double> value = number_from(text);
+  if (!value) throw std::invalid_argument("noise '" + word + "': a number is needed behind the =");
+  return *value;
 }
 
 template <class Preset>

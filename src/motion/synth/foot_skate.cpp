@@ -1,8 +1,8 @@
 #include "motion/synth/foot_skate.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/elementary.h"
 #include "motion/feet.h"
 #include "motion/synth/noise_streams.h"
 
@@ -16,7 +16,7 @@ constexpr double kReach = 0.9999;                             ///< of the straig
 /// Length of the third side of the triangle of two bones and the angle between their directions, inverted.
 double angle_for(double thigh, double shank, double distance) {
   const double cosine = (distance * distance - thigh * thigh - shank * shank) / (2.0 * thigh * shank);
-  return std::acos(std::clamp(cosine, -1.0, 1.0));
+  return acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "motion/synth/gait.h"
 
-#include <cmath>
+#include "core/elementary.h"
 
 namespace mimicx::motion::synth {
 
@@ -10,7 +10,7 @@ void follow_feet(const Character& character, const GaitStyle& style, double stri
   PerFrame<double> split(n), load(n), lower(n), going(n);
   const double leg = leg_length(character) + 0.08;  // to the sole
   for (int i = 0; i < plan.count(); ++i) {
-    const Eigen::Vector2d forward(std::cos(plan[i].heading), std::sin(plan[i].heading));
+    const Eigen::Vector2d forward(cos(plan[i].heading), sin(plan[i].heading));
     const double ahead = forward.dot(plan[i].foot[0].place - plan[i].foot[1].place);
     split[i] = ahead / stride;
     load[i] = 2.0 * feet.load.at(time_of(i)) - 1.0;

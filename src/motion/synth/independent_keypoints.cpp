@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "motion/synth/noise_streams.h"
 #include "motion/synth/occlusion.h"
 
@@ -62,7 +63,7 @@ Eigen::Vector2d detection_error(const IndependentPreset& p, ErrorNoise& noise, i
 
 /// Confidence that is only weakly correlated with how good a detection is. @param error  in parts of the box
 double told_confidence(const IndependentPreset& p, double noise, double error) {
-  const double good = std::clamp(std::log(kTypicalError / std::max(error, 1e-9)), -kFarOdds, kFarOdds);
+  const double good = std::clamp(log(kTypicalError / std::max(error, 1e-9)), -kFarOdds, kFarOdds);
   const double belief =
       p.confidence_truth * good + std::sqrt(1.0 - p.confidence_truth * p.confidence_truth) * noise;
   return std::clamp(kMeanConfidence + p.confidence_spread * belief, kLeastConfidence, 1.0);
@@ -103,7 +104,7 @@ BodyPoses pose_between(const SeenMotion& motion, double frame) {
             after = std::min(before + 1, last);
   const double part = time - before;
   PerBody<Quaterniond> q;
-  for (int b = 0; b < kBodies; ++b) q[b] = motion.q[before][b].slerp(part, motion.q[after][b]);
+  for (int b = 0; b < kBodies; ++b) q[b] = slerp(motion.q[before][b], part, motion.q[after][b]);
   return forward_kinematics(motion.character,
                             (1.0 - part) * motion.p_root[before] + part * motion.p_root[after], q);
 }
@@ -112,7 +113,7 @@ double foreshortening(const BodyPoses& poses, const Landmark& point, const Vecto
   const int from = point.body == kPelvis ? static_cast<int>(kSpine1) : kParents[point.body];
   const Vector3d end = poses.p_WB[point.body] + poses.q_WB[point.body] * point.p_B;
   const double angle = angle_between(end - poses.p_WB[from], end - eye);
-  return 1.0 - std::sin(angle);
+  return 1.0 - sin(angle);
 }
 
 Keypoints detect_independently(const SeenMotion& truth, const CameraPath& camera, KeypointSet set,

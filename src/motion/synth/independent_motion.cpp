@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/units.h"
 #include "motion/synth/noise_streams.h"
 
@@ -45,8 +46,7 @@ PerFrame<Vector3d> oscillation(Random& random, int count, double size, double fp
     const double frequency = random.uniform(kSlowestWobble, kFastestWobble),
                  phase = random.uniform(0.0, 2.0 * std::numbers::pi);
     for (int t = 0; t < count; ++t)
-      out[t][axis] =
-          size * std::numbers::sqrt2 * std::sin(2.0 * std::numbers::pi * frequency * t / fps + phase);
+      out[t][axis] = size * std::numbers::sqrt2 * sin(2.0 * std::numbers::pi * frequency * t / fps + phase);
   }
   return out;
 }

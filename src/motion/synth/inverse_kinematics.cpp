@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion::synth {
 namespace {
 
@@ -65,10 +67,10 @@ LegPose solve_leg(const Character& c, int side, const Vector3d& p_pelvis, const 
   const double constant = thigh.squaredNorm() + shank.squaredNorm() + 2.0 * thigh.x() * shank.x();
   const double A = 2.0 * (thigh.y() * shank.y() + thigh.z() * shank.z());
   const double B = 2.0 * (thigh.z() * shank.y() - thigh.y() * shank.z());
-  const double straightest = std::atan2(B, A), amplitude = std::hypot(A, B);
+  const double straightest = atan2(B, A), amplitude = hypot(A, B);
   const double cosine = (to_ankle.squaredNorm() - constant) / amplitude;
   LegPose pose;
-  pose.knee = straightest + std::acos(std::clamp(cosine, -1.0, 1.0));
+  pose.knee = straightest + acos(std::clamp(cosine, -1.0, 1.0));
   const Quaterniond bend = exp_map(pose.knee * Vector3d::UnitX());
   const Vector3d reach = thigh + bend * shank;  // hip → ankle in the thigh's frame
   pose.shortfall = std::abs(to_ankle.norm() - reach.norm());

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/elementary.h"
 #include "core/units.h"
 #include "motion/estimator_error.h"
 #include "motion/surface.h"
@@ -45,7 +46,7 @@ void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, Motion
 void apply_bursts(const std::vector<Burst>& bursts, MotionRotations& q) {
   for (const Burst& burst : bursts)
     for (int k = 0; k < burst.length; ++k) {
-      const double window = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (k + 0.5) / burst.length);
+      const double window = 0.5 - 0.5 * cos(2.0 * std::numbers::pi * (k + 0.5) / burst.length);
       Quaterniond& joint = q[burst.first + k][burst.joint];
       joint = joint * exp_map(window * burst.peak);
     }

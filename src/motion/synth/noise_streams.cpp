@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion::synth {
 
 std::vector<Interval> poisson_intervals(Random& random, double rate, double shortest, double longest,
@@ -11,7 +13,7 @@ std::vector<Interval> poisson_intervals(Random& random, double rate, double shor
   std::vector<Interval> intervals;
   double time = 0.0;
   while (rate > 0.0) {
-    time -= std::log(1.0 - random.uniform()) / rate;  // waiting times are exponential
+    time -= log(1.0 - random.uniform()) / rate;  // waiting times are exponential
     const int first = static_cast<int>(time * fps);
     if (!(time * fps < frames)) break;
     const auto lengths = static_cast<std::uint32_t>(longest - shortest) + 1;
@@ -26,7 +28,7 @@ PerFrame<double> smooth_noise(Random& random, int count, double frames) {
   std::vector<double> kernel;
   double squares = 0.0;
   for (int k = -radius; k <= radius; ++k) {
-    kernel.push_back(std::exp(-0.5 * k * k / (frames * frames)));
+    kernel.push_back(exp(-0.5 * k * k / (frames * frames)));
     squares += kernel.back() * kernel.back();
   }
   PerFrame<double> out(count);

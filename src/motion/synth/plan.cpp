@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion::synth {
 namespace {
 
@@ -61,7 +63,7 @@ void add_swing(const FootSwing& swing, const FootTarget& from, double landed, do
   knots.lift.push_back({at(0.45), swing.clearance});
   if (swing.running) knots.lift.push_back({swing.end - kFrame, kRunningHeight, -kRunningSpeed});
   knots.lift.push_back({at(1.0), 0.0});
-  const Eigen::Vector2d forward(std::cos(swing.yaw), std::sin(swing.yaw));
+  const Eigen::Vector2d forward(cos(swing.yaw), sin(swing.yaw));
   const double stride = (swing.place - from.place).dot(forward) / (kLongStride * leg);
   const double rise = kSwingPitch * std::clamp(stride, 0.25, 1.0),
                strike = swing.running ? 0.0 : kStrikePitch * std::clamp(stride, 0.0, 1.0);
@@ -211,7 +213,7 @@ PlanFrame relaxed_posture(const Character& c) {
   const double needed = half_trunk + c.capsule[kLeftElbow].radius + kGap - shoulder;
   PlanFrame posture;
   for (ArmPosture& arm : posture.arm) {
-    arm.out = std::asin(std::clamp(needed / c.joint_offset[kLeftElbow].x(), 0.1, 0.9));
+    arm.out = asin(std::clamp(needed / c.joint_offset[kLeftElbow].x(), 0.1, 0.9));
     arm.elbow = 0.3;
     arm.forward = 0.0;
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion::synth {
 
 MinJerkTrack::MinJerkTrack(std::vector<Knot> knots) : knots_(std::move(knots)) {
@@ -40,7 +42,7 @@ PerFrame<double> smoothed(const PerFrame<double>& values, double sigma) {
   for (int i = 0; i <= last; ++i) {
     double sum = 0.0, weights = 0.0;
     for (int k = -radius; k <= radius; ++k) {
-      const double weight = std::exp(-0.5 * k * k / (sigma * sigma));
+      const double weight = exp(-0.5 * k * k / (sigma * sigma));
       sum += weight * values[std::clamp(i + k, 0, last)];
       weights += weight;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "motion/resample.h"
 #include "physics/inverse_dynamics.h"
 #include "pipeline/audit/audit_summary.h"
@@ -136,7 +137,7 @@ physics::MotionState between(const motion::ReferenceFrame& a, const motion::Refe
   s.v_root = (1.0 - share) * a.v_root + share * b.v_root;
   s.a_root = rate * (b.v_root - a.v_root);
   for (std::size_t i = 0; i < kBodies; ++i) {
-    s.q[i] = share == 0.0 ? a.q[i] : a.q[i].slerp(share, b.q[i]);
+    s.q[i] = share == 0.0 ? a.q[i] : slerp(a.q[i], share, b.q[i]);
     s.omega[i] = (1.0 - share) * a.omega[i] + share * b.omega[i];
     s.omega_d[i] = rate * (b.omega[i] - a.omega[i]);
   }
@@ -222,7 +223,7 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
     const Vector6d h_a = momentum_of(c, before, before.center), h_b = momentum_of(c, after, after.center);
     const double mass = c.total_mass();
     row.travel = travel_share(before, after, h_a.tail<3>() / mass, h_b.tail<3>() / mass, motion.fps,
-                              std::hypot(1.0, simulation.friction) * row.normal / mass + simulation.gravity);
+                              hypot(1.0, simulation.friction) * row.normal / mass + simulation.gravity);
     row.lowest = lowest_contact(c, after.poses);
     audit.rows.push_back(row);
     before = after;

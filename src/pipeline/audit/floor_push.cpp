@@ -1,8 +1,8 @@
 #include "pipeline/audit/floor_push.h"
 
-#include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "pipeline/audit/non_negative.h"
 
 namespace mimicx::pipeline::audit {
@@ -12,7 +12,7 @@ Vector6d share_out(const Floor& floor, const Vector3d& center, const Vector6d& w
   List<Vector3d> edges;
   for (int k = 0; k < floor.edges; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / floor.edges;
-    edges.emplace_back(floor.friction * std::cos(angle), floor.friction * std::sin(angle), 1.0);
+    edges.emplace_back(floor.friction * cos(angle), floor.friction * sin(angle), 1.0);
   }
   Matrix6X A(6, floor.edges * pushes.count());
   for (int i = 0; i < pushes.count(); ++i)

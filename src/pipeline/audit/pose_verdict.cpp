@@ -1,10 +1,10 @@
 #include "pipeline/audit/pose_verdict.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "character/body_words.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace mimicx::pipeline::audit {
@@ -37,8 +37,8 @@ Totals totals_of(const PoseNeeds& needs) {
     sum.largest_force = std::max(sum.largest_force, force);
     sum.largest_moment = std::max(sum.largest_moment, moment);
     sum.lowest = std::min(sum.lowest, need.lowest);
-    if (std::hypot(force, moment) > sum.worst) {
-      sum.worst = std::hypot(force, moment);
+    if (hypot(force, moment) > sum.worst) {
+      sum.worst = hypot(force, moment);
       sum.worst_frame = t;
     }
     const Wrong wrong = wrong_with(need, needs.weight);

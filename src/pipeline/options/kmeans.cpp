@@ -25,11 +25,11 @@ int compare(const Points& points, int a, int b) {
   return 0;
 }
 
-/// Rows in lexicographic order. Equal rows are interchangeable.
+/// Rows in lexicographic order; equal rows in theirs.
 List<int> canonical_order(const Points& points) {
   List<int> order(points.rows());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return compare(points, a, b) < 0; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return compare(points, a, b) < 0; });
   return order;
 }
 
@@ -131,7 +131,7 @@ Partition lloyd_sorted(const Points& sorted, const Points& centres) {
 Points draw_centres(const Points& sorted, Index k, Random& random) {
   const auto n = static_cast<std::uint32_t>(sorted.rows());
   Points centres(k, sorted.cols());
-  centres.row(0) = sorted.row(random.below(n));
+  centres.row(0) = sorted.row(static_cast<Index>(random.below(n)));
   std::vector<double> weight(n, std::numeric_limits<double>::infinity());
   for (Index c = 1; c < k; ++c) {
     double total = 0.0;

@@ -1,9 +1,9 @@
 #include "rl/tracking/environment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "nn/checkpoint.h"
@@ -130,7 +130,7 @@ void TrackingEnvironment::step(int g, const Eigen::Ref<const nn::Matrix<float>>&
     const Reward reward = pack.reward(lane);
     const bool fell = !(pack.worst_distance(lane) <= config_.terminate_distance);
     const bool ended = frame >= pack.clip().size() - 1;
-    const double learned = sharpness_ == 1.0 ? reward.total : std::pow(reward.total, sharpness_);
+    const double learned = sharpness_ == 1.0 ? reward.total : pow(reward.total, sharpness_);
     result.reward[n] = static_cast<float>(learned);
     result.terminated[n] = fell;
     result.truncated[n] = ended && !fell;

@@ -1,6 +1,6 @@
 #include "rl/tracking/reward.h"
 
-#include <cmath>
+#include "core/elementary.h"
 
 namespace mimicx::rl::tracking {
 namespace {
@@ -24,12 +24,12 @@ Reward tracking_reward(const RewardWeights& weights, const Pose& reference, cons
   }
   const bool seen = keypoints != nullptr && !keypoints->detections.empty();
   Reward reward;
-  reward.term = {std::exp(-weights.root_position * (s.p_root - r.p_root).squaredNorm()),
-                 std::exp(-weights.root_rotation * squared_angle(s.q[0], r.q[0])),
-                 std::exp(-weights.pose * pose / kJoints),
-                 std::exp(-weights.velocity * velocity / kJoints),
-                 std::exp(-weights.end_effector * end_effector / static_cast<double>(kEndEffectors.size())),
-                 seen ? std::exp(-weights.projection * projection_error(*keypoints, simulated.p_WB)) : 1.0};
+  reward.term = {exp(-weights.root_position * (s.p_root - r.p_root).squaredNorm()),
+                 exp(-weights.root_rotation * squared_angle(s.q[0], r.q[0])),
+                 exp(-weights.pose * pose / kJoints),
+                 exp(-weights.velocity * velocity / kJoints),
+                 exp(-weights.end_effector * end_effector / static_cast<double>(kEndEffectors.size())),
+                 seen ? exp(-weights.projection * projection_error(*keypoints, simulated.p_WB)) : 1.0};
   reward.total = 1.0;
   for (double term : reward.term) reward.total *= term;
   return reward;

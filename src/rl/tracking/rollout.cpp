@@ -18,19 +18,6 @@ Vector6d first_lane(const physics::Wrench<P>& w, double scale) {
   return out;
 }
 
-/// Mean of what acted in the steps that are summed up.
-ActingForces forces_of(const physics::Applied<P>& applied) {
-  const double scale = applied.steps > 0 ? 1.0 / applied.steps : 0.0;
-  ActingForces forces;
-  for (int i = 0; i < kBodies; ++i) {
-    forces.joint_torque[i] = first_lane(applied.joint_torque[i], scale);
-    forces.range_torque[i] = first_lane(applied.range_torque[i], scale);
-    forces.ground[i] = first_lane(applied.ground[i], scale);
-    forces.self_contact[i] = first_lane(applied.self[i], scale);
-  }
-  return forces;
-}
-
 motion::ReferenceFrame first_lane(const physics::State<P>& state) {
   motion::ReferenceFrame frame;
   frame.p_root = physics::lane_of(state.p_root, 0);
@@ -49,7 +36,7 @@ TrackingPack::SubstepWatcher recorder(const physics::Model<float>& model, physic
              const physics::Data<P>& solved, const physics::State<P>& after) {
     physics::clear(scratch);
     physics::record_applied(model, solved, scratch);
-    Substep step{first_lane(before), {}, {}, forces_of(scratch)};
+    Substep step{first_lane(before), {}, {}, acting_forces(scratch)};
     for (int i = 0; i < kBodies; ++i) {
       step.target_q[i] = i == 0 ? Quaterniond::Identity() : physics::lane_of(target.q[i], 0);
       step.target_omega[i] = physics::lane_of(target.omega[i], 0);
@@ -66,6 +53,18 @@ double mean_distance(const Pose& a, const Pose& b) {
 }
 
 }  // namespace
+
+ActingForces acting_forces(const physics::Applied<P>& applied) {
+  const double scale = applied.steps > 0 ? 1.0 / applied.steps : 0.0;
+  ActingForces forces;
+  for (int i = 0; i < kBodies; ++i) {
+    forces.joint_torque[i] = first_lane(applied.joint_torque[i], scale);
+    forces.range_torque[i] = first_lane(applied.range_torque[i], scale);
+    forces.ground[i] = first_lane(applied.ground[i], scale);
+    forces.self_contact[i] = first_lane(applied.self[i], scale);
+  }
+  return forces;
+}
 
 MeanAction mean_action(const std::vector<Agent>& agents) {
   struct Actor {
@@ -94,7 +93,7 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
   physics::clear(applied);
   out.poses.push_back(pack.pose(0));
   out.rewards.push_back(pack.reward(0));
-  out.forces.push_back(forces_of(applied));
+  out.forces.push_back(acting_forces(applied));
   std::vector<float> state(static_cast<std::size_t>(clip->state_size()));
   std::array<float, kDofs> action;
   for (int t = 1; t < clip->size(); ++t) {
@@ -111,7 +110,7 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
     }
     out.poses.push_back(pack.pose(0));
     out.rewards.push_back(pack.reward(0));
-    out.forces.push_back(forces_of(applied));
+    out.forces.push_back(acting_forces(applied));
     out.mean_reward += out.rewards.back().total;
     out.mean_position_error += mean_distance(pack.pose(0), clip->poses[t]);
   }

@@ -23,6 +23,9 @@ struct ActingForces {
   PerBody<Vector6d> self_contact;  ///< the same
 };
 
+/// Means of what acted on the first character of a pack in the steps that are summed up; zero of none.
+ActingForces acting_forces(const physics::Applied<TrackingPack::P>& applied);
+
 /// One physics step: the state at its start, in the very numbers of the simulator (quaternions are unit to
 /// float rounding), what the PD controllers aimed at, and what acted.
 struct Substep {

@@ -1,7 +1,8 @@
 #include "rl/tracking/state.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/elementary.h"
 
 namespace mimicx::rl::tracking {
 namespace {
@@ -26,7 +27,7 @@ void put_root_offset(const Pose& reference, const Pose& simulated, const Eigen::
 
 Eigen::Vector2d heading_direction(const Quaterniond& q_WB) {
   Vector3d forward = q_WB * Vector3d::UnitZ();
-  if (std::hypot(forward.x(), forward.y()) < 1e-3) forward = q_WB * Vector3d::UnitY();
+  if (hypot(forward.x(), forward.y()) < 1e-3) forward = q_WB * Vector3d::UnitY();
   return forward.head<2>().normalized();
 }
 

@@ -1,7 +1,7 @@
 // Walking in every direction: one walker, told where each step goes.
 #include <algorithm>
-#include <cmath>
 
+#include "core/elementary.h"
 #include "motion/synth/choreography.h"
 
 namespace mimicx::motion::synth {
@@ -23,7 +23,7 @@ struct Walker {
   /// A foot goes to its side of where the walker is now.
   void put(Choreography& c, int side, const Stretch& stretch) const {
     const double mirror = side == 0 ? 1.0 : -1.0;
-    const Eigen::Vector2d left(-std::sin(yaw), std::cos(yaw));
+    const Eigen::Vector2d left(-sin(yaw), cos(yaw));
     c.step(side, middle + mirror * stretch.half_width * left, yaw + mirror * toes_out, stretch.swing);
     c.pause(stretch.both);
   }
@@ -86,7 +86,7 @@ PerFrame<PlanFrame> walked(const PlanRequest& request, double arms, const Next& 
   }
   if (last.ahead != 0.0) {
     // The foot that is behind comes up to the other one.
-    const Eigen::Vector2d ahead(std::cos(walker.yaw), std::sin(walker.yaw));
+    const Eigen::Vector2d ahead(cos(walker.yaw), sin(walker.yaw));
     const double way = ahead.dot(c.feet()[0].place - c.feet()[1].place) * (last.ahead > 0.0 ? 1.0 : -1.0);
     close_feet(c, walker, last, way < 0.0 ? 0 : 1);
   }
@@ -201,7 +201,7 @@ PerFrame<PlanFrame> plan_walk_crouched(const PlanRequest& request) {
     pace.turn = c.random().uniform(-8.0, 8.0) * kDegree;
     pair_of_steps(c, walker, pace);
   }
-  const Eigen::Vector2d ahead(std::cos(walker.yaw), std::sin(walker.yaw));
+  const Eigen::Vector2d ahead(cos(walker.yaw), sin(walker.yaw));
   close_feet(c, walker, pace, ahead.dot(c.feet()[0].place - c.feet()[1].place) < 0.0 ? 0 : 1);
   c.pose(c.stand(), 0.9);
   return c.finished(random_style(request.random, 0.4));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "motion/synth/balance.h"
 #include "motion/synth/choreography.h"
 #include "motion/synth/kinds/postures.h"
@@ -129,7 +130,7 @@ PerFrame<PlanFrame> plan_lunge_around(const PlanRequest& request) {
     // Anywhere but across the other foot.
     const double angle = mirror * random.uniform(0.0, 150.0) * kDegree,
                  length = random.uniform(0.30, 0.55) * leg;
-    const Eigen::Vector2d there = home.place + length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d there = home.place + length * Eigen::Vector2d(cos(angle), sin(angle));
     const double yaw = home.yaw + mirror * 0.25 * std::abs(angle) * (std::abs(angle) < 1.8 ? 1.0 : 0.0);
     PlanFrame split = poised_posture(c.stand());
     split.com_height -= (0.03 + 0.10 * length / leg) * leg;

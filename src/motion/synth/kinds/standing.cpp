@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "motion/synth/balance.h"
 #include "motion/synth/kinds.h"
 
@@ -24,7 +24,7 @@ struct Wander {
   }
   double at(double time) const {
     double sum = 0.0;
-    for (int i = 0; i < 3; ++i) sum += std::sin(2.0 * std::numbers::pi * frequency[i] * time + phase[i]);
+    for (int i = 0; i < 3; ++i) sum += sin(2.0 * std::numbers::pi * frequency[i] * time + phase[i]);
     return sum / 3.0;
   }
 };
@@ -114,7 +114,7 @@ PerFrame<PlanFrame> plan_wave(const PlanRequest& request) {
   const MinJerkTrack part = fade(request.seconds(), 0.8);
   PerFrame<PlanFrame> plan = request.every_frame(stand);
   for (int i = 0; i < plan.count(); ++i) {
-    const double t = time_of(i), wave = waving.at(t) * std::sin(rate * (t - begin));
+    const double t = time_of(i), wave = waving.at(t) * sin(rate * (t - begin));
     hold_postures(keys, t, plan[i]);
     plan[i].arm[side].elbow += swing * wave;
     plan[i].arm[side].out += 0.25 * swing * wave;

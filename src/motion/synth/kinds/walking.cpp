@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "motion/synth/gait.h"
 #include "motion/synth/kinds.h"
 
@@ -36,7 +37,7 @@ PerFrame<PlanFrame> walk_along(const PlanRequest& request, double speed, double 
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (int k = 0; k < steps; ++k) {
     const double yaw = heading.at(k);
-    const Eigen::Vector2d ahead(std::cos(yaw), std::sin(yaw)), left(-ahead.y(), ahead.x());
+    const Eigen::Vector2d ahead(cos(yaw), sin(yaw)), left(-ahead.y(), ahead.x());
     // The first step is shorter, the last one brings the feet together.
     middle += (k == 0 ? 0.7 * step : k + 1 < steps ? step : 0.0) * ahead;
     const int side = (first + k) % 2;

@@ -1,0 +1,55 @@
+/// Our own elementary functions: the same bits on every machine.
+///
+/// The standard library's sin, exp, pow … differ by a unit in the last place between libraries and between
+/// processors. These are made of +, −, ·, /, √ and operations on bits alone, all of which IEEE 754 defines to
+/// the last bit, without fused operations. All of the project uses them where it would use the standard
+/// library's
+/// (`tools/check_layers` forbids those); `std::sqrt`, `std::abs`, `std::fmod`, `std::floor` and their like
+/// are exact everywhere.
+///
+/// Methods, all of them textbook ones (J.-M. Muller, "Elementary Functions", 3rd ed., 2016): reduction of the
+/// argument by constants in several parts (Cody and Waite), for sines of more than 10⁶ by the digits of 2/π
+/// (Payne and Hanek), Taylor series on the short interval that is left, and pairs of doubles (Dekker) where
+/// one is too coarse. `tools/elementary_constants` computes the constants.
+///
+/// Error against the exact value, in units in the last place, tested: log10 0.51, exp, log, sin and cos 1,
+/// hypot and pow 1.3, atan2 and log1p 1.6, tan, asin and acos 2.3. Special values are those of the C standard
+/// (annex F); which NaN comes of a NaN is left open.
+#pragma once
+
+namespace mimicx {
+
+/// e^x: 0 below −745.2, infinite above 709.8.
+double exp(double x);
+/// Natural logarithm: −infinity at 0, NaN below.
+double log(double x);
+/// Decimal logarithm: exact for the powers of ten that a double holds exactly.
+double log10(double x);
+/// log(1 + x), accurate near 0.
+double log1p(double x);
+/// x^y.
+double pow(double x, double y);
+/// xⁿ by repeated squaring: exact where all powers on the way are, as of ten up to the 22nd, else within |n|
+/// units.
+double pow(double x, int n);
+
+/// Angles in rad, of any size.
+double sin(double x);
+double cos(double x);
+double tan(double x);
+struct SinCos {
+  double sin, cos;
+};
+/// Both for the price of little more than one.
+SinCos sin_cos(double x);
+
+/// In [−π/2, π/2]; NaN outside [−1, 1].
+double asin(double x);
+/// In [0, π]; NaN outside [−1, 1].
+double acos(double x);
+/// Angle of (x, y) from the x axis, in [−π, π].
+double atan2(double y, double x);
+/// √(x² + y²) without overflow on the way.
+double hypot(double x, double y);
+
+}  // namespace mimicx

@@ -1,0 +1,52 @@
+#include "core/number_text.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <version>
+
+namespace mimicx {
+
+#ifdef __cpp_lib_to_chars
+
+std::optional<double> number_from(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string text_of(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+#else  // a standard library that knows whole numbers alone; its programs never leave the locale "C"
+
+std::optional<double> number_from(std::string_view text) {
+  const std::string copy(text);
+  if (copy.empty() || copy.find_first_of("+ \t\n\v\f\r") == 0 ||
+      copy.find_first_of("xX") != std::string::npos)
+    return std::nullopt;
+  char* end = nullptr;
+  errno = 0;
+  const double value = std::strtod(copy.c_str(), &end);
+  const bool too_far = errno == ERANGE && (std::isinf(value) || value == 0.0);
+  if (too_far || end != copy.c_str() + copy.size()) return std::nullopt;
+  return value;
+}
+
+std::string text_of(double value) {
+  char buffer[40];
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+    if (std::strtod(buffer, nullptr) == value) break;
+  }
+  return buffer;
+}
+
+#endif
+
+}  // namespace mimicx

@@ -1,0 +1,33 @@
+#include "core/number_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+
+namespace mimicx {
+namespace {
+
+TEST(NumberText, WhatIsWrittenReadsBackAsTheSameNumber) {
+  Random random(1, {});
+  for (int k = 0; k < 100000; ++k) {
+    const double value = std::ldexp(random.uniform(-1.0, 1.0), static_cast<int>(random.uniform(-60.0, 60.0)));
+    ASSERT_EQ(number_from(text_of(value)), value);
+  }
+  EXPECT_EQ(text_of(0.1), "0.1");
+  EXPECT_EQ(text_of(-3.0), "-3");
+}
+
+TEST(NumberText, ReadsWhatIsANumberAndNothingElse) {
+  EXPECT_EQ(number_from("-1.5e3"), -1500.0);
+  EXPECT_EQ(number_from(".5"), 0.5);
+  EXPECT_EQ(number_from("inf"), std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(number_from("nan").value()));
+  for (const char* text : {"", " 1", "1 ", "+1", "1,5", "0x10", "1e", "one", "1e999", "--1"})
+    EXPECT_FALSE(number_from(text).has_value()) << text;
+}
+
+}  // namespace
+}  // namespace mimicx
