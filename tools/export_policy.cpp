@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "commands.h"
+#include "pipeline/policy_export/policy_export_file.h"
+#include "pipeline/record/outputs.h"
+#include "pipeline/record/run_folder.h"
+#include "shared_arguments.h"
+
+namespace mimicx::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path policy, out;
+  bool in_8_bits = false, force = false;
+};
+
+/// The names in RUN/policies, of folders in it, too.
+std::vector<std::string> policies_of(const fs::path& run) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(run / "policies", error))
+    if (entry.path().extension() == ".npz")
+      names.push_back(entry.path().lexically_relative(run / "policies").replace_extension().generic_string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > kShown) text += ", and " + std::to_string(names.size() - kShown) + " more";
+  return text;
+}
+
+/// Why a folder has no policy of that name.
+std::string what_is_missing(const fs::path& run, const std::string& name) {
+  const std::string asked = run.string() + " has no policy " + name;
+  if (!fs::is_directory(run)) return run.string() + " is no folder: name a policy as RUN/NAME";
+  if (const auto names = policies_of(run); !names.empty()) return asked + ": there is " + some_of(names);
+  if (fs::exists(run / "options.npz"))
+    return asked + ": it has options, which follow many motions; `mimicx adapt --options " + run.string() +
+           "` makes policies of single ones";
+  if (fs::exists(run / "manifest.json"))
+    return asked + ": its motions were given none; `mimicx adapt` teaches one wherever the plan is followed";
+  return asked + ": it is no folder of `mimicx adapt --out`";
+}
+
+/// RUN/policies/NAME.npz of RUN/NAME, where NAME may have folders; or that file itself.
+fs::path find_policy(const fs::path& asked) {
+  if (asked.extension() == ".npz" && fs::is_regular_file(asked)) return asked;
+  fs::path name = asked.filename();
+  if (name.empty() || !asked.has_parent_path())
+    throw UsageError(asked.string() + ": expected a policy as RUN/NAME");
+  for (fs::path run = asked.parent_path();; name = run.filename() / name, run = run.parent_path()) {
+    const fs::path file = pipeline::record::RunFolder{run}.policy(name.string());
+    if (fs::is_regular_file(file)) return file;
+    if (run.filename().empty() || !run.has_parent_path()) break;
+  }
+  throw UsageError(what_is_missing(asked.parent_path(), asked.filename().string()));
+}
+
+int export_policy(const Arguments& a) {
+  std::string_view opening;
+  try {
+    opening = pipeline::policy_export::opening_of(a.out);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--out: ") + error.what());
+  }
+  const fs::path file = find_policy(a.policy);
+  pipeline::record::Outputs({file.string()}, a.force).claim(a.out, opening);
+  const pipeline::output::StoredPolicy policy = pipeline::output::read_policy(file);
+  std::string bytes;
+  try {
+    bytes =
+        pipeline::policy_export::bytes_of(pipeline::policy_export::export_policy(policy, a.in_8_bits), a.out);
+  } catch (const std::invalid_argument& error) {
+    throw DataError(file.string(), "", "a policy that can be exported", error.what());
+  }
+  make_folder(a.out.parent_path());
+  write_file_atomically(a.out, bytes);
+  return kAllGood;
+}
+
+}  // namespace
+
+void declare_export_policy(CommandLine& line) {
+  const auto a = std::make_shared<Arguments>();
+  Command command =
+      line.add("export-policy", "Write the policy of a motion for other programs",
+               "mimicx export-policy RUN/walk --out walk.h --int8   # one C++17 header, needs nothing\n"
+               "mimicx export-policy RUN/walk --out walk.onnx       # or .npz, for Python");
+  command.file("RUN/NAME", a->policy, "a run of `mimicx adapt` and the motion in it whose policy is taken");
+  command.path("--out", a->out, "where to write it: .h, .onnx or .npz").required();
+  command.flag("--int8", a->in_8_bits, "weights of 8 bits, and the motion in half as many knots");
+  add_force(command, a->force);
+  command.action([a] { return export_policy(*a); });
+}
+
+}  // namespace mimicx::tools
