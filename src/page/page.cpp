@@ -1,0 +1,156 @@
+// What a page's worker calls. Texts go through one buffer: a call leaves its answer there. Every answer is
+// JSON or bytes; where a call fails it is {"error": "the program's own line"}.
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "page/played.h"
+#include "page/session.h"
+#include "pipeline/record/json.h"
+
+// Functions that are used from outside stay in the program, and JavaScript sees them.
+#define MIMICX_ASKED extern "C" __attribute__((used))
+
+/// In web/tell.js. @param urgent  0: how far it is; else a line that stays
+extern "C" void mimicx_tell(const char* line, int urgent);
+
+namespace {
+
+using mimicx::page::Controller;
+using mimicx::page::Playground;
+using mimicx::page::Session;
+using mimicx::pipeline::record::Json;
+
+/// What a terminal would show of a piece of text that may begin lines anew.
+std::string last_state(std::string text) {
+  text.erase(0, text.rfind('\r') + 1);
+  for (std::size_t at; (at = text.find("\x1b[K")) != std::string::npos;) text.erase(at, 3);
+  return text;
+}
+
+/// Hands on what is written: whole lines, and how far a job is, which has no end of line.
+class Lines : public std::stringbuf {
+ public:
+  int sync() override {
+    std::istringstream text(str());
+    str("");
+    for (std::string piece; std::getline(text, piece);) {
+      const std::string line = last_state(piece);
+      if (!line.empty()) mimicx_tell(line.c_str(), text.eof() ? 0 : 1);
+    }
+    return 0;
+  }
+};
+
+Session& session() {
+  static Session the_session("/cleaned");
+  return the_session;
+}
+std::unique_ptr<Playground> playground;
+std::string answer;
+
+/// Does something, whatever comes of it.
+template <class Work>
+void call(const Work& work) {
+  try {
+    answer = work();
+  } catch (const std::exception& error) {
+    answer = Json{{"error", error.what()}}.dump();
+  }
+}
+
+std::string played() {
+  const std::string body = session().body_of(playground->character());
+  return played_json(*playground, body);
+}
+
+/// The shape as it is now, by what its numbers change.
+Json betas() {
+  Json list = Json::array();
+  for (int k = 0; k < mimicx::kBetas; ++k)
+    list.push_back({{"name", mimicx::name_of_beta(k)},
+                    {"value", playground->character().betas[static_cast<std::size_t>(k)]}});
+  return list;
+}
+
+}  // namespace
+
+MIMICX_ASKED const char* mimicx_answer() { return answer.data(); }
+MIMICX_ASKED int mimicx_answer_size() { return static_cast<int>(answer.size()); }
+
+MIMICX_ASKED void mimicx_empty_report() { call(mimicx::page::empty_report); }
+
+/// @param file  in the file system of this program
+MIMICX_ASKED void mimicx_plan(const char* file) {
+  call([&] {
+    Lines lines;
+    std::ostream out(&lines);
+    mimicx::pipeline::record::Progress progress(out, true, mimicx::pipeline::record::steady_seconds);
+    return session().plan(file, {progress, out, [] { return false; }});
+  });
+}
+
+MIMICX_ASKED int mimicx_saved(int number, const char* suffix) {
+  bool good = false;
+  call([&] {
+    std::string bytes = session().saved(number, suffix);
+    good = true;
+    return bytes;
+  });
+  return good ? 1 : 0;
+}
+
+MIMICX_ASKED void mimicx_play(int number) {
+  call([&] {
+    playground = std::make_unique<Playground>(session().play(number));
+    return Json{{"played", Json::parse(played())},
+                {"bodies", Json::parse(session().bodies_json())},
+                {"betas", betas()}}
+        .dump();
+  });
+}
+
+MIMICX_ASKED void mimicx_step() {
+  call([] {
+    playground->step();
+    return played();
+  });
+}
+MIMICX_ASKED void mimicx_restart() {
+  call([] {
+    playground->restart();
+    return played();
+  });
+}
+MIMICX_ASKED void mimicx_push(double x, double y, double z) {
+  call([&] {
+    playground->push({x, y, z});
+    return std::string("{}");
+  });
+}
+/// @param controller  0 feedback, 1 the plan alone, 2 none
+MIMICX_ASKED void mimicx_controller(int controller) {
+  call([&] {
+    playground->set_controller(static_cast<Controller>(controller));
+    return std::string("{}");
+  });
+}
+MIMICX_ASKED void mimicx_friction(double friction) {
+  call([&] {
+    playground->set_friction(friction);
+    return std::string("{}");
+  });
+}
+/// @param betas  [10], or null for the motion's own
+MIMICX_ASKED void mimicx_shape(const double* betas) {
+  call([&] {
+    if (betas == nullptr) {
+      playground->set_own_shape();
+    } else {
+      std::array<double, mimicx::kBetas> shape{};
+      std::copy(betas, betas + mimicx::kBetas, shape.begin());
+      playground->set_shape(shape);
+    }
+    return Json{{"played", Json::parse(played())}, {"bodies", Json::parse(session().bodies_json())}}.dump();
+  });
+}

@@ -1,0 +1,97 @@
+#include "page/session.h"
+
+#include <stdexcept>
+
+#include "core/file.h"
+#include "motion/clip_file.h"
+#include "motion/import/motion_file.h"
+#include "pipeline/exchange/exchange_file.h"
+#include "pipeline/output/clean_copy.h"
+#include "pipeline/plan.h"
+#include "pipeline/record/json.h"
+#include "pipeline/record/manifest.h"
+#include "pipeline/report/clip_report.h"
+#include "pipeline/report/report.h"
+
+namespace mimicx::page {
+namespace {
+
+using namespace pipeline;  // NOLINT(google-build-using-namespace): a page is a use of the pipeline
+
+const bool kTruth = false;  ///< a page has none
+
+}  // namespace
+
+std::string empty_report() {
+  report::Report report;
+  report.metrics = report::report_metrics(kTruth);
+  report.skin = report::skin_json();
+  return report::format_report(report, {});
+}
+
+Session::Session(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+std::string Session::plan(const std::filesystem::path& motion, const record::RunContext& context) {
+  const int number = static_cast<int>(done_.size());
+  PlanMotionsConfig config = plan_configuration();
+  config.run.inputs = {motion.string()};
+  config.run.out = folder_ / std::to_string(number);
+  config.run.gains = true;
+  const record::RunOutcome outcome = plan_motions(config, context);
+  if (outcome == record::RunOutcome::kInterrupted) throw std::runtime_error("interrupted");
+  Done done{{config.run.out}, {}, motion};
+  const record::Manifest manifest = record::read_manifest(done.folder.manifest());
+  done.entry = manifest.sequences.at(0);
+  done_.push_back(done);
+
+  report::ReportedClip made = report::report_clip(done.folder, done.entry, report::report_metrics(kTruth));
+  for (report::ReportMotion& shown : made.clip.motions) shown.body = bodies_.take(shown.character);
+  made.row.embedded = false;
+  const record::Json json = {{"number", number},
+                             {"ok", done.entry.ok},
+                             {"row", record::Json::parse(report::row_json(made.row))},
+                             {"clip", record::Json::parse(report::clip_json(made.clip))},
+                             {"bodies", record::Json::parse(bodies_json())}};
+  return json.dump();
+}
+
+const Session::Done& Session::done(int number) const {
+  if (number < 0 || number >= static_cast<int>(done_.size()))
+    throw std::invalid_argument("there is no motion " + std::to_string(number));
+  const Done& done = done_[static_cast<std::size_t>(number)];
+  if (done.entry.output.empty()) throw std::invalid_argument(done.entry.name + ": " + done.entry.reason);
+  return done;
+}
+
+std::string Session::saved(int number, const std::string& suffix) const {
+  const Done& d = done(number);
+  const std::filesystem::path motion = d.folder.root / d.entry.output,
+                              copy = d.folder.clean(d.entry.name, suffix);
+  if (suffix == ".npz") return read_file(motion);
+  if (suffix == output::clean_suffix(d.input) && std::filesystem::exists(copy)) return read_file(copy);
+  const std::filesystem::path file = d.folder.root / "saved" / (d.entry.name + suffix);
+  make_folder(file.parent_path());
+  const motion::Clip clip = motion::import::read_motion(motion);
+  if (exchange::is_exchanged(file))
+    exchange::write_exchange(file, clip, motion.string(), {});
+  else
+    motion::import::write_motion(file, clip);
+  return read_file(file);
+}
+
+Playground Session::play(int number) const {
+  const Done& d = done(number);
+  if (!std::filesystem::exists(d.folder.gains(d.entry.name)))
+    throw std::invalid_argument(d.entry.name + ": no plan followed it: there is nothing to play with");
+  const motion::Clip clip = motion::read_clip(d.folder.reference(d.entry.name));
+  return {motion::character_of(clip), output::read_plan(d.folder.plan(d.entry.name)),
+          output::read_gains(d.folder.gains(d.entry.name)).gains};
+}
+
+std::string Session::bodies_json() const {
+  record::Json all = record::Json::object();
+  for (const auto& [key, body] : bodies_.texts()) all[key] = record::Json::parse(body);
+  return all.dump();
+}
+
+}  // namespace mimicx::page
