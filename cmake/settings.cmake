@@ -6,7 +6,11 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenMP REQUIRED COMPONENTS CXX)
+if(EMSCRIPTEN)
+  add_library(OpenMP::OpenMP_CXX INTERFACE IMPORTED)  # one thread (src/core/parallel.cpp)
+elseif(NOT MIMICX_BARE)
+  find_package(OpenMP REQUIRED COMPONENTS CXX)
+endif()
 
 add_library(mimicx_settings INTERFACE)
 target_include_directories(mimicx_settings INTERFACE ${PROJECT_SOURCE_DIR}/src)
@@ -36,8 +40,28 @@ if(MIMICX_TARGET STREQUAL "x86-64-v3")
   target_compile_options(mimicx_settings INTERFACE -march=x86-64-v3)
 elseif(MIMICX_TARGET STREQUAL "x86-64-v4")
   target_compile_options(mimicx_settings INTERFACE -march=x86-64-v4 -mprefer-vector-width=512)
+elseif(EMSCRIPTEN)
+  target_compile_options(mimicx_settings INTERFACE -msimd128 -fwasm-exceptions)
+  target_link_options(mimicx_settings INTERFACE -fwasm-exceptions)
 elseif(NOT MIMICX_TARGET STREQUAL "portable")
   message(FATAL_ERROR "MIMICX_TARGET is '${MIMICX_TARGET}': expected x86-64-v3, x86-64-v4 or portable")
+endif()
+# Portable arithmetic: no fused operations (src/physics/pack.h), and Eigen adds up in the order of its plain loops. It
+# cuts products into blocks by the number of registers, too, which it would guess from the processor.
+if(MIMICX_ARITHMETIC STREQUAL "portable" OR MIMICX_TARGET STREQUAL "portable")
+  target_compile_definitions(mimicx_settings INTERFACE
+    MIMICX_PORTABLE_ARITHMETIC EIGEN_DONT_VECTORIZE EIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
+  # Where GCC 12 packs scalars into vectors it leaves out roundings to float and back: the plan of tools/portable_hash
+  # came out otherwise for x86-64-v3.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT MIMICX_FOR_CLANG_TIDY)
+    target_compile_options(mimicx_settings INTERFACE -fno-tree-slp-vectorize)
+  endif()
+elseif(NOT MIMICX_ARITHMETIC STREQUAL "native")
+  message(FATAL_ERROR "MIMICX_ARITHMETIC is '${MIMICX_ARITHMETIC}': expected native or portable")
+endif()
+if(MIMICX_BARE)
+  target_compile_options(mimicx_settings INTERFACE -fno-exceptions -fno-rtti)
+  target_compile_definitions(mimicx_settings INTERFACE MIMICX_BARE)
 endif()
 # Eigen must start no threads of its own. Nor may it ask the processor for its caches: it would cut products
 # into blocks by them, and the order in which a product is summed depends on the blocks. These sizes are what
@@ -47,19 +71,30 @@ target_compile_definitions(mimicx_settings INTERFACE
   EIGEN_DEFAULT_L2_CACHE_SIZE=524288 EIGEN_DEFAULT_L3_CACHE_SIZE=8388608
   MIMICX_TARGET="${MIMICX_TARGET}" MIMICX_VERSION="${PROJECT_VERSION}")
 
-set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+if(EMSCRIPTEN)
+  # A page is loaded as a whole: -Os, and -O3 for what takes its time (mimicx_library). Never both in one command: after
+  # an -Os em++ inlines no functions, whatever comes behind it.
+  set(CMAKE_CXX_FLAGS_RELEASE "")
+else()
+  set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+endif()
 
 # Headers that nearly every file reads are parsed once for all libraries and once for all tests, which saves a
 # third of the build time. Every file still includes what it needs: tools/test runs clang-tidy without them.
 set(MIMICX_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <filesystem> <functional> <map>
   <memory> <optional> <set> <span> <stdexcept> <string> <vector>)
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cpp CONTENT "// Compiles the common headers.\n")
-add_library(mimicx_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cpp)
-target_link_libraries(mimicx_common_headers PRIVATE mimicx_settings OpenMP::OpenMP_CXX)
-target_precompile_headers(mimicx_common_headers PRIVATE ${MIMICX_COMMON_HEADERS})
+if(NOT MIMICX_BARE)
+  add_library(mimicx_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cpp)
+  target_link_libraries(mimicx_common_headers PRIVATE mimicx_settings OpenMP::OpenMP_CXX)
+  target_precompile_headers(mimicx_common_headers PRIVATE ${MIMICX_COMMON_HEADERS})
+  if(EMSCRIPTEN)
+    target_compile_options(mimicx_common_headers PRIVATE -Os)
+  endif()
+endif()
 
 # MuJoCo is an optional second engine for tests and benchmarks (Debian: libmujoco-dev).
-if(MIMICX_WITH_MUJOCO AND NOT MIMICX_CORE_ONLY)
+if(MIMICX_WITH_MUJOCO AND NOT MIMICX_CORE_ONLY AND NOT MIMICX_BARE)
   find_path(MUJOCO_INCLUDE mujoco/mujoco.h)
   find_library(MUJOCO_LIBRARY mujoco)
   if(MUJOCO_INCLUDE AND MUJOCO_LIBRARY)
@@ -76,7 +111,14 @@ function(mimicx_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(mimicx_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(mimicx_${name} PUBLIC mimicx_settings ${ARG_DEPENDS})
-  target_precompile_headers(mimicx_${name} REUSE_FROM mimicx_common_headers)
+  if(EMSCRIPTEN AND name MATCHES "^(core|character|skin|physics|control|motion_fit)$")
+    target_compile_options(mimicx_${name} PRIVATE -O3)  # which the common headers are not made for
+  elseif(TARGET mimicx_common_headers)
+    if(EMSCRIPTEN)
+      target_compile_options(mimicx_${name} PRIVATE -Os)
+    endif()
+    target_precompile_headers(mimicx_${name} REUSE_FROM mimicx_common_headers)
+  endif()
 endfunction()
 
 # mimicx_test(NAME SOURCES... DEPENDS LIBS...): one GoogleTest program per room under test.
