@@ -3,6 +3,7 @@
 #include "character/body_words.h"
 #include "core/units.h"
 #include "pipeline/record/json.h"
+#include "pipeline/record/run_folder.h"
 #include "pipeline/report/digits.h"
 #include "skin/mannequin.h"
 #include "skin/shapes.h"
@@ -39,6 +40,12 @@ record::Json body_json(const Character& character) {
   return {{"offsets", offsets}, {"shapes", shapes}};
 }
 
+/// Of the standard body.
+const skin::Mesh& mannequin() {
+  static const skin::Mesh mesh = skin::mannequin(make_character(), kReportTriangles, kCell);
+  return mesh;
+}
+
 /// From the joint of the heaviest body: near enough for two digits.
 std::string encode_vertices(const skin::Mesh& mesh, const Character& character) {
   const PerBody<Vector3d> joint = skin::bind_joints(character);
@@ -51,33 +58,28 @@ std::string encode_vertices(const skin::Mesh& mesh, const Character& character) 
 
 }  // namespace
 
-int ReportBodies::take(const Character& character) {
+std::string ReportBodies::take(const Character& character) {
   record::Json json = body_json(character);
-  const auto [found, is_new] = numbers_.try_emplace(json.dump(), next_);
+  const std::string key = record::checksum(json.dump());
+  const auto [found, is_new] = texts_.try_emplace(key);
   if (is_new) {
-    if (next_ == 0) skin_ = skin::mannequin(standard_, kReportTriangles, kCell);
-    json["vertices"] = encode_vertices(skin::tailored(skin_, standard_, character), character);
-    texts_[next_++] = json.dump();
+    json["vertices"] = encode_vertices(skin::tailored(mannequin(), make_character(), character), character);
+    found->second = json.dump();
   }
-  return found->second;
+  return key;
 }
 
-void ReportBodies::forget() {
-  numbers_.clear();
-  texts_.clear();
-}
-
-std::string ReportBodies::skin_json() const {
-  if (next_ == 0) return "";
+std::string skin_json() {
+  const skin::Mesh& skin = mannequin();
   record::Json names = record::Json::array();
   for (int body = 0; body < kBodies; ++body) names.push_back(body_in_words(body));
   Digits triangles, joints, weights;
-  for (const skin::Triangle& t : skin_.triangles)
+  for (const skin::Triangle& t : skin.triangles)
     for (const int v : t) triangles.put_count(v, 2);
-  for (int v = 0; v < skin_.vertices.count(); ++v)
+  for (int v = 0; v < skin.vertices.count(); ++v)
     for (int k = 0; k < skin::kInfluences; ++k) {
-      joints.put_count(skin_.joints[v][k], 1);
-      weights.put_count(kFullWeight * skin_.weights[v][k], 1);
+      joints.put_count(skin.joints[v][k], 1);
+      weights.put_count(kFullWeight * skin.weights[v][k], 1);
     }
   const record::Json json = {{"parents", kParents},
                              {"names", names},

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "character/character.h"
-#include "skin/mesh.h"
 
 namespace mimicx::pipeline::report {
 
@@ -18,29 +17,20 @@ inline constexpr int kReportTriangles = 4000;
 
 class ReportBodies {
  public:
-  /// The number of a body, from 0 on; that of an equal one where there is one.
-  int take(const Character& character);
+  /// Its key: a hash of bones and shapes, so that equal bodies have the same one in whatever file they stand.
+  std::string take(const Character& character);
 
-  /// By number, as JSON: `offsets` [22][3] of the joints from their parents, m; `shapes`, capsules (body,
+  /// By key, as JSON: `offsets` [22][3] of the joints from their parents, m; `shapes`, capsules (body,
   /// ends, radius; body's frame, m), balls being capsules of no length; `vertices`, digits: [vertex][3] of 2
   /// digits, from the joint of the body that is heaviest on it, bind pose, 0.4 mm.
-  const std::map<int, std::string>& texts() const { return texts_; }
-
-  /// Forgets what is known of all bodies: of a run of thousands of clips, each with its own file, no two
-  /// clips share any. Numbers are never given twice.
-  void forget();
-
-  /// What all bodies have in common, as JSON: `parents` and `names` [22]; `triangles`, counts of 2 digits;
-  /// `joints` and `weights`, [vertex][4] counts of 1 digit, weights in parts of 63. Empty where no body was
-  /// taken.
-  std::string skin_json() const;
+  const std::map<std::string, std::string>& texts() const { return texts_; }
 
  private:
-  Character standard_ = make_character();
-  skin::Mesh skin_;  ///< of the standard body; made when the first is taken
-  int next_ = 0;
-  std::map<std::string, int> numbers_;  ///< by bones and shapes
-  std::map<int, std::string> texts_;
+  std::map<std::string, std::string> texts_;
 };
+
+/// What all bodies have in common, as JSON: `parents` and `names` [22]; `triangles`, counts of 2 digits;
+/// `joints` and `weights`, [vertex][4] counts of 1 digit, weights in parts of 63.
+std::string skin_json();
 
 }  // namespace mimicx::pipeline::report

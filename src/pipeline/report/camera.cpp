@@ -1,5 +1,6 @@
 #include "pipeline/report/camera.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "motion/keypoint_names.h"
@@ -23,13 +24,27 @@ int next_up(const std::vector<SeenPoint>& points, std::size_t k) {
   return -1;
 }
 
+record::Json placed_json(const PlacedCamera& camera) {
+  const Matrix3d& K = camera.intrinsics;
+  record::Json extrinsics = record::Json::array();
+  for (const Eigen::Matrix4d& pose : camera.extrinsics) {
+    record::Json one = record::Json::array();
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) one.push_back(rounded(pose(row, column), kPerUnit));
+    extrinsics.push_back(one);
+  }
+  return {{"fx", rounded(K(0, 0), kPerUnit)},   {"fy", rounded(K(1, 1), kPerUnit)},
+          {"cx", rounded(K(0, 2), kPerUnit)},   {"cy", rounded(K(1, 2), kPerUnit)},
+          {"skew", rounded(K(0, 1), kPerUnit)}, {"extrinsics", extrinsics}};
+}
+
 }  // namespace
 
 std::optional<ReportCamera> camera_of(const motion::Clip& clip) {
   if (!clip.keypoints || clip.keypoints->extrinsics.empty()) return std::nullopt;
   const motion::Keypoints& all = *clip.keypoints;
   const Character character = motion::character_of(clip);
-  ReportCamera camera{all.intrinsics, all.extrinsics, {}, {}, {}};
+  ReportCamera camera{{all.intrinsics, all.extrinsics}, {}, {}, {}, {}};
   std::vector<std::size_t> columns;
   for (std::size_t k = 0; k < all.names.size(); ++k)
     if (const auto place = motion::place_of_keypoint(all.names[k])) {
@@ -46,17 +61,18 @@ std::optional<ReportCamera> camera_of(const motion::Clip& clip) {
   return camera;
 }
 
-std::vector<double> distances_from_seen(const ReportCamera& camera, const std::vector<BodyPoses>& poses) {
+std::vector<double> distances_from_seen(const ReportCamera& camera, const PlacedCamera& from,
+                                        const std::vector<BodyPoses>& poses) {
   std::vector<double> means;
   for (int t = 0; t < static_cast<int>(poses.size()); ++t) {
     double sum = 0.0, weight = 0.0;
     if (t < camera.uvc.count()) {
-      const Eigen::Matrix4d& pose = camera.extrinsics[camera.extrinsics.count() > 1 ? t : 0];
+      const Eigen::Matrix4d& pose = from.extrinsics[std::min(t, from.extrinsics.count() - 1)];
       for (std::size_t k = 0; k < camera.points.size(); ++k) {
         const auto& [body, p_B] = camera.points[k];
         const BodyPoses& now = poses[static_cast<std::size_t>(t)];
         const Eigen::Vector4d p_W = Vector3d(now.p_WB[body] + now.q_WB[body] * p_B).homogeneous();
-        const Vector3d image = camera.intrinsics * (pose * p_W).head<3>();
+        const Vector3d image = from.intrinsics * (pose * p_W).head<3>();
         const double confidence = camera.uvc[t][k].z();
         if (confidence <= 0.0) continue;
         sum +=
@@ -70,22 +86,15 @@ std::vector<double> distances_from_seen(const ReportCamera& camera, const std::v
 }
 
 std::string camera_json(const ReportCamera& camera) {
-  const Matrix3d& K = camera.intrinsics;
-  record::Json json = {{"fx", rounded(K(0, 0), kPerUnit)},   {"fy", rounded(K(1, 1), kPerUnit)},
-                       {"cx", rounded(K(0, 2), kPerUnit)},   {"cy", rounded(K(1, 2), kPerUnit)},
-                       {"skew", rounded(K(0, 1), kPerUnit)}, {"bones", camera.bones},
-                       {"points", record::Json::array()},    {"extrinsics", record::Json::array()}};
+  record::Json json = placed_json(camera.placed);
+  if (camera.told) json["told"] = placed_json(*camera.told);
+  json["bones"] = camera.bones;
+  json["points"] = record::Json::array();
   for (const SeenPoint& point : camera.points) {
     record::Json one = record::Json::array();
     one.push_back(point.body);
     for (const double x : point.p_B) one.push_back(rounded(x, kPerUnit));
     json["points"].push_back(one);
-  }
-  for (const Eigen::Matrix4d& pose : camera.extrinsics) {
-    record::Json one = record::Json::array();
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column) one.push_back(rounded(pose(row, column), kPerUnit));
-    json["extrinsics"].push_back(one);
   }
   Digits seen;
   for (const std::vector<Vector3d>& frame : camera.uvc)

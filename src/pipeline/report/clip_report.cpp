@@ -56,21 +56,6 @@ std::vector<ReportFact> facts_of(const record::SequenceEntry& entry) {
   return facts;
 }
 
-ReportRow row_of(const record::SequenceEntry& entry, const std::vector<ReportMetric>& metrics) {
-  ReportRow row;
-  row.name = entry.name;
-  row.ok = entry.ok;
-  row.reason = entry.reason;
-  row.made_by = words_of_method(entry.method);
-  row.frames = entry.frames;
-  row.seconds = entry.fps > 0.0 ? entry.frames / entry.fps : 0.0;
-  row.reward = entry.reward_after;
-  for (const ReportMetric& m : metrics)
-    row.values.push_back({value_of(entry.input_metrics, m.key), value_of(entry.metrics_before, m.key),
-                          value_of(m.key == kRootForce ? entry.audit : entry.metrics, m.key)});
-  return row;
-}
-
 /// The first `frames` frames.
 motion::MotionSamples head_of(motion::MotionSamples samples, int frames) {
   samples.joints.resize(frames);
@@ -95,6 +80,7 @@ Seen seen(Who who, const motion::Clip& clip, double fps) {
 
 /// Everything that the folder has of a clip.
 struct ClipFiles {
+  std::optional<motion::Clip> input;  ///< runs of older versions have none
   motion::Clip cleaned;
   Npz members;  ///< of the cleaned motion
   std::vector<Seen> motions;
@@ -111,8 +97,10 @@ ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntr
   ClipFiles files;
   files.members = read_npz(folder.root / entry.output);
   files.cleaned = motion::clip_from(files.members, entry.name);
-  if (const auto input = folder.input(entry.name); std::filesystem::exists(input))
-    files.motions.push_back(seen(Who::kInput, motion::read_clip(input), entry.fps));
+  if (const auto input = folder.input(entry.name); std::filesystem::exists(input)) {
+    files.input = motion::read_clip(input);
+    files.motions.push_back(seen(Who::kInput, *files.input, entry.fps));
+  }
   files.motions.push_back(seen(Who::kReference, motion::read_clip(folder.reference(entry.name)), entry.fps));
   files.motions.push_back(seen(Who::kCleaned, files.cleaned, entry.fps));
   if (truth.empty()) return files;
@@ -146,13 +134,10 @@ struct Audits {
   std::optional<audit::Audit> input, cleaned;
 };
 
-Audits audits_of(const record::RunFolder& folder, const record::SequenceEntry& entry,
-                 const ClipFiles& files) {
+Audits audits_of(const ClipFiles& files) {
   Audits audits;
-  if (files.find(Who::kInput)) {
-    const motion::Clip input = motion::read_clip(folder.input(entry.name));
-    if (motion::resampled(input, 30.0).frames() > 2) audits.input = audit::audit_poses(input);
-  }
+  if (files.input && motion::resampled(*files.input, 30.0).frames() > 2)
+    audits.input = audit::audit_poses(*files.input);
   if (files.cleaned.body_model == "mimicx" && files.members.has("joint_torques") &&
       files.cleaned.frames() > 1)
     audits.cleaned = audit::audit_frames(audit::simulated_frames(files.cleaned, files.members),
@@ -213,15 +198,29 @@ void add_torques(const ClipFiles& files, ReportClip& clip) {
   }
 }
 
+/// The camera as the input has it, where the clip was cleaned with another one.
+std::optional<PlacedCamera> told_camera(const ClipFiles& files, const PlacedCamera& placed, double fps) {
+  if (!files.input || !files.input->keypoints) return std::nullopt;
+  const motion::Keypoints told = *motion::resampled(*files.input, fps).keypoints;
+  const bool same = told.intrinsics == placed.intrinsics && told.extrinsics == placed.extrinsics;
+  if (told.extrinsics.empty() || same) return std::nullopt;
+  return PlacedCamera{told.intrinsics, told.extrinsics};
+}
+
 void add_camera(const ClipFiles& files, ReportClip& clip) {
   clip.camera = camera_of(motion::resampled(files.cleaned, clip.fps));
   if (!clip.camera) return;
+  clip.camera->told = told_camera(files, clip.camera->placed, clip.fps);
   ReportChart chart{{"distance from the keypoints", "px",
-                     "of the body's points, as the clip's camera sees them; each counts by its confidence"},
+                     "of the body's points, as the clip's camera sees them, and of the input as the camera "
+                     "does that it was told; each counts by its confidence"},
                     {}};
-  for (const Seen& s : files.motions)
+  for (const Seen& s : files.motions) {
+    const bool own = s.motion.who == Who::kInput && clip.camera->told;
     chart.lines.push_back(
-        {s.motion.who, title_of(s.motion.who), distances_from_seen(*clip.camera, s.motion.poses)});
+        {s.motion.who, title_of(s.motion.who),
+         distances_from_seen(*clip.camera, own ? *clip.camera->told : clip.camera->placed, s.motion.poses)});
+  }
   chart.step = 1.0 / clip.fps;
   clip.charts.push_back(chart);
 }
@@ -245,7 +244,7 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   ReportClip& clip = made.clip;
   const ClipFiles files = read_files(folder, entry, truth, clip.notes);
   compare_with_truth(files, metrics, made.row);
-  const Audits audits = audits_of(folder, entry, files);
+  const Audits audits = audits_of(files);
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].key == kRootForce && audits.input) made.row.values[k][0] = mean_force(*audits.input);
   add_ground(files, clip);
@@ -300,10 +299,25 @@ std::vector<ReportMetric> report_metrics(bool truth) {
   return metrics;
 }
 
+ReportRow report_row(const record::SequenceEntry& entry, const std::vector<ReportMetric>& metrics) {
+  ReportRow row;
+  row.name = entry.name;
+  row.ok = entry.ok;
+  row.reason = entry.reason;
+  row.made_by = words_of_method(entry.method);
+  row.frames = entry.frames;
+  row.seconds = entry.fps > 0.0 ? entry.frames / entry.fps : 0.0;
+  row.reward = entry.reward_after;
+  for (const ReportMetric& m : metrics)
+    row.values.push_back({value_of(entry.input_metrics, m.key), value_of(entry.metrics_before, m.key),
+                          value_of(m.key == kRootForce ? entry.audit : entry.metrics, m.key)});
+  return row;
+}
+
 ReportedClip report_clip(const record::RunFolder& folder, const record::SequenceEntry& entry,
                          const std::vector<ReportMetric>& metrics, const std::filesystem::path& truth) {
   const auto plain = [&] {
-    ReportedClip made{row_of(entry, metrics), {}};
+    ReportedClip made{report_row(entry, metrics), {}};
     made.clip.fps = entry.fps > 0.0 ? entry.fps : made.clip.fps;
     made.clip.facts = facts_of(entry);
     made.clip.notes = entry.notes;

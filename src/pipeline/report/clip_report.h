@@ -13,6 +13,9 @@ namespace mimicx::pipeline::report {
 /// The metrics that the table has a column of. @param truth  also those against a truth
 std::vector<ReportMetric> report_metrics(bool truth);
 
+/// As far as the manifest knows it.
+ReportRow report_row(const record::SequenceEntry& entry, const std::vector<ReportMetric>& metrics);
+
 struct ReportedClip {
   ReportRow row;
   ReportClip clip;

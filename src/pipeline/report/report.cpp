@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/elementary.h"
 #include "pipeline/record/json.h"
 #include "pipeline/report/motion_data.h"
 #include "pipeline/report/report_page.h"
@@ -20,7 +21,7 @@ std::string_view name_of(Who who) {
 record::Json rounded_number(double value, double digits) {
   if (!std::isfinite(value)) return nullptr;
   if (value == 0.0) return 0.0;
-  const double scale = std::pow(10.0, digits - 1.0 - std::floor(std::log10(std::abs(value))));
+  const double scale = pow(10.0, static_cast<int>(digits - 1.0 - std::floor(log10(std::abs(value)))));
   const double rounded = std::round(value * scale) / scale;
   return std::isfinite(rounded) ? rounded : value;
 }
@@ -98,6 +99,8 @@ std::string without_ends(std::string text) {
 
 }  // namespace
 
+std::string row_json(const ReportRow& row) { return to_json(row).dump(); }
+
 std::string clip_json(const ReportClip& clip) {
   record::Json json = {{"fps", clip.fps}, {"weight", rounded_number(clip.weight, kOfNumbers)}};
   const auto list = [&json](const char* name, const auto& all) {
@@ -130,10 +133,9 @@ std::string clip_json(const ReportClip& clip) {
 }
 
 std::string clip_script(const std::string& name, const std::string& json,
-                        const std::map<int, std::string>& bodies) {
+                        const std::map<std::string, std::string>& bodies) {
   std::string list;
-  for (const auto& [number, body] : bodies)
-    list += (list.empty() ? "\"" : ", \"") + std::to_string(number) + "\": " + body;
+  for (const auto& [key, body] : bodies) list += (list.empty() ? "\"" : ", \"") + key + "\": " + body;
   return "mimicx_clip(" + without_ends(record::Json(name).dump()) + ", " + json + ", {" + list + "});\n";
 }
 
@@ -154,7 +156,7 @@ std::string format_report(const Report& report, const std::vector<std::string>& 
     if (!json.empty()) page += "</script>\n<script type=\"application/json\" id=\"" + id + "\">" + json;
   };
   add("skin", report.skin);
-  for (const auto& [number, body] : report.bodies) add("body-" + std::to_string(number), body);
+  for (const auto& [key, body] : report.bodies) add("body-" + key, body);
   for (std::size_t k = 0; k < clips.size(); ++k) add("clip-" + std::to_string(k), clips[k]);
   return page + std::string(kReportPageAfter);
 }

@@ -35,7 +35,7 @@ struct ReportMotion {
   Character character;
   std::vector<BodyPoses> poses;
   std::vector<Polygon> support;  ///< [frame] what it stands on; may be empty
-  int body = -1;                 ///< its number in the page (bodies.h)
+  std::string body = {};         ///< its key in the page (bodies.h)
 };
 
 struct ReportLine {
@@ -123,15 +123,17 @@ struct Report {
   std::vector<ReportRow> rows;
   std::string skin;  ///< what all skins have in common (ReportBodies::skin_json); empty: nothing to show
   std::string map;   ///< of the motions and the clusters of the options (map_json); empty: none
-  std::map<int, std::string> bodies;  ///< of the clips in the page, by number, as JSON
+  std::map<std::string, std::string> bodies;  ///< of the clips in the page, by key, as JSON
 };
 
+/// A row of the table as JSON.
+std::string row_json(const ReportRow& row);
 /// A clip's data as JSON.
 std::string clip_json(const ReportClip& clip);
-/// The file of a clip beside the page: `mimicx_clip("NAME", DATA, {"NUMBER": BODY, …});`
+/// What the page loads of a clip beside it: `mimicx_clip("NAME", DATA, {"KEY": BODY, …});`
 /// @param bodies  as JSON, those of its motions
 std::string clip_script(const std::string& name, const std::string& json,
-                        const std::map<int, std::string>& bodies);
+                        const std::map<std::string, std::string>& bodies);
 /// The page. @param clips  [row] what `clip_json` says of those that are embedded; else empty
 std::string format_report(const Report& report, const std::vector<std::string>& clips);
 

@@ -11,6 +11,7 @@
 #include "motion/prepare.h"
 #include "pipeline/record/timing.h"
 #include "pipeline/report/bodies.h"
+#include "pipeline/report/clip_beside.h"
 #include "pipeline/report/clip_report.h"
 #include "pipeline/report/cluster_map.h"
 
@@ -111,23 +112,21 @@ void write_report(const record::RunFolder& folder, const record::Manifest& manif
   std::optional<MotionMap> map = map_for(folder, options, report.run);
   for (const record::SequenceEntry& entry : entries) {
     const auto truth = options.truth.find(entry.name);
-    ReportedClip made = report_clip(folder, entry, report.metrics,
-                                    truth == options.truth.end() ? std::filesystem::path() : truth->second);
-    for (ReportMotion& motion : made.clip.motions) motion.body = bodies.take(motion.character);
-    std::string json = clip_json(made.clip);
-    made.row.embedded = !(beside && has_motion(entry));
-    if (!made.row.embedded) {
-      const std::filesystem::path file = folder.report_clip(entry.name);
-      make_folder(file.parent_path());
-      write_file_atomically(file, clip_script(entry.name, json, bodies.texts()));
-      bodies.forget();
-    }
+    const std::filesystem::path known = truth == options.truth.end() ? "" : truth->second;
     if (map) map->add(folder, entry, static_cast<int>(report.rows.size()));
-    report.rows.push_back(made.row);
-    clips.push_back(made.row.embedded ? std::move(json) : std::string());
+    if (beside && has_motion(entry)) {
+      const auto kept = options.keep ? kept_clip_beside(folder, entry, report.metrics) : std::nullopt;
+      report.rows.push_back(kept ? *kept : write_clip_beside(folder, entry, report.metrics, known));
+      clips.emplace_back();
+      continue;
+    }
+    ReportedClip made = report_clip(folder, entry, report.metrics, known);
+    for (ReportMotion& motion : made.clip.motions) motion.body = bodies.take(motion.character);
+    clips.push_back(clip_json(made.clip));
+    report.rows.push_back(std::move(made.row));
   }
   if (map) report.map = map_json(map->map);
-  report.skin = bodies.skin_json();
+  if (std::any_of(entries.begin(), entries.end(), has_motion)) report.skin = skin_json();
   report.bodies = bodies.texts();
   write_file_atomically(folder.report(), format_report(report, clips));
 }

@@ -15,13 +15,15 @@ namespace mimicx::pipeline::report {
 inline constexpr std::ptrdiff_t kMostEmbedded = 50;
 
 struct ReportOptions {
-  std::map<std::string, std::filesystem::path> truth;  ///< files of the truth, by the clips' names
-  std::filesystem::path clusters;  ///< of the options, for the map; empty: DIR/clusters.json, where that is
+  std::map<std::string, std::filesystem::path> truth = {};  ///< files of the truth, by the clips' names
+  /// Of the options, for the map; empty: DIR/clusters.json, where that is.
+  std::filesystem::path clusters = {};
   bool times = false;  ///< also say how long it took: wall-clock times, which no two runs have in common
+  bool keep = false;   ///< leave the files beside the page that were made of the results as they are now
 };
 
-/// Writes DIR/report.html, and DIR/report/NAME.js of more clips than `kMostEmbedded`. Sequences without
-/// output appear with their reason alone.
+/// Writes DIR/report.html, and DIR/report/NAME.js of more clips than `kMostEmbedded` (clip_beside.h).
+/// Sequences without output appear with their reason alone.
 void write_report(const record::RunFolder& folder, const record::Manifest& manifest,
                   const ReportOptions& options = {});
 

@@ -29,7 +29,7 @@ Report example() {
 
 ReportClip example_clip() {
   ReportClip clip;
-  clip.motions.push_back({Who::kCleaned, make_character(), {}, {}, 4});
+  clip.motions.push_back({Who::kCleaned, make_character(), {}, {}, "4d"});
   for (int i = 0; i < 3; ++i) clip.motions[0].poses.push_back(turned_pose(clip.motions[0].character, i));
   clip.charts.push_back(
       {{"reward", "", "1 is best"}, {{Who::kCleaned, "</script>", {0.5, 0.25, std::nan("")}}}, 0.1});
@@ -62,7 +62,7 @@ TEST(Report, DataSurvivesTheHtmlAroundIt) {
   EXPECT_EQ(data["metrics"][0]["meaning"], "how far");
   const auto clip = nlohmann::json::parse(element(page, "clip-0"));
   EXPECT_EQ(clip["motions"][0]["frames"], 3);
-  EXPECT_EQ(clip["motions"][0]["body"], 4);
+  EXPECT_EQ(clip["motions"][0]["body"], "4d");
   EXPECT_EQ(clip["charts"][0]["lines"][0]["name"], "</script>");
   EXPECT_TRUE(clip["charts"][0]["lines"][0]["values"][2].is_null());
   EXPECT_NEAR(clip["training"][0]["lines"][0]["values"][0].get<double>(), 0.123456789, 1e-4);
@@ -72,8 +72,8 @@ TEST(Report, DataSurvivesTheHtmlAroundIt) {
 
 TEST(Report, AClipBesideThePageIsOneCallWithTheSameDataAndItsBodies) {
   const std::string json = clip_json(example_clip());
-  EXPECT_EQ(clip_script("a \"b\"/c", json, {{0, "{\"x\":1}"}, {4, "{}"}}),
-            "mimicx_clip(\"a \\\"b\\\"/c\", " + json + ", {\"0\": {\"x\":1}, \"4\": {}});\n");
+  EXPECT_EQ(clip_script("a \"b\"/c", json, {{"0a", "{\"x\":1}"}, {"4b", "{}"}}),
+            "mimicx_clip(\"a \\\"b\\\"/c\", " + json + ", {\"0a\": {\"x\":1}, \"4b\": {}});\n");
   EXPECT_EQ(format_report(example(), {""}).find("\"clip-0\""), std::string::npos);
 }
 
@@ -92,14 +92,14 @@ TEST(Report, WhatARunDoesNotHaveIsNotInThePage) {
   EXPECT_EQ(with["motions"][0]["support"].get<std::string>().size(), 3u);
 }
 
-TEST(Report, BodiesStandInThePageOnceByTheirNumbers) {
+TEST(Report, BodiesStandInThePageOnceByTheirKeys) {
   Report report = example();
   report.skin = "{\"parents\":[-1]}";
-  report.bodies = {{0, "{\"a\":1}"}, {1, "{\"a\":2}"}};
+  report.bodies = {{"0a", "{\"a\":1}"}, {"1b", "{\"a\":2}"}};
   report.map = "{\"clips\":[]}";
   const std::string page = format_report(report, {clip_json(example_clip())});
   EXPECT_EQ(nlohmann::json::parse(element(page, "skin"))["parents"][0], -1);
-  EXPECT_EQ(nlohmann::json::parse(element(page, "body-1"))["a"], 2);
+  EXPECT_EQ(nlohmann::json::parse(element(page, "body-1b"))["a"], 2);
   EXPECT_TRUE(nlohmann::json::parse(element(page, "data"))["map"]["clips"].empty());
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
@@ -91,20 +92,71 @@ TEST(RunReport, FiftyMotionsAreOneFileAndMoreStandBesideIt) {
   EXPECT_EQ(count(page, kEmbedded), 0u);
   EXPECT_LT(page.size(), one.size() / 2);
   const std::string script = read_file(few.run.report_clip("clip 7"));
-  const std::string opening = "mimicx_clip(";
-  ASSERT_TRUE(script.starts_with(opening));
-  const auto told =
-      nlohmann::json::parse("[" + script.substr(opening.size(), script.size() - opening.size() - 3) + "]");
+  const std::string opening = "\nmimicx_clip(";
+  const std::size_t call = script.find(opening);
+  ASSERT_NE(call, std::string::npos);
+  EXPECT_TRUE(script.starts_with("// "));
+  const std::size_t begin = call + opening.size();
+  const auto told = nlohmann::json::parse("[" + script.substr(begin, script.size() - begin - 3) + "]");
   EXPECT_EQ(told[0], "clip 7");
-  nlohmann::json same = told[1];
-  for (auto& motion : same["motions"]) motion["body"] = 0;
-  EXPECT_EQ(same, element(one, "clip-7"));
+  EXPECT_EQ(told[1], element(one, "clip-7"));
   ASSERT_EQ(told[2].size(), 1u) << "all wear the standard body";
-  EXPECT_EQ(told[2].begin().value(), element(one, "body-0"));
-  EXPECT_EQ(told[2].begin().key(), std::to_string(told[1]["motions"][0]["body"].get<int>()));
+  const std::string key = told[2].begin().key();
+  EXPECT_EQ(told[2][key], element(one, "body-" + key));
+  EXPECT_EQ(told[1]["motions"][0]["body"], key);
   EXPECT_EQ(count(one, "id=\"body-"), 1u);
   EXPECT_EQ(count(page, "id=\"body-"), 0u);
   EXPECT_EQ(element(page, "skin"), element(one, "skin"));
+}
+
+/// All files of the report, by name.
+std::map<std::string, std::string> report_files(const record::RunFolder& run) {
+  std::map<std::string, std::string> files = {{"page", read_file(run.report())}};
+  for (const auto& file : std::filesystem::directory_iterator(run.root / "report"))
+    files[file.path().filename().string()] = read_file(file.path());
+  return files;
+}
+
+TEST(RunReport, KeepsClipsThatWereMadeOfTheSameResultsAndReadsNoneOfTheirMotions) {
+  Folder run(51);
+  run.page();
+  const auto files = report_files(run.run);
+  ASSERT_EQ(files.size(), 52u);
+  std::filesystem::remove_all(run.run.root / "motions");
+  ReportOptions keep;
+  keep.keep = true;
+  run.page(keep);
+  EXPECT_EQ(report_files(run.run), files);
+  EXPECT_NE(run.page(), files.at("page")) << "who asks for the report again has it made of what is there";
+}
+
+TEST(RunReport, AClipOfOtherResultsOrWithATruthOrCutShortIsMadeAgain) {
+  Folder run(51);
+  ReportOptions keep;
+  keep.keep = true;
+  run.page();
+  const auto files = report_files(run.run);
+  const std::filesystem::path file = run.run.report_clip("clip 7");
+  const record::SequenceEntry entry = *run.manifest.find("clip 7");
+  record::SequenceEntry other = entry;
+  other.notes.push_back("done anew");
+  run.manifest.put(other);
+  run.page(keep);
+  EXPECT_NE(read_file(file).find("done anew"), std::string::npos);
+  run.manifest.put(entry);
+  ReportOptions truth;
+  truth.truth = {{"clip 7", run.run.reference("clip 7")}};
+  run.page(truth);
+  EXPECT_NE(read_file(file).find("\"truth\""), std::string::npos);
+  run.page(keep);
+  EXPECT_EQ(report_files(run.run), files);
+  const std::string whole = read_file(file);
+  for (const std::string& damaged : {std::string(), whole.substr(0, whole.find('[') + 4),
+                                     whole.substr(0, whole.size() / 2), "// of another\n" + whole}) {
+    write_file_atomically(file, damaged);
+    run.page(keep);
+    EXPECT_EQ(read_file(file), whole) << damaged.substr(0, 60);
+  }
 }
 
 TEST(RunReport, AThousandInputsThatCouldNotBeReadAreOneFile) {
@@ -260,6 +312,21 @@ TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
       const double input = chart["lines"][0]["values"][0], cleaned = chart["lines"][2]["values"][0];
       EXPECT_NEAR(std::abs(input - cleaned), 0.1 * 49.0 / 4.0, 0.05);
     }
+  // Through a camera that was told to stand 50 mm higher, too, the input is seen where the reference is.
+  motion::Clip of_input = clip;
+  for (Vector3d& place : of_input.trans) place.z() += 0.049;
+  of_input.keypoints->extrinsics[0](1, 3) += 0.05;
+  Folder::write(run.run.input("clip 0"), of_input);
+  const nlohmann::json own = element(run.page(), "clip-0");
+  EXPECT_NEAR(own["camera"]["told"]["extrinsics"][0][7].get<double>(), 0.95, 1e-9);
+  for (const auto& chart : own["charts"])
+    if (chart["title"]["words"] == "distance from the keypoints") {
+      const double input = chart["lines"][0]["values"][0], reference = chart["lines"][1]["values"][0];
+      EXPECT_NEAR(input, reference, 1e-3);
+    }
+  of_input.keypoints->extrinsics = clip.keypoints->extrinsics;
+  Folder::write(run.run.input("clip 0"), of_input);
+  EXPECT_FALSE(element(run.page(), "clip-0")["camera"].contains("told")) << "it was cleaned with the same";
 }
 
 TEST(RunReport, WallClockTimesAreThereOnlyWhereTheyAreAskedFor) {

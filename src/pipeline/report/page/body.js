@@ -1,6 +1,6 @@
 // Bodies: bones, collision shapes and a skin, and the poses of a motion. World z up, metres.
 
-const body_count = 22, bodies_known = new Map();  // by number
+const body_count = 22, bodies_known = new Map();  // by key
 
 const element_json = (id) => { const element = $(id); return element ? JSON.parse(element.textContent) : null; };
 const skin = element_json('skin');  // what all bodies have in common; null where there is nothing to show
@@ -41,13 +41,13 @@ function skin_of(body) {
 }
 
 // @param given  bodies that came with the clip; others stand in the page
-function take_body(number, given) {
-  if (!bodies_known.has(number)) {
-    const body = (given && given[number]) || element_json(`body-${number}`);
+function take_body(key, given) {
+  if (!bodies_known.has(key)) {
+    const body = (given && given[key]) || element_json(`body-${key}`);
     body.joints = bind_joints(body.offsets);
-    bodies_known.set(number, body);
+    bodies_known.set(key, body);
   }
-  return bodies_known.get(number);
+  return bodies_known.get(key);
 }
 
 // Rows of the rotation matrix of a rotation vector, into `out` from `at` on.

@@ -51,6 +51,6 @@ function draw_edge(g, camera) {
 
 function draw_seen(g, panel, frame) {
   const {points, bones} = player.clip.camera;
-  const bodies = panel.shown.map((who) => ({rgb: tones[who], points: points.map(([b, ...p]) => panel.camera.project(point_of(player.motions[who], frame, b, p)))}));
+  const bodies = panel.shown.map((who) => ({rgb: tones[who], points: points.map(([b, ...p]) => camera_of(who, panel).project(point_of(player.motions[who], frame, b, p)))}));
   draw_keypoints(g, seen_at(frame, panel.camera), bones, bodies);
 }

@@ -24,7 +24,7 @@ function frame_of(time) {
 }
 
 // Decodes a clip for the player. Frames past the end of a motion repeat its last one.
-// @param bodies  that came with it, by number
+// @param bodies  that came with it, by key
 function take_clip(clip, bodies) {
   player.clip = clip;
   player.motions = {};
@@ -54,14 +54,15 @@ function resize(canvas) {
 }
 
 // Parts of the canvas, each with its camera, the motions in it, and where these stand. Side by side means across the view
-// around, and a picture for each of what a camera saw.
+// around, and a picture for each of what a camera saw: the input by the camera that it was told.
 function panels_of(width, height, shown, frame) {
   const beside = player.placing === 'beside', count = Math.max(shown.length, 1);
   if (as_camera_saw()) {
     const groups = beside && shown.length ? shown.map((who) => [who]) : [shown];
+    const {camera} = player.clip, placed = (own, part) => clip_camera(own, frame, picture_shown(part), part);
     return groups.map((group, k) => {
-      const part = {x: k * width / groups.length, y: 0, width: width / groups.length, height};
-      return {part, shown: group, offsets: group.map(() => [0, 0]), camera: clip_camera(player.clip.camera, frame, picture_shown(part), part)};
+      const part = {x: k * width / groups.length, y: 0, width: width / groups.length, height}, told = placed(camera.told || camera, part);
+      return {part, shown: group, offsets: group.map(() => [0, 0]), camera: group.join() === 'input' ? told : placed(camera, part), of_input: told};
     });
   }
   const part = {x: 0, y: 0, width, height}, leader = shown.includes('cleaned') ? 'cleaned' : shown[0] || present()[0];
@@ -82,8 +83,9 @@ function alpha_of(who, panel) {
   return player.placing === 'over' && panel.shown.length > 1 && who !== leader ? 0.5 : 1;
 }
 
+const camera_of = (who, panel) => who === 'input' && panel.of_input || panel.camera;
 const figures_of = (panel, frame) => panel.shown.map((who, k) =>
-    ({who, motion: player.motions[who], frame, offset: panel.offsets[k], rgb: tones[who], alpha: alpha_of(who, panel)}));
+    ({who, motion: player.motions[who], frame, offset: panel.offsets[k], rgb: tones[who], alpha: alpha_of(who, panel), camera: camera_of(who, panel)}));
 
 // Sky, floor, shadows, and what bodies stand on.
 function draw_ground(g, panel, figures, frame) {
@@ -94,20 +96,20 @@ function draw_ground(g, panel, figures, frame) {
   const first = figures[0] ? point_of(figures[0].motion, frame, 0, [0, 0, 0]) : [0, 0, 0];
   draw_floor(g, camera.project, first, tones.floor);
   g.beginPath();
-  for (const f of figures) for (const c of capsules_of(f.motion, frame, f.offset)) add_shadow(g, camera.project, c);
+  for (const f of figures) for (const c of capsules_of(f.motion, frame, f.offset)) add_shadow(g, f.camera.project, c);
   g.fillStyle = tones.shadow;
   g.fill();
   if (!player.layers.balance) return;
   for (const f of figures)
-    if (f.motion.support) draw_support(g, camera.project, f.motion.support[Math.min(frame, f.motion.frames - 1)], f.offset, f.rgb);
+    if (f.motion.support) draw_support(g, f.camera.project, f.motion.support[Math.min(frame, f.motion.frames - 1)], f.offset, f.rgb);
 }
 
 function draw_shapes(g, panel, figures, frame) {
   const parts = figures.flatMap((f) => capsules_of(f.motion, frame, f.offset).map((c) => ({c, f})));
-  for (const p of parts) p.depth = panel.camera.project(p.c.a).depth + panel.camera.project(p.c.b).depth;
+  for (const p of parts) p.depth = p.f.camera.project(p.c.a).depth + p.f.camera.project(p.c.b).depth;
   parts.sort((p, q) => q.depth - p.depth);
   g.lineWidth = 0.8;
-  for (const p of parts) draw_capsule(g, panel.camera.project, p.c, p.f.rgb, p.f.alpha);
+  for (const p of parts) draw_capsule(g, p.f.camera.project, p.c, p.f.rgb, p.f.alpha);
 }
 
 function draw_forces(g, project, frame, offset) {
@@ -126,9 +128,9 @@ function loads_at(frame) {
   return Array.from(player.torques.subarray(t * body_count, (t + 1) * body_count), (n) => 1e-3 * n);
 }
 
-function draw_marks(g, panel, figures, frame) {
-  const {project} = panel.camera;
+function draw_marks(g, figures, frame) {
   for (const f of figures) {
+    const {project} = f.camera;
     const at = 3 * Math.min(frame, f.motion.frames - 1), {centers} = f.motion;
     if (player.layers.balance)
       draw_center(g, project, [1e-3 * centers[at] + f.offset[0], 1e-3 * centers[at + 1] + f.offset[1], 1e-3 * centers[at + 2]],
@@ -166,7 +168,7 @@ function draw_scene(canvas) {
       draw_ground(g, panel, figures, frame);
       if (!skins) draw_shapes(g, panel, figures, frame);
     });
-    if (skins) paint_skins(figures, panel.camera, panel.part);
+    if (skins) paint_skins(figures, panel.part);
   }
   if (skins) g.drawImage(painter.canvas, 0, 0, width, height);
   for (const {panel, figures} of scenes) {
@@ -175,7 +177,7 @@ function draw_scene(canvas) {
         draw_edge(g, panel.camera);
         if (player.layers.keypoints) draw_seen(g, panel, frame);
       }
-      draw_marks(g, panel, figures, frame);
+      draw_marks(g, figures, frame);
       if (panels.length > 1) draw_title(g, panel);
     });
   }

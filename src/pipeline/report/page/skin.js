@@ -118,17 +118,22 @@ function begin_painting(width, height, ratio) {
   Object.assign(painter, {width, height, ratio});
 }
 
-// @param figures  [{motion, frame, offset, rgb, alpha}] @param part  of the canvas
-function paint_skins(figures, camera, part) {
-  const {gl, places, width, height, ratio} = painter;
-  gl.scissor(Math.round(part.x * ratio), Math.round((height - part.y - part.height) * ratio),
-             Math.round(part.width * ratio), Math.round(part.height * ratio));
-  const [right, down, forward] = camera.rows;
+// What a camera makes of the world, and the light that comes with it.
+function look_through(camera) {
+  const {gl, places, width, height} = painter, [right, down, forward] = camera.rows;
   const light = right.map((r, i) => -0.5 * r - 0.75 * down[i] - 0.6 * forward[i]), long = Math.hypot(...light);
   gl.uniform3fv(places.light, light.map((x) => x / long));
   gl.uniform3fv(places.eye, forward.map((x) => -x));
   gl.uniformMatrix4fv(places.to_clip, false, clip_matrix(camera, width, height));
+}
+
+// @param figures  [{motion, frame, offset, rgb, alpha, camera}] @param part  of the canvas
+function paint_skins(figures, part) {
+  const {gl, places, height, ratio} = painter;
+  gl.scissor(Math.round(part.x * ratio), Math.round((height - part.y - part.height) * ratio),
+             Math.round(part.width * ratio), Math.round(part.height * ratio));
   for (const figure of [...figures].sort((a, b) => b.alpha - a.alpha)) {  // what can be seen through comes last
+    look_through(figure.camera);
     const mesh = mesh_buffers(figure.motion.body);
     for (const [name, buffer, size] of [['place', mesh.places, 3], ['normal', mesh.normals, 3], ['joints', painter.joints, 4], ['weights', painter.weights, 4]]) {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
