@@ -1,9 +1,9 @@
 #include "pipeline/adapt.h"
 
 #include <memory>
-#include <system_error>
 
 #include "commands.h"
+#include "shipped_options.h"
 #include "training.h"
 
 namespace mimicx::tools {
@@ -15,15 +15,10 @@ struct Arguments {
   RunArguments more;
 };
 
-/// data/options of the source tree that holds this program, or of the folder it was started in.
-std::filesystem::path shipped_options() {
-  const std::filesystem::path relative = std::filesystem::path("data") / "options";
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (std::filesystem::path at = program.parent_path(); !error && at != at.root_path();
-       at = at.parent_path())
-    if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
-  if (std::filesystem::exists(relative / "options.npz")) return relative;
+/// @throws UsageError where there are none
+std::filesystem::path options_to_take(const std::filesystem::path& given) {
+  if (!given.empty()) return given;
+  if (const auto shipped = shipped_options()) return *shipped;
   throw UsageError(
       "found no data/options beside the program: name trained options with --options, or take --method plan");
 }
@@ -32,8 +27,10 @@ std::filesystem::path shipped_options() {
 
 int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
                   const std::vector<std::string>& settings) {
-  if (config.method != pipeline::AdaptMethod::kPlan)
-    config.options = pipeline::options::read_options(options.empty() ? shipped_options() : options);
+  if (config.method == pipeline::AdaptMethod::kPlan)
+    config.clusters = shipped_clusters();
+  else
+    config.options = pipeline::options::read_options(options_to_take(options));
   apply_settings(settings, config);
   return with_context(config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });

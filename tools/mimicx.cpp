@@ -10,6 +10,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "core/build.h"
 #include "pipeline/record/outputs.h"
 
 namespace mimicx::tools {
@@ -20,12 +21,14 @@ int run(int argc, char** argv) {
       "mimicx", "Physically plausible human motion from noisy motion.",
       "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
       "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores",
-      std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET,
+      std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET + ", arithmetic " +
+          kArithmetic,
       "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
-  for (const auto declare : {declare_run, declare_plan, declare_pretrain, declare_teach, declare_adapt,
-                             declare_imitate, declare_merge, declare_evaluate, declare_cluster, declare_fit,
-                             declare_info, declare_convert, declare_render, declare_corrupt, declare_audit,
-                             declare_report, declare_export_mjcf, declare_synth, declare_config})
+  for (const auto declare :
+       {declare_run,     declare_plan,        declare_pretrain,      declare_teach,   declare_adapt,
+        declare_imitate, declare_merge,       declare_evaluate,      declare_cluster, declare_fit,
+        declare_info,    declare_convert,     declare_render,        declare_corrupt, declare_audit,
+        declare_report,  declare_export_mjcf, declare_export_policy, declare_synth,   declare_config})
     declare(line);
   return line.run(argc, argv);
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "shipped_options.h"
 #include "training.h"
 
 namespace mimicx::tools {
@@ -14,6 +15,7 @@ struct Arguments {
 };
 
 int plan(Arguments a) {
+  a.config.clusters = shipped_clusters();
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.planning);
   return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {

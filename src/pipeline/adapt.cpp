@@ -174,7 +174,8 @@ void check(const AdaptConfig& config) {
 }
 
 record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context) {
-  if (config.method == AdaptMethod::kPlan) return plan_motions({config.run, planning_of(config)}, context);
+  if (config.method == AdaptMethod::kPlan)
+    return plan_motions({config.run, planning_of(config), config.clusters}, context);
   if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
   check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);

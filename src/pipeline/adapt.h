@@ -8,6 +8,7 @@
 /// manifest says which.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "pipeline/options/arrangement.h"
@@ -28,6 +29,7 @@ struct AdaptConfig {
   TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   options::ArrangementConfig arrangement;
   std::shared_ptr<const options::OptionSet> options;  ///< to start from; not looked at by the plan alone
+  std::filesystem::path clusters = {};                ///< of options, for the report of the plan alone
 };
 
 /// The settings, as the manifest lists them.

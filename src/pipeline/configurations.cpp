@@ -123,12 +123,6 @@ std::string cell(double value) { return std::isnan(value) ? "-" : record::format
 
 }  // namespace
 
-PlanMotionsConfig plan_configuration() {
-  PlanMotionsConfig config;
-  config.run.fit = value(kAdapt, "fit") != 0.0;  // adapt plans first
-  return config;
-}
-
 ImitateConfig imitate_configuration() {
   ImitateConfig config;
   config.training = training(kImitate);

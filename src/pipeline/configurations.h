@@ -1,6 +1,6 @@
 /// The configurations that people run, as the columns of one table. `mimicx config` prints it.
 ///
-///     plan            optimal control, without any training                             docs/control.md
+///     plan            optimal control, without any training (plan.h)                    docs/control.md
 ///     imitate         one policy per motion, trained from scratch
 ///     adapt           the plan, and where it fails trained options, fine-tuned jointly   docs/method.md §9
 ///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
@@ -26,7 +26,6 @@
 
 namespace mimicx::pipeline {
 
-PlanMotionsConfig plan_configuration();
 ImitateConfig imitate_configuration();
 AdaptConfig adapt_configuration();
 TeachConfig teach_configuration();

@@ -146,7 +146,7 @@ void write_merged(const std::filesystem::path& out, GatheredShards gathered, boo
   write_file_atomically(folder.manifest(), record::format_manifest(gathered.manifest));
   write_file_atomically(folder.timing(),
                         record::format_timing(gathered.timings, gathered.manifest.sequences));
-  report::write_report(folder, gathered.manifest);
+  report::write_report(folder, gathered.manifest, {.keep = true});
 }
 
 std::string missing_array(const GatheredShards& gathered) {

@@ -4,6 +4,12 @@
 
 namespace mimicx::pipeline {
 
+PlanMotionsConfig plan_configuration() {
+  PlanMotionsConfig config;
+  config.run.fit = true;  // as adapt, which plans first
+  return config;
+}
+
 NamedValues settings_of(const PlanMotionsConfig& config) {
   NamedValues settings = planning_settings(config.planning);
   append(settings, settings_of(config.run));
@@ -14,6 +20,7 @@ record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::R
   Method method;
   method.name = "plan";
   method.settings = settings_of(config);
+  method.clusters = config.clusters;
   method.simulation = config.planning.simulation;
   method.simulate = [&planning = config.planning](const motion::Reference& reference,
                                                   const SequenceJob& job) {

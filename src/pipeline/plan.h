@@ -1,6 +1,8 @@
 /// `mimicx plan`: each motion is planned by optimal control, without any training.    docs/control.md
 #pragma once
 
+#include <filesystem>
+
 #include "pipeline/planning.h"
 #include "pipeline/sequence_run.h"
 
@@ -9,7 +11,12 @@ namespace mimicx::pipeline {
 struct PlanMotionsConfig {
   RunConfig run;
   PlanningConfig planning;
+  /// File of the clusters of options, for the report's map; empty: none.
+  std::filesystem::path clusters = {};
 };
+
+/// What people run (configurations.h).
+PlanMotionsConfig plan_configuration();
 
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const PlanMotionsConfig& config);

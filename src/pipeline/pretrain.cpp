@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/build.h"
 #include "core/error.h"
 #include "core/npz.h"
 #include "pipeline/inputs.h"
@@ -85,7 +86,7 @@ record::Json run_record(const PretrainConfig& config, const std::vector<std::str
     inputs.push_back({{"input", record::to_utf8(file)}, {"checksum", checksum}});
   }
   return {{"version", MIMICX_VERSION},
-          {"target", MIMICX_TARGET},
+          {"target", kArithmetic},
           {"seed", config.training.seed},
           {"samples", config.training.samples},
           {"settings", settings_json(config)},

@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/build.h"
 #include "core/file.h"
 #include "pipeline/run_outputs.h"
 
@@ -12,7 +13,7 @@ namespace {
 record::Manifest manifest_of(const RunConfig& config, const Method& method) {
   record::Manifest manifest;
   manifest.version = MIMICX_VERSION;
-  manifest.target = MIMICX_TARGET;
+  manifest.target = kArithmetic;
   manifest.seed = method.seed;
   manifest.samples = method.samples;
   manifest.method = method.name;
@@ -85,8 +86,10 @@ RunState open_run(const RunConfig& config, const Method& method, const record::R
   if (!list) {
     run.inputs = as_recorded(config.inputs, run.manifest);
     run.names = sequence_names(run.inputs, config.names, run.manifest);
+    run.in_all = run.inputs.size();
     return run;
   }
+  run.in_all = list->inputs.size();
   const auto shares = record::shares_of(*list);
   for (const record::ListedInput& own : shares[static_cast<std::size_t>(config.shard->index)]) {
     run.inputs.push_back(own.input);

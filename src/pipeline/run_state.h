@@ -28,6 +28,7 @@ struct RunState {
   std::vector<record::Timing> timings;
   std::vector<std::string> inputs = {};           ///< as the manifest spells them
   std::map<std::string, std::string> names = {};  ///< of the inputs, in the folder
+  std::size_t in_all = 0;                         ///< inputs of the whole run
   record::Journal journal{folder.journal()};
 };
 

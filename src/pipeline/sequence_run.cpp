@@ -21,6 +21,8 @@
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
 #include "pipeline/reference_needs.h"
+#include "pipeline/report/clip_beside.h"
+#include "pipeline/report/clip_report.h"
 #include "pipeline/report/run_report.h"
 #include "pipeline/run_outputs.h"
 #include "pipeline/run_state.h"
@@ -156,6 +158,8 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   if (!made.interrupted) {
     judge_sequence(motion.reference, run.method.simulation, made, entry);
     write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, entry);
+    if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
+      report::write_clip_beside(run.folder, entry, report::report_metrics(false));
   }
   done.timing.seconds = record::steady_seconds() - started;
 }
@@ -283,7 +287,7 @@ class SideBySide {
   void report() {
     const double begun = record::steady_seconds();
     write_records(run_);
-    if (!run_.folder.is_part()) report::write_report(run_.folder, run_.manifest);
+    if (!run_.folder.is_part()) report::write_report(run_.folder, run_.manifest, {.keep = true});
     const double now = record::steady_seconds();
     next_report_ = now + std::max(kReportSeconds, kReportShare * (now - begun));
   }

@@ -1,6 +1,7 @@
 #include "pipeline/training.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -173,7 +174,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   const double started = record::steady_seconds();
   double saved = started;
   TrainingResult result;
-  if (trainer.samples() == 0)  // the agents to start from compete, too
+  if (std::isinf(best.score))  // the agents to start from compete, too, once
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
   if (config.samples == 0) ending = record::Ending::kBudget;
   if (ending == record::Ending::kBudget && trainer.samples() < config.samples)

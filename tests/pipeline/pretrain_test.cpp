@@ -67,6 +67,16 @@ TEST_F(Pretrain, AFinishedOneIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
   EXPECT_EQ(results_of(out("run")), before);
 }
 
+TEST_F(Pretrain, AnOptionWithoutABudgetHasTheSameCheckpointHoweverOftenItIsTakenUp) {
+  PretrainConfig config = pretraining("run");
+  config.training.samples = 0;
+  run(config);
+  const auto files = results_of(out("run"));
+  std::filesystem::remove(out("run") / "options.npz");
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  EXPECT_TRUE(results_of(out("run")) == files);
+}
+
 TEST_F(Pretrain, NamesWhatItCannotReadAndGoesOn) {
   std::ofstream(motions / "broken.npz") << "no archive";
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kSomeFailed);

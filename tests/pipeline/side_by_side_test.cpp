@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "motion/clip_file.h"
+#include "pipeline/merge.h"
 #include "pipeline/plan.h"
+#include "pipeline/report/run_report.h"
 #include "pipeline/results.h"
 #include "pipeline/small_run.h"
 #include "pipeline/standing_clip.h"
@@ -54,6 +56,31 @@ TEST_F(SideBySide, GoesOnAfterAnInterruptionToTheSameBytes) {
     EXPECT_EQ(run(planning(name, 2)).value, record::RunOutcome::kAllGood);
     EXPECT_TRUE(results("whole") == results(name)) << asked;
   }
+}
+
+TEST_F(SideBySide, PartsOfManyMotionsLeaveTheirClipsForTheReportAndMergingMakesNoneAgain) {
+  inputs.clear();
+  for (int k = 0; k <= report::kMostEmbedded; ++k) {
+    inputs.push_back((folder.path / ("stand" + std::to_string(k) + ".npz")).string());
+    motion::write_clip(inputs.back(), standing_clip(4));
+  }
+  EXPECT_EQ(run(planning("whole", 2)).value, record::RunOutcome::kAllGood);
+  for (const int index : {1, 0}) {
+    PlanMotionsConfig part = planning("parts", 2);
+    part.run.shard = {index, 2};
+    EXPECT_EQ(run(part).value, record::RunOutcome::kAllGood);
+  }
+  const std::filesystem::path out = folder.path / "parts";
+  ASSERT_TRUE(std::filesystem::exists(out / "report" / "stand50.js"));
+  std::filesystem::remove_all(out / "references");  // which a clip cannot be made without
+  {
+    const RunLocks locks = lock_shards(out);
+    write_merged(out, gather_shards(out), false);
+  }
+  auto merged = results("parts"), whole = results("whole");
+  std::erase_if(merged, [](const auto& file) { return file.first.starts_with("shards/"); });
+  std::erase_if(whole, [](const auto& file) { return file.first.starts_with("references/"); });
+  EXPECT_TRUE(merged == whole);
 }
 
 TEST_F(SideBySide, AnInputThatFailsStopsNoOther) {

@@ -45,6 +45,8 @@ for file in entry["files"]:
     for name in names:
         os.link(os.path.join(run, file), os.path.join(out, file.replace(entry["name"], name)))
 order = sorted(names, key=place)
+if os.path.exists(os.path.join(run, "clusters.json")):
+    os.link(os.path.join(run, "clusters.json"), os.path.join(out, "clusters.json"))
 for shard in range(shards):
     width = max(3, len(str(shards)))
     write(os.path.join(out, "shards", f"{shard:0{width}d}-of-{shards:0{width}d}", "manifest.json"),

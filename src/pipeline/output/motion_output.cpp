@@ -81,10 +81,9 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
 }
 
 void write_input(const std::filesystem::path& path, const motion::Clip& input) {
-  motion::Clip poses = input;
-  poses.keypoints.reset();
-  poses.passthrough.clear();
-  motion::write_clip(path, poses);
+  motion::Clip used = input;
+  used.passthrough.clear();
+  motion::write_clip(path, used);
 }
 
 void write_reference(const std::filesystem::path& path, const motion::Clip& input,

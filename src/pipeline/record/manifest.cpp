@@ -17,7 +17,7 @@ constexpr std::size_t kDifferencesSaid = 4;  ///< between the settings of two ru
 /// Every setting by its name, as text.
 std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
   std::vector<std::pair<std::string, std::string>> texts = {{"version", m.version},
-                                                            {"instruction set", m.target},
+                                                            {"arithmetic", m.target},
                                                             {"method", m.method},
                                                             {"seed", std::to_string(m.seed)},
                                                             {"samples", std::to_string(m.samples)},

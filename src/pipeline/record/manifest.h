@@ -18,7 +18,7 @@ namespace mimicx::pipeline::record {
 
 struct Manifest {
   std::string version;  ///< of the program
-  std::string target;   ///< instruction set it was built for
+  std::string target;   ///< arithmetic it was built for (core/build.h)
   std::uint64_t seed = 0;
   std::int64_t samples = 0;  ///< budget per sequence
   std::string method;        ///< what simulates the motions: imitate, plan, paper or auto

@@ -29,10 +29,12 @@ std::uint64_t fnv1a(std::string_view bytes) {
   return hash;
 }
 
-std::string file_checksum(const std::filesystem::path& path) {
+std::string checksum(std::string_view bytes) {
   char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fnv1a(read_file(path))));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fnv1a(bytes)));
   return text;
 }
+
+std::string file_checksum(const std::filesystem::path& path) { return checksum(read_file(path)); }
 
 }  // namespace mimicx::pipeline::record

@@ -8,7 +8,7 @@
 ///     DIR/clusters.json          the clusters of the options that it began from, for the report
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
-///     DIR/inputs/NAME.npz        the poses of the inputs as they were read, in our world
+///     DIR/inputs/NAME.npz        the inputs as they were read, in our world
 ///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
 ///     DIR/feasibility/NAME.npz   what these ask for that no body has, frame by frame
 ///     DIR/substeps/NAME.npz      every physics step of the result, where asked for
@@ -116,7 +116,10 @@ std::string unique_name(const std::string& wanted, const std::set<std::string>& 
 /// 64-bit FNV-1a: the same number for the same bytes on every machine. Not cryptographic.
 std::uint64_t fnv1a(std::string_view bytes);
 
-/// `fnv1a` of a file's bytes in hexadecimal: tells an input that changed.
+/// `fnv1a` in 16 hexadecimal digits.
+std::string checksum(std::string_view bytes);
+
+/// That of a file's bytes: tells an input that changed.
 /// @throws DataError when the file cannot be read.
 std::string file_checksum(const std::filesystem::path& path);
 

@@ -1,13 +1,14 @@
 #include "pipeline/record/table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "core/file.h"
+#include "core/number_text.h"
 
 namespace mimicx::pipeline::record {
 namespace {
@@ -33,9 +34,7 @@ std::size_t Table::column(const std::string& name) const {
 
 std::string format_number(double value) {
   if (!std::isfinite(value)) return {};
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
+  return text_of(value);
 }
 
 std::string format_csv(const Table& table) {
@@ -69,11 +68,9 @@ Table parse_csv(const std::string& text, const std::filesystem::path& path) {
                       std::to_string(fields.size()));
     std::vector<double> row;
     for (const auto& field : fields) {
-      double value = std::numeric_limits<double>::quiet_NaN();
-      const char* end = field.data() + field.size();
-      if (!field.empty() && std::from_chars(field.data(), end, value).ptr != end)
-        throw DataError(path.string(), place, "a number", "'" + field + "'");
-      row.push_back(value);
+      const std::optional<double> value = number_from(field);
+      if (!value && !field.empty()) throw DataError(path.string(), place, "a number", "'" + field + "'");
+      row.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     table.rows.push_back(std::move(row));
   }
