@@ -59,9 +59,15 @@ void call(const Work& work) {
   }
 }
 
+/// @throws std::invalid_argument where nothing is being played
+Playground& playing() {
+  if (playground == nullptr) throw std::invalid_argument("the program has begun anew: begin to play again");
+  return *playground;
+}
+
 std::string played() {
-  const std::string body = session().body_of(playground->character());
-  return played_json(*playground, body);
+  const std::string body = session().body_of(playing().character());
+  return played_json(playing(), body);
 }
 
 /// The shape as it is now, by what its numbers change.
@@ -69,7 +75,7 @@ Json betas() {
   Json list = Json::array();
   for (int k = 0; k < mimicx::kBetas; ++k)
     list.push_back({{"name", mimicx::name_of_beta(k)},
-                    {"value", playground->character().betas[static_cast<std::size_t>(k)]}});
+                    {"value", playing().character().betas[static_cast<std::size_t>(k)]}});
   return list;
 }
 
@@ -88,6 +94,11 @@ MIMICX_ASKED void mimicx_plan(const char* file) {
     mimicx::pipeline::record::Progress progress(out, true, mimicx::pipeline::record::steady_seconds);
     return session().plan(file, {progress, out, [] { return false; }});
   });
+}
+
+/// @param file  what `mimicx_plan` was told; its run has been put back where it was
+MIMICX_ASKED void mimicx_take_up(const char* file) {
+  call([&] { return session().take_up(file); });
 }
 
 MIMICX_ASKED int mimicx_saved(int number, const char* suffix) {
@@ -112,32 +123,32 @@ MIMICX_ASKED void mimicx_play(int number) {
 
 MIMICX_ASKED void mimicx_step() {
   call([] {
-    playground->step();
+    playing().step();
     return played();
   });
 }
 MIMICX_ASKED void mimicx_restart() {
   call([] {
-    playground->restart();
+    playing().restart();
     return played();
   });
 }
 MIMICX_ASKED void mimicx_push(double x, double y, double z) {
   call([&] {
-    playground->push({x, y, z});
+    playing().push({x, y, z});
     return std::string("{}");
   });
 }
 /// @param controller  0 feedback, 1 the plan alone, 2 none
 MIMICX_ASKED void mimicx_controller(int controller) {
   call([&] {
-    playground->set_controller(static_cast<Controller>(controller));
+    playing().set_controller(static_cast<Controller>(controller));
     return std::string("{}");
   });
 }
 MIMICX_ASKED void mimicx_friction(double friction) {
   call([&] {
-    playground->set_friction(friction);
+    playing().set_friction(friction);
     return std::string("{}");
   });
 }
@@ -145,11 +156,11 @@ MIMICX_ASKED void mimicx_friction(double friction) {
 MIMICX_ASKED void mimicx_shape(const double* betas) {
   call([&] {
     if (betas == nullptr) {
-      playground->set_own_shape();
+      playing().set_own_shape();
     } else {
       std::array<double, mimicx::kBetas> shape{};
       std::copy(betas, betas + mimicx::kBetas, shape.begin());
-      playground->set_shape(shape);
+      playing().set_shape(shape);
     }
     return Json{{"played", Json::parse(played())}, {"bodies", Json::parse(session().bodies_json())}}.dump();
   });

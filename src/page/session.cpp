@@ -32,17 +32,15 @@ std::string empty_report() {
 Session::Session(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
 std::string Session::plan(const std::filesystem::path& motion, const record::RunContext& context) {
-  const int number = static_cast<int>(done_.size());
+  std::filesystem::remove_all(next_folder());  // of an attempt that failed halfway
   PlanMotionsConfig config = plan_configuration();
   config.run.inputs = {motion.string()};
-  config.run.out = folder_ / std::to_string(number);
+  config.run.out = next_folder();
   config.run.gains = true;
   const record::RunOutcome outcome = plan_motions(config, context);
   if (outcome == record::RunOutcome::kInterrupted) throw std::runtime_error("interrupted");
-  Done done{{config.run.out}, {}, motion};
-  const record::Manifest manifest = record::read_manifest(done.folder.manifest());
-  done.entry = manifest.sequences.at(0);
-  done_.push_back(done);
+  const int number = keep(motion);
+  const Done& done = done_.back();
 
   report::ReportedClip made = report::report_clip(done.folder, done.entry, report::report_metrics(kTruth));
   for (report::ReportMotion& shown : made.clip.motions) shown.body = bodies_.take(shown.character);
@@ -53,6 +51,17 @@ std::string Session::plan(const std::filesystem::path& motion, const record::Run
                              {"clip", record::Json::parse(report::clip_json(made.clip))},
                              {"bodies", record::Json::parse(bodies_json())}};
   return json.dump();
+}
+
+int Session::keep(const std::filesystem::path& motion) {
+  Done done{{next_folder()}, {}, motion};
+  done.entry = record::read_manifest(done.folder.manifest()).sequences.at(0);
+  done_.push_back(done);
+  return static_cast<int>(done_.size()) - 1;
+}
+
+std::string Session::take_up(const std::filesystem::path& motion) {
+  return record::Json{{"number", keep(motion)}}.dump();
 }
 
 const Session::Done& Session::done(int number) const {

@@ -33,6 +33,12 @@ class Session {
   /// @throws DataError or std::invalid_argument where not even that can be said
   std::string plan(const std::filesystem::path& motion, const pipeline::record::RunContext& context);
 
+  /// Takes up what `plan` of an earlier session has left in the folder of the motion with the number that is
+  /// next here: a browser's program that is stopped keeps nothing, but the page that it ran in may.
+  /// @param motion  as `plan` was told it @return JSON: `number`
+  /// @throws DataError where no such run is there
+  std::string take_up(const std::filesystem::path& motion);
+
   /// The cleaned motion as `mimicx plan` leaves it where the suffix is that of the input, else as
   /// `mimicx convert` writes it. @param number  of the motion @param suffix  with its dot
   /// @throws DataError, std::invalid_argument as these do; also where there is no cleaned motion
@@ -53,6 +59,8 @@ class Session {
     std::filesystem::path input;
   };
   const Done& done(int number) const;
+  int keep(const std::filesystem::path& motion);
+  std::filesystem::path next_folder() const { return folder_ / std::to_string(done_.size()); }
 
   std::filesystem::path folder_;
   std::vector<Done> done_;

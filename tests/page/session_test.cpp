@@ -85,6 +85,18 @@ TEST_F(PageSession, SaysOfABadFileWhatTheProgramSays) {
   EXPECT_THROW(session.play(0), std::invalid_argument);
 }
 
+TEST_F(PageSession, AnotherSessionTakesUpWhatAnEarlierOneHasLeft) {
+  plan(bvh);
+  plan(stand);
+  Session next(folder.path / "session");
+  EXPECT_EQ(Json::parse(next.take_up(bvh))["number"], 0);
+  EXPECT_EQ(Json::parse(next.take_up(stand))["number"], 1);
+  EXPECT_TRUE(next.saved(0, ".bvh") == session.saved(0, ".bvh"));
+  EXPECT_TRUE(next.saved(1, ".npz") == session.saved(1, ".npz"));
+  EXPECT_EQ(next.play(1).frames(), session.play(1).frames());
+  EXPECT_THROW(next.take_up(stand), DataError);
+}
+
 TEST_F(PageSession, MotionsAreNumberedAndShareBodies) {
   EXPECT_EQ(plan(stand)["number"], 0);
   Json second = plan(bvh);

@@ -1,7 +1,7 @@
 // A page that cleans motions: files go to the program in a worker, and what it makes of them into the report's tables and
 // player.
 
-const bench = {worker: null, generation: 0, waiting: null, queue: [], ready: null, cleaned: 0};
+const bench = {worker: null, waiting: null, queue: [], ready: null, cleaned: 0, kept: []};
 
 // Base64 of gzip, as it stands in an element of this page, as bytes.
 async function unpacked(id) {
@@ -29,19 +29,20 @@ function hear({data: said}) {
   const {answered} = bench.waiting;
   bench.waiting = null;
   answered(said);
-  if (said.ended) begin_worker();  // what it had cleaned is gone with it
+  if (said.ended) begin_worker();
   send_next();
 }
 
-// A worker that knows nothing yet. Motions of an earlier one are still seen, but no longer saved or played with.
+// A worker, and in it what earlier ones have made, by the same numbers.
 async function begin_worker() {
   if (bench.worker) bench.worker.terminate();
   for (const {answered} of [bench.waiting, ...bench.queue].filter(Boolean)) answered({answer: {error: 'stopped'}});
-  Object.assign(bench, {waiting: null, queue: [], generation: bench.generation + 1});
+  Object.assign(bench, {waiting: null, queue: []});
   const address = URL.createObjectURL(new Blob([$('worker').textContent], {type: 'text/javascript'}));
   bench.worker = new Worker(address);
   bench.worker.onmessage = hear;
-  bench.ready = unpacked('program').then((wasm) => ask({ask: 'begin', wasm}));
+  bench.ready = unpacked('program').then((wasm) => ask({ask: 'begin', wasm}))
+      .then(() => Promise.all(bench.kept.map((run) => ask({ask: 'take_up', ...run}))));
   await bench.ready;
   URL.revokeObjectURL(address);
 }
@@ -68,7 +69,7 @@ const show_failure = (text) => $('told').replaceChildren(make('li', {className: 
 
 function add_clip(made) {
   const index = data.rows.length;
-  data.rows.push({...made.row, number: made.number, generation: bench.generation});
+  data.rows.push({...made.row, number: made.number});
   arrived.set(index, [made.clip, made.bodies]);
   $('clip').append(new Option(`${made.row.ok ? '' : '✗ '}${made.row.name}`, index));
   document.body.classList.remove('empty');
@@ -82,10 +83,11 @@ async function clean(name, bytes) {
   stop_playing();
   show_working(name);
   await bench.ready;
-  const {answer} = await ask({ask: 'plan', name, bytes});
+  const {answer, files} = await ask({ask: 'plan', name, bytes});
   $('work').hidden = true;
   ++bench.cleaned;
   if (answer.error) { show_failure(answer.error); return; }
+  bench.kept[answer.number] = {name, files};
   if (!answer.clip.motions.length) { show_failure(answer.row.reason); return; }
   add_clip(answer);
 }
@@ -97,7 +99,6 @@ async function take_files(files) {
 // ---- saving ---------------------------------------------------------------------------------------
 
 const row_shown = () => data.rows[player.index];
-const is_kept = (row) => row && row.generation === bench.generation;
 
 async function saved_bytes(suffix) {
   const {bytes, answer} = await ask({ask: 'save', number: row_shown().number, suffix});
@@ -117,9 +118,8 @@ async function save_as(suffix) {
 }
 
 function show_after() {
-  const row = row_shown(), kept = is_kept(row);
-  for (const button of $('after').querySelectorAll('[data-suffix], #begin-play')) button.disabled = !kept;
-  $('save-message').textContent = kept || !row ? '' : 'the program was stopped since: clean it again to save it';
+  for (const button of $('after').querySelectorAll('[data-suffix], #begin-play')) button.disabled = !row_shown();
+  $('save-message').textContent = '';
 }
 
 function begin_bench() {

@@ -19,11 +19,30 @@ function with_memory(bytes, f) {
 const with_text = (text, f) => with_memory(new TextEncoder().encode(text + '\0'), f);
 const with_numbers = (numbers, f) => with_memory(new Uint8Array(Float64Array.from(numbers).buffer), f);
 
+// Every file below a folder, by its path.
+function files_below(folder) {
+  return program.FS.readdir(folder).filter((name) => !name.startsWith('.')).flatMap((name) => {
+    const path = `${folder}/${name}`;
+    return program.FS.isDir(program.FS.stat(path).mode) ? files_below(path) : [[path, program.FS.readFile(path)]];
+  });
+}
+
+// What the program has made of a motion, for the page to keep: a program that is stopped leaves nothing.
+function plan({name, bytes}) {
+  program.FS.writeFile(name, bytes);
+  with_text(name, (file) => program._mimicx_plan(file));
+  program.FS.unlink(name);
+  const made = answer();
+  return {answer: made, files: made.error ? [] : files_below(`/cleaned/${made.number}`)};
+}
+
 const calls = {
-  plan({name, bytes}) {
-    program.FS.writeFile(name, bytes);
-    with_text(name, (file) => program._mimicx_plan(file));
-    program.FS.unlink(name);
+  take_up({name, files}) {
+    for (const [path, bytes] of files) {
+      program.FS.mkdirTree(path.slice(0, path.lastIndexOf('/')));
+      program.FS.writeFile(path, bytes);
+    }
+    with_text(name, (file) => program._mimicx_take_up(file));
   },
   play({number}) { program._mimicx_play(number); },
   step() { program._mimicx_step(); },
@@ -53,6 +72,7 @@ onmessage = async ({data: {ask, ...what}}) => {
   try {
     if (ask === 'begin') postMessage({ask, answer: await begin(what.wasm)});
     else if (ask === 'save') postMessage({ask, ...save(what)});
+    else if (ask === 'plan') postMessage({ask, ...plan(what)});
     else { calls[ask](what); postMessage({ask, answer: answer()}); }
   } catch (error) {  // a trap: the program has ended
     postMessage({ask, answer: {error: `the program has stopped: ${error && error.message || error}`}, ended: true});
