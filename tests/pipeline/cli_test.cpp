@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/build.h"
 #include "core/npz.h"
 #include "motion/clip_file.h"
 #include "motion/import/bvh.h"
@@ -24,10 +25,11 @@ TEST_F(Cli, HelpIsEverywhere) {
   }
 }
 
-TEST_F(Cli, VersionNamesTheInstructionSet) {
+TEST_F(Cli, VersionNamesTheInstructionSetAndTheArithmetic) {
   const Call call = mimicx("--version");
   EXPECT_EQ(call.status, 0);
-  EXPECT_TRUE(says(call, MIMICX_TARGET)) << call.text;
+  EXPECT_TRUE(says(call, std::string("built for ") + MIMICX_TARGET + ", arithmetic " + kArithmetic))
+      << call.text;
 }
 
 TEST_F(Cli, WrongUsageIsStatusTwo) {
