@@ -1,6 +1,7 @@
 // How well options follow motions by themselves, without any fine-tuning: every option alone, from the first
 // frame of each reference to its last. Reads folders of `mimicx plan`.
-//   bench_options OPTIONS RUN...    OPTIONS: options.npz, or its folder
+//   bench_options [--planned] OPTIONS RUN...    OPTIONS: options.npz, or its folder
+// --planned: what they follow are the planned motions, instead of the references that were planned for.
 // A motion is followed where no body is ever farther than 0.5 m from the reference (docs/metrics.md). For
 // each folder a line per kind of motion (its name up to the last "_"): followed by the best option, of those
 // whose plan was followed, and the medians of gMPJPE and MPJPE over those, mm. Exit status: 0 done, 1 a file
@@ -23,16 +24,16 @@
 namespace mimicx::tools {
 namespace {
 
-struct Followed {
+struct Outcome {
   bool yes = false;
   double gmpjpe = 0.0;  ///< mm
 };
 
 /// The best of the options alone.
-Followed follow(const motion::Reference& reference, const pipeline::options::OptionSet& set) {
+Outcome follow(const motion::Reference& reference, const pipeline::options::OptionSet& set) {
   const rl::tracking::TrackingConfig task;
   const auto clip = rl::tracking::make_tracking_clip(reference, task);
-  Followed best;
+  Outcome best;
   for (const pipeline::options::TrainedOption& option : set.options) {
     const auto alone = rl::tracking::roll_out(pipeline::options::encoded_for(clip, {&option.option}), task,
                                               rl::tracking::mean_action({option.option.agent}));
@@ -56,12 +57,13 @@ void print_row(const std::string& kind, Row row) {
   std::printf("\n");
 }
 
-void print_run(const std::string& folder, const pipeline::options::OptionSet& set) {
+void print_run(const std::string& folder, const pipeline::options::OptionSet& set,
+               pipeline::Followed followed) {
   const std::vector<pipeline::PlannedMotion> motions = pipeline::planned_motions({folder});
-  std::vector<Followed> results(motions.size());
+  std::vector<Outcome> results(motions.size());
   parallel_for(static_cast<int>(motions.size()), available_threads(), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    results[k] = follow(pipeline::reference_of(motions[k]), set);
+    results[k] = follow(pipeline::reference_of(motions[k], followed), set);
   });
   std::map<std::string, Row> kinds;
   Row all;
@@ -80,13 +82,18 @@ void print_run(const std::string& folder, const pipeline::options::OptionSet& se
 }  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
+  const bool planned = argc > 1 && std::string(argv[1]) == "--planned";
+  if (planned) ++argv, --argc;
   if (argc < 3 || argv[1][0] == '-') {
-    std::fprintf(stderr, "usage: bench_options OPTIONS RUN...\n");
+    std::fprintf(stderr, "usage: bench_options [--planned] OPTIONS RUN...\n");
     return 2;
   }
   try {
     const auto set = mimicx::pipeline::options::read_options(argv[1]);
-    for (int i = 2; i < argc; ++i) mimicx::tools::print_run(argv[i], *set);
+    for (int i = 2; i < argc; ++i)
+      mimicx::tools::print_run(
+          argv[i], *set,
+          planned ? mimicx::pipeline::Followed::kPlan : mimicx::pipeline::Followed::kReference);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_options: %s\n", error.what());

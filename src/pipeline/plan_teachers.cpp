@@ -17,6 +17,11 @@ motion::Reference reference_in(const PlannedMotion& motion, const output::Stored
   return rl::tracking::reference_of_states(body, stored.reference);
 }
 
+/// @param reference  what was planned for
+motion::Reference planned_reference(const motion::Reference& reference, const output::StoredPlan& stored) {
+  return rl::tracking::reference_of_states(reference, stored.plan.states);
+}
+
 void require_simulation(const std::filesystem::path& file, const physics::SimulationConfig& there,
                         const physics::SimulationConfig& here) {
   const auto numbers_of = [](const physics::SimulationConfig& simulation) {
@@ -51,11 +56,14 @@ std::vector<PlannedMotion> followed_plans(const record::RunFolder& run) {
   return motions;
 }
 
-motion::Reference reference_of(const PlannedMotion& motion) {
-  return reference_in(motion, output::read_plan(motion.run.plan(motion.name)));
+motion::Reference reference_of(const PlannedMotion& motion, Followed followed) {
+  const output::StoredPlan stored = output::read_plan(motion.run.plan(motion.name));
+  const motion::Reference reference = reference_in(motion, stored);
+  return followed == Followed::kPlan ? planned_reference(reference, stored) : reference;
 }
 
-teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task) {
+teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task,
+                               Followed followed) {
   const output::StoredPlan stored = output::read_plan(motion.run.plan(motion.name));
   require_simulation(motion.run.plan(motion.name), stored.simulation, task.simulation);
   output::StoredGains feedback = output::read_gains(motion.run.gains(motion.name));
@@ -64,8 +72,12 @@ teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::
                     std::to_string(stored.plan.residuals.size()) + " frames, as the plan has",
                     std::to_string(feedback.gains.size()));
   teaching::Teacher teacher;
-  teacher.clip = rl::tracking::make_tracking_clip(reference_in(motion, stored), task);
-  teacher.motion = control::trajectory_of(stored.plan);
+  const motion::Reference reference = reference_in(motion, stored);
+  const bool own = followed == Followed::kPlan;
+  teacher.clip =
+      rl::tracking::make_tracking_clip(own ? planned_reference(reference, stored) : reference, task);
+  teacher.motion =
+      own ? teaching::on_own_states(reference, stored.plan) : control::trajectory_of(stored.plan);
   teacher.gains = std::move(feedback.gains);
   const float scale = feedback.curvature.trace() / static_cast<float>(kDofs);
   teacher.importance = {Eigen::MatrixXf(feedback.curvature / scale)};

@@ -1,7 +1,8 @@
 /// The plans in the folder of a run of `mimicx plan --gains` (or `adapt`), as teachers.
 ///
 /// Such a teacher acts on the reference that was planned for, with all its errors, since that is what whoever
-/// follows unknown motions gets to see; what it shows is what a body can do with it.
+/// follows unknown motions gets to see; what it shows is what a body can do with it. Or it acts on the
+/// planned motion itself: what whoever comes behind a planner gets to see.
 #pragma once
 
 #include <string>
@@ -26,11 +27,15 @@ std::vector<PlannedMotion> planned_motions(const record::RunFolder& run);
 /// Those whose plan was followed to the end and that have gains.
 std::vector<PlannedMotion> followed_plans(const record::RunFolder& run);
 
-/// What was planned for.
-motion::Reference reference_of(const PlannedMotion& motion);
+/// What whoever learns from a plan, or is tried by it, follows.
+enum class Followed { kReference, kPlan };
+
+/// What was planned for, or what came of it.
+motion::Reference reference_of(const PlannedMotion& motion, Followed followed = Followed::kReference);
 
 /// @throws DataError naming file and member that is not there, not of its shape, or not the task's
 /// simulation
-teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task);
+teaching::Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task,
+                               Followed followed = Followed::kReference);
 
 }  // namespace mimicx::pipeline

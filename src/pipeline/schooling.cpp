@@ -25,6 +25,7 @@ void for_each_setting(Config& school, const Add& add) {
   add("school_decay", school.decay, 0, 1);
   add("school_weigh", school.weigh, 0, 1);
   add("school_mirror", school.mirror, 0, 1);
+  add("school_follow_plan", school.follow_plan, 0, 1);
   add("school_see_shape", school.see_shape, 0, 1);
   add("school_action_noise", school.lessons.action_noise, 0, 1);
   add("school_push", school.lessons.push, 0, 10);
@@ -83,7 +84,8 @@ std::optional<teaching::Pupil> teach_option(const std::vector<PlannedMotion>& mo
                                             int threads, const record::RunContext& context) {
   const int count = static_cast<int>(motions.size());
   const teaching::Teachers teachers = [&](int k) {
-    return read_teacher(motions[static_cast<std::size_t>(k)], task);
+    return read_teacher(motions[static_cast<std::size_t>(k)], task,
+                        school.follow_plan ? Followed::kPlan : Followed::kReference);
   };
   control::PlanControl control;
   control.threads = threads;

@@ -25,10 +25,11 @@ struct SchoolConfig {
   double passes = 2;        ///< how often the lessons of a round are gone over
   double step_size = 1e-3;  ///< Adam's at first; falls with the square of what is left
   double last_step_size = 2e-5;
-  double decay = 0.0;      ///< every step takes so many of its sizes off the weights (AdamW)
-  bool weigh = true;       ///< errors count by Teacher::importance; otherwise all alike
-  bool mirror = true;      ///< every other time a motion is visited, in its mirror image
-  bool see_shape = false;  ///< whether the pupil sees β; it can tell motions apart by it
+  double decay = 0.0;        ///< every step takes so many of its sizes off the weights (AdamW)
+  bool weigh = true;         ///< errors count by Teacher::importance; otherwise all alike
+  bool mirror = true;        ///< every other time a motion is visited, in its mirror image
+  bool follow_plan = false;  ///< the pupil sees the planned motions instead of what was planned for
+  bool see_shape = false;    ///< whether the pupil sees β; it can tell motions apart by it
   std::uint64_t seed = 1;
   LessonConfig lessons;
   RegressionConfig regression{.minibatch = 512};

@@ -15,29 +15,6 @@ Vector3d residual_for(const Quaterniond& to, const Quaterniond& target) {
   return log_map(Quaterniond(to.conjugate() * target));
 }
 
-/// The plan's targets as residuals on its own states: what the short plan begins with.
-control::Trajectory first_guess(const motion::Reference& reference, const control::Plan& plan) {
-  control::Trajectory guess;
-  guess.x = plan.states;
-  for (std::size_t t = 0; t < plan.residuals.size(); ++t) {
-    control::Control& u = guess.u.emplace_back();
-    u.fill(0.0f);
-    const motion::ReferenceFrame& next = reference.frames[t + 1];
-    for (int body = 1; body < kBodies; ++body) {
-      const Vector3d rotation =
-          physics::action_rotation(body, 3.0, [&](int dof) { return plan.residuals[t][dof]; });
-      const Quaterniond planned = physics::to_eigen(plan.states[t + 1].q[body]);
-      const Vector3d residual = residual_for(planned, physics::residual_target(next.q[body], rotation));
-      const int dof = first_dof(body);
-      if (is_hinge(body))
-        u[dof] = static_cast<float>(residual.dot(hinge_axis(body)));
-      else
-        for (int k = 0; k < 3; ++k) u[dof + k] = static_cast<float>(residual[k]);
-    }
-  }
-  return guess;
-}
-
 /// Scales all matrices by one number, so that the mean of their diagonals is 1.
 void scale_to_one(List<Eigen::MatrixXf>& matrices) {
   double sum = 0.0, count = 0.0;
@@ -61,6 +38,28 @@ bool take_feedback(const control::System& system, const control::Cost& cost, con
 
 }  // namespace
 
+control::Trajectory on_own_states(const motion::Reference& reference, const control::Plan& plan) {
+  control::Trajectory own;
+  own.x = plan.states;
+  for (std::size_t t = 0; t < plan.residuals.size(); ++t) {
+    control::Control& u = own.u.emplace_back();
+    u.fill(0.0f);
+    const motion::ReferenceFrame& next = reference.frames[t + 1];
+    for (int body = 1; body < kBodies; ++body) {
+      const Vector3d rotation =
+          physics::action_rotation(body, 3.0, [&](int dof) { return plan.residuals[t][dof]; });
+      const Quaterniond planned = physics::to_eigen(plan.states[t + 1].q[body]);
+      const Vector3d residual = residual_for(planned, physics::residual_target(next.q[body], rotation));
+      const int dof = first_dof(body);
+      if (is_hinge(body))
+        u[dof] = static_cast<float>(residual.dot(hinge_axis(body)));
+      else
+        for (int k = 0; k < 3; ++k) u[dof + k] = static_cast<float>(residual[k]);
+    }
+  }
+  return own;
+}
+
 std::optional<Teacher> make_teacher(const motion::Reference& reference, const control::Plan& plan,
                                     const TeacherConfig& config, const rl::tracking::TrackingConfig& task,
                                     const control::PlanControl& control) {
@@ -72,7 +71,7 @@ std::optional<Teacher> make_teacher(const motion::Reference& reference, const co
   start.x = {control::as_floats(system.at(0))};
   control::HorizonResult found =
       control::follow_in_windows(system, cost, config.derivatives, config.horizon, control, std::move(start),
-                                 system.frames() - 1, first_guess(reference, plan));
+                                 system.frames() - 1, on_own_states(reference, plan));
   if (found.ending != control::Ending::kFollowed) return {};
   Teacher teacher;
   teacher.clip = rl::tracking::make_tracking_clip(planned, task);

@@ -49,6 +49,11 @@ std::optional<Teacher> make_teacher(const motion::Reference& reference, const co
                                     const TeacherConfig& config, const rl::tracking::TrackingConfig& task,
                                     const control::PlanControl& control);
 
+/// The plan with its controls as residuals on its own states instead of on what was planned for: the same
+/// targets to the last bits, which feedback or a short plan that starts here takes care of.
+/// @param reference  what was planned for
+control::Trajectory on_own_states(const motion::Reference& reference, const control::Plan& plan);
+
 /// The residuals of every lane, rad.
 using LaneActions = Array<Array<float, kDofs>, physics::kLanes>;
 

@@ -130,6 +130,32 @@ TEST_F(Teach, ATeacherOnItsReferenceRepeatsItsPlan) {
   EXPECT_NEAR(teacher.importance.front().trace(), kDofs, 1e-2);
 }
 
+TEST_F(Teach, ATeacherOnThePlannedMotionRepeatsIt) {
+  run(teaching("run"));
+  const PlannedMotion motion = followed_plans({out("run") / "plans"})[1];
+  const teaching::Teacher teacher = read_teacher(motion, {}, Followed::kPlan);
+  const motion::Reference planned = reference_of(motion, Followed::kPlan);
+  ASSERT_EQ(planned.frames.count(), teacher.motion.x.count());
+  for (int t = 0; t < planned.frames.count(); ++t) {
+    EXPECT_EQ(planned.frames[t].p_root, physics::to_eigen(teacher.motion.x[t].p_root)) << t;
+    EXPECT_EQ(teacher.clip->reference.frames[t].p_root, planned.frames[t].p_root) << t;
+  }
+  int t = 0;
+  const auto made = rl::tracking::roll_out(teacher.clip, {}, [&](int, const float*, float* action) {
+    std::copy_n(teacher.motion.u[t++].begin(), kDofs, action);
+  });
+  EXPECT_LT(made.worst_distance, 0.003);  // targets differ from the plan's in their last bits
+  EXPECT_GT((reference_of(motion).frames[t].p_root - planned.frames[t].p_root).norm(), 0.0);
+}
+
+TEST_F(Teach, APupilBehindAPlannerSeesThePlannedMotions) {
+  run(teaching("run"));
+  TeachConfig config = teaching("behind");
+  apply_setting(config, "school_follow_plan", 1);
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  EXPECT_NE(read_file(out("behind") / "options.npz"), read_file(out("run") / "options.npz"));
+}
+
 TEST_F(Teach, APlanOfAnotherSimulationIsRefused) {
   run(teaching("run"));
   rl::tracking::TrackingConfig task;
