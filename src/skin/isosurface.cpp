@@ -78,8 +78,8 @@ class Marching {
         {{{{0, 1, 2, 3}}, {{1, 0, 3, 2}}, {{2, 3, 0, 1}}, {{3, 2, 1, 0}}}}};
     for (int i = 0; i < 4; ++i) {
       const Array<int, 4>& k = kFirst[i];
-      if (inside == 1 << i) triangle(at(n, k, 0, 1), at(n, k, 0, 2), at(n, k, 0, 3));
-      if (inside == 15 - (1 << i)) triangle(at(n, k, 0, 1), at(n, k, 0, 3), at(n, k, 0, 2));
+      if (inside == 1 << i) tip(n, k, 1, 2, 3);
+      if (inside == 15 - (1 << i)) tip(n, k, 1, 3, 2);
     }
     constexpr Array<Array<int, 4>, 6> kPairs = {
         {{{{0, 1, 2, 3}}, {{0, 2, 3, 1}}, {{0, 3, 1, 2}}, {{1, 2, 0, 3}}, {{1, 3, 2, 0}}, {{2, 3, 0, 1}}}}};
@@ -95,6 +95,13 @@ class Marching {
 
  private:
   void triangle(int a, int b, int c) { surface.triangles.push_back({a, b, c}); }
+
+  /// The triangle that cuts off the first corner. Vertices are numbered as they are met, so the order is
+  /// written out: that of a call's arguments differs between compilers.
+  void tip(const Array<int, 4>& n, const Array<int, 4>& k, int i, int j, int l) {
+    const int c = at(n, k, 0, l), b = at(n, k, 0, j), a = at(n, k, 0, i);
+    triangle(a, b, c);
+  }
 
   int at(const Array<int, 4>& n, const Array<int, 4>& k, int i, int j) { return vertex(n[k[i]], n[k[j]]); }
 

@@ -151,6 +151,7 @@ function draw_title(g, panel) {
 
 function draw_scene(canvas) {
   const {g, width, height, ratio} = resize(canvas);
+  if (!width || !height) return;  // it is not on the screen
   const frame = frame_of(player.time), panels = panels_of(width, height, visible(), frame), skins = skins_shown();
   const scenes = panels.map((panel) => ({panel, figures: figures_of(panel, frame)}));
   const within = (part, draw) => {
