@@ -15,7 +15,7 @@ endif()
 add_library(mimicx_settings INTERFACE)
 target_include_directories(mimicx_settings INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(mimicx_settings INTERFACE Eigen3::Eigen)
-# Passing packs wider than the registers is fine here: everything is compiled for one target.
+# -Wno-psabi: packs wider than a target's registers pass between functions of one build alone.
 target_compile_options(mimicx_settings INTERFACE -Wall -Wextra -Wconversion -Werror -Wno-psabi)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports Eigen's vectorised temporaries as maybe uninitialised; the other analyses stay on.

@@ -1,7 +1,7 @@
 // One line per part of the numerical core: its name, and a hash of all the bits that it came to. In portable
 // arithmetic (docs/porting.md) every machine and every compiler prints the same lines; tools/check_portable
-// compares them. It needs core, character, physics, control and nn alone, so that it is what one builds first
-// on a new machine.
+// compares them. It needs core, character, physics, control, nn and skin alone, so that it is what one builds
+// first on a new machine.
 #include <array>
 #include <cinttypes>
 #include <cstdio>
@@ -21,6 +21,7 @@
 #include "nn/mlp.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
+#include "skin/mannequin.h"
 
 #ifndef __cpp_exceptions
 void mimicx::stop(const char* message) {
@@ -225,6 +226,17 @@ Hash archive(const control::Plan& plan) {
   return hash;
 }
 
+Hash skin_of_a_body() {
+  const skin::Mesh mesh = skin::mannequin(make_character(), 3000, 0.03);
+  Hash hash;
+  for (const Vector3d& vertex : mesh.vertices) hash.add(vertex);
+  for (const skin::Triangle& triangle : mesh.triangles)
+    for (const int vertex : triangle) hash.add(static_cast<std::uint64_t>(vertex));
+  for (const auto& weights : mesh.weights)
+    for (const double weight : weights) hash.add(weight);
+  return hash;
+}
+
 int run() {
   std::printf("%-22s %s\n", "arithmetic", kArithmetic);
   print("elementary functions", elementary_functions());
@@ -237,6 +249,7 @@ int run() {
   const control::Plan plan = plan_of_30_frames();
   print("plan of 30 frames", hash_of(plan));
   print("archive", archive(plan));
+  print("skin", skin_of_a_body());
   return 0;
 }
 
