@@ -17,7 +17,6 @@ template <class Config, class Add>
 void for_each_setting(Config& school, const Add& add) {
   for (std::size_t layer = 0; layer < school.hidden.size(); ++layer)
     add("school_hidden_" + std::to_string(layer + 1), school.hidden[layer], 1, 4096);
-  add("school_rounds", school.rounds, 1, 1e6);
   add("school_packs", school.packs, 1, 10000);
   add("school_passes", school.passes, 0, 1000);
   add("school_step_size", school.step_size, 0, 1);

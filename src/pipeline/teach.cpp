@@ -14,6 +14,7 @@
 #include "pipeline/record/folder_lock.h"
 #include "pipeline/record/names.h"
 #include "pipeline/schooling.h"
+#include "pipeline/setting.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -63,6 +64,20 @@ std::vector<std::string> names_of(const std::vector<PlannedMotion>& motions) {
   return names;
 }
 
+/// So many visits to each of so many motions. A round has no motion twice.
+teaching::SchoolConfig school_for(const TeachConfig& config, int motions) {
+  teaching::SchoolConfig school = config.school;
+  school.packs = std::min(school.packs, motions);
+  school.rounds = (config.visits * motions + school.packs - 1) / school.packs;
+  return school;
+}
+
+/// Calls add(name, field, least, most) for what the schooling of an option does not know.
+template <class Config, class Add>
+void for_each_setting(Config& config, const Add& add) {
+  add("school_visits", config.visits, 1, 1e5);
+}
+
 options::Clusters cluster(const TeachConfig& config, const std::vector<PlannedMotion>& motions,
                           const std::vector<std::string>& names) {
   List<options::NamedFeatures> features(static_cast<int>(motions.size()));
@@ -89,7 +104,8 @@ std::vector<PlannedMotion> members(const options::MotionCluster& cluster,
 }  // namespace
 
 NamedValues settings_of(const TeachConfig& config) {
-  NamedValues values = school_settings(config.school);
+  NamedValues values = numbers_in([&](const auto& add) { for_each_setting(config, add); });
+  append(values, school_settings(config.school));
   values.emplace_back("cluster_radius", config.clusters.radius);
   values.emplace_back("clusters", config.clusters.clusters.value_or(0));
   append(values, settings_of(config.planning));
@@ -97,10 +113,12 @@ NamedValues settings_of(const TeachConfig& config) {
 }
 
 void apply_setting(TeachConfig& config, const std::string& name, double value) {
+  if (change_one([&](const auto& add) { for_each_setting(config, add); }, name, value)) return;
   if (!change_setting(config.school, name, value)) apply_setting(config.planning.planning, name, value);
 }
 
 void check(const TeachConfig& config) {
+  require_ranges([&](const auto& add) { for_each_setting(config, add); });
   check(config.school);
   check(config.planning.planning);
 }
@@ -131,7 +149,7 @@ record::RunOutcome teach(const TeachConfig& config, const record::RunContext& co
   for (int index = 0; index < clusters.clusters.count(); ++index) {
     const options::MotionCluster& cluster = clusters.clusters[index];
     const std::string name = "option" + std::to_string(index);
-    teaching::SchoolConfig school = config.school;
+    teaching::SchoolConfig school = school_for(config, static_cast<int>(cluster.members.size()));
     school.seed += static_cast<std::uint64_t>(index);
     const auto pupil = teach_option(members(cluster, motions, names), school, task, folder, name,
                                     config.planning.run.threads, context);

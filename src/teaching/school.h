@@ -20,10 +20,10 @@ namespace mimicx::teaching {
 
 struct SchoolConfig {
   std::vector<int> hidden = {512, 256};  ///< widths of the hidden layers
-  int rounds = 150;
-  int packs = 64;           ///< motions of a round; a pack of characters goes through each
-  double passes = 2;        ///< how often the lessons of a round are gone over
-  double step_size = 1e-3;  ///< Adam's at first; falls with the square of what is left
+  int rounds = 150;                      ///< in all; the step size depends on how many are left
+  int packs = 64;                        ///< motions of a round; a pack of characters goes through each
+  double passes = 2;                     ///< how often the lessons of a round are gone over
+  double step_size = 1e-3;               ///< Adam's at first; falls with the square of what is left
   double last_step_size = 2e-5;
   double decay = 0.0;        ///< every step takes so many of its sizes off the weights (AdamW)
   bool weigh = true;         ///< errors count by Teacher::importance; otherwise all alike

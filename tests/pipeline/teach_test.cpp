@@ -40,7 +40,7 @@ struct Teach : testing::Test {
           (folder.path / "motions" / ("stand" + std::to_string(frames) + ".npz")).string());
     config.out = folder.path / out;
     config.school.hidden = {16, 16};
-    config.school.rounds = 3;
+    config.visits = 2;  // three rounds of two motions
     config.school.packs = 2;
     config.school.regression.minibatch = 64;
     config.planning.run.threads = 1;
@@ -97,8 +97,8 @@ TEST_F(Teach, AFinishedOneIsKeptAndOneOfOtherSettingsIsRefused) {
   EXPECT_NE(run(teaching("run")).messages.find("taught already"), std::string::npos);
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "options.npz"), written);
   TeachConfig config = teaching("run");
-  config.school.rounds = 4;
-  EXPECT_NE(refusal([&] { run(config); }).find("school_rounds"), std::string::npos);
+  config.visits = 3;
+  EXPECT_NE(refusal([&] { run(config); }).find("school_visits"), std::string::npos);
 }
 
 TEST_F(Teach, AFolderWithoutPlansSaysWhatLeavesThem) {
