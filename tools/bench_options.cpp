@@ -59,7 +59,8 @@ void print_row(const std::string& kind, Row row) {
 
 void print_run(const std::string& folder, const pipeline::options::OptionSet& set,
                pipeline::Followed followed) {
-  const std::vector<pipeline::PlannedMotion> motions = pipeline::planned_motions({folder});
+  std::vector<pipeline::PlannedMotion> motions = pipeline::planned_motions({folder});
+  std::erase_if(motions, [](const pipeline::PlannedMotion& motion) { return !motion.followed; });
   std::vector<Outcome> results(motions.size());
   parallel_for(static_cast<int>(motions.size()), available_threads(), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
