@@ -69,7 +69,7 @@ int cluster(const Arguments& a) {
 void declare_cluster(CommandLine& line) {
   const auto a = std::make_shared<Arguments>();
   Command command = line.add("cluster", "Sort motions into clusters of similar ones",
-                             "mimicx cluster DIR --out clusters.json                # as pretrain would\n"
+                             "mimicx cluster DIR --out clusters.json                # as many as needed\n"
                              "mimicx cluster DIR --out clusters.json --clusters 5   # exactly five");
   command.files("FILE", a->inputs, "motions and folders of them");
   command.path("--out", a->out, "where to write the clusters: .json").required();

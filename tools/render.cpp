@@ -2,9 +2,11 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "core/file.h"
+#include "core/number_text.h"
 #include "core/parallel.h"
 #include "motion/import/motion_file.h"
 #include "pipeline/picture/picture.h"
@@ -44,14 +46,10 @@ void take_view(const std::string& text, double& degrees) {
   else if (text == "side")
     degrees = 90.0;
   else {
-    std::size_t end = 0;
-    try {
-      degrees = std::stod(text, &end);
-    } catch (const std::exception&) {
-      end = 0;
-    }
-    if (end == 0 || end != text.size() || !(std::abs(degrees) <= 360.0))
+    const std::optional<double> found = number_from(text);
+    if (!found || !(std::abs(*found) <= 360.0))
       throw UsageError("--view: expected front, quarter, side or degrees from -360 to 360, found " + text);
+    degrees = *found;
   }
 }
 

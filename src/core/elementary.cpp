@@ -64,7 +64,6 @@ constexpr Pair kPi = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr Pair kHalfPi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
 // --- exponentials and logarithms
-// ----------------------------------------------------------------------------
 
 /// e^(x + low), x not NaN. |low| ≤ 2⁻⁴⁰.
 double exp_of_sum(double x, double low) {
@@ -179,7 +178,6 @@ double pow(double x, double y) {
 }
 
 // --- angles
-// -------------------------------------------------------------------------------------------------
 
 namespace {
 
