@@ -125,9 +125,23 @@ TEST(Protocol, SuccessEndsWhereTheMeanDistanceOfAFramePassesHalfAMetre) {
   };
   EXPECT_EQ(phc("Succ", off(0.499), truth), 100.0);
   EXPECT_EQ(phc("Succ", off(0.501), truth), 0.0);
-  MotionSamples one_joint = truth;  // one joint 5 m away is 0.23 m in the mean
-  one_joint.joints[3][kLeftWrist].z() += 5.0;
-  EXPECT_EQ(phc("Succ", one_joint, truth), 100.0);
+}
+
+/// The mean is over the pelvis and 19 joints: toes have no say, and the frame that the motion starts from and
+/// the first that is simulated are not judged.
+TEST(Protocol, SuccessIsJudgedWithoutToesAndFromTheThirdFrameOn) {
+  const MotionSamples truth = walking(30, 1.0);
+  const auto with = [&](int t, int body, double metres) {
+    MotionSamples p = truth;
+    p.joints[t][body].z() += metres;
+    return phc("Succ", p, truth);
+  };
+  EXPECT_EQ(with(3, kLeftWrist, 9.99), 100.0);  // 0.4995 m in the mean of 20
+  EXPECT_EQ(with(3, kLeftWrist, 10.01), 0.0);
+  EXPECT_EQ(with(3, kLeftFoot, 100.0), 100.0);
+  EXPECT_EQ(with(3, kRightFoot, 100.0), 100.0);
+  EXPECT_EQ(with(2, kPelvis, 10.01), 0.0);
+  EXPECT_EQ(with(1, kPelvis, 10.01), 100.0);
 }
 
 TEST(Protocol, HeightsBeyondFiveMillimetresAreDepthAndFloat) {
