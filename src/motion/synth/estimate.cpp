@@ -24,6 +24,11 @@ double number_of(const std::string& word, const std::string& text) {
 }
 
 template <class Preset>
+std::string range_of(const Amplitude<Preset>& amplitude) {
+  return text_of(amplitude.least) + " to " + text_of(amplitude.most) + " (" + amplitude.unit + ")";
+}
+
+template <class Preset>
 void set_amplitude(const std::string& word, Preset& preset) {
   const std::size_t split = word.find('=');
   const std::string name = word.substr(0, split);
@@ -33,7 +38,7 @@ void set_amplitude(const std::string& word, Preset& preset) {
     known += (known.empty() ? "" : ", ") + std::string(amplitude.name);
     if (name != amplitude.name) continue;
     if (!(value >= amplitude.least && value <= amplitude.most))
-      throw std::invalid_argument("noise '" + word + "': out of range (" + amplitude.unit + ")");
+      throw std::invalid_argument("noise '" + word + "': expected " + range_of(amplitude));
     preset.*amplitude.value = value;
     return;
   }

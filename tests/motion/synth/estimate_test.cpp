@@ -36,7 +36,9 @@ TEST(NoiseModel, SaysWhatItKnowsWhereItDoesNotUnderstand) {
             std::string::npos);
   for (const char* word : {"drift=", "drift=fast", "drift=1m", "drift=-1", "drift=nan", "drop_share=1.5"})
     EXPECT_FALSE(complaint({word}).empty()) << word;
-  EXPECT_FALSE(complaint({"gvhmr", "slow_tau=0"}).empty());
+  EXPECT_EQ(complaint({"drop_share=1.5"}), "noise 'drop_share=1.5': expected 0 to 1 (ratio)");
+  EXPECT_EQ(complaint({"drift=-1"}), "noise 'drift=-1': expected 0 to 1e+06 (m/s)");
+  EXPECT_EQ(complaint({"gvhmr", "slow_tau=0"}), "noise 'slow_tau=0': expected 0.01 to 1000 (s)");
   EXPECT_FALSE(complaint({"gvhmr", "burst_max=1"}).empty());
   EXPECT_FALSE(complaint({"gvhmr", "vibe"}).empty());
 }
