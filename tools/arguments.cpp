@@ -136,6 +136,10 @@ std::size_t place_of(const std::string& name, const std::vector<std::string>& na
   return static_cast<std::size_t>(found - names.begin());
 }
 
+void require_path(const std::string& name, const std::string& text) {
+  if (text.empty()) refuse(name, "a path", text);
+}
+
 }  // namespace
 
 Option& Option::required() {
@@ -165,7 +169,12 @@ void Command::action(Action work) {
 
 Option Command::file(const std::string& name, std::filesystem::path& file, const std::string& help) {
   return Option(add_single(
-                    app_, name, "", [&file](const std::string& text) { file = text; }, help))
+                    app_, name, "",
+                    [&file, name](const std::string& text) {
+                      require_path(name, text);
+                      file = text;
+                    },
+                    help))
       .required();
 }
 
@@ -176,14 +185,19 @@ Option Command::files(const std::string& name, std::vector<std::string>& files, 
 Option Command::optional_files(const std::string& name, std::vector<std::string>& files,
                                const std::string& help) {
   return Option(add_many(
-      app_, name, "", true, [&files](const std::vector<std::string>& texts) { files = texts; }, help));
+      app_, name, "", true,
+      [&files, name](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) require_path(name, text);
+        files = texts;
+      },
+      help));
 }
 
 Option Command::path(const std::string& name, std::filesystem::path& path, const std::string& help) {
   return Option(add_single(
       app_, name, "PATH",
       [&path, name](const std::string& text) {
-        if (text.empty()) refuse(name, "a path", text);
+        require_path(name, text);
         path = text;
       },
       help));
@@ -202,7 +216,12 @@ Option Command::existing(const std::string& name, std::filesystem::path& path, c
 
 Option Command::paths(const std::string& name, std::vector<std::string>& paths, const std::string& help) {
   return Option(add_many(
-      app_, name, "PATH...", true, [&paths](const std::vector<std::string>& texts) { paths = texts; }, help));
+      app_, name, "PATH...", true,
+      [&paths, name](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) require_path(name, text);
+        paths = texts;
+      },
+      help));
 }
 
 Option Command::number(const std::string& name, int& value, const Range& range, const std::string& help) {

@@ -39,6 +39,8 @@ int cluster(const Arguments& a) {
   const std::vector<pipeline::MotionInput> inputs = sorted_motions(a.inputs);
   const std::vector<std::string> files = pipeline::paths_of(inputs), names = pipeline::unique_names(inputs);
   pipeline::record::Outputs(files, a.force).claim(a.out, pipeline::record::kJsonOpening);
+  if (motion::import::lower_suffix(a.out) != ".json")
+    throw UsageError("--out: expected a file that ends in .json, found " + a.out.string());
   bool all_good = true;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string& file = files[i];

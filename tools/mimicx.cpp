@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "core/build.h"
 #include "pipeline/record/outputs.h"
+#include "streams.h"
 
 namespace mimicx::tools {
 namespace {
@@ -43,6 +44,8 @@ bool is_told() {
 }  // namespace mimicx::tools
 
 int main(int argc, char** argv) {
+  mimicx::tools::occupy_standard_streams();
+  const mimicx::tools::ShownControls messages(std::cerr);
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away ends no work; what is lost is said below
   try {
     const int status = mimicx::tools::run(argc, argv);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/npy.h"
+#include "core/number_text.h"
 #include "core/zip_format.h"
 
 namespace mimicx {
@@ -69,7 +70,7 @@ double number_at(const Npz& archive, const std::string& key) {
 std::int64_t whole_number_at(const Npz& archive, const std::string& key) {
   const double value = number_at(archive, key);
   if (!(std::abs(value) <= 0x1p53) || value != std::floor(value))
-    raise(DataError(archive.path, key, "a whole number", std::to_string(value)));
+    raise(DataError(archive.path, key, "a whole number", text_of(value)));
   return static_cast<std::int64_t>(value);
 }
 

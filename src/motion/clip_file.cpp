@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/number_text.h"
 #include "motion/keypoint_check.h"
 #include "motion/keypoint_names.h"
 
@@ -66,7 +67,7 @@ double read_fps(const Npz& npz) {
     const Member fps(npz, key);
     if (fps.values.size() != 1 || !(fps.values[0] > 0.0 && fps.values[0] <= kMaxFps))
       fps.fail("one frame rate between 0 and 2000 Hz",
-               fps.values.size() == 1 ? std::to_string(fps.values[0]) : fps.shape());
+               fps.values.size() == 1 ? mimicx::text_of(fps.values[0]) : fps.shape());
     return fps.values[0];
   }
   throw DataError(npz.path, "", "a frame rate (mocap_framerate or mocap_frame_rate)", "neither");
@@ -157,7 +158,7 @@ void read_betas(const Npz& npz, Clip& clip) {
   const bool any = std::any_of(clip.betas.begin(), clip.betas.end(), [](double b) { return b != 0.0; });
   if (clip.body_model == "mimicx") {
     for (const double b : clip.betas)
-      if (std::abs(b) > kMaxBeta) betas.fail("shape parameters within ±5", std::to_string(b));
+      if (std::abs(b) > kMaxBeta) betas.fail("shape parameters within ±5", mimicx::text_of(b));
   } else if (any && !clip.rest_joints) {
     clip.warnings.push_back(foreign_betas_warning(clip.body_model));
   }

@@ -79,6 +79,14 @@ void check_pixels(const std::string& path, Keypoints& k, std::vector<std::string
         "coordinates up to " + number(reach) + " (multiply them by the picture's width and height)");
 }
 
+void tell_none(Keypoints& k, std::vector<std::string>& decisions) {
+  bool any = false;
+  for_each_detection(k, [&](const Vector3d&) { any = true; });
+  if (!any)
+    decisions.emplace_back(
+        "keypoints: none is detected, no confidence is over 0: there is nothing to fit to");
+}
+
 void check_intrinsics(const std::string& path, const Keypoints& k) {
   const Matrix3d& K = k.intrinsics;
   const double fx = K(0, 0), fy = K(1, 1);
@@ -117,6 +125,7 @@ void check_keypoints(const std::string& path, Keypoints& keypoints, std::vector<
   check_extrinsics(path, keypoints);
   check_confidences(path, keypoints, decisions);
   check_pixels(path, keypoints, decisions);
+  tell_none(keypoints, decisions);
 }
 
 }  // namespace mimicx::motion

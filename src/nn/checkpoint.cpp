@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/error.h"
+#include "core/number_text.h"
 
 namespace mimicx::nn {
 
@@ -63,7 +64,7 @@ std::vector<std::int64_t> whole_numbers_at(const Npz& archive, const std::string
   std::vector<std::int64_t> whole;
   for (const double value : array.to_double()) {
     if (!(std::abs(value) <= 0x1p53) || value != std::floor(value))
-      raise(DataError(archive.path, key, "whole numbers", std::to_string(value)));
+      raise(DataError(archive.path, key, "whole numbers", text_of(value)));
     whole.push_back(static_cast<std::int64_t>(value));
   }
   return whole;

@@ -73,6 +73,18 @@ TEST(KeypointCheck, APointFarOutOfThePictureIsNotDetectedAndAllOfThemAreRefused)
   EXPECT_EQ(all.failure, "a.npz: keypoints_2d: expected pixels, found points 1e+12 px away");
 }
 
+TEST(KeypointCheck, KeypointsOfWhichNoneIsDetectedAreSaid) {
+  for (const double confidence : {0.0, -1.0}) {
+    const Checked none = checked([&](Keypoints& k) {
+      for (auto& frame : k.uvc)
+        for (Vector3d& p : frame) p.z() = confidence;
+    });
+    EXPECT_EQ(none.failure, "");
+    ASSERT_EQ(none.decisions.size(), 1u) << confidence;
+    EXPECT_NE(none.decisions[0].find("none is detected"), std::string::npos) << none.decisions[0];
+  }
+}
+
 TEST(KeypointCheck, WhatIsNoDetectionOrNoCameraIsOneLineThatSaysWhatWasExpected) {
   const auto scale = [](double by) {
     return [by](Keypoints& k) { k.extrinsics[0].topLeftCorner<3, 3>() *= by; };

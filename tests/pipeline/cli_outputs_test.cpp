@@ -211,6 +211,31 @@ TEST_F(CliOutputs, AFullDeviceOnStandardOutputIsStatusOne) {
   }
 }
 
+TEST_F(CliOutputs, APipeInAMotionsPlaceIsRefusedWithoutWaiting) {
+  ASSERT_EQ(shell("mkfifo " + path("in/pipe.npz")).status, 0);
+  const Call call = shell("timeout 20 " + std::string(MIMICX_BINARY) + " plan " + path("in/pipe.npz") +
+                          " --out " + path("run") + " 2>&1");
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "pipe.npz: expected a regular file")) << call.text;
+}
+
+TEST_F(CliOutputs, WhatIsPrintedToAClosedStreamGoesIntoNoFile) {
+  for (const char* closed : {"1>&- 2>&-", "0<&- 1>&- 2>&-"}) {
+    const std::string out = path(std::string("run_") + closed[0]);
+    const Call call = shell(std::string(MIMICX_BINARY) + " plan " + path("in/w.npz") + " --shard 0/1 --out " +
+                            out + " " + closed);
+    EXPECT_EQ(call.status, 0) << closed;
+    for (const char* lock : {"/shards/lock", "/shards/000-of-001/lock"})
+      EXPECT_EQ(read_file(out + lock), "") << closed << lock;
+  }
+}
+
+TEST_F(CliOutputs, ANameNeverCommandsTheTerminal) {
+  const Call call = mimicx("info \"$(printf 'a\\033[31m\\177.npz')\"");
+  EXPECT_EQ(call.status, 1);
+  EXPECT_EQ(call.text, "mimicx: a\\x1b[31m\\x7f.npz: expected a readable file, found none\n");
+}
+
 TEST_F(CliOutputs, WhatBelongsToFramesComesAlongAtThirtyAndWhatDoesNotStays) {
   motion::Clip clip = foreign_clip(60.0);  // 40 frames, hands
   clip.passthrough.emplace_back("dmpls", from_matrix(Eigen::MatrixXd::Random(40, 8)));

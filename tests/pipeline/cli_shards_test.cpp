@@ -143,7 +143,8 @@ TEST_F(CliShards, OfOtherNumbersInputsOrSettingsAreRefusedInALine) {
   EXPECT_TRUE(says(whole, "holds a run that is not in shards")) << whole.text;
   const Call nothing = mimicx("merge " + path("in"));
   EXPECT_EQ(nothing.status, 1);
-  EXPECT_TRUE(says(nothing, "shards/run.json: expected a readable file")) << nothing.text;
+  EXPECT_TRUE(says(nothing, path("in") + ": expected a run in parts (--shard I/N), found none"))
+      << nothing.text;
 }
 
 TEST_F(CliShards, ThatWereGivenDifferentBudgetsAreNotMerged) {

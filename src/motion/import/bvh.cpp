@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/number_text.h"
 #include "core/units.h"
 #include "motion/import/text_input.h"
 
@@ -39,7 +40,7 @@ bool is_word(std::string_view word, std::string_view keyword) {
 
 double bounded_number(TextInput& in, const std::string& what) {
   const double value = in.number(what);
-  if (std::abs(value) > kMaxChannelValue) in.fail_with("a number within ±1e7", std::to_string(value));
+  if (std::abs(value) > kMaxChannelValue) in.fail_with("a number within ±1e7", text_of(value));
   return value;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/number_text.h"
 #include "core/quantile.h"
 #include "motion/import/text_input.h"
 
@@ -83,7 +84,7 @@ Row read_row(TextInput& in, std::size_t frame) {
     if (c > 0) in.expect(",");
     double& value = row[c];
     value = in.number("number " + std::to_string(c + 1) + " of the 44 of frame " + std::to_string(frame + 1));
-    if (std::abs(value) > kMaxFrameValue) in.fail_with("a number within ±10000", std::to_string(value));
+    if (std::abs(value) > kMaxFrameValue) in.fail_with("a number within ±10000", text_of(value));
   }
   in.expect("]");
   return row;

@@ -1,11 +1,12 @@
 /// Motions of joint positions alone, as motion generators write them, and the rotations that go with them.
 ///
-///     (frames, 22, 3)   positions of the 22 joints of SMPL, in the order of `Body`; unit and up axis are
-///     found (frames, 263)     HumanML3D's features: of a frame the turn of the root about y since the frame
-///     before
-///                       (half the angle, rad), its step in x and z in its own heading (m), its height (m),
-///                       then the other 21 joints from the root in its heading (63), and what follows from
-///                       these: rotations (126), velocities (66), contacts (4)
+///     (frames, 22, 3): positions of the 22 joints of SMPL, in the order of `Body`; unit and up axis are
+///     found
+///
+///     (frames, 263): HumanML3D's features. Of a frame the turn of the root about y to the next frame (half
+///     the angle, rad), its step in x and z in its own heading (m), its height (m), then the other 21 joints
+///     from the root in its heading (63), and what follows from these: rotations (126), velocities (66),
+///     contacts (4)
 ///
 /// Source of the features: Guo et al., "Generating Diverse and Natural 3D Human Motions from Text" (CVPR
 /// 2022), its code's recover_from_ric; y up, metres, 20 fps. Both are taken to be at 20 fps.

@@ -265,6 +265,17 @@ Clip read_any(const std::string& bytes, const std::filesystem::path& path, const
                   bytes.empty() ? "an empty file" : "other content");
 }
 
+/// The first bytes of a file, fewer where it has fewer, none of a pipe: opening one waits for a writer.
+std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return {};
+  std::string bytes(count, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
 }  // namespace
 
 std::string ReadConfig::text() const {
@@ -329,23 +340,13 @@ Clip motion_from(const std::string& bytes, const std::filesystem::path& path, co
 }
 
 bool holds_positions(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(kHeaderBytes, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string start = first_bytes(path, kHeaderBytes);
   return recognise(start) == MotionFormat::kNpy && is_positions(header_shape(start));
 }
 
 bool is_motion_file(const std::filesystem::path& path) {
   const std::string suffix = lower_suffix(path);
-  if (suffix == ".txt") {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return false;  // opening a pipe waits for a writer
-    std::ifstream file(path, std::ios::binary);
-    std::string start(kFirstBytes, '\0');
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    return recognise(start.substr(0, static_cast<std::size_t>(file.gcount()))) == MotionFormat::kDeepMimic;
-  }
+  if (suffix == ".txt") return recognise(first_bytes(path, kFirstBytes)) == MotionFormat::kDeepMimic;
   return is_written(suffix);
 }
 

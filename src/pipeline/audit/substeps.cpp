@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "core/number_text.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
 #include "pipeline/output/rows.h"
@@ -156,7 +157,7 @@ SubstepMotion read_substeps(const Npz& npz) {
   std::copy(betas.begin(), betas.end(), shape.begin());
   for (const double beta : shape)
     if (std::abs(beta) > kMaxBeta)
-      throw DataError(npz.path, "betas", "shape parameters within ±5", std::to_string(beta));
+      throw DataError(npz.path, "betas", "shape parameters within ±5", text_of(beta));
   motion.character = make_character(shape);
   motion.simulation = output::read_simulation(npz);
   const NpyArray& q = npz.at("q");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/number_text.h"
 
 namespace mimicx::pipeline::record {
 namespace {
@@ -47,7 +48,7 @@ FrameFeasibility read_feasibility(const std::filesystem::path& path) {
 FrameFeasibility feasibility_from(const Npz& npz) {
   FrameFeasibility all;
   all.mass = number_at(npz, "mass");
-  if (!(all.mass > 0.0)) throw DataError(npz.path, "mass", "a positive number", std::to_string(all.mass));
+  if (!(all.mass > 0.0)) throw DataError(npz.path, "mass", "a positive number", text_of(all.mass));
   all.need = wrenches_of(npz, "need");
   const NpyArray& wrong = npz.at("wrong");
   if (wrong.type != NpyArray::Type::kText || wrong.text.size() != all.need.size())

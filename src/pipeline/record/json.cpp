@@ -64,7 +64,8 @@ std::string written(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-[[noreturn]] void refuse(const std::string& expected) { throw JsonError("expected " + expected); }
+/// Messages say what was found: they stand behind "expected the manifest of a run, found".
+[[noreturn]] void refuse(const std::string& found) { throw JsonError(found); }
 
 }  // namespace
 
@@ -104,13 +105,13 @@ Json& Json::operator[](const std::string& name) {
   if (is_null()) value_ = std::vector<Member>();
   if (const Json* there = find(name)) return const_cast<Json&>(*there);
   auto* members = std::get_if<std::vector<Member>>(&value_);
-  if (members == nullptr) refuse("an object");
+  if (members == nullptr) refuse("what is no object");
   return members->emplace_back(name, Json()).second;
 }
 
 const Json& Json::at(const std::string& name) const {
   const Json* there = find(name);
-  if (there == nullptr) refuse("a member " + name);
+  if (there == nullptr) refuse("no member " + name);
   return *there;
 }
 
@@ -120,24 +121,24 @@ Json Json::value(const std::string& name, const Json& otherwise) const {
 }
 
 const std::vector<Json::Member>& Json::items() const {
-  if (!is_object()) refuse("an object");
+  if (!is_object()) refuse("what is no object");
   return std::get<std::vector<Member>>(value_);
 }
 
 const std::vector<Json>& Json::elements() const {
-  if (!std::holds_alternative<std::vector<Json>>(value_)) refuse("an array");
+  if (!std::holds_alternative<std::vector<Json>>(value_)) refuse("what is no array");
   return std::get<std::vector<Json>>(value_);
 }
 
 void Json::push_back(Json element) {
   if (is_null()) value_ = std::vector<Json>();
   auto* elements = std::get_if<std::vector<Json>>(&value_);
-  if (elements == nullptr) refuse("an array");
+  if (elements == nullptr) refuse("what is no array");
   elements->push_back(std::move(element));
 }
 
 bool Json::boolean() const {
-  if (!is_boolean()) refuse("true or false");
+  if (!is_boolean()) refuse("what is neither true nor false");
   return std::get<bool>(value_);
 }
 
@@ -145,24 +146,24 @@ double Json::number() const {
   if (const auto* value = std::get_if<double>(&value_)) return *value;
   if (const auto* value = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*value);
   if (const auto* value = std::get_if<std::uint64_t>(&value_)) return static_cast<double>(*value);
-  refuse("a number");
+  refuse("what is no number");
 }
 
 std::int64_t Json::whole() const {
   if (const auto* value = std::get_if<std::int64_t>(&value_)) return *value;
   if (const auto* value = std::get_if<std::uint64_t>(&value_)) return static_cast<std::int64_t>(*value);
-  refuse("a whole number");
+  refuse("what is no whole number");
 }
 
 std::uint64_t Json::natural() const {
   if (const auto* value = std::get_if<std::uint64_t>(&value_)) return *value;
   const std::int64_t value = whole();
-  if (value < 0) refuse("a whole number from 0 on");
+  if (value < 0) refuse("a negative number");
   return static_cast<std::uint64_t>(value);
 }
 
 const std::string& Json::text() const {
-  if (!std::holds_alternative<std::string>(value_)) refuse("a text");
+  if (!std::holds_alternative<std::string>(value_)) refuse("what is no text");
   return std::get<std::string>(value_);
 }
 

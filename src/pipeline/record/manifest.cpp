@@ -124,6 +124,9 @@ Manifest read_manifest(const std::filesystem::path& path) { return parse_manifes
 Manifest parse_manifest(const std::string& text, const std::filesystem::path& path) {
   try {
     const Json json = Json::parse(text);
+    if (json.contains("options") && !json.contains("sequences"))
+      throw DataError(path.string(), "", "the manifest of a run over motions",
+                      "that of trained options (mimicx pretrain or teach)");
     Manifest manifest = run_of(json.at("run"));
     for (const Json& e : json.at("sequences").elements()) manifest.sequences.push_back(entry_of(e));
     return manifest;

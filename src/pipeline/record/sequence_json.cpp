@@ -25,7 +25,7 @@ Json to_json(const FileChecksums& files) {
 
 Ending ending_of(const std::string& name) {
   const auto found = std::find(kEndings.begin(), kEndings.end(), name);
-  if (found == kEndings.end()) throw JsonError("expected the word for an ending, found '" + name + "'");
+  if (found == kEndings.end()) throw JsonError("an ending '" + name + "'");
   return static_cast<Ending>(found - kEndings.begin());
 }
 

@@ -36,6 +36,8 @@ std::string format_shard_list(const ShardList& list) {
 
 ShardList read_shard_list(const std::filesystem::path& root) {
   const std::filesystem::path path = shard_list_path(root);
+  if (!std::filesystem::exists(path))
+    throw DataError(root.string(), "", "a run in parts (--shard I/N)", "none: there is no shards/run.json");
   return parse_shard_list(read_file(path), path);
 }
 
@@ -48,7 +50,7 @@ ShardList parse_shard_list(const std::string& text, const std::filesystem::path&
     for (const Json& input : json.at("inputs").elements())
       list.inputs.push_back(
           {from_utf8(input.at("name").get<std::string>()), from_utf8(input.at("input").get<std::string>())});
-    if (list.count < 1) throw JsonError("expected 1 shard or more");
+    if (list.count < 1) throw JsonError(std::to_string(list.count) + " shards");
     return list;
   } catch (const JsonError& error) {
     throw DataError(path.string(), "", "what the shards of a run agreed on", error.what());

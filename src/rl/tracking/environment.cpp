@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/random.h"
 #include "nn/checkpoint.h"
 
@@ -205,7 +206,7 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   const auto clip_index = [&](double value) {
     if (!(value >= 0.0 && value < static_cast<double>(clips_.size())))
       throw DataError(archive.path, prefix, "one of " + std::to_string(clips_.size()) + " clips",
-                      std::to_string(value));
+                      text_of(value));
     return static_cast<int>(value);
   };
   sharpness_ = number_at(archive, prefix + "sharpness");

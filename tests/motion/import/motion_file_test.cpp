@@ -321,11 +321,29 @@ TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
   }
 }
 
+TEST(ReadMotion, ANumberThatIsFarTooLargeIsSaidInFewDigits) {
+  Clip own = foreign("wave");
+  Npz rate = to_npz(own);
+  own.body_model = "mimicx";
+  Npz betas = to_npz(own);
+  rate.set("mocap_framerate", NpyArray::scalar(1e308));
+  const std::vector<double> shape(10, 1e308);
+  betas.set("betas", NpyArray::from_double({10}, shape.data()));
+  const std::string bvh = "HIERARCHY\nROOT a\n{\nOFFSET 1e308 0 0\n", deepmimic = "{\"Frames\": [[1e308";
+  for (const std::string& bytes : {format_npz(rate), format_npz(betas), bvh, deepmimic}) try {
+      motion_from(bytes, "a");
+      ADD_FAILURE() << bytes.substr(0, 80);
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("found 1e+308"), std::string::npos) << error.what();
+    }
+}
+
 TEST(ReadMotion, AFolderWithAPipeInItIsLookedThroughWithoutWaiting) {
   const fs::path pipe = test::scratch("pipe.txt");
   fs::remove(pipe);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_FALSE(is_motion_file(pipe));
+  EXPECT_FALSE(holds_positions(pipe));
   EXPECT_THROW(read_motion(pipe), DataError);
 }
 

@@ -90,6 +90,20 @@ TEST(Json, ReadsValuesOfTheirKindAndSaysWhatItExpected) {
   EXPECT_THROW((json.at("l").get<std::array<std::array<int, 2>, 3>>()), JsonError);
 }
 
+TEST(Json, WhatWasFoundIsSaidBehindTheWordFound) {
+  const auto found = [](const char* text, const auto& use) -> std::string {
+    try {
+      use(Json::parse(text));
+      return "all is well";
+    } catch (const JsonError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(found("{}", [](const Json& j) { j.at("run"); }), "no member run");
+  EXPECT_EQ(found("3", [](const Json& j) { j.items(); }), "what is no object");
+  EXPECT_EQ(found("-3", [](const Json& j) { j.get<std::uint64_t>(); }), "a negative number");
+}
+
 TEST(Json, WhatIsNoJsonIsRefused) {
   for (const std::string text : {"", "{", "[1,]", "{\"a\" 1}", "nul", "1 2", "\"\xff\"", "{\"a\":1}}"})
     EXPECT_THROW(Json::parse(text), JsonError) << text;

@@ -97,6 +97,18 @@ TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
   }
 }
 
+TEST(Manifest, ThatOfTrainedOptionsIsCalledSo) {
+  try {
+    parse_manifest(R"({"run": {"samples": 1}, "options": []})", "o/manifest.json");
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "o/manifest.json: expected the manifest of a run over motions, found that of trained options "
+        "(mimicx pretrain or teach)");
+  }
+}
+
 TEST(Manifest, AnEndingThatThereIsNotIsRefused) {
   std::string text = format_manifest(example_manifest());
   const std::string word = "\"ending\": \"budget\"";
