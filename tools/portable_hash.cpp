@@ -3,7 +3,6 @@
 // compares them. It needs core, character, physics, control, nn and skin alone, so that it is what one builds
 // first on a new machine.
 #include <array>
-#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -62,7 +61,10 @@ class Hash {
 };
 
 void print(const char* part, const Hash& hash) {
-  std::printf("%-22s %016" PRIx64 "\n", part, hash.value());
+  const auto half = [&](int shift) {
+    return static_cast<unsigned long>(hash.value() >> shift & 0xffffffffu);
+  };
+  std::printf("%-22s %08lx%08lx\n", part, half(32), half(0));  // small C libraries print no 64 bits
   std::fflush(stdout);
 }
 

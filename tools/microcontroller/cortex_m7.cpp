@@ -113,11 +113,6 @@ void print_counts(const Counted& thinking, const Counted& moving, int substeps) 
               static_cast<unsigned long>(heap_used));
 }
 
-void mimicx::stop(const char* message) {
-  std::printf("%s\n", message);
-  std::exit(1);
-}
-
 // Of the standard library's errors there remain their names; nothing is thrown and nothing unwound.
 namespace __gnu_cxx {
 void __verbose_terminate_handler() { mimicx::stop("terminated"); }

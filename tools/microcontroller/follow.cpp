@@ -4,9 +4,11 @@
 // POLICY its namespace.
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
+#include "core/error.h"
 #include "machine.h"
 #include "physics/control_interval.h"
 #include "physics/lanes.h"
@@ -115,6 +117,13 @@ struct World {
 };
 
 }  // namespace
+
+#ifndef __cpp_exceptions
+void mimicx::stop(const char* message) {
+  std::fprintf(stderr, "%s\n", message);
+  std::exit(1);
+}
+#endif
 
 int main() {
   const auto world = std::make_unique<World>(body_of_policy());
