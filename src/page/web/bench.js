@@ -1,7 +1,9 @@
 // A page that cleans motions: files go to the program in a worker, and what it makes of them into the report's tables and
 // player.
 
-const bench = {worker: null, waiting: null, queue: [], ready: null, cleaned: 0, kept: []};
+// Of `motions`, what was dropped and has not been begun yet: [{name, read}], read() brings the bytes.
+const bench = {worker: null, waiting: null, queue: [], ready: null, cleaned: 0, kept: [], motions: [], busy: false,
+               stops: 0};
 
 // Base64 of gzip, as it stands in an element of this page, as bytes.
 async function unpacked(id) {
@@ -57,13 +59,21 @@ function show_told(line, urgent) {
 }
 
 function show_working(name) {
-  $('told').replaceChildren();
   $('work').hidden = false;
   $('work-bar').removeAttribute('value');
   $('work-line').textContent = `${name}: read, fitted, prepared …`;
+  show_more();
 }
 
-const show_failure = (text) => $('told').replaceChildren(make('li', {className: 'failed'}, text));
+function show_more() {
+  const more = bench.motions.length;
+  $('work-more').textContent = more ? `${more} more to come` : '';
+}
+
+// @param name  of the motion, where the words do not begin with it
+function show_failure(text, name = '') {
+  $('told').append(make('li', {className: 'failed'}, text.startsWith(name) ? text : `${name}: ${text}`));
+}
 
 // ---- motions --------------------------------------------------------------------------------------
 
@@ -75,25 +85,53 @@ function add_clip(made) {
   document.body.classList.remove('empty');
   $('filter').hidden = data.rows.length < 8;
   show_overview();
-  location.hash = `#${index}`;
+  return index;
 }
 
-async function clean(name, bytes) {
-  if (!$('work').hidden) { show_failure('one motion at a time'); return; }
-  stop_playing();
+// @return the clip that came of it, null where there is none
+async function clean({name, read}) {
+  const {stops} = bench;
   show_working(name);
+  const bytes = await read().catch(() => null);
+  if (!bytes) { show_failure('cannot be read', name); return null; }
   await bench.ready;
-  const {answer, files} = await ask({ask: 'plan', name, bytes});
-  $('work').hidden = true;
-  ++bench.cleaned;
-  if (answer.error) { show_failure(answer.error); return; }
+  const {answer, files} = stops === bench.stops ? await ask({ask: 'plan', name, bytes}) : {answer: {error: 'stopped'}};
+  if (answer.error) { show_failure(answer.error, stops === bench.stops ? name : ''); return null; }
   bench.kept[answer.number] = {name, files};
-  if (!answer.clip.motions.length) { show_failure(answer.row.reason); return; }
-  add_clip(answer);
+  if (!answer.clip.motions.length) { show_failure(answer.row.reason, name); return null; }
+  return add_clip(answer);
 }
 
-async function take_files(files) {
-  for (const file of files) await clean(file.name, new Uint8Array(await file.arrayBuffer()));
+// One after the other, whatever is dropped meanwhile. The first that there is something of is shown; the others can be
+// chosen.
+async function take_motions(motions) {
+  bench.motions.push(...motions);
+  show_more();
+  if (bench.busy || !bench.motions.length) return;
+  stop_playing();
+  $('told').replaceChildren();
+  bench.busy = true;
+  show_after();
+  let shown = false;
+  while (bench.motions.length) {
+    const clip = await clean(bench.motions.shift());
+    ++bench.cleaned;
+    if (clip === null || shown) continue;
+    shown = true;
+    location.hash = `#${clip}`;
+  }
+  bench.busy = false;
+  $('work').hidden = true;
+  show_after();
+}
+
+const take_files = (files) => take_motions([...files].map((file) =>
+    ({name: file.name, read: async () => new Uint8Array(await file.arrayBuffer())})));
+
+function stop_all() {
+  bench.motions = [];
+  ++bench.stops;
+  begin_worker();
 }
 
 // ---- saving ---------------------------------------------------------------------------------------
@@ -107,6 +145,7 @@ async function saved_bytes(suffix) {
 }
 
 async function save_as(suffix) {
+  if (bench.busy) $('save-message').textContent = 'saved as soon as the motion in work is done';
   try {
     const bytes = await saved_bytes(suffix), address = URL.createObjectURL(new Blob([bytes]));
     make('a', {href: address, download: `${row_shown().name}.clean${suffix}`}).click();
@@ -117,8 +156,10 @@ async function save_as(suffix) {
   }
 }
 
+// Playing has the program for itself.
 function show_after() {
-  for (const button of $('after').querySelectorAll('[data-suffix], #begin-play')) button.disabled = !row_shown();
+  for (const button of $('after').querySelectorAll('[data-suffix]')) button.disabled = !row_shown();
+  $('begin-play').disabled = !row_shown() || bench.busy;
   $('save-message').textContent = '';
 }
 
@@ -132,11 +173,11 @@ function begin_bench() {
   const over = (e) => { e.preventDefault(); drop.classList.add('over'); };
   addEventListener('dragover', over);
   addEventListener('dragleave', () => drop.classList.remove('over'));
-  addEventListener('drop', (e) => { e.preventDefault(); drop.classList.remove('over'); take_files([...e.dataTransfer.files]); });
+  addEventListener('drop', (e) => { e.preventDefault(); drop.classList.remove('over'); take_files(e.dataTransfer.files); });
   $('choose').onclick = () => $('file').click();
-  $('file').onchange = () => take_files([...$('file').files]).then(() => { $('file').value = ''; });
-  $('example').onclick = async () => clean($('example-motion').dataset.name, await unpacked('example-motion'));
-  $('stop').onclick = () => { begin_worker(); };
+  $('file').onchange = () => { take_files($('file').files); $('file').value = ''; };
+  $('example').onclick = () => take_motions([{name: $('example-motion').dataset.name, read: () => unpacked('example-motion')}]);
+  $('stop').onclick = stop_all;
   for (const button of $('after').querySelectorAll('[data-suffix]')) button.onclick = () => save_as(button.dataset.suffix);
   addEventListener('hashchange', () => { stop_playing(); show_after(); });
   begin_worker();

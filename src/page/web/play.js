@@ -1,7 +1,7 @@
 // Playing with a cleaned motion: the worker simulates a frame after the other, and the report's player shows them beside the
 // plan, in the place of a clip whose frames are filled in while it is seen.
 
-const play = {on: false, held: false, motion: null, due: 0, asked: false, frame: 0};
+const play = {on: false, held: false, motion: null, due: 0, asked: false, frame: 0, key: null};
 
 const names_of_people = Object.fromEntries(Object.entries(people).map(([who, {name}]) => [who, name]));
 
@@ -53,7 +53,7 @@ function show_betas(betas) {
 async function begin_playing() {
   const index = player.index, {answer} = await ask({ask: 'play', number: row_shown().number});
   if (answer.error) { $('play-message').textContent = $('save-message').textContent = answer.error; return; }
-  if (index !== player.index || play.on) return;
+  if (index !== player.index || play.on || bench.busy) return;
   const planned = player.motions.cleaned, frames = answer.played.frames;
   set_playing(false);
   Object.assign(play, {on: true, held: false, asked: false, due: performance.now(), own: answer.betas.map((b) => b.value)});
@@ -73,6 +73,7 @@ async function begin_playing() {
   show_layers();
   show_timeline();
   show_panel();
+  $('view').focus({preventScroll: true});  // a space would press the button again
   requestAnimationFrame(live_on);
 }
 
@@ -148,10 +149,41 @@ function say_sliders() {
   $('friction-said').textContent = Number($('friction').value).toFixed(2);
 }
 
+function hold_or_go_on() {
+  Object.assign(play, {held: !play.held, due: performance.now()});
+  show_panel();
+}
+
+async function restart() {
+  const answer = await change({ask: 'restart'});
+  if (!answer.error) show_played(answer);
+}
+
+const play_keys = {
+  ArrowLeft: () => push_towards('left'), ArrowRight: () => push_towards('right'),
+  ArrowUp: () => push_towards('away'), ArrowDown: () => push_towards('near'),
+  ' ': hold_or_go_on, Home: restart, End: () => {}, Escape: stop_playing,
+};
+
+// Before the player's own keys, which would move the frames of a clip. What has the focus keeps the keys that it needs,
+// and a key that is held down is one push.
+function on_play_key(e) {
+  const act = play_keys[e.key], tag = e.target.tagName;
+  const ours = e.repeat ? play.key === e.key : play.on && act && !e.ctrlKey && !e.metaKey && !e.altKey;
+  play.key = ours ? e.key : null;
+  if (!ours) return;
+  e.stopPropagation();
+  const needed = tag === 'SELECT' || tag === 'INPUT' || (e.key === ' ' && (tag === 'BUTTON' || tag === 'SUMMARY'));
+  if (needed && e.key !== 'Escape') return;
+  e.preventDefault();
+  if (!e.repeat) act();
+}
+
 function begin_play_panel() {
   $('begin-play').onclick = () => { if (play.on) stop_playing(); else begin_playing(); };
-  $('live').onclick = () => { play.held = !play.held; play.due = performance.now(); show_panel(); };
-  $('restart').onclick = async () => { const answer = await change({ask: 'restart'}); if (!answer.error) show_played(answer); };
+  addEventListener('keydown', on_play_key, true);
+  $('live').onclick = hold_or_go_on;
+  $('restart').onclick = restart;
   $('controller').onchange = () => change({ask: 'controller', which: Number($('controller').value)});
   $('friction').oninput = $('push-speed').oninput = say_sliders;
   $('friction').onchange = () => change({ask: 'friction', friction: Number($('friction').value)});
