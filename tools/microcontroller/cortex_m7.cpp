@@ -24,7 +24,7 @@ volatile std::uint32_t& systick_reload() { return reg(0xe000e014); }
 volatile std::uint32_t& systick_now() { return reg(0xe000e018); }
 volatile std::uint32_t& coprocessor_access() { return reg(0xe000ed88); }
 
-std::uint32_t heap_used = 0;
+std::uint32_t heap_used = 0, heap_most = 0;
 
 double instructions_per_tick() {
   constexpr std::uint32_t kRounds = 1000000;
@@ -84,6 +84,7 @@ void* _sbrk(int more) {
   char* const at = reinterpret_cast<char*>(&heap_begin) + heap_used;
   if (at + more > reinterpret_cast<char*>(&heap_end)) return reinterpret_cast<void*>(-1);
   heap_used += static_cast<std::uint32_t>(more);
+  heap_most = heap_used > heap_most ? heap_used : heap_most;  // what is freed comes back
   return at;
 }
 
@@ -110,7 +111,7 @@ void print_counts(const Counted& thinking, const Counted& moving, int substeps) 
   std::printf("counted: stack %lu heap %lu\n",
               static_cast<unsigned long>(reinterpret_cast<std::uintptr_t>(&stack_end) -
                                          reinterpret_cast<std::uintptr_t>(deepest)),
-              static_cast<unsigned long>(heap_used));
+              static_cast<unsigned long>(heap_most));
 }
 
 // Of the standard library's errors there remain their names; nothing is thrown and nothing unwound.
