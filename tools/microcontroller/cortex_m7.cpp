@@ -46,6 +46,15 @@ extern void (*init_end[])();
 void initialise_monitor_handles();
 int main();
 
+/// The most that there was of each, bytes.
+void print_memory() {
+  const std::uint32_t* deepest = &stack_begin;
+  while (*deepest == kPaint) ++deepest;
+  const auto stack = reinterpret_cast<std::uintptr_t>(&stack_end) - reinterpret_cast<std::uintptr_t>(deepest);
+  std::printf("counted: stack %lu heap %lu\n", static_cast<unsigned long>(stack),
+              static_cast<unsigned long>(heap_most));
+}
+
 [[noreturn]] void reset() {
   coprocessor_access() |= 0xfu << 20;  // the floating-point unit, before anything uses it
   asm volatile("dsb\n isb" ::: "memory");
@@ -58,7 +67,9 @@ int main();
   systick_control() = 5;  // on, by the processor's clock, no interrupt
   initialise_monitor_handles();
   for (auto init = init_begin; init != init_end; ++init) (*init)();
-  std::exit(main());
+  const int status = main();
+  print_memory();
+  std::exit(status);
 }
 
 [[noreturn]] void fault() {
@@ -100,18 +111,12 @@ void Counted::end() {
 }
 
 void print_counts(const Counted& thinking, const Counted& moving, int substeps) {
-  const std::uint32_t* deepest = &stack_begin;
-  while (*deepest == kPaint) ++deepest;
   const double each = instructions_per_tick();
   std::printf("counted: a tick is %.3f instructions\n", each);
   std::printf("counted: policy_step %.0f most %.0f\n", each * thinking.mean(), each * thinking.most());
   std::printf("counted: physics_step %.0f most %.0f\n", each * moving.mean() / substeps,
               each * moving.most() / substeps);
   std::printf("counted: frame %.0f\n", each * (thinking.mean() + moving.mean()));
-  std::printf("counted: stack %lu heap %lu\n",
-              static_cast<unsigned long>(reinterpret_cast<std::uintptr_t>(&stack_end) -
-                                         reinterpret_cast<std::uintptr_t>(deepest)),
-              static_cast<unsigned long>(heap_most));
 }
 
 // Of the standard library's errors there remain their names; nothing is thrown and nothing unwound.
