@@ -116,26 +116,33 @@ const std::vector<std::string>& protocol_names() {
 }
 
 const std::vector<ProtocolColumn>& protocol_columns(Protocol protocol) {
+  constexpr const char* kSmplSim = "SMPLSim smpl_sim/smpllib/smpl_eval.py, compute_metrics_lite";
+  constexpr const char* kRestoration = "arXiv 2412.17377, read as PhysDiff's, arXiv 2212.02500";
+  constexpr const char* kWham = "WHAM lib/eval/evaluate_emdb.py, GVHMR hmr4d/utils/eval/eval_utils.py";
   static const std::vector<ProtocolColumn> phc = {
       {"Succ", "%",
        "motions of which no frame from the third on has a mean distance of the joints, toes left out, over "
-       "0.5 m, no alignment"},
-      {"E_g-mpjpe", "mm", "mean distance of the joints from the truth's, no alignment"},
-      {"E_mpjpe", "mm", "the same after moving both pelvises to the origin"},
-      {"E_pa-mpjpe", "mm", "the same after a similarity Procrustes per frame"},
-      {"E_acc", "mm/frame^2", "mean norm of the difference of the joints' second differences"},
-      {"E_vel", "mm/frame", "mean norm of the difference of the joints' first differences"}};
+       "0.5 m, no alignment",
+       "PHC phc/env/tasks/humanoid_im.py, phc/learning/im_amp.py"},
+      {"E_g-mpjpe", "mm", "mean distance of the joints from the truth's, no alignment", kSmplSim},
+      {"E_mpjpe", "mm", "the same after moving both pelvises to the origin", kSmplSim},
+      {"E_pa-mpjpe", "mm", "the same after a similarity Procrustes per frame", kSmplSim},
+      {"E_acc", "mm/frame^2", "mean norm of the difference of the joints' second differences", kSmplSim},
+      {"E_vel", "mm/frame", "mean norm of the difference of the joints' first differences", kSmplSim}};
   static const std::vector<ProtocolColumn> pmr = {
-      {"GP", "mm", "depth of the lowest surface point where it is deeper than 5 mm, else 0"},
-      {"Float", "mm", "height of the lowest surface point where it is higher than 5 mm, else 0"},
-      {"FS", "mm/frame", "horizontal way of foot points at z <= 5 mm in both frames, 0 without any"},
-      {"Accel", "mm/frame^2", "mean norm of the difference of the joints' second differences"}};
+      {"GP", "mm", "depth of the lowest surface point where it is deeper than 5 mm, else 0", kRestoration},
+      {"Float", "mm", "height of the lowest surface point where it is higher than 5 mm, else 0",
+       kRestoration},
+      {"FS", "mm/frame", "horizontal way of foot points at z <= 5 mm in both frames, 0 without any",
+       "the same; 0 without any: SMPLSim smpl_sim/smpllib/smpl_eval.py, compute_skate"},
+      {"Accel", "mm/frame^2", "mean norm of the difference of the joints' second differences", kSmplSim}};
   static const std::vector<ProtocolColumn> emdb = {
-      {"WA-MPJPE", "mm", "segments of 100 frames, each moved by the similarity that fits all of it"},
-      {"W-MPJPE", "mm", "segments of 100 frames, each moved by the similarity that fits its first two"},
-      {"RTE", "%", "distance of the pelvis over the truth's whole way, after a rigid fit of the way"},
-      {"Jitter", "10 m/s^3", "mean norm of the joints' third derivative"},
-      {"FS", "mm/frame", "way of the foot points where the truth's move less than 10 mm per frame"}};
+      {"WA-MPJPE", "mm", "segments of 100 frames, each moved by the similarity that fits all of it", kWham},
+      {"W-MPJPE", "mm", "segments of 100 frames, each moved by the similarity that fits its first two",
+       kWham},
+      {"RTE", "%", "distance of the pelvis over the truth's whole way, after a rigid fit of the way", kWham},
+      {"Jitter", "10 m/s^3", "mean norm of the joints' third derivative", kWham},
+      {"FS", "mm/frame", "way of the foot points where the truth's move less than 10 mm per frame", kWham}};
   return protocol == Protocol::kPhc ? phc : protocol == Protocol::kPmr ? pmr : emdb;
 }
 

@@ -29,6 +29,7 @@ struct ProtocolColumn {
   const char* name;
   const char* unit;
   const char* definition;
+  const char* source;  ///< whose code or paper has it
 };
 
 /// "phc", "pmr", "emdb".

@@ -109,7 +109,8 @@ std::string format_protocol(const std::vector<ProtocolTable>& tables) {
     text += pooled_lines(table, tables.size() == 1 ? "pooled" : table.folder, width);
   }
   for (const motion::ProtocolColumn& column : columns)
-    text += padded(column.name, 12) + std::string(column.definition) + '\n';
+    text +=
+        padded(column.name, 12) + column.definition + "\n" + padded("", 12) + "after " + column.source + '\n';
   return text;
 }
 
@@ -120,8 +121,10 @@ std::string protocol_json(const std::vector<ProtocolTable>& tables) {
                        {"columns", record::Json::array()},
                        {"folders", record::Json::array()}};
   for (const motion::ProtocolColumn& column : columns)
-    json["columns"].push_back(
-        {{"name", column.name}, {"unit", column.unit}, {"definition", column.definition}});
+    json["columns"].push_back({{"name", column.name},
+                               {"unit", column.unit},
+                               {"definition", column.definition},
+                               {"source", column.source}});
   for (const ProtocolTable& table : tables) {
     record::Json folder = {{"folder", table.folder}, {"pooled", to_json(columns, pooled_row(table))}};
     if (has_success(protocol)) folder["succeeded"] = to_json(columns, pooled_row(table, true));

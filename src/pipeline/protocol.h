@@ -35,9 +35,11 @@ ProtocolTable evaluate_protocol(motion::Protocol protocol, const std::filesystem
 /// Over the samples of all rows that have values. @param succeeded  only of those that are a success
 std::vector<motion::MetricValue> pooled_row(const ProtocolTable& table, bool succeeded = false);
 
-/// A line per motion and the pooled ones; of several tables the pooled lines alone. Definitions below.
+/// A line per motion and the pooled ones; of several tables the pooled lines alone. Definitions and sources
+/// below.
 std::string format_protocol(const std::vector<ProtocolTable>& tables);
-/// {"protocol", "columns": [{name, unit, definition}], "folders": [{folder, pooled, succeeded, motions}]}
+/// {"protocol", "columns": [{name, unit, definition, source}], "folders": [{folder, pooled, succeeded,
+/// motions}]}
 std::string protocol_json(const std::vector<ProtocolTable>& tables);
 
 }  // namespace mimicx::pipeline

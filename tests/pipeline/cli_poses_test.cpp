@@ -1,6 +1,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "core/npz.h"
 #include "motion/import/bvh_write.h"
@@ -139,13 +140,14 @@ TEST_F(CliProtocol, AMissingMotionIsNoSuccess) {
 
 TEST_F(CliProtocol, EveryProtocolPrintsItsColumnsAndFoldersGetALineEach) {
   std::filesystem::remove(path("truth/c.npz"));
-  for (const auto& [protocol, column] :
-       {std::pair{"phc", "E_pa-mpjpe"}, {"pmr", "Float"}, {"emdb", "WA-MPJPE"}}) {
+  for (const auto& [protocol, column, source] : {std::tuple{"phc", "E_pa-mpjpe", "after SMPLSim "},
+                                                 {"pmr", "Float", "after arXiv 2412.17377"},
+                                                 {"emdb", "WA-MPJPE", "after WHAM "}}) {
     const std::string arguments =
         std::string("evaluate --protocol ") + protocol + " --truth " + path("truth");
     const Call call = mimicx(arguments + " --motions " + path("motions"));
     EXPECT_EQ(call.status, 0) << call.text;
-    EXPECT_TRUE(says(call, column) && says(call, "pooled")) << call.text;
+    EXPECT_TRUE(says(call, column) && says(call, "pooled") && says(call, source)) << call.text;
     const Call two = mimicx(arguments + " --motions " + path("motions") + " " + path("truth"));
     EXPECT_EQ(two.status, 0) << two.text;
     EXPECT_TRUE(says(two, path("motions")) && says(two, path("truth"))) << two.text;

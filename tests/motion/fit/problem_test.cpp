@@ -116,5 +116,20 @@ TEST(FitProblem, AForeignBodyDiffersAsPeopleDo) {
   for (double sigma : make_problem(clip, config).beta_sigma) EXPECT_EQ(sigma, config.beta_sigma);
 }
 
+TEST(FitProblem, ABodyWhoseJointsAreKnownKeepsItsShape) {
+  Clip clip = test::random_clip(6, 4, 0.1);
+  clip.body_model = "smplx";
+  clip.keypoints.emplace();
+  clip.keypoints->uvc.resize(4);
+  clip.keypoints->extrinsics.assign(1, Eigen::Matrix4d::Identity());
+  clip.rest_joints.emplace();
+  const Character body = make_character();
+  for (int b = 1; b < kBodies; ++b)
+    (*clip.rest_joints)[b] = (*clip.rest_joints)[kParents[b]] + body.joint_offset[b];
+  const FitProblem problem = make_problem(clip, FitConfig{});
+  EXPECT_TRUE(problem.rest_joints);
+  for (double sigma : problem.beta_sigma) EXPECT_EQ(sigma, 0.0);
+}
+
 }  // namespace
 }  // namespace mimicx::motion::fit
