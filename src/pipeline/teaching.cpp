@@ -17,6 +17,7 @@ void for_each_setting(Config& config, const Add& add) {
   add("teach_max_correction", teacher.max_correction, 0, 10);
   auto& student = config.student;
   add("teach_hidden", student.hidden, 1, 4096);
+  add("teach_wider", student.wider, 1, 64);
   add("teach_rounds", student.rounds, 1, 10000);
   add("teach_stages", student.stages, 1, 1000);
   add("teach_packs", student.packs, 1, 1000);

@@ -44,21 +44,52 @@ struct Best {
   static constexpr double kFar = 100.0;
 };
 
+/// Somebody who has learned nothing yet.
+struct Student {
+  /// @param times  as wide as the first one, and with as many more steps
+  Student(const Teacher& teacher, const StudentConfig& config, int times)
+      : agent(beginner(teacher.clip->state_size(), {times * config.hidden, times * config.hidden},
+                       config.seed)),
+        adam(nn::make_adam<float>(nn::parameters(agent.actor))),
+        steps(times * std::max(config.least_steps,
+                               static_cast<int>(std::lround(config.steps_per_frame * teacher.size())))) {}
+
+  rl::Agent agent;
+  nn::Adam<float> adam;
+  int steps;  ///< of a round
+};
+
+/// The regression of one round. @param of_stage  the round's number in its stage
+/// @return the mean loss; none where it was told to stop
+std::optional<double> study(const Lessons& lessons, const Teacher& teacher, const StudentConfig& config,
+                            int of_stage, const control::PlanControl& control, Random& random,
+                            RegressionScratch& scratch, Student& student) {
+  List<int> rows(config.regression.minibatch);
+  double loss = 0.0;
+  for (int step = 0; step < student.steps; ++step) {
+    if (control.should_stop && control.should_stop()) return {};
+    const double done = (of_stage + (step + 0.5) / student.steps) / config.rounds;
+    const double fall = (1.0 - done) * (1.0 - done);
+    const double step_size = config.last_step_size + fall * (config.step_size - config.last_step_size);
+    for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(lessons.rows())));
+    loss += regression_step(lessons, teacher.importance, rows, config.regression, step_size, control.threads,
+                            student.agent, student.adam, scratch) /
+            student.steps;
+  }
+  return loss;
+}
+
 }  // namespace
 
 std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                                const StudentConfig& config, const control::PlanControl& control,
                                const std::function<void(const RoundStats&, const rl::Agent&)>& watch) {
-  rl::Agent agent = beginner(teacher.clip->state_size(), {config.hidden, config.hidden}, config.seed);
-  nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
-  Best best{agent};
+  Student student(teacher, config, 1);
+  Best best{student.agent};
   RegressionScratch scratch;
   Lessons all;
   Random random(config.seed, {kRows});
-  const int steps =
-      std::max(config.least_steps, static_cast<int>(std::lround(config.steps_per_frame * teacher.size())));
-  List<int> rows(config.regression.minibatch);
-  int taken = 0;
+  RoundStats stats;
   for (int round = 0; round < config.stages * config.rounds; ++round) {
     const int of_stage = round % config.rounds;
     if (of_stage == 0 && best.followed()) break;
@@ -66,29 +97,24 @@ std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::Track
     parallel_for(config.packs, control.threads, [&](int pack) {
       const auto key = static_cast<std::uint64_t>(round * config.packs + pack);
       fresh[pack] =
-          take_lessons(teacher, task, config.lessons, round > 0 ? &agent : nullptr, config.seed, key);
+          take_lessons(teacher, task, config.lessons, round > 0 ? &student.agent : nullptr, config.seed, key);
     });
-    RoundStats stats{round, 0, 0, 0.0};
+    stats.round = round;
+    stats.put_back = 0;
     for (const Lessons& lessons : fresh) {
-      add(lessons, agent.actor.inputs(), config.most_rows, all);
+      add(lessons, student.agent.actor.inputs(), config.most_rows, all);
       stats.put_back += lessons.put_back;
-      taken += lessons.rows();
+      stats.taken += lessons.rows();
     }
-    stats.taken = taken;
-    if (round == 0) scale_inputs(all, agent);
-    for (int step = 0; step < steps; ++step) {
-      if (control.should_stop && control.should_stop()) return {};
-      const double done = (of_stage + (step + 0.5) / steps) / config.rounds;
-      const double fall = (1.0 - done) * (1.0 - done);
-      for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(all.rows())));
-      stats.loss += regression_step(all, teacher.importance, rows, config.regression,
-                                    config.last_step_size + fall * (config.step_size - config.last_step_size),
-                                    control.threads, agent, adam, scratch) /
-                    steps;
-    }
-    if (2 * (of_stage + 1) > config.rounds) best.consider(teacher, task, agent);
+    const bool another = round == config.rounds && config.wider > 1;
+    if (another) student = Student(teacher, config, config.wider);
+    if (round == 0 || another) scale_inputs(all, student.agent);
+    const auto loss = study(all, teacher, config, of_stage, control, random, scratch, student);
+    if (!loss) return {};
+    stats.loss = *loss;
+    if (2 * (of_stage + 1) > config.rounds) best.consider(teacher, task, student.agent);
     if (control.progress) control.progress(round + 1, config.stages * config.rounds);
-    if (watch) watch(stats, agent);
+    if (watch) watch(stats, student.agent);
   }
   return best.agent;
 }

@@ -4,7 +4,7 @@
 /// lessons stay, up to a bound, and every round ends with about as many gradient steps as the motion has
 /// frames. In the second half of the rounds the student is rolled out alone after each, and the best one
 /// stays: late rounds may unlearn a hard moment. Where none of them follows the motion, another stage of as
-/// many rounds goes on.
+/// many rounds goes on; in these a wider student learns, from the lessons that are there and from its own.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,10 @@ namespace mimicx::teaching {
 
 struct StudentConfig {
   int hidden = 128;  ///< width of both hidden layers
-  int rounds = 14;   ///< of a stage
-  int stages = 3;    ///< at most; the first after which a student follows the motion alone is the last
-  int packs = 2;     ///< that take lessons side by side in a round
+  int wider = 2;    ///< the student of the later stages is so many times as wide and takes as many more steps
+  int rounds = 14;  ///< of a stage
+  int stages = 3;   ///< at most; the first after which a student follows the motion alone is the last
+  int packs = 2;    ///< that take lessons side by side in a round
   double steps_per_frame = 1.0;  ///< gradient steps of a round, per frame of the motion
   int least_steps = 150;         ///< of a round, where the motion is short
   double step_size = 2e-3;       ///< Adam's at first; falls with the square of what is left of a stage

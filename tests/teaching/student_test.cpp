@@ -61,6 +61,17 @@ TEST(Student, GoesOnInStagesUntilItFollows) {
   EXPECT_EQ(rounds, 6);
 }
 
+TEST(Student, GivesWayToAWiderOneWhereTheFirstStageFails) {
+  StudentConfig config = quick();
+  config.rounds = 2;
+  config.stages = 2;
+  config.step_size = config.last_step_size = 1.0;  // far too large: it learns nonsense, and falls
+  std::vector<Eigen::Index> widths;
+  teach(teacher_of_squat(), {}, config, {},
+        [&](const RoundStats&, const rl::Agent& agent) { widths.push_back(agent.actor.weights[0].cols()); });
+  EXPECT_EQ(widths, (std::vector<Eigen::Index>{64, 64, 128, 128}));
+}
+
 TEST(Student, LessonsStayWithinTheirBound) {
   StudentConfig config = quick();
   config.rounds = 3;
