@@ -221,30 +221,17 @@ void add_body_points(Character& c) {
 
 using Offsets = PerBody<Vector3d>;
 
-/// Joint offsets of a shape.
-Offsets offsets_of(const std::array<double, kBetas>& betas) {
-  Offsets offsets;
-  for (int i = 0; i < kBodies; ++i) {
-    const Vector3d standard = standard_offset(i);
-    Vector3d gain = Vector3d::Ones();
-    for (std::size_t k = 0; k < kBetas; ++k) gain += betas[k] * gain_of(shape_components()[k], i);
-    const Vector3d offset = standard.cwiseProduct(gain);
-    offsets[i] = is_right(i) ? mirrored(offset) : offset;
-  }
-  return offsets;
-}
-
 /// The shape whose bones are nearest: least squares on the offsets, which are affine in β, with the prior
 /// that β is standard normal and that bodies differ by kBoneSigma in what β does not describe.
 std::array<double, kBetas> nearest_betas(const Offsets& offsets) {
   constexpr double kBoneSigma = 0.02;  // m
-  const Offsets standard = offsets_of({});
+  const Offsets standard = joint_offsets({});
   Eigen::Matrix<double, 3 * kBodies, kBetas> by_beta;
   Eigen::Matrix<double, 3 * kBodies, 1> wanted;
   for (std::size_t k = 0; k < kBetas; ++k) {
     std::array<double, kBetas> unit{};
     unit[k] = 1.0;
-    const Offsets moved = offsets_of(unit);
+    const Offsets moved = joint_offsets(unit);
     for (int i = 0; i < kBodies; ++i)
       by_beta.block<3, 1>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(k)) =
           moved[i] - standard[i];
@@ -267,7 +254,7 @@ Character assemble(const Offsets& offsets, const std::array<double, kBetas>& bet
   c.joint_offset = offsets;
   const Scales scales = scales_of(betas);
   Character standard;
-  standard.joint_offset = offsets_of({});
+  standard.joint_offset = joint_offsets({});
   for (int i = 0; i < kBodies; ++i) {
     c.capsule[i] = capsule_of(c, scales, i);
     const double growth = capsule_volume(c.capsule[i]) / capsule_volume(capsule_of(standard, Scales{}, i));
@@ -302,15 +289,27 @@ double Character::total_mass() const {
   return sum;
 }
 
+Offsets joint_offsets(const std::array<double, kBetas>& betas) {
+  Offsets offsets;
+  for (int i = 0; i < kBodies; ++i) {
+    const Vector3d standard = standard_offset(i);
+    Vector3d gain = Vector3d::Ones();
+    for (std::size_t k = 0; k < kBetas; ++k) gain += betas[k] * gain_of(shape_components()[k], i);
+    const Vector3d offset = standard.cwiseProduct(gain);
+    offsets[i] = is_right(i) ? mirrored(offset) : offset;
+  }
+  return offsets;
+}
+
 Character make_character(const std::array<double, kBetas>& betas) {
   for (double b : betas)
     if (!(std::abs(b) <= kMaxBeta))
       raise(std::invalid_argument("make_character: every |beta| must be at most 5"));
-  return assemble(offsets_of(betas), betas);
+  return assemble(joint_offsets(betas), betas);
 }
 
 Character make_character_of_joints(const RestJoints& joints) {
-  const Offsets standard = offsets_of({});
+  const Offsets standard = joint_offsets({});
   Offsets offsets;
   offsets[0].setZero();
   for (int i = 1; i < kBodies; ++i) {

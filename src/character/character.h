@@ -62,6 +62,9 @@ inline constexpr double kMaxBeta = 5.0;
 /// What β_k changes, in words: "leg length".
 std::string_view name_of_beta(int k);
 
+/// Rest offsets of the joints of a shape, `Character::joint_offset`: affine in β.
+PerBody<Vector3d> joint_offsets(const std::array<double, kBetas>& betas);
+
 /// The character of a shape. β = 0 is the standard body (1.72 m, 70 kg).
 /// @throws std::invalid_argument unless every |β_k| ≤ `kMaxBeta`.
 Character make_character(const std::array<double, kBetas>& betas = {});

@@ -24,9 +24,10 @@ void feed(const std::string& bytes) {
   try {
     const NpyArray array =
         parse_npy(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), "fuzz.npy", "");
+    const Npz sound = motion::to_npz(test::random_clip(1, 3, 0.3));
     for (const char* member : {"poses", "trans", "betas", "mocap_framerate", "joint_names", "body_model",
                                "keypoints_2d", "rest_joints", "gender"}) {
-      Npz npz = motion::to_npz(test::random_clip(1, 3, 0.3));
+      Npz npz = sound;
       npz.set(member, array);
       try {
         motion::to_npz(motion::clip_from(npz, "fuzz"));

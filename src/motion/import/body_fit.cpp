@@ -46,8 +46,7 @@ Betas minimise(const Residual& residual, double weight) {
 
 }  // namespace
 
-BodyLengths lengths_of(const Character& character) {
-  const auto& offset = character.joint_offset;
+BodyLengths lengths_of(const PerBody<Vector3d>& offset) {
   const auto mean = [&](int left, int right) { return 0.5 * (offset[left].norm() + offset[right].norm()); };
   const Vector3d hips = 0.5 * (offset[kLeftHip] + offset[kRightHip]);
   const Vector3d chest = offset[kSpine1] + offset[kSpine2] + offset[kSpine3];
@@ -71,7 +70,7 @@ std::array<double, kBetas> fit_betas(const BodyLengths& lengths) {
   constexpr double kSigma = 0.005, kPull = 0.1;
   return minimise(
       [&](const Betas& betas) {
-        const BodyLengths made = lengths_of(make_character(betas));
+        const BodyLengths made = lengths_of(joint_offsets(betas));
         Vector r = Vector::Zero(kLengths);
         for (int i = 0; i < kLengths; ++i)
           if (lengths[i] > 0.0) r[i] = (made[i] - lengths[i]) / kSigma;
@@ -82,9 +81,9 @@ std::array<double, kBetas> fit_betas(const BodyLengths& lengths) {
 
 std::array<double, kBetas> fit_betas(const PerBody<Vector3d>& offsets, double& error) {
   const auto residual = [&](const Betas& betas) {
-    const Character character = make_character(betas);
+    const PerBody<Vector3d> made = joint_offsets(betas);
     Vector r(3 * kJoints);
-    for (int j = 1; j < kBodies; ++j) r.segment<3>(3 * (j - 1)) = character.joint_offset[j] - offsets[j];
+    for (int j = 1; j < kBodies; ++j) r.segment<3>(3 * (j - 1)) = made[j] - offsets[j];
     return r;
   };
   const Betas betas = minimise(residual, 1e-12);  // the girth, which moves no joint, is 0

@@ -24,8 +24,9 @@ enum Length : int {
 };
 using BodyLengths = Array<double, kLengths>;
 
-/// Those of a character. The trunk reaches from the middle of the hips to the middle of the shoulders.
-BodyLengths lengths_of(const Character& character);
+/// Those of a body with these rest offsets. The trunk reaches from the middle of the hips to the middle of
+/// the shoulders.
+BodyLengths lengths_of(const PerBody<Vector3d>& offset);
 
 /// @return β; the components that change none of these lengths (girth, head) are 0
 std::array<double, kBetas> fit_betas(const BodyLengths& lengths);

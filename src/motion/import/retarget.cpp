@@ -100,7 +100,8 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
         sentence("unit %s: legs are %.4g units, %.2f m long", unit->name, leg, unit->metres * leg));
     return unit->metres;
   }
-  const double scale = lengths_of(make_character())[kThigh] + lengths_of(make_character())[kShank];
+  const BodyLengths standard = lengths_of(joint_offsets({}));
+  const double scale = standard[kThigh] + standard[kShank];
   clip.warnings.push_back(
       sentence("legs are %.4g units long, which no known unit explains: taken for %.2f m", leg, scale));
   return scale / leg;
@@ -257,7 +258,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   const BodyLengths lengths = measured_lengths(source);
   if (!config.standard_body) clip.betas = fit_betas(lengths);
   const Character character = make_character(clip.betas);
-  const BodyLengths made = lengths_of(character);
+  const BodyLengths made = lengths_of(character.joint_offset);
   report.leg_ratio = (made[kThigh] + made[kShank]) / (lengths[kThigh] + lengths[kShank]);
   Calibration calibration = calibrate(character, source.neutral, source.turns, source.map);
   const Twists twists = measure_twists(character, calibration, source.frames);

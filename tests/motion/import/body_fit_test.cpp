@@ -16,27 +16,27 @@ std::array<double, kBetas> random_betas(std::uint64_t seed, double size) {
 
 TEST(BodyFit, LengthsOfABodyAreMatched) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const BodyLengths wanted = lengths_of(make_character(random_betas(seed, 2.0)));
-    const BodyLengths made = lengths_of(make_character(fit_betas(wanted)));
+    const BodyLengths wanted = lengths_of(joint_offsets(random_betas(seed, 2.0)));
+    const BodyLengths made = lengths_of(joint_offsets(fit_betas(wanted)));
     for (std::size_t i = 0; i < kLengths; ++i) EXPECT_NEAR(made[i], wanted[i], 0.003) << seed << ' ' << i;
   }
 }
 
 TEST(BodyFit, TheStandardBodyIsLeftAlone) {
-  for (const double beta : fit_betas(lengths_of(make_character()))) EXPECT_NEAR(beta, 0.0, 1e-9);
+  for (const double beta : fit_betas(lengths_of(joint_offsets({})))) EXPECT_NEAR(beta, 0.0, 1e-9);
 }
 
 TEST(BodyFit, WhatIsNotKnownStaysAsItIs) {
   BodyLengths lengths{};
   lengths[kThigh] = 0.5;
   const auto betas = fit_betas(lengths);
-  EXPECT_NEAR(lengths_of(make_character(betas))[kThigh], 0.5, 0.003);
+  EXPECT_NEAR(lengths_of(joint_offsets(betas))[kThigh], 0.5, 0.003);
   EXPECT_EQ(betas[1], 0.0);          // girth
   EXPECT_NEAR(betas[4], 0.0, 1e-9);  // arm length
 }
 
 TEST(BodyFit, GiantsAndDwarfsStayWithinTheBounds) {
-  BodyLengths lengths = lengths_of(make_character());
+  BodyLengths lengths = lengths_of(joint_offsets({}));
   for (const double factor : {0.1, 0.6, 1.8, 100.0}) {
     BodyLengths scaled = lengths;
     for (double& length : scaled) length *= factor;
