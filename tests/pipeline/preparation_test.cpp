@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "motion/clip_file.h"
+#include "motion/synth/synth.h"
 #include "pipeline/temporary_folder.h"
 
 namespace mimicx::pipeline {
@@ -42,6 +44,26 @@ TEST(Preparation, WithoutItsKeypointsAFileIsPreparedAsIfTheyWereIgnored) {
   for (int t = 0; t < ignored.reference.size(); ++t)
     EXPECT_LT((without.reference.frames[t].p_root - ignored.reference.frames[t].p_root).norm(), 1e-4)
         << "files have single precision";
+}
+
+TEST(Preparation, FeetAreLevelledInTheReferenceNotInTheEstimate) {
+  constexpr double kPitch = 15 * kDegree;
+  motion::synth::SynthConfig config;
+  config.kind = "walk";
+  motion::Clip clip = motion::synth::synthesize(config);
+  for (auto& frame : clip.rotations)
+    for (const int ankle : {kLeftAnkle, kRightAnkle})
+      frame[ankle] = log_map(exp_map(frame[ankle]) * exp_map(Vector3d(kPitch, 0, 0)));
+  const TemporaryFolder folder;
+  motion::write_clip(folder.path / "tip_toe.npz", clip);
+  const PreparedMotion prepared = prepare_motion(folder.path / "tip_toe.npz", {}, Correction::kKeypoints);
+  ASSERT_EQ(prepared.reference.size(), clip.frames());
+  for (int t = 0; t < clip.frames(); ++t)
+    for (const int ankle : {kLeftAnkle, kRightAnkle}) {
+      const Quaterniond given = exp_map(clip.rotations[t][ankle]);
+      EXPECT_LT(given.angularDistance(exp_map(prepared.fitted.rotations[t][ankle])), 1e-4) << t;
+      EXPECT_NEAR(given.angularDistance(prepared.reference.frames[t].q[ankle]), kPitch, 1 * kDegree) << t;
+    }
 }
 
 }  // namespace
