@@ -76,12 +76,14 @@ void claim_outputs(const Arguments& a) {
 /// What may be asked for as kinds.
 std::vector<std::string> selections() {
   std::vector<std::string> names = motion::synth::synthetic_kinds();
-  names.push_back("all");
+  for (const std::string& name : motion::synth::floor_kinds()) names.push_back(name);
+  names.insert(names.end(), {"all", "floor"});
   return names;
 }
 
 int synth(Arguments a) {
   if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = motion::synth::synthetic_kinds();
+  if (a.set.kinds == std::vector<std::string>{"floor"}) a.set.kinds = motion::synth::floor_kinds();
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
   const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
@@ -110,8 +112,8 @@ void declare_synth(CommandLine& line) {
   command.number("--clips", set.clips, kFromOne,
                  "number of motions, the kinds in turn; default: one of each kind");
   command.some_of("--kinds", set.kinds, selections(),
-                  "kinds to make, separated by commas; all: every one; default: the first fourteen, those of "
-                  "data/synthetic");
+                  "kinds to make, separated by commas; all: every one that is exact; floor: sketches that go "
+                  "down to the floor, to be planned; default: the first fourteen, those of data/synthetic");
   command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
                  "what estimates it for noisy/; none: exact; mixed: each clip by one of these, half of them "
                  "without keypoints");

@@ -30,21 +30,6 @@ Quaterniond arm_rotation(int side, const ArmPosture& arm) {
          exp_map(-arm.rotation * Vector3d::UnitX());
 }
 
-/// Everything but the root's place and the legs.
-void set_posture(const PlanFrame& frame, SynthPose& pose) {
-  pose.q.fill(Quaterniond::Identity());
-  pose.q[kPelvis] = rotation_z(frame.heading) * kModelToPlan * exp_map(frame.pelvis);
-  pose.q[kSpine1] = exp_map(0.40 * frame.trunk);
-  pose.q[kSpine2] = exp_map(0.35 * frame.trunk);
-  pose.q[kSpine3] = exp_map(0.25 * frame.trunk);
-  pose.q[kNeck] = exp_map(0.40 * frame.head);
-  pose.q[kHead] = exp_map(0.60 * frame.head);
-  for (int side = 0; side < 2; ++side) {
-    pose.q[kLeftShoulder + side] = arm_rotation(side, frame.arm[side]);
-    pose.q[kLeftElbow + side] = exp_map(frame.arm[side].elbow * hinge_axis(kLeftElbow + side));
-  }
-}
-
 void set_legs(const Character& character, const PlanFrame& frame, const PerSide<FootPose>& feet,
               SynthPose& pose) {
   pose.shortfall = 0.0;
@@ -192,10 +177,26 @@ PerFrame<Eigen::Vector2d> com_path(const PerFrame<PlanFrame>& plan, const PerFra
 
 }  // namespace
 
+PerBody<Quaterniond> posture_rotations(const PlanFrame& frame) {
+  PerBody<Quaterniond> q;
+  q.fill(Quaterniond::Identity());
+  q[kPelvis] = rotation_z(frame.heading) * kModelToPlan * exp_map(frame.pelvis);
+  q[kSpine1] = exp_map(0.40 * frame.trunk);
+  q[kSpine2] = exp_map(0.35 * frame.trunk);
+  q[kSpine3] = exp_map(0.25 * frame.trunk);
+  q[kNeck] = exp_map(0.40 * frame.head);
+  q[kHead] = exp_map(0.60 * frame.head);
+  for (int side = 0; side < 2; ++side) {
+    q[kLeftShoulder + side] = arm_rotation(side, frame.arm[side]);
+    q[kLeftElbow + side] = exp_map(frame.arm[side].elbow * hinge_axis(kLeftElbow + side));
+  }
+  return q;
+}
+
 SynthPose pose_at(const Character& character, const PlanFrame& frame, const Vector3d& p_com) {
   SynthPose pose;
   pose.p_com = p_com;
-  set_posture(frame, pose);
+  pose.q = posture_rotations(frame);
   PerSide<FootPose> feet;
   for (int side = 0; side < 2; ++side) feet[side] = foot_pose(character, side, frame.foot[side]);
   pose.p_root = p_com;

@@ -27,6 +27,9 @@ struct SynthPose {
   PerSide<double> knee{};             ///< flexion, rad
 };
 
+/// Rotations of all joints but those of the legs, which are straight; entry 0 is the root's.
+PerBody<Quaterniond> posture_rotations(const PlanFrame& frame);
+
 /// The pose of a frame whose centre of mass is at `p_com`.
 SynthPose pose_at(const Character& character, const PlanFrame& frame, const Vector3d& p_com);
 

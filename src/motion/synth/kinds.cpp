@@ -43,6 +43,13 @@ const std::vector<SynthKind>& synth_kinds() {
   return kinds;
 }
 
+const std::vector<SketchedKind>& sketched_kinds() {
+  static const std::vector<SketchedKind> kinds = {{"kneel", 11.0, 14.0, sketch_kneel},
+                                                  {"crawl", 16.0, 20.0, sketch_crawl},
+                                                  {"lie_down", 19.0, 23.0, sketch_lie_down}};
+  return kinds;
+}
+
 PerSide<FootTarget> random_stance(const PlanRequest& request, double narrow, double wide, double least_out,
                                   double most_out) {
   const double half_width = rest_half_width(request.character) * request.random.uniform(narrow, wide);

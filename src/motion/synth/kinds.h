@@ -15,6 +15,8 @@
 
 namespace mimicx::motion::synth {
 
+struct SynthPose;
+
 /// What a plan is made for.
 struct PlanRequest {
   const Character& character;
@@ -33,6 +35,15 @@ struct SynthKind {
 };
 
 const std::vector<SynthKind>& synth_kinds();
+
+/// A kind that is drawn by geometry alone (motion/synth/sketch.h).
+struct SketchedKind {
+  std::string name;
+  double shortest, longest;  ///< as of a SynthKind
+  PerFrame<SynthPose> (*draw)(const PlanRequest&);
+};
+
+const std::vector<SketchedKind>& sketched_kinds();
 
 /// A frame that stands at ease on `feet` with slightly bent knees, and the height of its centre of mass.
 PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
@@ -88,5 +99,13 @@ PerFrame<PlanFrame> plan_arm_swings(const PlanRequest& request);
 // kinds/phrases.cpp
 PerFrame<PlanFrame> plan_martial(const PlanRequest& request);
 PerFrame<PlanFrame> plan_free(const PlanRequest& request);
+
+// The sketches: kinds/floor.cpp
+/// Down on one knee, on both, gestures there, up again.
+PerFrame<SynthPose> sketch_kneel(const PlanRequest& request);
+/// Down on hands and knees, some steps on them, up again.
+PerFrame<SynthPose> sketch_crawl(const PlanRequest& request);
+/// Over hands and knees down onto the front, a rest, up again.
+PerFrame<SynthPose> sketch_lie_down(const PlanRequest& request);
 
 }  // namespace mimicx::motion::synth

@@ -43,9 +43,7 @@ NoiseModel model_of(const std::string& noise) {
 
 /// Every clip has errors and a camera of its own, whichever set it is in.
 std::uint64_t noise_seed(const SynthConfig& clip) {
-  const std::vector<std::string> kinds = synthetic_kinds();
-  const auto index = std::find(kinds.begin(), kinds.end(), clip.kind) - kinds.begin();
-  Random random(clip.seed, {kSetNoiseStream, static_cast<std::uint64_t>(index)});
+  Random random(clip.seed, {kSetNoiseStream, index_of_kind(clip.kind)});
   const std::uint64_t high = random.bits(), low = random.bits();
   return high << 32 | low;
 }
@@ -66,11 +64,9 @@ EstimateConfig mixed(const SynthSetConfig& set, std::uint64_t seed) {
 }  // namespace
 
 std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config) {
-  const std::vector<std::string> known = synthetic_kinds();
   const std::vector<std::string> kinds = config.kinds.empty() ? basic_kinds() : config.kinds;
   for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
-    if (std::find(known.begin(), known.end(), *kind) == known.end())
-      throw std::invalid_argument("unknown kind of motion '" + *kind + "'");
+    index_of_kind(*kind);
     if (std::find(kinds.begin(), kind, *kind) != kind)
       throw std::invalid_argument("kind of motion '" + *kind + "' is named twice");
   }

@@ -5,7 +5,7 @@
 /// every plan into motion: the horizontal path of the centre of mass follows from the centre of pressure
 /// (docs/method.md, "Synthetic motions"), the legs from inverse kinematics with planted feet. Knees and
 /// elbows are exact hinges, flight is ballistic. A new kind is a new plan (motion/synth/kinds.h), nothing
-/// else.
+/// else. Kinds that go down to the floor are sketches instead (motion/synth/sketch.h).
 ///
 /// Conventions: 30 frames per second, world z up, floor z = 0; `body_model` "mimicx".
 /// What it does not do: no torques (pipeline/audit/feasibility.h asks for them), no files
@@ -22,17 +22,22 @@
 namespace mimicx::motion::synth {
 
 struct SynthConfig {
-  std::string kind = "stand";          ///< one of `synthetic_kinds()`
+  std::string kind = "stand";          ///< of `synthetic_kinds()` or `floor_kinds()`
   std::uint64_t seed = 0;              ///< varies amplitudes, timing, heading and place
   std::array<double, kBetas> betas{};  ///< shape of the body
   bool betas_from_seed = false;        ///< add N(0, 0.7) per entry, within ±2, to `betas`
   double seconds = 0.0;                ///< length; 0 lets the kind choose (4 to 10 s); otherwise 4 to 60 s
 };
 
-/// Names accepted as `SynthConfig::kind`, in a fixed order.
+/// The exact kinds, in a fixed order: their motions are what a body can do.
 std::vector<std::string> synthetic_kinds();
+/// The sketched kinds, which go down to the floor: no forces explain them before they are planned (sketch.h).
+std::vector<std::string> floor_kinds();
 /// Those of the set in the repository, data/synthetic, and of sets that name no kinds.
 std::vector<std::string> basic_kinds();
+
+/// What tells the random streams of kinds apart. @throws std::invalid_argument for an unknown kind
+std::uint64_t index_of_kind(const std::string& name);
 
 /// kind_seed.
 std::string name_of(const SynthConfig& config);
