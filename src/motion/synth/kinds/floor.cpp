@@ -118,29 +118,14 @@ class Crawler {
             {}, 0.5 * seconds);
   }
   void onto_the_front(double rest) {
-    const double back = 0.44;
-    for (const int side : {0, 1}) {
-      std::vector<Bearing> others = {on(hand(0)), on(hand(1)), on(toes(1 - side))};
-      if (side == 0) others.push_back(on(knee(1)));
-      for (const double lift : {0.06, 0.0}) {
-        std::vector<Bearing> bearings = others;
-        bearings.push_back(moved(toes(side), -0.5 * back, lift));
-        k_.go(legs_back(side == 0 ? 1 : 2), bearings, {}, 0.45);
-      }
-    }
+    constexpr double kBack = 0.44;  // m
+    move_leg(0, -kBack, legs_back(1), false);
+    move_leg(1, -kBack, legs_back(2), false);
     k_.go(lying(), {on(hand(0)), on(hand(1)), on(toes(0)), on(toes(1)), on(front(0)), on(front(1))}, {}, 1.4);
     s_.pause(rest);
     k_.go(legs_back(2), {on(hand(0)), on(hand(1)), on(toes(0)), on(toes(1))}, {}, 1.4);
-    for (const int side : {1, 0}) {
-      std::vector<Bearing> others = {on(hand(0)), on(hand(1)), on(toes(1 - side))};
-      if (side == 0) others.push_back(on(knee(1)));
-      for (const double lift : {0.06, 0.0}) {
-        std::vector<Bearing> bearings = others;
-        bearings.push_back(moved(toes(side), 0.5 * back, lift));
-        if (lift == 0.0) bearings.push_back(on(knee(side)));
-        k_.go(side == 1 ? legs_back(1) : all_fours(), bearings, {}, 0.45);
-      }
-    }
+    move_leg(1, kBack, legs_back(1), true);
+    move_leg(0, kBack, all_fours(), true);
   }
 
  private:
@@ -150,6 +135,17 @@ class Crawler {
       bearings.push_back(on(hand(1 - side)));
       bearings.push_back({hand(side), 0.5 * by, lift});
       k_.go(all_fours(), bearings, {}, 0.4);
+    }
+  }
+  /// The left leg goes while the right one kneels, the right one while the left one is straight.
+  /// @param kneels  it comes to bear on its knee, where that was before
+  void move_leg(int side, double ahead, const KeyPose& pose, bool kneels) {
+    for (const double lift : {0.06, 0.0}) {
+      std::vector<Bearing> bearings = {on(hand(0)), on(hand(1)), on(toes(1 - side)),
+                                       moved(toes(side), 0.5 * ahead, lift)};
+      if (side == 0) bearings.push_back(on(knee(1)));
+      if (kneels && lift == 0.0) bearings.push_back(on(knee(side)));
+      k_.go(pose, bearings, {}, 0.45);
     }
   }
   KeyPose bowing() const {
