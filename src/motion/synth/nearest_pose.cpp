@@ -25,19 +25,31 @@ bool turns_about_hinge(int body) { return body != kPelvis && is_hinge(body); }
 
 double square(double x) { return x * x; }
 
-/// Normal equations of a sum of squares (w (r + gᵀδ))².
-struct Squares {
-  Eigen::Matrix<double, kUnknowns, kUnknowns> A = Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
-  Row b = Row::Zero();
-
+/// A sum of squares (w (r + gᵀδ))².
+class Squares {
+ public:
   void add(double weight, double residual, const Row& gradient) {
-    A.selfadjointView<Eigen::Lower>().rankUpdate(gradient, weight * weight);
-    b -= weight * weight * residual * gradient;
+    rows_.row(count_) = weight * gradient.transpose();
+    right_[count_++] = -weight * residual;
   }
   void add(double weight, double residual, int unknown) {
-    A(unknown, unknown) += weight * weight;
-    b[unknown] -= weight * weight * residual;
+    diagonal_[unknown] += square(weight);
+    single_[unknown] -= square(weight) * residual;
   }
+  /// The δ that makes it smallest.
+  Row solution() const {
+    const auto rows = rows_.topRows(count_);
+    Eigen::Matrix<double, kUnknowns, kUnknowns> A = rows.transpose() * rows;
+    A.diagonal() += diagonal_;
+    return A.llt().solve(rows.transpose() * right_.head(count_) + single_);
+  }
+
+ private:
+  static constexpr int kMostRows = 3 * 64 + 2;  ///< three per contact point, two of the centre of mass
+  Eigen::Matrix<double, kMostRows, kUnknowns> rows_;
+  Eigen::Matrix<double, kMostRows, 1> right_;
+  Row diagonal_ = Row::Zero(), single_ = Row::Zero();
+  int count_ = 0;
 };
 
 /// d p / d unknowns of a point of `body`.
@@ -125,7 +137,7 @@ SynthPose nearest_pose(const Character& character, const PoseTargets& wanted, co
     add_posture(wanted.nominal, pose, squares);
     add_points(character, wanted, poses, squares);
     add_balance(character, wanted.com, poses, squares);
-    Row step = squares.A.selfadjointView<Eigen::Lower>().ldlt().solve(squares.b);
+    Row step = squares.solution();
     step *= std::min(1.0, kLongestStep / step.cwiseAbs().maxCoeff());
     // Points that come to the floor or leave it make full steps go to and fro.
     for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
