@@ -221,6 +221,13 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
       group.packs[p] = TrackingPack(clips_[group.clips[p]], config_);
       const std::vector<double> values =
           numbers(key + "pack" + std::to_string(p), group.packs[p].save().size());
+      for (int lane = 0; lane < physics::kLanes; ++lane) {
+        const double frame = values[values.size() - 2 * static_cast<std::size_t>(physics::kLanes - lane)];
+        const std::size_t frames = clips_[group.clips[p]]->poses.size();
+        if (!(frame >= 0.0 && frame < static_cast<double>(frames)))
+          throw DataError(archive.path, prefix + key + "pack" + std::to_string(p),
+                          "one of " + std::to_string(frames) + " frames", text_of(frame));
+      }
       group.packs[p].load(std::vector<float>(values.begin(), values.end()));
     }
     group.episodes = nn::whole_numbers_at(archive, prefix + key + "episodes", group.episodes.size());
