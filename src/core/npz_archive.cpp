@@ -74,6 +74,15 @@ std::int64_t whole_number_at(const Npz& archive, const std::string& key) {
   return static_cast<std::int64_t>(value);
 }
 
+std::vector<double> numbers_at(const Npz& archive, const std::string& key, std::size_t count) {
+  const NpyArray& array = archive.at(key);
+  const bool text = array.type == NpyArray::Type::kText;
+  if (text || array.size() != count)
+    raise(DataError(archive.path, key, std::to_string(count) + " numbers",
+                    text ? "text" : std::to_string(array.size())));
+  return array.to_double();
+}
+
 const std::string& text_at(const Npz& archive, const std::string& key) {
   const NpyArray& array = archive.at(key);
   if (array.text.size() != 1)

@@ -40,6 +40,8 @@ class Npz {
 double number_at(const Npz& archive, const std::string& key);
 /// The same for a whole number. @throws DataError where it has a fraction, too, or is beyond 2^53
 std::int64_t whole_number_at(const Npz& archive, const std::string& key);
+/// So many numbers, of a member of any shape. @throws DataError also for another number of them, or text
+std::vector<double> numbers_at(const Npz& archive, const std::string& key, std::size_t count);
 /// The only text of a member. @throws DataError when the member is absent or not exactly one text
 const std::string& text_at(const Npz& archive, const std::string& key);
 

@@ -56,13 +56,8 @@ std::string numbered(const std::string& key, std::size_t index) { return key + s
 }  // namespace
 
 std::vector<std::int64_t> whole_numbers_at(const Npz& archive, const std::string& key, std::size_t count) {
-  const NpyArray& array = archive.at(key);
-  const bool text = array.type == NpyArray::Type::kText;
-  if (text || array.size() != count)
-    raise(DataError(archive.path, key, std::to_string(count) + " numbers",
-                    text ? "text" : std::to_string(array.size())));
   std::vector<std::int64_t> whole;
-  for (const double value : array.to_double()) {
+  for (const double value : numbers_at(archive, key, count)) {
     if (!(std::abs(value) <= 0x1p53) || value != std::floor(value))
       raise(DataError(archive.path, key, "whole numbers", text_of(value)));
     whole.push_back(static_cast<std::int64_t>(value));

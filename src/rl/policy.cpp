@@ -78,12 +78,7 @@ Agent load_agent(const Npz& archive, const std::string& prefix) {
       throw DataError(archive.path, prefix + "observations.mean",
                       std::to_string(network->inputs()) + " numbers",
                       std::to_string(agent.observations.features()));
-  const NpyArray& saved = archive.at(prefix + "returns.scale");
-  if (saved.type == NpyArray::Type::kText)
-    throw DataError(archive.path, prefix + "returns.scale", "2 numbers", "text");
-  const std::vector<double> scale = saved.to_double();
-  if (scale.size() != 2)
-    throw DataError(archive.path, prefix + "returns.scale", "2 numbers", std::to_string(scale.size()));
+  const std::vector<double> scale = numbers_at(archive, prefix + "returns.scale", 2);
   agent.returns = {scale[0], scale[1], whole_number_at(archive, prefix + "returns.batches")};
   return agent;
 }

@@ -107,5 +107,12 @@ TEST(Policy, SavedAgentIsTheSameAgent) {
   EXPECT_THROW(load_agent(archive, "b."), DataError);
 }
 
+TEST(Policy, TextForTheScaleOfReturnsIsRefused) {
+  Npz archive;
+  save(archive, "a.", small_agent());
+  archive.set("a.returns.scale", NpyArray::scalar_text("1.0"));
+  EXPECT_THROW(load_agent(archive, "a."), DataError);
+}
+
 }  // namespace
 }  // namespace mimicx::rl

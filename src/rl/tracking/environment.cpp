@@ -195,14 +195,6 @@ void TrackingEnvironment::save(Npz& archive, const std::string& prefix) const {
 }
 
 void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
-  const auto numbers = [&](const std::string& name, std::size_t size) {
-    const NpyArray& array = archive.at(prefix + name);
-    const bool text = array.type == NpyArray::Type::kText;
-    if (text || array.size() != size)
-      throw DataError(archive.path, prefix + name, std::to_string(size) + " numbers",
-                      text ? "text" : std::to_string(array.size()));
-    return List<double>(array.to_double());
-  };
   const auto clip_index = [&](double value) {
     if (!(value >= 0.0 && value < static_cast<double>(clips_.size())))
       throw DataError(archive.path, prefix, "one of " + std::to_string(clips_.size()) + " clips",
@@ -213,28 +205,25 @@ void TrackingEnvironment::load(const Npz& archive, const std::string& prefix) {
   iteration_ = whole_number_at(archive, prefix + "iteration");
   next_clip_ = clip_index(number_at(archive, prefix + "next_clip"));
   for (int g = 0; g < groups_.count(); ++g) {
-    const std::string key = "group" + std::to_string(g) + ".";
+    const std::string key = prefix + "group" + std::to_string(g) + ".";
     Group& group = groups_[g];
-    const List<double> clips = numbers(key + "clips", group.packs.size());
+    const List<double> clips = numbers_at(archive, key + "clips", group.packs.size());
     for (int p = 0; p < group.packs.count(); ++p) {
       group.clips[p] = clip_index(clips[p]);
       group.packs[p] = TrackingPack(clips_[group.clips[p]], config_);
-      const std::vector<double> values =
-          numbers(key + "pack" + std::to_string(p), group.packs[p].save().size());
-      for (int lane = 0; lane < physics::kLanes; ++lane) {
-        const double frame = values[values.size() - 2 * static_cast<std::size_t>(physics::kLanes - lane)];
-        const std::size_t frames = clips_[group.clips[p]]->poses.size();
-        if (!(frame >= 0.0 && frame < static_cast<double>(frames)))
-          throw DataError(archive.path, prefix + key + "pack" + std::to_string(p),
-                          "one of " + std::to_string(frames) + " frames", text_of(frame));
+      const std::string pack = key + "pack" + std::to_string(p);
+      const std::vector<double> values = numbers_at(archive, pack, group.packs[p].save().size());
+      try {
+        group.packs[p].load(std::vector<float>(values.begin(), values.end()));
+      } catch (const std::invalid_argument& error) {
+        throw DataError(archive.path, pack, "a frame of the clip", error.what());
       }
-      group.packs[p].load(std::vector<float>(values.begin(), values.end()));
     }
-    group.episodes = nn::whole_numbers_at(archive, prefix + key + "episodes", group.episodes.size());
+    group.episodes = nn::whole_numbers_at(archive, key + "episodes", group.episodes.size());
     group.statistics.clear();
   }
   for (int c = 0; c < clips_.count(); ++c) {
-    fall_rates_[c] = numbers("fall_rates" + std::to_string(c), fall_rates_[c].size());
+    fall_rates_[c] = numbers_at(archive, prefix + "fall_rates" + std::to_string(c), fall_rates_[c].size());
     start_weights_[c] = start_weights(fall_rates_[c], config_.uniform_starts);
   }
 }

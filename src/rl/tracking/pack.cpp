@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/number_text.h"
 #include "physics/lanes.h"
 #include "physics/pd_target.h"
 
@@ -175,7 +176,10 @@ void TrackingPack::load(const std::vector<float>& values) {
   physics::Data<P> d;
   physics::update_kinematics(clip_->model, state_, d);
   for (int lane = 0; lane < physics::kLanes; ++lane) {
-    frames_[lane] = static_cast<int>(values[k++]);
+    const float frame = values[k++];
+    if (!(frame >= 0.0f && frame < static_cast<float>(clip_->poses.count())))
+      throw std::invalid_argument("frame " + text_of(frame) + " of " + std::to_string(clip_->poses.count()));
+    frames_[lane] = static_cast<int>(frame);
     fresh_[lane] = values[k++] != 0.0f;
     if (fresh_[lane])
       poses_[lane] = clip_->poses[frames_[lane]];

@@ -53,7 +53,7 @@ class TrackingPack {
 
   /// Everything that determines the pack's future, as 32-bit floats (frames included).
   std::vector<float> save() const;
-  /// @throws std::invalid_argument when the size is not that of `save`.
+  /// @throws std::invalid_argument for another size than that of `save`, or a frame the clip does not have
   void load(const std::vector<float>& values);
 
  private:

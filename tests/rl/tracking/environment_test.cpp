@@ -67,6 +67,27 @@ TEST(TrackingEnvironment, RefusesTheStateOfOtherClipsOrCharacters) {
   EXPECT_THROW(saved.load(archive, "e."), DataError);
 }
 
+TEST(TrackingEnvironment, RefusesAFrameThatTheClipDoesNotHave) {
+  TrackingConfig config;
+  const auto clip = make_tracking_clip(swaying_reference(90), config);
+  TrackingEnvironment environment({clip}, config, physics::kLanes, physics::kLanes, 12);
+  Npz archive;
+  environment.save(archive, "e.");
+  const std::string key = "e.group0.pack0";
+  const std::vector<double> sound = archive.at(key).to_double();
+  const std::size_t frame = sound.size() - 2;  // that of the last lane
+  const int frames = clip->poses.count();
+  // As a float, the number next to `frames` is `frames` itself.
+  for (const double bad : {-1.0, 1.0 * frames, frames - 1e-9, 1e300, std::nan("")}) {
+    std::vector<double> values = sound;
+    values[frame] = bad;
+    archive.set(key, NpyArray::from_double({values.size()}, values.data()));
+    EXPECT_THROW(environment.load(archive, "e."), DataError) << bad;
+  }
+  archive.set(key, NpyArray::from_double({sound.size()}, sound.data()));
+  EXPECT_NO_THROW(environment.load(archive, "e."));
+}
+
 TEST(TrackingEnvironment, EndsEpisodesAtFallsAndAtTheClipsEnd) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(12), config);
