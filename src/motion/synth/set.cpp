@@ -66,7 +66,7 @@ EstimateConfig mixed(const SynthSetConfig& set, std::uint64_t seed) {
 std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config) {
   const std::vector<std::string> kinds = config.kinds.empty() ? basic_kinds() : config.kinds;
   for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
-    index_of_kind(*kind);
+    index_of_kind(*kind);  // throws for an unknown one
     if (std::find(kinds.begin(), kind, *kind) != kind)
       throw std::invalid_argument("kind of motion '" + *kind + "' is named twice");
   }

@@ -85,9 +85,9 @@ Sketch::Sketch(const PlanRequest& request, const PerSide<FootTarget>& start)
       pose_at(request.character, stand_, {stand_.pressure.x(), stand_.pressure.y(), stand_.com_height});
   const List<Vector3d> lowest = lowest_positions(request.character, first.pose);
   for (int i = 0; i < lowest.count(); ++i) {
-    first.held.push_back(i < kFootPoints);
-    first.place.push_back(lowest[i]);
-    known_.push_back(i < kFootPoints);
+    const bool foot = i < kFootPoints;
+    first.held.push_back(foot);
+    first.place.push_back(foot ? std::optional(lowest[i]) : std::nullopt);
   }
   keys_.push_back(first);
 }
@@ -101,10 +101,11 @@ void Sketch::go(const KeyPose& key, double seconds) {
   wanted.point.resize(c.contact_points.size());
   for (const Bearing& support : key.bearings) {
     for (const int i : support.points) {
-      Vector3d place = (support.from_start ? start : last).place[i];
+      const std::optional<Vector3d>& was = (support.from_start ? start : last).place[i];
+      Vector3d place = was.value_or(Vector3d::Zero());
       place.head<2>() += support.shift;
       place.z() = support.lift;
-      wanted.point[i] = {place, !known_[i]};
+      wanted.point[i] = {place, !was};
     }
     if (key.weight_on.empty() && support.lift == 0.0) loads.push_back({support.points});
   }
@@ -121,9 +122,7 @@ void Sketch::go(const KeyPose& key, double seconds) {
   const List<Vector3d> lowest = lowest_positions(c, pose);
   for (int i = 0; i < lowest.count(); ++i) {
     reached.held.push_back(wanted.point[i].has_value());
-    if (!wanted.point[i]) continue;
-    reached.place[i] = lowest[i];
-    known_[i] = true;
+    if (wanted.point[i]) reached.place[i] = lowest[i];
   }
   keys_.push_back(reached);
 }
@@ -134,7 +133,8 @@ void Sketch::stand_up(double seconds, double ahead) {
   last.time = keys_.back().time + seconds;
   last.pose.p_root += shift;
   last.pose.p_com += shift;
-  for (Vector3d& place : last.place) place += shift;
+  for (std::optional<Vector3d>& place : last.place)
+    if (place) *place += shift;
   keys_.push_back(last);
 }
 
@@ -146,7 +146,7 @@ void Sketch::pause(double seconds) {
 
 Eigen::Vector2d Sketch::place(const Support& support) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const int i : support) sum += keys_.back().place[i].head<2>();
+  for (const int i : support) sum += keys_.back().place[i].value().head<2>();
   return sum / static_cast<double>(support.size());
 }
 
@@ -159,7 +159,7 @@ SynthPose Sketch::between(const Key& a, const Key& b, double share) const {
   for (int i = 0; i < kBodies; ++i) wanted.nominal.q[i] = slerp(a.pose.q[i], share, b.pose.q[i]);
   wanted.point.resize(a.place.size());
   for (int i = 0; i < a.place.count(); ++i)
-    if (a.held[i] && b.held[i]) wanted.point[i] = {blend(a.place[i], b.place[i])};
+    if (a.held[i] && b.held[i]) wanted.point[i] = {blend(*a.place[i], *b.place[i])};
   return nearest_pose(request_.character, wanted, wanted.nominal);
 }
 

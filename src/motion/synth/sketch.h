@@ -1,4 +1,4 @@
-/// Motions that bear the body on hands, knees, seat or back: key poses, and the way from one to the next.
+/// Motions that bear the body on hands, knees or front: key poses, and the way from one to the next.
 ///
 ///     Sketch s(request, random_stance(request, 1.0, 1.3, 4.0, 12.0));
 ///     s.go({kneeling, {on(toes(0)), on(toes(1)), on(knee(0)), on(knee(1))}}, 1.2);
@@ -75,7 +75,7 @@ class Sketch {
   /// Standing at ease as at time 0, so far ahead of where that was.
   void stand_up(double seconds, double ahead);
   void pause(double seconds);
-  /// Middle of a support where it is now or was last, m.
+  /// Middle of a support, which must have been in a key, where it is now or was last, m.
   Eigen::Vector2d place(const Support& support) const;
   /// All of it, its time stretched to the length that was asked for.
   PerFrame<SynthPose> finished() const;
@@ -84,15 +84,14 @@ class Sketch {
   struct Key {
     double time;  ///< s
     SynthPose pose;
-    List<bool> held;       ///< per contact point: it was asked for
-    List<Vector3d> place;  ///< per contact point: where it is, or was when it was last asked for
+    List<bool> held;                      ///< per contact point: it was asked for
+    List<std::optional<Vector3d>> place;  ///< per contact point: where it is, or was when last asked for
   };
   SynthPose between(const Key& a, const Key& b, double share) const;
 
   const PlanRequest& request_;
   PlanFrame stand_;
   List<Key> keys_;
-  List<bool> known_;  ///< per contact point: it was asked for in some key
 };
 
 }  // namespace mimicx::motion::synth

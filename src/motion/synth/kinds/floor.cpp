@@ -193,52 +193,55 @@ class Crawler {
   PerSide<Eigen::Vector2d> reach_;  ///< of the hands, from where they first touch the floor, m
 };
 
-Sketch started(const PlanRequest& request) { return {request, random_stance(request, 0.95, 1.15, 2.0, 8.0)}; }
+/// Down on both knees, there `busy(sketch, kneeler)`, up again.
+template <class Busy>
+PerFrame<SynthPose> on_knees(const PlanRequest& request, const Busy& busy) {
+  Sketch s(request, random_stance(request, 0.95, 1.15, 2.0, 8.0));
+  Kneeler k(s, static_cast<int>(s.random().below(2)));
+  k.down();
+  busy(s, k);
+  k.up();
+  return s.finished();
+}
+
+/// Down on hands and knees, there `busy(crawler, kneeler)`, up again.
+template <class Busy>
+PerFrame<SynthPose> on_all_fours(const PlanRequest& request, const Busy& busy) {
+  return on_knees(request, [&](Sketch& s, Kneeler& k) {
+    Crawler c(s, k);
+    c.down();
+    busy(c, k);
+    c.up();
+  });
+}
 
 }  // namespace
 
 PerFrame<SynthPose> sketch_kneel(const PlanRequest& request) {
-  Sketch s = started(request);
-  Random& random = s.random();
-  Kneeler k(s, static_cast<int>(random.below(2)));
-  k.down();
-  for (std::uint32_t busy = 1 + random.below(3); busy > 0; --busy) {
-    PlanFrame posture = random_posture(random, k.upright(), 0.5);
-    k.go(k.kneeling(posture), k.kneeling_bearings(), k.knees(), random.uniform(0.7, 1.0));
-  }
-  k.go(k.kneeling(k.upright()), k.kneeling_bearings(), k.knees(), 0.7);
-  k.up();
-  return s.finished();
+  return on_knees(request, [&](Sketch&, Kneeler& k) {
+    Random& random = request.random;
+    for (std::uint32_t busy = 1 + random.below(3); busy > 0; --busy) {
+      const PlanFrame posture = random_posture(random, k.upright(), 0.5);
+      k.go(k.kneeling(posture), k.kneeling_bearings(), k.knees(), random.uniform(0.7, 1.0));
+    }
+    k.go(k.kneeling(k.upright()), k.kneeling_bearings(), k.knees(), 0.7);
+  });
 }
 
 PerFrame<SynthPose> sketch_crawl(const PlanRequest& request) {
-  Sketch s = started(request);
-  Random& random = s.random();
-  Kneeler k(s, static_cast<int>(random.below(2)));
-  k.down();
-  Crawler c(s, k);
-  c.down();
-  int side = static_cast<int>(random.below(2));
-  const double ahead = random.uniform(0.16, 0.26), seconds = random.uniform(0.7, 1.0);
-  const std::uint32_t pairs = 2 + random.below(2);
-  for (std::uint32_t steps = 2 * pairs; steps > 0; --steps, side = 1 - side) c.step(side, ahead, seconds);
-  k.advance(pairs * ahead);
-  c.up();
-  k.up();
-  return s.finished();
+  return on_all_fours(request, [&](Crawler& c, Kneeler& k) {
+    Random& random = request.random;
+    int side = static_cast<int>(random.below(2));
+    const double ahead = random.uniform(0.16, 0.26), seconds = random.uniform(0.7, 1.0);
+    const std::uint32_t pairs = 2 + random.below(2);
+    for (std::uint32_t steps = 2 * pairs; steps > 0; --steps, side = 1 - side) c.step(side, ahead, seconds);
+    k.advance(pairs * ahead);
+  });
 }
 
 PerFrame<SynthPose> sketch_lie_down(const PlanRequest& request) {
-  Sketch s = started(request);
-  Random& random = s.random();
-  Kneeler k(s, static_cast<int>(random.below(2)));
-  k.down();
-  Crawler c(s, k);
-  c.down();
-  c.onto_the_front(random.uniform(0.5, 1.5));
-  c.up();
-  k.up();
-  return s.finished();
+  return on_all_fours(request,
+                      [&](Crawler& c, Kneeler&) { c.onto_the_front(request.random.uniform(0.5, 1.5)); });
 }
 
 }  // namespace mimicx::motion::synth
