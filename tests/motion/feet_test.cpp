@@ -3,19 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "motion/made_motions.h"
 #include "motion/prepare.h"
 #include "motion/synth/synth.h"
 
 namespace mimicx::motion {
 namespace {
-
-/// The motion with both feet turned by a constant rotation, as an estimator's error would.
-Clip with_turned_feet(Clip clip, const Vector3d& rotation) {
-  for (auto& frame : clip.rotations)
-    for (const int ankle : {kLeftAnkle, kRightAnkle})
-      frame[ankle] = log_map(exp_map(frame[ankle]) * exp_map(rotation));
-  return clip;
-}
 
 Clip walk() {
   synth::SynthConfig config;
@@ -39,7 +32,7 @@ TEST(Feet, AConstantErrorOfTheFeetIsRemoved) {
   const Reference exact = prepare_reference(walk(), {}, nullptr);
   for (const Vector3d& error : {Vector3d(15 * kDegree, 0, 0), Vector3d(-12 * kDegree, 0, 5 * kDegree)}) {
     PreparationReport report;
-    const Reference levelled = prepare_reference(with_turned_feet(walk(), error), {}, &report);
+    const Reference levelled = prepare_reference(test::with_turned_feet(walk(), error), {}, &report);
     EXPECT_NEAR(report.foot_level_deg, error.norm() / kDegree, 1.0);
     double worst = 0.0;
     for (std::size_t t = 0; t < exact.poses.size(); ++t)
@@ -49,7 +42,7 @@ TEST(Feet, AConstantErrorOfTheFeetIsRemoved) {
 
     PreparationConfig off;
     off.level_feet = false;
-    const Reference raw = prepare_reference(with_turned_feet(walk(), error), off, nullptr);
+    const Reference raw = prepare_reference(test::with_turned_feet(walk(), error), off, nullptr);
     double raw_worst = 0.0;
     for (std::size_t t = 0; t < exact.poses.size(); ++t)
       raw_worst = std::max(raw_worst, (raw.poses[t].p_WB[kLeftFoot] - exact.poses[t].p_WB[kLeftFoot]).norm());

@@ -31,6 +31,14 @@ inline motion::Clip standing_clip(int frames, double height, double fps = 30.0) 
   return clip;
 }
 
+/// The motion with both feet turned by a constant rotation, as an estimator's error would.
+inline motion::Clip with_turned_feet(motion::Clip clip, const Vector3d& rotation) {
+  for (auto& frame : clip.rotations)
+    for (const int ankle : {kLeftAnkle, kRightAnkle})
+      frame[ankle] = log_map(exp_map(frame[ankle]) * exp_map(rotation));
+  return clip;
+}
+
 /// Height of the standing pelvis over its soles, m.
 inline double standing_height() {
   const Character c = make_character();

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "motion/clip_file.h"
+#include "motion/made_motions.h"
 #include "motion/synth/synth.h"
 #include "pipeline/temporary_folder.h"
 
@@ -50,10 +51,8 @@ TEST(Preparation, FeetAreLevelledInTheReferenceNotInTheEstimate) {
   constexpr double kPitch = 15 * kDegree;
   motion::synth::SynthConfig config;
   config.kind = "walk";
-  motion::Clip clip = motion::synth::synthesize(config);
-  for (auto& frame : clip.rotations)
-    for (const int ankle : {kLeftAnkle, kRightAnkle})
-      frame[ankle] = log_map(exp_map(frame[ankle]) * exp_map(Vector3d(kPitch, 0, 0)));
+  const motion::Clip clip =
+      test::with_turned_feet(motion::synth::synthesize(config), kPitch * Vector3d::UnitX());
   const TemporaryFolder folder;
   motion::write_clip(folder.path / "tip_toe.npz", clip);
   const PreparedMotion prepared = prepare_motion(folder.path / "tip_toe.npz", {}, Correction::kKeypoints);
