@@ -22,6 +22,7 @@ void for_each_arrangement_setting(Config& config, const Add& add) {
   add("rescue_frames", config.rescue_frames);
   add("beam_width", config.beam_width);
   add("beam_stretch", config.beam_stretch);
+  add("beam_retries", config.beam_retries);
   add("selector", config.selector);
 }
 

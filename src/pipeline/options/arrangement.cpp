@@ -62,10 +62,11 @@ Choice choose(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
   const auto encoded = encoded_for(clip, options);
   if (config.selector == Selector::kDp) return choose_by_programme(encoded, tracking, options, config);
   const bool single = config.selector == Selector::kSingle;
-  return choose_by_search(
-      encoded, tracking, options,
-      {single ? 1 : config.beam_width, single ? acting : config.beam_stretch, config.switch_penalty},
-      should_stop);
+  return choose_by_search(encoded, tracking, options,
+                          single ? SearchConfig{1, acting, config.switch_penalty}
+                                 : SearchConfig{config.beam_width, config.beam_stretch, config.switch_penalty,
+                                                config.beam_retries},
+                          should_stop);
 }
 
 }  // namespace
@@ -80,6 +81,8 @@ void check(const ArrangementConfig& config) {
   if (config.rescue_frames < 0) throw std::invalid_argument("the rescue frames must be at least 0");
   if (config.beam_width < 1 || config.beam_stretch < 1)
     throw std::invalid_argument("the beam's width and stretch must be at least 1");
+  if (config.beam_retries < 0 || config.beam_retries > 5)
+    throw std::invalid_argument("the beam's retries must be 0 to 5");
 }
 
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,

@@ -30,10 +30,11 @@ struct ArrangementConfig {
   int rescue_frames = 0;  ///< dp: N, frames over which a reward fades towards a rescue; 0: rescues are free
   int beam_width = 1;     ///< beam: states that are kept
   int beam_stretch = 1;   ///< beam: frames for which an option acts at least
+  int beam_retries = 0;   ///< beam: wider attempts where every path has fallen
 };
 
 /// @throws std::invalid_argument unless the penalty is finite and at most 0, σ in [0, 1], the selector one
-/// of those above, N at least 0, and the beam's numbers at least 1
+/// of those above, N at least 0, the beam's width and stretch at least 1, and its retries 0 to 5
 void check(const ArrangementConfig& config);
 
 struct ArrangedClip {

@@ -177,6 +177,8 @@ TEST(Arrangement, RefusesNumbersThatCannotBe) {
   for (const auto& spoil : std::vector<void (*)(ArrangementConfig&)>{
            [](ArrangementConfig& c) { c.rescue_frames = -1; }, [](ArrangementConfig& c) { c.beam_width = 0; },
            [](ArrangementConfig& c) { c.beam_stretch = 0; },
+           [](ArrangementConfig& c) { c.beam_retries = -1; },
+           [](ArrangementConfig& c) { c.beam_retries = 6; },
            [](ArrangementConfig& c) { c.selector = static_cast<Selector>(4); }}) {
     ArrangementConfig config = good;
     spoil(config);
