@@ -15,10 +15,13 @@ struct Arguments {
   RunArguments more;
 };
 
+/// @param given  a file or folder, or the name of a set that comes with the program; empty: the first of
+/// those
 /// @throws UsageError where there are none
 std::filesystem::path options_to_take(const std::filesystem::path& given) {
-  if (!given.empty()) return given;
-  if (const auto shipped = shipped_options()) return *shipped;
+  const auto shipped = shipped_options();
+  if (!given.empty()) return shipped && !exists(given) && exists(*shipped / given) ? *shipped / given : given;
+  if (shipped) return *shipped;
   throw UsageError(
       "found no data/options beside the program: name trained options with --options, or take --method plan");
 }
@@ -55,7 +58,8 @@ void declare_adapt(CommandLine& line) {
   add_fit_arguments(command, a->config.run);
   add_gains_argument(command, a->config.run);
   command.path("--options", a->options,
-               "trained options: a file, or a folder with options.npz; default: those in data/options");
+               "trained options: a file, a folder with options.npz, or taught: those in data/options/taught, "
+               "which follow more before any training; default: those in data/options");
   add_arrangement_arguments(command, a->config.arrangement);
   command.action([a] {
     take_shard(a->more.shard, a->config.run);

@@ -26,7 +26,7 @@ struct Row {
 // come from: docs/method.md §12 and docs/experiments.md. PPO for tracking takes many small iterations with a
 // generous KL, and a discount that looks 0.4 s ahead: what a pose error costs shows at once.
 // clang-format off
-constexpr Array<Row, 42> kTable = {{{
+constexpr Array<Row, 43> kTable = {{{
   //                      imitate    adapt      small      paper
   {"samples",            {4e6,       3e6,       80e6,      80e6}},    // per motion; of all options together
   {"seed",               {1,         1,         1,         1}},
@@ -71,6 +71,7 @@ constexpr Array<Row, 42> kTable = {{{
   {"rescue_frames",      {kNone,     30,        kNone,     kNone}},
   {"beam_width",         {kNone,     64,        kNone,     kNone}},
   {"beam_stretch",       {kNone,     10,        kNone,     kNone}},
+  {"beam_retries",       {kNone,     2,         kNone,     kNone}},
   {"selector",           {kNone,     1,         kNone,     kNone}},    // 0 dp, 1 beam, 2 single, 3 nearest
   {"cluster_radius",     {kNone,     kNone,     3,         3}},
 }}};
@@ -139,7 +140,8 @@ AdaptConfig adapt_configuration() {
                         .selector = static_cast<options::Selector>(value(kAdapt, "selector")),
                         .rescue_frames = static_cast<int>(value(kAdapt, "rescue_frames")),
                         .beam_width = static_cast<int>(value(kAdapt, "beam_width")),
-                        .beam_stretch = static_cast<int>(value(kAdapt, "beam_stretch"))};
+                        .beam_stretch = static_cast<int>(value(kAdapt, "beam_stretch")),
+                        .beam_retries = static_cast<int>(value(kAdapt, "beam_retries"))};
   return config;
 }
 

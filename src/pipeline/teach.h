@@ -27,7 +27,7 @@ struct TeachConfig {
   /// Motions to plan here; `run.out` is set to DIR/plans. Its threads and jobs are those of all of it.
   PlanMotionsConfig planning;
   std::filesystem::path out;
-  int visits = 40;  ///< of every motion, in all: of them come the rounds of an option's school
+  int visits = 16;  ///< of every motion, in all: of them come the rounds of an option's school
   teaching::SchoolConfig school;
   options::ClusterConfig clusters{.clusters = 1};
 };

@@ -19,10 +19,10 @@
 namespace mimicx::teaching {
 
 struct SchoolConfig {
-  std::vector<int> hidden = {512, 256};  ///< widths of the hidden layers
+  std::vector<int> hidden = {128, 128};  ///< widths of the hidden layers
   int rounds = 150;                      ///< in all; the step size depends on how many are left
   int packs = 64;                        ///< motions of a round; a pack of characters goes through each
-  double passes = 2;                     ///< how often the lessons of a round are gone over
+  double passes = 4;                     ///< how often the lessons of a round are gone over
   double step_size = 1e-3;               ///< Adam's at first; falls with the square of what is left
   double last_step_size = 2e-5;
   double decay = 0.0;        ///< every step takes so many of its sizes off the weights (AdamW)
@@ -31,7 +31,8 @@ struct SchoolConfig {
   bool follow_plan = false;  ///< the pupil sees the planned motions instead of what was planned for
   bool see_shape = false;    ///< whether the pupil sees β; it can tell motions apart by it
   std::uint64_t seed = 1;
-  LessonConfig lessons;
+  /// Calmer than those of one plan: what holds a body here has to hold it in motions that no plan has seen.
+  LessonConfig lessons{.action_noise = 0.03, .push = 0.08, .off_path = 0.25};
   RegressionConfig regression{.minibatch = 512};
 };
 

@@ -12,6 +12,7 @@ namespace mimicx::pipeline {
 namespace {
 
 const std::filesystem::path kOptions = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
+const std::filesystem::path kTaught = kOptions / "taught";
 const std::filesystem::path kTestSplit =
     std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic" / "test" / "noisy";
 
@@ -43,17 +44,29 @@ record::SequenceEntry untrained(const std::string& name) {
   return entry_of(config, name, [&](const record::RunContext& context) { imitate(config, context); });
 }
 
-TEST(ShippedOptions, AreTheFileThatTheirPageRecordsAndSmall) {
-  const std::string page = read_file(kOptions / "README.md");
-  EXPECT_NE(page.find(record::file_checksum(kOptions / "options.npz")), std::string::npos);
-  EXPECT_LE(std::filesystem::file_size(kOptions / "options.npz"), 8'000'000u);
+TEST(ShippedOptions, AreTheFilesThatTheirPagesRecordAndSmall) {
+  std::uintmax_t size = 0;
+  for (const std::filesystem::path& set : {kOptions, kTaught}) {
+    EXPECT_NE(read_file(set / "README.md").find(record::file_checksum(set / "options.npz")),
+              std::string::npos);
+    for (const char* name : {"options.npz", "clusters.json"}) size += std::filesystem::file_size(set / name);
+  }
+  EXPECT_LE(size, 15'000'000u);
 }
 
 TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
-  const options::Clusters clusters = options::read_clusters(kOptions / "clusters.json");
-  for (const options::MotionCluster& cluster : clusters.clusters)
+  for (const std::filesystem::path& set : {kOptions, kTaught})
+    for (const options::MotionCluster& cluster : options::read_clusters(set / "clusters.json").clusters)
+      for (const std::string& member : cluster.members)
+        EXPECT_GE(std::stoull(member.substr(member.rfind('_') + 1)), motion::synth::kTrainingSeed) << member;
+}
+
+/// The kinds that tell whether what was learnt holds for others.
+TEST(ShippedOptions, WereTaughtNothingOfThreeKinds) {
+  for (const options::MotionCluster& cluster : options::read_clusters(kTaught / "clusters.json").clusters)
     for (const std::string& member : cluster.members)
-      EXPECT_GE(std::stoull(member.substr(member.rfind('_') + 1)), motion::synth::kTrainingSeed) << member;
+      for (const char* kind : {"walk_back_", "pick_up_", "martial_"})
+        EXPECT_FALSE(member.starts_with(kind)) << member;
 }
 
 /// They are those of a later fit than the training's (data/options/README.md), so the means are near the
