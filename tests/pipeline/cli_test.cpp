@@ -10,6 +10,7 @@
 #include "motion/import/bvh.h"
 #include "motion/import/bvh_write.h"
 #include "motion/import/motion_file.h"
+#include "pipeline/record/run_folder.h"
 #include "pipeline/results.h"
 
 namespace mimicx::pipeline {
@@ -132,6 +133,19 @@ TEST_F(Cli, TheSelectorsNumbersAreRecorded) {
   EXPECT_EQ(manifest["run"]["settings"]["selector"], 2);
   EXPECT_EQ(manifest["run"]["settings"]["rescue_frames"], 12);
   EXPECT_EQ(manifest["run"]["settings"]["beam_width"], 3);
+}
+
+TEST_F(Cli, OptionsThatComeWithTheProgramAreFoundByTheirName) {
+  motion::write_clip(path("a.npz"), standing_clip(20));
+  const std::filesystem::path shipped = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
+  const auto taken = [&](const std::string& options, const std::string& out) {
+    mimicx("adapt " + path("a.npz") + " --method paper --budget-samples 0 --threads 1 " + options +
+           " --out " + path(out));
+    return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["options"];
+  };
+  EXPECT_EQ(taken("", "default"), record::file_checksum(shipped / "options.npz"));
+  EXPECT_EQ(taken("--options taught", "taught"), record::file_checksum(shipped / "taught" / "options.npz"));
+  EXPECT_TRUE(says(mimicx("adapt " + path("a.npz") + " --options no_such --out " + path("none")), "no_such"));
 }
 
 TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
