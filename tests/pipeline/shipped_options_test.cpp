@@ -49,6 +49,7 @@ TEST(ShippedOptions, AreTheFilesThatTheirPagesRecordAndSmall) {
   for (const std::filesystem::path& set : {kOptions, kTaught}) {
     EXPECT_NE(read_file(set / "README.md").find(record::file_checksum(set / "options.npz")),
               std::string::npos);
+    EXPECT_LE(std::filesystem::file_size(set / "options.npz"), 8'000'000u);
     for (const char* name : {"options.npz", "clusters.json"}) size += std::filesystem::file_size(set / name);
   }
   EXPECT_LE(size, 15'000'000u);

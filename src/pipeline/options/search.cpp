@@ -1,6 +1,7 @@
 #include "pipeline/options/search.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -62,6 +63,18 @@ bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanActi
   return true;
 }
 
+/// A character of its own for every path, in the state of the one that it had.
+Characters characters_of(List<Path>& paths, const Characters& from,
+                         const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                         const rl::tracking::TrackingConfig& tracking) {
+  Characters characters(clip, tracking, paths.count());
+  for (int i = 0; i < paths.count(); ++i) {
+    characters.copy(i, from, paths[i].character);
+    paths[i].character = i;
+  }
+  return characters;
+}
+
 /// All continuations of a beam, the best first. @return none where it was told to stop on the way
 std::optional<Beam> expand(const Beam& beam, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                            const rl::tracking::TrackingConfig& tracking,
@@ -69,20 +82,19 @@ std::optional<Beam> expand(const Beam& beam, const std::shared_ptr<const rl::tra
                            double switch_penalty, const std::function<bool()>& should_stop) {
   const int frames = std::min(stretch, clip->size() - 1 - beam.frame);
   List<Path> paths = continued(beam.paths, options, frames, switch_penalty);
-  Characters characters(clip, tracking, paths.count());
-  for (int i = 0; i < paths.count(); ++i) {
-    characters.copy(i, beam.characters, paths[i].character);
-    paths[i].character = i;
-  }
+  Characters characters = characters_of(paths, beam.characters, clip, tracking);
   if (!act(paths, characters, policy, frames, should_stop)) return std::nullopt;
   std::stable_sort(paths.begin(), paths.end(), better);
   return Beam{beam.frame + frames, std::move(paths), std::move(characters)};
 }
 
-/// Keeps the best paths that stand.
-void prune(List<Path>& paths, int width) {
+/// Keeps the best paths that stand, and of the characters theirs.
+void prune(Beam& beam, std::int64_t width, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+           const rl::tracking::TrackingConfig& tracking) {
+  List<Path>& paths = beam.paths;
   const auto fallen = std::find_if(paths.begin(), paths.end(), [](const Path& path) { return path.fell; });
-  paths.erase(std::min(fallen, paths.begin() + std::min(width, paths.count())), paths.end());
+  paths.erase(std::min(fallen, paths.begin() + std::min<std::int64_t>(width, paths.count())), paths.end());
+  beam.characters = characters_of(paths, beam.characters, clip, tracking);
 }
 
 /// Of paths that all have fallen the best goes on, put onto the reference.
@@ -112,13 +124,13 @@ Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& 
   int retry = 0;    // the attempt that is under way; 0: none has been needed
   int to_pass = 0;  // the farthest frame at which every path fell since then
   while (trail.back().frame < last) {
-    const int width = config.width << (kWider * retry);
+    const std::int64_t width = std::int64_t{config.width} << (kWider * retry);
     const int stretch = retry > 0 ? std::max(1, config.stretch / 2) : config.stretch;
     std::optional<Beam> next = expand(trail.back(), clip, tracking, policy, static_cast<int>(options.size()),
                                       stretch, config.switch_penalty, should_stop);
     if (!next) break;
     if (!next->paths.front().fell) {
-      prune(next->paths, width);
+      prune(*next, width, clip, tracking);
       if (next->frame > to_pass) retry = 0;
       trail.push_back(std::move(*next));
     } else if (retry < config.retries) {
