@@ -59,7 +59,7 @@ void declare_adapt(CommandLine& line) {
   add_gains_argument(command, a->config.run);
   command.path("--options", a->options,
                "trained options: a file, a folder with options.npz, or taught: those in data/options/taught, "
-               "which follow more before any training; default: those in data/options");
+               "which follow more real clips before any training; default: those in data/options");
   add_arrangement_arguments(command, a->config.arrangement);
   command.action([a] {
     take_shard(a->more.shard, a->config.run);
