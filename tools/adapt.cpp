@@ -1,6 +1,7 @@
 #include "pipeline/adapt.h"
 
 #include <memory>
+#include <utility>
 
 #include "commands.h"
 #include "shipped_options.h"
@@ -11,29 +12,30 @@ namespace {
 
 struct Arguments {
   pipeline::AdaptConfig config = pipeline::adapt_configuration();
-  std::filesystem::path options;
+  std::vector<std::string> options;
   RunArguments more;
 };
 
-/// @param given  a file or folder, or the name of a set that comes with the program; empty: the first of
-/// those
-/// @throws UsageError where there are none
-std::filesystem::path options_to_take(const std::filesystem::path& given) {
-  const auto shipped = shipped_options();
-  if (!given.empty()) return shipped && !exists(given) && exists(*shipped / given) ? *shipped / given : given;
-  if (shipped) return *shipped;
-  throw UsageError(
-      "found no data/options beside the program: name trained options with --options, or take --method plan");
+/// @throws UsageError where none are given, and none have come with the program
+pipeline::options::OptionSets read_sets(std::vector<std::string> names) {
+  if (names.empty()) names = shipped_sets();
+  if (names.empty())
+    throw UsageError(
+        "found no data/options beside the program: name trained options with --options, or take --method "
+        "plan");
+  pipeline::options::OptionSets sets;
+  for (const std::string& name : names) sets.push_back(pipeline::options::read_options(options_named(name)));
+  return sets;
 }
 
 }  // namespace
 
-int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
+int adapt_motions(pipeline::AdaptConfig config, std::vector<std::string> options,
                   const std::vector<std::string>& settings) {
   if (config.method == pipeline::AdaptMethod::kPlan)
     config.clusters = shipped_clusters();
   else
-    config.options = pipeline::options::read_options(options_to_take(options));
+    config.options = read_sets(std::move(options));
   apply_settings(settings, config);
   return with_context(config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });
@@ -57,9 +59,11 @@ void declare_adapt(CommandLine& line) {
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);
   add_gains_argument(command, a->config.run);
-  command.path("--options", a->options,
-               "trained options: a file, a folder with options.npz, or taught: those in data/options/taught, "
-               "which follow more real clips before any training; default: those in data/options");
+  command.texts(
+      "--options", a->options, "SET",
+      "trained options to start from: a file, a folder with options.npz, or a set that comes with the "
+      "program: trained or taught; repeatable: the first set that follows the whole motion is taken, "
+      "else the first; default: trained, then taught");
   add_arrangement_arguments(command, a->config.arrangement);
   command.action([a] {
     take_shard(a->more.shard, a->config.run);

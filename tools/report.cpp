@@ -8,6 +8,7 @@
 #include "pipeline/record/outputs.h"
 #include "pipeline/report/run_report.h"
 #include "shared_arguments.h"
+#include "shipped_options.h"
 
 namespace mimicx::tools {
 namespace {
@@ -17,10 +18,10 @@ struct Arguments {
   bool times = false;
 };
 
-/// `clusters.json` of a folder of options, or beside a file of them.
+/// `clusters.json` of a set of options, or beside a file of them.
 std::filesystem::path clusters_of(const std::filesystem::path& options) {
-  const std::filesystem::path folder =
-      std::filesystem::is_directory(options) ? options : options.parent_path();
+  const std::filesystem::path place = options_named(options);
+  const std::filesystem::path folder = std::filesystem::is_directory(place) ? place : place.parent_path();
   if (!std::filesystem::exists(folder / "clusters.json"))
     throw UsageError("report: --options: expected a folder with clusters.json, found " + options.string());
   return folder / "clusters.json";
@@ -64,7 +65,8 @@ void declare_report(CommandLine& line) {
   command.path("--truth", a->truth,
                "folder of true motions, of the clips' names, to show and to measure against");
   command.path("--options", a->options,
-               "folder of trained options: maps the clips among the motions that these were trained on; "
+               "folder of trained options, or the name of a set that comes with the program: maps the clips "
+               "among the motions that these were trained on; "
                "default: those that the run began from");
   command.flag("--times", a->times,
                "also say how long the work took; such a report is not the same bytes for every run");

@@ -26,7 +26,7 @@ int run_all_stages(Arguments a) {
   a.adapt.run.read = a.pretrain.read;
   const int status = pretrain_options(a.pretrain, {});
   if (status == kInterrupted) return status;
-  return std::max(status, adapt_motions(a.adapt, a.pretrain.out, {}));
+  return std::max(status, adapt_motions(a.adapt, {a.pretrain.out.string()}, {}));
 }
 
 }  // namespace

@@ -3,6 +3,12 @@
 #include <system_error>
 
 namespace mimicx::tools {
+namespace {
+
+constexpr const char* kTrained = "trained";  ///< by `mimicx pretrain`; in the folder itself
+constexpr const char* kTaught = "taught";    ///< by plans; in the folder of this name
+
+}  // namespace
 
 std::optional<std::filesystem::path> shipped_options() {
   const std::filesystem::path relative = std::filesystem::path("data") / "options";
@@ -13,6 +19,22 @@ std::optional<std::filesystem::path> shipped_options() {
     if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
   if (std::filesystem::exists(relative / "options.npz")) return relative;
   return std::nullopt;
+}
+
+std::vector<std::string> shipped_sets() {
+  const auto shipped = shipped_options();
+  std::vector<std::string> sets;
+  if (shipped) sets.emplace_back(kTrained);
+  if (shipped && std::filesystem::exists(*shipped / kTaught)) sets.emplace_back(kTaught);
+  return sets;
+}
+
+std::filesystem::path options_named(const std::filesystem::path& given) {
+  const auto shipped = shipped_options();
+  if (!shipped || std::filesystem::exists(given)) return given;
+  if (given == kTrained) return *shipped;
+  if (given == kTaught) return *shipped / kTaught;
+  return given;
 }
 
 std::filesystem::path shipped_clusters() {

@@ -64,9 +64,9 @@ int with_context(
 pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
                                         const std::function<pipeline::record::RunOutcome()>& once);
 
-/// @param options  trained options to start from: a file, or a folder with options.npz; empty: the shipped
-/// ones
-int adapt_motions(pipeline::AdaptConfig config, std::filesystem::path options,
+/// @param options  sets of options to start from, in the order in which they are tried: a file, a folder with
+/// options.npz, or the name of a shipped set each; empty: all shipped ones
+int adapt_motions(pipeline::AdaptConfig config, std::vector<std::string> options,
                   const std::vector<std::string>& settings);
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings);
 

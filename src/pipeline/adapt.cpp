@@ -47,7 +47,7 @@ SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& 
   const auto clip = rl::tracking::make_tracking_clip(reference, tracking);
   JobWatch watch{job};
   const options::ArrangedClip arranged =
-      options::arrange(clip, tracking, *config.options, config.arrangement, watch.control().should_stop);
+      options::arrange(clip, tracking, config.options, config.arrangement, watch.control().should_stop);
   if (watch.interrupted) {
     SimulatedSequence none;
     none.interrupted = true;
@@ -62,6 +62,12 @@ SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& 
   }
   made.method = "paper";
   made.arrangement = options::stretches_of(arranged.options);
+  for (auto& [frame, option] : made.arrangement)
+    option += options::first_option(config.options, arranged.set);
+  if (arranged.set > 0)
+    made.notes.push_back("options of set " + std::to_string(arranged.set + 1) + " of " +
+                         std::to_string(config.options.size()) +
+                         ": no set before it follows the whole motion");
   if (!arranged.breaks.empty())
     made.notes.push_back("nothing that was tried could follow at " + std::to_string(arranged.breaks.size()) +
                          " frames, first at frame " + std::to_string(arranged.breaks.front()));
@@ -123,13 +129,21 @@ SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion::Ref
   return kept;
 }
 
+/// Files of the sets' clusters; none where one is missing, since the others' numbers would mean nothing.
+std::vector<std::filesystem::path> clusters_of(const options::OptionSets& sets) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& set : sets) files.push_back(set->clusters);
+  if (std::find(files.begin(), files.end(), std::filesystem::path()) != files.end()) return {};
+  return files;
+}
+
 Method method_of(const AdaptConfig& config) {
   Method method;
   method.seed = config.training.seed;
   method.samples = config.training.samples;
   method.settings = settings_of(config);
-  method.options = config.options->checksum;
-  method.clusters = config.options->clusters;
+  method.options = options::checksum_of(config.options);
+  method.clusters = clusters_of(config.options);
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
   method.name = plan_first ? "auto" : "paper";
@@ -177,7 +191,8 @@ void check(const AdaptConfig& config) {
 record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context) {
   if (config.method == AdaptMethod::kPlan)
     return plan_motions({config.run, planning_of(config), config.clusters}, context);
-  if (!config.options) throw std::invalid_argument("adapt: expected options to start from, found none");
+  if (config.options.empty())
+    throw std::invalid_argument("adapt: expected options to start from, found none");
   check(config.arrangement);
   return run_sequences(config.run, method_of(config), context);
 }

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 
 #include "pipeline/options/arrangement.h"
 #include "pipeline/planning.h"
@@ -28,8 +27,8 @@ struct AdaptConfig {
   TeachingConfig teaching;
   TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   options::ArrangementConfig arrangement;
-  std::shared_ptr<const options::OptionSet> options;  ///< to start from; not looked at by the plan alone
-  std::filesystem::path clusters = {};                ///< of options, for the report of the plan alone
+  options::OptionSets options;          ///< to start from; not looked at by the plan alone
+  std::filesystem::path clusters = {};  ///< of options, for the report of the plan alone
 };
 
 /// The settings, as the manifest lists them.

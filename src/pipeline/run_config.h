@@ -59,11 +59,11 @@ struct SequenceJob {
 struct Method {
   std::string name;  ///< imitate, plan, paper or auto
   std::uint64_t seed = 0;
-  std::int64_t samples = 0;              ///< budget per motion
-  NamedValues settings;                  ///< as the manifest lists them, those of the RunConfig among them
-  std::string options;                   ///< checksum of the trained options; empty without
-  std::filesystem::path clusters;        ///< file of their clusters, for the report; empty: none
-  physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
+  std::int64_t samples = 0;  ///< budget per motion
+  NamedValues settings;      ///< as the manifest lists them, those of the RunConfig among them
+  std::string options;       ///< checksums of the trained options; empty without
+  std::vector<std::filesystem::path> clusters;  ///< files of their clusters, for the report; empty: none
+  physics::SimulationConfig simulation;         ///< under which it simulates, for the audit
   std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;
 };
 

@@ -17,6 +17,7 @@
 #include "motion/clip_file.h"
 #include "pipeline/failure.h"
 #include "pipeline/kept_files.h"
+#include "pipeline/options/clusters.h"
 #include "pipeline/output/clean_copy.h"
 #include "pipeline/output/motion_output.h"
 #include "pipeline/preparation.h"
@@ -329,8 +330,14 @@ class SideBySide {
 
 /// The report shows which kinds of motion the options were trained on, also where these are gone.
 void keep_clusters(const Method& method, const record::RunFolder& folder) {
-  if (!method.clusters.empty() && !std::filesystem::exists(folder.clusters()))
-    write_file_atomically(folder.clusters(), read_file(method.clusters));
+  if (method.clusters.empty() || std::filesystem::exists(folder.clusters())) return;
+  if (method.clusters.size() == 1) {
+    write_file_atomically(folder.clusters(), read_file(method.clusters.front()));
+    return;
+  }
+  std::vector<options::Clusters> parts;
+  for (const std::filesystem::path& file : method.clusters) parts.push_back(options::read_clusters(file));
+  options::write_clusters(folder.clusters(), options::joined(parts));
 }
 
 NamedValues settings_of(const RunConfig& config) {

@@ -40,6 +40,58 @@ TEST_F(Adapt, KeepsTheClustersOfItsOptionsAndShowsThemInTheReport) {
   EXPECT_NE(page.find("\"options\":[["), std::string::npos) << "the stretches of the arrangement";
 }
 
+TEST_F(Adapt, TriesTheNextSetOfOptionsWhereTheFirstDoesNotFollow) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("second", "options");
+  config.training.samples = 0;
+  const auto follows = config.options.front();
+  const auto falls = std::make_shared<options::OptionSet>(*follows);
+  for (options::TrainedOption& trained : falls->options)
+    trained.option.agent.actor.biases.back().setConstant(2.0F);
+  falls->checksum = "falls";
+  config.options = {falls, follows};
+  run(config);
+  config.run.out = out("alone");
+  config.options = {follows};
+  run(config);
+  config.run.out = out("first");
+  config.options = {follows, falls};
+  run(config);
+  const auto manifest_in = [&](const char* name) {
+    return record::read_manifest(out(name) / "manifest.json");
+  };
+  const record::SequenceEntry second = manifest_in("second").sequences.at(0),
+                              alone = manifest_in("alone").sequences.at(0);
+  EXPECT_EQ(second.metrics, alone.metrics);
+  ASSERT_EQ(second.arrangement.size(), alone.arrangement.size());
+  for (std::size_t i = 0; i < alone.arrangement.size(); ++i)
+    EXPECT_EQ(second.arrangement[i],
+              (std::array<int, 2>{alone.arrangement[i][0], alone.arrangement[i][1] + 2}));
+  EXPECT_EQ(manifest_in("first").sequences.at(0).arrangement, alone.arrangement);
+  const auto notes_of = [&](const char* name) {
+    std::string all;
+    const record::SequenceEntry entry = manifest_in(name).sequences.at(0);
+    for (const std::string& note : entry.notes) all += note + "\n";
+    return all;
+  };
+  EXPECT_NE(notes_of("second").find("options of set 2 of 2: "), std::string::npos) << notes_of("second");
+  EXPECT_EQ(notes_of("first").find("options of set"), std::string::npos);
+  EXPECT_EQ(manifest_in("second").options, "falls+" + follows->checksum);
+  const options::Clusters kept = options::read_clusters(out("second") / "clusters.json");
+  EXPECT_EQ(kept.clusters.size(), 4u) << "the map knows the options of both sets";
+}
+
+TEST_F(Adapt, ASetWithoutClustersLeavesTheReportWithoutAMap) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  config.training.samples = 0;
+  const auto nameless = std::make_shared<options::OptionSet>(*config.options.front());
+  nameless->clusters.clear();
+  config.options.push_back(nameless);
+  run(config);
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "clusters.json"));
+}
+
 TEST_F(Adapt, WithoutABudgetIsTheOptionsThemselves) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
@@ -165,7 +217,7 @@ TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
     EXPECT_THROW(run(config), std::invalid_argument) << wrong.switch_penalty << ' ' << wrong.rescue_reward;
   }
   AdaptConfig config = adapting("run", "options");
-  config.options = nullptr;
+  config.options = {};
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 

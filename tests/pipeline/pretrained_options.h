@@ -48,7 +48,7 @@ struct PretrainedOptions : testing::Test {
     config.training = small_training();
     config.training.evaluate_iterations = 2;
     config.arrangement.switch_penalty = -0.01;
-    config.options = options::read_options(folder.path / options);
+    config.options = {options::read_options(folder.path / options)};
     return config;
   }
   static record::RunOutcome run(const AdaptConfig& config, int iterations = -1) {

@@ -35,7 +35,7 @@ record::SequenceEntry adapted(const std::string& name,
                               const std::shared_ptr<const options::OptionSet>& options) {
   AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPaper;
-  config.options = options;
+  config.options = {options};
   return entry_of(config, name, [&](const record::RunContext& context) { adapt(config, context); });
 }
 

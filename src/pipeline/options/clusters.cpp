@@ -110,6 +110,24 @@ Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& setti
   return out;
 }
 
+Clusters joined(const std::vector<Clusters>& parts) {
+  if (parts.empty()) throw std::invalid_argument("joined: there are no clusters");
+  Clusters all;
+  all.settings = parts.front().settings;
+  for (const Clusters& part : parts) {
+    const int branches = static_cast<int>(all.tree.size()), clusters = all.clusters.count();
+    for (ClusterBranch branch : part.tree) {
+      if (branch.parent >= 0) branch.parent += branches;
+      if (branch.cluster >= 0) branch.cluster += clusters;
+      all.tree.push_back(branch);
+    }
+    all.clusters.insert(all.clusters.end(), part.clusters.begin(), part.clusters.end());
+    all.settings.radius = std::max(all.settings.radius, part.settings.radius);
+  }
+  all.settings.clusters = all.clusters.count();
+  return all;
+}
+
 int nearest_cluster(const Clusters& clusters, const motion::MotionFeatures& features) {
   const motion::MotionFeatures point = motion::scaled_features(features);
   int nearest = 0;

@@ -49,13 +49,17 @@ struct ClusterBranch {
 
 struct Clusters {
   ClusterConfig settings;           ///< `radius` as it was in the end
-  std::vector<ClusterBranch> tree;  ///< depth first; [0] is the root
+  std::vector<ClusterBranch> tree;  ///< depth first; [0] is the root, and every other one without a parent
   List<MotionCluster> clusters;     ///< by number
 };
 
 /// @throws std::invalid_argument without motions, for two of one name, for more clusters than distinct
 ///         motions, and for a radius below 0
 Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& settings);
+
+/// All of them, numbered on from part to part, each part with its own root. @throws std::invalid_argument
+/// without parts
+Clusters joined(const std::vector<Clusters>& parts);
 
 /// Number of the cluster whose centre is nearest; of equally near ones the first.
 int nearest_cluster(const Clusters& clusters, const motion::MotionFeatures& features);

@@ -25,6 +25,18 @@ void check_shape(const Npz& archive, const std::string& prefix, const Option& op
 
 }  // namespace
 
+int first_option(const OptionSets& sets, int set) {
+  int first = 0;
+  for (int s = 0; s < set; ++s) first += sets[s]->options.count();
+  return first;
+}
+
+std::string checksum_of(const OptionSets& sets) {
+  std::string checksums;
+  for (const auto& set : sets) checksums += (checksums.empty() ? "" : "+") + set->checksum;
+  return checksums;
+}
+
 void write_options(const std::filesystem::path& path, const OptionSet& set) {
   Npz archive;
   archive.set(kCount, NpyArray::scalar_int(static_cast<std::int64_t>(set.options.size())));

@@ -31,6 +31,13 @@ struct OptionSet {
   std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty: there is none
 };
 
+/// Sets in the order in which they are tried (arrangement.h). Their options are numbered on from set to set.
+using OptionSets = List<std::shared_ptr<const OptionSet>>;
+/// Number of a set's first option.
+int first_option(const OptionSets& sets, int set);
+/// Of all sets, in their order.
+std::string checksum_of(const OptionSets& sets);
+
 void write_options(const std::filesystem::path& path, const OptionSet& set);
 /// @param path  the file, or a folder that holds `options.npz`
 /// @throws DataError for a file without options, and for options that do not fit this program's states and

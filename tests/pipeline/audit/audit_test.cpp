@@ -275,7 +275,7 @@ TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
   run.out = folder.path / "run";
   run.fit = run.substeps = true;
   config.training.samples = 0;
-  config.options = options::read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options");
+  config.options = {options::read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options")};
   std::ostringstream messages;
   record::Progress progress(messages, false, record::steady_seconds);
   adapt(config, {progress, messages, [] { return false; }});

@@ -115,6 +115,29 @@ TEST(Clusters, FileReadsBackAsTheSameBytes) {
   EXPECT_EQ(back.settings.clusters, 3);
 }
 
+TEST(Clusters, JoinedAreThePartsNumberedOn) {
+  const Clusters part = cluster_motions(some_motions(), three());
+  const Clusters both = joined({part, part});
+  ASSERT_EQ(both.clusters.size(), 6u);
+  for (int c = 0; c < 6; ++c) {
+    EXPECT_EQ(both.clusters[c].members, part.clusters[c % 3].members);
+    EXPECT_EQ(both.clusters[c].centre, part.clusters[c % 3].centre);
+  }
+  EXPECT_EQ(both.settings.clusters, 6);
+  EXPECT_EQ(both.settings.radius, part.settings.radius);
+  const std::string tree = format_cluster_tree(part), trees = format_cluster_tree(both);
+  EXPECT_TRUE(trees.starts_with(tree)) << trees;
+  std::string second = trees.substr(tree.size());
+  for (int c = 0; c < 3; ++c) {
+    const std::string number = "cluster " + std::to_string(c + 3) + ":";
+    ASSERT_NE(second.find(number), std::string::npos) << second;
+    second.replace(second.find(number), number.size(), "cluster " + std::to_string(c) + ":");
+  }
+  EXPECT_EQ(second, tree);
+  EXPECT_EQ(format_clusters(joined({part})), format_clusters(part));
+  EXPECT_THROW(joined({}), std::invalid_argument);
+}
+
 TEST(Clusters, KeepTheFeaturesOfTheirMembers) {
   TemporaryFolder folder;
   const std::vector<NamedFeatures> motions = some_motions();

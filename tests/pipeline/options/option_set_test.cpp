@@ -51,6 +51,16 @@ TEST(OptionSet, IsReadBackToTheBit) {
   }
 }
 
+TEST(OptionSet, SetsAreNumberedOnAndNamedByTheirChecksums) {
+  const TemporaryFolder folder;
+  write_options(folder.path / "options.npz", some_set());
+  const auto set = read_options(folder.path);
+  EXPECT_EQ(first_option({set, set, set}, 0), 0);
+  EXPECT_EQ(first_option({set, set, set}, 2), 4);
+  EXPECT_EQ(checksum_of({set}), set->checksum);
+  EXPECT_EQ(checksum_of({set, set}), set->checksum + "+" + set->checksum);
+}
+
 TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
   const TemporaryFolder folder;
   motion::write_clip(folder.path / "clip.npz", standing_clip(20));
