@@ -1,6 +1,7 @@
 #include "control/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace mimicx::control {
@@ -64,15 +65,21 @@ SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
 
 /// Makes help dearer from stage to stage until next to none is left. Each stage begins with the motion of the
 /// one before and follows that instead of the reference: so the motion moves away from the reference no
-/// faster than the body needs. A stage that is lost is the last.
+/// faster than the body needs. Where a stage is lost, the step was too long: it and those after it make help
+/// dearer by the root of the factor. A stage that is lost by the shortest step is the last.
 Trajectory stiffen(const Attempt& soft, const Cost& cost, Trajectory motion, double price) {
-  constexpr double kDear = 4.0;
-  while (price < kDear) {
-    price *= soft.config.stiffening;
-    const Cost dearer = with_goal(soft.system, with_price(cost, price), motion.x);
+  constexpr double kDear = 4.0, kLeastFactor = 1.5;
+  double factor = soft.config.stiffening;
+  while (price < kDear && factor >= kLeastFactor) {
+    const Cost dearer = with_goal(soft.system, with_price(cost, price * factor), motion.x);
     HorizonResult stage = soft.run(dearer, 2, motion);
-    if (stage.ending != Ending::kFollowed) break;
+    if (stage.ending == Ending::kStopped) break;
+    if (stage.ending == Ending::kLost) {
+      factor = std::sqrt(factor);
+      continue;
+    }
     motion = std::move(stage.motion);
+    price *= factor;
   }
   return motion;
 }

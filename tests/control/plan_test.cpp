@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "control/fixtures.h"
 #include "rl/tracking/rollout.h"
@@ -95,6 +97,32 @@ TEST(Plan, AReferenceThatNoBodyCanFollowIsReportedAndNotFought) {
 }
 
 // The helped plan follows it, and its help is the one of physics: the acceleration of the reference.
+/// Stands, and is lifted by 0.4 m and put down again within a second: a jump without the crouch before it.
+System lifted() {
+  constexpr int kFirst = 15, kFrames = 30;
+  constexpr double kHeight = 0.4;
+  System system = system_of(synthetic_reference("stand", 501, 60));
+  for (int t = 0; t < kFrames; ++t) {
+    const double angle = 2.0 * std::numbers::pi * t / kFrames;
+    auto& frame = system.reference[kFirst + t];
+    frame.p_root.z += 0.5 * kHeight * (1.0 - std::cos(angle));
+    frame.v_root.z += std::numbers::pi * kHeight * std::sin(angle);
+  }
+  return system;
+}
+
+/// Help ten thousand times as dear at once loses the motion that cheap help had followed.
+TEST(Plan, AStageOfHelpThatIsLostIsReachedByShorterSteps) {
+  PlanConfig config;
+  config.stiffening = 1e4;
+  const Plan plan = make_plan(lifted(), config, {.threads = 2});
+  EXPECT_EQ(plan.ending, Ending::kFollowed);
+  EXPECT_TRUE(plan.by_way_of_help);
+  EXPECT_FALSE(plan.loss);
+  EXPECT_EQ(plan.states.size(), 60u);
+  EXPECT_LT(plan.worst_distance, 0.35);
+}
+
 TEST(Plan, ASoftPlanFollowsWhatNoBodyCan) {
   System system = balloon();
   system.soft = true;
