@@ -63,7 +63,7 @@ void declare_adapt(CommandLine& line) {
       "--options", a->options, "SET",
       "trained options to start from: a file, a folder with options.npz, or a set that comes with the "
       "program: trained or taught; repeatable: the first set that follows the whole motion is taken, "
-      "else the first; default: trained, then taught");
+      "else the best; default: trained, then taught");
   add_arrangement_arguments(command, a->config.arrangement);
   command.action([a] {
     take_shard(a->more.shard, a->config.run);

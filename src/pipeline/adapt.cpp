@@ -7,6 +7,7 @@
 #include "pipeline/job_watch.h"
 #include "pipeline/plan.h"
 #include "pipeline/plan_sequence.h"
+#include "pipeline/set_choice.h"
 #include "pipeline/setting.h"
 #include "pipeline/teach_sequence.h"
 #include "pipeline/train_sequence.h"
@@ -46,8 +47,9 @@ SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& 
   const rl::tracking::TrackingConfig& tracking = config.training.tracking;
   const auto clip = rl::tracking::make_tracking_clip(reference, tracking);
   JobWatch watch{job};
-  const options::ArrangedClip arranged =
-      options::arrange(clip, tracking, config.options, config.arrangement, watch.control().should_stop);
+  const ChosenSet chosen =
+      choose_set(reference, clip, tracking, config.options, config.arrangement, watch.control().should_stop);
+  const options::ArrangedClip& arranged = chosen.arranged;
   if (watch.interrupted) {
     SimulatedSequence none;
     none.interrupted = true;
@@ -57,17 +59,16 @@ SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& 
   SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, config.training, rest);
   if (watch.timed_out) {
     made.ending = record::Ending::kLimitSeconds;
-    made.notes.push_back("the search for options ended early, at frame " + std::to_string(arranged.searched) +
+    made.notes.push_back("the search for options ended early, at frame " + std::to_string(chosen.searched) +
                          " of " + std::to_string(clip->size()) + ": --limit-seconds");
   }
   made.method = "paper";
   made.arrangement = options::stretches_of(arranged.options);
-  for (auto& [frame, option] : made.arrangement)
-    option += options::first_option(config.options, arranged.set);
-  if (arranged.set > 0)
-    made.notes.push_back("options of set " + std::to_string(arranged.set + 1) + " of " +
+  for (auto& [frame, option] : made.arrangement) option += options::first_option(config.options, chosen.set);
+  if (chosen.set > 0)
+    made.notes.push_back("options of set " + std::to_string(chosen.set + 1) + " of " +
                          std::to_string(config.options.size()) +
-                         ": no set before it follows the whole motion");
+                         ": those before it do not follow the motion");
   if (!arranged.breaks.empty())
     made.notes.push_back("nothing that was tried could follow at " + std::to_string(arranged.breaks.size()) +
                          " frames, first at frame " + std::to_string(arranged.breaks.front()));

@@ -114,23 +114,6 @@ ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& cl
   return arranged;
 }
 
-ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
-                     const rl::tracking::TrackingConfig& tracking, const OptionSets& sets,
-                     const ArrangementConfig& config, const std::function<bool()>& should_stop) {
-  if (sets.empty()) throw std::invalid_argument("arrange: expected a set of options, found none");
-  ArrangedClip first = arrange(clip, tracking, *sets.front(), config, should_stop);
-  const int all = clip->size() - 1;
-  for (int s = 1; s < sets.count() && !first.breaks.empty() && first.searched == all; ++s) {
-    ArrangedClip other = arrange(clip, tracking, *sets[s], config, should_stop);
-    if (other.searched == all && other.breaks.empty()) {
-      other.set = s;
-      return other;
-    }
-    first.searched = other.searched;
-  }
-  return first;
-}
-
 std::vector<std::array<int, 2>> stretches_of(const std::vector<int>& options) {
   std::vector<std::array<int, 2>> stretches;
   int frame = 0;

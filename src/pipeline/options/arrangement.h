@@ -10,9 +10,6 @@
 ///
 /// The options that occur are kept, in the order of the set, and numbered anew from 0: joint fine-tuning
 /// trains the policies that act and no others.
-///
-/// Of several sets the first is taken that follows the whole motion. Options of different sets do not meet in
-/// an arrangement: they may see their reference differently (option.h).
 #pragma once
 
 #include <array>
@@ -46,7 +43,6 @@ struct ArrangedClip {
   int searched = 0;        ///< frames before the selector was told to stop; else all but the last
   List<int> kept;          ///< numbers in the set of the options that occur, ascending
   List<rl::Agent> agents;  ///< of the kept options
-  int set = 0;             ///< number of the set, where there are several
   std::shared_ptr<const rl::tracking::TrackingClip>
       clip;  ///< as the kept options see it, with their arrangement
 };
@@ -57,13 +53,6 @@ struct ArrangedClip {
 /// @throws DataError for `nearest` and a clip of fewer than 3 frames
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                      const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
-                     const ArrangementConfig& config, const std::function<bool()>& should_stop = {});
-
-/// The arrangement of the first set that follows without a break; where none does, of the first. Sets behind
-/// the one that was taken are not tried.
-/// @throws std::invalid_argument as above, and without a set
-ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
-                     const rl::tracking::TrackingConfig& tracking, const OptionSets& sets,
                      const ArrangementConfig& config, const std::function<bool()>& should_stop = {});
 
 /// {first frame, option} of every stretch of frames in which one option acts.

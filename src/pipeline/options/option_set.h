@@ -31,7 +31,7 @@ struct OptionSet {
   std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty: there is none
 };
 
-/// Sets in the order in which they are tried (arrangement.h). Their options are numbered on from set to set.
+/// Sets in the order in which they are tried. Their options are numbered on from set to set.
 using OptionSets = List<std::shared_ptr<const OptionSet>>;
 /// Number of a set's first option.
 int first_option(const OptionSets& sets, int set);

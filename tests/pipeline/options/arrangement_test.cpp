@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "pipeline/options/constant_option.h"
 #include "pipeline/options/side_by_side.h"
@@ -185,62 +184,6 @@ TEST(Arrangement, RefusesNumbersThatCannotBe) {
     spoil(config);
     EXPECT_THROW(check(config), std::invalid_argument);
   }
-}
-
-std::shared_ptr<const OptionSet> shared(OptionSet set) {
-  return std::make_shared<const OptionSet>(std::move(set));
-}
-
-/// A set of one option with an encoder, which no set of options without one could be searched with.
-OptionSet encoded_set(const rl::tracking::TrackingClip& clip, float action) {
-  OptionSet set;
-  set.options.emplace_back();
-  set.options[0].option = constant_option(rl::tracking::kEncodedRest + 8, action);
-  set.options[0].option.encoder = some_encoder(clip, 1);
-  return set;
-}
-
-TEST(SetsOfOptions, TheFirstThatFollowsIsTakenWhateverComesBehind) {
-  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
-  const auto falls = shared(set_of({1.5F, -1.5F})), follows = shared(set_of({0.02F, 1.5F, 0.0F}));
-  const auto sees_codes = shared(encoded_set(*clip, 0.0F));
-  for (const Selector selector : {Selector::kDp, Selector::kBeam, Selector::kSingle}) {
-    const ArrangementConfig config = selecting(selector);
-    const auto taken = [&](const OptionSets& sets) { return arrange(clip, {}, sets, config); };
-    EXPECT_EQ(taken({follows, sees_codes}).set, 0);
-    EXPECT_EQ(taken({falls, sees_codes, follows}).set, 1);
-    EXPECT_EQ(taken({falls, sees_codes, follows}).clip->encoded.size(), 1u);
-    const ArrangedClip second = taken({falls, follows}), alone = arrange(clip, {}, *follows, config);
-    EXPECT_EQ(second.set, 1);
-    EXPECT_EQ(second.options, alone.options);
-    EXPECT_EQ(second.kept, alone.kept);
-    EXPECT_TRUE(second.breaks.empty());
-  }
-}
-
-TEST(SetsOfOptions, WhereNoneFollowsTheFirstActs) {
-  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
-  const auto falls = shared(set_of({1.5F})), falls_too = shared(set_of({-1.5F}));
-  const ArrangementConfig config = selecting(Selector::kBeam);
-  const ArrangedClip none = arrange(clip, {}, OptionSets{falls, falls_too}, config);
-  EXPECT_EQ(none.set, 0);
-  EXPECT_EQ(none.breaks, arrange(clip, {}, *falls, config).breaks);
-  EXPECT_THROW(arrange(clip, {}, OptionSets{}, config), std::invalid_argument);
-}
-
-/// Told to stop during the second search: what the first one found is all there is.
-TEST(SetsOfOptions, ASearchThatIsStoppedTakesNothing) {
-  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
-  const auto falls = shared(set_of({1.5F})), follows = shared(set_of({0.0F}));
-  int asked = 0;
-  arrange(clip, {}, *falls, selecting(Selector::kBeam), [&] { return ++asked < 0; });
-  const int first = asked;
-  asked = 0;
-  const ArrangedClip stopped = arrange(clip, {}, OptionSets{falls, follows}, selecting(Selector::kBeam),
-                                       [&] { return ++asked > first + 12; });
-  EXPECT_EQ(stopped.set, 0);
-  EXPECT_FALSE(stopped.breaks.empty());
-  EXPECT_EQ(stopped.searched, 10) << "whole stretches of 5 frames";
 }
 
 TEST(Stretches, SayWhereEachOptionBegins) {

@@ -1,0 +1,38 @@
+#include "pipeline/set_choice.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "pipeline/choice.h"
+#include "rl/tracking/rollout.h"
+
+namespace mimicx::pipeline {
+
+ChosenSet choose_set(const motion::Reference& reference,
+                     const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                     const rl::tracking::TrackingConfig& tracking, const options::OptionSets& sets,
+                     const options::ArrangementConfig& config, const std::function<bool()>& should_stop) {
+  if (sets.empty()) throw std::invalid_argument("choose_set: expected a set of options, found none");
+  const int all = clip->size() - 1;
+  ChosenSet chosen;
+  Candidate best;
+  for (int s = 0; s < sets.count() && !best.success; ++s) {
+    options::ArrangedClip arranged = options::arrange(clip, tracking, *sets[s], config, should_stop);
+    chosen.searched = arranged.searched;
+    const bool stopped = arranged.searched < all;
+    if (stopped && s > 0) break;
+    if (!stopped && sets.count() > 1) {
+      const Candidate found = candidate_of(
+          reference,
+          rl::tracking::roll_out(arranged.clip, tracking, rl::tracking::mean_action(arranged.agents)));
+      if (s > 0 && !better(found, best)) continue;
+      best = found;
+    }
+    chosen.set = s;
+    chosen.arranged = std::move(arranged);
+    if (stopped) break;
+  }
+  return chosen;
+}
+
+}  // namespace mimicx::pipeline

@@ -1,0 +1,90 @@
+// Which of several sets of options a motion is given to.
+#include "pipeline/set_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/options/constant_option.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+constexpr int kFrames = 60;
+
+struct SetChoice : testing::Test {
+  using Set = std::shared_ptr<const options::OptionSet>;
+
+  /// One option without an encoder that always does this. 0 follows, 0.6 falls and 1.5 falls at once.
+  static Set set_of(float action) {
+    options::OptionSet set;
+    set.options.emplace_back();
+    set.options[0].option = options::constant_option(rl::tracking::kStateSize, action);
+    return std::make_shared<const options::OptionSet>(std::move(set));
+  }
+  /// The same with an encoder: no option without one could be in an arrangement with it.
+  Set encoded_set_of(float action) const {
+    options::OptionSet set;
+    set.options.emplace_back();
+    set.options[0].option = options::constant_option(rl::tracking::kEncodedRest + 8, action);
+    set.options[0].option.encoder = options::some_encoder(*clip);
+    return std::make_shared<const options::OptionSet>(std::move(set));
+  }
+  ChosenSet choose(const options::OptionSets& sets, const std::function<bool()>& should_stop = {}) const {
+    return choose_set(reference, clip, {}, sets, config, should_stop);
+  }
+
+  motion::Reference reference = rl::tracking::swaying_reference(kFrames);
+  std::shared_ptr<const rl::tracking::TrackingClip> clip = rl::tracking::make_tracking_clip(reference, {});
+  options::ArrangementConfig config{.selector = options::Selector::kBeam, .beam_width = 4, .beam_stretch = 5};
+};
+
+TEST_F(SetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {
+  int asked = 0;
+  const auto count = [&] { return ++asked < 0; };
+  const ChosenSet first = choose({set_of(0.0F), encoded_set_of(0.0F)}, count);
+  EXPECT_EQ(first.set, 0);
+  EXPECT_EQ(asked, kFrames - 1) << "a search asks once per frame";
+  EXPECT_EQ(choose({set_of(1.5F), encoded_set_of(0.0F), set_of(0.0F)}).set, 1);
+}
+
+TEST_F(SetChoice, ItsArrangementIsThatOfTheSetByItself) {
+  const Set follows = encoded_set_of(0.02F);
+  const ChosenSet chosen = choose({set_of(1.5F), follows});
+  const options::ArrangedClip alone = options::arrange(clip, {}, *follows, config);
+  EXPECT_EQ(chosen.set, 1);
+  EXPECT_EQ(chosen.arranged.options, alone.options);
+  EXPECT_EQ(chosen.arranged.kept, alone.kept);
+  EXPECT_EQ(chosen.arranged.clip->encoded.size(), 1u);
+  EXPECT_EQ(chosen.searched, kFrames - 1);
+}
+
+TEST_F(SetChoice, WhereNoneFollowsTheBestIsTakenAndOfEqualsTheFirst) {
+  EXPECT_EQ(choose({set_of(1.5F), set_of(1.5F)}).set, 0);
+  const Set falls = set_of(1.5F), falls_later = set_of(0.6F);
+  EXPECT_EQ(choose({falls, falls_later}).set, 1);
+  EXPECT_EQ(choose({falls_later, falls}).set, 0);
+  EXPECT_THROW(choose({}), std::invalid_argument);
+}
+
+/// A search can come to the end of a motion that it has drifted away from: no break, and yet no success.
+TEST_F(SetChoice, ToComeToTheEndIsNotToFollow) {
+  rl::tracking::TrackingConfig lenient;
+  lenient.terminate_distance = 5.0;
+  const Set falls = set_of(1.5F);
+  ASSERT_TRUE(options::arrange(clip, lenient, *falls, config).breaks.empty());
+  EXPECT_EQ(choose_set(reference, clip, lenient, {falls, set_of(0.0F)}, config).set, 1);
+}
+
+TEST_F(SetChoice, ASearchThatIsStoppedIsTakenOnlyWhereThereIsNoOther) {
+  const Set falls = set_of(1.5F), follows = set_of(0.0F);
+  const auto after = [](int frames) { return [left = frames]() mutable { return left-- <= 0; }; };
+  const ChosenSet first = choose({falls, follows}, after(12));
+  EXPECT_EQ(first.set, 0);
+  EXPECT_EQ(first.searched, 10) << "whole stretches of 5 frames";
+  const ChosenSet second = choose({falls, follows}, after(kFrames - 1 + 12));
+  EXPECT_EQ(second.set, 0);
+  EXPECT_EQ(second.searched, 10);
+  EXPECT_EQ(second.arranged.options, options::arrange(clip, {}, *falls, config).options);
+}
+
+}  // namespace
+}  // namespace mimicx::pipeline
