@@ -68,9 +68,10 @@ SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
 /// faster than the body needs. Where a stage is lost, the step was too long: it and those after it make help
 /// dearer by the root of the factor. A stage that is lost by the shortest step is the last.
 Trajectory stiffen(const Attempt& soft, const Cost& cost, Trajectory motion, double price) {
-  constexpr double kDear = 4.0, kLeastFactor = 1.5;
+  constexpr double kDear = 4.0;
   double factor = soft.config.stiffening;
-  while (price < kDear && factor >= kLeastFactor) {
+  const double least = std::min(1.5, factor);
+  while (price < kDear && factor >= least) {
     const Cost dearer = with_goal(soft.system, with_price(cost, price * factor), motion.x);
     HorizonResult stage = soft.run(dearer, 2, motion);
     if (stage.ending == Ending::kStopped) break;
