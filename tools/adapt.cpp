@@ -1,7 +1,6 @@
 #include "pipeline/adapt.h"
 
 #include <memory>
-#include <utility>
 
 #include "commands.h"
 #include "shipped_options.h"
@@ -17,25 +16,35 @@ struct Arguments {
 };
 
 /// @throws UsageError where none are given, and none have come with the program
-pipeline::options::OptionSets read_sets(std::vector<std::string> names) {
-  if (names.empty()) names = shipped_sets();
-  if (names.empty())
+pipeline::options::OptionSets read_sets(const std::vector<std::string>& given) {
+  std::vector<std::filesystem::path> places;
+  for (const std::string& set : given) {
+    if (set.empty()) throw UsageError("--options: expected a set of options, found the empty text");
+    places.push_back(options_named(set));
+  }
+  if (given.empty()) places = shipped_sets();
+  if (places.empty())
     throw UsageError(
         "found no data/options beside the program: name trained options with --options, or take --method "
         "plan");
   pipeline::options::OptionSets sets;
-  for (const std::string& name : names) sets.push_back(pipeline::options::read_options(options_named(name)));
+  for (const std::filesystem::path& place : places) {
+    sets.push_back(pipeline::options::read_options(place));
+    for (int s = 0; s + 1 < sets.count(); ++s)
+      if (sets[s]->checksum == sets.back()->checksum)
+        throw UsageError("--options: " + place.string() + " is given twice");
+  }
   return sets;
 }
 
 }  // namespace
 
-int adapt_motions(pipeline::AdaptConfig config, std::vector<std::string> options,
+int adapt_motions(pipeline::AdaptConfig config, const std::vector<std::string>& options,
                   const std::vector<std::string>& settings) {
   if (config.method == pipeline::AdaptMethod::kPlan)
     config.clusters = shipped_clusters();
   else
-    config.options = read_sets(std::move(options));
+    config.options = read_sets(options);
   apply_settings(settings, config);
   return with_context(config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });
@@ -61,7 +70,7 @@ void declare_adapt(CommandLine& line) {
   add_gains_argument(command, a->config.run);
   command.texts(
       "--options", a->options, "SET",
-      "trained options to start from: a file, a folder with options.npz, or a set that comes with the "
+      "trained options to start from: a file, a folder with options.npz, or else a set that comes with the "
       "program: trained or taught; repeatable: the first set that follows the whole motion is taken, "
       "else the best; default: trained, then taught");
   add_arrangement_arguments(command, a->config.arrangement);

@@ -14,7 +14,8 @@ namespace mimicx::tools {
 namespace {
 
 struct Arguments {
-  std::filesystem::path run, truth, options;
+  std::filesystem::path run, truth;
+  std::vector<std::string> options;
   bool times = false;
 };
 
@@ -40,7 +41,7 @@ int report(const Arguments& a) {
   pipeline::record::Outputs({}, false).claim_own(folder.report());
   pipeline::report::ReportOptions options;
   options.times = a.times;
-  if (!a.options.empty()) options.clusters = clusters_of(a.options);
+  for (const std::string& set : a.options) options.clusters.push_back(clusters_of(set));
   if (!a.truth.empty()) options.truth = pipeline::named_motions(a.truth);
   bool all_good = true;
   for (const pipeline::record::SequenceEntry& entry : manifest.sequences) {
@@ -64,10 +65,10 @@ void declare_report(CommandLine& line) {
   command.file("RUN", a->run, "folder of a run");
   command.path("--truth", a->truth,
                "folder of true motions, of the clips' names, to show and to measure against");
-  command.path("--options", a->options,
-               "folder of trained options, or the name of a set that comes with the program: maps the clips "
-               "among the motions that these were trained on; "
-               "default: those that the run began from");
+  command.texts("--options", a->options, "SET",
+                "folder of trained options, or the name of a set that comes with the program: maps the clips "
+                "among the motions that these were trained on; "
+                "default: those that the run began from");
   command.flag("--times", a->times,
                "also say how long the work took; such a report is not the same bytes for every run");
   command.action([a] { return report(*a); });

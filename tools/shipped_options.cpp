@@ -21,11 +21,11 @@ std::optional<std::filesystem::path> shipped_options() {
   return std::nullopt;
 }
 
-std::vector<std::string> shipped_sets() {
+std::vector<std::filesystem::path> shipped_sets() {
+  std::vector<std::filesystem::path> sets;
   const auto shipped = shipped_options();
-  std::vector<std::string> sets;
-  if (shipped) sets.emplace_back(kTrained);
-  if (shipped && std::filesystem::exists(*shipped / kTaught)) sets.emplace_back(kTaught);
+  if (shipped) sets.push_back(*shipped);
+  if (shipped && std::filesystem::exists(*shipped / kTaught)) sets.push_back(*shipped / kTaught);
   return sets;
 }
 
@@ -33,14 +33,16 @@ std::filesystem::path options_named(const std::filesystem::path& given) {
   const auto shipped = shipped_options();
   if (!shipped || std::filesystem::exists(given)) return given;
   if (given == kTrained) return *shipped;
-  if (given == kTaught) return *shipped / kTaught;
-  return given;
+  return std::filesystem::exists(*shipped / given) ? *shipped / given : given;
 }
 
-std::filesystem::path shipped_clusters() {
-  const auto options = shipped_options();
-  return options && std::filesystem::exists(*options / "clusters.json") ? *options / "clusters.json"
-                                                                        : std::filesystem::path();
+std::vector<std::filesystem::path> shipped_clusters() {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& set : shipped_sets()) {
+    if (!std::filesystem::exists(set / "clusters.json")) return {};
+    files.push_back(set / "clusters.json");
+  }
+  return files;
 }
 
 }  // namespace mimicx::tools

@@ -66,7 +66,7 @@ pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline
 
 /// @param options  sets of options to start from, in the order in which they are tried: a file, a folder with
 /// options.npz, or the name of a shipped set each; empty: all shipped ones
-int adapt_motions(pipeline::AdaptConfig config, std::vector<std::string> options,
+int adapt_motions(pipeline::AdaptConfig config, const std::vector<std::string>& options,
                   const std::vector<std::string>& settings);
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings);
 

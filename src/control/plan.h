@@ -9,7 +9,7 @@
 ///
 /// A reference that is lost goes from soft to hard: a plan with help (system.h) follows it; help gets dearer
 /// from stage to stage, each stage following the one before, and so draws the motion to what the body can do
-/// by itself; the last plan follows that and has no help. What it comes to is a true simulation. If that is
+/// by itself (a stage that is lost is tried by a shorter step); the last plan follows that and has no help. What it comes to is a true simulation. If that is
 /// lost, too, the reference is planned once more from farther away: distances cost less beside the rest. A
 /// soft system is planned with help alone; its result is no simulation.
 #pragma once
@@ -27,7 +27,7 @@ struct PlanConfig {
   Linearisation linearisation;
   HorizonConfig horizon;
   bool soft_to_hard = true;  ///< where the reference is lost, plan again by way of help
-  double stiffening = 8.0;   ///< factor on the price of help from stage to stage
+  double stiffening = 8.0;   ///< factor on the price of help from stage to stage, at first
   bool gains = false;        ///< compute the feedback gains of a plan that was followed
   GainConfig gain_config;
 };

@@ -42,6 +42,35 @@ SequenceJob after_seconds(const SequenceJob& job, double seconds) {
   return rest;
 }
 
+/// What a training goes on from: no checkpoint of another input, and none of other options or of another
+/// arrangement of them, which a search that was told to stop may have left.
+std::string start_of_training(const SequenceJob& job, const options::OptionSet& set,
+                              const List<int>& arrangement) {
+  std::string text = set.checksum;
+  for (const int option : arrangement) text += ' ' + std::to_string(option);
+  return job.input_checksum + ' ' + record::checksum(text);
+}
+
+/// How the options were found, for the manifest.
+std::vector<std::string> notes_of(const ChosenSet& chosen, int frames, int sets, bool timed_out) {
+  std::vector<std::string> notes;
+  const std::string of_all = " of " + std::to_string(sets);
+  const auto one_set = [&](int set) { return "set " + std::to_string(set + 1) + of_all; };
+  if (timed_out)
+    notes.push_back("the search for options ended early, at frame " + std::to_string(chosen.last_searched) +
+                    " of " + std::to_string(frames) + (sets > 1 ? " with " + one_set(chosen.tried - 1) : "") +
+                    ": --limit-seconds");
+  if (sets > 1 && chosen.success && chosen.set > 0)
+    notes.push_back("options of " + one_set(chosen.set) + ": the first that follows the motion");
+  if (sets > 1 && !chosen.success && chosen.tried == sets && !timed_out)
+    notes.push_back("options of " + one_set(chosen.set) + ": none follows the motion, this is the best");
+  const List<int>& breaks = chosen.arranged.breaks;
+  if (!breaks.empty())
+    notes.push_back("nothing that was tried could follow at " + std::to_string(breaks.size()) +
+                    " frames, first at frame " + std::to_string(breaks.front()));
+  return notes;
+}
+
 SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& reference,
                             const SequenceJob& job) {
   const rl::tracking::TrackingConfig& tracking = config.training.tracking;
@@ -55,23 +84,15 @@ SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& 
     none.interrupted = true;
     return none;
   }
-  const SequenceJob rest = after_seconds(job, record::steady_seconds() - watch.started);
+  SequenceJob rest = after_seconds(job, record::steady_seconds() - watch.started);
+  rest.input_checksum = start_of_training(job, *config.options[chosen.set], arranged.options);
   SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, config.training, rest);
-  if (watch.timed_out) {
-    made.ending = record::Ending::kLimitSeconds;
-    made.notes.push_back("the search for options ended early, at frame " + std::to_string(chosen.searched) +
-                         " of " + std::to_string(clip->size()) + ": --limit-seconds");
-  }
+  if (watch.timed_out) made.ending = record::Ending::kLimitSeconds;
   made.method = "paper";
   made.arrangement = options::stretches_of(arranged.options);
   for (auto& [frame, option] : made.arrangement) option += options::first_option(config.options, chosen.set);
-  if (chosen.set > 0)
-    made.notes.push_back("options of set " + std::to_string(chosen.set + 1) + " of " +
-                         std::to_string(config.options.size()) +
-                         ": those before it do not follow the motion");
-  if (!arranged.breaks.empty())
-    made.notes.push_back("nothing that was tried could follow at " + std::to_string(arranged.breaks.size()) +
-                         " frames, first at frame " + std::to_string(arranged.breaks.front()));
+  for (std::string& note : notes_of(chosen, clip->size(), config.options.count(), watch.timed_out))
+    made.notes.push_back(std::move(note));
   return made;
 }
 

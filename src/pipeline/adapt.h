@@ -1,7 +1,8 @@
 /// `mimicx adapt`: cleans each motion, by a plan, by policies, or by policies where the plan fails.
 ///
 /// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion.
-/// *Paper*: trained options are arranged over the motion, and those that act are fine-tuned jointly; minutes.
+/// *Paper*: trained options, of the first set that follows, are arranged over the motion, and those that act
+/// are fine-tuned jointly; minutes.
 ///                                                                     docs/method.md §8, §9
 /// *Auto*: the plan, and a policy that it teaches (teach_sequence.h); where the plan's roll-out is no success
 /// the paper's method with its whole budget. The better of the roll-outs is written (choice.h), and the
@@ -9,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "pipeline/options/arrangement.h"
 #include "pipeline/planning.h"
@@ -27,8 +29,8 @@ struct AdaptConfig {
   TeachingConfig teaching;
   TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   options::ArrangementConfig arrangement;
-  options::OptionSets options;          ///< to start from; not looked at by the plan alone
-  std::filesystem::path clusters = {};  ///< of options, for the report of the plan alone
+  options::OptionSets options;  ///< to start from (set_choice.h); not looked at by the plan alone
+  std::vector<std::filesystem::path> clusters = {};  ///< of options, for the report of the plan alone
 };
 
 /// The settings, as the manifest lists them.

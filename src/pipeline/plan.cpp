@@ -20,7 +20,7 @@ record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::R
   Method method;
   method.name = "plan";
   method.settings = settings_of(config);
-  if (!config.clusters.empty()) method.clusters = {config.clusters};
+  method.clusters = config.clusters;
   method.simulation = config.planning.simulation;
   method.simulate = [&planning = config.planning](const motion::Reference& reference,
                                                   const SequenceJob& job) {

@@ -11,8 +11,8 @@ namespace mimicx::pipeline {
 struct PlanMotionsConfig {
   RunConfig run;
   PlanningConfig planning;
-  /// File of the clusters of options, for the report's map; empty: none.
-  std::filesystem::path clusters = {};
+  /// Files of the clusters of options, for the report's map; empty: none.
+  std::vector<std::filesystem::path> clusters = {};
 };
 
 /// What people run (configurations.h).

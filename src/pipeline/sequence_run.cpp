@@ -328,16 +328,19 @@ class SideBySide {
 
 }  // namespace
 
-/// The report shows which kinds of motion the options were trained on, also where these are gone.
-void keep_clusters(const Method& method, const record::RunFolder& folder) {
+/// The report shows which kinds of motion the options were trained on, also where these are gone. It can do
+/// without.
+void keep_clusters(const Method& method, const record::RunFolder& folder, std::ostream& messages) {
   if (method.clusters.empty() || std::filesystem::exists(folder.clusters())) return;
   if (method.clusters.size() == 1) {
     write_file_atomically(folder.clusters(), read_file(method.clusters.front()));
     return;
   }
-  std::vector<options::Clusters> parts;
-  for (const std::filesystem::path& file : method.clusters) parts.push_back(options::read_clusters(file));
-  options::write_clusters(folder.clusters(), options::joined(parts));
+  try {
+    options::write_clusters(folder.clusters(), options::read_clusters(method.clusters));
+  } catch (const DataError& error) {
+    messages << error.what() << ": the report has no map of the motions\n";
+  }
 }
 
 NamedValues settings_of(const RunConfig& config) {
@@ -361,7 +364,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
   record::Outputs outputs(protect, config.force);
   claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
   folder.create();
-  keep_clusters(method, folder);
+  keep_clusters(method, folder, context.messages);
   write_records(run);
   const int count = static_cast<int>(run.inputs.size());
   if (list)

@@ -13,13 +13,15 @@ ChosenSet choose_set(const motion::Reference& reference,
                      const rl::tracking::TrackingConfig& tracking, const options::OptionSets& sets,
                      const options::ArrangementConfig& config, const std::function<bool()>& should_stop) {
   if (sets.empty()) throw std::invalid_argument("choose_set: expected a set of options, found none");
-  const int all = clip->size() - 1;
+  const int acting = clip->size() - 1;
   ChosenSet chosen;
   Candidate best;
   for (int s = 0; s < sets.count() && !best.success; ++s) {
+    if (s > 0 && should_stop && should_stop()) break;
     options::ArrangedClip arranged = options::arrange(clip, tracking, *sets[s], config, should_stop);
-    chosen.searched = arranged.searched;
-    const bool stopped = arranged.searched < all;
+    chosen.tried = s + 1;
+    chosen.last_searched = arranged.searched;
+    const bool stopped = arranged.searched < acting;
     if (stopped && s > 0) break;
     if (!stopped && sets.count() > 1) {
       const Candidate found = candidate_of(
@@ -29,6 +31,7 @@ ChosenSet choose_set(const motion::Reference& reference,
       best = found;
     }
     chosen.set = s;
+    chosen.success = best.success;
     chosen.arranged = std::move(arranged);
     if (stopped) break;
   }

@@ -10,9 +10,11 @@
 namespace mimicx::pipeline {
 
 struct ChosenSet {
-  int set = 0;  ///< its number
+  int set = 0;            ///< its number
+  bool success = false;   ///< its arrangement follows the whole motion; not looked at where there is one set
+  int tried = 0;          ///< sets whose search was begun
+  int last_searched = 0;  ///< frames that the last of these came to; less than it has: told to stop
   options::ArrangedClip arranged;
-  int searched = 0;  ///< frames that the last search came to, whatever its set; less than all: told to stop
 };
 
 /// @param clip  of the reference, as `options::arrange` takes it

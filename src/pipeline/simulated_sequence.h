@@ -23,7 +23,7 @@ struct SimulatedSequence {
   std::int64_t samples = 0;
   std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none
   rl::tracking::TrackingRollout after;                  ///< the result
-  std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option}; empty without options
+  std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option of all sets}; else empty
   NamedValues plan = {};                                ///< what planning it took
   NamedValues policy = {};                          ///< how the policy does that the plan has taught; or none
   std::optional<output::StoredPolicy> taught = {};  ///< that policy, to be written

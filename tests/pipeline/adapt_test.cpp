@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "motion/clip_file.h"
@@ -40,15 +41,21 @@ TEST_F(Adapt, KeepsTheClustersOfItsOptionsAndShowsThemInTheReport) {
   EXPECT_NE(page.find("\"options\":[["), std::string::npos) << "the stretches of the arrangement";
 }
 
+/// The set, with policies that fall at once.
+std::shared_ptr<const options::OptionSet> falling(const options::OptionSet& set) {
+  const auto falls = std::make_shared<options::OptionSet>(set);
+  for (options::TrainedOption& trained : falls->options)
+    trained.option.agent.actor.biases.back().setConstant(2.0F);
+  falls->checksum = "falls";
+  return falls;
+}
+
 TEST_F(Adapt, TriesTheNextSetOfOptionsWhereTheFirstDoesNotFollow) {
   run(pretraining("options"));
   AdaptConfig config = adapting("second", "options");
   config.training.samples = 0;
   const auto follows = config.options.front();
-  const auto falls = std::make_shared<options::OptionSet>(*follows);
-  for (options::TrainedOption& trained : falls->options)
-    trained.option.agent.actor.biases.back().setConstant(2.0F);
-  falls->checksum = "falls";
+  const auto falls = falling(*follows);
   config.options = {falls, follows};
   run(config);
   config.run.out = out("alone");
@@ -79,6 +86,85 @@ TEST_F(Adapt, TriesTheNextSetOfOptionsWhereTheFirstDoesNotFollow) {
   EXPECT_EQ(manifest_in("second").options, "falls+" + follows->checksum);
   const options::Clusters kept = options::read_clusters(out("second") / "clusters.json");
   EXPECT_EQ(kept.clusters.size(), 4u) << "the map knows the options of both sets";
+}
+
+/// Names of the files that are not the same in both.
+std::string differences(const std::map<std::string, std::string>& a,
+                        const std::map<std::string, std::string>& b) {
+  std::string names;
+  for (const auto& [name, text] : a)
+    if (!b.contains(name) || b.at(name) != text) names += name + " ";
+  for (const auto& [name, text] : b)
+    if (!a.contains(name)) names += name + " ";
+  return names;
+}
+
+TEST_F(Adapt, WithTwoSetsIsTheSameBytesAfterInterruptionsInAnyOfTheirSearches) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("whole", "options");
+  config.arrangement.selector = options::Selector::kBeam;
+  config.arrangement.beam_width = 3;
+  const auto follows = config.options.front();
+  config.options = {falling(*follows), follows};
+  run(config);
+  const auto whole = results_of(out("whole"));
+  for (const int asked : {5, 40, 60}) {
+    config.run.out = out("after " + std::to_string(asked));
+    EXPECT_EQ(run(config, asked), record::RunOutcome::kInterrupted);
+    run(config);
+    EXPECT_EQ(differences(results_of(config.run.out), whole), "") << asked;
+  }
+}
+
+/// Its search was cut, so it trained options that the whole search does not choose.
+TEST_F(Adapt, ATrainingOfOtherOptionsIsNotGoneOnWith) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("hasty", "options");
+  config.arrangement.selector = options::Selector::kBeam;
+  const auto follows = config.options.front();
+  const auto falls = std::make_shared<options::OptionSet>(*falling(*follows));
+  falls->options.resize(1);
+  config.options = {falls, follows};
+  config.run.limit_seconds = 1e-9;
+  run(config);
+  EXPECT_TRUE(std::filesystem::exists(out("hasty") / "checkpoints" / "sway.npz"));
+  config.run.limit_seconds = 0.0;
+  run(config);
+  config.run.out = out("fresh");
+  run(config);
+  EXPECT_EQ(differences(results_of(out("hasty")), results_of(out("fresh"))), "manifest.json report.html ")
+      << "a note, and nothing else";
+}
+
+TEST_F(Adapt, ClustersThatCannotBeReadCostTheMapAlone) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  config.training.samples = 0;
+  const auto bad = std::make_shared<options::OptionSet>(*config.options.front());
+  bad->clusters = out("bad.json");
+  write_file_atomically(bad->clusters, "{");
+  config.options.push_back(bad);
+  const Outcome outcome =
+      run_in_context([&](const record::RunContext& context) { return adapt(config, context); });
+  EXPECT_EQ(outcome.value, record::RunOutcome::kAllGood);
+  EXPECT_NE(outcome.messages.find("bad.json"), std::string::npos) << outcome.messages;
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "clusters.json"));
+}
+
+TEST_F(Adapt, SaysWhichSetIsTakenWhereNoneFollows) {
+  run(pretraining("options"));
+  AdaptConfig config = adapting("run", "options");
+  config.training.samples = 0;
+  const auto falls = falling(*config.options.front());
+  config.options = {falls, falls};
+  run(config);
+  const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
+  const auto said = [&](const std::string& words) {
+    return std::any_of(entry.notes.begin(), entry.notes.end(),
+                       [&](const std::string& note) { return note.starts_with(words); });
+  };
+  EXPECT_FALSE(entry.ok);
+  EXPECT_TRUE(said("options of set 1 of 2: none follows the motion"));
 }
 
 TEST_F(Adapt, ASetWithoutClustersLeavesTheReportWithoutAMap) {

@@ -149,7 +149,27 @@ TEST_F(Cli, OptionsThatComeWithTheProgramAreFoundByTheirName) {
   EXPECT_EQ(taken("--options trained", "trained"), trained);
   EXPECT_EQ(taken("--options taught", "taught"), taught);
   EXPECT_EQ(taken("--options taught --options trained", "both"), taught + "+" + trained);
+  EXPECT_EQ(taken("--options taught/options.npz", "file"), taught);
   EXPECT_TRUE(says(mimicx("adapt " + path("a.npz") + " --options no_such --out " + path("none")), "no_such"));
+  EXPECT_TRUE(says(mimicx("adapt " + path("a.npz") + " --options '' --out " + path("none")), "--options"));
+  EXPECT_TRUE(
+      says(mimicx("adapt " + path("a.npz") + " --options taught --options taught --out " + path("none")),
+           "given twice"));
+}
+
+/// What is asked for by name may lie where the user is; what is taken by default may not.
+TEST_F(Cli, AFolderThatIsNamedAsShippedOptionsDoesNotStandInForThem) {
+  motion::write_clip(path("a.npz"), standing_clip(20));
+  std::filesystem::create_directory(path("taught"));
+  const Call call = shell("cd '" + folder.path.string() +
+                          "' && '" MIMICX_BINARY
+                          "' adapt a.npz --method paper --budget-samples 0 --threads 1 --out out 2>&1");
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_NE(shell("cd '" + folder.path.string() +
+                  "' && '" MIMICX_BINARY "' adapt a.npz --method paper --options taught --out other 2>&1")
+                .status,
+            0)
+      << "an empty folder of that name is there";
 }
 
 TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {

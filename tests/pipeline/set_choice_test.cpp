@@ -13,14 +13,17 @@ constexpr int kFrames = 60;
 struct SetChoice : testing::Test {
   using Set = std::shared_ptr<const options::OptionSet>;
 
-  /// One option without an encoder that always does this. 0 follows, 0.6 falls and 1.5 falls at once.
+  /// Two options without encoders, the first of which falls at once and the second of which always does this.
+  /// 0 follows, 0.6 falls and 1.5 falls at once.
   static Set set_of(float action) {
     options::OptionSet set;
-    set.options.emplace_back();
-    set.options[0].option = options::constant_option(rl::tracking::kStateSize, action);
+    for (const float always : {-1.5F, action}) {
+      set.options.emplace_back();
+      set.options.back().option = options::constant_option(rl::tracking::kStateSize, always);
+    }
     return std::make_shared<const options::OptionSet>(std::move(set));
   }
-  /// The same with an encoder: no option without one could be in an arrangement with it.
+  /// One option with an encoder: no option without one could be in an arrangement with it.
   Set encoded_set_of(float action) const {
     options::OptionSet set;
     set.options.emplace_back();
@@ -47,18 +50,22 @@ TEST_F(SetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {
 }
 
 TEST_F(SetChoice, ItsArrangementIsThatOfTheSetByItself) {
-  const Set follows = encoded_set_of(0.02F);
-  const ChosenSet chosen = choose({set_of(1.5F), follows});
+  const Set follows = set_of(0.02F);
+  const ChosenSet chosen = choose({encoded_set_of(1.5F), follows});
   const options::ArrangedClip alone = options::arrange(clip, {}, *follows, config);
   EXPECT_EQ(chosen.set, 1);
   EXPECT_EQ(chosen.arranged.options, alone.options);
   EXPECT_EQ(chosen.arranged.kept, alone.kept);
-  EXPECT_EQ(chosen.arranged.clip->encoded.size(), 1u);
-  EXPECT_EQ(chosen.searched, kFrames - 1);
+  EXPECT_EQ(chosen.arranged.kept, std::vector<int>{1});
+  EXPECT_TRUE(chosen.arranged.clip->encoded.empty());
+  EXPECT_EQ(chosen.last_searched, kFrames - 1);
+  EXPECT_TRUE(chosen.success);
+  EXPECT_EQ(chosen.tried, 2);
 }
 
 TEST_F(SetChoice, WhereNoneFollowsTheBestIsTakenAndOfEqualsTheFirst) {
   EXPECT_EQ(choose({set_of(1.5F), set_of(1.5F)}).set, 0);
+  EXPECT_FALSE(choose({set_of(1.5F), set_of(1.5F)}).success);
   const Set falls = set_of(1.5F), falls_later = set_of(0.6F);
   EXPECT_EQ(choose({falls, falls_later}).set, 1);
   EXPECT_EQ(choose({falls_later, falls}).set, 0);
@@ -79,10 +86,13 @@ TEST_F(SetChoice, ASearchThatIsStoppedIsTakenOnlyWhereThereIsNoOther) {
   const auto after = [](int frames) { return [left = frames]() mutable { return left-- <= 0; }; };
   const ChosenSet first = choose({falls, follows}, after(12));
   EXPECT_EQ(first.set, 0);
-  EXPECT_EQ(first.searched, 10) << "whole stretches of 5 frames";
-  const ChosenSet second = choose({falls, follows}, after(kFrames - 1 + 12));
+  EXPECT_EQ(first.last_searched, 10) << "whole stretches of 5 frames";
+  EXPECT_EQ(first.tried, 1);
+  const ChosenSet second = choose({falls, follows}, after(kFrames - 1 + 1 + 12));
   EXPECT_EQ(second.set, 0);
-  EXPECT_EQ(second.searched, 10);
+  EXPECT_EQ(second.last_searched, 10);
+  EXPECT_EQ(second.tried, 2);
+  EXPECT_EQ(second.arranged.searched, kFrames - 1) << "the first search is as it was";
   EXPECT_EQ(second.arranged.options, options::arrange(clip, {}, *falls, config).options);
 }
 

@@ -112,6 +112,7 @@ Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& setti
 
 Clusters joined(const std::vector<Clusters>& parts) {
   if (parts.empty()) throw std::invalid_argument("joined: there are no clusters");
+  if (parts.size() == 1) return parts.front();
   Clusters all;
   all.settings = parts.front().settings;
   for (const Clusters& part : parts) {
@@ -125,6 +126,9 @@ Clusters joined(const std::vector<Clusters>& parts) {
     all.settings.radius = std::max(all.settings.radius, part.settings.radius);
   }
   all.settings.clusters = all.clusters.count();
+  List<motion::MotionFeatures> centres;
+  for (const MotionCluster& cluster : all.clusters) centres.push_back(cluster.centre);
+  for (int c = 0; c < centres.count(); ++c) all.clusters[c].description = describe_cluster(centres, c);
   return all;
 }
 
@@ -193,6 +197,12 @@ void write_clusters(const std::filesystem::path& path, const Clusters& clusters)
 }
 
 Clusters read_clusters(const std::filesystem::path& path) { return parse_clusters(read_file(path), path); }
+
+Clusters read_clusters(const std::vector<std::filesystem::path>& paths) {
+  std::vector<Clusters> parts;
+  for (const std::filesystem::path& path : paths) parts.push_back(read_clusters(path));
+  return joined(parts);
+}
 
 Clusters parse_clusters(const std::string& text, const std::filesystem::path& path) {
   try {

@@ -57,8 +57,9 @@ struct Clusters {
 ///         motions, and for a radius below 0
 Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& settings);
 
-/// All of them, numbered on from part to part, each part with its own root. @throws std::invalid_argument
-/// without parts
+/// All of them, numbered on from part to part and described among each other, each part with its own root.
+/// `settings` are of no clustering then: the largest radius, and the number of all.
+/// @throws std::invalid_argument without parts
 Clusters joined(const std::vector<Clusters>& parts);
 
 /// Number of the cluster whose centre is nearest; of equally near ones the first.
@@ -72,6 +73,8 @@ std::string format_clusters(const Clusters& clusters);
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters);
 /// @throws DataError for a file that holds no clusters, or clusters of other features or units
 Clusters read_clusters(const std::filesystem::path& path);
+/// Of several files, joined; of one, as it is.
+Clusters read_clusters(const std::vector<std::filesystem::path>& paths);
 /// The same from its text. @param path  for messages
 Clusters parse_clusters(const std::string& text, const std::filesystem::path& path);
 

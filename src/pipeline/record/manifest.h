@@ -23,7 +23,7 @@ struct Manifest {
   std::int64_t samples = 0;  ///< budget per sequence
   std::string method;        ///< what simulates the motions: imitate, plan, paper or auto
   NamedValues settings;      ///< every other parameter that the results depend on
-  std::string options;       ///< checksum of the options started from; empty: from scratch
+  std::string options;       ///< checksums of the sets of options, joined by +; empty: from scratch
   std::string reading;       ///< what the user said of the files (ReadConfig::text)
   std::vector<SequenceEntry> sequences;
 

@@ -83,10 +83,11 @@ struct MotionMap {
 /// facts of the run.
 std::optional<MotionMap> map_for(const record::RunFolder& folder, const ReportOptions& options,
                                  std::vector<std::pair<std::string, std::string>>& run) {
-  const std::filesystem::path file = options.clusters.empty() ? folder.clusters() : options.clusters;
-  if (!std::filesystem::exists(file)) return std::nullopt;
+  std::vector<std::filesystem::path> files = options.clusters;
+  if (files.empty() && std::filesystem::exists(folder.clusters())) files = {folder.clusters()};
+  if (files.empty()) return std::nullopt;
   try {
-    MotionMap map{options::read_clusters(file), {}};
+    MotionMap map{options::read_clusters(files), {}};
     map.map = map_of(map.clusters);
     return map;
   } catch (const std::invalid_argument&) {

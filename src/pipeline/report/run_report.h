@@ -17,7 +17,7 @@ inline constexpr std::ptrdiff_t kMostEmbedded = 50;
 struct ReportOptions {
   std::map<std::string, std::filesystem::path> truth = {};  ///< files of the truth, by the clips' names
   /// Of the options, for the map; empty: DIR/clusters.json, where that is.
-  std::filesystem::path clusters = {};
+  std::vector<std::filesystem::path> clusters = {};
   bool times = false;  ///< also say how long it took: wall-clock times, which no two runs have in common
   bool keep = false;   ///< leave the files beside the page that were made of the results as they are now
 };
