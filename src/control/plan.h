@@ -9,9 +9,10 @@
 ///
 /// A reference that is lost goes from soft to hard: a plan with help (system.h) follows it; help gets dearer
 /// from stage to stage, each stage following the one before, and so draws the motion to what the body can do
-/// by itself (a stage that is lost is tried by a shorter step); the last plan follows that and has no help. What it comes to is a true simulation. If that is
-/// lost, too, the reference is planned once more from farther away: distances cost less beside the rest. A
-/// soft system is planned with help alone; its result is no simulation.
+/// by itself (a stage that is lost is tried by a shorter step); the last plan follows that and has no help.
+/// What it comes to is a true simulation. If that is lost, too, the reference is planned once more from
+/// farther away: distances cost less beside the rest. A soft system is planned with help alone; its result is
+/// no simulation.
 #pragma once
 
 #include <optional>
