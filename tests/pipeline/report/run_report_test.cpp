@@ -261,8 +261,8 @@ TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
     EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][2], 0) << "who stands is with the calm ones";
   }
   ReportOptions others;
-  others.clusters = run.folder.path / "others.json";
-  options::write_clusters(others.clusters, some_clusters());
+  others.clusters = {run.folder.path / "others.json"};
+  options::write_clusters(others.clusters.front(), some_clusters());
   std::filesystem::remove(run.run.clusters());
   EXPECT_EQ(element(run.page(others), "data")["map"], map);
 }
