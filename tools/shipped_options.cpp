@@ -1,5 +1,6 @@
 #include "shipped_options.h"
 
+#include <optional>
 #include <system_error>
 
 namespace mimicx::tools {
@@ -8,8 +9,7 @@ namespace {
 constexpr const char* kTrained = "trained";  ///< by `mimicx pretrain`; in the folder itself
 constexpr const char* kTaught = "taught";    ///< by plans; in the folder of this name
 
-}  // namespace
-
+/// data/options of the source tree that holds this program, or of the folder it was started in.
 std::optional<std::filesystem::path> shipped_options() {
   const std::filesystem::path relative = std::filesystem::path("data") / "options";
   std::error_code error;
@@ -20,6 +20,8 @@ std::optional<std::filesystem::path> shipped_options() {
   if (std::filesystem::exists(relative / "options.npz")) return relative;
   return std::nullopt;
 }
+
+}  // namespace
 
 std::vector<std::filesystem::path> shipped_sets() {
   std::vector<std::filesystem::path> sets;

@@ -54,13 +54,14 @@ std::string start_of_training(const SequenceJob& job, const options::OptionSet& 
 /// How the options were found, for the manifest.
 std::vector<std::string> notes_of(const ChosenSet& chosen, int frames, int sets, bool timed_out) {
   std::vector<std::string> notes;
-  const std::string of_all = " of " + std::to_string(sets);
-  const auto one_set = [&](int set) { return "set " + std::to_string(set + 1) + of_all; };
+  const auto one_set = [&](int set) {
+    return "set " + std::to_string(set + 1) + " of " + std::to_string(sets);
+  };
   if (timed_out)
     notes.push_back("the search for options ended early, at frame " + std::to_string(chosen.last_searched) +
                     " of " + std::to_string(frames) + (sets > 1 ? " with " + one_set(chosen.tried - 1) : "") +
                     ": --limit-seconds");
-  if (sets > 1 && chosen.success && chosen.set > 0)
+  if (chosen.success && chosen.set > 0)
     notes.push_back("options of " + one_set(chosen.set) + ": the first that follows the motion");
   if (sets > 1 && !chosen.success && chosen.tried == sets && !timed_out)
     notes.push_back("options of " + one_set(chosen.set) + ": none follows the motion, this is the best");

@@ -326,8 +326,6 @@ class SideBySide {
   double next_report_ = record::steady_seconds() + kReportSeconds;
 };
 
-}  // namespace
-
 /// The report shows which kinds of motion the options were trained on, also where these are gone. It can do
 /// without.
 void keep_clusters(const Method& method, const record::RunFolder& folder, std::ostream& messages) {
@@ -342,6 +340,8 @@ void keep_clusters(const Method& method, const record::RunFolder& folder, std::o
     messages << error.what() << ": the report has no map of the motions\n";
   }
 }
+
+}  // namespace
 
 NamedValues settings_of(const RunConfig& config) {
   const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;

@@ -52,6 +52,13 @@ MotionCluster cluster_of(const ClusterNode& leaf, const List<NamedFeatures>& mot
   return cluster;
 }
 
+/// Each among the others.
+void describe(List<MotionCluster>& clusters) {
+  List<motion::MotionFeatures> centres;
+  for (const MotionCluster& cluster : clusters) centres.push_back(cluster.centre);
+  for (int c = 0; c < centres.count(); ++c) clusters[c].description = describe_cluster(centres, c);
+}
+
 record::Json named(const motion::MotionFeatures& values) {
   record::Json json = record::Json::object();
   for (std::size_t k = 0; k < motion::kFeatures; ++k) json[motion::feature_names()[k]] = values[k];
@@ -104,9 +111,7 @@ Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& setti
     }
     out.tree.push_back(branch);
   }
-  List<motion::MotionFeatures> centres;
-  for (const MotionCluster& cluster : out.clusters) centres.push_back(cluster.centre);
-  for (int c = 0; c < centres.count(); ++c) out.clusters[c].description = describe_cluster(centres, c);
+  describe(out.clusters);
   return out;
 }
 
@@ -126,9 +131,7 @@ Clusters joined(const std::vector<Clusters>& parts) {
     all.settings.radius = std::max(all.settings.radius, part.settings.radius);
   }
   all.settings.clusters = all.clusters.count();
-  List<motion::MotionFeatures> centres;
-  for (const MotionCluster& cluster : all.clusters) centres.push_back(cluster.centre);
-  for (int c = 0; c < centres.count(); ++c) all.clusters[c].description = describe_cluster(centres, c);
+  describe(all.clusters);
   return all;
 }
 
