@@ -14,9 +14,7 @@
 namespace mimicx::tools {
 namespace {
 
-constexpr double kProgressPeriod = 2.0;  // s
-
-struct Arguments {
+struct AuditArguments {
   std::vector<std::string> inputs;
   bool poses = false;
   std::filesystem::path json, csv, frames_csv;
@@ -25,14 +23,14 @@ struct Arguments {
   bool force = false;
 };
 
-void claim_outputs(const Arguments& a, const std::vector<std::string>& inputs) {
+void claim_outputs(const AuditArguments& a, const std::vector<std::string>& inputs) {
   pipeline::record::Outputs outputs(inputs, a.force);
   outputs.claim(a.csv, pipeline::audit::poses_csv_head());
   outputs.claim(a.frames_csv, pipeline::audit::pose_frames_csv_head());
   outputs.claim(a.json, pipeline::record::kJsonOpening);
 }
 
-int audit_forces(const Arguments& a, const std::vector<std::string>& inputs) {
+int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs) {
   std::vector<pipeline::audit::AuditedFile> files;
   bool all_good = true;
   std::cout << pipeline::audit::audit_table_head();
@@ -52,7 +50,7 @@ int audit_forces(const Arguments& a, const std::vector<std::string>& inputs) {
   return all_good ? kAllGood : kSomeFailed;
 }
 
-int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
+int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs) {
   pipeline::audit::PoseFilesConfig config = a.config;
   config.frames = !a.frames_csv.empty();
   config.needs.reach = a.reach_mm / 1000.0;
@@ -61,7 +59,7 @@ int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
   if (config.frames) frames_csv.emplace(a.frames_csv).write(pipeline::audit::pose_frames_csv_head());
   std::vector<pipeline::audit::PoseFile> kept;  // for the JSON
   std::size_t done = 0, failed = 0;
-  double next = pipeline::record::steady_seconds() + kProgressPeriod;
+  double next = pipeline::record::steady_seconds() + pipeline::record::kProgressSeconds;
   std::cout << pipeline::audit::pose_table_head();
   pipeline::audit::judge_poses(inputs, config, [&](const pipeline::audit::PoseFile& file) {
     ++done;
@@ -76,7 +74,7 @@ int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
     if (!a.json.empty()) kept.push_back(file), kept.back().needs.frames.clear();
     if (pipeline::record::steady_seconds() < next) return;
     std::cerr << done << " of " << inputs.size() << " motions\n";
-    next = pipeline::record::steady_seconds() + kProgressPeriod;
+    next = pipeline::record::steady_seconds() + pipeline::record::kProgressSeconds;
   });
   if (csv) csv->finish();
   if (frames_csv) frames_csv->finish();
@@ -84,7 +82,7 @@ int audit_poses(const Arguments& a, const std::vector<std::string>& inputs) {
   return failed == 0 ? kAllGood : kSomeFailed;
 }
 
-int audit(const Arguments& a) {
+int audit(const AuditArguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
   const std::vector<std::string> inputs =
@@ -96,7 +94,7 @@ int audit(const Arguments& a) {
 }  // namespace
 
 void declare_audit(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<AuditArguments>();
   Command command = line.add(
       "audit", "Do the forces in a file explain the motion in it? Could any?",
       "mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"

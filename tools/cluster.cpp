@@ -16,7 +16,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct ClusterArguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
   pipeline::options::ClusterConfig config{pipeline::pretrain_configuration("small").clusters.radius,
@@ -34,7 +34,7 @@ std::vector<pipeline::MotionInput> sorted_motions(const std::vector<std::string>
   return inputs;
 }
 
-int cluster(const Arguments& a) {
+int cluster(const ClusterArguments& a) {
   std::vector<pipeline::options::NamedFeatures> motions;
   const std::vector<pipeline::MotionInput> inputs = sorted_motions(a.inputs);
   const std::vector<std::string> files = pipeline::paths_of(inputs), names = pipeline::unique_names(inputs);
@@ -69,7 +69,7 @@ int cluster(const Arguments& a) {
 }  // namespace
 
 void declare_cluster(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ClusterArguments>();
   Command command = line.add("cluster", "Sort motions into clusters of similar ones",
                              "mimicx cluster DIR --out clusters.json                # as many as needed\n"
                              "mimicx cluster DIR --out clusters.json --clusters 5   # exactly five");

@@ -16,7 +16,7 @@ namespace {
 
 namespace exchange = pipeline::exchange;
 
-struct Arguments {
+struct ConvertArguments {
   std::filesystem::path in, out;
   motion::import::ReadConfig read;
   std::string rate = "input";
@@ -27,7 +27,7 @@ struct Arguments {
 std::string known_suffixes() { return ".npz, .npy, .bvh, " + exchange::exchanged_suffixes(); }
 
 /// @throws UsageError, or OutputRefused where the file is not to be overwritten
-void claim_output(const Arguments& a) {
+void claim_output(const ConvertArguments& a) {
   pipeline::record::Outputs outputs({a.in.string()}, a.force);
   if (exchange::is_exchanged(a.out)) {
     const exchange::Opening opening = exchange::exchange_opening(a.out);
@@ -39,7 +39,7 @@ void claim_output(const Arguments& a) {
   outputs.claim(a.out, motion::import::written_opening(a.out));
 }
 
-int convert(const Arguments& a) {
+int convert(const ConvertArguments& a) {
   claim_output(a);
   motion::Clip clip = motion::import::read_motion(a.in, a.read);
   exchange::ExchangeConfig config = a.exchange;
@@ -63,7 +63,7 @@ int convert(const Arguments& a) {
 }  // namespace
 
 void declare_convert(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ConvertArguments>();
   Command command =
       line.add("convert", "Write a motion in another format, chosen by the suffix",
                "mimicx convert clip.bvh clip.npz                       # AMASS layout\n"

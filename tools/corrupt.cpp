@@ -15,7 +15,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct CorruptArguments {
   std::vector<std::string> inputs, noise;
   std::filesystem::path out;
   std::string camera = "perturbed", keypoints = "22";
@@ -24,7 +24,7 @@ struct Arguments {
 };
 
 /// @throws UsageError for a noise that cannot be
-pipeline::CorruptConfig checked_config(const Arguments& a) {
+pipeline::CorruptConfig checked_config(const CorruptArguments& a) {
   static const std::map<std::string, std::optional<motion::KeypointSet>> kSets = {
       {"22", motion::KeypointSet::kJoints22},
       {"coco17", motion::KeypointSet::kCoco17},
@@ -41,7 +41,7 @@ pipeline::CorruptConfig checked_config(const Arguments& a) {
   return config;
 }
 
-int corrupt(const Arguments& a) {
+int corrupt(const CorruptArguments& a) {
   const pipeline::CorruptConfig config = checked_config(a);
   const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
   const std::vector<std::string> names = pipeline::unique_names(inputs);
@@ -66,7 +66,7 @@ int corrupt(const Arguments& a) {
 }  // namespace
 
 void declare_corrupt(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<CorruptArguments>();
   Command command =
       line.add("corrupt", "Make a benchmark of clean motions: truth/ and noisy/, a file per motion",
                "mimicx corrupt mocap/ --out bench   # then: mimicx adapt bench/noisy --out out/bench\n"

@@ -13,7 +13,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct EvaluateArguments {
   std::filesystem::path truth, json;
   std::vector<std::string> motions;
   std::string protocol;  ///< empty: our own metrics
@@ -22,7 +22,7 @@ struct Arguments {
 };
 
 /// The motions of all files and folders named. @throws DataError where one of these holds none
-std::vector<std::string> files_to_read(const Arguments& a) {
+std::vector<std::string> files_to_read(const EvaluateArguments& a) {
   std::vector<std::string> files, named = a.motions;
   named.push_back(a.truth.string());
   for (const std::string& path : named)
@@ -30,7 +30,7 @@ std::vector<std::string> files_to_read(const Arguments& a) {
   return files;
 }
 
-int evaluate_published(const Arguments& a) {
+int evaluate_published(const EvaluateArguments& a) {
   const auto& names = motion::protocol_names();
   const auto protocol =
       static_cast<motion::Protocol>(std::find(names.begin(), names.end(), a.protocol) - names.begin());
@@ -49,7 +49,7 @@ int evaluate_published(const Arguments& a) {
   return all_good ? kAllGood : kSomeFailed;
 }
 
-int evaluate(const Arguments& a) {
+int evaluate(const EvaluateArguments& a) {
   pipeline::record::Outputs(files_to_read(a), a.force).claim(a.json, pipeline::record::kJsonOpening);
   if (!a.protocol.empty()) return evaluate_published(a);
   if (a.motions.size() > 1) {
@@ -73,7 +73,7 @@ int evaluate(const Arguments& a) {
 }  // namespace
 
 void declare_evaluate(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<EvaluateArguments>();
   Command command =
       line.add("evaluate", "Score motions against their truth, pairing files by name",
                "mimicx evaluate --truth truth --motions out/run/motions         # a row per motion\n"

@@ -14,7 +14,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct ExportMjcfArguments {
   std::vector<double> betas;          ///< at most 10, the others are 0
   std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
   motion::import::ReadConfig read;
@@ -36,7 +36,7 @@ Character character_of_motion(const std::filesystem::path& motion, const motion:
   return motion::character_of(clip);
 }
 
-int export_mjcf(const Arguments& a) {
+int export_mjcf(const ExportMjcfArguments& a) {
   if (a.motion.empty() && !a.read.text().empty())
     throw UsageError("export-mjcf: " + a.read.text() +
                      " says how to read a motion, and there is none: --motion FILE");
@@ -51,7 +51,7 @@ int export_mjcf(const Arguments& a) {
 }  // namespace
 
 void declare_export_mjcf(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ExportMjcfArguments>();
   Command command = line.add("export-mjcf", "Write the character of a shape as a MuJoCo model",
                              "mimicx export-mjcf body.xml --motion clip.npz   # the body of a motion\n"
                              "mimicx export-mjcf tall.xml --betas 2,-1        # a shape");

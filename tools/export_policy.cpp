@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ExportPolicyArguments {
   fs::path policy, out;
   bool in_8_bits = false, force = false;
 };
@@ -64,7 +64,7 @@ fs::path find_policy(const fs::path& asked) {
   throw UsageError(what_is_missing(asked.parent_path(), asked.filename().string()));
 }
 
-int export_policy(const Arguments& a) {
+int export_policy(const ExportPolicyArguments& a) {
   std::string_view opening;
   try {
     opening = pipeline::policy_export::opening_of(a.out);
@@ -89,7 +89,7 @@ int export_policy(const Arguments& a) {
 }  // namespace
 
 void declare_export_policy(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ExportPolicyArguments>();
   Command command =
       line.add("export-policy", "Write the policy of a motion for other programs",
                "mimicx export-policy RUN/walk --out walk.h --int8   # one C++17 header, needs nothing\n"

@@ -19,7 +19,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct FitArguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
   bool poses = false;
@@ -38,7 +38,7 @@ void print(const std::string& name, const motion::fit::FitReport& r) {
 
 /// Where every input goes, claimed before any work.
 std::vector<std::filesystem::path> claimed_outputs(const std::vector<pipeline::MotionInput>& inputs,
-                                                   const Arguments& a) {
+                                                   const FitArguments& a) {
   pipeline::record::Outputs outputs(pipeline::paths_of(inputs), a.force);
   std::vector<std::filesystem::path> paths;
   for (const std::string& name : pipeline::unique_names(inputs)) {
@@ -48,7 +48,7 @@ std::vector<std::filesystem::path> claimed_outputs(const std::vector<pipeline::M
   return paths;
 }
 
-int fit(const Arguments& a) {
+int fit(const FitArguments& a) {
   const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
   const std::vector<std::filesystem::path> outputs = claimed_outputs(inputs, a);
   const pipeline::record::FolderLock lock(a.out);
@@ -81,7 +81,7 @@ int fit(const Arguments& a) {
 }  // namespace
 
 void declare_fit(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<FitArguments>();
   Command command = line.add("fit", "Move motions onto their 2D keypoints, where they have any",
                              "mimicx fit DIR --out fitted             # the fit alone, no simulation\n"
                              "mimicx fit DIR --out planted --poses    # no keypoints: feet, floor, balance");

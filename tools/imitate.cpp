@@ -8,12 +8,12 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct ImitateArguments {
   pipeline::ImitateConfig config = pipeline::imitate_configuration();
   RunArguments more;
 };
 
-int imitate_motions(Arguments a) {
+int imitate_motions(ImitateArguments a) {
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.training);
   return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {
@@ -24,7 +24,7 @@ int imitate_motions(Arguments a) {
 }  // namespace
 
 void declare_imitate(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ImitateArguments>();
   Command command = line.add(
       "imitate", "Train a simulated character to follow each motion, from nothing",
       "mimicx imitate clip.npz                             # clip.clean.npz beside it, after minutes\n"

@@ -11,7 +11,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
   std::filesystem::path file;
   motion::import::ReadConfig read;
 };
@@ -65,7 +65,7 @@ void describe_preparation(const motion::Reference& reference, const motion::Prep
       std::printf("  note       %s\n", note.c_str());
 }
 
-int info(const Arguments& a) {
+int info(const InfoArguments& a) {
   const motion::Clip clip = motion::import::read_motion(a.file, a.read);
   describe_file(clip);
   for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
@@ -79,7 +79,7 @@ int info(const Arguments& a) {
 }  // namespace
 
 void declare_info(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<InfoArguments>();
   Command command = line.add("info", "What a motion file holds, what reading decides, what preparation does",
                              "mimicx info clip.bvh           # axes, unit, frame rate, floor, body\n"
                              "mimicx info clip.bvh --up z    # what changes where you know better");

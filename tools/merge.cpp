@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::size_t kNamesSaid = 3;  ///< of motions that are missing
 
-struct Arguments {
+struct MergeArguments {
   std::filesystem::path out;
   bool missing = false, json = false, force = false;
 };
 
 /// What is missing, and how it is done.
-void tell_missing(const Arguments& a, const pipeline::GatheredShards& gathered) {
+void tell_missing(const MergeArguments& a, const pipeline::GatheredShards& gathered) {
   const std::string out = a.out.string(), count = std::to_string(gathered.list.count),
                     array = missing_array(gathered);
   std::cerr << out << ": " << gathered.missing.size() << " of " << gathered.list.inputs.size()
@@ -40,7 +40,7 @@ void print_missing(const pipeline::GatheredShards& gathered) {
   for (const pipeline::MissingInput& missing : gathered.missing) std::cout << missing.input.input << '\n';
 }
 
-std::string merged_line(const Arguments& a, const pipeline::GatheredShards& gathered) {
+std::string merged_line(const MergeArguments& a, const pipeline::GatheredShards& gathered) {
   const auto& entries = gathered.manifest.sequences;
   const auto ok = std::count_if(entries.begin(), entries.end(), [](const auto& e) { return e.ok; });
   return a.out.string() + ": " + std::to_string(entries.size()) + " motions of " +
@@ -49,7 +49,7 @@ std::string merged_line(const Arguments& a, const pipeline::GatheredShards& gath
          (a.out / "report.html").string() + "\n";
 }
 
-int merge(const Arguments& a) try {
+int merge(const MergeArguments& a) try {
   const pipeline::RunLocks locks = pipeline::lock_shards(a.out);
   pipeline::GatheredShards gathered = pipeline::gather_shards(a.out);
   if (a.json) std::cout << pipeline::merge_json(gathered);
@@ -70,7 +70,7 @@ int merge(const Arguments& a) try {
 }  // namespace
 
 void declare_merge(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<MergeArguments>();
   Command command =
       line.add("merge", "Put the parts of a run together that several machines did (--shard I/N)",
                "mimicx merge out/run             # manifest and report, as of a run on one machine\n"

@@ -9,12 +9,12 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct PlanArguments {
   pipeline::PlanMotionsConfig config = pipeline::plan_configuration();
   RunArguments more;
 };
 
-int plan(Arguments a) {
+int plan(PlanArguments a) {
   a.config.clusters = shipped_clusters();
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.planning);
@@ -26,7 +26,7 @@ int plan(Arguments a) {
 }  // namespace
 
 void declare_plan(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<PlanArguments>();
   Command command = line.add(
       "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out",
       "mimicx plan clip.bvh                    # clip.clean.bvh beside it, after seconds\n"

@@ -10,7 +10,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct PretrainArguments {
   pipeline::PretrainConfig config = pipeline::pretrain_configuration("small");
   std::string preset = "small";
   std::optional<std::int64_t> samples;  ///< of all options together; none: what the preset says
@@ -18,7 +18,7 @@ struct Arguments {
 };
 
 /// The configuration with the training of the preset that was asked for.
-pipeline::PretrainConfig preset_of(const Arguments& a) {
+pipeline::PretrainConfig preset_of(const PretrainArguments& a) {
   pipeline::PretrainConfig config = a.config;
   config.training = pipeline::pretrain_configuration(a.preset).training;
   config.training.seed = a.config.training.seed;
@@ -37,7 +37,7 @@ int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::str
 }
 
 void declare_pretrain(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<PretrainArguments>();
   Command command =
       line.add("pretrain", "Train an option policy for every cluster of motions",
                "mimicx pretrain DIR --out out/options                              # hours\n"

@@ -13,7 +13,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::filesystem::path run, truth;
   std::vector<std::string> options;
   bool times = false;
@@ -28,7 +28,7 @@ std::filesystem::path clusters_of(const std::filesystem::path& options) {
   return folder / "clusters.json";
 }
 
-int report(const Arguments& a) {
+int report(const ReportArguments& a) {
   const pipeline::record::RunFolder folder{a.run};
   if (!std::filesystem::exists(folder.manifest()))
     throw DataError(a.run.string(), "", "the folder of a run, with its manifest.json", "none");
@@ -57,7 +57,7 @@ int report(const Arguments& a) {
 }  // namespace
 
 void declare_report(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ReportArguments>();
   Command command =
       line.add("report", "Make the report of a run again, also beside the truth",
                "mimicx report out/run                 # out/run/report.html, from what is there\n"

@@ -9,13 +9,13 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct RunFileArguments {
   std::filesystem::path in, out;
   pipeline::PretrainConfig pretrain = pipeline::pretrain_configuration("small");
   pipeline::AdaptConfig adapt = pipeline::adapt_configuration();
 };
 
-int run_all_stages(Arguments a) {
+int run_all_stages(RunFileArguments a) {
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
@@ -32,7 +32,7 @@ int run_all_stages(Arguments a) {
 }  // namespace
 
 void declare_run(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<RunFileArguments>();
   Command command =
       line.add("run", "All stages on a folder: pretrain options on it, then adapt all of it",
                "mimicx run DIR --out out/all                                               # hours\n"

@@ -15,9 +15,7 @@
 namespace mimicx::tools {
 namespace {
 
-constexpr double kProgressPeriod = 2.0;  // s
-
-struct Arguments {
+struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
@@ -35,12 +33,12 @@ std::vector<motion::synth::SynthConfig> checked_clips(const motion::synth::Synth
   }
 }
 
-void write_set(const Arguments& a, std::size_t total) {
-  double next = pipeline::record::steady_seconds() + kProgressPeriod;
+void write_set(const SynthArguments& a, std::size_t total) {
+  double next = pipeline::record::steady_seconds() + pipeline::record::kProgressSeconds;
   motion::synth::write_synth_set(a.out, a.set, [&](std::size_t index, const motion::Clip&) {
     if (pipeline::record::steady_seconds() < next) return;
     std::cerr << index + 1 << " of " << total << " motions\n";
-    next += kProgressPeriod;
+    next += pipeline::record::kProgressSeconds;
   });
   std::cout << a.out.string() << ": " << total << " motions, each as truth and as a noisy estimate\n";
 }
@@ -61,7 +59,7 @@ void print_report(const std::vector<motion::synth::SynthConfig>& clips) {
   }
 }
 
-void claim_outputs(const Arguments& a) {
+void claim_set(const SynthArguments& a) {
   pipeline::record::Outputs outputs({}, a.force);
   const auto claim = [&](const std::filesystem::path& directory, const motion::synth::SynthSetConfig& set) {
     for (const motion::synth::SynthConfig& clip : motion::synth::clips_of_set(set))
@@ -81,13 +79,13 @@ std::vector<std::string> selections() {
   return names;
 }
 
-int synth(Arguments a) {
+int synth(SynthArguments a) {
   if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = motion::synth::synthetic_kinds();
   if (a.set.kinds == std::vector<std::string>{"floor"}) a.set.kinds = motion::synth::floor_kinds();
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
   const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
-  claim_outputs(a);
+  claim_set(a);
   std::optional<pipeline::record::FolderLock> lock;
   if (const auto& folder = a.out.empty() ? a.data_set : a.out; !folder.empty()) lock.emplace(folder);
   if (!a.out.empty()) write_set(a, clips.size());
@@ -103,7 +101,7 @@ int synth(Arguments a) {
 }  // namespace
 
 void declare_synth(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<SynthArguments>();
   Command command = line.add("synth", "Write synthetic motions: truth/ and noisy/, a file per motion",
                              "mimicx synth --out set                                  # one of each kind\n"
                              "mimicx synth --out set --kinds walk,jump --clips 20     # ten of each of two");

@@ -10,12 +10,12 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct TeachArguments {
   pipeline::TeachConfig config = pipeline::teach_configuration();
   std::vector<std::string> settings;
 };
 
-int teach(Arguments a) {
+int teach(TeachArguments a) {
   apply_settings(a.settings, a.config);
   if (a.config.planning.run.inputs.empty() && a.config.plans.empty())
     throw UsageError("teach: motions to plan are expected, or --plans");
@@ -32,7 +32,7 @@ int teach(Arguments a) {
 }  // namespace
 
 void declare_teach(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<TeachArguments>();
   Command command =
       line.add("teach", "Teach option policies by plans: one for every cluster of motions",
                "mimicx teach DIR --out out/options                  # plan all of it, then teach\n"

@@ -55,8 +55,8 @@ Target<double> target_at(const End& from, const End& to, double s, TargetDerivat
 
 /// The nominal motion, and the tables of its steps.
 template <class Real>
-void roll_out(const Model<double>& model, const ControlFrame& frame, Data<double>& data,
-              List<SubstepTable<Real>>& tables, State<double>& state, bool& wrong) {
+void roll_out_substeps(const Model<double>& model, const ControlFrame& frame, Data<double>& data,
+                       List<SubstepTable<Real>>& tables, State<double>& state, bool& wrong) {
   const End from = end_of(frame.from, frame.from_residual), to = end_of(frame.to, frame.to_residual);
   TargetDerivative turns;
   state = frame.start;
@@ -96,7 +96,7 @@ void seed(int row, int lane, StateAdjoint<T>& x) {
 
 /// Writes the lanes into the rows from `first` on.
 template <class T>
-void write(const AdjointData<T>& d, int first, int lanes, FrameDerivative<T>& out) {
+void write_block(const AdjointData<T>& d, int first, int lanes, FrameDerivative<T>& out) {
   const auto put_column = [&](int column, const T& value) {
     for (int lane = 0; lane < lanes; ++lane) out.F(first + lane, column) = ScalarTraits<T>::get(value, lane);
   };
@@ -135,7 +135,7 @@ template <class T>
 void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_help,
                          FrameScratch<T>& scratch, FrameDerivative<T>& out) {
   if (frame.substeps < 1) raise(std::invalid_argument("a control frame needs at least one physics step"));
-  roll_out(model, frame, scratch.data, scratch.substeps, out.end, out.wrong);
+  roll_out_substeps(model, frame, scratch.data, scratch.substeps, out.end, out.wrong);
   const int columns = with_help ? kFrameColumnsWithHelp : kFrameColumns;
   out.F.resize(kTangent, columns);
   AdjointData<T>& d = scratch.adjoint;
@@ -145,7 +145,7 @@ void differentiate_frame(const Model<double>& model, const ControlFrame& frame, 
     for (int lane = 0; lane < lanes; ++lane) seed(first + lane, lane, d.state);
     for (auto table = scratch.substeps.rbegin(); table != scratch.substeps.rend(); ++table)
       retrace_step(*table, d);
-    write(d, first, lanes, out);
+    write_block(d, first, lanes, out);
   }
 }
 
@@ -155,5 +155,7 @@ void differentiate_frame(const Model<double>& model, const ControlFrame& frame, 
 
 MIMICX_INSTANTIATE(double)
 MIMICX_INSTANTIATE(Pack<kLanes>)
+
+#undef MIMICX_INSTANTIATE
 
 }  // namespace mimicx::control

@@ -7,8 +7,8 @@ namespace mimicx::control {
 namespace {
 
 /// Columns: θ, Dω, dv, dp_z, then Dα and Da of the body in the solve before.
-using Row = Eigen::Matrix<double, 1, 16>;
-using Rows = Eigen::Matrix<double, 3, 16>;
+using FloorRow = Eigen::Matrix<double, 1, 16>;
+using FloorRows = Eigen::Matrix<double, 3, 16>;
 constexpr int kTheta = 0, kOmega = 3, kVelocity = 6, kHeight = 9, kAlpha = 10, kAcceleration = 13;
 
 /// A touching point of a body, nominally: its velocity v + ω × arm and the centripetal part of its
@@ -29,16 +29,16 @@ Point point_of(const Vector3d& arm, double radius, const Vector3d& w) {
 }
 
 /// d of the point's velocity at the start of the step.
-Rows velocity(const Point& p) {
-  Rows rows = Rows::Zero();
+FloorRows velocity(const Point& p) {
+  FloorRows rows = FloorRows::Zero();
   rows.middleCols<3>(kTheta) = p.velocity_by_theta;
   rows.middleCols<3>(kOmega) = p.velocity_by_omega;
   rows.middleCols<3>(kVelocity).setIdentity();
   return rows;
 }
 /// … and at its end, v + dt a, but for Dα and Da. @param a  against free fall
-Rows end_velocity(const Point& p, const Vector3d& alpha, const Vector3d& a, double dt) {
-  Rows rows = velocity(p);
+FloorRows end_velocity(const Point& p, const Vector3d& alpha, const Vector3d& a, double dt) {
+  FloorRows rows = velocity(p);
   rows.middleCols<3>(kTheta) += dt * (p.centripetal_by_theta - skew(a) + skew_product(p.arm, alpha) -
                                       skew_product(alpha, p.from_centre));
   rows.middleCols<3>(kOmega) += dt * p.centripetal_by_omega;
@@ -60,12 +60,12 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const Vector3d arm = to_eigen(c.arm);
   const Point point = point_of(arm, contact.radius, to_eigen(d.w[i]));
 
-  Row depth = Row::Zero();  // −dp_z − (θ × R p_B)_z
+  FloorRow depth = FloorRow::Zero();  // −dp_z − (θ × R p_B)_z
   depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
   depth[kHeight] = -1.0;
-  const Rows end = end_velocity(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt);
+  const FloorRows end = end_velocity(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt);
   // The velocity at which f_end and c_t were taken is that of the start or the one the solve before predicts.
-  Rows at;
+  FloorRows at;
   if (before == nullptr) {
     at = velocity(point);
   } else {
@@ -76,13 +76,13 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const double slip_2 = velocity_used.head<2>().squaredNorm() + o.slip_speed * o.slip_speed;
   const double f_end = o.ground_stiffness * c.depth - damping * velocity_used.z();
   const double c_t = o.friction * f_end / std::sqrt(slip_2);
-  const Row df_end = o.ground_stiffness * depth - damping * at.row(2);
+  const FloorRow df_end = o.ground_stiffness * depth - damping * at.row(2);
   // docs/control_derivatives.md §3, (7)
-  const Row dc_t = (c_t / f_end) * df_end -
-                   (c_t / slip_2) * (velocity_used.x() * at.row(0) + velocity_used.y() * at.row(1));
+  const FloorRow dc_t = (c_t / f_end) * df_end -
+                        (c_t / slip_2) * (velocity_used.x() * at.row(0) + velocity_used.y() * at.row(1));
 
   const Vector3d v_end = to_eigen(add_scaled(c.velocity, dt, point_acceleration(model, c, d)));
-  Rows force;
+  FloorRows force;
   force.row(0) = -c_t * end.row(0) - v_end.x() * dc_t;
   force.row(1) = -c_t * end.row(1) - v_end.y() * dc_t;
   force.row(2) = o.ground_stiffness * depth - damping * end.row(2);

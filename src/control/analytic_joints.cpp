@@ -106,4 +106,6 @@ void tabulate_integration(const Model<double>& model, const State<double>& state
 MIMICX_INSTANTIATE(float)
 MIMICX_INSTANTIATE(double)
 
+#undef MIMICX_INSTANTIATE
+
 }  // namespace mimicx::control

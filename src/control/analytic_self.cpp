@@ -10,7 +10,7 @@ namespace {
 struct Axis {
   Vector3d start, along, p;  ///< start from the joint centre, vector to the end; joint centre, m
 };
-Axis axis_of(const Model<double>& model, const Data<double>& d, int body) {
+Axis segment_axis(const Model<double>& model, const Data<double>& d, int body) {
   const Capsule& c = model.capsule[body];
   const Matrix3d R = to_eigen(d.R_WB[body]);
   return {R * c.a_B, R * (c.b_B - c.a_B), to_eigen(d.p_WB[body])};
@@ -48,16 +48,16 @@ Closest closest(const Vector3d& u, const Vector3d& w, const Vector3d& r) {
 }
 
 /// Columns: θ, Dω, dv, dp of body i, then of body j.
-using Row = Eigen::Matrix<double, 1, 24>;
-using Rows = Eigen::Matrix<double, 3, 24>;
+using PairRow = Eigen::Matrix<double, 1, 24>;
+using PairRows = Eigen::Matrix<double, 3, 24>;
 
 /// a × x and x × a for a vector a that does not change.
-Rows cross(const Vector3d& a, const Rows& x) { return skew(a) * x; }
-Rows cross(const Rows& x, const Vector3d& a) { return -skew(a) * x; }
+PairRows cross(const Vector3d& a, const PairRows& x) { return skew(a) * x; }
+PairRows cross(const PairRows& x, const Vector3d& a) { return -skew(a) * x; }
 
 /// How one of the two bodies moves.
 struct Mover {
-  Rows theta = Rows::Zero(), w = Rows::Zero(), v = Rows::Zero(), p = Rows::Zero();
+  PairRows theta = PairRows::Zero(), w = PairRows::Zero(), v = PairRows::Zero(), p = PairRows::Zero();
 
   Mover(int first, const Vector3d& omega) {
     theta.middleCols<3>(first).setIdentity();
@@ -73,7 +73,7 @@ struct Mover {
 bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i, int j,
                         Eigen::Matrix<double, 12, 24>& wrench) {
   const double k = model.config.self_stiffness, damping = model.config.self_damping;
-  const Axis a = axis_of(model, d, i), b = axis_of(model, d, j);
+  const Axis a = segment_axis(model, d, i), b = segment_axis(model, d, j);
   const Vector3d apart = (a.p + a.start) - (b.p + b.start), w_i = to_eigen(d.w[i]), w_j = to_eigen(d.w[j]);
   const Closest c = closest(a.along, b.along, apart);
   const Vector3d on_i = a.start + c.s * a.along, on_j = b.start + c.t * b.along;
@@ -90,23 +90,23 @@ bool differentiate_pair(const Model<double>& model, const Data<double>& d, int i
   const Vector3d f = push * n;
 
   const Mover move_i(0, w_i), move_j(12, w_j);
-  const Rows du = cross(move_i.theta, a.along), dw = cross(move_j.theta, b.along);
-  const Rows dr = move_i.p + cross(move_i.theta, a.start) - move_j.p - cross(move_j.theta, b.start);
-  const Row u_w = b.along.transpose() * du + a.along.transpose() * dw;
-  const Row w_r = apart.transpose() * dw + b.along.transpose() * dr;
-  const Row u_r = apart.transpose() * du + a.along.transpose() * dr;
-  const Row ds = c.ds[0] * u_w + c.ds[1] * w_r + c.ds[2] * u_r,
-            dt = c.dt[0] * u_w + c.dt[1] * w_r + c.dt[2] * u_r;
-  const Rows don_i = move_i.p + cross(move_i.theta, on_i) + a.along * ds;
-  const Rows don_j = move_j.p + cross(move_j.theta, on_j) + b.along * dt;
-  const Row ddistance = n.transpose() * (don_i - don_j);
-  const Rows dn = (don_i - don_j - n * ddistance) / distance;
-  const Rows dpoint = don_j + reach * dn + 0.5 * n * ddistance;
-  const Rows darm_i = dpoint - move_i.p, darm_j = dpoint - move_j.p;
-  const Rows dv = (move_i.v + cross(move_i.w, arm_i) + cross(w_i, darm_i)) -
-                  (move_j.v + cross(move_j.w, arm_j) + cross(w_j, darm_j));
-  const Row dpush = -k * ddistance - damping * (n.transpose() * dv + v.transpose() * dn);
-  const Rows df = n * dpush + push * dn;
+  const PairRows du = cross(move_i.theta, a.along), dw = cross(move_j.theta, b.along);
+  const PairRows dr = move_i.p + cross(move_i.theta, a.start) - move_j.p - cross(move_j.theta, b.start);
+  const PairRow u_w = b.along.transpose() * du + a.along.transpose() * dw;
+  const PairRow w_r = apart.transpose() * dw + b.along.transpose() * dr;
+  const PairRow u_r = apart.transpose() * du + a.along.transpose() * dr;
+  const PairRow ds = c.ds[0] * u_w + c.ds[1] * w_r + c.ds[2] * u_r,
+                dt = c.dt[0] * u_w + c.dt[1] * w_r + c.dt[2] * u_r;
+  const PairRows don_i = move_i.p + cross(move_i.theta, on_i) + a.along * ds;
+  const PairRows don_j = move_j.p + cross(move_j.theta, on_j) + b.along * dt;
+  const PairRow ddistance = n.transpose() * (don_i - don_j);
+  const PairRows dn = (don_i - don_j - n * ddistance) / distance;
+  const PairRows dpoint = don_j + reach * dn + 0.5 * n * ddistance;
+  const PairRows darm_i = dpoint - move_i.p, darm_j = dpoint - move_j.p;
+  const PairRows dv = (move_i.v + cross(move_i.w, arm_i) + cross(w_i, darm_i)) -
+                      (move_j.v + cross(move_j.w, arm_j) + cross(w_j, darm_j));
+  const PairRow dpush = -k * ddistance - damping * (n.transpose() * dv + v.transpose() * dn);
+  const PairRows df = n * dpush + push * dn;
   wrench.middleRows<3>(0) =
       cross(darm_i, f) + cross(arm_i, df) - cross(move_i.theta, Vector3d(arm_i.cross(f)));
   wrench.middleRows<3>(3) = df - cross(move_i.theta, f);

@@ -85,4 +85,6 @@ void retract(State<T>& s, const Tangent<T>& delta) {
 MIMICX_INSTANTIATE(double)
 MIMICX_INSTANTIATE(Pack<kLanes>)
 
+#undef MIMICX_INSTANTIATE
+
 }  // namespace mimicx::control

@@ -19,6 +19,8 @@
 
 namespace mimicx {
 
+constexpr double square(double x) { return x * x; }
+
 /// e^x: 0 below −745.2, infinite above 709.8.
 double exp(double x);
 /// Natural logarithm: −infinity at 0, NaN below.

@@ -49,4 +49,9 @@ std::string text_of(double value) {
 
 #endif
 
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.resize(width, ' ');
+  return text;
+}
+
 }  // namespace mimicx

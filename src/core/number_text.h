@@ -1,6 +1,7 @@
 /// Numbers as text, in no locale: a point for decimals, whatever the user's language.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,5 +14,8 @@ std::optional<double> number_from(std::string_view text);
 
 /// The fewest digits that read back as the same number.
 std::string text_of(double value);
+
+/// A text with blanks behind it, at least `width` characters.
+std::string padded(std::string text, std::size_t width);
 
 }  // namespace mimicx

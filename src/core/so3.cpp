@@ -86,6 +86,10 @@ Quaterniond rotation_between(const Vector3d& from, const Vector3d& to) {
   return q;
 }
 
+Quaterniond swung(const Quaterniond& q, const Vector3d& from, const Vector3d& to) {
+  return (rotation_between(q * from, to) * q).normalized();
+}
+
 Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis) {
   const double along = q.vec().dot(axis);
   const double norm = hypot(q.w(), along);

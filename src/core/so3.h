@@ -37,6 +37,8 @@ double angle_between(const Quaterniond& a, const Quaterniond& b);
 double angle_between(const Vector3d& a, const Vector3d& b);
 /// The shortest rotation from one direction to another, of any lengths.
 Quaterniond rotation_between(const Vector3d& from, const Vector3d& to);
+/// q turned by the shortest rotation in the world that takes its image of `from` to the direction of `to`.
+Quaterniond swung(const Quaterniond& q, const Vector3d& from, const Vector3d& to);
 /// Swing-twist: q = swing · twist with twist about the unit axis (child side).
 Quaterniond twist_about(const Quaterniond& q, const Vector3d& axis);
 

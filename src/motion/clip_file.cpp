@@ -55,7 +55,7 @@ struct Member {
   }
 };
 
-std::string text_of(const Npz& npz, const std::string& key) {
+std::string member_text(const Npz& npz, const std::string& key) {
   const NpyArray& array = npz.at(key);
   if (array.text.size() != 1) throw DataError(npz.path, key, "one word", "something else");
   return array.text[0];
@@ -67,7 +67,7 @@ double read_fps(const Npz& npz) {
     const Member fps(npz, key);
     if (fps.values.size() != 1 || !(fps.values[0] > 0.0 && fps.values[0] <= kMaxFps))
       fps.fail("one frame rate between 0 and 2000 Hz",
-               fps.values.size() == 1 ? mimicx::text_of(fps.values[0]) : fps.shape());
+               fps.values.size() == 1 ? text_of(fps.values[0]) : fps.shape());
     return fps.values[0];
   }
   throw DataError(npz.path, "", "a frame rate (mocap_framerate or mocap_frame_rate)", "neither");
@@ -134,7 +134,7 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
 std::string read_body_model(const Npz& npz, const std::string& from_layout) {
   for (const char* key : {"body_model", "surface_model_type"}) {
     if (!npz.has(key)) continue;
-    const std::string name = text_of(npz, key);
+    const std::string name = member_text(npz, key);
     for (const char* known : {"mimicx", "smplx", "smplh", "smpl"})
       if (name == known || name.starts_with(std::string(known) + "_")) return known;
     throw DataError(npz.path, key, "mimicx, smplx, smplh or smpl", "'" + name + "'");
@@ -158,7 +158,7 @@ void read_betas(const Npz& npz, Clip& clip) {
   const bool any = std::any_of(clip.betas.begin(), clip.betas.end(), [](double b) { return b != 0.0; });
   if (clip.body_model == "mimicx") {
     for (const double b : clip.betas)
-      if (std::abs(b) > kMaxBeta) betas.fail("shape parameters within ±5", mimicx::text_of(b));
+      if (std::abs(b) > kMaxBeta) betas.fail("shape parameters within ±5", text_of(b));
   } else if (any && !clip.rest_joints) {
     clip.warnings.push_back(foreign_betas_warning(clip.body_model));
   }
@@ -339,7 +339,7 @@ Clip clip_from(const Npz& npz, const std::string& name) {
     clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t));
   read_rest_joints(npz, clip);
   read_betas(npz, clip);
-  if (npz.has("gender")) clip.gender = text_of(npz, "gender");
+  if (npz.has("gender")) clip.gender = member_text(npz, "gender");
 
   std::vector<std::string> used = {"poses",           "root_orient",
                                    "pose_body",       "trans",

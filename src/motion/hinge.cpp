@@ -17,10 +17,10 @@ constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and is gone: above, 
 struct Limb {
   int upper, hinge, end;
 };
-constexpr std::array<Limb, 4> kLimbs = {{{kLeftHip, kLeftKnee, kLeftAnkle},
-                                         {kRightHip, kRightKnee, kRightAnkle},
-                                         {kLeftShoulder, kLeftElbow, kLeftWrist},
-                                         {kRightShoulder, kRightElbow, kRightWrist}}};
+constexpr std::array<Limb, 4> kHingedLimbs = {{{kLeftHip, kLeftKnee, kLeftAnkle},
+                                               {kRightHip, kRightKnee, kRightAnkle},
+                                               {kLeftShoulder, kLeftElbow, kLeftWrist},
+                                               {kRightShoulder, kRightElbow, kRightWrist}}};
 
 /// Angle of the rotation about `axis` closest to q, in (-π, π].
 double hinge_angle(const Quaterniond& q, const Vector3d& axis) {
@@ -90,7 +90,7 @@ PerFrame<PerBody<Quaterniond>> to_hinges(const Character& character,
   for (PerBody<Quaterniond>& q : out) {
     PerBody<Quaterniond> R = q;
     for (int i = 1; i < kBodies; ++i) R[i] = R[kParents[i]] * q[i];
-    for (const Limb& limb : kLimbs) convert_limb(character, limb, R, q);
+    for (const Limb& limb : kHingedLimbs) convert_limb(character, limb, R, q);
   }
   return out;
 }

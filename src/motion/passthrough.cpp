@@ -12,13 +12,13 @@ using Type = NpyArray::Type;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A time of the result between two rows of the input.
-struct Between {
+struct RowsBetween {
   std::size_t row, next;
   double share;  ///< of the next row
   std::size_t nearest() const { return share < 0.5 ? row : next; }
 };
 
-Between locate(double at, std::size_t rows) {
+RowsBetween locate_rows(double at, std::size_t rows) {
   const std::size_t row = std::min(static_cast<std::size_t>(at), rows - 1);
   return {row, std::min(row + 1, rows - 1), std::clamp(at - static_cast<double>(row), 0.0, 1.0)};
 }
@@ -62,7 +62,7 @@ NpyArray between_rows(const std::string& name, const NpyArray& array, std::size_
   const bool turns = name.find("pose") != std::string::npos && columns % 3 == 0;
   Rows to(static_cast<Eigen::Index>(count), columns);
   for (std::size_t k = 0; k < count; ++k) {
-    const Between at = locate(static_cast<double>(k) * ratio, array.shape[0]);
+    const RowsBetween at = locate_rows(static_cast<double>(k) * ratio, array.shape[0]);
     const auto a = from.row(static_cast<Eigen::Index>(at.row)),
                b = from.row(static_cast<Eigen::Index>(at.next));
     auto row = to.row(static_cast<Eigen::Index>(k));
@@ -102,8 +102,9 @@ Passthrough resampled_members(const Passthrough& members, std::size_t frames, st
     if (has_fractions(array))
       array = between_rows(name, array, count, ratio);
     else
-      array = picked(array, count,
-                     [&](std::size_t k) { return locate(static_cast<double>(k) * ratio, frames).nearest(); });
+      array = picked(array, count, [&](std::size_t k) {
+        return locate_rows(static_cast<double>(k) * ratio, frames).nearest();
+      });
   }
   return out;
 }

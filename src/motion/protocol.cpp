@@ -16,7 +16,7 @@ constexpr int kFirstJudged = 2;           ///< frame; phc: after the start and t
 constexpr double kTolerance = 0.005;      ///< m; pmr: of geometry, up and down
 constexpr int kSegment = 100;             ///< frames; emdb
 
-using Joints = PerFrame<PerBody<Vector3d>>;
+using JointPaths = PerFrame<PerBody<Vector3d>>;
 
 MetricValue mean_of(double sum, std::size_t count, double factor) {
   if (count == 0) return {};
@@ -31,7 +31,7 @@ double mean_distance(const PerBody<Vector3d>& p, const PerBody<Vector3d>& g) {
 }
 
 /// 100 or 0 %.
-MetricValue success(const Joints& p, const Joints& g) {
+MetricValue success(const JointPaths& p, const JointPaths& g) {
   bool near = true;
   for (int t = kFirstJudged; t < p.count(); ++t) near = near && mean_distance(p[t], g[t]) <= kMaxMeanDistance;
   return {near ? 100.0 : 0.0, 1};
@@ -65,7 +65,7 @@ MetricValue skate(const PerFrame<std::vector<Vector3d>>& surface) {
 }
 
 /// The joints of the frames from `first` on, a column each.
-Points joints_of(const Joints& joints, int first, int count) {
+Points joints_of(const JointPaths& joints, int first, int count) {
   Points points(3, kBodies * count);
   for (int t = 0; t < count; ++t)
     for (int j = 0; j < kBodies; ++j) points.col(kBodies * t + j) = joints[first + t][j];
@@ -73,7 +73,7 @@ Points joints_of(const Joints& joints, int first, int count) {
 }
 
 /// MPJPE in segments of 100 frames, each moved by the similarity that fits `aligned` of its frames best.
-MetricValue segment_error(const Joints& p, const Joints& g, int aligned) {
+MetricValue segment_error(const JointPaths& p, const JointPaths& g, int aligned) {
   double sum = 0.0;
   for (int first = 0; first < p.count(); first += kSegment) {
     const int count = std::min(kSegment, p.count() - first), fitted = std::min(aligned, count);
@@ -84,7 +84,7 @@ MetricValue segment_error(const Joints& p, const Joints& g, int aligned) {
 }
 
 /// Distance of the pelvis after the rigid transform that fits the whole way, in parts of the truth's way, %.
-MetricValue root_error(const Joints& p, const Joints& g) {
+MetricValue root_error(const JointPaths& p, const JointPaths& g) {
   Points way(3, p.count()), true_way(3, p.count());
   double length = 0.0;
   for (int t = 0; t < p.count(); ++t) {

@@ -41,14 +41,21 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
                                          State<T>&, Data<T>&, Applied<T>*, const SubstepWatcher<T>&,       \
                                          const Wrench<T>*);
 
-MIMICX_INSTANTIATE(double)
-#ifndef MIMICX_BARE  // tests compare the widths
+#ifdef MIMICX_OTHER_WIDTHS  // tests/physics/other_widths.cpp
+#if MIMICX_LANES != 8
 MIMICX_INSTANTIATE(Pack<8>)
+#endif
+#if MIMICX_LANES != 16
 MIMICX_INSTANTIATE(Pack<16>)
 #endif
+#else
+MIMICX_INSTANTIATE(double)
+MIMICX_INSTANTIATE(Pack<kLanes>)
 #if MIMICX_LANES == 4
 MIMICX_INSTANTIATE(Pack<1>)  // for processors without vector registers
-MIMICX_INSTANTIATE(Pack<4>)
 #endif
+#endif
+
+#undef MIMICX_INSTANTIATE
 
 }  // namespace mimicx::physics

@@ -114,14 +114,21 @@ void clear(Applied<T>& applied) {
   template void clear<T>(Applied<T>&);                                                                       \
   template void update_kinematics<T>(const Model<RealOf<T>>&, const State<T>&, Data<T>&);
 
-MIMICX_INSTANTIATE(double)
-#ifndef MIMICX_BARE  // tests compare the widths
+#ifdef MIMICX_OTHER_WIDTHS  // tests/physics/other_widths.cpp
+#if MIMICX_LANES != 8
 MIMICX_INSTANTIATE(Pack<8>)
+#endif
+#if MIMICX_LANES != 16
 MIMICX_INSTANTIATE(Pack<16>)
 #endif
+#else
+MIMICX_INSTANTIATE(double)
+MIMICX_INSTANTIATE(Pack<kLanes>)
 #if MIMICX_LANES == 4
 MIMICX_INSTANTIATE(Pack<1>)  // for processors without vector registers
-MIMICX_INSTANTIATE(Pack<4>)
 #endif
+#endif
+
+#undef MIMICX_INSTANTIATE
 
 }  // namespace mimicx::physics

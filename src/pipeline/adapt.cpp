@@ -27,7 +27,7 @@ void for_each_arrangement_setting(Config& config, const Add& add) {
   add("selector", config.selector);
 }
 
-bool change_setting(options::ArrangementConfig& config, const std::string& name, double value) {
+bool change_arrangement(options::ArrangementConfig& config, const std::string& name, double value) {
   return change_one([&](const auto& add) { for_each_arrangement_setting(config, add); }, name, value);
 }
 
@@ -160,7 +160,7 @@ std::vector<std::filesystem::path> clusters_of(const options::OptionSets& sets) 
   return files;
 }
 
-Method method_of(const AdaptConfig& config) {
+Method adaptation_of(const AdaptConfig& config) {
   Method method;
   method.seed = config.training.seed;
   method.samples = config.training.samples;
@@ -196,7 +196,7 @@ void apply_setting(AdaptConfig& config, const std::string& name, double value) {
   if (config.method != AdaptMethod::kPaper && change_setting(config.plan, name, value)) return;
   if (config.method == AdaptMethod::kAuto && change_setting(config.teaching, name, value)) return;
   if (config.method != AdaptMethod::kPlan) {
-    if (!change_setting(config.arrangement, name, value)) apply_setting(config.training, name, value);
+    if (!change_arrangement(config.arrangement, name, value)) apply_setting(config.training, name, value);
     return;
   }
   PlanningConfig planning = planning_of(config);
@@ -217,7 +217,7 @@ record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& co
   if (config.options.empty())
     throw std::invalid_argument("adapt: expected options to start from, found none");
   check(config.arrangement);
-  return run_sequences(config.run, method_of(config), context);
+  return run_sequences(config.run, adaptation_of(config), context);
 }
 
 }  // namespace mimicx::pipeline

@@ -120,7 +120,7 @@ Array<NamedValues, 7> columns() {
           fit_settings({})};
 }
 
-std::string cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
+std::string setting_cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
 
 }  // namespace
 
@@ -195,7 +195,7 @@ std::string format_configurations() {
   for (const char* name : kConfigurationNames) text += "  " + padded(name, 14);
   for (const ConfigurationRow& row : rows) {
     text += "\n" + row.name + std::string(width - row.name.size(), ' ');
-    for (const double v : row.values) text += "  " + padded(cell(v), 14);
+    for (const double v : row.values) text += "  " + padded(setting_cell(v), 14);
   }
   return text + "\n";
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "pipeline/inputs.h"
 #include "pipeline/record/json.h"
 
@@ -31,14 +32,10 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files,
   return result;
 }
 
-std::string cell(double value) {
+std::string metric_cell(double value) {
   char text[32];
   std::snprintf(text, sizeof text, " %9.2f", value);
   return std::isfinite(value) ? text : "         -";
-}
-
-std::string padded(const std::string& name, std::size_t width) {
-  return name + std::string(width > name.size() ? width - name.size() : 0, ' ');
 }
 
 std::string titles() {
@@ -51,7 +48,7 @@ std::string titles() {
   return text;
 }
 
-record::Json to_json(const EvaluatedMotion& m) {
+record::Json file_json(const EvaluatedMotion& m) {
   record::Json json = {
       {"name", m.name}, {"status", m.ok ? "ok" : "failed"}, {"reason", m.reason}, {"frames", m.frames}};
   for (const auto& d : motion::metric_definitions())
@@ -136,7 +133,8 @@ std::string format_comparison(const Comparison& comparison) {
   std::string text = padded("", width) + titles();
   for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
     text += '\n' + padded(comparison.labels[k], width);
-    for (const auto& d : motion::metric_definitions()) text += cell(mean_of(comparison.evaluations[k], d));
+    for (const auto& d : motion::metric_definitions())
+      text += metric_cell(mean_of(comparison.evaluations[k], d));
   }
   text += "\nmeans over " + std::to_string(comparison.evaluations.front().motions.size()) + " motions";
   if (comparison.left_out > 0)
@@ -167,10 +165,10 @@ std::string format_evaluation(const Evaluation& evaluation) {
     text += '\n' + padded(m.name, width);
     if (!m.ok) text += "  " + m.reason;
     for (const auto& d : motion::metric_definitions())
-      if (m.ok) text += cell((m.metrics.*d.value).value);
+      if (m.ok) text += metric_cell((m.metrics.*d.value).value);
   }
   text += '\n' + padded("mean", width);
-  for (const auto& d : motion::metric_definitions()) text += cell(mean_of(evaluation, d));
+  for (const auto& d : motion::metric_definitions()) text += metric_cell(mean_of(evaluation, d));
   return text + '\n';
 }
 
@@ -178,7 +176,7 @@ std::string evaluation_json(const Evaluation& evaluation) {
   record::Json json = {{"motions", record::Json::array()},
                        {"mean", record::Json::object()},
                        {"definitions", record::Json::object()}};
-  for (const auto& m : evaluation.motions) json["motions"].push_back(to_json(m));
+  for (const auto& m : evaluation.motions) json["motions"].push_back(file_json(m));
   for (const auto& d : motion::metric_definitions()) {
     json["mean"][d.name] = record::number(mean_of(evaluation, d));
     json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};

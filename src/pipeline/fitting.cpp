@@ -12,7 +12,7 @@ constexpr double kLeast = 1e-9;  // of what the fit divides by
 
 /// Calls add(name, field, least, most) for every number, in the order of config.h.
 template <class Config, class Add>
-void for_each_setting(Config& config, const Add& add) {
+void for_each_fit_setting(Config& config, const Add& add) {
   add("fit_iterations", config.iterations, 1, 1000);
   add("fit_find_levels", config.find_levels, 0, 1);
   add("fit_keypoint_sigma", config.keypoint_sigma, kLeast, kMost);
@@ -53,16 +53,16 @@ void for_each_setting(Config& config, const Add& add) {
 }  // namespace
 
 NamedValues fit_settings(const motion::fit::FitConfig& config) {
-  return numbers_in([&](const auto& add) { for_each_setting(config, add); });
+  return numbers_in([&](const auto& add) { for_each_fit_setting(config, add); });
 }
 
 void apply_setting(motion::fit::FitConfig& config, const std::string& name, double value) {
-  if (!change_one([&](const auto& add) { for_each_setting(config, add); }, name, value))
+  if (!change_one([&](const auto& add) { for_each_fit_setting(config, add); }, name, value))
     throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
 void check(const motion::fit::FitConfig& config) {
-  require_ranges([&](const auto& add) { for_each_setting(config, add); });
+  require_ranges([&](const auto& add) { for_each_fit_setting(config, add); });
 }
 
 }  // namespace mimicx::pipeline

@@ -5,7 +5,7 @@
 namespace mimicx::pipeline {
 namespace {
 
-Method method_of(const ImitateConfig& config) {
+Method imitation_of(const ImitateConfig& config) {
   Method method;
   method.name = "imitate";
   method.seed = config.training.seed;
@@ -31,7 +31,7 @@ NamedValues settings_of(const ImitateConfig& config) {
 }
 
 record::RunOutcome imitate(const ImitateConfig& config, const record::RunContext& context) {
-  return run_sequences(config.run, method_of(config), context);
+  return run_sequences(config.run, imitation_of(config), context);
 }
 
 }  // namespace mimicx::pipeline

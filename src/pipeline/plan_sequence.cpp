@@ -81,7 +81,7 @@ rl::tracking::TrackingRollout replay(const motion::Reference& reference, const o
                                 substeps);
 }
 
-NamedValues values_of(const control::Plan& plan) {
+NamedValues numbers_of_plan(const control::Plan& plan) {
   return {{"frames", static_cast<double>(plan.states.size())},
           {"cost", plan.cost},
           {"worst_distance_mm", kMm * plan.worst_distance},
@@ -126,7 +126,7 @@ SimulatedSequence plan_sequence(const motion::Reference& reference, const Planni
   if (made.interrupted) return made;
   const control::Plan& plan = stored->plan;
   made.ending = ending_of(plan);
-  made.plan = values_of(plan);
+  made.plan = numbers_of_plan(plan);
   made.help = control::wrenches_of(plan.soft_help, reference.character.total_mass());
   if (plan.loss) made.reason = loss_in_words(*plan.loss, job.needs, made.help);
   if (made.ending == record::Ending::kLimitSeconds)

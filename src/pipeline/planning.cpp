@@ -11,7 +11,7 @@ namespace {
 
 /// Calls add(name, field, least, most) for every number of the plan.
 template <class Config, class Add>
-void for_each_setting(Config& config, const Add& add) {
+void for_each_plan_setting(Config& config, const Add& add) {
   auto& w = config.weights;
   add("plan_position", w.position, 0, 1e9);
   add("plan_root_rotation", w.root_rotation, 0, 1e9);
@@ -56,14 +56,14 @@ void for_each_setting(Config& config, const Add& add) {
 /// Those of the plan and of the simulation that it is made in.
 template <class Config, class Add>
 void for_each_planning_setting(Config& config, const Add& add) {
-  for_each_setting(config.plan, add);
+  for_each_plan_setting(config.plan, add);
   output::for_each_simulation_setting(config.simulation, add);
 }
 
 }  // namespace
 
 NamedValues plan_settings(const MotionPlanConfig& plan) {
-  return numbers_in([&](const auto& add) { for_each_setting(plan, add); });
+  return numbers_in([&](const auto& add) { for_each_plan_setting(plan, add); });
 }
 
 NamedValues planning_settings(const PlanningConfig& config) {
@@ -71,7 +71,7 @@ NamedValues planning_settings(const PlanningConfig& config) {
 }
 
 bool change_setting(MotionPlanConfig& plan, const std::string& name, double value) {
-  return change_one([&](const auto& add) { for_each_setting(plan, add); }, name, value);
+  return change_one([&](const auto& add) { for_each_plan_setting(plan, add); }, name, value);
 }
 
 void apply_setting(PlanningConfig& config, const std::string& name, double value) {
@@ -80,7 +80,7 @@ void apply_setting(PlanningConfig& config, const std::string& name, double value
 }
 
 void check(const MotionPlanConfig& plan) {
-  require_ranges([&](const auto& add) { for_each_setting(plan, add); });
+  require_ranges([&](const auto& add) { for_each_plan_setting(plan, add); });
 }
 
 void check(const PlanningConfig& config) {

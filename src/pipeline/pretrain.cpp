@@ -75,7 +75,7 @@ record::Json settings_json(const PretrainConfig& config) {
 }
 
 /// What the results depend on; a folder holds one run of one such record.
-record::Json run_record(const PretrainConfig& config, const std::vector<std::string>& files) {
+record::Json pretraining_record(const PretrainConfig& config, const std::vector<std::string>& files) {
   record::Json inputs = record::Json::array();
   for (const std::string& file : files) {
     std::string checksum;
@@ -216,7 +216,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   const record::RunFolder folder{config.out};
   claim_options(folder, files, config.force);
   const record::FolderLock lock(folder.root);
-  record::Json record = run_record(config, files);
+  record::Json record = pretraining_record(config, files);
   if (let_budget_grow(folder, record)) {
     context.messages << folder.root.string() << ": goes on from a training of "
                      << record.at("earlier_samples").elements().back().get<std::int64_t>()

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/record/json.h"
 
@@ -31,10 +32,6 @@ ProtocolRow row_of(motion::Protocol protocol, const std::string& name, const Pai
   return row;
 }
 
-std::string padded(const std::string& name, std::size_t width) {
-  return name + std::string(width > name.size() ? width - name.size() : 0, ' ');
-}
-
 std::string cells(const std::vector<motion::MetricValue>& values) {
   std::string line;
   for (const motion::MetricValue& v : values) {
@@ -53,8 +50,8 @@ std::string pooled_lines(const ProtocolTable& table, const std::string& label, s
   return text;
 }
 
-record::Json to_json(const std::vector<motion::ProtocolColumn>& columns,
-                     const std::vector<motion::MetricValue>& values) {
+record::Json table_json(const std::vector<motion::ProtocolColumn>& columns,
+                        const std::vector<motion::MetricValue>& values) {
   record::Json json = record::Json::object();
   for (std::size_t k = 0; k < columns.size(); ++k)
     json[columns[k].name] = {{"value", record::number(values[k].value)}, {"count", values[k].count}};
@@ -126,14 +123,14 @@ std::string protocol_json(const std::vector<ProtocolTable>& tables) {
                                {"definition", column.definition},
                                {"source", column.source}});
   for (const ProtocolTable& table : tables) {
-    record::Json folder = {{"folder", table.folder}, {"pooled", to_json(columns, pooled_row(table))}};
-    if (has_success(protocol)) folder["succeeded"] = to_json(columns, pooled_row(table, true));
+    record::Json folder = {{"folder", table.folder}, {"pooled", table_json(columns, pooled_row(table))}};
+    if (has_success(protocol)) folder["succeeded"] = table_json(columns, pooled_row(table, true));
     folder["motions"] = record::Json::array();
     for (const ProtocolRow& row : table.rows)
       folder["motions"].push_back({{"name", row.name},
                                    {"reason", row.reason},
                                    {"frames", row.frames},
-                                   {"values", to_json(columns, row.values)}});
+                                   {"values", table_json(columns, row.values)}});
     json["folders"].push_back(folder);
   }
   return record::document(json);

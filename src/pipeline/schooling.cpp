@@ -14,7 +14,7 @@ constexpr double kCheckpointSeconds = 60.0;  ///< at least so long between two c
 
 /// Calls add(name, field, least, most) for every number of the school.
 template <class Config, class Add>
-void for_each_setting(Config& school, const Add& add) {
+void for_each_school_setting(Config& school, const Add& add) {
   for (std::size_t layer = 0; layer < school.hidden.size(); ++layer)
     add("school_hidden_" + std::to_string(layer + 1), school.hidden[layer], 1, 4096);
   add("school_packs", school.packs, 1, 10000);
@@ -65,15 +65,15 @@ void write_checkpoint(const record::RunFolder& folder, const std::string& name, 
 }  // namespace
 
 NamedValues school_settings(const teaching::SchoolConfig& school) {
-  return numbers_in([&](const auto& add) { for_each_setting(school, add); });
+  return numbers_in([&](const auto& add) { for_each_school_setting(school, add); });
 }
 
 bool change_setting(teaching::SchoolConfig& school, const std::string& name, double value) {
-  return change_one([&](const auto& add) { for_each_setting(school, add); }, name, value);
+  return change_one([&](const auto& add) { for_each_school_setting(school, add); }, name, value);
 }
 
 void check(const teaching::SchoolConfig& school) {
-  require_ranges([&](const auto& add) { for_each_setting(school, add); });
+  require_ranges([&](const auto& add) { for_each_school_setting(school, add); });
 }
 
 std::optional<teaching::Pupil> teach_option(const std::vector<PlannedMotion>& motions,

@@ -43,7 +43,7 @@ std::vector<PlannedMotion> motions_of(const TeachConfig& config) {
   return motions;
 }
 
-record::Json run_record(const TeachConfig& config, const std::vector<PlannedMotion>& motions) {
+record::Json teaching_record(const TeachConfig& config, const std::vector<PlannedMotion>& motions) {
   record::Json settings = record::Json::object(), inputs = record::Json::array();
   for (const auto& [name, value] : settings_of(config)) settings[name] = value;
   for (const PlannedMotion& motion : motions)
@@ -74,7 +74,7 @@ teaching::SchoolConfig school_for(const TeachConfig& config, int motions) {
 
 /// Calls add(name, field, least, most) for what the schooling of an option does not know.
 template <class Config, class Add>
-void for_each_setting(Config& config, const Add& add) {
+void for_each_cluster_setting(Config& config, const Add& add) {
   add("school_visits", config.visits, 1, 1e5);
 }
 
@@ -104,7 +104,7 @@ std::vector<PlannedMotion> members(const options::MotionCluster& cluster,
 }  // namespace
 
 NamedValues settings_of(const TeachConfig& config) {
-  NamedValues values = numbers_in([&](const auto& add) { for_each_setting(config, add); });
+  NamedValues values = numbers_in([&](const auto& add) { for_each_cluster_setting(config, add); });
   append(values, school_settings(config.school));
   values.emplace_back("cluster_radius", config.clusters.radius);
   values.emplace_back("clusters", config.clusters.clusters.value_or(0));
@@ -113,12 +113,12 @@ NamedValues settings_of(const TeachConfig& config) {
 }
 
 void apply_setting(TeachConfig& config, const std::string& name, double value) {
-  if (change_one([&](const auto& add) { for_each_setting(config, add); }, name, value)) return;
+  if (change_one([&](const auto& add) { for_each_cluster_setting(config, add); }, name, value)) return;
   if (!change_setting(config.school, name, value)) apply_setting(config.planning.planning, name, value);
 }
 
 void check(const TeachConfig& config) {
-  require_ranges([&](const auto& add) { for_each_setting(config, add); });
+  require_ranges([&](const auto& add) { for_each_cluster_setting(config, add); });
   check(config.school);
   check(config.planning.planning);
 }
@@ -133,7 +133,7 @@ record::RunOutcome teach(const TeachConfig& config, const record::RunContext& co
   if (!config.planning.run.inputs.empty()) outcome = plan_inputs(config, context);
   if (outcome == record::RunOutcome::kInterrupted) return outcome;
   const std::vector<PlannedMotion> motions = motions_of(config);
-  const record::Json record = run_record(config, motions);
+  const record::Json record = teaching_record(config, motions);
   if (finished_outcome(folder, record)) {
     context.messages << folder.root.string() << ": these options are taught already\n";
     return outcome;

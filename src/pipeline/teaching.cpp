@@ -7,7 +7,7 @@ namespace {
 
 /// Calls add(name, field, least, most) for every number.
 template <class Config, class Add>
-void for_each_setting(Config& config, const Add& add) {
+void for_each_teaching_setting(Config& config, const Add& add) {
   add("teach", config.teach, 0, 1);
   auto& teacher = config.teacher;
   add("teach_gain_residual", teacher.gains.residual, 1e-9, 1e9);
@@ -41,15 +41,15 @@ void for_each_setting(Config& config, const Add& add) {
 }  // namespace
 
 NamedValues teaching_settings(const TeachingConfig& config) {
-  return numbers_in([&](const auto& add) { for_each_setting(config, add); });
+  return numbers_in([&](const auto& add) { for_each_teaching_setting(config, add); });
 }
 
 bool change_setting(TeachingConfig& config, const std::string& name, double value) {
-  return change_one([&](const auto& add) { for_each_setting(config, add); }, name, value);
+  return change_one([&](const auto& add) { for_each_teaching_setting(config, add); }, name, value);
 }
 
 void check(const TeachingConfig& config) {
-  require_ranges([&](const auto& add) { for_each_setting(config, add); });
+  require_ranges([&](const auto& add) { for_each_teaching_setting(config, add); });
 }
 
 }  // namespace mimicx::pipeline

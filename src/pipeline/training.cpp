@@ -39,7 +39,7 @@ struct Best {
 };
 
 /// Roll-outs of the mean actions over all clips.
-struct Evaluation {
+struct MeanRollout {
   double score = 0.0;           ///< m, mean over clips; smaller is better
   double reward = 0.0;          ///< mean over clips
   double position_error = 0.0;  ///< m, mean over clips
@@ -54,16 +54,16 @@ double score_of(const rl::tracking::TrackingRollout& rollout) {
                       (rollout.worst_distance > motion::kMaxBodyDistance ? rollout.worst_distance : 0.0));
 }
 
-Evaluation evaluate(const Clips& clips, const rl::tracking::TrackingConfig& config,
-                    const std::vector<rl::Agent>& agents, int threads) {
-  List<Evaluation> each(clips.size());
+MeanRollout evaluate(const Clips& clips, const rl::tracking::TrackingConfig& config,
+                     const std::vector<rl::Agent>& agents, int threads) {
+  List<MeanRollout> each(clips.size());
   parallel_for(clips.count(), threads, [&](int k) {
     const rl::tracking::TrackingRollout rollout =
         rl::tracking::roll_out(clips[k], config, rl::tracking::mean_action(agents));
     each[k] = {score_of(rollout), rollout.mean_reward, rollout.mean_position_error};
   });
-  Evaluation mean;
-  for (const Evaluation& e : each) {
+  MeanRollout mean;
+  for (const MeanRollout& e : each) {
     mean.score += e.score / static_cast<double>(clips.size());
     mean.reward += e.reward / static_cast<double>(clips.size());
     mean.position_error += e.position_error / static_cast<double>(clips.size());
@@ -185,7 +185,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
     if (stats.samples >= config.samples) ending = record::Ending::kBudget;
     TrainingLogRow row = {stats, environment.statistics(), environment.sharpness(), kNan, kNan};
     if (ending == record::Ending::kBudget || stats.iteration % config.evaluate_iterations == 0) {
-      const Evaluation rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
+      const MeanRollout rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
       consider(best, trainer, rollout.score);
       row.rollout_reward = rollout.reward;
       row.rollout_position_error = rollout.position_error;

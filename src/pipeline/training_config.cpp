@@ -32,7 +32,7 @@ void for_each_tracking_setting(Config& t, const Visit& visit) {
 
 /// Calls visit(name, field) for every number of the configuration but samples and seed.
 template <class Config, class Visit>
-void for_each_setting(Config& config, const Visit& visit) {
+void for_each_training_setting(Config& config, const Visit& visit) {
   visit("characters", config.characters);
   visit("group_size", config.group_size);
   int layer = 0;
@@ -121,7 +121,7 @@ void check(const TrainingConfig& config) {
 }
 
 NamedValues settings_of(const TrainingConfig& config) {
-  return numbers_in([&](const auto& visit) { for_each_setting(config, visit); });
+  return numbers_in([&](const auto& visit) { for_each_training_setting(config, visit); });
 }
 
 NamedValues settings_of(const rl::tracking::TrackingConfig& config) {
@@ -129,7 +129,7 @@ NamedValues settings_of(const rl::tracking::TrackingConfig& config) {
 }
 
 void apply_setting(TrainingConfig& config, const std::string& name, double value) {
-  if (!change_one([&](const auto& visit) { for_each_setting(config, visit); }, name, value))
+  if (!change_one([&](const auto& visit) { for_each_training_setting(config, visit); }, name, value))
     throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 

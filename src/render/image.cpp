@@ -7,20 +7,24 @@
 namespace mimicx::render {
 namespace {
 
-std::uint8_t shown(float light) {
+std::uint8_t shown_channel(float light) {
   return static_cast<std::uint8_t>(255.0F * std::sqrt(std::clamp(light, 0.0F, 1.0F)) + 0.5F);
 }
 
-float light_of(std::uint8_t value) {
+float channel_light(std::uint8_t value) {
   const float v = static_cast<float>(value) / 255.0F;
   return v * v;
 }
 
 }  // namespace
 
-Pixel shown(const Colour& light) { return {shown(light.x()), shown(light.y()), shown(light.z())}; }
+Pixel shown(const Colour& light) {
+  return {shown_channel(light.x()), shown_channel(light.y()), shown_channel(light.z())};
+}
 
-Colour light_of(const Pixel& pixel) { return {light_of(pixel.r), light_of(pixel.g), light_of(pixel.b)}; }
+Colour light_of(const Pixel& pixel) {
+  return {channel_light(pixel.r), channel_light(pixel.g), channel_light(pixel.b)};
+}
 
 void paste(const Image& part, int x, int y, Image& onto) {
   if (x < 0 || y < 0 || x + part.width > onto.width || y + part.height > onto.height)

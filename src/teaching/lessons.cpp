@@ -15,7 +15,7 @@ namespace {
 using physics::kLanes;
 using rl::tracking::TrackingPack;
 
-enum RandomPurpose : std::uint64_t { kNoise = 0x7eac0, kPushes };
+enum LessonStream : std::uint64_t { kNoise = 0x7eac0, kPushes };
 
 /// The mean actions of an agent for the lanes of a pack.
 class Player {

@@ -14,7 +14,7 @@
 namespace mimicx::teaching {
 namespace {
 
-enum RandomPurpose : std::uint64_t { kOrder = 0x5c00, kRows };
+enum SchoolStream : std::uint64_t { kVisitOrder = 0x5c00, kLessonRows };
 
 /// Where β stands in the state (rl/tracking/state.h), but for policies with an encoder.
 constexpr int kShapeBegin = rl::tracking::kPoseFeatures;
@@ -35,7 +35,7 @@ List<Visit> visits(const SchoolConfig& config, int count, int round) {
       shuffled = place / count;
       order.resize(static_cast<std::size_t>(count));
       std::iota(order.begin(), order.end(), 0);
-      Random random(config.seed, {kOrder, static_cast<std::uint64_t>(shuffled)});
+      Random random(config.seed, {kVisitOrder, static_cast<std::uint64_t>(shuffled)});
       for (int i = count; i > 1; --i)
         std::swap(order[i - 1], order[static_cast<int>(random.below(static_cast<std::uint32_t>(i)))]);
     }
@@ -130,7 +130,7 @@ std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,
   stats.put_back = 1000.0 * material.lessons.put_back / stats.lessons;
   const int steps =
       std::max(1, static_cast<int>(std::lround(config.passes * stats.lessons / config.regression.minibatch)));
-  Random random(config.seed, {kRows, static_cast<std::uint64_t>(next.rounds)});
+  Random random(config.seed, {kLessonRows, static_cast<std::uint64_t>(next.rounds)});
   List<int> rows(config.regression.minibatch);
   RegressionScratch scratch;
   for (int step = 0; step < steps; ++step) {

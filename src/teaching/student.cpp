@@ -12,7 +12,7 @@
 namespace mimicx::teaching {
 namespace {
 
-enum RandomPurpose : std::uint64_t { kRows = 0x57d0 };
+enum StudentStream : std::uint64_t { kStudentRows = 0x57d0 };
 
 /// Appends lessons and drops the oldest beyond `most` rows.
 void add(const Lessons& fresh, int state_size, int most, Lessons& all) {
@@ -88,7 +88,7 @@ std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::Track
   Best best{student.agent};
   RegressionScratch scratch;
   Lessons all;
-  Random random(config.seed, {kRows});
+  Random random(config.seed, {kStudentRows});
   RoundStats stats;
   for (int round = 0; round < config.stages * config.rounds; ++round) {
     const int of_stage = round % config.rounds;

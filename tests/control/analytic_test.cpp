@@ -227,7 +227,7 @@ TEST(AnalyticDerivative, ItsNominalMotionIsThatOfTheSimulator) {
 }
 
 /// The same frame for derivatives by differences: a system of two frames, whose references are its targets.
-System system_of(const Character& character, const ControlFrame& frame) {
+System system_with(const Character& character, const ControlFrame& frame) {
   List<State<double>> reference(2, frame.start);
   for (State<double>& x : reference) x.q = frame.from.q, x.omega = frame.from.omega;
   return make_system(character, {}, reference, 30.0);
@@ -252,7 +252,7 @@ TEST(AnalyticDerivative, InLanesItIsAHundredTimesNearerToTheOneInDoubleThanDiffe
     frame.start.p_root.z += height;
     differentiate_frame(model, frame, false, *scratch, lanes);
     const Eigen::MatrixXd exact = Derived(model, frame).derivative.F.leftCols<kFrameColumns>();
-    const FrameMatrix columns = linearise_by_columns(system_of(character, frame), point_of(frame), {});
+    const FrameMatrix columns = linearise_by_columns(system_with(character, frame), point_of(frame), {});
     const double error = worst_error(lanes.F.cast<double>(), exact);
     const double differences = worst_error(columns.cast<double>(), exact);
     std::printf("  float, %s: %.0e, differences %.0e\n", height > 0.0 ? "in the air" : "on the floor", error,

@@ -11,12 +11,12 @@
 namespace mimicx::control {
 namespace {
 
-struct Scene {
+struct WalkingScene {
   System system = system_of(synthetic_reference("walk", 501, 12));
   Cost cost = make_cost(system, {}, certainty());
   State<double> x = system.at(5);
 
-  Scene() {
+  WalkingScene() {
     Random random(44);
     retract(x, random_tangent<double>(random, 0.05));
   }
@@ -36,7 +36,7 @@ struct Scene {
 };
 
 TEST(Cost, GradientIsThatOfDifferences) {
-  const Scene s;
+  const WalkingScene s;
   const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
   for (int k = 0; k < kTangent; ++k) {
     const double h = 1e-5, plus = state_quadratic(s.system, s.cost, 5, s.moved(k, h)).value,
@@ -47,7 +47,7 @@ TEST(Cost, GradientIsThatOfDifferences) {
 
 // Where the error is zero, Gauss–Newton's Hessian is the Hessian.
 TEST(Cost, HessianAtTheReferenceIsThatOfDifferences) {
-  Scene s;
+  WalkingScene s;
   s.x = s.system.at(5);
   const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
   const double h = 1e-4;
@@ -67,7 +67,7 @@ TEST(Cost, HessianAtTheReferenceIsThatOfDifferences) {
 }
 
 TEST(Cost, LanesMeanTheSameAsDoubles) {
-  const Scene s;
+  const WalkingScene s;
   const auto scratch = std::make_unique<Data<P>>();
   const LaneCost lanes = state_cost(s.system, s.cost, 5, in_all_lanes<P>(s.x), *scratch);
   const double exact = state_quadratic(s.system, s.cost, 5, s.x).value;
@@ -84,7 +84,7 @@ TEST(Cost, LanesMeanTheSameAsDoubles) {
 }
 
 TEST(Cost, UncertainBodiesWeighLessAndTheirNeighboursDoNot) {
-  const Scene s;
+  const WalkingScene s;
   const int certain = 1, doubtful = 0;  // frame 5: (5 + 1) % 3 = 0, (5 + 0) % 3 = 2
   EXPECT_EQ(s.cost.position_weight(5, certain), 0.0);
   EXPECT_EQ(s.cost.position_weight(5, doubtful), s.cost.weights.position);
@@ -93,7 +93,7 @@ TEST(Cost, UncertainBodiesWeighLessAndTheirNeighboursDoNot) {
 }
 
 TEST(Cost, ChangesOfControlsCostAndHelpOnlyInASoftSystem) {
-  Scene s;
+  WalkingScene s;
   Control u{}, before{};
   u[3] = 0.5f;
   before[3] = 0.2f;

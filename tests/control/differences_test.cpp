@@ -69,12 +69,12 @@ double median_error(const FrameMatrix& F, const Eigen::MatrixXd& exact, int firs
   return errors[errors.size() / 2];
 }
 
-struct Scene {
+struct SquattingScene {
   motion::Reference reference = synthetic_reference("squat", 501, 40);
   System system = system_of(reference);
   FramePoint point{20, system.at(20), {}, {}};
 
-  explicit Scene(double height) {
+  explicit SquattingScene(double height) {
     Random random(45);
     system.soft = true;
     point.x.p_root.z += height;
@@ -90,7 +90,7 @@ struct Scene {
 constexpr int kMoreColumns = kMemory + kMaxControls;
 
 TEST(Differences, InTheAirColumnsAgreeWithDouble) {
-  const Scene s(0.5);
+  const SquattingScene s(0.5);
   const FrameMatrix F = linearise_by_columns(s.system, s.point, {});
   const Eigen::MatrixXd exact = in_double(s.system, s.reference.character, s.point);
   ASSERT_EQ(F.cols(), kMoreColumns);
@@ -102,7 +102,7 @@ TEST(Differences, InTheAirColumnsAgreeWithDouble) {
 // On the floor the steps are as large as the distances over which contacts open and close; the columns of the
 // velocities of light limbs are small and suffer most.
 TEST(Differences, StandingColumnsAgreeWithDouble) {
-  const Scene s(0.0);
+  const SquattingScene s(0.0);
   const FrameMatrix F = linearise_by_columns(s.system, s.point, {});
   const Eigen::MatrixXd exact = in_double(s.system, s.reference.character, s.point);
   EXPECT_LT(median_error(F, exact, 0, kPositions), 1e-2);
@@ -111,7 +111,7 @@ TEST(Differences, StandingColumnsAgreeWithDouble) {
 }
 
 TEST(Differences, TheSmoothedOnesAreTheSameWhereNothingSwitches) {
-  const Scene s(0.5);
+  const SquattingScene s(0.5);
   const FrameMatrix columns = linearise_by_columns(s.system, s.point, {});
   const FrameMatrix smoothed = linearise_smoothed(s.system, s.point, {});
   const Eigen::MatrixXd exact = columns.cast<double>();
@@ -120,7 +120,7 @@ TEST(Differences, TheSmoothedOnesAreTheSameWhereNothingSwitches) {
 }
 
 TEST(Differences, AHardSystemHasNoColumnsOfHelp) {
-  Scene s(0.0);
+  SquattingScene s(0.0);
   const FrameMatrix soft = linearise_by_columns(s.system, s.point, {});
   s.system.soft = false;
   s.point.u[kDofs + 1] = s.point.u[kDofs + 5] = 0.0f;

@@ -11,12 +11,12 @@
 namespace mimicx::control {
 namespace {
 
-struct Problem {
+struct WalkingProblem {
   System system = system_of(synthetic_reference("walk", 501, 30));
   Cost cost = make_cost(system, {});
   Trajectory plan;
 
-  Problem() {
+  WalkingProblem() {
     plan.x.assign(13, lane_of(in_all_lanes<P>(system.at(0)), 0));
     plan.u.resize(12);
     roll();
@@ -30,7 +30,7 @@ struct Problem {
 };
 
 TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
-  Problem p;
+  WalkingProblem p;
   List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0, last = p.plan.cost;
@@ -53,7 +53,7 @@ TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
 }
 
 TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
-  Problem one, two;
+  WalkingProblem one, two;
   for (auto [p, threads] : {std::pair{&one, 1}, std::pair{&two, 2}}) {
     List<FrameModel> models;
     Sweep sweep;
@@ -67,7 +67,7 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
 }
 
 TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
-  Problem p;
+  WalkingProblem p;
   List<FrameModel> after, beside;
   build_models(p.system, p.cost, p.plan, {}, 1, after);
   const auto same = [&](int t) {
@@ -87,7 +87,7 @@ TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
 
 // The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
 TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
-  Problem p;
+  WalkingProblem p;
   List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;

@@ -13,6 +13,12 @@ struct Regulator {
   Eigen::MatrixXd A, B, Q, R;
 };
 
+// Products of one type each: long expressions of Eigen's take half a minute to compile.
+Eigen::MatrixXd product_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a * b; }
+Eigen::MatrixXd transposed(const Eigen::MatrixXd& a) { return a.transpose(); }
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& a) { return a.inverse(); }
+double spectral_radius(const Eigen::MatrixXd& a) { return a.eigenvalues().cwiseAbs().maxCoeff(); }
+
 /// Sweeps back until nothing changes. @return P of the cost-to-go ½ xᵀPx; K of the last law in `gain`
 Eigen::MatrixXd sweep(const Regulator& r, int steps, Eigen::MatrixXd& gain) {
   const auto n = r.A.rows(), m = r.B.cols();
@@ -33,9 +39,10 @@ Eigen::MatrixXd sweep(const Regulator& r, int steps, Eigen::MatrixXd& gain) {
 
 /// P − (Q + AᵀPA − AᵀPB (R + BᵀPB)⁻¹ BᵀPA)
 double riccati_residual(const Regulator& r, const Eigen::MatrixXd& P) {
-  const Eigen::MatrixXd PB = P * r.B, S = r.R + r.B.transpose() * PB;
+  const Eigen::MatrixXd PB = product_of(P, r.B), S = r.R + product_of(transposed(r.B), PB),
+                        At = transposed(r.A), BtPA = product_of(transposed(PB), r.A);
   const Eigen::MatrixXd next =
-      r.Q + r.A.transpose() * P * r.A - r.A.transpose() * PB * S.inverse() * PB.transpose() * r.A;
+      r.Q + product_of(At, product_of(P, r.A)) - product_of(transposed(BtPA), product_of(inverse(S), BtPA));
   return (P - next).cwiseAbs().maxCoeff() / P.cwiseAbs().maxCoeff();
 }
 
@@ -43,17 +50,22 @@ double riccati_residual(const Regulator& r, const Eigen::MatrixXd& P) {
 /// symplectic matrix span (x; P x), so P = Y X⁻¹.
 Eigen::MatrixXd algebraic_solution(const Regulator& r) {
   const auto n = r.A.rows();
-  const Eigen::MatrixXd G = r.B * r.R.inverse() * r.B.transpose(), At_inv = r.A.transpose().inverse();
+  const Eigen::MatrixXd G = product_of(r.B, product_of(inverse(r.R), transposed(r.B))),
+                        At_inv = inverse(transposed(r.A)), AtQ = product_of(At_inv, r.Q);
   Eigen::MatrixXd Z(2 * n, 2 * n);
-  Z << r.A + G * At_inv * r.Q, -G * At_inv, -At_inv * r.Q, At_inv;
+  Z.topLeftCorner(n, n) = r.A + product_of(G, AtQ);
+  Z.topRightCorner(n, n) = -product_of(G, At_inv);
+  Z.bottomLeftCorner(n, n) = -AtQ;
+  Z.bottomRightCorner(n, n) = At_inv;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(Z);
-  Eigen::MatrixXcd stable(2 * n, n);
+  const Eigen::MatrixXd vectors =
+      solver.pseudoEigenvectors();  // real and imaginary parts of a pair: the same span
+  Eigen::MatrixXd stable(2 * n, n);
   Eigen::Index found = 0;
   for (Eigen::Index k = 0; k < 2 * n; ++k)
-    if (std::abs(solver.eigenvalues()[k]) < 1.0 && found < n)
-      stable.col(found++) = solver.eigenvectors().col(k);
+    if (std::abs(solver.eigenvalues()[k]) < 1.0 && found < n) stable.col(found++) = vectors.col(k);
   EXPECT_EQ(found, n);
-  return (stable.bottomRows(n) * stable.topRows(n).inverse()).real();
+  return product_of(stable.bottomRows(n), inverse(stable.topRows(n)));
 }
 
 /// A mass on a line, pushed for `dt` at a time; its place costs 1 per second, a push r per second.
@@ -193,8 +205,8 @@ TEST(Riccati, InvertedPendulumSolvesTheAlgebraicEquationAndStands) {
   const Eigen::MatrixXd value = sweep(p, 500, K);
   EXPECT_LT(riccati_residual(p, value), 1e-12);
   EXPECT_LT((value - algebraic_solution(p)).norm(), 1e-10 * value.norm());
-  EXPECT_GT(p.A.eigenvalues().cwiseAbs().maxCoeff(), 1.0);
-  EXPECT_LT((p.A + p.B * K).eigenvalues().cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_GT(spectral_radius(p.A), 1.0);
+  EXPECT_LT(spectral_radius(p.A + product_of(p.B, K)), 1.0);
 }
 
 // A problem of two steps with memory and a gap, against one solve of its normal equations.
@@ -219,8 +231,9 @@ TEST(Riccati, MemoryAndGapsAreThoseOfTheWholeProblem) {
   Eigen::VectorXd c = Eigen::VectorXd::Zero(n + w), g = Eigen::VectorXd::Zero(2 * m);
   const auto add = [&](const Eigen::MatrixXd& M, const Eigen::VectorXd& o, const Eigen::MatrixXd& cost,
                        const Eigen::VectorXd& linear) {
-    H += M.transpose() * cost * M;
-    g += M.transpose() * (cost * o + linear);
+    const Eigen::MatrixXd Mt = transposed(M);
+    H += product_of(Mt, product_of(cost, M));
+    g += product_of(Mt, product_of(cost, o) + linear);
   };
   for (int t = 0; t < 2; ++t) {
     Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + w + m, 2 * m);
@@ -229,8 +242,9 @@ TEST(Riccati, MemoryAndGapsAreThoseOfTheWholeProblem) {
     M.block(n + w, m * t, m, m).setIdentity();
     o.head(n + w) = c;
     add(M, o, stage[t].H, stage[t].g);
-    z.topRows(n) = F[t].cast<double>() * M;
-    c.head(n) = F[t].cast<double>() * o + gap[t];
+    const Eigen::MatrixXd step = F[t].cast<double>();
+    z.topRows(n) = product_of(step, M);
+    c.head(n) = product_of(step, o) + gap[t];
     z.bottomRows(w) = M.middleRows(n + w, w);
     c.tail(w).setZero();
   }

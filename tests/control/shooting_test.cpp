@@ -11,12 +11,12 @@
 namespace mimicx::control {
 namespace {
 
-struct Problem {
+struct ShootingProblem {
   System system = system_of(synthetic_reference("squat", 501, 30));
   Cost cost = make_cost(system, {});
   Trajectory plan;
 
-  Problem() {
+  ShootingProblem() {
     for (int t = 0; t < 21; ++t) plan.x.push_back(as_floats(system.at(t)));
     plan.u.resize(20);
     plan.gaps = find_gaps(system, plan);
@@ -24,7 +24,7 @@ struct Problem {
 };
 
 TEST(Shooting, ARollOutHasNoGaps) {
-  Problem p;
+  ShootingProblem p;
   const auto scratch = std::make_unique<Data<P>>();
   take_lane(roll_out(p.system, p.cost, p.plan, {}, step_lengths(), in_all_lanes<P>(p.plan.x[0]), *scratch), 0,
             p.plan);
@@ -33,7 +33,7 @@ TEST(Shooting, ARollOutHasNoGaps) {
 }
 
 TEST(Shooting, GapsAreWhatIsMissingToTheNextState) {
-  const Problem p;
+  const ShootingProblem p;
   const auto scratch = std::make_unique<Data<P>>();
   for (int t : {0, 7, 19}) {
     State<P> x = in_all_lanes<P>(p.plan.x[static_cast<std::size_t>(t)]);
@@ -52,7 +52,7 @@ TEST(Shooting, GapsAreWhatIsMissingToTheNextState) {
 // From the reference's own states and no idea of the controls: one iteration follows where a roll-out of that
 // guess falls.
 TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
-  Problem p;
+  ShootingProblem p;
   List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
@@ -67,7 +67,7 @@ TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
 
 // With no trust at all nothing is closed, and the states stay where they were.
 TEST(Shooting, FramesBehindTheTrustedOnesKeepTheirStates) {
-  Problem p;
+  ShootingProblem p;
   const Trajectory before = p.plan;
   List<FrameModel> models;
   Sweep sweep;

@@ -39,7 +39,7 @@ Reference rigid(int frames, const std::function<Vector3d(double)>& path,
 Quaterniond still(double) { return Quaterniond::Identity(); }
 
 /// A prepared random motion, moved and turned about the vertical as a whole.
-Reference moved(const Reference& reference, double angle, const Vector3d& offset) {
+Reference moved_poses(const Reference& reference, double angle, const Vector3d& offset) {
   Reference out = reference;
   for (std::size_t t = 0; t < out.frames.size(); ++t) {
     auto& f = out.frames[t];
@@ -124,7 +124,7 @@ TEST(Features, HeadingAndPlaceAreIrrelevant) {
   const Reference reference = random_reference();
   const auto expected = motion_features(reference);
   for (double angle : {0.3, 1.7, -2.9}) {
-    const auto f = motion_features(moved(reference, angle, {5.0 * angle, -3.0, 0.0}));
+    const auto f = motion_features(moved_poses(reference, angle, {5.0 * angle, -3.0, 0.0}));
     for (std::size_t k = 0; k < kFeatures; ++k)
       EXPECT_NEAR(f[k], expected[k], 1e-9 * (1.0 + expected[k])) << feature_names()[k];
   }
@@ -132,7 +132,8 @@ TEST(Features, HeadingAndPlaceAreIrrelevant) {
 
 TEST(Features, LiftingAMotionChangesTheHeightAlone) {
   const Reference reference = random_reference();
-  const auto before = motion_features(reference), after = motion_features(moved(reference, 0, {0, 0, 0.25}));
+  const auto before = motion_features(reference),
+             after = motion_features(moved_poses(reference, 0, {0, 0, 0.25}));
   EXPECT_NEAR(after[kRootHeight], before[kRootHeight] + 0.25, 1e-12);
   for (std::size_t k = 1; k < kFeatures; ++k) EXPECT_NEAR(after[k], before[k], 1e-9 * (1.0 + before[k]));
 }

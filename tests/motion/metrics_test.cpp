@@ -17,8 +17,6 @@ using test::kPi;
 
 using test::samples_of;
 
-MotionSamples standing(int frames) { return test::standing_samples(frames); }
-
 /// The samples moved by offset(t) (m).
 template <class Offset>
 MotionSamples moved(MotionSamples s, const Offset& offset) {
@@ -55,7 +53,7 @@ TEST(Metrics, DriftsOfFirstAndSecondOrderAreVelAndAccel) {
 }
 
 TEST(Metrics, JitterIsTheThirdDerivativeOfACubic) {
-  const MotionSamples still = standing(12);
+  const MotionSamples still = test::standing_samples(12);
   const double fps = 30.0, third = 7.0;  // m/s³
   const Metrics m = evaluate_motion(
       moved(still,
@@ -109,7 +107,8 @@ TEST(Metrics, MirroredPoseIsNotForgivenByProcrustes) {
 TEST(FootSlide, EqualsTheSpeedOfAUniformSlideWithinTheTolerance) {
   const auto slide = [](double height) {
     return evaluate_motion(
-        moved(standing(11), [&](double t) -> Vector3d { return Vector3d(0.006 * t, 0.008 * t, height); }),
+        moved(test::standing_samples(11),
+              [&](double t) -> Vector3d { return Vector3d(0.006 * t, 0.008 * t, height); }),
         nullptr);
   };
   EXPECT_NEAR(slide(-1e-6).fs.value, 10.0, 1e-9);
@@ -122,24 +121,25 @@ TEST(FootSlide, EqualsTheSpeedOfAUniformSlideWithinTheTolerance) {
 
 TEST(FootSlide, CountsOnlyPointsDownInBothFrames) {
   // Down in the first half, sliding and lifted in the second: 4 of 9 pairs slide on the floor.
-  const Metrics m = evaluate_motion(
-      moved(standing(10), [](double t) -> Vector3d { return Vector3d(0.009 * t, 0, t < 5 ? 0.0 : 0.1); }),
-      nullptr);
+  const Metrics m =
+      evaluate_motion(moved(test::standing_samples(10),
+                            [](double t) -> Vector3d { return Vector3d(0.009 * t, 0, t < 5 ? 0.0 : 0.1); }),
+                      nullptr);
   EXPECT_NEAR(m.fs.value, 9.0 * 4.0 / 9.0, 1e-9);
 }
 
 TEST(Penetration, IsTheDepthOfTheSunkPoints) {
-  const Metrics m =
-      evaluate_motion(moved(standing(4), [](double) -> Vector3d { return Vector3d(0, 0, -0.003); }), nullptr);
+  const Metrics m = evaluate_motion(
+      moved(test::standing_samples(4), [](double) -> Vector3d { return Vector3d(0, 0, -0.003); }), nullptr);
   EXPECT_NEAR(m.gp.value, 3.0, 1e-9);  // the twelve points of the soles, all equally deep
   EXPECT_NEAR(m.gp_max.value, 3.0, 1e-9);
-  EXPECT_EQ(evaluate_motion(standing(4), nullptr).gp_max.count, 4u);
-  EXPECT_NEAR(evaluate_motion(standing(4), nullptr).gp.value, 0.0, 1e-9);
-  EXPECT_NEAR(evaluate_motion(standing(4), nullptr).floating.value, 0.0, 1e-9);
+  EXPECT_EQ(evaluate_motion(test::standing_samples(4), nullptr).gp_max.count, 4u);
+  EXPECT_NEAR(evaluate_motion(test::standing_samples(4), nullptr).gp.value, 0.0, 1e-9);
+  EXPECT_NEAR(evaluate_motion(test::standing_samples(4), nullptr).floating.value, 0.0, 1e-9);
 }
 
 TEST(Penetration, MeansTheSunkPointsAndTakesTheDeepestForMax) {
-  MotionSamples s = standing(2);
+  MotionSamples s = test::standing_samples(2);
   for (Vector3d& p : s.surface[0]) p.z() = 1.0;
   s.surface[0][3].z() = -0.010;
   s.surface[0][40].z() = -0.002;
@@ -150,7 +150,9 @@ TEST(Penetration, MeansTheSunkPointsAndTakesTheDeepestForMax) {
 
 TEST(Float, IsTheHeightOfAStaticLiftAboveTheTolerance) {
   const auto lifted = [](double z) {
-    return evaluate_motion(moved(standing(4), [&](double) -> Vector3d { return Vector3d(0, 0, z); }), nullptr)
+    return evaluate_motion(
+               moved(test::standing_samples(4), [&](double) -> Vector3d { return Vector3d(0, 0, z); }),
+               nullptr)
         .floating.value;
   };
   EXPECT_EQ(lifted(0.004), 0.0);
@@ -158,8 +160,8 @@ TEST(Float, IsTheHeightOfAStaticLiftAboveTheTolerance) {
 }
 
 TEST(Float, WhereTheTruthJumpsOnlyFloatGtForgives) {
-  const MotionSamples truth =
-      moved(standing(10), [](double t) -> Vector3d { return Vector3d(0, 0, t < 4 ? 0.0 : 0.3); });
+  const MotionSamples truth = moved(test::standing_samples(10),
+                                    [](double t) -> Vector3d { return Vector3d(0, 0, t < 4 ? 0.0 : 0.3); });
   const Metrics same = evaluate_motion(truth, &truth);
   EXPECT_NEAR(same.floating.value, 300.0 * 0.6, 1e-9);
   EXPECT_NEAR(same.float_gt.value, 0.0, 1e-9);
@@ -170,7 +172,7 @@ TEST(Float, WhereTheTruthJumpsOnlyFloatGtForgives) {
 }
 
 TEST(FootSlideGt, LooksOnlyWhereTheTruthStands) {
-  const MotionSamples truth = standing(10);
+  const MotionSamples truth = test::standing_samples(10);
   const auto slid = [&](double speed) {
     return moved(truth, [&](double t) -> Vector3d { return Vector3d(0, speed * t, 0.5); });
   };
@@ -304,14 +306,14 @@ TEST(Metrics, AgreeWithAnIndependentImplementationOnRandomMotions) {
 }
 
 TEST(Metrics, AreUndefinedWithoutTruthOrEnoughFrames) {
-  const Metrics alone = evaluate_motion(standing(3), nullptr);
+  const Metrics alone = evaluate_motion(test::standing_samples(3), nullptr);
   for (const MetricValue& v :
        {alone.mrpe, alone.mpjpe, alone.pa_mpjpe, alone.vel, alone.fs_gt, alone.float_gt, alone.jitter}) {
     EXPECT_TRUE(std::isnan(v.value));
     EXPECT_EQ(v.count, 0u);
   }
   EXPECT_FALSE(std::isnan(alone.fs.value));
-  const MotionSamples one = standing(1);
+  const MotionSamples one = test::standing_samples(1);
   const Metrics single = evaluate_motion(one, &one);
   EXPECT_TRUE(std::isnan(single.fs.value));
   EXPECT_TRUE(std::isnan(single.vel.value));
@@ -319,8 +321,8 @@ TEST(Metrics, AreUndefinedWithoutTruthOrEnoughFrames) {
 }
 
 TEST(Metrics, UnequalMotionsAreRefused) {
-  const MotionSamples truth = standing(5);
-  EXPECT_THROW(evaluate_motion(standing(4), &truth), std::invalid_argument);
+  const MotionSamples truth = test::standing_samples(5);
+  EXPECT_THROW(evaluate_motion(test::standing_samples(4), &truth), std::invalid_argument);
   MotionSamples faster = truth;
   faster.fps = 60.0;
   EXPECT_THROW(evaluate_motion(faster, &truth), std::invalid_argument);

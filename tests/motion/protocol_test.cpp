@@ -14,8 +14,6 @@ namespace {
 
 using test::samples_of;
 
-MotionSamples standing(int frames) { return test::standing_samples(frames); }
-
 /// The samples with every point p of frame t at f(t, p).
 template <class Map>
 MotionSamples mapped(MotionSamples s, const Map& f) {
@@ -25,11 +23,11 @@ MotionSamples mapped(MotionSamples s, const Map& f) {
   }
   return s;
 }
-MotionSamples moved(const MotionSamples& s, const Vector3d& by) {
+MotionSamples moved_samples(const MotionSamples& s, const Vector3d& by) {
   return mapped(s, [&](int, const Vector3d& p) -> Vector3d { return p + by; });
 }
 
-MetricValue value_of(Protocol protocol, const char* name, const MotionSamples& p, const MotionSamples& g) {
+MetricValue metric_of(Protocol protocol, const char* name, const MotionSamples& p, const MotionSamples& g) {
   const auto& columns = protocol_columns(protocol);
   const auto values = evaluate_by(protocol, p, g);
   EXPECT_EQ(values.size(), columns.size());
@@ -39,13 +37,13 @@ MetricValue value_of(Protocol protocol, const char* name, const MotionSamples& p
 }
 
 double phc(const char* name, const MotionSamples& p, const MotionSamples& g) {
-  return value_of(Protocol::kPhc, name, p, g).value;
+  return metric_of(Protocol::kPhc, name, p, g).value;
 }
 double pmr(const char* name, const MotionSamples& p, const MotionSamples& g) {
-  return value_of(Protocol::kPmr, name, p, g).value;
+  return metric_of(Protocol::kPmr, name, p, g).value;
 }
 double emdb(const char* name, const MotionSamples& p, const MotionSamples& g) {
-  return value_of(Protocol::kEmdb, name, p, g).value;
+  return metric_of(Protocol::kEmdb, name, p, g).value;
 }
 
 /// A random motion whose pelvis walks `way` metres along x in `frames` frames.
@@ -56,7 +54,7 @@ MotionSamples walking(int frames, double way) {
 }
 
 TEST(Protocol, ATranslationIsAGlobalErrorAndNoOther) {
-  const MotionSamples truth = walking(150, 6.0), p = moved(truth, {0.3, -0.4, 0.0});
+  const MotionSamples truth = walking(150, 6.0), p = moved_samples(truth, {0.3, -0.4, 0.0});
   EXPECT_NEAR(phc("E_g-mpjpe", p, truth), 500.0, 1e-9);
   for (const char* name : {"E_mpjpe", "E_pa-mpjpe", "E_acc", "E_vel"})
     EXPECT_NEAR(phc(name, p, truth), 0.0, 1e-9) << name;
@@ -79,7 +77,7 @@ TEST(Protocol, ATurnAboutUpAndAScaleVanishInTheAlignmentOfWorldErrors) {
 /// |s − 1| · |x − mean|, whose mean over the frames is a quarter of the way (for many frames).
 TEST(Protocol, RootErrorOfAScaledStraightWayIsAQuarterOfTheScaleError) {
   const int n = 401;
-  MotionSamples truth = standing(n);
+  MotionSamples truth = test::standing_samples(n);
   truth =
       mapped(truth, [](int t, const Vector3d& p) -> Vector3d { return p + 0.02 * t * Vector3d::UnitX(); });
   const MotionSamples p =
@@ -91,8 +89,8 @@ TEST(Protocol, RootErrorOfAScaledStraightWayIsAQuarterOfTheScaleError) {
 }
 
 TEST(Protocol, AMotionThatNeverLeavesItsPlaceHasNoRootError) {
-  const MotionSamples truth = standing(20);
-  const MetricValue rte = value_of(Protocol::kEmdb, "RTE", moved(truth, {0.1, 0.0, 0.0}), truth);
+  const MotionSamples truth = test::standing_samples(20);
+  const MetricValue rte = metric_of(Protocol::kEmdb, "RTE", moved_samples(truth, {0.1, 0.0, 0.0}), truth);
   EXPECT_EQ(rte.count, 0u);
   EXPECT_TRUE(std::isnan(rte.value));
 }
@@ -145,26 +143,26 @@ TEST(Protocol, SuccessIsJudgedWithoutToesAndFromTheThirdFrameOn) {
 }
 
 TEST(Protocol, HeightsBeyondFiveMillimetresAreDepthAndFloat) {
-  const MotionSamples truth = standing(10);
+  const MotionSamples truth = test::standing_samples(10);
   double lowest = HUGE_VAL;
   for (const Vector3d& p : truth.surface[0]) lowest = std::min(lowest, p.z());
-  const MotionSamples floor = moved(truth, {0.0, 0.0, -lowest});
+  const MotionSamples floor = moved_samples(truth, {0.0, 0.0, -lowest});
   for (const double z : {0.004, -0.004}) {
-    EXPECT_EQ(pmr("GP", moved(floor, {0.0, 0.0, z}), truth), 0.0);
-    EXPECT_EQ(pmr("Float", moved(floor, {0.0, 0.0, z}), truth), 0.0);
+    EXPECT_EQ(pmr("GP", moved_samples(floor, {0.0, 0.0, z}), truth), 0.0);
+    EXPECT_EQ(pmr("Float", moved_samples(floor, {0.0, 0.0, z}), truth), 0.0);
   }
-  EXPECT_NEAR(pmr("GP", moved(floor, {0.0, 0.0, -0.02}), truth), 20.0, 1e-9);
-  EXPECT_EQ(pmr("Float", moved(floor, {0.0, 0.0, -0.02}), truth), 0.0);
-  EXPECT_NEAR(pmr("Float", moved(floor, {0.0, 0.0, 0.03}), truth), 30.0, 1e-9);
+  EXPECT_NEAR(pmr("GP", moved_samples(floor, {0.0, 0.0, -0.02}), truth), 20.0, 1e-9);
+  EXPECT_EQ(pmr("Float", moved_samples(floor, {0.0, 0.0, -0.02}), truth), 0.0);
+  EXPECT_NEAR(pmr("Float", moved_samples(floor, {0.0, 0.0, 0.03}), truth), 30.0, 1e-9);
 }
 
 TEST(Protocol, AUniformSlideIsItsSpeedInEveryFootSliding) {
-  const MotionSamples truth = standing(12);
+  const MotionSamples truth = test::standing_samples(12);
   const MotionSamples p =
       mapped(truth, [](int t, const Vector3d& q) -> Vector3d { return q + 0.007 * t * Vector3d::UnitY(); });
   EXPECT_NEAR(pmr("FS", p, truth), 7.0, 1e-9);
   EXPECT_NEAR(emdb("FS", p, truth), 7.0, 1e-9);
-  const MotionSamples lifted = moved(p, {0.0, 0.0, 0.1});
+  const MotionSamples lifted = moved_samples(p, {0.0, 0.0, 0.1});
   EXPECT_EQ(pmr("FS", lifted, truth), 0.0);           // nothing touches
   EXPECT_NEAR(emdb("FS", lifted, truth), 7.0, 1e-9);  // the truth stands
 }
@@ -177,13 +175,14 @@ TEST(Protocol, PoolingWeighsByTheSamples) {
 }
 
 TEST(Protocol, RefusesWhatItIsNotDefinedFor) {
-  const MotionSamples truth = standing(10);
+  const MotionSamples truth = test::standing_samples(10);
   MotionSamples fast = truth;
   fast.fps = 120.0;
   for (const Protocol protocol : {Protocol::kPhc, Protocol::kPmr, Protocol::kEmdb}) {
-    EXPECT_THROW(evaluate_by(protocol, standing(9), truth), std::invalid_argument);
+    EXPECT_THROW(evaluate_by(protocol, test::standing_samples(9), truth), std::invalid_argument);
     EXPECT_THROW(evaluate_by(protocol, fast, fast), std::invalid_argument);
-    EXPECT_THROW(evaluate_by(protocol, standing(1), standing(1)), std::invalid_argument);
+    EXPECT_THROW(evaluate_by(protocol, test::standing_samples(1), test::standing_samples(1)),
+                 std::invalid_argument);
   }
 }
 

@@ -206,7 +206,7 @@ SimulationConfig flight(double rate) {
 }
 
 /// Kinetic (armature included) and potential energy of a state.
-double energy(const Character& c, Simulation<double>& s) {
+double mechanical_energy(const Character& c, Simulation<double>& s) {
   update_kinematics(s.model, s.state, s.data);
   const Bodies<double> b{c, s.data, 0};
   double sum = 0;
@@ -227,9 +227,9 @@ TEST(Step, FreeTumbleEnergyErrorIsOfFirstOrderInTheTimeStep) {
   for (std::size_t k = 0; k < error.size(); ++k) {
     const double rate = 480.0 * static_cast<double>(1 << k);
     Simulation<double> s(c, flight(rate), start);
-    const double before = energy(c, s);
+    const double before = mechanical_energy(c, s);
     for (int n = 0; n < static_cast<int>(0.5 * rate); ++n) s.advance();
-    error[k] = energy(c, s) - before;
+    error[k] = mechanical_energy(c, s) - before;
   }
   std::printf("  measured: energy error after 0.5 s at 480, 960, 1920, 3840 Hz: %.3f %.3f %.3f %.3f J\n",
               error[0], error[1], error[2], error[3]);

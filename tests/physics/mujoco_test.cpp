@@ -34,7 +34,7 @@ struct MujocoTrial {
   }
 };
 
-double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+double matrix_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
@@ -49,7 +49,7 @@ TEST(Mujoco, MassMatrixAndBiasForcesAgreeWithTheOracle) {
     const Eigen::MatrixXd P = coordinates(*t.mujoco, t.snapshot);
     const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
     const test::BookPosition q = book_position(t.snapshot);
-    EXPECT_LT(relative_difference(P.transpose() * test::book_mass_matrix(book, q) * P, M), 1e-8);
+    EXPECT_LT(matrix_difference(P.transpose() * test::book_mass_matrix(book, q) * P, M), 1e-8);
 
     // At zero acceleration in MuJoCo's coordinates the pelvis' spatial acceleration is −ω × v.
     const Eigen::VectorXd qd = book_velocity(t.snapshot);
@@ -57,7 +57,7 @@ TEST(Mujoco, MassMatrixAndBiasForcesAgreeWithTheOracle) {
     qdd.segment<3>(3) = -qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
     const Eigen::VectorXd bias =
         P.transpose() * test::book_inverse_dynamics(book, q, qd, qdd, test::no_forces());
-    EXPECT_LT(relative_difference(bias, Eigen::Map<Eigen::VectorXd>(d.qfrc_bias, test::kBookDofs)), 1e-8);
+    EXPECT_LT(matrix_difference(bias, Eigen::Map<Eigen::VectorXd>(d.qfrc_bias, test::kBookDofs)), 1e-8);
   }
 }
 
@@ -82,7 +82,7 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     const Eigen::VectorXd qd = book_velocity(t.snapshot);
     ours.segment<3>(3) += qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
     const Eigen::VectorXd theirs = P * Eigen::Map<Eigen::VectorXd>(d.qacc, test::kBookDofs);
-    EXPECT_LT(relative_difference(ours, theirs), 1e-8) << "trial " << n;
+    EXPECT_LT(matrix_difference(ours, theirs), 1e-8) << "trial " << n;
   }
 }
 
@@ -152,7 +152,7 @@ TEST(Mujoco, InverseDynamicsAgreesWithTheAudits) {
     const BodyWrenches wrenches = random_wrenches(random);
     const RequiredForces required = inverse_dynamics(t.character, t.config.gravity, state, wrenches);
     const RequiredForces theirs = test::mujoco_inverse_dynamics(*t.mujoco, state, wrenches);
-    EXPECT_LT(relative_difference(all_of(required), all_of(theirs)), 1e-8) << "trial " << n;
+    EXPECT_LT(matrix_difference(all_of(required), all_of(theirs)), 1e-8) << "trial " << n;
   }
 }
 

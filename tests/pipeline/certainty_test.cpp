@@ -8,10 +8,12 @@
 namespace mimicx::pipeline {
 namespace {
 
-motion::Reference walk() { return motion::prepare_reference(test::synthetic_clip("walk", 501), {}, nullptr); }
+motion::Reference walk_reference() {
+  return motion::prepare_reference(test::synthetic_clip("walk", 501), {}, nullptr);
+}
 
 TEST(Certainty, AnOrdinaryMotionIsCertain) {
-  const motion::Reference reference = walk();
+  const motion::Reference reference = walk_reference();
   const List<control::Certainty> certainty = certainty_of(reference, 150.0);
   ASSERT_EQ(certainty.count(), reference.size());
   for (const control::Certainty& frame : certainty)
@@ -21,7 +23,7 @@ TEST(Certainty, AnOrdinaryMotionIsCertain) {
 
 // A foot that is d away for one frame has accelerations of d, 2 d and d times the square of the frame rate.
 TEST(Certainty, AJumpOfALimbMakesThatLimbUncertainByTheFourthPower) {
-  motion::Reference reference = walk();
+  motion::Reference reference = walk_reference();
   for (motion::ReferenceFrame& frame : reference.frames) frame = reference.frames[0];
   for (BodyPoses& poses : reference.poses) poses = reference.poses[0];
   reference.poses[50].p_WB[kLeftFoot].x() += 0.25;
@@ -38,7 +40,7 @@ TEST(Certainty, AJumpOfALimbMakesThatLimbUncertainByTheFourthPower) {
 }
 
 TEST(Certainty, BridgedFramesAreUncertain) {
-  motion::Reference reference = walk();
+  motion::Reference reference = walk_reference();
   reference.flagged[20] = true;
   const List<control::Certainty> certainty = certainty_of(reference, 150.0);
   for (int body = 0; body < kBodies; ++body) {

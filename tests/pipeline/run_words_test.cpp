@@ -8,7 +8,7 @@
 namespace mimicx::pipeline {
 namespace {
 
-record::SequenceEntry walk() {
+record::SequenceEntry walk_entry() {
   record::SequenceEntry entry;
   entry.name = "walk";
   entry.ok = true;
@@ -28,7 +28,7 @@ record::SequenceEntry fallen(const std::string& name) {
 }
 
 TEST(ResultLine, SaysWhatBecameBetterAndLeavesOutWhatWasNoFault) {
-  EXPECT_EQ(result_line(walk()),
+  EXPECT_EQ(result_line(walk_entry()),
             "walk: ok, 12.0 mm from the reference, sliding 1.7 -> 0.2 mm a frame, floating 3.0 mm, "
             "jitter 90 -> 4 m/s^3");
 }
@@ -42,7 +42,7 @@ TEST(ResultLine, OfAFailureSaysWhy) {
 }
 
 TEST(Summary, CountsAndNamesFailuresAndTakesTheirNumbersOutOfTheMedians) {
-  std::vector<record::SequenceEntry> entries = {walk(), walk(), fallen("jump")};
+  std::vector<record::SequenceEntry> entries = {walk_entry(), walk_entry(), fallen("jump")};
   entries[1].metrics[0].second = 20.0;
   const std::vector<std::string> lines = summary(entries, 61.0, "to look at: out/report.html");
   const std::vector<std::string> expected = {"2 of 3 motions are ok: 10 s of motion in 1 min 01 s",
@@ -56,7 +56,7 @@ TEST(Summary, CountsAndNamesFailuresAndTakesTheirNumbersOutOfTheMedians) {
 }
 
 TEST(Summary, HasEightLinesAtMostHoweverManyFail) {
-  std::vector<record::SequenceEntry> entries(3, walk());
+  std::vector<record::SequenceEntry> entries(3, walk_entry());
   for (record::SequenceEntry& entry : entries)
     entry.input_metrics = {{"FS_gt", 2.0}, {"GP", 2.0}, {"Float_gt", 2.0}, {"Jitter", 2.0}};
   for (int k = 0; k < 9; ++k) entries.push_back(fallen("fall_" + std::to_string(k)));

@@ -10,18 +10,20 @@
 namespace mimicx::render {
 namespace {
 
-constexpr int kWidth = 40, kHeight = 30;
+constexpr int kGridWidth = 40, kGridHeight = 30;
 
 List<int> counts_of(const List<GridTriangle>& triangles) {
-  List<int> counts(kWidth * kHeight, 0);
+  List<int> counts(kGridWidth * kGridHeight, 0);
   for (const GridTriangle& t : triangles)
-    for_each_sample(t, kWidth, kHeight, [&](int x, int y, const Vector3d&) { ++counts[y * kWidth + x]; });
+    for_each_sample(t, kGridWidth, kGridHeight,
+                    [&](int x, int y, const Vector3d&) { ++counts[y * kGridWidth + x]; });
   return counts;
 }
 
 GridTriangle random_triangle(Random& random) {
   GridTriangle t;
-  for (GridPoint& p : t) p = on_grid({random.uniform(-10, kWidth + 10), random.uniform(-10, kHeight + 10)});
+  for (GridPoint& p : t)
+    p = on_grid({random.uniform(-10, kGridWidth + 10), random.uniform(-10, kGridHeight + 10)});
   return t;
 }
 
@@ -36,22 +38,22 @@ TEST(Raster, CoversTheSamplesInsideTheTriangleAndNoOthers) {
     for (int k = 0; k < 3; ++k)
       corners.col(k) << static_cast<double>(t[static_cast<std::size_t>(k)].x) / kSubSteps,
           static_cast<double>(t[static_cast<std::size_t>(k)].y) / kSubSteps, 1.0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kGridHeight; ++y)
+      for (int x = 0; x < kGridWidth; ++x) {
         const Vector3d w = corners.fullPivLu().solve(Vector3d(x + 0.5, y + 0.5, 1.0));
         if (std::abs(w.minCoeff()) < 1e-7) continue;  // on an edge
         ++decided;
-        ASSERT_EQ(counts[y * kWidth + x], faces_us && w.minCoeff() > 0.0 ? 1 : 0) << trial;
+        ASSERT_EQ(counts[y * kGridWidth + x], faces_us && w.minCoeff() > 0.0 ? 1 : 0) << trial;
       }
   }
-  EXPECT_GT(decided, 300 * kWidth * kHeight * 9 / 10);
+  EXPECT_GT(decided, 300 * kGridWidth * kGridHeight * 9 / 10);
 }
 
 TEST(Raster, WeightsAreThoseOfTheSampleInTheTriangle) {
   Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const GridTriangle t = random_triangle(random);
-    for_each_sample(t, kWidth, kHeight, [&](int x, int y, const Vector3d& w) {
+    for_each_sample(t, kGridWidth, kGridHeight, [&](int x, int y, const Vector3d& w) {
       double u = 0.0, v = 0.0;
       for (int k = 0; k < 3; ++k) {
         u += w[k] * static_cast<double>(t[static_cast<std::size_t>(k)].x) / kSubSteps;
@@ -77,16 +79,16 @@ TEST(Raster, TrianglesThatShareEdgesCoverEverySampleOnce) {
   List<GridTriangle> fan;
   for (int k = 0; k < rim.count(); ++k) fan.push_back({middle, rim[k], rim[(k + 1) % rim.count()]});
   const List<int> counts = counts_of(fan);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)  // upper and left edges belong to it, lower and right ones do not
-      ASSERT_EQ(counts[y * kWidth + x], x >= x0 && x < x1 && y >= y0 && y < y1 ? 1 : 0) << x << ' ' << y;
+  for (int y = 0; y < kGridHeight; ++y)
+    for (int x = 0; x < kGridWidth; ++x)  // upper and left edges belong to it, lower and right ones do not
+      ASSERT_EQ(counts[y * kGridWidth + x], x >= x0 && x < x1 && y >= y0 && y < y1 ? 1 : 0) << x << ' ' << y;
 }
 
 TEST(Raster, ATriangleThatIsTurnedAwayOrReachesFarBeyondTheGridDoesNoHarm) {
   EXPECT_EQ(counts_of({{on_grid({5, 5}), on_grid({5, 20}), on_grid({20, 5})}}),
-            List<int>(kWidth * kHeight, 0));
+            List<int>(kGridWidth * kGridHeight, 0));
   EXPECT_EQ(counts_of({{on_grid({-1e9, -1e9}), on_grid({1e9, -1e9}), on_grid({0, 1e9})}}),
-            List<int>(kWidth * kHeight, 1));
+            List<int>(kGridWidth * kGridHeight, 1));
 }
 
 }  // namespace

@@ -11,14 +11,14 @@ namespace {
 
 using nn::Matrix;
 
-nn::Matrix<float> normal_matrix(Eigen::Index rows, Eigen::Index cols, std::uint64_t seed) {
+nn::Matrix<float> random_observations(Eigen::Index rows, Eigen::Index cols, std::uint64_t seed) {
   Random random(seed);
   nn::Matrix<float> m(rows, cols);
   for (Eigen::Index k = 0; k < m.size(); ++k) m.data()[k] = static_cast<float>(random.normal());
   return m;
 }
 
-Agent small_agent() {
+Agent agent_of_six() {
   AgentShape shape;
   shape.observation_dim = 6;
   shape.action_dim = 3;
@@ -51,7 +51,7 @@ TEST(Policy, ActionsScatterAroundTheMeanWithSigma) {
 }
 
 TEST(Policy, DensityIsThatOfTheSampledActions) {
-  const nn::Matrix<float> means = normal_matrix(50, 4, 1);
+  const nn::Matrix<float> means = random_observations(50, 4, 1);
   const double sigma = 0.2;
   nn::Matrix<float> actions;
   Eigen::VectorXf density(50);
@@ -64,10 +64,10 @@ TEST(Policy, DensityIsThatOfTheSampledActions) {
 }
 
 TEST(Policy, UntrainedPolicyActsNearZero) {
-  const Agent agent = small_agent();
+  const Agent agent = agent_of_six();
   nn::Workspace<float> workspace;
   nn::Matrix<float> means;
-  nn::evaluate(agent.actor, normal_matrix(200, 6, 5), workspace, means);
+  nn::evaluate(agent.actor, random_observations(200, 6, 5), workspace, means);
   EXPECT_LT(means.cwiseAbs().maxCoeff(), 0.1F);
   EXPECT_GT(means.cwiseAbs().maxCoeff(), 0.0F);
 }
@@ -90,14 +90,14 @@ TEST(Policy, ConstantAndZeroReturnsHaveAFiniteScale) {
 }
 
 TEST(Policy, SavedAgentIsTheSameAgent) {
-  Agent agent = small_agent();
+  Agent agent = agent_of_six();
   follow_returns(agent.returns, 3.0, 11.0, 0.1);
-  const std::vector<nn::Moments> seen = {nn::moments_of(normal_matrix(40, 6, 8))};
+  const std::vector<nn::Moments> seen = {nn::moments_of(random_observations(40, 6, 8))};
   nn::update(agent.observations, std::span<const nn::Moments>(seen));
   Npz archive;
   save(archive, "a.", agent);
   const Agent loaded = load_agent(archive, "a.");
-  const nn::Matrix<float> raw = normal_matrix(20, 6, 9);
+  const nn::Matrix<float> raw = random_observations(20, 6, 9);
   nn::Matrix<float> x, y;
   nn::normalise(agent.observations, raw, x);
   nn::normalise(loaded.observations, raw, y);
@@ -109,7 +109,7 @@ TEST(Policy, SavedAgentIsTheSameAgent) {
 
 TEST(Policy, TextForTheScaleOfReturnsIsRefused) {
   Npz archive;
-  save(archive, "a.", small_agent());
+  save(archive, "a.", agent_of_six());
   archive.set("a.returns.scale", NpyArray::scalar_text("1.0"));
   EXPECT_THROW(load_agent(archive, "a."), DataError);
 }

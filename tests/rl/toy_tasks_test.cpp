@@ -13,7 +13,7 @@ namespace {
 using namespace toy;
 
 constexpr int kThreads = 1;
-constexpr Course kCourse = {.seed = 1, .falling_samples = 2'000'000};
+constexpr Course kToyCourse = {.seed = 1, .falling_samples = 2'000'000};
 
 Agent agent_for(int observations, int actions, std::uint64_t seed) {
   AgentShape shape;
@@ -66,7 +66,7 @@ TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
   Agent agent = agent_for(2, 1, 1);
   Random random(1);
   agent.actor = nn::make_mlp<float>({2, 1}, nn::Activation::kLinear, 0.02F, random);
-  PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kCourse, {agent}, world);
+  PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kToyCourse, {agent}, world);
   Eigen::RowVector3d law = Eigen::RowVector3d::Zero();
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
   for (int k = 0; k < 50; ++k) {  // it goes on trembling about the optimum: take the mean
@@ -112,7 +112,7 @@ TEST(ToyTasks, PendulumSwingsUp) {
 template <class Task>
 double learned_value(const PpoConfig& config) {
   toy::ToyEnvironment<Task> world(2, 32, 4);
-  PpoTrainer<toy::ToyEnvironment<Task>> trainer(config, kCourse, {agent_for(2, 1, 4)}, world);
+  PpoTrainer<toy::ToyEnvironment<Task>> trainer(config, kToyCourse, {agent_for(2, 1, 4)}, world);
   for (int k = 0; k < 150; ++k) trainer.iterate(kThreads);
   double sum = 0.0;
   for (const GroupRollout& group : trainer.buffer().groups) sum += group.values.cast<double>().sum();
@@ -140,7 +140,7 @@ TEST(ToyTasks, StepSizeFindsTheTargetKlFromFarBelowAndAbove) {
     config.sigma_start = config.sigma_end = 0.1;
     config.step_size = start;
     config.step_max = 1.0;
-    PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kCourse, {agent_for(2, 1, 5)},
+    PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kToyCourse, {agent_for(2, 1, 5)},
                                                                    world);
     for (int k = 0; k < 40; ++k) trainer.iterate(kThreads);
     double kl = 0.0;

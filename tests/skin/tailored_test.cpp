@@ -10,19 +10,19 @@ namespace {
 constexpr int kTriangles = 3000;
 constexpr double kCell = 0.026;
 
-const Mesh& standard_mesh() {
+const Mesh& coarse_mesh() {
   static const Mesh mesh = mannequin(make_character(), kTriangles, kCell);
   return mesh;
 }
 
 TEST(Tailored, OnACoarseLatticeTheMannequinIsStillOneClosedBody) {
-  const Topology topology = topology_of(standard_mesh());
+  const Topology topology = topology_of(coarse_mesh());
   EXPECT_TRUE(topology.closed && topology.fans);
   EXPECT_EQ(topology.euler, std::vector<int>{2});
 }
 
 TEST(Tailored, OnItsOwnBodyItStaysWhereItIs) {
-  const Mesh& mesh = standard_mesh();
+  const Mesh& mesh = coarse_mesh();
   const Mesh same = tailored(mesh, make_character(), make_character());
   for (int v = 0; v < mesh.vertices.count(); ++v)
     EXPECT_LT((same.vertices[v] - mesh.vertices[v]).norm(), 0.002) << v;
@@ -33,9 +33,9 @@ TEST(Tailored, LiesOnTheSurfaceOfTheOtherBodyWithTrianglesThatFaceOutward) {
   for (const std::array<double, kBetas>& betas :
        {std::array<double, kBetas>{0, 4}, {0.4, 1.7, 2.0, -2.8, 2.0, 1.9, -0.8, -1.6, -1.9, 0.2}}) {
     const Character other = make_character(betas);
-    const Mesh mesh = tailored(standard_mesh(), standard, other);
-    EXPECT_EQ(mesh.triangles, standard_mesh().triangles);
-    EXPECT_EQ(mesh.weights, standard_mesh().weights);
+    const Mesh mesh = tailored(coarse_mesh(), standard, other);
+    EXPECT_EQ(mesh.triangles, coarse_mesh().triangles);
+    EXPECT_EQ(mesh.weights, coarse_mesh().weights);
     const Flesh flesh(other);
     for (const Vector3d& p : mesh.vertices) EXPECT_LT(std::abs(flesh.distance(p)), 0.005);
     int inward = 0;

@@ -13,7 +13,7 @@
 namespace mimicx::teaching {
 namespace {
 
-SchoolConfig quick() {
+SchoolConfig quick_school() {
   SchoolConfig config;
   config.hidden = {32, 16};
   config.rounds = 4;
@@ -25,7 +25,7 @@ SchoolConfig quick() {
 
 /// Enough to learn the squat.
 SchoolConfig thorough() {
-  SchoolConfig config = quick();
+  SchoolConfig config = quick_school();
   config.hidden = {64, 64};
   config.rounds = 8;
   config.packs = 4;
@@ -58,7 +58,7 @@ TEST(School, AFewRoundsTeachAMotion) {
 }
 
 TEST(School, VisitsEveryTeacherOnceBeforeAnyComesAgain) {
-  SchoolConfig config = quick();
+  SchoolConfig config = quick_school();
   config.packs = 3;
   Pupil pupil = new_pupil(config);
   std::mutex mutex;
@@ -80,7 +80,7 @@ TEST(School, VisitsEveryTeacherOnceBeforeAnyComesAgain) {
 }
 
 TEST(School, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
-  SchoolConfig config = quick();
+  SchoolConfig config = quick_school();
   const std::string one = bytes_of(taught(config, 1));
   EXPECT_EQ(one, bytes_of(taught(config, 2)));
   config.seed = 2;
@@ -88,7 +88,7 @@ TEST(School, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
 }
 
 TEST(School, APupilThatWasSavedAndLoadedGoesOnWithTheSameBytes) {
-  const SchoolConfig config = quick();
+  const SchoolConfig config = quick_school();
   Pupil pupil = new_pupil(config);
   for (int round = 0; round < config.rounds; ++round) {
     Npz archive;
@@ -110,7 +110,7 @@ TEST(School, MomentsOfAnotherNetworkAreRefused) {
 }
 
 TEST(School, OneThatIsStoppedLeavesThePupilAsItWas) {
-  const SchoolConfig config = quick();
+  const SchoolConfig config = quick_school();
   Pupil pupil = new_pupil(config);
   teach_round(squat, 3, {}, config, {.threads = 1}, pupil);
   const std::string before = bytes_of(pupil);
@@ -134,7 +134,7 @@ nn::Matrix<float> first_action(const rl::Agent& agent, float beta) {
 }
 
 TEST(School, TheShapeOfTheBodyIsSeenOnlyWhereThatIsAskedFor) {
-  SchoolConfig config = quick();
+  SchoolConfig config = quick_school();
   config.rounds = 1;
   const rl::Agent blind = taught(config).agent;
   EXPECT_EQ(first_action(blind, 0.0f), first_action(blind, 3.0f));
@@ -182,7 +182,7 @@ TEST(School, APupilThatAlsoSeesTheMirrorImageFavoursNoSide) {
 }
 
 TEST(School, DecayMakesWeightsSmallerAndLeavesBiases) {
-  SchoolConfig config = quick();
+  SchoolConfig config = quick_school();
   config.step_size = config.last_step_size = 1e-9;  // hardly learns
   config.rounds = 1;
   const nn::Mlp<float> before = new_pupil(config).agent.actor;

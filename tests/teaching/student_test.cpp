@@ -9,7 +9,7 @@
 namespace mimicx::teaching {
 namespace {
 
-StudentConfig quick() {
+StudentConfig quick_student() {
   StudentConfig config;
   config.rounds = 5;
   config.stages = 1;
@@ -20,7 +20,7 @@ StudentConfig quick() {
 
 TEST(Student, FollowsASquatAloneAndUnderPushes) {
   const Teacher& teacher = teacher_of_squat();
-  StudentConfig config = quick();
+  StudentConfig config = quick_student();
   config.rounds = 6;
   config.least_steps = 120;
   const rl::Agent agent = teach(teacher, {}, config, {.threads = 2}).value();
@@ -32,8 +32,8 @@ TEST(Student, FollowsASquatAloneAndUnderPushes) {
 }
 
 TEST(Student, IsTheSameForAnyNumberOfThreads) {
-  const rl::Agent one = teach(teacher_of_squat(), {}, quick(), {.threads = 1}).value(),
-                  two = teach(teacher_of_squat(), {}, quick(), {.threads = 2}).value();
+  const rl::Agent one = teach(teacher_of_squat(), {}, quick_student(), {.threads = 1}).value(),
+                  two = teach(teacher_of_squat(), {}, quick_student(), {.threads = 2}).value();
   for (int layer = 0; layer < one.actor.layers(); ++layer) {
     EXPECT_EQ(one.actor.weights[static_cast<std::size_t>(layer)],
               two.actor.weights[static_cast<std::size_t>(layer)]);
@@ -44,7 +44,7 @@ TEST(Student, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Student, AnotherSeedIsAnotherStudent) {
-  StudentConfig config = quick();
+  StudentConfig config = quick_student();
   config.rounds = 1;
   const rl::Agent one = teach(teacher_of_squat(), {}, config, {}).value();
   config.seed = 2;
@@ -52,7 +52,7 @@ TEST(Student, AnotherSeedIsAnotherStudent) {
 }
 
 TEST(Student, GoesOnInStagesUntilItFollows) {
-  StudentConfig config = quick();
+  StudentConfig config = quick_student();
   config.rounds = 2;
   config.stages = 3;
   config.step_size = config.last_step_size = 1.0;  // far too large: it learns nonsense, and falls
@@ -62,7 +62,7 @@ TEST(Student, GoesOnInStagesUntilItFollows) {
 }
 
 TEST(Student, GivesWayToAWiderOneWhereTheFirstStageFails) {
-  StudentConfig config = quick();
+  StudentConfig config = quick_student();
   config.rounds = 2;
   config.stages = 2;
   config.step_size = config.last_step_size = 1.0;  // far too large: it learns nonsense, and falls
@@ -73,7 +73,7 @@ TEST(Student, GivesWayToAWiderOneWhereTheFirstStageFails) {
 }
 
 TEST(Student, LessonsStayWithinTheirBound) {
-  StudentConfig config = quick();
+  StudentConfig config = quick_student();
   config.rounds = 3;
   config.most_rows = 100;
   int taken = 0;
@@ -86,7 +86,7 @@ TEST(Student, StopsWhenItIsTold) {
   control::PlanControl control;
   int asked = 0;
   control.should_stop = [&] { return ++asked > 10; };
-  EXPECT_FALSE(teach(teacher_of_squat(), {}, quick(), control));
+  EXPECT_FALSE(teach(teacher_of_squat(), {}, quick_student(), control));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidth = 0.1;  ///< s, σ of the Gaussian
 constexpr double kReach = 3.0;  ///< in its σ
 
-Quaterniond turn_of(const Eigen::Matrix4d& E) { return Quaterniond(Matrix3d(E.topLeftCorner<3, 3>())); }
+Quaterniond camera_turn(const Eigen::Matrix4d& E) { return Quaterniond(Matrix3d(E.topLeftCorner<3, 3>())); }
 
 Vector3d eye_of(const Eigen::Matrix4d& E) {
   return -E.topLeftCorner<3, 3>().transpose() * E.topRightCorner<3, 1>();
@@ -23,13 +23,13 @@ Vector3d eye_of(const Eigen::Matrix4d& E) {
 /// Mean turn and place around a frame: as many frames before it as after it, so that a steady pan stays.
 Eigen::Matrix4d mean_around(const PerFrame<Eigen::Matrix4d>& path, int t, double sigma) {
   const int reach = std::min({static_cast<int>(kReach * sigma), t, path.count() - 1 - t});
-  const Quaterniond middle = turn_of(path[t]);
+  const Quaterniond middle = camera_turn(path[t]);
   Eigen::Vector4d turn = Eigen::Vector4d::Zero();
   Vector3d eye = Vector3d::Zero();
   double sum = 0.0;
   for (int i = t - reach; i <= t + reach; ++i) {
     const double w = exp(-0.5 * pow((i - t) / sigma, 2));
-    const Eigen::Vector4d q = turn_of(path[i]).coeffs();
+    const Eigen::Vector4d q = camera_turn(path[i]).coeffs();
     turn += w * (q.dot(middle.coeffs()) < 0.0 ? Eigen::Vector4d(-q) : q);
     eye += w * eye_of(path[i]);
     sum += w;
@@ -47,7 +47,7 @@ CameraJitter jitter_of_camera(const PerFrame<Eigen::Matrix4d>& path) {
   for (int t = 0; t + 3 < path.count(); ++t) {
     Array<Vector3d, 3> step;
     for (int i = 0; i < 3; ++i)
-      step[i] = log_map(turn_of(path[t + i + 1]) * turn_of(path[t + i]).conjugate());
+      step[i] = log_map(camera_turn(path[t + i + 1]) * camera_turn(path[t + i]).conjugate());
     const Vector3d turn = step[0] - 2.0 * step[1] + step[2];
     const Vector3d place =
         eye_of(path[t + 3]) - 3.0 * eye_of(path[t + 2]) + 3.0 * eye_of(path[t + 1]) - eye_of(path[t]);

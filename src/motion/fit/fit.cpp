@@ -9,11 +9,11 @@
 namespace mimicx::motion::fit {
 namespace {
 
-constexpr std::size_t kFewestPoints = 6;  ///< joints among the keypoints, else there is nothing to fit to
+constexpr std::size_t kFewestKeypoints = 6;  ///< joints among the keypoints, else there is nothing to fit to
 
 /// Why there is nothing to fit to; empty where there is.
 std::string reason_to_refuse(const FitProblem& problem) {
-  if (problem.points.size() < kFewestPoints) return "too few keypoints of known joints: left as it is";
+  if (problem.points.size() < kFewestKeypoints) return "too few keypoints of known joints: left as it is";
   const auto seen = std::count_if(problem.box.begin(), problem.box.end(), [](double b) { return b > 0.0; });
   if (2 * seen < problem.frames()) return "the camera does not see the motion: left as it is";
   return "";

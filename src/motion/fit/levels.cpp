@@ -17,8 +17,6 @@ constexpr double kPooledCounts = 100.0;  ///< that the σ of all keypoints count
 constexpr double kConfidenceSpread = 0.5;  ///< σ of the told power of the confidence
 constexpr double kMostPower = 4.0;
 
-double square(double x) { return x * x; }
-
 /// Expected square of a keypoint's error in a frame: the state's, and what the state does not know.
 double expected_square(const FitProblem& problem, const FitState& state,
                        const PerFrame<FrameKinematics>& motion, const std::vector<BandSolution>& draws, int t,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "motion/fit/detection_rows.h"
@@ -39,7 +40,6 @@ struct DifferenceWeights {
         pull(diagonal) {}
 };
 
-double square(double x) { return x * x; }
 /// Weight of a residual under a Cauchy kernel: 1 at 0, one half at `width`.
 double cauchy(double squared_residual, double width) {
   return 1.0 / (1.0 + squared_residual / square(width));

@@ -63,11 +63,6 @@ Quaterniond frame_of(const Vector3d& across, const Vector3d& along) {
   return Quaterniond(m);
 }
 
-/// q turned by the shortest way so that its image of `rest` points along `bone`.
-Quaterniond swung(const Quaterniond& q, const Vector3d& rest, const Vector3d& bone) {
-  return (rotation_between(q * rest, bone) * q).normalized();
-}
-
 /// An upper limb, whose hinge stands across the plane of its two bones where these are not in line.
 /// @param q  of the limb, its bone in place
 Quaterniond with_hinge(const Quaterniond& q, int hinge, const Vector3d& upper, const Vector3d& lower) {

@@ -37,8 +37,8 @@ constexpr double kSameRate = 0.1;            ///< relative difference of the rat
 
 // Floor and speeds.
 constexpr double kFloorShare = 0.05;
-constexpr double kFastPelvis = 8.0;  ///< m/s in the median: a sprinter's pace
-constexpr double kFastJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
+constexpr double kFastPelvis = 8.0;     ///< m/s in the median: a sprinter's pace
+constexpr double kSuspectJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
 
 /// Quantile of the finite values: absurd input may lead to others. 0 where there is none.
 double finite_quantile(std::vector<double> values, double share) {
@@ -241,7 +241,7 @@ std::vector<std::string> implausible_speeds(const Clip& clip) {
   if (const double speed = finite_quantile(pelvis, 0.5); speed > kFastPelvis)
     said.push_back("the pelvis moves at " + short_number(speed) +
                    " m/s in the median: are scale and frame rate right? (--scale, --fps)");
-  if (const double speed = finite_quantile(fastest, 0.99); speed > kFastJoint)
+  if (const double speed = finite_quantile(fastest, 0.99); speed > kSuspectJoint)
     said.push_back("a joint reaches " + short_number(speed) +
                    " m/s: are scale and frame rate right? (--scale, --fps)");
   return said;

@@ -24,11 +24,6 @@ Vector3d bone_direction(const Character& character, int body) {
   return character.joint_offset[bone_end(body)].normalized();
 }
 
-/// The shortest rotation in the world that takes q's image of `from` to `to`, applied to q.
-Quaterniond swung(const Quaterniond& q, const Vector3d& from, const Vector3d& to) {
-  return (rotation_between(q * from, to) * q).normalized();
-}
-
 /// The rotation that takes a to u exactly, and b into the half plane of u and v.
 Quaterniond aligned(const Vector3d& a, const Vector3d& b, const Vector3d& u, const Vector3d& v) {
   const auto frame = [](const Vector3d& first, const Vector3d& second) {

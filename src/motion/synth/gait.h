@@ -3,6 +3,7 @@
 /// What it does not do: decide where the feet go (FootSwing, motion/synth/plan.h).
 #pragma once
 
+#include "core/units.h"
 #include "motion/synth/plan.h"
 
 namespace mimicx::motion::synth {
@@ -11,6 +12,8 @@ namespace mimicx::motion::synth {
 struct GaitStyle {
   double arm_swing, pelvis_turn, pelvis_drop, trunk_lean;  ///< rad
 };
+/// Of somebody who stands and does something else: next to nothing.
+inline constexpr GaitStyle kQuiet = {0.0, 0.0, 2.0 * kDegree, 0.0};
 
 /// Pelvis, trunk, arms and height follow the feet: what swings the arms is which foot is ahead.
 /// @param plan  feet and heading set; posture and height those of standing

@@ -11,9 +11,9 @@ namespace mimicx::motion::synth {
 namespace {
 
 constexpr double kPercent = 0.01;
-constexpr double kWanderTau = 0.25, kHiddenTau = 0.15, kConfidenceTau = 0.3;  // s
+constexpr double kKeypointTau = 0.25, kHiddenTau = 0.15, kConfidenceTau = 0.3;  // s
 constexpr int kTailFreedom = 3;  ///< of Student's t of the errors frame by frame
-constexpr double kSwapShortest = 2, kSwapLongest = 12, kGapShortest = 2, kGapLongest = 8;  // frames
+constexpr double kConfusionShortest = 2, kConfusionLongest = 12, kGapShortest = 2, kGapLongest = 8;  // frames
 constexpr double kMeanConfidence = 0.8, kLeastConfidence = 0.05;
 constexpr double kTypicalError = 0.01;  ///< of the box: of a detection of mean confidence
 constexpr double kFarOdds = 2.0;        ///< bound of the logarithm of an error over the typical one
@@ -43,8 +43,8 @@ ErrorNoise drawn_noise(std::uint64_t seed, std::size_t k, int frames, double fps
   Random wander(seed, {kWanderStream, k}), hidden(seed, {kHiddenStream, k}),
       confidence(seed, {kConfidenceStream, k});
   ErrorNoise noise{{}, {}, {}, {}, {}, Random(seed, {kTailStream, k})};
-  noise.wander_u = smooth_noise(wander, frames, kWanderTau * fps);
-  noise.wander_v = smooth_noise(wander, frames, kWanderTau * fps);
+  noise.wander_u = smooth_noise(wander, frames, kKeypointTau * fps);
+  noise.wander_v = smooth_noise(wander, frames, kKeypointTau * fps);
   noise.hidden_u = smooth_noise(hidden, frames, kHiddenTau * fps);
   noise.hidden_v = smooth_noise(hidden, frames, kHiddenTau * fps);
   noise.confidence = smooth_noise(confidence, frames, kConfidenceTau * fps);
@@ -75,7 +75,7 @@ void mix_up_sides(const std::vector<Landmark>& points, double rate, std::uint64_
   static constexpr Array<int, 4> kMixed = {kLeftHip, kLeftShoulder, kLeftElbow, kLeftKnee};
   Random random(seed, {kMixUpStream});
   for (const Interval& interval :
-       poisson_intervals(random, rate, kSwapShortest, kSwapLongest, uvc.count(), fps)) {
+       poisson_intervals(random, rate, kConfusionShortest, kConfusionLongest, uvc.count(), fps)) {
     const int limb = kMixed[random.below(kMixed.size())];
     for (int t = interval.first; t < interval.first + interval.length; ++t)
       for (std::size_t k = 0; k < points.size(); ++k)

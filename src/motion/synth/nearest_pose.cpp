@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "core/elementary.h"
+
 namespace mimicx::motion::synth {
 namespace {
 
@@ -22,8 +24,6 @@ using Jacobian = Eigen::Matrix<double, 3, kUnknowns>;
 /// First unknown of a body's turn, in the body's own frame; 0 to 2 are the root's place.
 constexpr int turn_of(int body) { return body == kPelvis ? 3 : 6 + first_dof(body); }
 bool turns_about_hinge(int body) { return body != kPelvis && is_hinge(body); }
-
-double square(double x) { return x * x; }
 
 /// A sum of squares (w (r + gᵀδ))².
 class Squares {
@@ -116,7 +116,7 @@ double cost(const Character& c, const PoseTargets& wanted, const SynthPose& pose
   return sum + square(kBalance) * (center_of_mass(c, poses).head<2>() - wanted.com).squaredNorm();
 }
 
-SynthPose moved(SynthPose pose, const Row& step) {
+SynthPose stepped(SynthPose pose, const Row& step) {
   pose.p_root += step.head<3>();
   for (int b = 0; b < kBodies; ++b) {
     const Vector3d turn = turns_about_hinge(b) ? Vector3d(step[turn_of(b)] * hinge_axis(b))
@@ -142,7 +142,7 @@ SynthPose nearest_pose(const Character& character, const PoseTargets& wanted, co
     // Points that come to the floor or leave it make full steps go to and fro.
     for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
       length = step.cwiseAbs().maxCoeff();
-      const SynthPose next = moved(pose, step);
+      const SynthPose next = stepped(pose, step);
       const double next_costs = cost(character, wanted, next);
       if (next_costs >= costs && halving + 1 < kHalvings) continue;
       pose = next;

@@ -8,13 +8,13 @@ namespace {
 
 constexpr Array<const char*, kCarriers> kCarrierNames = {"right_foot", "left_foot", "rest"};
 
-void add(double value, std::string& text) {
+void add_cells(double value, std::string& text) {
   char number[40];
   std::snprintf(number, sizeof number, ",%.9g", value == 0.0 ? 0.0 : value);  // no "-0"
   text += number;
 }
-void add(const Vector3d& v, std::string& text) {
-  for (const double value : v) add(value, text);
+void add_cells(const Vector3d& v, std::string& text) {
+  for (const double value : v) add_cells(value, text);
 }
 
 void add_names(const std::string& name, const char* unit, std::string& text) {
@@ -42,20 +42,20 @@ std::string heading(bool with_forces) {
 
 void add_forces(const FloorForces& floor, const PerBody<Vector3d>& torque, std::string& text) {
   for (const FloorForce& f : floor) {
-    add(f.force, text);
+    add_cells(f.force, text);
     if (f.loaded) {
-      add(f.point.x(), text);
-      add(f.point.y(), text);
-      add(f.free_moment, text);
+      add_cells(f.point.x(), text);
+      add_cells(f.point.y(), text);
+      add_cells(f.free_moment, text);
     } else {
       text += ",,,";
     }
   }
   for (int b = 1; b < kBodies; ++b) {
     if (is_hinge(b))
-      add(torque[b].dot(hinge_axis(b)), text);
+      add_cells(torque[b].dot(hinge_axis(b)), text);
     else
-      add(torque[b], text);
+      add_cells(torque[b], text);
   }
 }
 
@@ -69,9 +69,9 @@ std::string format_csv(const motion::Clip& clip, const std::optional<RecordedFor
   for (int t = 0; t < clip.frames(); ++t) {
     std::snprintf(number, sizeof number, "%.9f", t / clip.fps);
     text += number;
-    for (const Vector3d& p : poses[t].p_WB) add(p, text);
+    for (const Vector3d& p : poses[t].p_WB) add_cells(p, text);
     const Quaterniond& q = poses[t].q_WB[kPelvis];
-    for (const double value : {q.w(), q.x(), q.y(), q.z()}) add(value, text);
+    for (const double value : {q.w(), q.x(), q.y(), q.z()}) add_cells(value, text);
     if (forces && t > 0) add_forces(floor[t - 1], forces->torque[t], text);
     if (forces && t == 0) text += std::string(6 * kCarriers + kDofs, ',');
     text += '\n';

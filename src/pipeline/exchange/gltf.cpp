@@ -16,11 +16,11 @@ constexpr Array<const char*, kCarriers> kArrowNames = {"right_foot_force", "left
 
 Quaterniond to_y_up() { return exp_map(Vector3d(-0.5 * std::numbers::pi, 0, 0)); }
 
-void add(const Vector3d& v, std::vector<float>& values) {
+void add_floats(const Vector3d& v, std::vector<float>& values) {
   for (const double x : v) values.push_back(static_cast<float>(x));
 }
 /// x, y, z, w, as glTF has it. @param before  the key before, which is brought to the nearer sign
-void add(Quaterniond q, Quaterniond& before, std::vector<float>& values) {
+void add_floats(Quaterniond q, Quaterniond& before, std::vector<float>& values) {
   if (q.dot(before) < 0.0) q.coeffs() *= -1.0;
   before = q;
   q.normalize();
@@ -99,8 +99,8 @@ class Writer {
                Json attributes) {
     std::vector<float> places, normals;
     std::vector<std::uint32_t> corners;
-    for (const Vector3d& p : mesh.vertices) add(Vector3d(p + moved), places);
-    for (const Vector3d& n : mesh.normals) add(n, normals);
+    for (const Vector3d& p : mesh.vertices) add_floats(Vector3d(p + moved), places);
+    for (const Vector3d& n : mesh.normals) add_floats(n, normals);
     for (const skin::Triangle& t : mesh.triangles)
       for (const int v : t) corners.push_back(static_cast<std::uint32_t>(v));
     attributes["POSITION"] = glb_.add(places, "VEC3", BufferUse::kVertices, true);
@@ -124,7 +124,7 @@ class Writer {
     }
     for (int b = 0; b < kBodies; ++b) {
       inverse_bind.insert(inverse_bind.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});  // column by column
-      add(Vector3d(-bind_[b] - lift_), inverse_bind);
+      add_floats(Vector3d(-bind_[b] - lift_), inverse_bind);
       inverse_bind.push_back(1);
     }
     Json attributes = Json::object();
@@ -166,13 +166,13 @@ class Writer {
     const Vector3d rest = rest_pelvis(clip_);
     const int times = add_times(clip_.frames(), 0.0);
     std::vector<float> places;
-    for (const Vector3d& trans : clip_.trans) add(Vector3d(turned * (trans + rest)), places);
+    for (const Vector3d& trans : clip_.trans) add_floats(Vector3d(turned * (trans + rest)), places);
     add_channel(0, "translation", times, glb_.add(places, "VEC3", BufferUse::kAnimation));
     for (int b = 0; b < kBodies; ++b) {
       std::vector<float> values;
       Quaterniond before = Quaterniond::Identity();
       for (int t = 0; t < clip_.frames(); ++t)
-        add(b == 0 ? turned * rotations[t][b] : rotations[t][b], before, values);
+        add_floats(b == 0 ? turned * rotations[t][b] : rotations[t][b], before, values);
       add_channel(b, "rotation", times, glb_.add(values, "VEC4", BufferUse::kAnimation));
     }
   }
@@ -197,9 +197,9 @@ class Writer {
     for (const FloorForces& row : floor) {
       const FloorForce& f = row[carrier];
       const double length = f.loaded ? kMetresPerNewton * f.force.norm() : 0.0, width = f.loaded ? 1.0 : 0.0;
-      add(Vector3d(turned * f.point), places);
-      add(f.loaded ? rotation_between(Vector3d::UnitY(), turned * f.force) : before, before, turns);
-      add(Vector3d(width, length, width), sizes);
+      add_floats(Vector3d(turned * f.point), places);
+      add_floats(f.loaded ? rotation_between(Vector3d::UnitY(), turned * f.force) : before, before, turns);
+      add_floats(Vector3d(width, length, width), sizes);
     }
     Json node = Json::object();
     node["name"] = name;

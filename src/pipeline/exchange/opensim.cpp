@@ -8,7 +8,7 @@ namespace {
 
 using Row = std::vector<double>;
 
-void add(const Vector3d& v, Row& row) { row.insert(row.end(), v.data(), v.data() + 3); }
+void add_to_row(const Vector3d& v, Row& row) { row.insert(row.end(), v.data(), v.data() + 3); }
 Vector3d to_ground(const Vector3d& v) { return {v.x(), v.z(), -v.y()}; }
 /// From our axes of a body (x to the left, y up, z forward).
 Vector3d to_segment(const Vector3d& v) { return {v.z(), v.y(), -v.x()}; }
@@ -56,9 +56,9 @@ std::string format_mot(const motion::Clip& clip, const RecordedForces& forces) {
   for (const FloorForces& now : floor) {
     Row row;
     for (int c = 0; c < carriers; ++c) {
-      add(to_ground(now[c].force), row);
-      add(to_ground(now[c].point), row);
-      add(to_ground(now[c].free_moment * Vector3d::UnitZ()), row);
+      add_to_row(to_ground(now[c].force), row);
+      add_to_row(to_ground(now[c].point), row);
+      add_to_row(to_ground(now[c].free_moment * Vector3d::UnitZ()), row);
     }
     rows.push_back(row);
   }
@@ -82,7 +82,7 @@ std::string format_sto(const motion::Clip& clip, const RecordedForces& forces) {
       if (is_hinge(b))
         row.push_back(torque.dot(hinge_axis(b)));
       else
-        add(to_segment(torque), row);
+        add_to_row(to_segment(torque), row);
     }
     rows.push_back(row);
   }

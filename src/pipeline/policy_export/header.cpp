@@ -48,7 +48,7 @@ std::string list_of(const T* values, std::size_t count) {
 }
 
 template <class T>
-std::string array_of(const std::string& name, const T* values, std::size_t count) {
+std::string c_array(const std::string& name, const T* values, std::size_t count) {
   return std::string("inline constexpr ") + type_name(T{}) + " " + name + "[" + std::to_string(count) +
          "] = {" + list_of(values, count) + "};\n";
 }
@@ -104,35 +104,35 @@ std::string joints(const Character& character) {
   }
   return names +
          "};\n// PD controllers, N·m/rad and N·m·s/rad, and the largest torque, N·m; entry 0 is not used\n" +
-         array_of("kStiffness", kp.data(), kp.size()) + array_of("kDamping", kd.data(), kd.size()) +
-         array_of("kTorqueLimit", torque.data(), torque.size()) +
+         c_array("kStiffness", kp.data(), kp.size()) + c_array("kDamping", kd.data(), kd.size()) +
+         c_array("kTorqueLimit", torque.data(), torque.size()) +
          "// Range: rotations from the centre (a rotation vector) stay inside an ellipsoid of these half "
          "axes, rad\n" +
-         array_of("kRangeCentre", centre.data(), centre.size()) +
-         array_of("kRangeHalfAxes", half.data(), half.size());
+         c_array("kRangeCentre", centre.data(), centre.size()) +
+         c_array("kRangeHalfAxes", half.data(), half.size());
 }
 
 template <class Weight>
 std::string data_of(const ExportedPolicy& exported, const Policy<Weight>& policy) {
   const MotionSpline& motion = exported.motion;
   const auto inputs = exported.inputs.size();
-  std::string out = array_of("kKnots", motion.knots.data(), motion.knots.size()) +
-                    array_of("kMiddle", policy.motion.middle, kChannels) +
-                    array_of("kStep", policy.motion.step, kChannels) +
-                    array_of("kSpeedCodes", motion.speeds.data(), motion.speeds.size()) +
-                    array_of("kSpeedStep", policy.motion.speed_step, kSpeeds) +
-                    array_of("kJointOffset", policy.joint_offset, 3 * kBodyCount) +
-                    array_of("kShape", policy.shape, kShapeCount) + array_of("kInput", policy.input, inputs) +
-                    array_of("kMean", policy.mean, inputs) + array_of("kFactor", policy.factor, inputs);
-  if (policy.power != nullptr) out += array_of("kPower", policy.power, inputs);
+  std::string out = c_array("kKnots", motion.knots.data(), motion.knots.size()) +
+                    c_array("kMiddle", policy.motion.middle, kChannels) +
+                    c_array("kStep", policy.motion.step, kChannels) +
+                    c_array("kSpeedCodes", motion.speeds.data(), motion.speeds.size()) +
+                    c_array("kSpeedStep", policy.motion.speed_step, kSpeeds) +
+                    c_array("kJointOffset", policy.joint_offset, 3 * kBodyCount) +
+                    c_array("kShape", policy.shape, kShapeCount) + c_array("kInput", policy.input, inputs) +
+                    c_array("kMean", policy.mean, inputs) + c_array("kFactor", policy.factor, inputs);
+  if (policy.power != nullptr) out += c_array("kPower", policy.power, inputs);
   std::string layers;
   for (int l = 0; l < policy.layers; ++l) {
     const Layer<Weight>& layer = policy.layer[l];
     const std::string number = std::to_string(l);
     const auto outputs = static_cast<std::size_t>(layer.outputs);
-    out += array_of("kWeights" + number, layer.weights, static_cast<std::size_t>(layer.inputs) * outputs);
-    if (layer.scales != nullptr) out += array_of("kScales" + number, layer.scales, outputs);
-    out += array_of("kBiases" + number, layer.biases, outputs);
+    out += c_array("kWeights" + number, layer.weights, static_cast<std::size_t>(layer.inputs) * outputs);
+    if (layer.scales != nullptr) out += c_array("kScales" + number, layer.scales, outputs);
+    out += c_array("kBiases" + number, layer.biases, outputs);
     layers += "    {" + std::to_string(layer.inputs) + ", " + std::to_string(layer.outputs) + ", kWeights" +
               number + ", " + (layer.scales != nullptr ? "kScales" + number : "nullptr") + ", kBiases" +
               number + "},\n";

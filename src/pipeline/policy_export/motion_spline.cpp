@@ -14,10 +14,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kLargest = 32766.0;      // of a 16-bit coefficient, one of its own for rounding
-constexpr double kFastest = 127.0;        // of an 8-bit speed
-constexpr double kVelocityWeight = 0.25;  // of a step's error per frame against an error of place
-constexpr double kTurnedTooFar = 20.0;    // tan(angle / 4): 348°
+constexpr double kLargestCoefficient = 32766.0;  // of a 16-bit coefficient, one of its own for rounding
+constexpr double kFastest = 127.0;               // of an 8-bit speed
+constexpr double kVelocityWeight = 0.25;         // of a step's error per frame against an error of place
+constexpr double kTurnedTooFar = 20.0;           // tan(angle / 4): 348°
 
 /// The quaternion of the same rotation that is nearer to the one before.
 Quaterniond nearer(const Quaterniond& q, const Quaterniond& before) {
@@ -149,7 +149,7 @@ MotionSpline fit_spline(const List<physics::State<double>>& states, double fps, 
   for (Index c = 0; c < kChannels; ++c) {
     const double least = coefficients.col(c).minCoeff(), most = coefficients.col(c).maxCoeff();
     const auto middle = static_cast<float>(0.5 * (least + most));
-    const auto step = static_cast<float>(std::max(0.5 * (most - least), 1e-6) / kLargest);
+    const auto step = static_cast<float>(std::max(0.5 * (most - least), 1e-6) / kLargestCoefficient);
     spline.middle.push_back(middle);
     spline.step.push_back(step);
     for (Index k = 0; k < knots; ++k)

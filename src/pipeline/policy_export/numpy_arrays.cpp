@@ -6,7 +6,7 @@
 namespace mimicx::pipeline::policy_export {
 namespace {
 
-NpyArray array_of(const nn::Matrix<float>& matrix) {
+NpyArray npy_of(const nn::Matrix<float>& matrix) {
   return NpyArray::from_float(
       {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())}, matrix.data());
 }
@@ -66,12 +66,12 @@ Npz to_arrays(const ExportedPolicy& exported) {
   npz.set("name", NpyArray::scalar_text(exported.meant.motion.name));
   npz.set("fps", NpyArray::scalar(exported.meant.motion.fps));
   npz.set("layers", NpyArray::scalar_int(agent.actor.layers()));
-  npz.set("mean", array_of(agent.observations.shift));
-  npz.set("factor", array_of(agent.observations.factor));
+  npz.set("mean", npy_of(agent.observations.shift));
+  npz.set("factor", npy_of(agent.observations.factor));
   npz.set("limit", NpyArray::scalar(static_cast<double>(agent.observations.limit)));
   for (std::size_t l = 0; l < agent.actor.weights.size(); ++l) {
-    npz.set("weight" + std::to_string(l), array_of(agent.actor.weights[l]));
-    npz.set("bias" + std::to_string(l), array_of(agent.actor.biases[l]));
+    npz.set("weight" + std::to_string(l), npy_of(agent.actor.weights[l]));
+    npz.set("bias" + std::to_string(l), npy_of(agent.actor.biases[l]));
   }
   output::add_states("state_", exported.meant.states, output::Precision::kFloat32, npz);
   add_body(exported.meant.motion.character, static_cast<double>(exported.max_action), npz);

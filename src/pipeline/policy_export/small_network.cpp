@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kLargest = 127.0;  // of an 8-bit weight
+constexpr double kLargestWeight = 127.0;  // of an 8-bit weight
 constexpr int kLargestPower = 30;
 constexpr double kDamping = 0.05;  // of the mean of H's diagonal
 constexpr Index kShapeAt = kPoseCount, kPoseAt = kShapeAt + kShapeCount, kDifferenceAt = kPoseAt + kPoseCount;
@@ -49,14 +49,15 @@ SmallLayer quantise_layer(const std::vector<std::int16_t>& rows, const std::vect
     most = most.cwiseMax(exact.row(r).cwiseAbs() * std::ldexp(1.0, -powers[k]));
   }
   SmallLayer small;
-  for (Index o = 0; o < outputs; ++o) small.scales.push_back(static_cast<float>(most[o] / kLargest));
+  for (Index o = 0; o < outputs; ++o) small.scales.push_back(static_cast<float>(most[o] / kLargestWeight));
   for (Index r = 0; r < count; ++r) {
     const auto k = static_cast<std::size_t>(r);
     Eigen::RowVectorXd error(outputs);
     for (Index o = 0; o < outputs; ++o) {
       const float scale = small.scales[static_cast<std::size_t>(o)];
       const double wanted = scale > 0.0F ? std::ldexp(exact(r, o), -powers[k]) / scale : 0.0;
-      const auto code = static_cast<std::int8_t>(std::clamp(std::round(wanted), -kLargest, kLargest));
+      const auto code =
+          static_cast<std::int8_t>(std::clamp(std::round(wanted), -kLargestWeight, kLargestWeight));
       small.codes.push_back(code);
       weights(rows[k], o) = std::ldexp(scale * static_cast<float>(code), powers[k]);
       error[o] = exact(r, o) - static_cast<double>(weights(rows[k], o));

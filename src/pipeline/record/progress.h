@@ -36,6 +36,8 @@ class Progress {
   double next_ = 0.0;  ///< time of the next line
 };
 
+inline constexpr double kProgressSeconds = 2.0;  ///< after which a job says how far it is
+
 /// Seconds of the steady clock.
 double steady_seconds();
 /// Whether standard error is a terminal.

@@ -13,11 +13,11 @@ namespace {
 constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
                                                  "limit-seconds", "followed", "lost"};
 
-double number(const Json& json) {
+double number_from_json(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-Json to_json(const FileChecksums& files) {
+Json checksums_json(const FileChecksums& files) {
   Json json = Json::object();
   for (const auto& [name, checksum] : files) json[to_utf8(name)] = checksum;
   return json;
@@ -39,7 +39,7 @@ Json to_json(const NamedValues& values) {
 
 NamedValues named_values(const Json& json) {
   NamedValues values;
-  for (const auto& [name, value] : json.items()) values.emplace_back(name, number(value));
+  for (const auto& [name, value] : json.items()) values.emplace_back(name, number_from_json(value));
   return values;
 }
 
@@ -71,7 +71,7 @@ Json to_json(const SequenceEntry& e) {
           {"feasibility", to_json(e.feasibility)},
           {"decisions", e.decisions},
           {"notes", e.notes},
-          {"files", to_json(e.files)}};
+          {"files", checksums_json(e.files)}};
 }
 
 SequenceEntry entry_of(const Json& json) {
@@ -88,8 +88,8 @@ SequenceEntry entry_of(const Json& json) {
   e.fps = json.at("fps");
   e.seed = json.at("seed");
   e.samples = json.at("samples");
-  e.reward_before = number(json.at("reward_before"));
-  e.reward_after = number(json.at("reward_after"));
+  e.reward_before = number_from_json(json.at("reward_before"));
+  e.reward_after = number_from_json(json.at("reward_after"));
   e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
   if (json.contains("plan")) e.plan = named_values(json.at("plan"));
   if (json.contains("policy")) e.policy = named_values(json.at("policy"));  // older manifests have none

@@ -17,7 +17,7 @@ constexpr double kVertexUnit = 0.4e-3;  ///< m
 constexpr double kFullWeight = 63.0;    ///< the largest digit
 constexpr double kPerMetre = 1e4;       ///< of bones and shapes
 
-void append(const Vector3d& p, record::Json& list) {
+void append_point(const Vector3d& p, record::Json& list) {
   for (const double x : p) list.push_back(rounded(x, kPerMetre));
 }
 
@@ -26,14 +26,14 @@ record::Json body_json(const Character& character) {
   record::Json offsets = record::Json::array(), shapes = record::Json::array();
   for (const Vector3d& offset : character.joint_offset) {
     record::Json one = record::Json::array();
-    append(offset, one);
+    append_point(offset, one);
     offsets.push_back(one);
   }
   for (const Capsule& c : skin::collision_capsules(character)) {
     record::Json one = record::Json::array();
     one.push_back(c.body);
-    append(c.a_B, one);
-    append(c.b_B, one);
+    append_point(c.a_B, one);
+    append_point(c.b_B, one);
     one.push_back(rounded(c.radius, kPerMetre));
     shapes.push_back(one);
   }

@@ -1,7 +1,6 @@
 #include "pipeline/report/camera.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "motion/keypoint_names.h"
 #include "pipeline/record/json.h"
@@ -10,8 +9,7 @@
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPerUnit = 1e8;          ///< of what is written of the camera: more than anybody sees
+constexpr double kCameraSteps = 1e8;      ///< of what is written of the camera: more than anybody sees
 constexpr double kTenths = 10.0;          ///< of a pixel
 constexpr double kFullConfidence = 63.0;  ///< the largest digit
 
@@ -30,12 +28,12 @@ record::Json placed_json(const PlacedCamera& camera) {
   for (const Eigen::Matrix4d& pose : camera.extrinsics) {
     record::Json one = record::Json::array();
     for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column) one.push_back(rounded(pose(row, column), kPerUnit));
+      for (int column = 0; column < 4; ++column) one.push_back(rounded(pose(row, column), kCameraSteps));
     extrinsics.push_back(one);
   }
-  return {{"fx", rounded(K(0, 0), kPerUnit)},   {"fy", rounded(K(1, 1), kPerUnit)},
-          {"cx", rounded(K(0, 2), kPerUnit)},   {"cy", rounded(K(1, 2), kPerUnit)},
-          {"skew", rounded(K(0, 1), kPerUnit)}, {"extrinsics", extrinsics}};
+  return {{"fx", rounded(K(0, 0), kCameraSteps)},   {"fy", rounded(K(1, 1), kCameraSteps)},
+          {"cx", rounded(K(0, 2), kCameraSteps)},   {"cy", rounded(K(1, 2), kCameraSteps)},
+          {"skew", rounded(K(0, 1), kCameraSteps)}, {"extrinsics", extrinsics}};
 }
 
 }  // namespace
@@ -75,12 +73,12 @@ std::vector<double> distances_from_seen(const ReportCamera& camera, const Placed
         const Vector3d image = from.intrinsics * (pose * p_W).head<3>();
         const double confidence = camera.uvc[t][k].z();
         if (confidence <= 0.0) continue;
-        sum +=
-            image.z() > 0.0 ? confidence * (image.hnormalized() - camera.uvc[t][k].head<2>()).norm() : kNone;
+        sum += image.z() > 0.0 ? confidence * (image.hnormalized() - camera.uvc[t][k].head<2>()).norm()
+                               : kNoValue;
         weight += confidence;
       }
     }
-    means.push_back(weight > 0.0 ? sum / weight : kNone);
+    means.push_back(weight > 0.0 ? sum / weight : kNoValue);
   }
   return means;
 }
@@ -93,7 +91,7 @@ std::string camera_json(const ReportCamera& camera) {
   for (const SeenPoint& point : camera.points) {
     record::Json one = record::Json::array();
     one.push_back(point.body);
-    for (const double x : point.p_B) one.push_back(rounded(x, kPerUnit));
+    for (const double x : point.p_B) one.push_back(rounded(x, kCameraSteps));
     json["points"].push_back(one);
   }
   Digits seen;

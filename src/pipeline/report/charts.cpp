@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "pipeline/report/digits.h"
 #include "rl/tracking/reward.h"
 
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastLoad = 0.02;  ///< of the weight, from which on a foot counts as loaded
 
 /// A line per motion.
@@ -27,7 +26,7 @@ template <class Value>
 std::vector<double> per_frame(const audit::Audit& audit, const Value& value) {
   std::vector<double> values;
   for (const audit::AuditRow& row : audit.rows) {
-    values.resize(std::max(values.size(), static_cast<std::size_t>(row.index) + 1), kNone);
+    values.resize(std::max(values.size(), static_cast<std::size_t>(row.index) + 1), kNoValue);
     values[static_cast<std::size_t>(row.index)] = value(row);
   }
   return values;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -16,11 +15,11 @@
 #include "pipeline/output/simulated_members.h"
 #include "pipeline/record/feasibility_file.h"
 #include "pipeline/report/charts.h"
+#include "pipeline/report/digits.h"
 
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kPhysics = "on the floor, and by itself";
 constexpr const char* kReference = "against the prepared reference";
 constexpr const char* kTruth = "against the truth";
@@ -148,7 +147,7 @@ Audits audits_of(const ClipFiles& files) {
 double mean_force(const audit::Audit& audit) {
   double sum = 0.0;
   for (const audit::AuditRow& row : audit.rows) sum += row.root.tail<3>().norm();
-  return audit.rows.empty() ? kNone : sum / static_cast<double>(audit.rows.size());
+  return audit.rows.empty() ? kNoValue : sum / static_cast<double>(audit.rows.size());
 }
 
 /// A bar is full where half the weight, or half the weight on an arm of a metre, would have to come from

@@ -45,7 +45,7 @@ std::string words_of(const Eigen::VectorXd& direction) {
   return text;
 }
 
-constexpr double kPerUnit = 1e4;  ///< more than a map shows
+constexpr double kMapSteps = 1e4;  ///< more than a map shows
 
 }  // namespace
 
@@ -89,10 +89,10 @@ std::string map_json(const ClusterMap& map) {
                        {"trained", record::Json::array()},
                        {"clips", record::Json::array()}};
   for (const MapAxis& axis : map.axes)
-    json["axes"].push_back({{"words", axis.words}, {"share", rounded(axis.share, kPerUnit)}});
+    json["axes"].push_back({{"words", axis.words}, {"share", rounded(axis.share, kMapSteps)}});
   const auto add = [&json](const char* list, const MapPoint& point, const record::Json& who) {
     record::Json one = record::Json::array();
-    for (const double x : point.at) one.push_back(rounded(x, kPerUnit));
+    for (const double x : point.at) one.push_back(rounded(x, kMapSteps));
     one.push_back(point.cluster);
     one.push_back(who);
     json[list].push_back(one);

@@ -3,9 +3,13 @@
 /// A number n of d digits is written as n + 2^(6d − 1): two digits reach ±2048, three ±131072.
 #pragma once
 
+#include <limits>
 #include <string>
 
 namespace mimicx::pipeline::report {
+
+/// Where a curve has no value: a gap in the chart.
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 class Digits {
  public:

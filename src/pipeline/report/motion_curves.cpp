@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/units.h"
+#include "pipeline/report/digits.h"
 
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlide = 5.0;  ///< mm/frame
 constexpr double kShake = 2.0;  ///< m/s²
 
@@ -27,7 +26,7 @@ double way(const Points& now, const Points& next, const Points& floor_now, const
     sum += (next[i] - now[i]).head<2>().norm();
     ++count;
   }
-  return count == 0 ? kNone : kMm * sum / count;
+  return count == 0 ? kNoValue : kMm * sum / count;
 }
 
 /// The larger way of the two feet while those of the cleaned motion stand.
@@ -50,9 +49,10 @@ MotionCurves curves_of(const motion::MotionSamples& motion) {
     const Points& now = motion.surface[t];
     curves.pelvis_height.push_back(motion.joints[t][kPelvis].z());
     curves.lowest.push_back(kMm * motion::lowest_height(now));
-    curves.slide.push_back(
-        t + 1 < frames ? way(now, motion.surface[t + 1], now, motion.surface[t + 1], 0, now.size()) : kNone);
-    double acceleration = t > 0 && t + 1 < frames ? 0.0 : kNone;
+    curves.slide.push_back(t + 1 < frames
+                               ? way(now, motion.surface[t + 1], now, motion.surface[t + 1], 0, now.size())
+                               : kNoValue);
+    double acceleration = t > 0 && t + 1 < frames ? 0.0 : kNoValue;
     for (int j = 0; j < kBodies && !std::isnan(acceleration); ++j)
       acceleration +=
           (motion.joints[t + 1][j] - 2.0 * motion.joints[t][j] + motion.joints[t - 1][j]).norm() / kBodies;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-bool same(const Clip& a, const Clip& b) {
+bool same_clip(const Clip& a, const Clip& b) {
   return a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas &&
          a.body_model == b.body_model && a.keypoints.has_value() == b.keypoints.has_value() &&
          (!a.keypoints ||
@@ -104,13 +104,13 @@ TEST(Fit, RepeatsBitForBitWhateverTheThreads) {
   const Clip noisy = noisy_of(truth_of("walk"), "vibe-like", KeypointSet::kJoints22, 1);
   FitConfig three;
   three.threads = 3;
-  EXPECT_TRUE(same(fit_keypoints(noisy, {}, nullptr), fit_keypoints(noisy, three, nullptr)));
+  EXPECT_TRUE(same_clip(fit_keypoints(noisy, {}, nullptr), fit_keypoints(noisy, three, nullptr)));
 }
 
 TEST(Fit, AClipWithNothingToFitToComesBackUnchangedAndSaysWhy) {
   const auto expect_unchanged = [](const Clip& clip, const std::string& why) {
     FitReport report;
-    EXPECT_TRUE(same(fit_keypoints(clip, {}, &report), clip));
+    EXPECT_TRUE(same_clip(fit_keypoints(clip, {}, &report), clip));
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_NE(report.notes[0].find(why), std::string::npos) << report.notes[0];
     EXPECT_EQ(report.iterations, 0);

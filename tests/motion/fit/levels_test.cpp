@@ -59,7 +59,7 @@ Clip detected(const Clip& truth, double sigma, double power) {
   return clip;
 }
 
-FitConfig exact_camera(double sigma) {
+FitConfig exact_camera_of(double sigma) {
   FitConfig config;
   config.focal_sigma = config.tilt_sigma = config.beta_sigma = 0.0;
   config.keypoint_sigma = sigma;
@@ -81,7 +81,7 @@ TEST(FitLevels, AreFoundFromThreeTimesTooLargeAndTooSmall) {
   for (const double wrong :
        {kSigma / 2.0, 1.5 * kSigma, 4.5 * kSigma}) {  // the right one is 1.5 in the middle
     FitReport report;
-    fit_keypoints(clip, exact_camera(wrong), &report);
+    fit_keypoints(clip, exact_camera_of(wrong), &report);
     const double middle = 100.0 * 1.5 * kSigma, worst = 100.0 * 2.0 * kSigma;  // of one and two, in percent
     EXPECT_NEAR(report.keypoint_sigma, middle, 0.3 * middle) << wrong;
     EXPECT_NEAR(report.keypoint_sigma_max, worst, 0.3 * worst) << wrong;
@@ -91,7 +91,7 @@ TEST(FitLevels, AreFoundFromThreeTimesTooLargeAndTooSmall) {
 TEST(FitLevels, ConfidenceCountsAsMuchAsTheResidualsSay) {
   const auto found = [](double power) {
     FitReport report;
-    fit_keypoints(detected(walk(), 0.005, power), exact_camera(0.005), &report);
+    fit_keypoints(detected(walk(), 0.005, power), exact_camera_of(0.005), &report);
     return report.confidence_power;
   };
   EXPECT_NEAR(found(0.0), 0.0, 0.25);
@@ -102,7 +102,7 @@ TEST(FitLevels, ConfidenceCountsAsMuchAsTheResidualsSay) {
 TEST(FitLevels, AWrongLevelCostsLessWhereTheFitFindsItsOwn) {
   const Clip truth = walk(), clip = detected(truth, 0.009, 1.0);
   const auto error = [&](double sigma, bool find) {
-    FitConfig config = exact_camera(sigma);
+    FitConfig config = exact_camera_of(sigma);
     config.find_levels = find;
     return mpjpe(truth, fit_keypoints(clip, config, nullptr));
   };

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "motion/fit/fit.h"
+#include "motion/fit/fitted_clips.h"
 #include "motion/made_motions.h"
 #include "motion/metrics.h"
 #include "motion/synth/noise.h"
@@ -14,25 +15,13 @@
 namespace mimicx::motion::fit {
 namespace {
 
-/// Three seconds of a synthetic motion.
-Clip truth_of(const std::string& kind) { return test::synthetic_clip(kind, 5, 90); }
+using namespace test;
 
-Metrics against(const Clip& truth, const Clip& motion) {
-  const auto samples = [](const Clip& c) {
-    return sample_motion(make_character(c.usable_betas()), poses_of(c), c.fps);
-  };
-  const MotionSamples t = samples(truth);
-  return evaluate_motion(samples(motion), &t);
+Clip estimate_of(const Clip& truth, const char* preset) {
+  return noisy_of(truth, preset, KeypointSet::kJoints22, 3);
 }
 
-Clip noisy_of(const Clip& truth, const char* preset) {
-  synth::NoiseConfig config;
-  config.preset = synth::noise_preset(preset);
-  config.seed = 3;
-  return synth::add_noise(truth, config);
-}
-
-bool same(const Clip& a, const Clip& b) {
+bool same_motion(const Clip& a, const Clip& b) {
   return a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas &&
          a.body_model == b.body_model && a.keypoints.has_value() == b.keypoints.has_value() &&
          (!a.keypoints || a.keypoints->uvc == b.keypoints->uvc);
@@ -82,7 +71,7 @@ TEST(FitPoses, ABodyThatLeansOffItsFeetIsBroughtOverThem) {
 TEST(FitPoses, EstimatesComeCloserToTheTruth) {
   for (const char* preset : {"gvhmr-like", "vibe-like"})
     for (const char* kind : {"walk", "punch"}) {
-      const Clip truth = truth_of(kind), noisy = noisy_of(truth, preset);
+      const Clip truth = truth_of(kind), noisy = estimate_of(truth, preset);
       FitReport report;
       const Metrics before = against(truth, noisy), after = against(truth, fit_poses(noisy, {}, &report));
       EXPECT_LT(after.mpjpe.value, before.mpjpe.value) << preset << kind;
@@ -96,7 +85,7 @@ TEST(FitPoses, EstimatesComeCloserToTheTruth) {
 
 TEST(FitPoses, ATremblingMotionIsCalmed) {
   for (const char* kind : {"walk", "punch"}) {
-    const Clip truth = truth_of(kind), noisy = noisy_of(truth, "vibe-like");
+    const Clip truth = truth_of(kind), noisy = estimate_of(truth, "vibe-like");
     const Clip calm = fit_poses(noisy, {}, nullptr);
     EXPECT_LT(against(truth, calm).accel.value, 0.5 * against(truth, noisy).accel.value) << kind;
     for (std::size_t i = 0; i < kBetas; ++i)
@@ -108,12 +97,12 @@ TEST(FitPoses, WhatIsCleanStaysByteForByte) {
   for (const char* kind : {"walk", "jog", "kick", "punch", "jump", "side_step"}) {
     const Clip truth = truth_of(kind);
     EXPECT_LT(stance_slip(truth), 0.001) << kind;
-    EXPECT_TRUE(same(fit_poses(truth, {}, nullptr), truth)) << kind;
+    EXPECT_TRUE(same_motion(fit_poses(truth, {}, nullptr), truth)) << kind;
   }
 }
 
 TEST(FitPoses, NeverLooksAtTheKeypoints) {
-  const Clip noisy = noisy_of(truth_of("walk"), "gvhmr-like");
+  const Clip noisy = estimate_of(truth_of("walk"), "gvhmr-like");
   Clip blind = noisy;
   blind.keypoints.reset();
   const Clip fitted = fit_poses(noisy, {}, nullptr);

@@ -15,7 +15,7 @@ namespace mimicx::motion::import {
 namespace {
 
 /// As a file of somebody else.
-Clip reread(Clip clip) {
+Clip read_as_foreign(Clip clip) {
   clip.body_model = "smplx";
   clip.betas = {};
   write_clip(test::scratch("clip.npz"), clip);
@@ -31,7 +31,7 @@ bool says(const std::vector<std::string>& lines, const std::string& words) {
 Clip walk() { return test::synthetic_clip("walk", 3); }
 
 /// Standing with the arms out.
-PerBody<Vector3d> t_pose(const Clip& clip) {
+PerBody<Vector3d> arms_out(const Clip& clip) {
   PerBody<Vector3d> pose;
   pose.fill(Vector3d::Zero());
   pose[0] = clip.rotations[0][0];
@@ -43,7 +43,7 @@ TEST(ClipChecks, TPosesInFrontAreLeftOutTogetherWithTheWayOutOfThem) {
     for (const int way : {0, 1, 2}) {
       const Clip sound = resampled(walk(), 120.0);
       Clip clip = sound;
-      const PerBody<Vector3d> t = t_pose(clip);
+      const PerBody<Vector3d> t = arms_out(clip);
       for (int k = 0; k < way; ++k) {  // halfway poses
         PerBody<Vector3d> between = t;
         for (int j = 0; j < kBodies; ++j)
@@ -53,7 +53,7 @@ TEST(ClipChecks, TPosesInFrontAreLeftOutTogetherWithTheWayOutOfThem) {
       }
       clip.rotations.insert(clip.rotations.begin(), static_cast<std::size_t>(poses), t);
       clip.trans.insert(clip.trans.begin(), static_cast<std::size_t>(poses), sound.trans[0]);
-      const Clip back = reread(clip);
+      const Clip back = read_as_foreign(clip);
       const int added = poses + way, left = clip.frames() - back.frames();
       EXPECT_GE(left, poses) << poses << ' ' << way;
       EXPECT_LE(left, added) << poses << ' ' << way;
@@ -64,12 +64,12 @@ TEST(ClipChecks, TPosesInFrontAreLeftOutTogetherWithTheWayOutOfThem) {
 
 TEST(ClipChecks, MembersOfTheFramesAreLeftOutWithTheTPose) {
   Clip clip = walk();
-  clip.rotations.insert(clip.rotations.begin(), t_pose(clip));
+  clip.rotations.insert(clip.rotations.begin(), arms_out(clip));
   clip.trans.insert(clip.trans.begin(), clip.trans[0]);
   std::vector<double> number(clip.rotations.size());
   for (std::size_t t = 0; t < number.size(); ++t) number[t] = static_cast<double>(t);
   clip.passthrough.emplace_back("number", NpyArray::from_double({number.size()}, number.data()));
-  const Clip back = reread(clip);
+  const Clip back = read_as_foreign(clip);
   ASSERT_EQ(back.frames() + 1, clip.frames());
   EXPECT_EQ(back.passthrough[0].second.to_double().front(), 1.0);
   EXPECT_EQ(back.passthrough[0].second.shape[0], back.rotations.size());
@@ -77,32 +77,32 @@ TEST(ClipChecks, MembersOfTheFramesAreLeftOutWithTheTPose) {
 
 TEST(ClipChecks, ATPoseThatAHumanLeavesStays) {
   Clip clip = walk();
-  const PerBody<Vector3d> t = t_pose(clip), first = clip.rotations[0];
+  const PerBody<Vector3d> t = arms_out(clip), first = clip.rotations[0];
   for (int k = 30; k-- > 0;) {  // a second
     PerBody<Vector3d> between = t;
     for (int j = 0; j < kBodies; ++j) between[j] = t[j] + k / 30.0 * (first[j] - t[j]);
     clip.rotations.insert(clip.rotations.begin(), between);
     clip.trans.insert(clip.trans.begin(), clip.trans[0]);
   }
-  EXPECT_EQ(reread(clip).frames(), clip.frames());
+  EXPECT_EQ(read_as_foreign(clip).frames(), clip.frames());
 }
 
 TEST(ClipChecks, AJumpOfTheBodyIsSaidWhetherOrNotItComesBack) {
   for (const bool back : {false, true}) {
     Clip clip = walk();
     for (int t = 40; t < (back ? 41 : clip.frames()); ++t) clip.trans[t].x() += 8.0;
-    const Clip read = reread(clip);
+    const Clip read = read_as_foreign(clip);
     EXPECT_TRUE(says(read.warnings, "the body jumps by 8")) << back;
     EXPECT_TRUE(says(read.warnings, "from frame 39 to 40")) << back;
     EXPECT_EQ(says(read.warnings, "from frame 40 to 41"), back);
   }
-  EXPECT_FALSE(says(reread(walk()).warnings, "jumps"));
+  EXPECT_FALSE(says(read_as_foreign(walk()).warnings, "jumps"));
 }
 
 TEST(ClipChecks, AnAngleThatIsNoneIsSaidAndHeldAndAFileInDegreesIsRefused) {
   Clip clip = walk();
   clip.rotations[20][kLeftKnee] = {1e30, 0.0, 0.0};
-  const Clip back = reread(clip);
+  const Clip back = read_as_foreign(clip);
   EXPECT_TRUE(says(back.warnings, "an angle of 1e+30 rad in frame 20"));
   EXPECT_EQ(back.rotations[20][kLeftKnee], clip.rotations[19][kLeftKnee]);
   EXPECT_EQ(back.rotations[20][kRightKnee], clip.rotations[20][kRightKnee]);
@@ -110,7 +110,7 @@ TEST(ClipChecks, AnAngleThatIsNoneIsSaidAndHeldAndAFileInDegreesIsRefused) {
   for (auto& frame : degrees.rotations)
     for (Vector3d& rotation : frame) rotation *= 180.0 / test::kPi;
   try {
-    reread(degrees);
+    read_as_foreign(degrees);
     ADD_FAILURE();
   } catch (const DataError& error) {
     EXPECT_NE(std::string(error.what()).find("rotations in radians"), std::string::npos) << error.what();
@@ -128,11 +128,11 @@ TEST(ClipChecks, APersonBehindTheCameraIsRefused) {
   camera.topRightCorner<3, 1>() = Vector3d(0, 1, 6);
   k.extrinsics = {camera};
   clip.keypoints = k;
-  EXPECT_NO_THROW(reread(clip));
+  EXPECT_NO_THROW(read_as_foreign(clip));
   camera(2, 3) = -6.0;
   clip.keypoints->extrinsics = {camera};
   try {
-    reread(clip);
+    read_as_foreign(clip);
     ADD_FAILURE();
   } catch (const DataError& error) {
     EXPECT_NE(std::string(error.what()).find("behind it in"), std::string::npos) << error.what();

@@ -124,7 +124,7 @@ TEST(JointNames, EndSitesStandInForWristsAndFeet) {
 }
 
 /// The message with which a skeleton is refused.
-std::string refusal(const SkeletonMotion& motion, const std::filesystem::path& user_map = {}) {
+std::string names_refusal(const SkeletonMotion& motion, const std::filesystem::path& user_map = {}) {
   try {
     map_joints(motion, user_map);
   } catch (const DataError& e) {
@@ -137,7 +137,7 @@ TEST(JointNames, MissingBodiesAreNamed) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   names[kLeftKnee] = "Thing";
-  const std::string message = refusal(skeleton(names, joint));
+  const std::string message = names_refusal(skeleton(names, joint));
   EXPECT_NE(message.find("none for left knee"), std::string::npos) << message;
   EXPECT_EQ(message.find("right knee"), std::string::npos) << message;
 }
@@ -146,7 +146,7 @@ TEST(JointNames, ALimbOnTheWrongTreeIsRefused) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   std::swap(names[kLeftKnee], names[kLeftElbow]);
-  const std::string message = refusal(skeleton(names, joint));
+  const std::string message = names_refusal(skeleton(names, joint));
   EXPECT_NE(message.find("'mixamorig:LeftLeg', taken for left knee, below left hip"), std::string::npos)
       << message;
 }
@@ -175,11 +175,11 @@ TEST(JointNames, AUserCanNameJoints) {
 TEST(JointNames, MistakesInAMapAreSaidWithTheirLine) {
   PerBody<int> joint;
   const SkeletonMotion motion = skeleton(test::mixamo_names(), joint);
-  EXPECT_NE(refusal(motion, write_map("\nleft_knie = x\n")).find("line 2: expected one of the 22"),
+  EXPECT_NE(names_refusal(motion, write_map("\nleft_knie = x\n")).find("line 2: expected one of the 22"),
             std::string::npos);
-  EXPECT_NE(refusal(motion, write_map("left_knee x\n")).find("line 1: expected body = joint name"),
+  EXPECT_NE(names_refusal(motion, write_map("left_knee x\n")).find("line 1: expected body = joint name"),
             std::string::npos);
-  EXPECT_NE(refusal(motion, "/no/such/map").find("/no/such/map"), std::string::npos);
+  EXPECT_NE(names_refusal(motion, "/no/such/map").find("/no/such/map"), std::string::npos);
 }
 
 }  // namespace

@@ -27,12 +27,12 @@ Clip truth(const std::string& kind) {
   return clip;
 }
 
-Clip read(const NpyArray& array, const ReadConfig& config = {}) {
+Clip read_positions(const NpyArray& array, const ReadConfig& config = {}) {
   return motion_from(format_npy(array), "motion.npy", config);
 }
 
 /// Mean distance of the joints that mean the same, best turned about the vertical and moved, mm.
-double distance(const Clip& a, const Clip& b) {
+double mean_joint_distance(const Clip& a, const Clip& b) {
   const auto p = poses_of(a), q = poses_of(b);
   Eigen::Matrix3Xd from(3, 0), to(3, 0);
   for (int t = 0; t < p.count(); ++t)
@@ -51,10 +51,10 @@ double distance(const Clip& a, const Clip& b) {
 
 TEST(JointPositions, TheirMotionIsTheOneTheyCameFrom) {
   for (const char* kind : {"walk", "squat", "punch", "kick", "dance"}) {
-    const Clip exact = truth(kind), clip = read(positions_of(exact));
+    const Clip exact = truth(kind), clip = read_positions(positions_of(exact));
     EXPECT_EQ(clip.fps, 20.0);
     ASSERT_EQ(clip.frames(), exact.frames());
-    EXPECT_LT(distance(clip, exact), 25.0) << kind;
+    EXPECT_LT(mean_joint_distance(clip, exact), 25.0) << kind;
   }
 }
 
@@ -62,21 +62,21 @@ TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
   const Clip exact = truth("walk");
   ReadConfig config;
   config.fps = 30.0;
-  const Clip clip = read(positions_of(exact, 100.0), config);
-  EXPECT_LT(distance(clip, exact), 25.0);
+  const Clip clip = read_positions(positions_of(exact, 100.0), config);
+  EXPECT_LT(mean_joint_distance(clip, exact), 25.0);
   EXPECT_EQ(clip.fps, 30.0);
 }
 
 TEST(JointPositions, HumanMl3dsFeaturesGiveTheSameMotion) {
   for (const char* kind : {"walk_turn", "turn_in_place"}) {
-    const Clip exact = truth(kind), clip = read(features_of(positions_of(exact)));
-    EXPECT_LT(distance(clip, exact), 25.0) << kind;
+    const Clip exact = truth(kind), clip = read_positions(features_of(positions_of(exact)));
+    EXPECT_LT(mean_joint_distance(clip, exact), 25.0) << kind;
     EXPECT_EQ(clip.summary.at(0), "HumanML3D features: 20 frames per second, y up, metres");
   }
 }
 
 TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
-  const Clip exact = truth("squat"), clip = read(positions_of(exact));
+  const Clip exact = truth("squat"), clip = read_positions(positions_of(exact));
   for (const int knee : {kLeftKnee, kRightKnee})
     for (int t = 0; t < clip.frames(); ++t) {
       const Vector3d r = clip.rotations[t][knee];
@@ -87,18 +87,18 @@ TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
 
 TEST(JointPositions, WhatIsNoMotionIsRefusedInOneLine) {
   const NpyArray positions = positions_of(truth("walk"));
-  EXPECT_THROW(read(features_of(positions, -1.0)), DataError) << "normalised features";
+  EXPECT_THROW(read_positions(features_of(positions, -1.0)), DataError) << "normalised features";
   NpyArray collapsed = positions;
   std::fill(collapsed.bytes.begin(), collapsed.bytes.end(), std::uint8_t{0});
-  EXPECT_THROW(read(collapsed), DataError);
+  EXPECT_THROW(read_positions(collapsed), DataError);
   std::vector<double> values = positions.to_double();
   values[100] = std::nan("");
-  EXPECT_THROW(read(NpyArray::from_double(positions.shape, values.data())), DataError);
-  EXPECT_THROW(read(NpyArray::from_double({0, kBodies, 3}, values.data())), DataError);
+  EXPECT_THROW(read_positions(NpyArray::from_double(positions.shape, values.data())), DataError);
+  EXPECT_THROW(read_positions(NpyArray::from_double({0, kBodies, 3}, values.data())), DataError);
   Random random(3);
   for (double& value : values) value = random.uniform(-1.0, 1.0);
   try {
-    read(NpyArray::from_double(positions.shape, values.data()));
+    read_positions(NpyArray::from_double(positions.shape, values.data()));
   } catch (const DataError&) {
   }
 }

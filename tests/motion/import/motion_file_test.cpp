@@ -38,19 +38,19 @@ Clip foreign(const std::string& kind) {
   return clip;
 }
 
-Clip reread(const Clip& clip, const ReadConfig& config = {}) {
+Clip written_and_read(const Clip& clip, const ReadConfig& config = {}) {
   const fs::path path = test::scratch(clip.name + ".npz");
   write_clip(path, clip);
   return read_motion(path, config);
 }
 
-bool says(const Clip& clip, const std::string& words) {
+bool decided(const Clip& clip, const std::string& words) {
   return std::any_of(clip.decisions.begin(), clip.decisions.end(),
                      [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
 /// Largest distance of the joints of two motions, m.
-double distance(const Clip& a, const Clip& b) {
+double largest_joint_distance(const Clip& a, const Clip& b) {
   const auto p = poses_of(a), q = poses_of(b);
   double most = p.size() == q.size() ? 0.0 : std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < p.size() && t < q.size(); ++t)
@@ -60,12 +60,12 @@ double distance(const Clip& a, const Clip& b) {
 
 TEST(ReadMotion, LeavesASoundFileAsItIs) {
   for (const std::string& kind : synth::basic_kinds()) {
-    const Clip clip = foreign(kind), back = reread(clip);
+    const Clip clip = foreign(kind), back = written_and_read(clip);
     EXPECT_EQ(back.rotations, clip.rotations) << kind;
     EXPECT_EQ(back.trans, clip.trans) << kind;
     EXPECT_EQ(back.fps, 30.0) << kind;
-    EXPECT_TRUE(says(back, "format: ")) << kind;
-    EXPECT_TRUE(says(back, "up axis: z")) << kind;
+    EXPECT_TRUE(decided(back, "format: ")) << kind;
+    EXPECT_TRUE(decided(back, "up axis: z")) << kind;
     EXPECT_TRUE(back.warnings.empty()) << kind;
   }
 }
@@ -75,15 +75,16 @@ TEST(ReadMotion, TurnsEveryAxisUpAndSaysSo) {
   for (const char axis : std::string("xyXYZ")) {
     Clip turned = clip;
     rotate_world(rotation_to_z_up(axis).conjugate(), turned);
-    EXPECT_GT(distance(turned, clip), 0.5);
-    const Clip back = reread(turned);
-    EXPECT_LT(distance(back, clip), 1e-9) << axis;
-    EXPECT_TRUE(says(back, axis == 'Z' ? "upside down" : "up axis: " + axis_name(axis))) << axis;
+    EXPECT_GT(largest_joint_distance(turned, clip), 0.5);
+    const Clip back = written_and_read(turned);
+    EXPECT_LT(largest_joint_distance(back, clip), 1e-9) << axis;
+    EXPECT_TRUE(decided(back, axis == 'Z' ? "upside down" : "up axis: " + axis_name(axis))) << axis;
     ReadConfig asked;
     asked.up = axis;
-    EXPECT_LT(distance(reread(turned, asked), clip), 1e-9);
+    EXPECT_LT(largest_joint_distance(written_and_read(turned, asked), clip), 1e-9);
     asked.up = 'z';
-    EXPECT_LT(distance(reread(turned, asked), turned), 1e-9) << "the user is believed";
+    EXPECT_LT(largest_joint_distance(written_and_read(turned, asked), turned), 1e-9)
+        << "the user is believed";
   }
 }
 
@@ -95,9 +96,9 @@ TEST(ReadMotion, CrawlingIsNoReasonToTurnTheWorld) {
   for (std::size_t t = 0; t < clip.trans.size(); ++t) clip.trans[t].y() += 0.01 * static_cast<double>(t);
   clip.body_model = "smplx";
   clip.name = "crawl";
-  const Clip back = reread(clip);
+  const Clip back = written_and_read(clip);
   EXPECT_EQ(back.trans, clip.trans);
-  EXPECT_TRUE(says(back, "lies")) << back.decisions[2];
+  EXPECT_TRUE(decided(back, "lies")) << back.decisions[2];
 }
 
 TEST(ReadMotion, FindsCentimetresAndMillimetres) {
@@ -105,12 +106,12 @@ TEST(ReadMotion, FindsCentimetresAndMillimetres) {
   for (const double scale : {100.0, 1000.0}) {
     Clip large = clip;
     scale_world(scale, large);
-    const Clip back = reread(large);
-    EXPECT_LT(distance(back, clip), 1e-9) << scale;
-    EXPECT_TRUE(says(back, scale == 100.0 ? "centimetres" : "millimetres"));
+    const Clip back = written_and_read(large);
+    EXPECT_LT(largest_joint_distance(back, clip), 1e-9) << scale;
+    EXPECT_TRUE(decided(back, scale == 100.0 ? "centimetres" : "millimetres"));
     ReadConfig asked;
     asked.scale = 1.0 / scale;
-    EXPECT_LT(distance(reread(large, asked), clip), 1e-9);
+    EXPECT_LT(largest_joint_distance(written_and_read(large, asked), clip), 1e-9);
   }
 }
 
@@ -136,21 +137,21 @@ Clip jumping(const std::vector<double>& rates, double label) {
 TEST(ReadMotion, ThreeFallsThatAgreeTellTheFrameRate) {
   for (const auto& [label, rate] : {std::pair{60.0, 120.0}, {30.0, 20.0}, {120.0, 60.0}, {30.0, 120.0}}) {
     const Clip wrong = jumping({rate, rate, rate}, label);
-    const Clip back = reread(wrong);
+    const Clip back = written_and_read(wrong);
     EXPECT_EQ(back.fps, rate) << label;
-    EXPECT_TRUE(says(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
+    EXPECT_TRUE(decided(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
     ReadConfig asked;
     asked.fps = label;
-    EXPECT_EQ(reread(wrong, asked).fps, label) << "the user is believed";
+    EXPECT_EQ(written_and_read(wrong, asked).fps, label) << "the user is believed";
   }
 }
 
 TEST(ReadMotion, FewFallsAndFallsThatDisagreeOnlySuggestAFrameRate) {
   const std::vector<std::vector<double>> jumps = {{60.0}, {60.0, 60.0}, {60.0, 60.0, 45.0}};
   for (const std::vector<double>& rates : jumps) {
-    const Clip back = reread(jumping(rates, 30.0));
+    const Clip back = written_and_read(jumping(rates, 30.0));
     EXPECT_EQ(back.fps, 30.0) << rates.size();
-    EXPECT_TRUE(says(back, "frame rate: 30 fps, as given"));
+    EXPECT_TRUE(decided(back, "frame rate: 30 fps, as given"));
     ASSERT_EQ(back.warnings.size(), 1u) << rates.size();
     EXPECT_NE(back.warnings[0].find("--fps 60"), std::string::npos) << back.warnings[0];
   }
@@ -159,7 +160,7 @@ TEST(ReadMotion, FewFallsAndFallsThatDisagreeOnlySuggestAFrameRate) {
 TEST(ReadMotion, SpeedsThatNoHumanHasAreNamed) {
   Clip clip = foreign("walk");
   clip.fps = 300.0;
-  const Clip back = reread(clip);
+  const Clip back = written_and_read(clip);
   ASSERT_FALSE(back.warnings.empty());
   EXPECT_NE(back.warnings[0].find("m/s"), std::string::npos);
 }
@@ -167,10 +168,10 @@ TEST(ReadMotion, SpeedsThatNoHumanHasAreNamed) {
 TEST(ReadMotion, AFloorThatTheUserNamesIsZeroAndStays) {
   Clip clip = foreign("walk");
   shift_world({0, 0, 0.4}, clip);
-  EXPECT_TRUE(says(reread(clip), "floor: at 0.4"));
+  EXPECT_TRUE(decided(written_and_read(clip), "floor: at 0.4"));
   ReadConfig asked;
   asked.floor = 0.3;  // the motion hovers 0.1 m over the floor that the user names
-  const Clip back = reread(clip, asked);
+  const Clip back = written_and_read(clip, asked);
   PreparationReport report;
   prepare_reference(back, {}, &report);
   EXPECT_EQ(report.floor_shift_mm, 0.0);
@@ -181,7 +182,7 @@ TEST(ReadMotion, OurOwnFilesAreBelieved) {
   Clip clip = foreign("walk");
   rotate_world(rotation_to_z_up('y'), clip);
   clip.body_model = "mimicx";
-  EXPECT_EQ(reread(clip).trans, clip.trans);
+  EXPECT_EQ(written_and_read(clip).trans, clip.trans);
 }
 
 TEST(ReadMotion, OptionsThatMakeNoSenseAreRefused) {
@@ -190,7 +191,8 @@ TEST(ReadMotion, OptionsThatMakeNoSenseAreRefused) {
   up.up = 'w';
   scale.scale = -1.0;
   fps.fps = 0.0;
-  for (const ReadConfig& bad : {up, scale, fps}) EXPECT_THROW(reread(clip, bad), std::invalid_argument);
+  for (const ReadConfig& bad : {up, scale, fps})
+    EXPECT_THROW(written_and_read(clip, bad), std::invalid_argument);
 }
 
 TEST(World, EveryAxisCanBeUp) {
@@ -247,9 +249,9 @@ TEST(Motionx, TheAistScaleIsUndone) {
   values.middleCols(309, 3) *= 94.0;
   values.col(311) *= -1.0;
   const Clip clip = motionx_from(from_matrix(values), "walk", "walk.npy");
-  EXPECT_LT(distance(clip, walk), 1e-9);
-  EXPECT_TRUE(says(clip, "AIST"));
-  EXPECT_FALSE(says(motionx_from(to_motionx(walk), "walk", "walk.npy"), "AIST")) << "not twice";
+  EXPECT_LT(largest_joint_distance(clip, walk), 1e-9);
+  EXPECT_TRUE(decided(clip, "AIST"));
+  EXPECT_FALSE(decided(motionx_from(to_motionx(walk), "walk", "walk.npy"), "AIST")) << "not twice";
 }
 
 TEST(Motionx, UpIsAnAxisOfTheFile) {
@@ -258,17 +260,17 @@ TEST(Motionx, UpIsAnAxisOfTheFile) {
   write_motion(path, walk);
   ReadConfig asked;
   asked.up = 'y';
-  EXPECT_LT(distance(read_motion(path, asked), walk), 1e-9) << "y is up in the format already";
-  EXPECT_TRUE(says(read_motion(path), "up axis: y, turned to z"));
+  EXPECT_LT(largest_joint_distance(read_motion(path, asked), walk), 1e-9) << "y is up in the format already";
+  EXPECT_TRUE(decided(read_motion(path), "up axis: y, turned to z"));
 
   Clip turned = walk;  // written with its own axes, z up, against the custom of the format
   rotate_world(rotation_to_z_up('y'), turned);
   write_motion(path, turned);
   const Clip found = read_motion(path);
-  EXPECT_TRUE(says(found, "up axis: z (")) << found.decisions[2];
-  EXPECT_LT(distance(found, walk), 1e-9);
+  EXPECT_TRUE(decided(found, "up axis: z (")) << found.decisions[2];
+  EXPECT_LT(largest_joint_distance(found, walk), 1e-9);
   asked.up = 'z';
-  EXPECT_LT(distance(read_motion(path, asked), walk), 1e-9);
+  EXPECT_LT(largest_joint_distance(read_motion(path, asked), walk), 1e-9);
 }
 
 TEST(Motionx, OtherShapesAreRefused) {
@@ -287,8 +289,8 @@ TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
   const fs::path npz = test::scratch("a.npy"), npy = test::scratch("b.npz");
   write_file_atomically(npz, format_npz(to_npz(clip)));
   write_file_atomically(npy, format_npy(to_motionx(clip)));
-  EXPECT_LT(distance(read_motion(npz), clip), 1e-9);
-  EXPECT_LT(distance(read_motion(npy), clip), 1e-9);
+  EXPECT_LT(largest_joint_distance(read_motion(npz), clip), 1e-9);
+  EXPECT_LT(largest_joint_distance(read_motion(npy), clip), 1e-9);
 }
 
 TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
@@ -296,7 +298,7 @@ TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
   for (const char* name : {"WALK.BVH", "walk.Npz", "walk.NPY"}) {
     write_motion(test::scratch(name), clip);
     EXPECT_TRUE(is_motion_file(test::scratch(name))) << name;
-    EXPECT_LT(distance(read_motion(test::scratch(name)), clip), 1e-6) << name;
+    EXPECT_LT(largest_joint_distance(read_motion(test::scratch(name)), clip), 1e-6) << name;
   }
 }
 
@@ -355,9 +357,9 @@ TEST(SharedMotions, AmassAndMotionxFilesOfTheSameMotionAgree) {
     Clip x = read_motion(file.path());
     const Clip h = read_motion(root / "amass" / (file.path().stem().string() + "_poses.npz"));
     // J0 of both models is known to half a millimetre; without it, single precision is left.
-    EXPECT_LT(distance(x, h), 1e-3) << file.path();
+    EXPECT_LT(largest_joint_distance(x, h), 1e-3) << file.path();
     shift_world(poses_of(h)[0].p_WB[0] - poses_of(x)[0].p_WB[0], x);
-    EXPECT_LT(distance(x, h), 2e-6) << file.path();
+    EXPECT_LT(largest_joint_distance(x, h), 2e-6) << file.path();
     ++compared;
   }
   EXPECT_EQ(compared, 8);
@@ -370,12 +372,13 @@ TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
   for (const char* folder : {"amass", "video", "motionx"})
     for (const auto& file : fs::directory_iterator(root / folder)) {
       const Clip clip = read_motion(file.path());
-      EXPECT_TRUE(says(clip, std::string("up axis: ") + (folder == std::string("motionx") ? "y" : "z")))
+      EXPECT_TRUE(decided(clip, std::string("up axis: ") + (folder == std::string("motionx") ? "y" : "z")))
           << file.path();
       EXPECT_EQ(clip.fps, 30.0) << file.path();
       for (const char* suffix : {"back.npz", "back.npy", "back.bvh"}) {
         write_motion(test::scratch(suffix), clip);
-        EXPECT_LT(distance(read_motion(test::scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
+        EXPECT_LT(largest_joint_distance(read_motion(test::scratch(suffix)), clip), 1e-6)
+            << file.path() << ' ' << suffix;
       }
       ++files;
     }
@@ -390,12 +393,13 @@ TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
     for (const auto& file : fs::directory_iterator(root / folder)) {
       const Clip clip = read_motion(file.path());
       EXPECT_TRUE(is_motion_file(file.path())) << file.path();
-      EXPECT_TRUE(says(clip, "format: ")) << file.path();
+      EXPECT_TRUE(decided(clip, "format: ")) << file.path();
       const bool bvh = folder == std::string("bvh");
       EXPECT_EQ(clip.fps, (bvh ? read_bvh(file.path()) : read_deepmimic(file.path())).fps) << file.path();
       for (const char* suffix : {"back.bvh", "back.npz"}) {
         write_motion(test::scratch(suffix), clip);
-        EXPECT_LT(distance(read_motion(test::scratch(suffix)), clip), 1e-6) << file.path() << ' ' << suffix;
+        EXPECT_LT(largest_joint_distance(read_motion(test::scratch(suffix)), clip), 1e-6)
+            << file.path() << ' ' << suffix;
       }
       ++files;
     }
@@ -408,7 +412,7 @@ TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
   const fs::path path = test::scratch("walk.npz");  // a BVH by another name
   write_motion(test::scratch("walk.bvh"), clip);
   fs::copy_file(test::scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
-  EXPECT_LT(distance(read_motion(path), clip), 1e-6);
+  EXPECT_LT(largest_joint_distance(read_motion(path), clip), 1e-6);
   ReadConfig asked;
   asked.fps = 25.0;
   EXPECT_EQ(read_motion(path, asked).fps, 25.0);

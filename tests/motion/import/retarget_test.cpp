@@ -91,7 +91,7 @@ double worst_turn(const Clip& clip, const Clip& original) {
   return worst * 180.0 / test::kPi;
 }
 
-bool says(const std::vector<std::string>& sentences, const std::string& words) {
+bool warns(const std::vector<std::string>& sentences, const std::string& words) {
   return std::any_of(sentences.begin(), sentences.end(),
                      [&](const std::string& s) { return s.find(words) != std::string::npos; });
 }
@@ -157,7 +157,7 @@ TEST(Retarget, UnitAndAxesChangeNothing) {
     RetargetReport report;
     const Clip clip = retarget(test::disguised(original, disguise), {}, &report);
     EXPECT_EQ(report.up, axes[i]);
-    EXPECT_TRUE(says(clip.decisions, units[i % units.size()].second)) << report.scale;
+    EXPECT_TRUE(warns(clip.decisions, units[i % units.size()].second)) << report.scale;
     const auto found = poses_of(clip);
     for (std::size_t t = 0; t < places.size(); ++t)
       for (std::size_t b = 0; b < kBodies; ++b)
@@ -171,7 +171,7 @@ TEST(Retarget, AnUnknownUnitIsScaledToABodyAndSaid) {
   RetargetReport report;
   const Clip clip = retarget(test::disguised(synthetic("stand"), disguise), {}, &report);
   EXPECT_NEAR(report.scale, 1.0 / 7.0, 1e-3);
-  EXPECT_TRUE(says(clip.warnings, "no known unit"));
+  EXPECT_TRUE(warns(clip.warnings, "no known unit"));
 }
 
 TEST(Retarget, OptionsOverrideWhatIsFound) {
@@ -228,7 +228,7 @@ TEST(Retarget, ATPoseFrameInFrontIsLeftOut) {
     with.trans.insert(with.trans.begin(), rest.trans[0]);
     const Clip clip = retarget(test::disguised(with, disguise));
     EXPECT_EQ(clip.frames(), original.frames());
-    EXPECT_TRUE(says(clip.decisions, "the first frame is a T-pose"));
+    EXPECT_TRUE(warns(clip.decisions, "the first frame is a T-pose"));
     EXPECT_LT(worst_turn(clip, original), 1.0);
     EXPECT_EQ(retarget(test::disguised(original, disguise)).frames(), original.frames());
   }
@@ -255,7 +255,7 @@ TEST(Retarget, WhatHasNoJointIsSaidAndFollowsItsParent) {
   const Clip clip = retarget(motion, {}, &report);
   EXPECT_EQ(report.unmapped, (std::vector<std::string>{"left foot", "right foot", "head"}));
   EXPECT_TRUE(std::isnan(report.residual_mm[kHead]));
-  EXPECT_TRUE(says(clip.warnings, "no joint for left foot, right foot, head"));
+  EXPECT_TRUE(warns(clip.warnings, "no joint for left foot, right foot, head"));
   for (const auto& rotations : clip.rotations) EXPECT_LT(rotations[kHead].norm(), 1e-6);
 }
 
@@ -285,7 +285,7 @@ TEST(Retarget, ExchangedSidesAreNoticed) {
        {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist})
     std::swap(disguise.names[body], disguise.names[body + 1]);
   EXPECT_TRUE(
-      says(retarget(test::disguised(synthetic("walk"), disguise)).warnings, "left and right exchanged"));
+      warns(retarget(test::disguised(synthetic("walk"), disguise)).warnings, "left and right exchanged"));
 }
 
 TEST(Retarget, ASkeletonWithoutExtentIsRefused) {

@@ -28,7 +28,7 @@ OptionSet set_of(const std::vector<float>& actions) {
 }
 
 /// Eq. 4 of options that act in frames 0 … N − 2, each towards the frame after it.
-double value_of(const OptionRewards& rewards, const List<int>& options, double switch_penalty) {
+double arrangement_value(const OptionRewards& rewards, const List<int>& options, double switch_penalty) {
   double value = 0.0;
   for (int t = 0; t + 1 < rewards.count(); ++t) {
     value += rewards[t + 1][options[t]];
@@ -51,9 +51,9 @@ TEST(Arrangement, IsTheBestOfAllThatThereAre) {
     for (int bits = 0; bits < 1 << kActing; ++bits) {
       List<int> options;
       for (int t = 0; t < kActing; ++t) options.push_back(bits >> t & 1);
-      best = std::max(best, value_of(rolled.rewards, options, penalty));
+      best = std::max(best, arrangement_value(rolled.rewards, options, penalty));
     }
-    EXPECT_NEAR(value_of(rolled.rewards, arranged.options, penalty), best, 1e-12) << penalty;
+    EXPECT_NEAR(arrangement_value(rolled.rewards, arranged.options, penalty), best, 1e-12) << penalty;
     most = std::max(most, arranged.kept.size());
     EXPECT_EQ(arranged.options.back(), arranged.options[kActing - 1]) << "nothing is left to do there";
   }

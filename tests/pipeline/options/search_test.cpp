@@ -14,8 +14,9 @@ namespace {
 using Clip = std::shared_ptr<const rl::tracking::TrackingClip>;
 
 /// Eq. 4 of what the options really earn when they act in turn.
-double value_of(const Clip& clip, const rl::tracking::TrackingConfig& tracking,
-                const std::vector<const Option*>& options, const List<int>& acting, double switch_penalty) {
+double search_value(const Clip& clip, const rl::tracking::TrackingConfig& tracking,
+                    const std::vector<const Option*>& options, const List<int>& acting,
+                    double switch_penalty) {
   auto arranged = std::make_shared<rl::tracking::TrackingClip>(*clip);
   arranged->arrangement = acting;
   arranged->arrangement.push_back(acting.back());
@@ -47,8 +48,8 @@ TEST(Search, ItsValueIsThatOfTheRollOutOfWhatItFound) {
   for (const int stretch : {1, 7, 39, 100}) {
     const Found found = search_roll_outs(halves.clip, absolute_actions(), halves.options, {4, stretch, -0.5});
     ASSERT_EQ(found.options.count(), 39);
-    EXPECT_NEAR(found.value, value_of(halves.clip, absolute_actions(), halves.options, found.options, -0.5),
-                1e-12)
+    EXPECT_NEAR(found.value,
+                search_value(halves.clip, absolute_actions(), halves.options, found.options, -0.5), 1e-12)
         << stretch;
     for (int t = 1; t < 39; ++t)
       EXPECT_TRUE(found.options[t] == found.options[t - 1] || t % stretch == 0) << t;
@@ -62,7 +63,7 @@ TEST(Search, ABeamThatDropsNothingFindsTheBestOfAllArrangements) {
   for (int bits = 0; bits < 1 << kStretches; ++bits) {
     List<int> acting;
     for (int t = 0; t < kFrames - 1; ++t) acting.push_back(bits >> (t / kStretch) & 1);
-    best = std::max(best, value_of(halves.clip, absolute_actions(), halves.options, acting, -0.25));
+    best = std::max(best, search_value(halves.clip, absolute_actions(), halves.options, acting, -0.25));
   }
   const Found found =
       search_roll_outs(halves.clip, absolute_actions(), halves.options, {1 << kStretches, kStretch, -0.25});
@@ -110,7 +111,8 @@ TEST(Search, GoesBackWithMoreStatesToWhereItWentWrong) {
   EXPECT_FALSE(trap.search(1, 0).breaks.empty()) << "no trap for a narrow beam";
   const Found found = trap.search(1, 3);
   EXPECT_TRUE(found.breaks.empty());
-  EXPECT_NEAR(found.value, value_of(trap.clip, {}, {&trap.leans, &trap.stands}, found.options, 0.0), 1e-12);
+  EXPECT_NEAR(found.value, search_value(trap.clip, {}, {&trap.leans, &trap.stands}, found.options, 0.0),
+              1e-12);
 }
 
 TEST(Search, RetriesChangeNothingWhereSomePathStands) {

@@ -14,7 +14,7 @@ namespace {
 using Rewards = OptionRewards;
 
 /// Eq. 4, written out.
-double value_of(const Rewards& reward, const std::vector<int>& options, double penalty) {
+double path_value(const Rewards& reward, const std::vector<int>& options, double penalty) {
   double value = 0.0;
   for (std::size_t t = 0; t < reward.size(); ++t) {
     value += reward[t][options[t]];
@@ -29,7 +29,7 @@ double brute_force(const Rewards& reward, double penalty) {
   std::vector<int> arrangement(reward.size(), 0);
   double best = -std::numeric_limits<double>::infinity();
   while (true) {
-    best = std::max(best, value_of(reward, arrangement, penalty));
+    best = std::max(best, path_value(reward, arrangement, penalty));
     std::size_t digit = 0;
     while (digit < arrangement.size() && ++arrangement[digit] == options) arrangement[digit++] = 0;
     if (digit == arrangement.size()) return best;
@@ -77,7 +77,7 @@ TEST(Selector, ReachesTheOptimumOfAllArrangements) {
     const Arrangement found = select_options(p.reward, p.penalty);
     ASSERT_EQ(found.options.size(), p.reward.size());
     EXPECT_EQ(found.value, brute_force(p.reward, p.penalty)) << "problem " << seed;
-    EXPECT_EQ(value_of(p.reward, found.options, p.penalty), found.value) << "problem " << seed;
+    EXPECT_EQ(path_value(p.reward, found.options, p.penalty), found.value) << "problem " << seed;
   }
 }
 
@@ -85,7 +85,7 @@ TEST(Selector, PrintedRecursionMissesTheOptimum) {
   int missed = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Problem p = random_problem(seed);
-    const double printed = value_of(p.reward, printed_recursion(p.reward, p.penalty), p.penalty);
+    const double printed = path_value(p.reward, printed_recursion(p.reward, p.penalty), p.penalty);
     const double best = select_options(p.reward, p.penalty).value;
     EXPECT_LE(printed, best);
     missed += printed < best;

@@ -108,7 +108,7 @@ Tensor computed(const std::string& operation, const std::vector<Tensor>& in) {
   return out;
 }
 
-std::vector<double> action_of(const std::string& model, const std::array<float, kStateCount>& observation) {
+std::vector<double> onnx_action(const std::string& model, const std::array<float, kStateCount>& observation) {
   const std::string graph = of_number(model, 7).front().bytes;
   std::map<std::string, Tensor> values;
   values["observation"] = {{1, kStateCount}, {observation.begin(), observation.end()}};
@@ -127,7 +127,7 @@ TEST(PolicyOnnx, ComputesTheActionsThatAreRecorded) {
     const std::string model = to_onnx(*exported);
     EXPECT_TRUE(model.starts_with(kOnnxOpening));
     for (const Record& record : exported->records) {
-      const std::vector<double> action = action_of(model, record.observation);
+      const std::vector<double> action = onnx_action(model, record.observation);
       ASSERT_EQ(action.size(), std::size_t{kActionCount});
       for (std::size_t k = 0; k < action.size(); ++k) EXPECT_NEAR(action[k], record.action[k], 1e-5);
     }

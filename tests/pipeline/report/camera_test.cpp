@@ -11,7 +11,7 @@
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr int kFrames = 4;
+constexpr int kCameraFrames = 4;
 constexpr double kFocal = 800.0, kMiddleU = 400.0, kMiddleV = 300.0;
 
 /// Four metres in front of the body, at the height of its hips, moving to the right by 1 cm a frame.
@@ -28,12 +28,12 @@ Eigen::Matrix4d pose_of_camera(int frame) {
 /// A clip whose wrists, left knee, head and pelvis were seen where they are, `beside` pixels to the right;
 /// and a nose.
 motion::Clip seen_clip(double beside = 0.0) {
-  motion::Clip clip = standing_clip(kFrames);
+  motion::Clip clip = standing_clip(kCameraFrames);
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   motion::Keypoints keypoints;
   keypoints.names = {"nose", "left_wrist", "right_wrist", "left_knee", "head", "pelvis"};
   keypoints.intrinsics << kFocal, 0, kMiddleU, 0, kFocal, kMiddleV, 0, 0, 1;
-  for (int t = 0; t < kFrames; ++t) {
+  for (int t = 0; t < kCameraFrames; ++t) {
     keypoints.extrinsics.push_back(pose_of_camera(t));
     keypoints.uvc.push_back({Vector3d(-1000.0, 5.0, 1.0)});
     for (const int body : {kLeftWrist, kRightWrist, kLeftKnee, kHead, kPelvis}) {
@@ -58,7 +58,7 @@ TEST(ReportCamera, TakesThePointsOfTheBodyAlone) {
   EXPECT_EQ(camera->points[3].body, kHead);
   // All hang on the pelvis: what is between was not seen.
   EXPECT_EQ(camera->bones, (std::vector<std::array<int, 2>>{{0, 4}, {1, 4}, {2, 4}, {3, 4}}));
-  EXPECT_FALSE(camera_of(standing_clip(kFrames)));
+  EXPECT_FALSE(camera_of(standing_clip(kCameraFrames)));
   motion::Clip faces = seen_clip();
   faces.keypoints->names.assign(6, "nose");
   EXPECT_FALSE(camera_of(faces));
@@ -100,12 +100,12 @@ TEST(ReportCamera, SurvivesTheWayIntoThePage) {
   EXPECT_FALSE(json.contains("told"));
   EXPECT_EQ(json["fx"], kFocal);
   EXPECT_EQ(json["cy"], kMiddleV);
-  ASSERT_EQ(json["extrinsics"].size(), static_cast<std::size_t>(kFrames));
+  ASSERT_EQ(json["extrinsics"].size(), static_cast<std::size_t>(kCameraFrames));
   EXPECT_EQ(json["extrinsics"][2], (std::vector<double>{1, 0, 0, -0.02, 0, 0, -1, 0.9, 0, 1, 0, 4.0}));
   EXPECT_EQ(json["points"][0], (std::vector<double>{kLeftWrist, 0, 0, 0}));
   const std::string seen = json["seen"];
-  ASSERT_EQ(seen.size(), 7u * 5u * kFrames);
-  for (int t = 0; t < kFrames; ++t)
+  ASSERT_EQ(seen.size(), 7u * 5u * kCameraFrames);
+  for (int t = 0; t < kCameraFrames; ++t)
     for (std::size_t k = 0; k < 5; ++k) {
       const std::size_t at = 7 * (5 * static_cast<std::size_t>(t) + k);
       EXPECT_NEAR(0.1 * number_at(seen, at, 3), camera->uvc[t][k].x(), 0.0501);

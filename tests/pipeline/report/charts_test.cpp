@@ -9,7 +9,7 @@
 namespace mimicx::pipeline::report {
 namespace {
 
-MeasuredMotion standing(int frames) {
+MeasuredMotion standing_reference(int frames) {
   const motion::Clip clip = standing_clip(frames);
   return measured(motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps));
 }
@@ -21,7 +21,7 @@ const ReportBars& row(const std::vector<ReportBars>& bars, const std::string& na
 }
 
 TEST(Charts, WhatTheRunDoesNotHaveIsNotDrawn) {
-  const MeasuredMotion motion = standing(6);
+  const MeasuredMotion motion = standing_reference(6);
   ChartSources sources;
   sources.motions = {{Who::kCleaned, &motion}};
   for (const ReportChart& chart : charts_of(sources)) {
@@ -33,7 +33,7 @@ TEST(Charts, WhatTheRunDoesNotHaveIsNotDrawn) {
 }
 
 TEST(Charts, ForcesAreInBodyWeights) {
-  const MeasuredMotion motion = standing(3);
+  const MeasuredMotion motion = standing_reference(3);
   std::vector<GroundForces> ground(3);
   for (GroundForces& frame : ground) {
     frame[0].force.z() = 350.0;
@@ -54,7 +54,7 @@ TEST(Charts, ForcesAreInBodyWeights) {
 }
 
 TEST(Charts, AnAuditStandsAtItsFrames) {
-  const MeasuredMotion motion = standing(5);
+  const MeasuredMotion motion = standing_reference(5);
   audit::Audit audit;
   for (const int frame : {1, 3}) {
     audit.rows.emplace_back();
@@ -93,7 +93,7 @@ TEST(Charts, PartsOfATrainingColumnShareAChart) {
 }
 
 TEST(Bars, FeetStandWhereTheFloorPushesThem) {
-  const MeasuredMotion motion = standing(6);
+  const MeasuredMotion motion = standing_reference(6);
   std::vector<GroundForces> ground(6);
   for (std::size_t t = 1; t < 6; ++t) ground[t][0].force.z() = t < 4 ? 600.0 : 5.0;
   const std::vector<ReportBars> bars = bars_of(nullptr, motion, ground, 700.0);
@@ -106,7 +106,7 @@ TEST(Bars, FeetStandWhereTheFloorPushesThem) {
 }
 
 TEST(Bars, WithoutForcesTheHeightOfTheFeetSays) {
-  MeasuredMotion motion = standing(4);
+  MeasuredMotion motion = standing_reference(4);
   for (auto& points : motion.samples.surface)
     for (std::size_t i = 0; i < points.size(); ++i) points[i].z() = i < kFootPoints / 2 ? 0.004 : 0.3;
   const std::vector<ReportBars> bars = bars_of(&motion, motion, {}, 0.0);

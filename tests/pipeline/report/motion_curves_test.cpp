@@ -8,11 +8,11 @@
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr int kFrames = 12;
+constexpr int kCurveFrames = 12;
 constexpr double kFps = 30.0;
 
 /// The standard body, stiff, with its soles on the floor, moved by a way that depends on the frame.
-motion::MotionSamples moved(const std::function<Vector3d(int)>& way, int frames = kFrames) {
+motion::MotionSamples moved(const std::function<Vector3d(int)>& way, int frames = kCurveFrames) {
   const Character character = make_character();
   PerBody<Quaterniond> q;
   q.fill(Quaterniond::Identity());
@@ -27,7 +27,7 @@ motion::MotionSamples moved(const std::function<Vector3d(int)>& way, int frames 
 
 Vector3d nowhere(int) { return Vector3d::Zero(); }
 
-int count(const std::vector<bool>& frames) {
+int count_true(const std::vector<bool>& frames) {
   int n = 0;
   for (const bool yes : frames) n += yes;
   return n;
@@ -49,7 +49,7 @@ TEST(MotionCurves, OfABodyThatFallsAreThoseOfAParabola) {
 
 TEST(MotionCurves, TheSlideIsTheWayOfABodyThatGlides) {
   const MotionCurves curves = curves_of(moved([](int t) { return Vector3d(0.003 * t, 0.004 * t, 0.0); }));
-  for (std::size_t t = 0; t + 1 < kFrames; ++t) EXPECT_NEAR(curves.slide[t], 5.0, 1e-9);
+  for (std::size_t t = 0; t + 1 < kCurveFrames; ++t) EXPECT_NEAR(curves.slide[t], 5.0, 1e-9);
   EXPECT_TRUE(std::isnan(curves.slide.back()));
 }
 
@@ -64,8 +64,8 @@ TEST(MotionCurves, TheMeanSlideIsTheMetric) {
       moved([](int t) { return Vector3d(0.002 * t * t, 0.001 * t, 0.001 * (t % 3)); });
   double sum = 0.0;
   const MotionCurves curves = curves_of(glide);
-  for (std::size_t t = 0; t + 1 < kFrames; ++t) sum += curves.slide[t];
-  EXPECT_NEAR(sum / (kFrames - 1), motion::evaluate_motion(glide, nullptr).fs.value, 1e-9);
+  for (std::size_t t = 0; t + 1 < kCurveFrames; ++t) sum += curves.slide[t];
+  EXPECT_NEAR(sum / (kCurveFrames - 1), motion::evaluate_motion(glide, nullptr).fs.value, 1e-9);
 }
 
 Flaws flaws(const motion::MotionSamples& input, const motion::MotionSamples& cleaned) {
@@ -76,8 +76,8 @@ TEST(Flaws, OfAMotionThatIsTheCleanedOneAreNone) {
   const motion::MotionSamples still = moved(nowhere);
   const Flaws none = flaws(still, still);
   for (const auto* frames : {&none.sinks, &none.floats, &none.slides, &none.shakes}) {
-    EXPECT_EQ(frames->size(), static_cast<std::size_t>(kFrames));
-    EXPECT_EQ(count(*frames), 0);
+    EXPECT_EQ(frames->size(), static_cast<std::size_t>(kCurveFrames));
+    EXPECT_EQ(count_true(*frames), 0);
   }
 }
 
@@ -85,27 +85,27 @@ TEST(Flaws, EachIsFoundWhereItIsAndNoOther) {
   const motion::MotionSamples still = moved(nowhere);
   const auto third = [](int t) { return t >= 4 && t < 8; };
   const Flaws sunk = flaws(moved([](int) { return Vector3d(0.0, 0.0, -0.02); }), still);
-  EXPECT_EQ(count(sunk.sinks), kFrames);
-  EXPECT_EQ(count(sunk.floats), 0);
+  EXPECT_EQ(count_true(sunk.sinks), kCurveFrames);
+  EXPECT_EQ(count_true(sunk.floats), 0);
   const Flaws afloat = flaws(moved([](int) { return Vector3d(0.0, 0.0, 0.02); }), still);
-  EXPECT_EQ(count(afloat.floats), kFrames);
-  EXPECT_EQ(count(afloat.sinks), 0);
+  EXPECT_EQ(count_true(afloat.floats), kCurveFrames);
+  EXPECT_EQ(count_true(afloat.sinks), 0);
   // 6 mm to the next frame during frames 4 … 7, at one speed: accelerations at the two ends alone, 5.4 m/s².
   const Flaws slid =
       flaws(moved([](int t) { return Vector3d(0.006 * std::clamp(t - 4, 0, 4), 0.0, 0.0); }), still);
-  for (int t = 0; t < kFrames; ++t) EXPECT_EQ(slid.slides[static_cast<std::size_t>(t)], third(t)) << t;
-  EXPECT_EQ(count(slid.shakes), 2);
+  for (int t = 0; t < kCurveFrames; ++t) EXPECT_EQ(slid.slides[static_cast<std::size_t>(t)], third(t)) << t;
+  EXPECT_EQ(count_true(slid.shakes), 2);
   const Flaws shaken =
       flaws(moved([&](int t) { return Vector3d(third(t) && t % 2 == 0 ? 0.004 : 0.0, 0.0, 0.0); }), still);
   EXPECT_EQ(spans_of(shaken.shakes).size(), 1u);
-  EXPECT_EQ(count(shaken.slides), 0);
+  EXPECT_EQ(count_true(shaken.slides), 0);
 }
 
 // A true jump is in the air where the cleaned one is, too.
 TEST(Flaws, AJumpDoesNotFloat) {
   const auto jump = [](int t) { return Vector3d(0.0, 0.0, t > 3 && t < 9 ? 0.3 : 0.0); };
-  EXPECT_EQ(count(flaws(moved(jump), moved(jump)).floats), 0);
-  EXPECT_EQ(count(flaws(moved(jump), moved(nowhere)).floats), 5);
+  EXPECT_EQ(count_true(flaws(moved(jump), moved(jump)).floats), 0);
+  EXPECT_EQ(count_true(flaws(moved(jump), moved(nowhere)).floats), 5);
 }
 
 TEST(Flaws, EndWhereTheShorterMotionDoes) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kFrame = 9 + 6 * kBodies;
 
-BodyPoses turned_pose(const Character& character, double angle, const Vector3d& place = {1.5, -2.0, 0.9}) {
+BodyPoses twisted_pose(const Character& character, double angle, const Vector3d& place = {1.5, -2.0, 0.9}) {
   PerBody<Quaterniond> q;
   for (int b = 0; b < kBodies; ++b) q[b] = exp_map(Vector3d(0.1 * angle, -0.2 * angle, 0.05 * b));
   q[0] = exp_map(Vector3d(0.0, angle, 0.0));
@@ -40,8 +40,8 @@ BodyPoses posed_by_page(const std::string& text, std::size_t frame, const Charac
 
 TEST(MotionData, PosesComeBackToAMillimetreAndATenthOfADegreeHoweverFarTheyAre) {
   const Character c = make_character();
-  const std::vector<BodyPoses> poses = {turned_pose(c, 0.0), turned_pose(c, 3.1),
-                                        turned_pose(c, 1.0, {-99.0, 120.0, 3.0})};
+  const std::vector<BodyPoses> poses = {twisted_pose(c, 0.0), twisted_pose(c, 3.1),
+                                        twisted_pose(c, 1.0, {-99.0, 120.0, 3.0})};
   const std::string text = encode_poses(poses);
   ASSERT_EQ(text.size(), poses.size() * kFrame);
   for (std::size_t t = 0; t < poses.size(); ++t) {
@@ -65,7 +65,7 @@ TEST(MotionData, ArrowsAreInMillimetresAndNewtons) {
 
 TEST(MotionData, CentresAreInMillimetres) {
   const Character c = make_character();
-  const BodyPoses pose = turned_pose(c, 0.4);
+  const BodyPoses pose = twisted_pose(c, 0.4);
   const std::string text = encode_centers(c, {pose});
   ASSERT_EQ(text.size(), 9u);
   for (int k = 0; k < 3; ++k)
@@ -75,7 +75,7 @@ TEST(MotionData, CentresAreInMillimetres) {
 
 TEST(MotionData, SupportIsCountedAndStandsFromThePelvis) {
   const Character c = make_character();
-  const std::vector<BodyPoses> poses = {turned_pose(c, 0.0), turned_pose(c, 0.0)};
+  const std::vector<BodyPoses> poses = {twisted_pose(c, 0.0), twisted_pose(c, 0.0)};
   const std::string text = encode_support({{}, {{1.4, -2.1}, {1.6, -2.0}}}, poses);
   ASSERT_EQ(text.size(), 1u + 1u + 8u);
   EXPECT_EQ(count_at(text, 0, 1), 0) << "in the air";

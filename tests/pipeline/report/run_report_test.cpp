@@ -18,7 +18,7 @@
 namespace mimicx::pipeline::report {
 namespace {
 
-constexpr int kFrames = 6;
+constexpr int kRunFrames = 6;
 constexpr const char* kEmbedded = "\"application/json\" id=\"clip-";
 
 std::size_t count(const std::string& text, const std::string& words) {
@@ -28,7 +28,7 @@ std::size_t count(const std::string& text, const std::string& words) {
 }
 
 motion::Clip raised(double height) {
-  motion::Clip clip = standing_clip(kFrames);
+  motion::Clip clip = standing_clip(kRunFrames);
   for (Vector3d& place : clip.trans) place.z() += height;
   return clip;
 }
@@ -45,7 +45,7 @@ struct Folder {
     entry.ok = ok;
     entry.reason = ok ? "" : "it fell";
     entry.output = record::RunFolder::motion_name(name, ok);
-    entry.frames = kFrames;
+    entry.frames = kRunFrames;
     entry.fps = 30.0;
     entry.method = "plan";
     entry.input_metrics = {{"Float", 40.0}, {"FS", 0.0}};
@@ -69,14 +69,14 @@ struct Folder {
   record::Manifest manifest;
 };
 
-nlohmann::json element(const std::string& page, const std::string& id) {
+nlohmann::json json_element(const std::string& page, const std::string& id) {
   const std::size_t name = page.find("id=\"" + id + "\""), begin = page.find('>', name) + 1;
   return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
 /// [input, before training, cleaned] of a clip.
 nlohmann::json values(const std::string& page, const std::string& key, std::size_t clip = 0) {
-  const nlohmann::json data = element(page, "data");
+  const nlohmann::json data = json_element(page, "data");
   for (std::size_t k = 0; k < data["metrics"].size(); ++k)
     if (data["metrics"][k]["key"] == key) return data["rows"][clip]["values"][k];
   return nullptr;
@@ -99,14 +99,14 @@ TEST(RunReport, FiftyMotionsAreOneFileAndMoreStandBesideIt) {
   const std::size_t begin = call + opening.size();
   const auto told = nlohmann::json::parse("[" + script.substr(begin, script.size() - begin - 3) + "]");
   EXPECT_EQ(told[0], "clip 7");
-  EXPECT_EQ(told[1], element(one, "clip-7"));
+  EXPECT_EQ(told[1], json_element(one, "clip-7"));
   ASSERT_EQ(told[2].size(), 1u) << "all wear the standard body";
   const std::string key = told[2].begin().key();
-  EXPECT_EQ(told[2][key], element(one, "body-" + key));
+  EXPECT_EQ(told[2][key], json_element(one, "body-" + key));
   EXPECT_EQ(told[1]["motions"][0]["body"], key);
   EXPECT_EQ(count(one, "id=\"body-"), 1u);
   EXPECT_EQ(count(page, "id=\"body-"), 0u);
-  EXPECT_EQ(element(page, "skin"), element(one, "skin"));
+  EXPECT_EQ(json_element(page, "skin"), json_element(one, "skin"));
 }
 
 /// All files of the report, by name.
@@ -176,8 +176,8 @@ TEST(RunReport, AClipWhoseFilesAreGoneSaysSo) {
   Folder run(2);
   std::filesystem::remove(run.run.reference("clip 1"));
   const std::string page = run.page();
-  EXPECT_FALSE(element(page, "clip-0")["motions"].empty());
-  const nlohmann::json clip = element(page, "clip-1");
+  EXPECT_FALSE(json_element(page, "clip-0")["motions"].empty());
+  const nlohmann::json clip = json_element(page, "clip-1");
   EXPECT_TRUE(clip["motions"].empty());
   EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("cannot be shown: "));
 }
@@ -185,7 +185,7 @@ TEST(RunReport, AClipWhoseFilesAreGoneSaysSo) {
 TEST(RunReport, OfAnOlderRunTheInputIsLeftOut) {
   Folder run(1);
   std::filesystem::remove(run.run.input("clip 0"));
-  const nlohmann::json clip = element(run.page(), "clip-0");
+  const nlohmann::json clip = json_element(run.page(), "clip-0");
   ASSERT_EQ(clip["motions"].size(), 2u);
   EXPECT_EQ(clip["motions"][0]["who"], "reference");
   for (const auto& bars : clip["bars"]) EXPECT_FALSE(bars["flaw"].get<bool>());
@@ -211,7 +211,7 @@ TEST(RunReport, AgainstTheTruthItSaysWhatEvaluateSays) {
   ReportOptions options;
   options.truth = {{"clip 0", truth / "clip 0.npz"}};
   const std::string page = run.page(options);
-  EXPECT_EQ(element(page, "clip-0")["motions"].back()["who"], "truth");
+  EXPECT_EQ(json_element(page, "clip-0")["motions"].back()["who"], "truth");
   for (const auto& [folder, column] : {std::pair{"inputs", 0}, std::pair{"motions", 2}}) {
     const Evaluation told = evaluate_folders(truth, run.run.root / folder);
     ASSERT_EQ(told.motions.size(), 1u);
@@ -230,7 +230,7 @@ TEST(RunReport, ATruthThatCannotBeReadIsSaid) {
   Folder run(1);
   ReportOptions options;
   options.truth = {{"clip 0", run.folder.path / "none.npz"}};
-  const nlohmann::json clip = element(run.page(options), "clip-0");
+  const nlohmann::json clip = json_element(run.page(options), "clip-0");
   EXPECT_EQ(clip["motions"].size(), 3u);
   EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("the truth cannot be shown: "));
 }
@@ -251,9 +251,9 @@ options::Clusters some_clusters() {
 
 TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
   Folder run(2);
-  EXPECT_FALSE(element(run.page(), "data").contains("map"));
+  EXPECT_FALSE(json_element(run.page(), "data").contains("map"));
   options::write_clusters(run.run.clusters(), some_clusters());
-  const nlohmann::json map = element(run.page(), "data")["map"];
+  const nlohmann::json map = json_element(run.page(), "data")["map"];
   EXPECT_EQ(map["trained"].size(), 6u);
   ASSERT_EQ(map["clips"].size(), 2u);
   for (int row = 0; row < 2; ++row) {
@@ -264,7 +264,7 @@ TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
   others.clusters = {run.folder.path / "others.json"};
   options::write_clusters(others.clusters.front(), some_clusters());
   std::filesystem::remove(run.run.clusters());
-  EXPECT_EQ(element(run.page(others), "data")["map"], map);
+  EXPECT_EQ(json_element(run.page(others), "data")["map"], map);
 }
 
 TEST(RunReport, ClustersThatCannotBeReadAreSaidAndCostTheMapAlone) {
@@ -276,11 +276,11 @@ TEST(RunReport, ClustersThatCannotBeReadAreSaidAndCostTheMapAlone) {
         {options::format_clusters(older), "the options' clusters.json does not have their features"}}) {
     write_file_atomically(run.run.clusters(), text);
     const std::string page = run.page();
-    const nlohmann::json data = element(page, "data");
+    const nlohmann::json data = json_element(page, "data");
     EXPECT_FALSE(data.contains("map"));
     EXPECT_EQ(data["run"].back()["name"], "no map of the motions");
     EXPECT_EQ(data["run"].back()["value"], reason);
-    EXPECT_FALSE(element(page, "clip-0")["motions"].empty());
+    EXPECT_FALSE(json_element(page, "clip-0")["motions"].empty());
   }
 }
 
@@ -292,13 +292,13 @@ TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
   motion::Clip clip = raised(0.001);
   clip.keypoints.emplace();
   clip.keypoints->names = {"pelvis"};
-  clip.keypoints->uvc.assign(kFrames, {Vector3d(10.0, 20.0, 0.5)});
+  clip.keypoints->uvc.assign(kRunFrames, {Vector3d(10.0, 20.0, 0.5)});
   clip.keypoints->intrinsics << 100, 0, 10, 0, 100, 20, 0, 0, 1;
   Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
   pose.topRows<3>() << 1, 0, 0, 0, 0, 0, -1, 0.9, 0, 1, 0, 4.0;
   clip.keypoints->extrinsics.assign(1, pose);
   Folder::write(run.run.root / entry.output, clip);
-  const nlohmann::json shown = element(run.page(), "clip-0");
+  const nlohmann::json shown = json_element(run.page(), "clip-0");
   EXPECT_EQ(shown["options"], (std::vector<std::vector<int>>{{0, 3, 2}, {4, 5, 1}}));
   EXPECT_EQ(shown["camera"]["extrinsics"].size(), 1u);
   const auto& charts = shown["charts"];
@@ -317,7 +317,7 @@ TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
   for (Vector3d& place : of_input.trans) place.z() += 0.049;
   of_input.keypoints->extrinsics[0](1, 3) += 0.05;
   Folder::write(run.run.input("clip 0"), of_input);
-  const nlohmann::json own = element(run.page(), "clip-0");
+  const nlohmann::json own = json_element(run.page(), "clip-0");
   EXPECT_NEAR(own["camera"]["told"]["extrinsics"][0][7].get<double>(), 0.95, 1e-9);
   for (const auto& chart : own["charts"])
     if (chart["title"]["words"] == "distance from the keypoints") {
@@ -326,7 +326,8 @@ TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
     }
   of_input.keypoints->extrinsics = clip.keypoints->extrinsics;
   Folder::write(run.run.input("clip 0"), of_input);
-  EXPECT_FALSE(element(run.page(), "clip-0")["camera"].contains("told")) << "it was cleaned with the same";
+  EXPECT_FALSE(json_element(run.page(), "clip-0")["camera"].contains("told"))
+      << "it was cleaned with the same";
 }
 
 TEST(RunReport, WallClockTimesAreThereOnlyWhereTheyAreAskedFor) {

@@ -48,7 +48,7 @@ motion::ReferenceFrame mirrored(const motion::ReferenceFrame& frame) {
   return image;
 }
 
-std::vector<float> state_of(const Pose& reference, const Pose& simulated) {
+std::vector<float> state_values(const Pose& reference, const Pose& simulated) {
   std::vector<float> state(kStateSize);
   tracking_state(reference, joint_features(reference.frame), {0.3, -0.2}, simulated, state.data());
   return state;
@@ -67,9 +67,10 @@ TEST(Mirror, TheStateOfMirroredPosesIsTheMirrorImageOfTheState) {
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
     const motion::ReferenceFrame a = random_frame(random, 0.5), b = random_frame(random, 0.5);
-    const std::vector<float> image = reflected(map, state_of(pose_of(character, a), pose_of(character, b)));
+    const std::vector<float> image =
+        reflected(map, state_values(pose_of(character, a), pose_of(character, b)));
     const std::vector<float> expected =
-        state_of(pose_of(character, mirrored(a)), pose_of(character, mirrored(b)));
+        state_values(pose_of(character, mirrored(a)), pose_of(character, mirrored(b)));
     for (int k = 0; k < kStateSize; ++k) {
       const auto entry = static_cast<std::size_t>(k);
       ASSERT_NEAR(image[entry], expected[entry], 2e-5) << "entry " << k;

@@ -8,8 +8,6 @@
 namespace mimicx::motion::synth {
 namespace {
 
-constexpr GaitStyle kQuiet = {0.0, 0.0, 2.0 * kDegree, 0.0};
-
 Choreography standing(const PlanRequest& request, double wide) {
   Choreography c(request, random_stance(request, 0.95, wide, 4.0, 16.0), 0.5);
   c.pause(request.random.uniform(0.2, 0.4));

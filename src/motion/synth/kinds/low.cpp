@@ -10,8 +10,6 @@
 namespace mimicx::motion::synth {
 namespace {
 
-constexpr GaitStyle kQuiet = {0.0, 0.0, 2.0 * kDegree, 0.0};
-
 Choreography wide(const PlanRequest& request) {
   Choreography c(request, random_stance(request, 1.2, 1.6, 8.0, 20.0), 0.5);
   c.pause(request.random.uniform(0.25, 0.45));

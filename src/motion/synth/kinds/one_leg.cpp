@@ -7,9 +7,7 @@
 namespace mimicx::motion::synth {
 namespace {
 
-constexpr GaitStyle kQuiet = {0.0, 0.0, 2.0 * kDegree, 0.0};
-
-Choreography at_ease(const PlanRequest& request) {
+Choreography feet_together(const PlanRequest& request) {
   Choreography c(request, random_stance(request, 0.95, 1.1, 4.0, 10.0), 0.6);
   c.pause(request.random.uniform(0.2, 0.4));
   return c;
@@ -62,7 +60,7 @@ Direction any_direction(Random& random) { return static_cast<Direction>(random.b
 }  // namespace
 
 PerFrame<PlanFrame> plan_balance(const PlanRequest& request) {
-  Choreography c = at_ease(request);
+  Choreography c = feet_together(request);
   const double leg = leg_length(request.character);
   while (true) {
     Random& random = c.random();
@@ -85,7 +83,7 @@ PerFrame<PlanFrame> plan_balance(const PlanRequest& request) {
 }
 
 PerFrame<PlanFrame> plan_kick_around(const PlanRequest& request) {
-  Choreography c = at_ease(request);
+  Choreography c = feet_together(request);
   const double leg = leg_length(request.character);
   const PlanFrame poised = poised_posture(c.stand());
   while (true) {
@@ -115,7 +113,7 @@ PerFrame<PlanFrame> plan_kick_around(const PlanRequest& request) {
 }
 
 PerFrame<PlanFrame> plan_march(const PlanRequest& request) {
-  Choreography c = at_ease(request);
+  Choreography c = feet_together(request);
   const double leg = leg_length(request.character);
   const double height = c.random().uniform(0.15, 0.34), up = c.random().uniform(0.32, 0.42),
                down = c.random().uniform(0.30, 0.38), both = c.random().uniform(0.14, 0.24);
