@@ -11,7 +11,6 @@
 #include "motion/import/motion_file.h"
 #include "pipeline/picture/picture.h"
 #include "pipeline/picture/png.h"
-#include "pipeline/picture/webp.h"
 #include "pipeline/preparation.h"
 #include "pipeline/record/outputs.h"
 #include "shared_arguments.h"
@@ -24,10 +23,9 @@ namespace exchange = pipeline::exchange;
 
 constexpr int kMostPixels = 8192;  ///< along an edge: what a picture of reasonable size in memory has
 
-struct Arguments {
+struct RenderArguments {
   std::vector<std::string> files;
   std::filesystem::path out;
-  std::optional<picture::Kind> kind;
   std::vector<double> at;
   std::vector<std::string> labels;
   picture::PictureConfig picture;
@@ -65,23 +63,11 @@ void take_size(const std::string& text, std::optional<picture::Size>& size) {
   size = found;
 }
 
-picture::Kind kind_of(const Arguments& a) {
+void claim_picture(const RenderArguments& a) {
   const std::string suffix = a.out.extension().string();
-  if (suffix != ".png" && suffix != ".webp")
-    throw UsageError(a.out.string() + ": pictures are written as .png or .webp, not '" + suffix + "'");
-  const bool moves = suffix == ".webp";
-  const picture::Kind kind = a.kind.value_or(moves ? picture::Kind::kAnimation : picture::Kind::kStrip);
-  if ((kind == picture::Kind::kAnimation) != moves)
-    throw UsageError(a.out.string() + ": an animation is a .webp, every other picture a .png");
-  return kind;
-}
-
-void claim_output(const Arguments& a) {
-  pipeline::record::Outputs outputs(a.files, a.force);
-  if (kind_of(a) == picture::Kind::kAnimation)
-    outputs.claim(a.out, picture::kWebpEnding, pipeline::record::kAtTheEnd);
-  else
-    outputs.claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
+  if (suffix != ".png")
+    throw UsageError(a.out.string() + ": pictures and animations are written as .png, not '" + suffix + "'");
+  pipeline::record::Outputs(a.files, a.force).claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
 }
 
 /// Folder and name: motions of one name in several folders are the rule.
@@ -90,7 +76,7 @@ std::string name_of(const std::filesystem::path& file) {
   return (folder.empty() ? file.filename() : folder / file.filename()).string();
 }
 
-List<picture::Performance> performances_of(const Arguments& a) {
+List<picture::Performance> performances_of(const RenderArguments& a) {
   const int count = static_cast<int>(a.files.size());
   List<motion::Clip> clips;
   for (const std::string& file : a.files) {
@@ -109,9 +95,8 @@ List<picture::Performance> performances_of(const Arguments& a) {
   return performances;
 }
 
-int render(const Arguments& a) {
+int render(const RenderArguments& a) {
   picture::PictureConfig config = a.picture;
-  config.kind = kind_of(a);
   config.at = a.at;
   if (!a.labels.empty() && a.labels.size() != a.files.size())
     throw UsageError("--labels: expected one for each of the " + std::to_string(a.files.size()) +
@@ -120,8 +105,7 @@ int render(const Arguments& a) {
     throw UsageError("--at: a still shows one moment, found " + std::to_string(config.at.size()));
   if (config.kind == picture::Kind::kAnimation && !config.at.empty())
     throw UsageError("--at: an animation shows all moments; --from and --to choose a part");
-  claim_output(a);
-  if (config.kind == picture::Kind::kAnimation) picture::require_webp(a.out.string());
+  claim_picture(a);
   const List<picture::Performance> performances = performances_of(a);
   bool forces = false;
   for (const picture::Performance& p : performances) forces |= !p.forces.empty();
@@ -147,23 +131,22 @@ int render(const Arguments& a) {
 }  // namespace
 
 void declare_render(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<RenderArguments>();
   Command command = line.add(
       "render", "Draw motions: strips of moments, stills, animations",
       "mimicx render noisy/jump.npz RUN/motions/jump.npz --out jump.png --arrows   # before and after\n"
-      "mimicx render clip.bvh --out clip.webp --view side                          # an animation",
+      "mimicx render clip.bvh --out clip.png --kind animation                      # for any browser",
       "Several motions are shown at the same moments by the same camera, each with its name.\n"
       "The floor's checks are half a metre; left arms and legs are lighter than right ones.");
   command.files("FILE", a->files, "motions");
-  command.path("--out", a->out, "where to write it: .png, or .webp for an animation").required();
-  command.choice<std::optional<picture::Kind>>(
-      "--kind", a->kind,
+  command.path("--out", a->out, "where to write it, .png").required();
+  command.choice<picture::Kind>(
+      "--kind", a->picture.kind,
       {{"strip", picture::Kind::kStrip},
        {"still", picture::Kind::kStill},
        {"stroboscope", picture::Kind::kStroboscope},
        {"animation", picture::Kind::kAnimation}},
-      "moments beside each other; one moment; many moments in one room; a film. Default: strip for .png, "
-      "animation for .webp");
+      "moments beside each other; one moment; many moments in one room; a film that every browser plays");
   const Option frames = command.number("--frames", a->picture.moments, {1.0, 200.0},
                                        "how many moments a strip or a stroboscope shows");
   command

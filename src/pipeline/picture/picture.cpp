@@ -5,7 +5,6 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "pipeline/picture/png.h"
-#include "pipeline/picture/webp.h"
 #include "render/draw.h"
 #include "render/shading.h"
 #include "render/text.h"
@@ -43,7 +42,7 @@ render::Image draw_cell(const List<Performance>& performances, const Cell& cell,
 }
 
 std::string animation(const List<Performance>& performances, const Layout& layout, double rate, int threads) {
-  WebpAnimation file(layout.size.width, layout.size.height);
+  PngAnimation file;
   const auto shown_at = [&](int page) { return static_cast<int>(std::lround(1000.0 * page / rate)); };
   const int pages = layout.pages.count();
   List<render::Image> images(pages);
@@ -51,10 +50,10 @@ std::string animation(const List<Performance>& performances, const Layout& layou
       pages, threads,
       [&](int k, int) { images[k] = draw_page(performances, layout.pages[k], layout.size, 1); },
       [&](int k) {
-        file.add(images[k], shown_at(k));
+        file.add(images[k], shown_at(k + 1) - shown_at(k));
         images[k] = {};
       });
-  return file.finish(shown_at(pages));
+  return file.finish();
 }
 
 }  // namespace
@@ -74,11 +73,9 @@ render::Image draw_page(const List<Performance>& performances, const Page& page,
 
 void write_picture(const std::filesystem::path& path, const List<Performance>& performances,
                    const Layout& layout, double rate, int threads) {
-  if (path.extension() != ".webp")
-    return write_file_atomically(path,
-                                 format_png(draw_page(performances, layout.pages[0], layout.size, threads)));
-  require_webp(path.string());
-  write_file_atomically(path, animation(performances, layout, rate, threads));
+  write_file_atomically(path, layout.pages.count() > 1 ? animation(performances, layout, rate, threads)
+                                                       : format_png(draw_page(performances, layout.pages[0],
+                                                                              layout.size, threads)));
 }
 
 }  // namespace mimicx::pipeline::picture

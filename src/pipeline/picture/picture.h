@@ -12,8 +12,8 @@ namespace mimicx::pipeline::picture {
 render::Image draw_page(const List<Performance>& performances, const Page& page, const Size& size,
                         int threads);
 
-/// Writes the layout's one page as .png, or its pages as an animation, .webp. @param rate  pages per second
-/// @throws DataError when the file cannot be written, or is an animation and this build has no libwebp
+/// Writes the layout's one page, or its pages as an animation, as PNG. @param rate  pages per second
+/// @throws DataError when the file cannot be written
 void write_picture(const std::filesystem::path& path, const List<Performance>& performances,
                    const Layout& layout, double rate, int threads);
 

@@ -11,10 +11,7 @@ namespace {
 std::string bytes_at(const std::filesystem::path& path, std::size_t at, std::size_t count) {
   std::string bytes(count, '\0');
   std::ifstream file(path, std::ios::binary);
-  if (at == kAtTheEnd)
-    file.seekg(-static_cast<std::streamoff>(count), std::ios::end);
-  else
-    file.seekg(static_cast<std::streamoff>(at));
+  file.seekg(static_cast<std::streamoff>(at));
   file.read(bytes.data(), static_cast<std::streamsize>(count));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;

@@ -25,13 +25,9 @@ struct OutputRefused : std::invalid_argument {
 /// How the JSON documents for users begin (json.h, `document`).
 inline constexpr std::string_view kJsonOpening = "{\n \"made_by\": \"mimicx\"";
 
-/// For files that say at their end who made them.
-inline constexpr std::size_t kAtTheEnd = static_cast<std::size_t>(-1);
-
 /// Whether a file is one that this program wrote.
 /// @param opening  how such a file begins; empty: it is an archive
-/// @param at       the byte at which the opening stands, where lengths come before it; kAtTheEnd: it is no
-///                 opening, the file ends with it
+/// @param at       the byte at which the opening stands, where lengths come before it
 bool is_own_file(const std::filesystem::path& path, std::string_view opening, std::size_t at = 0);
 
 class Outputs {

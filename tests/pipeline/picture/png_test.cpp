@@ -25,25 +25,62 @@ render::Image patterned(int width, int height) {
   return image;
 }
 
-TEST(Png, AnIndependentDecoderReadsEveryPixel) {
-  if (!std::filesystem::exists("/usr/bin/python3")) GTEST_SKIP() << "no Python here";
-  TemporaryFolder folder;
-  const std::string file = (folder.path / "a.png").string();
-  const render::Image image = patterned(37, 23);
-  write_file_atomically(file, format_png(image));
-  std::string expected = "37 23 mimicx\n";
+/// What read_png.py prints of the pixels.
+std::string rows_of(const render::Image& image) {
+  std::string text;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x)
       for (const int value : {image.at(x, y).r, image.at(x, y).g, image.at(x, y).b}) {
-        expected += "0123456789abcdef"[value / 16];
-        expected += "0123456789abcdef"[value % 16];
+        text += "0123456789abcdef"[value / 16];
+        text += "0123456789abcdef"[value % 16];
       }
-    expected += '\n';
+    text += '\n';
   }
+  return text;
+}
+
+void expect_decoded(const std::string& bytes, const std::string& expected) {
+  if (!std::filesystem::exists("/usr/bin/python3")) GTEST_SKIP() << "no Python here";
+  TemporaryFolder folder;
+  const std::string file = (folder.path / "a.png").string();
+  write_file_atomically(file, bytes);
   const Call call =
       shell("/usr/bin/python3 " MIMICX_SOURCE_DIR "/tests/pipeline/picture/read_png.py " + file + " 2>&1");
   EXPECT_EQ(call.status, 0);
   EXPECT_EQ(call.text, expected);
+}
+
+TEST(Png, AnIndependentDecoderReadsEveryPixel) {
+  const render::Image image = patterned(37, 23);
+  expect_decoded(format_png(image), "37 23 mimicx\n" + rows_of(image));
+}
+
+TEST(Png, AnIndependentDecoderReadsEveryFrameOfAnAnimationAtItsTime) {
+  render::Image image = patterned(20, 15);
+  PngAnimation animation;
+  std::string expected = "20 15 mimicx\n";
+  for (int k = 0; k < 5; ++k) {  // a square moves over the pattern; the third frame is the second again
+    if (k != 2) {
+      image = patterned(20, 15);
+      render::paste(render::Image(4, 4, {200, 40, 20}), 3 * k, 2 * k, image);
+    }
+    animation.add(image, 40 + k);
+    expected += "frame " + std::to_string(40 + k) + '\n' + rows_of(image);
+  }
+  expect_decoded(animation.finish(), expected);
+}
+
+TEST(Png, AnAnimationStoresWhatMovesAlone) {
+  const auto bytes_of = [](int frames) {
+    PngAnimation animation;
+    for (int k = 0; k < frames; ++k) {
+      render::Image image = patterned(200, 150);
+      render::paste(render::Image(16, 16, {200, 40, 20}), 8 * k, 16, image);
+      animation.add(image, 40);
+    }
+    return animation.finish().size();
+  };
+  EXPECT_LT(bytes_of(10) - bytes_of(1), bytes_of(1) / 4);
 }
 
 TEST(Png, OursAreKnownAgain) {
