@@ -9,7 +9,7 @@
 namespace mimicx::tools {
 namespace {
 
-struct Arguments {
+struct AdaptArguments {
   pipeline::AdaptConfig config = pipeline::adapt_configuration();
   std::vector<std::string> options;
   RunArguments more;
@@ -45,6 +45,8 @@ int adapt_motions(pipeline::AdaptConfig config, const std::vector<std::string>& 
     config.clusters = shipped_clusters();
   else
     config.options = read_sets(options);
+  if (config.teaching.teach && config.method != pipeline::AdaptMethod::kAuto)
+    throw UsageError("--policy: expected --method auto, whose plan teaches it, found another one");
   apply_settings(settings, config);
   return with_context(config.run.quiet, [&](const pipeline::record::RunContext& context) {
     return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });
@@ -52,9 +54,9 @@ int adapt_motions(pipeline::AdaptConfig config, const std::vector<std::string>& 
 }
 
 void declare_adapt(CommandLine& line) {
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<AdaptArguments>();
   Command command =
-      line.add("adapt", "Clean motions: keypoint fit, then a plan, or policies that are trained for each",
+      line.add("adapt", "Clean motions: keypoint fit, then a plan; trained policies where it fails",
                "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
                "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
   command.choice("--method", a->config.method,
@@ -64,6 +66,9 @@ void declare_adapt(CommandLine& line) {
                  "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
                  "fine-tuned, minutes per motion; auto: the plan, and only where it fails the paper's "
                  "method, whose training then takes minutes; the better of the two is kept");
+  command.flag("--policy", a->config.teaching.teach,
+               "every plan that is followed also teaches a policy, which follows the motion alone and stands "
+               "pushes: policies/NAME.npz; 2 to 10 times the motion's length");
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);

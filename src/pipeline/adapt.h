@@ -4,9 +4,9 @@
 /// *Paper*: trained options, of the first set that follows, are arranged over the motion, and those that act
 /// are fine-tuned jointly; minutes.
 ///                                                                     docs/method.md §8, §9
-/// *Auto*: the plan, and a policy that it teaches (teach_sequence.h); where the plan's roll-out is no success
-/// the paper's method with its whole budget. The better of the roll-outs is written (choice.h), and the
-/// manifest says which.
+/// *Auto*: the plan, and where a policy is asked for, one that it teaches (teach_sequence.h); where the
+/// plan's roll-out is no success the paper's method with its whole budget. The better of the roll-outs is
+/// written (choice.h), and the manifest says which.
 #pragma once
 
 #include <filesystem>

@@ -9,7 +9,7 @@
 namespace mimicx::pipeline {
 
 struct TeachingConfig {
-  bool teach = true;  ///< whether a plan that was followed teaches a policy at all
+  bool teach = false;  ///< whether a plan that is followed teaches a policy: `adapt --policy`
   teaching::TeacherConfig teacher;
   teaching::StudentConfig student;
   /// Where the student alone does not follow the motion, PPO goes on with it, at most so many samples and

@@ -322,6 +322,7 @@ TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
 /// A plan that teaches a small student quickly.
 AdaptConfig teaching_quickly(AdaptConfig config) {
   config.method = AdaptMethod::kAuto;
+  config.teaching.teach = true;
   config.teaching.student.hidden = 32;
   config.teaching.student.rounds = 4;
   config.teaching.student.least_steps = 40;
@@ -360,11 +361,10 @@ TEST_F(Adapt, ThePolicyOnDiskDoesWhatTheManifestSays) {
   EXPECT_NEAR(value_of(scores.values, "gMPJPE"), value_of(entry.policy, "gMPJPE"), 1e-9);
 }
 
-TEST_F(Adapt, WithoutTeachingIsThePlanAlone) {
+TEST_F(Adapt, TeachesNoPolicyUnlessAskedTo) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.method = AdaptMethod::kAuto;
-  config.teaching.teach = false;
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
   EXPECT_EQ(entry.method, "plan");

@@ -225,6 +225,14 @@ TEST_F(Cli, AdaptPlansAndTrainsNothingWhereThePlanSucceeds) {
   EXPECT_TRUE(std::filesystem::exists(path("a.mimicx/plans/a.npz")));
   EXPECT_TRUE(std::filesystem::exists(path("a.clean.npz")));
   EXPECT_FALSE(std::filesystem::exists(path("a.mimicx/training")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.mimicx/policies"))) << "nobody asked for a policy";
+  EXPECT_TRUE(
+      says(mimicx("adapt --method plan --policy " + path("a.npz")), "--policy: expected --method auto"));
+  EXPECT_EQ(mimicx("adapt --policy --set teach_rounds=2 --set polish_samples=0 " + path("a.npz") + " --out " +
+                   path("policy"))
+                .status,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(path("policy/policies/a.npz")));
   EXPECT_EQ(mimicx("adapt --method paper " + path("a.npz")).status, 1) << "a folder of another method";
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Many copies of the one motion of a run, as the shards of a larger run would have left them: to measure merging.
-  mimicx adapt data/synthetic/test/noisy/walk_1.npz --out one
+  mimicx adapt --policy data/synthetic/test/noisy/walk_1.npz --out one
   tools/slurm/copies_of_a_run.py one 10000 64 many      # 10,000 motions (links to the one) in 64 shards
   /usr/bin/time -v mimicx merge many
 Knows by itself who does what (docs/cluster.md, "Who does what"): merge would call a motion of another shard missing.
