@@ -80,7 +80,7 @@ target_compile_definitions(mimicx_settings INTERFACE
 # which is loaded as a whole, -O3 and -Os. Never both in one command for a page: after an -Os em++ inlines no functions.
 # The hot rooms keep -O3 for their bits in native arithmetic, too: with all of them at -O1 taught policies came out
 # otherwise (GCC 12 leaves out roundings where it packs scalars into vectors: src/control/CMakeLists.txt).
-set(MIMICX_HOT_ROOMS character control core motion motion_fit nn physics render rl rl_tracking skin teaching)
+set(MIMICX_HOT_ROOMS character control core fit motion nn physics render rl rl_tracking skin teaching)
 set(CMAKE_CXX_FLAGS_RELEASE "")
 
 # A room is compiled in a few pieces of several files each ("unity" files): the headers, Eigen's above all, are read
@@ -137,10 +137,20 @@ function(mimicx_compile target level)
   target_precompile_headers(${target} REUSE_FROM mimicx_${level}_headers)
 endfunction()
 
-# mimicx_library(NAME SOURCES... DEPENDS LIBS...): one static library per room.
+# mimicx_sources(OUT [FOLDERS FOLDERS...] [EXCEPT FILES...]): the .cpp files of the current folder and of these in it.
+function(mimicx_sources out)
+  cmake_parse_arguments(ARG "" "" "FOLDERS;EXCEPT" ${ARGN})
+  list(TRANSFORM ARG_FOLDERS APPEND "/*.cpp")
+  file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS *.cpp ${ARG_FOLDERS})
+  list(REMOVE_ITEM sources ${ARG_EXCEPT})
+  set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
+# mimicx_library(NAME [FOLDERS...] [EXCEPT...] [DEPENDS LIBS...]): a room, one static library.
 function(mimicx_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
-  add_library(mimicx_${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "FOLDERS;EXCEPT;DEPENDS" ${ARGN})
+  mimicx_sources(sources FOLDERS ${ARG_FOLDERS} EXCEPT ${ARG_EXCEPT})
+  add_library(mimicx_${name} STATIC ${sources})
   target_link_libraries(mimicx_${name} PUBLIC mimicx_settings ${ARG_DEPENDS})
   if(name IN_LIST MIMICX_HOT_ROOMS)
     mimicx_compile(mimicx_${name} hot)
@@ -168,10 +178,11 @@ function(mimicx_add_suites target)
   endforeach()
 endfunction()
 
-# mimicx_test(NAME SOURCES... DEPENDS LIBS...): one GoogleTest program per room under test, one suite after the other.
+# mimicx_test(NAME [FOLDERS...] [EXCEPT...] DEPENDS LIBS...): one GoogleTest program per room under test.
 function(mimicx_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
-  add_executable(test_${name} ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "FOLDERS;EXCEPT;DEPENDS" ${ARGN})
+  mimicx_sources(sources FOLDERS ${ARG_FOLDERS} EXCEPT ${ARG_EXCEPT})
+  add_executable(test_${name} ${sources})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE

@@ -1,8 +1,9 @@
-#include "pipeline/adapt.h"
+#include "program/adapt_command.h"
 
 #include <memory>
 
 #include "commands.h"
+#include "pipeline/cluster_map.h"
 #include "shipped_options.h"
 #include "training.h"
 
@@ -10,7 +11,7 @@ namespace mimicx::tools {
 namespace {
 
 struct AdaptArguments {
-  pipeline::AdaptConfig config = pipeline::adapt_configuration();
+  program::AdaptConfig config = program::adapt_configuration();
   std::vector<std::string> options;
   RunArguments more;
 };
@@ -39,17 +40,17 @@ pipeline::options::OptionSets read_sets(const std::vector<std::string>& given) {
 
 }  // namespace
 
-int adapt_motions(pipeline::AdaptConfig config, const std::vector<std::string>& options,
+int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& options,
                   const std::vector<std::string>& settings) {
-  if (config.method == pipeline::AdaptMethod::kPlan)
-    config.clusters = shipped_clusters();
+  if (config.method == program::AdaptMethod::kPlan)
+    config.run.map = pipeline::run_map(shipped_clusters());
   else
     config.options = read_sets(options);
-  if (config.teaching.teach && config.method != pipeline::AdaptMethod::kAuto)
+  if (config.teaching.teach && config.method != program::AdaptMethod::kAuto)
     throw UsageError("--policy: expected --method auto, whose plan teaches it, found another one");
   apply_settings(settings, config);
-  return with_context(config.run.quiet, [&](const pipeline::record::RunContext& context) {
-    return run_inputs(config.run, context, [&] { return pipeline::adapt(config, context); });
+  return with_context(config.run.quiet, [&](const record::RunContext& context) {
+    return run_inputs(config.run, context, [&] { return program::adapt(config, context); });
   });
 }
 
@@ -60,9 +61,9 @@ void declare_adapt(CommandLine& line) {
                "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
                "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
   command.choice("--method", a->config.method,
-                 {{"auto", pipeline::AdaptMethod::kAuto},
-                  {"plan", pipeline::AdaptMethod::kPlan},
-                  {"paper", pipeline::AdaptMethod::kPaper}},
+                 {{"auto", program::AdaptMethod::kAuto},
+                  {"plan", program::AdaptMethod::kPlan},
+                  {"paper", program::AdaptMethod::kPaper}},
                  "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
                  "fine-tuned, minutes per motion; auto: the plan, and only where it fails the paper's "
                  "method, whose training then takes minutes; the better of the two is kept");

@@ -9,7 +9,7 @@
 
 #include "commands.h"
 #include "numbers.h"
-#include "pipeline/record/table.h"
+#include "record/table.h"
 #include "words.h"
 
 namespace mimicx::tools {
@@ -34,7 +34,7 @@ bool holds(const Range& range, double value) {
 }
 
 std::string words_of(const Range& range) {
-  const auto digits = [](double value) { return pipeline::record::format_number(value); };
+  const auto digits = [](double value) { return record::format_number(value); };
   if (range.above) return " above " + digits(range.least);
   if (std::isinf(range.least)) return std::isinf(range.most) ? "" : " up to " + digits(range.most);
   return " from " + digits(range.least) + (std::isinf(range.most) ? " on" : " to " + digits(range.most));
@@ -72,7 +72,7 @@ T checked_number(const std::string& name, const Range& range, const std::string&
   return *value;
 }
 
-std::string digits_of(double value) { return pipeline::record::format_number(value); }
+std::string digits_of(double value) { return record::format_number(value); }
 template <class T>
 std::string digits_of(T value) {
   return std::to_string(value);

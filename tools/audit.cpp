@@ -2,13 +2,13 @@
 #include <memory>
 #include <optional>
 
+#include "audit/audit_file.h"
+#include "audit/pose_files.h"
 #include "commands.h"
-#include "core/npz.h"
-#include "pipeline/audit/audit_file.h"
-#include "pipeline/audit/pose_files.h"
-#include "pipeline/inputs.h"
-#include "pipeline/record/outputs.h"
-#include "pipeline/record/progress.h"
+#include "core/npz/npz.h"
+#include "files/inputs.h"
+#include "record/outputs.h"
+#include "record/progress.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -18,27 +18,27 @@ struct AuditArguments {
   std::vector<std::string> inputs;
   bool poses = false;
   std::filesystem::path json, csv, frames_csv;
-  pipeline::audit::PoseFilesConfig config;
+  audit::PoseFilesConfig config;
   double reach_mm = 20.0;
   bool force = false;
 };
 
 void claim_outputs(const AuditArguments& a, const std::vector<std::string>& inputs) {
-  pipeline::record::Outputs outputs(inputs, a.force);
-  outputs.claim(a.csv, pipeline::audit::poses_csv_head());
-  outputs.claim(a.frames_csv, pipeline::audit::pose_frames_csv_head());
-  outputs.claim(a.json, pipeline::record::kJsonOpening);
+  record::Outputs outputs(inputs, a.force);
+  outputs.claim(a.csv, audit::poses_csv_head());
+  outputs.claim(a.frames_csv, audit::pose_frames_csv_head());
+  outputs.claim(a.json, record::kJsonOpening);
 }
 
 int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs) {
-  std::vector<pipeline::audit::AuditedFile> files;
+  std::vector<audit::AuditedFile> files;
   bool all_good = true;
-  std::cout << pipeline::audit::audit_table_head();
+  std::cout << audit::audit_table_head();
   for (const std::string& path : inputs) {
     try {
-      files.push_back({path, pipeline::audit::audit_file(path, false, a.config.read)});
-      for (const pipeline::audit::Audit& audit : files.back().audits) {
-        std::cout << pipeline::audit::format_audit(path, audit);
+      files.push_back({path, audit::audit_file(path, false, a.config.read)});
+      for (const audit::Audit& audit : files.back().audits) {
+        std::cout << audit::format_audit(path, audit);
         all_good = all_good && audit.failures.empty();
       }
     } catch (const std::exception& error) {
@@ -46,47 +46,46 @@ int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs
       all_good = false;
     }
   }
-  if (!a.json.empty()) write_file_atomically(a.json, pipeline::audit::audit_json(files));
+  if (!a.json.empty()) write_file_atomically(a.json, audit::audit_json(files));
   return all_good ? kAllGood : kSomeFailed;
 }
 
 int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs) {
-  pipeline::audit::PoseFilesConfig config = a.config;
+  audit::PoseFilesConfig config = a.config;
   config.frames = !a.frames_csv.empty();
   config.needs.reach = a.reach_mm / 1000.0;
   std::optional<AtomicFile> csv, frames_csv;
-  if (!a.csv.empty()) csv.emplace(a.csv).write(pipeline::audit::poses_csv_head());
-  if (config.frames) frames_csv.emplace(a.frames_csv).write(pipeline::audit::pose_frames_csv_head());
-  std::vector<pipeline::audit::PoseFile> kept;  // for the JSON
+  if (!a.csv.empty()) csv.emplace(a.csv).write(audit::poses_csv_head());
+  if (config.frames) frames_csv.emplace(a.frames_csv).write(audit::pose_frames_csv_head());
+  std::vector<audit::PoseFile> kept;  // for the JSON
   std::size_t done = 0, failed = 0;
-  double next = pipeline::record::steady_seconds() + pipeline::record::kProgressSeconds;
-  std::cout << pipeline::audit::pose_table_head();
-  pipeline::audit::judge_poses(inputs, config, [&](const pipeline::audit::PoseFile& file) {
+  double next = record::steady_seconds() + record::kProgressSeconds;
+  std::cout << audit::pose_table_head();
+  audit::judge_poses(inputs, config, [&](const audit::PoseFile& file) {
     ++done;
     if (file.failure.empty()) {
-      std::cout << pipeline::audit::format_poses(file);
+      std::cout << audit::format_poses(file);
     } else {
       std::cerr << file.path << ": left out: " << file.failure << '\n';
       ++failed;
     }
-    if (csv) csv->write(pipeline::audit::poses_csv_row(file));
-    if (frames_csv) frames_csv->write(pipeline::audit::pose_frames_csv_rows(file));
+    if (csv) csv->write(audit::poses_csv_row(file));
+    if (frames_csv) frames_csv->write(audit::pose_frames_csv_rows(file));
     if (!a.json.empty()) kept.push_back(file), kept.back().needs.frames.clear();
-    if (pipeline::record::steady_seconds() < next) return;
+    if (record::steady_seconds() < next) return;
     std::cerr << done << " of " << inputs.size() << " motions\n";
-    next = pipeline::record::steady_seconds() + pipeline::record::kProgressSeconds;
+    next = record::steady_seconds() + record::kProgressSeconds;
   });
   if (csv) csv->finish();
   if (frames_csv) frames_csv->finish();
-  if (!a.json.empty()) write_file_atomically(a.json, pipeline::audit::poses_json(kept));
+  if (!a.json.empty()) write_file_atomically(a.json, audit::poses_json(kept));
   return failed == 0 ? kAllGood : kSomeFailed;
 }
 
 int audit(const AuditArguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
     throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
-  const std::vector<std::string> inputs =
-      pipeline::paths_of(pipeline::find_motions(a.inputs, {}, &std::cerr));
+  const std::vector<std::string> inputs = files::paths_of(files::find_motions(a.inputs, {}, &std::cerr));
   claim_outputs(a, inputs);
   return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
 }

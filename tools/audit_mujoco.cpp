@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <string>
 
+#include "audit/audit_file.h"
 #include "motion/clip_file.h"
 #include "oracles/mujoco_audit.h"
-#include "pipeline/audit/audit_file.h"
 
 namespace mimicx::tools {
 namespace {
@@ -22,10 +22,10 @@ struct Numbers {
   double force_mean = 0.0, force_max = 0.0, moment_mean = 0.0, moment_max = 0.0, torque_gap_max = 0.0;
 };
 
-Numbers numbers_of(const std::vector<pipeline::audit::AuditRow>& rows) {
+Numbers numbers_of(const std::vector<audit::AuditRow>& rows) {
   Numbers n;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(rows.size(), 1));
-  for (const pipeline::audit::AuditRow& row : rows) {
+  for (const audit::AuditRow& row : rows) {
     const double moment = row.root.head<3>().norm(), force = row.root.tail<3>().norm();
     n.force_mean += share * force;
     n.force_max = std::max(n.force_max, force);
@@ -42,10 +42,9 @@ void print(const std::string& name, const std::string& evidence, const char* eng
 }
 
 /// Both engines' lines. @return whether they agree
-bool compare(const std::string& name, const pipeline::audit::Audit& audit,
-             const std::vector<pipeline::audit::AuditRow>& mujoco) {
+bool compare(const std::string& name, const audit::Audit& audit, const std::vector<audit::AuditRow>& mujoco) {
   const double apart = test::largest_difference(audit, mujoco);
-  print(name, pipeline::audit::evidence_name(audit.evidence), "mimicx", numbers_of(audit.rows));
+  print(name, audit::evidence_name(audit.evidence), "mimicx", numbers_of(audit.rows));
   print("", "", "MuJoCo", numbers_of(mujoco));
   std::printf("%28s largest difference in a row: %.1e of its forces\n", "", apart);
   return apart <= kAgreement;
@@ -54,18 +53,16 @@ bool compare(const std::string& name, const pipeline::audit::Audit& audit,
 bool compare_file(const std::filesystem::path& path) {
   const Npz npz = read_npz(path);
   const std::string name = path.stem().string();
-  if (pipeline::audit::holds_substeps(npz)) {
-    const pipeline::audit::SubstepMotion motion = test::on_hinge_axes(pipeline::audit::read_substeps(npz));
-    const bool recorded =
-        compare(name, pipeline::audit::audit_steps(motion), test::mujoco_audit_steps(motion));
-    return compare(name, pipeline::audit::audit_replayed_steps(motion),
-                   test::mujoco_audit_replayed_steps(motion)) &&
+  if (audit::holds_substeps(npz)) {
+    const audit::SubstepMotion motion = test::on_hinge_axes(audit::read_substeps(npz));
+    const bool recorded = compare(name, audit::audit_steps(motion), test::mujoco_audit_steps(motion));
+    return compare(name, audit::audit_replayed_steps(motion), test::mujoco_audit_replayed_steps(motion)) &&
            recorded;
   }
-  const pipeline::audit::SimulatedFrames motion =
-      test::on_hinge_axes(pipeline::audit::simulated_frames(motion::read_clip(path), npz));
+  const audit::SimulatedFrames motion =
+      test::on_hinge_axes(audit::simulated_frames(motion::read_clip(path), npz));
   const physics::SimulationConfig simulation;
-  return compare(name, pipeline::audit::audit_frames(motion, simulation),
+  return compare(name, audit::audit_frames(motion, simulation),
                  test::mujoco_audit_frames(motion, simulation));
 }
 

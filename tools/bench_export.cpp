@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/output/policy_file.h"
-#include "pipeline/policy_export/exported_policy.h"
-#include "pipeline/record/run_folder.h"
-#include "pipeline/scores.h"
-#include "rl/tracking/rollout.h"
+#include "files/policy_file.h"
+#include "judge/scores.h"
+#include "policy_export/exported_policy.h"
+#include "record/run_folder.h"
+#include "rl/tracking/tracking_rollout.h"
 #include "teaching/lessons.h"
 
 namespace mimicx::tools {
 namespace {
 
-using pipeline::output::StoredPolicy;
+using files::StoredPolicy;
 
 struct Kept {
   double mpjpe = 0.0, distance = 0.0;  ///< mm
@@ -35,32 +35,30 @@ Kept try_out(const motion::Reference& taught, const StoredPolicy& policy, const 
   task.simulation = policy.simulation;
   const auto clip = rl::tracking::make_tracking_clip(policy.motion, task);
   const auto rollout = rl::tracking::roll_out(clip, task, rl::tracking::mean_action({policy.agent}));
-  const pipeline::Scores scores = pipeline::score_simulated(taught, rollout);
+  const judge::Scores scores = judge::score_simulated(taught, rollout);
   return {value_of(scores.values, "MPJPE"), value_of(scores.values, "gMPJPE"),
           teaching::test_pushes(clip, task, policy.agent, pushes).followed, scores.success};
 }
 
 /// Of what a header holds of motion and network.
-std::size_t data_bytes(const pipeline::policy_export::ExportedPolicy& exported) {
+std::size_t data_bytes(const policy_export::ExportedPolicy& exported) {
   std::size_t bytes = 0;
-  pipeline::policy_export::with_policy(
-      exported, [&]<class Weight>(const pipeline::policy_export::Policy<Weight>& policy) {
-        using namespace pipeline::policy_export;
-        bytes +=
-            exported.motion.knots.size() * 2 + exported.motion.speeds.size() + (2 * kChannels + kSpeeds) * 4;
-        bytes += exported.inputs.size() * (2 + 4 + 4 + (policy.power != nullptr ? 1 : 0));
-        for (int l = 0; l < policy.layers; ++l) {
-          const Layer<Weight>& layer = policy.layer[l];
-          const auto inputs = static_cast<std::size_t>(layer.inputs),
-                     outputs = static_cast<std::size_t>(layer.outputs);
-          bytes += inputs * outputs * sizeof(Weight) + outputs * 4 * (layer.scales != nullptr ? 2 : 1);
-        }
-        bytes += kBodyCount * 3 * 8 + kShapeCount * 4;
-      });
+  policy_export::with_policy(exported, [&]<class Weight>(const policy_export::Policy<Weight>& policy) {
+    using namespace policy_export;
+    bytes += exported.motion.knots.size() * 2 + exported.motion.speeds.size() + (2 * kChannels + kSpeeds) * 4;
+    bytes += exported.inputs.size() * (2 + 4 + 4 + (policy.power != nullptr ? 1 : 0));
+    for (int l = 0; l < policy.layers; ++l) {
+      const Layer<Weight>& layer = policy.layer[l];
+      const auto inputs = static_cast<std::size_t>(layer.inputs),
+                 outputs = static_cast<std::size_t>(layer.outputs);
+      bytes += inputs * outputs * sizeof(Weight) + outputs * 4 * (layer.scales != nullptr ? 2 : 1);
+    }
+    bytes += kBodyCount * 3 * 8 + kShapeCount * 4;
+  });
   return bytes;
 }
 
-void print_all(const pipeline::record::RunFolder& run) {
+void print_all(const record::RunFolder& run) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(run.root / "policies"))
     files.push_back(entry.path());
@@ -73,10 +71,10 @@ void print_all(const pipeline::record::RunFolder& run) {
   Kept sums[3];
   int success[3] = {};
   for (const auto& file : files) {
-    const StoredPolicy policy = pipeline::output::read_policy(file);
+    const StoredPolicy policy = files::read_policy(file);
     std::printf("%-18s %6d |", policy.motion.name.c_str(), policy.motion.size());
     for (int kind = 0; kind < 3; ++kind) {
-      const auto exported = pipeline::policy_export::export_policy(policy, kind == 2);
+      const auto exported = policy_export::export_policy(policy, kind == 2);
       const Kept kept = try_out(policy.motion, kind == 0 ? policy : exported.meant, pushes);
       std::printf("%7.2f%8.2f%7d ", kept.mpjpe, kept.distance, kept.followed);
       if (kind > 0) std::printf("%8zu ", data_bytes(exported));
@@ -107,7 +105,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    mimicx::tools::print_all(mimicx::pipeline::record::RunFolder{argv[1]});
+    mimicx::tools::print_all(mimicx::record::RunFolder{argv[1]});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_export: %s\n", error.what());
     return 1;

@@ -16,10 +16,10 @@
 #include "core/parallel.h"
 #include "core/quantile.h"
 #include "core/units.h"
+#include "judge/scores.h"
 #include "pipeline/options/option_set.h"
-#include "pipeline/plan_teachers.h"
-#include "pipeline/scores.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
+#include "teaching/plan_teachers.h"
 
 namespace mimicx::tools {
 namespace {
@@ -37,7 +37,7 @@ Outcome follow(const motion::Reference& reference, const pipeline::options::Opti
   for (const pipeline::options::TrainedOption& option : set.options) {
     const auto alone = rl::tracking::roll_out(pipeline::options::encoded_for(clip, {&option.option}), task,
                                               rl::tracking::mean_action({option.option.agent}));
-    const pipeline::Scores scores = pipeline::score_simulated(reference, alone);
+    const judge::Scores scores = judge::score_simulated(reference, alone);
     const double error = value_of(scores.values, "gMPJPE");
     if (scores.success > best.yes || (scores.success && error < best.gmpjpe)) best = {scores.success, error};
   }
@@ -58,13 +58,13 @@ void print_row(const std::string& kind, Row row) {
 }
 
 void print_run(const std::string& folder, const pipeline::options::OptionSet& set,
-               pipeline::Followed followed) {
-  std::vector<pipeline::PlannedMotion> motions = pipeline::planned_motions({folder});
-  std::erase_if(motions, [](const pipeline::PlannedMotion& motion) { return !motion.followed; });
+               teaching::Followed followed) {
+  std::vector<teaching::PlannedMotion> motions = teaching::planned_motions({folder});
+  std::erase_if(motions, [](const teaching::PlannedMotion& motion) { return !motion.followed; });
   std::vector<Outcome> results(motions.size());
   parallel_for(static_cast<int>(motions.size()), available_threads(), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    results[k] = follow(pipeline::reference_of(motions[k], followed), set);
+    results[k] = follow(teaching::reference_of(motions[k], followed), set);
   });
   std::map<std::string, Row> kinds;
   Row all;
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i)
       mimicx::tools::print_run(
           argv[i], *set,
-          planned ? mimicx::pipeline::Followed::kPlan : mimicx::pipeline::Followed::kReference);
+          planned ? mimicx::teaching::Followed::kPlan : mimicx::teaching::Followed::kReference);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_options: %s\n", error.what());

@@ -11,28 +11,28 @@
 #include <string>
 #include <vector>
 
+#include "files/plan_file.h"
+#include "files/policy_file.h"
 #include "motion/clip_file.h"
-#include "pipeline/output/plan_file.h"
-#include "pipeline/output/policy_file.h"
-#include "pipeline/record/run_folder.h"
+#include "record/run_folder.h"
 #include "teaching/lessons.h"
 
 namespace mimicx::tools {
 namespace {
 
-control::PushResult pushed(const pipeline::record::RunFolder& run, const std::string& name,
+control::PushResult pushed(const record::RunFolder& run, const std::string& name,
                            const control::PushTest& test) {
-  const pipeline::output::StoredPlan stored = pipeline::output::read_plan(run.plan(name));
+  const files::StoredPlan stored = files::read_plan(run.plan(name));
   const Character character = motion::character_of(motion::read_clip(run.reference(name)));
   const control::System system =
       control::make_system(character, stored.simulation, stored.reference, stored.fps);
   return control::test_pushes(system, control::make_cost(system, {}), control::trajectory_of(stored.plan),
-                              pipeline::output::read_gains(run.gains(name)).gains, test);
+                              files::read_gains(run.gains(name)).gains, test);
 }
 
-control::PushResult pushed_policy(const pipeline::record::RunFolder& run, const std::string& name,
+control::PushResult pushed_policy(const record::RunFolder& run, const std::string& name,
                                   const control::PushTest& test) {
-  const pipeline::output::StoredPolicy policy = pipeline::output::read_policy(run.policy(name));
+  const files::StoredPolicy policy = files::read_policy(run.policy(name));
   rl::tracking::TrackingConfig task;
   task.simulation = policy.simulation;
   return teaching::test_pushes(rl::tracking::make_tracking_clip(policy.motion, task), task, policy.agent,
@@ -41,7 +41,7 @@ control::PushResult pushed_policy(const pipeline::record::RunFolder& run, const 
 
 /// A line for every motion that has a file in the folder of that name, and a last one; none without a folder.
 template <class Pushed>
-void print_all(const pipeline::record::RunFolder& run, const char* kind, const control::PushTest& test,
+void print_all(const record::RunFolder& run, const char* kind, const control::PushTest& test,
                const Pushed& pushed) {
   if (!std::filesystem::exists(run.root / kind)) return;
   std::vector<std::string> names;
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const mimicx::pipeline::record::RunFolder run{argv[1]};
+    const mimicx::record::RunFolder run{argv[1]};
     const mimicx::control::PushTest test{.speed = speed, .every = every};
     mimicx::tools::print_all(run, "gains", test, mimicx::tools::pushed);
     mimicx::tools::print_all(run, "policies", test, mimicx::tools::pushed_policy);

@@ -1,4 +1,4 @@
-#include "motion/prepare.h"
+#include "motion/prepare/prepare.h"
 #include "pipeline/options/clusters.h"
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "commands.h"
-#include "pipeline/configurations.h"
-#include "pipeline/inputs.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/outputs.h"
+#include "files/inputs.h"
+#include "program/configurations.h"
+#include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -19,16 +19,16 @@ namespace {
 struct ClusterArguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
-  pipeline::options::ClusterConfig config{pipeline::pretrain_configuration("small").clusters.radius,
+  pipeline::options::ClusterConfig config{program::pretrain_configuration("small").clusters.radius,
                                           std::nullopt, 0};
-  motion::import::ReadConfig read;
+  import::ReadConfig read;
   bool force = false;
 };
 
 /// The files named, and the motions of the folders named, in order of their paths.
-std::vector<pipeline::MotionInput> sorted_motions(const std::vector<std::string>& names) {
-  std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(names, {}, &std::cerr);
-  for (pipeline::MotionInput& input : inputs)
+std::vector<files::MotionInput> sorted_motions(const std::vector<std::string>& names) {
+  std::vector<files::MotionInput> inputs = files::find_motions(names, {}, &std::cerr);
+  for (files::MotionInput& input : inputs)
     input.path = std::filesystem::path(input.path).lexically_normal().string();
   std::sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   return inputs;
@@ -36,18 +36,19 @@ std::vector<pipeline::MotionInput> sorted_motions(const std::vector<std::string>
 
 int cluster(const ClusterArguments& a) {
   std::vector<pipeline::options::NamedFeatures> motions;
-  const std::vector<pipeline::MotionInput> inputs = sorted_motions(a.inputs);
-  const std::vector<std::string> files = pipeline::paths_of(inputs), names = pipeline::unique_names(inputs);
-  pipeline::record::Outputs(files, a.force).claim(a.out, pipeline::record::kJsonOpening);
-  if (motion::import::lower_suffix(a.out) != ".json")
+  const std::vector<files::MotionInput> inputs = sorted_motions(a.inputs);
+  const std::vector<std::string> files = files::paths_of(inputs), names = files::unique_names(inputs);
+  record::Outputs(files, a.force).claim(a.out, record::kJsonOpening);
+  if (import::lower_suffix(a.out) != ".json")
     throw UsageError("--out: expected a file that ends in .json, found " + a.out.string());
   bool all_good = true;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string& file = files[i];
     try {
-      const motion::Clip clip = motion::import::read_motion(file, a.read);
-      pipeline::tell_decisions(file, clip, std::cerr);
-      motions.push_back({names[i], motion::motion_features(motion::prepare_reference(clip, {}, nullptr))});
+      const motion::Clip clip = import::read_motion(file, a.read);
+      run::tell_decisions(file, clip, std::cerr);
+      motions.push_back(
+          {names[i], pipeline::options::motion_features(motion::prepare_reference(clip, {}, nullptr))});
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << error.what() << '\n';
       all_good = false;

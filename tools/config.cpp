@@ -3,7 +3,7 @@
 
 #include "arguments.h"
 #include "commands.h"
-#include "pipeline/configurations.h"
+#include "program/configurations.h"
 
 namespace mimicx::tools {
 
@@ -15,7 +15,7 @@ void declare_config(CommandLine& line) {
       "mimicx config --json   # the same for programs");
   command.flag("--json", *json, "print JSON instead of a table");
   command.action([json] {
-    std::cout << (*json ? pipeline::configurations_json() : pipeline::format_configurations());
+    std::cout << (*json ? program::configurations_json() : program::format_configurations());
     return kAllGood;
   });
 }

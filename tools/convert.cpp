@@ -3,60 +3,58 @@
 
 #include "commands.h"
 #include "core/file.h"
-#include "motion/import/motion_file.h"
+#include "files/exchange_file.h"
+#include "files/qpos.h"
+#include "import/motion_file.h"
 #include "motion/resample.h"
-#include "pipeline/exchange/exchange_file.h"
-#include "pipeline/output/qpos.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/outputs.h"
+#include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
 
-namespace exchange = pipeline::exchange;
-
 struct ConvertArguments {
   std::filesystem::path in, out;
-  motion::import::ReadConfig read;
+  import::ReadConfig read;
   std::string rate = "input";
-  exchange::ExchangeConfig exchange;
+  files::ExchangeConfig exchange;
   bool force = false;
 };
 
-std::string known_suffixes() { return ".npz, .npy, .bvh, " + exchange::exchanged_suffixes(); }
+std::string known_suffixes() { return ".npz, .npy, .bvh, " + files::exchanged_suffixes(); }
 
 /// @throws UsageError, or OutputRefused where the file is not to be overwritten
 void claim_output(const ConvertArguments& a) {
-  pipeline::record::Outputs outputs({a.in.string()}, a.force);
-  if (exchange::is_exchanged(a.out)) {
-    const exchange::Opening opening = exchange::exchange_opening(a.out);
+  record::Outputs outputs({a.in.string()}, a.force);
+  if (files::is_exchanged(a.out)) {
+    const files::Opening opening = files::exchange_opening(a.out);
     return outputs.claim(a.out, opening.text, opening.at);
   }
-  if (!motion::import::is_written(a.out.extension().string()))
+  if (!import::is_written(a.out.extension().string()))
     throw UsageError(a.out.string() + ": motions are written as " + known_suffixes() + ", not '" +
                      a.out.extension().string() + "'");
-  outputs.claim(a.out, motion::import::written_opening(a.out));
+  outputs.claim(a.out, import::written_opening(a.out));
 }
 
 int convert(const ConvertArguments& a) {
   claim_output(a);
-  motion::Clip clip = motion::import::read_motion(a.in, a.read);
-  exchange::ExchangeConfig config = a.exchange;
+  motion::Clip clip = import::read_motion(a.in, a.read);
+  files::ExchangeConfig config = a.exchange;
   if (!a.read.text().empty())
     config.forces_lost = "one that is read in another way than it was simulated in (" + a.read.text() + ")";
   if (a.rate == "30" && clip.fps != 30.0) {
     clip = motion::resampled(clip, 30.0);
     config.forces_lost = "one at another frame rate than it was simulated at (--rate 30)";
   }
-  pipeline::tell_decisions(a.in.string(), clip, std::cerr);
+  run::tell_decisions(a.in.string(), clip, std::cerr);
   make_folder(a.out.parent_path());
-  if (exchange::is_exchanged(a.out))
-    exchange::write_exchange(a.out, clip, a.in.string(), config);
-  else if (a.out.stem().extension() == ".qpos" && motion::import::lower_suffix(a.out) == ".npz")
-    pipeline::output::write_qpos(a.out, clip);
+  if (files::is_exchanged(a.out))
+    files::write_exchange(a.out, clip, a.in.string(), config);
+  else if (a.out.stem().extension() == ".qpos" && import::lower_suffix(a.out) == ".npz")
+    files::write_qpos(a.out, clip);
   else
-    motion::import::write_motion(a.out, clip);
+    import::write_motion(a.out, clip);
   return kAllGood;
 }
 
@@ -75,10 +73,9 @@ void declare_convert(CommandLine& line) {
   command.file("OUT", a->out, "where to write it");
   add_read_arguments(command, a->read);
   command.one_of("--rate", a->rate, {"input", "30"}, "frame rate of OUT");
-  command.choice<exchange::Skin>(
-      "--skin", a->exchange.skin,
-      {{"mannequin", exchange::Skin::kMannequin}, {"shapes", exchange::Skin::kShapes}},
-      "of a .glb: one smooth skin, or the shapes that the simulator collides with");
+  command.choice<files::Skin>("--skin", a->exchange.skin,
+                              {{"mannequin", files::Skin::kMannequin}, {"shapes", files::Skin::kShapes}},
+                              "of a .glb: one smooth skin, or the shapes that the simulator collides with");
   command.flag("--arrows", a->exchange.arrows, "of a .glb: show the forces of the floor, 1 mm per newton");
   add_force(command, a->force);
   command.action([a] { return convert(*a); });

@@ -1,4 +1,4 @@
-#include "pipeline/corrupt.h"
+#include "synth/corrupt.h"
 
 #include <iostream>
 #include <map>
@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "commands.h"
-#include "pipeline/inputs.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/folder_lock.h"
-#include "pipeline/record/outputs.h"
+#include "files/inputs.h"
+#include "record/folder_lock.h"
+#include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -19,22 +19,22 @@ struct CorruptArguments {
   std::vector<std::string> inputs, noise;
   std::filesystem::path out;
   std::string camera = "perturbed", keypoints = "22";
-  pipeline::CorruptConfig config;
+  synth::CorruptConfig config;
   bool force = false;
 };
 
 /// @throws UsageError for a noise that cannot be
-pipeline::CorruptConfig checked_config(const CorruptArguments& a) {
+synth::CorruptConfig checked_config(const CorruptArguments& a) {
   static const std::map<std::string, std::optional<motion::KeypointSet>> kSets = {
       {"22", motion::KeypointSet::kJoints22},
       {"coco17", motion::KeypointSet::kCoco17},
       {"coco133", motion::KeypointSet::kCoco133},
       {"none", {}}};
-  pipeline::CorruptConfig config = a.config;
-  config.estimate.camera = motion::synth::camera_error(a.camera);
+  synth::CorruptConfig config = a.config;
+  config.estimate.camera = synth::camera_error(a.camera);
   config.estimate.keypoints = kSets.at(a.keypoints);
   try {
-    config.estimate.noise = motion::synth::noise_model(a.noise);
+    config.estimate.noise = synth::noise_model(a.noise);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("corrupt: ") + error.what());
   }
@@ -42,18 +42,18 @@ pipeline::CorruptConfig checked_config(const CorruptArguments& a) {
 }
 
 int corrupt(const CorruptArguments& a) {
-  const pipeline::CorruptConfig config = checked_config(a);
-  const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
-  const std::vector<std::string> names = pipeline::unique_names(inputs);
-  pipeline::record::Outputs outputs(pipeline::paths_of(inputs), a.force);
+  const synth::CorruptConfig config = checked_config(a);
+  const std::vector<files::MotionInput> inputs = files::find_motions(a.inputs, a.out, &std::cerr);
+  const std::vector<std::string> names = files::unique_names(inputs);
+  record::Outputs outputs(files::paths_of(inputs), a.force);
   for (const std::string& name : names)
     for (const char* part : {"truth", "noisy"}) outputs.claim(a.out / part / (name + ".npz"));
-  const pipeline::record::FolderLock lock(a.out);
+  const record::FolderLock lock(a.out);
   std::size_t written = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::string& file = inputs[i].path;
     try {
-      pipeline::tell_decisions(file, pipeline::corrupt_file(file, names[i], a.out, config), std::cerr);
+      run::tell_decisions(file, synth::corrupt_file(file, names[i], a.out, config), std::cerr);
       ++written;
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << error.what() << '\n';

@@ -1,13 +1,13 @@
-#include "pipeline/evaluate.h"
+#include "judge/evaluate.h"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include "commands.h"
-#include "core/npz.h"
-#include "pipeline/protocol.h"
-#include "pipeline/record/outputs.h"
+#include "core/npz/npz.h"
+#include "judge/evaluate_protocol.h"
+#include "record/outputs.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -17,7 +17,7 @@ struct EvaluateArguments {
   std::filesystem::path truth, json;
   std::vector<std::string> motions;
   std::string protocol;  ///< empty: our own metrics
-  motion::import::ReadConfig read;
+  import::ReadConfig read;
   bool force = false;
 };
 
@@ -26,7 +26,7 @@ std::vector<std::string> files_to_read(const EvaluateArguments& a) {
   std::vector<std::string> files, named = a.motions;
   named.push_back(a.truth.string());
   for (const std::string& path : named)
-    for (const auto& [name, file] : pipeline::named_motions(path)) files.push_back(file.string());
+    for (const auto& [name, file] : judge::named_motions(path)) files.push_back(file.string());
   return files;
 }
 
@@ -34,37 +34,37 @@ int evaluate_published(const EvaluateArguments& a) {
   const auto& names = motion::protocol_names();
   const auto protocol =
       static_cast<motion::Protocol>(std::find(names.begin(), names.end(), a.protocol) - names.begin());
-  std::vector<pipeline::ProtocolTable> tables;
+  std::vector<judge::ProtocolTable> tables;
   bool all_good = true;
   for (const std::string& folder : a.motions) {
-    tables.push_back(pipeline::evaluate_protocol(protocol, a.truth, folder, a.read));
-    for (const pipeline::ProtocolRow& row : tables.back().rows) {
+    tables.push_back(judge::evaluate_protocol(protocol, a.truth, folder, a.read));
+    for (const judge::ProtocolRow& row : tables.back().rows) {
       if (row.reason.empty()) continue;
       std::cerr << folder << '/' << row.name << ": left out: " << row.reason << '\n';
       all_good = false;
     }
   }
-  std::cout << pipeline::format_protocol(tables);
-  if (!a.json.empty()) write_file_atomically(a.json, pipeline::protocol_json(tables));
+  std::cout << judge::format_protocol(tables);
+  if (!a.json.empty()) write_file_atomically(a.json, judge::protocol_json(tables));
   return all_good ? kAllGood : kSomeFailed;
 }
 
 int evaluate(const EvaluateArguments& a) {
-  pipeline::record::Outputs(files_to_read(a), a.force).claim(a.json, pipeline::record::kJsonOpening);
+  record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
   if (!a.protocol.empty()) return evaluate_published(a);
   if (a.motions.size() > 1) {
-    const pipeline::Comparison comparison = pipeline::compare_folders(a.truth, a.motions, a.read);
-    std::cout << pipeline::format_comparison(comparison);
+    const judge::Comparison comparison = judge::compare_folders(a.truth, a.motions, a.read);
+    std::cout << judge::format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
     const bool none = comparison.evaluations.front().motions.empty();
     if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
-    if (!a.json.empty()) write_file_atomically(a.json, pipeline::comparison_json(comparison));
+    if (!a.json.empty()) write_file_atomically(a.json, judge::comparison_json(comparison));
     return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
-  const pipeline::Evaluation evaluation = pipeline::evaluate_folders(a.truth, a.motions.front(), a.read);
-  std::cout << pipeline::format_evaluation(evaluation);
+  const judge::Evaluation evaluation = judge::evaluate_folders(a.truth, a.motions.front(), a.read);
+  std::cout << judge::format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
-  if (!a.json.empty()) write_file_atomically(a.json, pipeline::evaluation_json(evaluation));
+  if (!a.json.empty()) write_file_atomically(a.json, judge::evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
   return std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; }) ? kAllGood
                                                                                        : kSomeFailed;

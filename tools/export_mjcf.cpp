@@ -6,9 +6,9 @@
 
 #include "commands.h"
 #include "core/file.h"
-#include "motion/import/motion_file.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/outputs.h"
+#include "import/motion_file.h"
+#include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -17,7 +17,7 @@ namespace {
 struct ExportMjcfArguments {
   std::vector<double> betas;          ///< at most 10, the others are 0
   std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
-  motion::import::ReadConfig read;
+  import::ReadConfig read;
   bool force = false;
 };
 
@@ -30,9 +30,9 @@ Character character_of_shape(const std::vector<double>& betas) {
 }
 
 /// The very body that `convert` writes qpos for and `adapt` simulates: read in the same way.
-Character character_of_motion(const std::filesystem::path& motion, const motion::import::ReadConfig& read) {
-  const motion::Clip clip = motion::import::read_motion(motion, read);
-  pipeline::tell_decisions(motion.string(), clip, std::cerr);
+Character character_of_motion(const std::filesystem::path& motion, const import::ReadConfig& read) {
+  const motion::Clip clip = import::read_motion(motion, read);
+  run::tell_decisions(motion.string(), clip, std::cerr);
   return motion::character_of(clip);
 }
 
@@ -40,7 +40,7 @@ int export_mjcf(const ExportMjcfArguments& a) {
   if (a.motion.empty() && !a.read.text().empty())
     throw UsageError("export-mjcf: " + a.read.text() +
                      " says how to read a motion, and there is none: --motion FILE");
-  pipeline::record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
+  record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
   make_folder(a.out.parent_path());

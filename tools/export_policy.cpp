@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "commands.h"
-#include "pipeline/policy_export/policy_export_file.h"
-#include "pipeline/record/outputs.h"
-#include "pipeline/record/run_folder.h"
+#include "policy_export/policy_export_file.h"
+#include "record/outputs.h"
+#include "record/run_folder.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -57,7 +57,7 @@ fs::path find_policy(const fs::path& asked) {
   if (name.empty() || !asked.has_parent_path())
     throw UsageError(asked.string() + ": expected a policy as RUN/NAME");
   for (fs::path run = asked.parent_path();; name = run.filename() / name, run = run.parent_path()) {
-    const fs::path file = pipeline::record::RunFolder{run}.policy(name.string());
+    const fs::path file = record::RunFolder{run}.policy(name.string());
     if (fs::is_regular_file(file)) return file;
     if (run.filename().empty() || !run.has_parent_path()) break;
   }
@@ -67,17 +67,16 @@ fs::path find_policy(const fs::path& asked) {
 int export_policy(const ExportPolicyArguments& a) {
   std::string_view opening;
   try {
-    opening = pipeline::policy_export::opening_of(a.out);
+    opening = policy_export::opening_of(a.out);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--out: ") + error.what());
   }
   const fs::path file = find_policy(a.policy);
-  pipeline::record::Outputs({file.string()}, a.force).claim(a.out, opening);
-  const pipeline::output::StoredPolicy policy = pipeline::output::read_policy(file);
+  record::Outputs({file.string()}, a.force).claim(a.out, opening);
+  const files::StoredPolicy policy = files::read_policy(file);
   std::string bytes;
   try {
-    bytes =
-        pipeline::policy_export::bytes_of(pipeline::policy_export::export_policy(policy, a.in_8_bits), a.out);
+    bytes = policy_export::bytes_of(policy_export::export_policy(policy, a.in_8_bits), a.out);
   } catch (const std::invalid_argument& error) {
     throw DataError(file.string(), "", "a policy that can be exported", error.what());
   }

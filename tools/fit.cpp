@@ -1,18 +1,18 @@
-#include "motion/fit/fit.h"
+#include "fit/fit.h"
 #include "core/file.h"
+#include "fit/poses.h"
 #include "motion/clip_file.h"
-#include "motion/fit/poses.h"
 
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
 #include "commands.h"
-#include "pipeline/fitting.h"
-#include "pipeline/inputs.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/folder_lock.h"
-#include "pipeline/record/outputs.h"
+#include "files/inputs.h"
+#include "fit/fit_settings.h"
+#include "record/folder_lock.h"
+#include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 #include "training.h"
 
@@ -23,13 +23,13 @@ struct FitArguments {
   std::vector<std::string> inputs;
   std::filesystem::path out;
   bool poses = false;
-  motion::fit::FitConfig config;
-  motion::import::ReadConfig read;
+  fit::FitConfig config;
+  import::ReadConfig read;
   std::vector<std::string> settings;
   bool force = false;
 };
 
-void print(const std::string& name, const motion::fit::FitReport& r) {
+void print(const std::string& name, const fit::FitReport& r) {
   std::printf("%-24s %7.2f %7.2f %8.4f %7.2f %7.2f %7.2f %7.2f %6d %6d %8.0f %8.0f\n", name.c_str(),
               r.residual_before, r.residual_after, r.focal_scale, r.tilt_deg, r.shape_change,
               r.keypoint_sigma, r.lead_frames, r.swapped_frames, r.dropped_points, r.change_mean_mm,
@@ -37,11 +37,11 @@ void print(const std::string& name, const motion::fit::FitReport& r) {
 }
 
 /// Where every input goes, claimed before any work.
-std::vector<std::filesystem::path> claimed_outputs(const std::vector<pipeline::MotionInput>& inputs,
+std::vector<std::filesystem::path> claimed_outputs(const std::vector<files::MotionInput>& inputs,
                                                    const FitArguments& a) {
-  pipeline::record::Outputs outputs(pipeline::paths_of(inputs), a.force);
+  record::Outputs outputs(files::paths_of(inputs), a.force);
   std::vector<std::filesystem::path> paths;
-  for (const std::string& name : pipeline::unique_names(inputs)) {
+  for (const std::string& name : files::unique_names(inputs)) {
     paths.push_back(a.out / (name + ".npz"));
     outputs.claim(paths.back());
   }
@@ -49,9 +49,9 @@ std::vector<std::filesystem::path> claimed_outputs(const std::vector<pipeline::M
 }
 
 int fit(const FitArguments& a) {
-  const std::vector<pipeline::MotionInput> inputs = pipeline::find_motions(a.inputs, a.out, &std::cerr);
+  const std::vector<files::MotionInput> inputs = files::find_motions(a.inputs, a.out, &std::cerr);
   const std::vector<std::filesystem::path> outputs = claimed_outputs(inputs, a);
-  const pipeline::record::FolderLock lock(a.out);
+  const record::FolderLock lock(a.out);
   std::printf(
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n"
       "%-24s %7s %7s %8s %7s %7s %7s %7s %6s %6s %8s %8s\n",
@@ -62,12 +62,12 @@ int fit(const FitArguments& a) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::string& file = inputs[i].path;
     try {
-      motion::fit::FitReport report;
-      const motion::Clip clip = motion::import::read_motion(file, a.read);
-      pipeline::tell_decisions(file, clip, std::cerr);
+      fit::FitReport report;
+      const motion::Clip clip = import::read_motion(file, a.read);
+      run::tell_decisions(file, clip, std::cerr);
       make_folder(outputs[i].parent_path());
-      motion::write_clip(outputs[i], (a.poses ? motion::fit::fit_poses : motion::fit::fit_keypoints)(
-                                         clip, a.config, &report));
+      motion::write_clip(outputs[i],
+                         (a.poses ? fit::fit_poses : fit::fit_keypoints)(clip, a.config, &report));
       print(outputs[i].lexically_relative(a.out).replace_extension().generic_string(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {

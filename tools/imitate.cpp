@@ -1,4 +1,4 @@
-#include "pipeline/imitate.h"
+#include "pipeline/scratch.h"
 
 #include <memory>
 
@@ -9,14 +9,14 @@ namespace mimicx::tools {
 namespace {
 
 struct ImitateArguments {
-  pipeline::ImitateConfig config = pipeline::imitate_configuration();
+  pipeline::ImitateConfig config = program::imitate_configuration();
   RunArguments more;
 };
 
 int imitate_motions(ImitateArguments a) {
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.training);
-  return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {
+  return with_context(a.config.run.quiet, [&](const record::RunContext& context) {
     return run_inputs(a.config.run, context, [&] { return pipeline::imitate(a.config, context); });
   });
 }

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "commands.h"
-#include "motion/import/motion_file.h"
+#include "import/motion_file.h"
 #include "motion/keypoint_names.h"
-#include "motion/prepare.h"
+#include "motion/prepare/prepare.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -13,7 +13,7 @@ namespace {
 
 struct InfoArguments {
   std::filesystem::path file;
-  motion::import::ReadConfig read;
+  import::ReadConfig read;
 };
 
 /// How many keypoints the fit can use.
@@ -66,7 +66,7 @@ void describe_preparation(const motion::Reference& reference, const motion::Prep
 }
 
 int info(const InfoArguments& a) {
-  const motion::Clip clip = motion::import::read_motion(a.file, a.read);
+  const motion::Clip clip = import::read_motion(a.file, a.read);
   describe_file(clip);
   for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
   if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");

@@ -1,4 +1,4 @@
-#include "pipeline/merge.h"
+#include "run/merge.h"
 
 #include <algorithm>
 #include <iostream>
@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "pipeline/cluster_map.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -20,7 +21,7 @@ struct MergeArguments {
 };
 
 /// What is missing, and how it is done.
-void tell_missing(const MergeArguments& a, const pipeline::GatheredShards& gathered) {
+void tell_missing(const MergeArguments& a, const run::GatheredShards& gathered) {
   const std::string out = a.out.string(), count = std::to_string(gathered.list.count),
                     array = missing_array(gathered);
   std::cerr << out << ": " << gathered.missing.size() << " of " << gathered.list.inputs.size()
@@ -34,13 +35,13 @@ void tell_missing(const MergeArguments& a, const pipeline::GatheredShards& gathe
             << " tools/slurm/mimicx.sbatch, and what stood behind it\n";
 }
 
-void print_missing(const pipeline::GatheredShards& gathered) {
+void print_missing(const run::GatheredShards& gathered) {
   if (gathered.missing.empty()) return;
   std::cout << "--array=" << missing_array(gathered) << '\n';
-  for (const pipeline::MissingInput& missing : gathered.missing) std::cout << missing.input.input << '\n';
+  for (const run::MissingInput& missing : gathered.missing) std::cout << missing.input.input << '\n';
 }
 
-std::string merged_line(const MergeArguments& a, const pipeline::GatheredShards& gathered) {
+std::string merged_line(const MergeArguments& a, const run::GatheredShards& gathered) {
   const auto& entries = gathered.manifest.sequences;
   const auto ok = std::count_if(entries.begin(), entries.end(), [](const auto& e) { return e.ok; });
   return a.out.string() + ": " + std::to_string(entries.size()) + " motions of " +
@@ -50,9 +51,9 @@ std::string merged_line(const MergeArguments& a, const pipeline::GatheredShards&
 }
 
 int merge(const MergeArguments& a) try {
-  const pipeline::RunLocks locks = pipeline::lock_shards(a.out);
-  pipeline::GatheredShards gathered = pipeline::gather_shards(a.out);
-  if (a.json) std::cout << pipeline::merge_json(gathered);
+  const run::RunLocks locks = run::lock_shards(a.out);
+  run::GatheredShards gathered = run::gather_shards(a.out);
+  if (a.json) std::cout << run::merge_json(gathered);
   if (a.missing && !a.json) print_missing(gathered);
   if (!gathered.missing.empty()) {
     if (!a.missing) tell_missing(a, gathered);
@@ -60,7 +61,7 @@ int merge(const MergeArguments& a) try {
   }
   if (a.missing) return kAllGood;
   const std::string line = merged_line(a, gathered);
-  pipeline::write_merged(a.out, std::move(gathered), a.force);
+  run::write_merged(a.out, std::move(gathered), a.force, pipeline::draw_kept_map);
   std::cerr << line;
   return kAllGood;
 } catch (const std::invalid_argument& error) {

@@ -11,7 +11,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "core/build.h"
-#include "pipeline/record/outputs.h"
+#include "record/outputs.h"
 #include "streams.h"
 
 namespace mimicx::tools {
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   } catch (const mimicx::tools::UsageError& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kWrongUsage;
-  } catch (const mimicx::pipeline::record::OutputRefused& error) {
+  } catch (const mimicx::record::OutputRefused& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kWrongUsage;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -1,8 +1,9 @@
-#include "pipeline/plan.h"
+#include "plan/plan_command.h"
 
 #include <memory>
 
 #include "commands.h"
+#include "pipeline/cluster_map.h"
 #include "shipped_options.h"
 #include "training.h"
 
@@ -10,16 +11,16 @@ namespace mimicx::tools {
 namespace {
 
 struct PlanArguments {
-  pipeline::PlanMotionsConfig config = pipeline::plan_configuration();
+  plan::PlanMotionsConfig config = plan::plan_configuration();
   RunArguments more;
 };
 
 int plan(PlanArguments a) {
-  a.config.clusters = shipped_clusters();
+  a.config.run.map = pipeline::run_map(shipped_clusters());
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.planning);
-  return with_context(a.config.run.quiet, [&](const pipeline::record::RunContext& context) {
-    return run_inputs(a.config.run, context, [&] { return pipeline::plan_motions(a.config, context); });
+  return with_context(a.config.run.quiet, [&](const record::RunContext& context) {
+    return run_inputs(a.config.run, context, [&] { return plan::plan_motions(a.config, context); });
   });
 }
 

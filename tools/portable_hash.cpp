@@ -14,7 +14,7 @@
 #include "core/bits.h"
 #include "core/build.h"
 #include "core/elementary.h"
-#include "core/npz_archive.h"
+#include "core/npz/npz_archive.h"
 #include "core/random.h"
 #include "nn/checkpoint.h"
 #include "nn/mlp.h"

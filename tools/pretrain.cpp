@@ -11,7 +11,7 @@ namespace mimicx::tools {
 namespace {
 
 struct PretrainArguments {
-  pipeline::PretrainConfig config = pipeline::pretrain_configuration("small");
+  pipeline::PretrainConfig config = program::pretrain_configuration("small");
   std::string preset = "small";
   std::optional<std::int64_t> samples;  ///< of all options together; none: what the preset says
   std::vector<std::string> settings;
@@ -20,7 +20,7 @@ struct PretrainArguments {
 /// The configuration with the training of the preset that was asked for.
 pipeline::PretrainConfig preset_of(const PretrainArguments& a) {
   pipeline::PretrainConfig config = a.config;
-  config.training = pipeline::pretrain_configuration(a.preset).training;
+  config.training = program::pretrain_configuration(a.preset).training;
   config.training.seed = a.config.training.seed;
   if (a.samples) config.training.samples = *a.samples;
   return config;
@@ -31,9 +31,8 @@ pipeline::PretrainConfig preset_of(const PretrainArguments& a) {
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings) {
   config.clusters.seed = config.training.seed;
   apply_settings(settings, config.training);
-  return with_context(false, [&](const pipeline::record::RunContext& context) {
-    return pipeline::pretrain(config, context);
-  });
+  return with_context(false,
+                      [&](const record::RunContext& context) { return pipeline::pretrain(config, context); });
 }
 
 void declare_pretrain(CommandLine& line) {

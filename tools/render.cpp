@@ -8,18 +8,15 @@
 #include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
-#include "motion/import/motion_file.h"
-#include "pipeline/picture/picture.h"
-#include "pipeline/picture/png.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/outputs.h"
+#include "import/motion_file.h"
+#include "picture/picture.h"
+#include "picture/png.h"
+#include "record/outputs.h"
+#include "run/preparation.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
 namespace {
-
-namespace picture = pipeline::picture;
-namespace exchange = pipeline::exchange;
 
 constexpr int kMostPixels = 8192;  ///< along an edge: what a picture of reasonable size in memory has
 
@@ -29,8 +26,8 @@ struct RenderArguments {
   std::vector<double> at;
   std::vector<std::string> labels;
   picture::PictureConfig picture;
-  exchange::Skin skin = exchange::Skin::kMannequin;
-  motion::import::ReadConfig read;
+  files::Skin skin = files::Skin::kMannequin;
+  import::ReadConfig read;
   bool arrows = false, force = false;
   int threads = 1;
 };
@@ -67,7 +64,7 @@ void claim_picture(const RenderArguments& a) {
   const std::string suffix = a.out.extension().string();
   if (suffix != ".png")
     throw UsageError(a.out.string() + ": pictures and animations are written as .png, not '" + suffix + "'");
-  pipeline::record::Outputs(a.files, a.force).claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
+  record::Outputs(a.files, a.force).claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
 }
 
 /// Folder and name: motions of one name in several folders are the rule.
@@ -80,15 +77,15 @@ List<picture::Performance> performances_of(const RenderArguments& a) {
   const int count = static_cast<int>(a.files.size());
   List<motion::Clip> clips;
   for (const std::string& file : a.files) {
-    clips.push_back(motion::import::read_motion(file, a.read));
+    clips.push_back(import::read_motion(file, a.read));
     motion::require_usable(clips.back(), 1);
-    pipeline::tell_decisions(file, clips.back(), std::cerr);
+    run::tell_decisions(file, clips.back(), std::cerr);
   }
   List<picture::Performance> performances(count);
   parallel_for(count, a.threads, [&](int k) {
     const bool shows = a.arrows && a.read.text().empty();
     performances[k] =
-        picture::performance_of(clips[k], a.skin, shows ? exchange::recorded_forces(clips[k]) : std::nullopt);
+        picture::performance_of(clips[k], a.skin, shows ? files::recorded_forces(clips[k]) : std::nullopt);
     const auto i = static_cast<std::size_t>(k);
     performances[k].label = a.labels.empty() ? name_of(a.files[i]) : a.labels[i];
   });
@@ -168,9 +165,9 @@ void declare_render(CommandLine& line) {
   command.number("--rate", a->picture.rate, {1.0, 60.0}, "frames per second of an animation");
   command.list("--labels", a->labels, "NAME,...", "what to call the motions; default: their files");
   command.flag("--arrows", a->arrows, "show the forces of the floor, 1 mm per newton");
-  command.choice<exchange::Skin>(
-      "--skin", a->skin, {{"mannequin", exchange::Skin::kMannequin}, {"shapes", exchange::Skin::kShapes}},
-      "one smooth skin, or the shapes that the simulator collides with");
+  command.choice<files::Skin>("--skin", a->skin,
+                              {{"mannequin", files::Skin::kMannequin}, {"shapes", files::Skin::kShapes}},
+                              "one smooth skin, or the shapes that the simulator collides with");
   add_read_arguments(command, a->read);
   add_threads(command, a->threads);
   add_force(command, a->force);

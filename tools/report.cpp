@@ -1,12 +1,15 @@
 #include <iostream>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
-#include "pipeline/evaluate.h"
-#include "pipeline/record/folder_lock.h"
-#include "pipeline/record/journal.h"
-#include "pipeline/record/outputs.h"
-#include "pipeline/report/run_report.h"
+#include "judge/evaluate.h"
+#include "pipeline/cluster_map.h"
+#include "record/folder_lock.h"
+#include "record/journal.h"
+#include "record/outputs.h"
+#include "report/run_report.h"
 #include "shared_arguments.h"
 #include "shipped_options.h"
 
@@ -29,27 +32,29 @@ std::filesystem::path clusters_of(const std::filesystem::path& options) {
 }
 
 int report(const ReportArguments& a) {
-  const pipeline::record::RunFolder folder{a.run};
+  const record::RunFolder folder{a.run};
   if (!std::filesystem::exists(folder.manifest()))
     throw DataError(a.run.string(), "", "the folder of a run, with its manifest.json", "none");
   if (!a.truth.empty() && !std::filesystem::is_directory(a.truth))
     throw UsageError("report: --truth: expected a folder of motions, found " + a.truth.string());
-  const pipeline::record::FolderLock lock(folder.root);
-  pipeline::record::Manifest manifest = pipeline::record::read_manifest(folder.manifest());
-  std::vector<pipeline::record::Timing> timings;
-  pipeline::record::replay_journal(folder.journal(), manifest, timings);
-  pipeline::record::Outputs({}, false).claim_own(folder.report());
-  pipeline::report::ReportOptions options;
+  const record::FolderLock lock(folder.root);
+  record::Manifest manifest = record::read_manifest(folder.manifest());
+  std::vector<record::Timing> timings;
+  record::replay_journal(folder.journal(), manifest, timings);
+  record::Outputs({}, false).claim_own(folder.report());
+  report::ReportOptions options;
   options.times = a.times;
-  for (const std::string& set : a.options) options.clusters.push_back(clusters_of(set));
-  if (!a.truth.empty()) options.truth = pipeline::named_motions(a.truth);
+  std::vector<std::filesystem::path> clusters;
+  for (const std::string& set : a.options) clusters.push_back(clusters_of(set));
+  options.map = clusters.empty() ? pipeline::draw_kept_map : pipeline::map_among(std::move(clusters));
+  if (!a.truth.empty()) options.truth = judge::named_motions(a.truth);
   bool all_good = true;
-  for (const pipeline::record::SequenceEntry& entry : manifest.sequences) {
+  for (const record::SequenceEntry& entry : manifest.sequences) {
     if (a.truth.empty() || options.truth.contains(entry.name)) continue;
     std::cerr << entry.name << ": " << a.truth.string() << " has no truth of that name\n";
     all_good = false;
   }
-  pipeline::report::write_report(folder, manifest, options);
+  report::write_report(folder, manifest, options);
   std::cout << folder.report().string() << '\n';
   return all_good ? kAllGood : kSomeFailed;
 }

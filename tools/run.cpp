@@ -11,15 +11,15 @@ namespace {
 
 struct RunFileArguments {
   std::filesystem::path in, out;
-  pipeline::PretrainConfig pretrain = pipeline::pretrain_configuration("small");
-  pipeline::AdaptConfig adapt = pipeline::adapt_configuration();
+  pipeline::PretrainConfig pretrain = program::pretrain_configuration("small");
+  program::AdaptConfig adapt = program::adapt_configuration();
 };
 
 int run_all_stages(RunFileArguments a) {
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
-  a.adapt.method = pipeline::AdaptMethod::kPaper;  // it is the options that are to be tried
+  a.adapt.method = program::AdaptMethod::kPaper;  // it is the options that are to be tried
   a.adapt.training.seed = a.pretrain.training.seed;
   a.adapt.run.threads = a.pretrain.threads;
   a.adapt.run.force = a.pretrain.force;

@@ -4,7 +4,7 @@
 
 namespace mimicx::tools {
 
-void add_read_arguments(Command& command, motion::import::ReadConfig& read) {
+void add_read_arguments(Command& command, import::ReadConfig& read) {
   command.choice("--up", read.up, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}, {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}},
                  "the axis that points up in the files; default: looked for");
   command.number("--scale", read.scale, kPositive,

@@ -4,13 +4,13 @@
 #include <cstdint>
 
 #include "arguments.h"
-#include "motion/import/motion_file.h"
+#include "import/motion_file.h"
 #include "pipeline/options/clusters.h"
 
 namespace mimicx::tools {
 
 /// --up, --scale, --fps …: what the user knows better than the files.
-void add_read_arguments(Command& command, motion::import::ReadConfig& read);
+void add_read_arguments(Command& command, import::ReadConfig& read);
 
 /// --threads; default: all there are.
 void add_threads(Command& command, int& threads);

@@ -3,14 +3,14 @@
 #include <memory>
 #include <optional>
 
+#include "audit/feasibility.h"
 #include "character/body_words.h"
 #include "commands.h"
-#include "motion/synth/set.h"
-#include "pipeline/audit/feasibility.h"
-#include "pipeline/record/folder_lock.h"
-#include "pipeline/record/outputs.h"
-#include "pipeline/record/progress.h"
+#include "record/folder_lock.h"
+#include "record/outputs.h"
+#include "record/progress.h"
 #include "shared_arguments.h"
+#include "synth/set.h"
 
 namespace mimicx::tools {
 namespace {
@@ -19,38 +19,38 @@ struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: none is written
   std::filesystem::path
       data_set;  ///< folder that gets the project's own test and training split; empty: none
-  motion::synth::SynthSetConfig set;
+  synth::SynthSetConfig set;
   bool force = false;
   bool report = false;  ///< print what each motion of the set demands of a body
 };
 
 /// @throws UsageError for a set that cannot be
-std::vector<motion::synth::SynthConfig> checked_clips(const motion::synth::SynthSetConfig& set) {
+std::vector<synth::SynthConfig> checked_clips(const synth::SynthSetConfig& set) {
   try {
-    return motion::synth::clips_of_set(set);
+    return synth::clips_of_set(set);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("synth: ") + error.what());
   }
 }
 
 void write_set(const SynthArguments& a, std::size_t total) {
-  double next = pipeline::record::steady_seconds() + pipeline::record::kProgressSeconds;
-  motion::synth::write_synth_set(a.out, a.set, [&](std::size_t index, const motion::Clip&) {
-    if (pipeline::record::steady_seconds() < next) return;
+  double next = record::steady_seconds() + record::kProgressSeconds;
+  synth::write_synth_set(a.out, a.set, [&](std::size_t index, const motion::Clip&) {
+    if (record::steady_seconds() < next) return;
     std::cerr << index + 1 << " of " << total << " motions\n";
-    next += pipeline::record::kProgressSeconds;
+    next += record::kProgressSeconds;
   });
   std::cout << a.out.string() << ": " << total << " motions, each as truth and as a noisy estimate\n";
 }
 
 /// Residuals in parts of the weight W, torques in parts of their limits.
-void print_report(const std::vector<motion::synth::SynthConfig>& clips) {
+void print_report(const std::vector<synth::SynthConfig>& clips) {
   std::printf("%-20s %7s %18s %20s %26s %12s\n", "motion", "seconds", "root force, % W", "root moment, mm W",
               "worst torque, % of limit", "frames over");
   std::printf("%-20s %7s %9s %8s %11s %8s\n", "", "", "mean", "max", "mean", "max");
-  for (const motion::synth::SynthConfig& options : clips) {
-    const motion::Clip clip = motion::synth::synthesize(options);
-    const pipeline::audit::Feasibility f = pipeline::audit::feasibility(clip);
+  for (const synth::SynthConfig& options : clips) {
+    const motion::Clip clip = synth::synthesize(options);
+    const audit::Feasibility f = audit::feasibility(clip);
     const std::string worst = body_in_words(f.worst_joint);
     std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-14s %4d\n", clip.name.c_str(),
                 (clip.frames() - 1) / clip.fps, 100.0 * f.mean_force, 100.0 * f.max_force,
@@ -60,38 +60,38 @@ void print_report(const std::vector<motion::synth::SynthConfig>& clips) {
 }
 
 void claim_set(const SynthArguments& a) {
-  pipeline::record::Outputs outputs({}, a.force);
-  const auto claim = [&](const std::filesystem::path& directory, const motion::synth::SynthSetConfig& set) {
-    for (const motion::synth::SynthConfig& clip : motion::synth::clips_of_set(set))
+  record::Outputs outputs({}, a.force);
+  const auto claim = [&](const std::filesystem::path& directory, const synth::SynthSetConfig& set) {
+    for (const synth::SynthConfig& clip : synth::clips_of_set(set))
       for (const char* part : {"truth", "noisy"})
-        outputs.claim(directory / part / (motion::synth::name_of(clip) + ".npz"));
+        outputs.claim(directory / part / (synth::name_of(clip) + ".npz"));
   };
   if (!a.out.empty()) claim(a.out, a.set);
   if (a.data_set.empty()) return;
-  for (const auto& [split, set] : motion::synth::synthetic_splits()) claim(a.data_set / split, set);
+  for (const auto& [split, set] : synth::synthetic_splits()) claim(a.data_set / split, set);
 }
 
 /// What may be asked for as kinds.
 std::vector<std::string> selections() {
-  std::vector<std::string> names = motion::synth::synthetic_kinds();
-  for (const std::string& name : motion::synth::floor_kinds()) names.push_back(name);
+  std::vector<std::string> names = synth::synthetic_kinds();
+  for (const std::string& name : synth::floor_kinds()) names.push_back(name);
   names.insert(names.end(), {"all", "floor"});
   return names;
 }
 
 int synth(SynthArguments a) {
-  if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = motion::synth::synthetic_kinds();
-  if (a.set.kinds == std::vector<std::string>{"floor"}) a.set.kinds = motion::synth::floor_kinds();
+  if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = synth::synthetic_kinds();
+  if (a.set.kinds == std::vector<std::string>{"floor"}) a.set.kinds = synth::floor_kinds();
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: --out DIR or --data-set DIR says where to write");
-  const std::vector<motion::synth::SynthConfig> clips = checked_clips(a.set);
+  const std::vector<synth::SynthConfig> clips = checked_clips(a.set);
   claim_set(a);
-  std::optional<pipeline::record::FolderLock> lock;
+  std::optional<record::FolderLock> lock;
   if (const auto& folder = a.out.empty() ? a.data_set : a.out; !folder.empty()) lock.emplace(folder);
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
-    motion::synth::write_synthetic_data(a.data_set);
-    std::cout << a.data_set.string() << ": test and train, " << motion::synth::basic_kinds().size()
+    synth::write_synthetic_data(a.data_set);
+    std::cout << a.data_set.string() << ": test and train, " << synth::basic_kinds().size()
               << " motions each, as truth and as a noisy estimate\n";
   }
   if (a.report) print_report(clips);
@@ -105,7 +105,7 @@ void declare_synth(CommandLine& line) {
   Command command = line.add("synth", "Write synthetic motions: truth/ and noisy/, a file per motion",
                              "mimicx synth --out set                                  # one of each kind\n"
                              "mimicx synth --out set --kinds walk,jump --clips 20     # ten of each of two");
-  motion::synth::SynthSetConfig& set = a->set;
+  synth::SynthSetConfig& set = a->set;
   const Option out = command.path("--out", a->out, "folder to write to");
   command.number("--clips", set.clips, kFromOne,
                  "number of motions, the kinds in turn; default: one of each kind");

@@ -1,9 +1,9 @@
-#include "pipeline/teach.h"
+#include "teaching/teach_command.h"
 
 #include <memory>
 
 #include "commands.h"
-#include "pipeline/inputs.h"
+#include "files/inputs.h"
 #include "shared_arguments.h"
 #include "training.h"
 
@@ -11,7 +11,7 @@ namespace mimicx::tools {
 namespace {
 
 struct TeachArguments {
-  pipeline::TeachConfig config = pipeline::teach_configuration();
+  teaching::TeachConfig config = program::teach_configuration();
   std::vector<std::string> settings;
 };
 
@@ -19,13 +19,13 @@ int teach(TeachArguments a) {
   apply_settings(a.settings, a.config);
   if (a.config.planning.run.inputs.empty() && a.config.plans.empty())
     throw UsageError("teach: motions to plan are expected, or --plans");
-  return with_context(false, [&](const pipeline::record::RunContext& context) {
-    pipeline::RunConfig& run = a.config.planning.run;
+  return with_context(false, [&](const record::RunContext& context) {
+    run::RunConfig& run = a.config.planning.run;
     if (!run.inputs.empty()) {
-      const auto found = pipeline::find_motions(run.inputs, a.config.out, &context.messages);
-      run.inputs = pipeline::paths_of(found);
+      const auto found = files::find_motions(run.inputs, a.config.out, &context.messages);
+      run.inputs = files::paths_of(found);
     }
-    return pipeline::teach(a.config, context);
+    return teaching::teach(a.config, context);
   });
 }
 
@@ -37,7 +37,7 @@ void declare_teach(CommandLine& line) {
       line.add("teach", "Teach option policies by plans: one for every cluster of motions",
                "mimicx teach DIR --out out/options                  # plan all of it, then teach\n"
                "mimicx teach --plans out/run --out out/options      # by plans that are there");
-  pipeline::RunConfig& run = a->config.planning.run;
+  run::RunConfig& run = a->config.planning.run;
   command.optional_files("FILE", run.inputs, "motions and folders of them, to plan first");
   command.texts("--plans", a->config.plans, "DIR", "folder of a run of `mimicx plan --gains`; repeatable");
   command.path("--out", a->config.out, "folder of the options; the same command continues what is there")

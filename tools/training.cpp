@@ -5,10 +5,10 @@
 #include <iostream>
 
 #include "commands.h"
+#include "files/inputs.h"
 #include "numbers.h"
-#include "pipeline/inputs.h"
-#include "pipeline/record/shard.h"
-#include "pipeline/run_outputs.h"
+#include "record/shard.h"
+#include "run/run_outputs.h"
 #include "shared_arguments.h"
 
 namespace mimicx::tools {
@@ -26,13 +26,13 @@ void catch_interrupts() {
   std::signal(SIGTERM, handle);
 }
 
-int status_of(pipeline::record::RunOutcome outcome) {
+int status_of(record::RunOutcome outcome) {
   switch (outcome) {
-    case pipeline::record::RunOutcome::kAllGood:
+    case record::RunOutcome::kAllGood:
       return kAllGood;
-    case pipeline::record::RunOutcome::kSomeFailed:
+    case record::RunOutcome::kSomeFailed:
       return kSomeFailed;
-    case pipeline::record::RunOutcome::kInterrupted:
+    case record::RunOutcome::kInterrupted:
       return kInterrupted;
   }
   return kSomeFailed;
@@ -65,7 +65,7 @@ void for_each_setting(const std::vector<std::string>& settings,
   }
 }
 
-void add_run_arguments(Command& command, pipeline::RunConfig& run, RunArguments& more) {
+void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more) {
   command.files("FILE", run.inputs, "motions and folders of them");
   command.path("--out", run.out,
                "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
@@ -92,12 +92,11 @@ void add_run_arguments(Command& command, pipeline::RunConfig& run, RunArguments&
   add_settings(command, more.settings);
 }
 
-void take_shard(const std::string& asked, pipeline::RunConfig& run) try {
+void take_shard(const std::string& asked, run::RunConfig& run) try {
   if (asked == "whole") return;
   if (asked.empty() && run.out.empty()) return;  // each motion is a run of its own
-  run.shard = asked.empty()
-                  ? pipeline::record::shard_of_array([](const char* name) { return std::getenv(name); })
-                  : pipeline::record::parse_shard(asked);
+  run.shard = asked.empty() ? record::shard_of_array([](const char* name) { return std::getenv(name); })
+                            : record::parse_shard(asked);
   if (run.out.empty()) throw UsageError("--shard: goes with --out, the folder that all parts share");
 } catch (const std::invalid_argument& error) {
   throw UsageError(error.what());
@@ -109,12 +108,12 @@ void add_training_arguments(Command& command, pipeline::TrainingConfig& training
   add_seed(command, training.seed);
 }
 
-void add_as_is(Command& command, pipeline::RunConfig& run) {
+void add_as_is(Command& command, run::RunConfig& run) {
   command.flag("--as-is", run.as_is,
                "follow the poses as they are: no fit and no repair of any kind, whatever --fit says");
 }
 
-void add_fit_arguments(Command& command, pipeline::RunConfig& run) {
+void add_fit_arguments(Command& command, run::RunConfig& run) {
   command.flag(
       "--fit", run.fit,
       "move motions onto their keypoints first, where they have any (default); --no-fit: do not look "
@@ -124,7 +123,7 @@ void add_fit_arguments(Command& command, pipeline::RunConfig& run) {
   add_as_is(command, run);
 }
 
-void add_gains_argument(Command& command, pipeline::RunConfig& run) {
+void add_gains_argument(Command& command, run::RunConfig& run) {
   command.flag("--gains", run.gains,
                "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
 }
@@ -147,45 +146,40 @@ void add_arrangement_arguments(Command& command, pipeline::options::ArrangementC
                  "state of the best");
 }
 
-int with_context(
-    bool quiet,
-    const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work) {
+int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work) {
   catch_interrupts();
-  pipeline::record::Progress progress(std::cerr, pipeline::record::stderr_is_terminal(),
-                                      pipeline::record::steady_seconds);
+  record::Progress progress(std::cerr, record::stderr_is_terminal(), record::steady_seconds);
   if (quiet) progress.silence();
   try {
-    return status_of(
-        work(pipeline::record::RunContext{progress, std::cerr, [] { return interrupted != 0; }}));
+    return status_of(work(record::RunContext{progress, std::cerr, [] { return interrupted != 0; }}));
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
 }
 
-pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
-                                        const std::function<pipeline::record::RunOutcome()>& once) {
-  const std::vector<pipeline::MotionInput> inputs =
-      pipeline::find_motions(run.inputs, run.out, &context.messages);
-  const std::vector<std::string> files = pipeline::paths_of(inputs);
+record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& context,
+                              const std::function<record::RunOutcome()>& once) {
+  const std::vector<files::MotionInput> inputs = files::find_motions(run.inputs, run.out, &context.messages);
+  const std::vector<std::string> files = files::paths_of(inputs);
   if (!run.out.empty()) {
-    for (const pipeline::MotionInput& input : inputs) run.names[input.path] = input.name;
+    for (const files::MotionInput& input : inputs) run.names[input.path] = input.name;
     run.inputs = files;
     return once();
   }
-  pipeline::record::RunOutcome all = pipeline::record::RunOutcome::kAllGood;
+  record::RunOutcome all = record::RunOutcome::kAllGood;
   run.beside = true;
   run.protect = files;
-  pipeline::claim_copies_beside(files, run.force);
+  run::claim_copies_beside(files, run.force);
   for (const std::filesystem::path file : files) {
     run.inputs = {file.string()};
     run.out = file.parent_path() / (file.stem().string() + ".mimicx");
     try {
-      const pipeline::record::RunOutcome outcome = once();
-      if (outcome == pipeline::record::RunOutcome::kInterrupted) return outcome;
-      if (outcome != pipeline::record::RunOutcome::kAllGood) all = outcome;
+      const record::RunOutcome outcome = once();
+      if (outcome == record::RunOutcome::kInterrupted) return outcome;
+      if (outcome != record::RunOutcome::kAllGood) all = outcome;
     } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
       context.messages << file.string() << ": left out: " << error.what() << '\n';
-      all = pipeline::record::RunOutcome::kSomeFailed;
+      all = record::RunOutcome::kSomeFailed;
     }
   }
   return all;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "arguments.h"
-#include "pipeline/configurations.h"
-#include "pipeline/fitting.h"
+#include "fit/fit_settings.h"
+#include "program/configurations.h"
 
 namespace mimicx::tools {
 
@@ -25,8 +25,8 @@ void for_each_setting(const std::vector<std::string>& settings,
 template <class Config>
 void apply_settings(const std::vector<std::string>& settings, Config& config) {
   for_each_setting(
-      settings, [&](const std::string& name, double value) { pipeline::apply_setting(config, name, value); },
-      [&] { pipeline::check(config); });
+      settings, [&](const std::string& name, double value) { apply_setting(config, name, value); },
+      [&] { check(config); });
 }
 
 /// What a run over motions is told beside its configuration.
@@ -35,38 +35,37 @@ struct RunArguments {
   std::string shard;                  ///< I/N or "whole"; empty: what the environment says
 };
 /// The arguments of every run over motions.
-void add_run_arguments(Command& command, pipeline::RunConfig& run, RunArguments& more);
+void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more);
 /// The part of the run that is done here, as asked for; else, where there is an --out, that of the Slurm
 /// array whose task this is.
 /// @throws UsageError for what is no part
-void take_shard(const std::string& asked, pipeline::RunConfig& run);
+void take_shard(const std::string& asked, run::RunConfig& run);
 /// Those of a run that trains. @param samples  name of the argument for the budget
 void add_training_arguments(Command& command, pipeline::TrainingConfig& training, const std::string& samples);
 /// --as-is.
-void add_as_is(Command& command, pipeline::RunConfig& run);
+void add_as_is(Command& command, run::RunConfig& run);
 /// --fit, the default, --no-fit and --as-is.
-void add_fit_arguments(Command& command, pipeline::RunConfig& run);
+void add_fit_arguments(Command& command, run::RunConfig& run);
 /// --gains.
-void add_gains_argument(Command& command, pipeline::RunConfig& run);
+void add_gains_argument(Command& command, run::RunConfig& run);
 /// --selector, --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement);
 
 /// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a
 /// second one ends the program. @param quiet  no progress @return the exit status
 /// @throws UsageError for what the command line got wrong
-int with_context(
-    bool quiet, const std::function<pipeline::record::RunOutcome(const pipeline::record::RunContext&)>& work);
+int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work);
 
 /// Runs all inputs in the folder that was named; without one, every input in a folder beside it
 /// (NAME.mimicx), its clean motion beside it (NAME.clean.EXT).
 /// @param run   its inputs and folder are changed from run to run
 /// @param once  does the run that `run` then describes
-pipeline::record::RunOutcome run_inputs(pipeline::RunConfig& run, const pipeline::record::RunContext& context,
-                                        const std::function<pipeline::record::RunOutcome()>& once);
+record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& context,
+                              const std::function<record::RunOutcome()>& once);
 
 /// @param options  sets of options to start from, in the order in which they are tried: a file, a folder with
 /// options.npz, or the name of a shipped set each; empty: all shipped ones
-int adapt_motions(pipeline::AdaptConfig config, const std::vector<std::string>& options,
+int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& options,
                   const std::vector<std::string>& settings);
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings);
 

@@ -11,16 +11,16 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/configurations.h"
+#include "files/simulated_members.h"
 #include "pipeline/options/arrangement.h"
 #include "pipeline/options/side_by_side.h"
-#include "pipeline/output/simulated_members.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/run_folder.h"
 #include "pipeline/training.h"
-#include "rl/tracking/environment.h"
-#include "rl/tracking/rollout.h"
+#include "program/configurations.h"
+#include "record/run_folder.h"
+#include "rl/tracking/tracking_environment.h"
+#include "rl/tracking/tracking_rollout.h"
 #include "rl/trainer.h"
+#include "run/preparation.h"
 
 namespace mimicx::tools {
 namespace {
@@ -97,7 +97,7 @@ void tell_reference(const motion::Reference& reference) {
   row<double>("its rotation [3], rad", {root.data(), 3});
   row<double>("joint rotations [55], rad", turns);
   const std::vector<double> velocities =
-      pipeline::output::velocities_member({frame}, pipeline::output::Precision::kFloat64).to_double();
+      files::velocities_member({frame}, files::Precision::kFloat64).to_double();
   const std::span<const double> all(velocities);
   row<double>("velocity of the pelvis [3], m/s", all.first(3));
   row<double>("its angular velocity [3], rad/s", all.subspan(3, 3));
@@ -224,31 +224,29 @@ void tell_training(const pipeline::options::ArrangedClip& arranged, const pipeli
                {"mean reward of a step", stats.mean_reward}});
 }
 
-void tell_files(const pipeline::record::RunFolder& folder, const std::string& name) {
-  heading("pipeline", "what the run wrote");
-  const std::filesystem::path motion = folder.root / pipeline::record::RunFolder::motion_name(name, true);
-  list_members(std::filesystem::exists(motion)
-                   ? motion
-                   : folder.root / pipeline::record::RunFolder::motion_name(name, false));
+void tell_files(const record::RunFolder& folder, const std::string& name) {
+  heading("run", "what the run wrote");
+  const std::filesystem::path motion = folder.root / record::RunFolder::motion_name(name, true);
+  list_members(std::filesystem::exists(motion) ? motion
+                                               : folder.root / record::RunFolder::motion_name(name, false));
   for (const std::filesystem::path& path : {folder.fit(name), folder.reference(name), folder.log(name),
                                             folder.falls(name), folder.checkpoint(name), folder.manifest()})
     list_file(path);
 }
 
 void walk(const std::filesystem::path& file, const std::filesystem::path& options,
-          const pipeline::record::RunFolder& folder) {
+          const record::RunFolder& folder) {
   heading("the file", "what is in it");
   list_members(file);
-  const pipeline::PreparedMotion motion =
-      pipeline::prepare_motion(file, {}, pipeline::Correction::kKeypoints);
-  heading("motion/import", "read_motion");
+  const run::PreparedMotion motion = run::prepare_motion(file, {}, run::Correction::kKeypoints);
+  heading("import", "read_motion");
   std::printf("  %d frames at %.0f fps, body model %s\n", motion.input.frames(), motion.input.fps,
               motion.input.body_model.c_str());
-  heading("motion/fit", "fit_keypoints");
+  heading("fit", "fit_keypoints");
   list_values(motion.fit_values);
   tell_reference(motion.reference);
   list_values(motion.preparation_values);
-  const pipeline::AdaptConfig adapt = pipeline::adapt_configuration();
+  const program::AdaptConfig adapt = program::adapt_configuration();
   const pipeline::TrainingConfig& config = adapt.training;
   const auto clip = rl::tracking::make_tracking_clip(motion.reference, config.tracking);
   const pipeline::options::ArrangedClip arranged =
@@ -267,7 +265,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    mimicx::tools::walk(argv[1], argv[2], mimicx::pipeline::record::RunFolder{argv[3]});
+    mimicx::tools::walk(argv[1], argv[2], mimicx::record::RunFolder{argv[3]});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "walkthrough: %s\n", error.what());
     return 1;

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "control/linearisation.h"
-#include "control/rollout.h"
+#include "control/trajectory.h"
 
 namespace mimicx::control {
 

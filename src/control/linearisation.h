@@ -1,7 +1,7 @@
 /// The ways to linearise a control frame, behind one function.
 #pragma once
 
-#include "control/analytic.h"
+#include "control/analytic/analytic.h"
 #include "control/differences.h"
 
 namespace mimicx::control {

@@ -9,7 +9,7 @@
 /// is simulated without gaps, and the best one is taken.
 #pragma once
 
-#include "control/rollout.h"
+#include "control/trajectory.h"
 
 namespace mimicx::control {
 

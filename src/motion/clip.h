@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "character/character.h"
-#include "core/npz.h"
+#include "core/npz/npz.h"
 
 namespace mimicx::motion {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/npz.h"
+#include "core/npz/npz.h"
 
 namespace mimicx::motion {
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "core/npz_archive.h"
+#include "core/npz/npz_archive.h"
 #include "nn/mlp.h"
 #include "nn/normaliser.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/npz_archive.h"
+#include "core/npz/npz_archive.h"
 #include "nn/adam.h"
 #include "nn/mlp.h"
 #include "nn/normaliser.h"

@@ -6,7 +6,7 @@
 
 #include "page/played.h"
 #include "page/session.h"
-#include "pipeline/record/json.h"
+#include "record/json.h"
 
 // Functions that are used from outside stay in the program, and JavaScript sees them.
 #define MIMICX_ASKED extern "C" __attribute__((used))
@@ -19,7 +19,7 @@ namespace {
 using mimicx::page::Controller;
 using mimicx::page::Playground;
 using mimicx::page::Session;
-using mimicx::pipeline::record::Json;
+using mimicx::record::Json;
 
 /// What a terminal would show of a piece of text that may begin lines anew.
 std::string last_state(std::string text) {
@@ -91,7 +91,7 @@ MIMICX_ASKED void mimicx_plan(const char* file) {
   call([&] {
     Lines lines;
     std::ostream out(&lines);
-    mimicx::pipeline::record::Progress progress(out, true, mimicx::pipeline::record::steady_seconds);
+    mimicx::record::Progress progress(out, true, mimicx::record::steady_seconds);
     return session().plan(file, {progress, out, [] { return false; }});
   });
 }

@@ -2,16 +2,14 @@
 
 #include <cmath>
 
+#include "audit/torque_shares.h"
 #include "core/units.h"
 #include "motion/surface.h"
-#include "pipeline/audit/torque_shares.h"
-#include "pipeline/record/json.h"
-#include "pipeline/report/report.h"
+#include "record/json.h"
+#include "report/report.h"
 
 namespace mimicx::page {
 namespace {
-
-namespace report = pipeline::report;
 
 report::ReportClip clip_of(const Playground& playground, const std::string& body) {
   const PlayedFrame& now = playground.now();
@@ -27,14 +25,14 @@ report::ReportClip clip_of(const Playground& playground, const std::string& body
   PerBody<Vector3d> by_controller;
   for (int i = 0; i < kBodies; ++i)
     by_controller[i] = now.forces.joint_torque[i] - now.forces.range_torque[i];
-  clip.torques.push_back(pipeline::audit::torque_shares(character, by_controller));
+  clip.torques.push_back(audit::torque_shares(character, by_controller));
   return clip;
 }
 
 }  // namespace
 
 std::string played_json(const Playground& playground, const std::string& body) {
-  using pipeline::record::Json;
+  using record::Json;
   const PlayedFrame& now = playground.now();
   double floor = 0.0;
   for (const Vector6d& wrench : now.forces.ground) floor += wrench[5];

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "control/rollout.h"
+#include "control/trajectory.h"
 #include "physics/lanes.h"
 
 namespace mimicx::page {
@@ -32,8 +32,7 @@ motion::ReferenceFrame frame_of(const physics::State<double>& x) {
 }
 
 /// What the plan followed, in the plan's very numbers.
-motion::Reference reference_of(const Character& character, const pipeline::output::StoredPlan& plan,
-                               double up) {
+motion::Reference reference_of(const Character& character, const files::StoredPlan& plan, double up) {
   motion::Reference reference;
   reference.fps = plan.fps;
   reference.character = character;
@@ -76,8 +75,7 @@ control::Control control_of(const control::Plan& plan, int frame) {
 
 }  // namespace
 
-Playground::Playground(const Character& character, pipeline::output::StoredPlan plan,
-                       std::vector<Eigen::MatrixXf> gains)
+Playground::Playground(const Character& character, files::StoredPlan plan, std::vector<Eigen::MatrixXf> gains)
     : plan_(std::move(plan)),
       gains_(std::move(gains)),
       planned_for_(character),
@@ -146,7 +144,7 @@ const PlayedFrame& Playground::step() {
   const PlayedFrame last = now_;
   look(rl::tracking::acting_forces(applied));
   if (!std::isfinite(now_.distance)) return now_;
-  const pipeline::audit::Audit audit = pipeline::audit::audit_frames(
+  const audit::Audit audit = audit::audit_frames(
       {character_, plan_.fps, {last.state, now_.state}, {last.forces, now_.forces}}, config_.simulation);
   now_.unexplained = audit.rows.at(0).root;
   return now_;

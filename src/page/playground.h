@@ -13,9 +13,9 @@
 #include <memory>
 #include <optional>
 
-#include "pipeline/audit/audit.h"
-#include "pipeline/output/plan_file.h"
-#include "rl/tracking/rollout.h"
+#include "audit/audit.h"
+#include "files/plan_file.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::page {
 
@@ -41,8 +41,7 @@ class Playground {
  public:
   /// @param character  whose plan it is @param gains  [frames − 1] of the plan
   /// @throws std::invalid_argument for a plan of fewer than 2 frames, or gains of another length
-  Playground(const Character& character, pipeline::output::StoredPlan plan,
-             std::vector<Eigen::MatrixXf> gains);
+  Playground(const Character& character, files::StoredPlan plan, std::vector<Eigen::MatrixXf> gains);
 
   int frames() const { return static_cast<int>(plan_.plan.states.size()); }
   double fps() const { return plan_.fps; }
@@ -71,7 +70,7 @@ class Playground {
   void rebuild(bool keep_state);
   void look(const rl::tracking::ActingForces& forces);
 
-  pipeline::output::StoredPlan plan_;
+  files::StoredPlan plan_;
   std::vector<Eigen::MatrixXf> gains_;
   Character planned_for_, character_;
   double up_ = 0.0;  ///< by which the plan is moved for the body, m

@@ -3,20 +3,18 @@
 #include <stdexcept>
 
 #include "core/file.h"
+#include "files/clean_copy.h"
+#include "files/exchange_file.h"
+#include "import/motion_file.h"
 #include "motion/clip_file.h"
-#include "motion/import/motion_file.h"
-#include "pipeline/exchange/exchange_file.h"
-#include "pipeline/output/clean_copy.h"
-#include "pipeline/plan.h"
-#include "pipeline/record/json.h"
-#include "pipeline/record/manifest.h"
-#include "pipeline/report/clip_report.h"
-#include "pipeline/report/report.h"
+#include "plan/plan_command.h"
+#include "record/json.h"
+#include "record/manifest.h"
+#include "report/clip_report.h"
+#include "report/report.h"
 
 namespace mimicx::page {
 namespace {
-
-using namespace pipeline;  // NOLINT(google-build-using-namespace): a page is a use of the pipeline
 
 const bool kTruth = false;  ///< a page has none
 
@@ -33,11 +31,11 @@ Session::Session(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
 std::string Session::plan(const std::filesystem::path& motion, const record::RunContext& context) {
   std::filesystem::remove_all(next_folder());  // of an attempt that failed halfway
-  PlanMotionsConfig config = plan_configuration();
+  plan::PlanMotionsConfig config = plan::plan_configuration();
   config.run.inputs = {motion.string()};
   config.run.out = next_folder();
   config.run.gains = true;
-  const record::RunOutcome outcome = plan_motions(config, context);
+  const record::RunOutcome outcome = plan::plan_motions(config, context);
   if (outcome == record::RunOutcome::kInterrupted) throw std::runtime_error("interrupted");
   const int number = keep(motion);
   const Done& done = done_.back();
@@ -77,14 +75,14 @@ std::string Session::saved(int number, const std::string& suffix) const {
   const std::filesystem::path motion = d.folder.root / d.entry.output,
                               copy = d.folder.clean(d.entry.name, suffix);
   if (suffix == ".npz") return read_file(motion);
-  if (suffix == output::clean_suffix(d.input) && std::filesystem::exists(copy)) return read_file(copy);
+  if (suffix == files::clean_suffix(d.input) && std::filesystem::exists(copy)) return read_file(copy);
   const std::filesystem::path file = d.folder.root / "saved" / (d.entry.name + suffix);
   make_folder(file.parent_path());
-  const motion::Clip clip = motion::import::read_motion(motion);
-  if (exchange::is_exchanged(file))
-    exchange::write_exchange(file, clip, motion.string(), {});
+  const motion::Clip clip = import::read_motion(motion);
+  if (files::is_exchanged(file))
+    files::write_exchange(file, clip, motion.string(), {});
   else
-    motion::import::write_motion(file, clip);
+    import::write_motion(file, clip);
   return read_file(file);
 }
 
@@ -93,8 +91,8 @@ Playground Session::play(int number) const {
   if (!std::filesystem::exists(d.folder.gains(d.entry.name)))
     throw std::invalid_argument(d.entry.name + ": no plan followed it: there is nothing to play with");
   const motion::Clip clip = motion::read_clip(d.folder.reference(d.entry.name));
-  return {motion::character_of(clip), output::read_plan(d.folder.plan(d.entry.name)),
-          output::read_gains(d.folder.gains(d.entry.name)).gains};
+  return {motion::character_of(clip), files::read_plan(d.folder.plan(d.entry.name)),
+          files::read_gains(d.folder.gains(d.entry.name)).gains};
 }
 
 std::string Session::bodies_json() const {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "page/playground.h"
-#include "pipeline/record/run_context.h"
-#include "pipeline/record/run_folder.h"
-#include "pipeline/record/sequence_entry.h"
-#include "pipeline/report/bodies.h"
+#include "record/run_context.h"
+#include "record/run_folder.h"
+#include "record/sequence_entry.h"
+#include "report/body_shapes.h"
 
 namespace mimicx::page {
 
@@ -31,7 +31,7 @@ class Session {
   /// @return JSON: `number`; `ok`; `row` and `clip` as in a report, `bodies` by key; of a failure the
   /// row's reason is the program's own message
   /// @throws DataError or std::invalid_argument where not even that can be said
-  std::string plan(const std::filesystem::path& motion, const pipeline::record::RunContext& context);
+  std::string plan(const std::filesystem::path& motion, const record::RunContext& context);
 
   /// Takes up what `plan` of an earlier session has left in the folder of the motion with the number that is
   /// next here: a browser's program that is stopped keeps nothing, but the page that it ran in may.
@@ -54,8 +54,8 @@ class Session {
 
  private:
   struct Done {
-    pipeline::record::RunFolder folder;
-    pipeline::record::SequenceEntry entry;
+    record::RunFolder folder;
+    record::SequenceEntry entry;
     std::filesystem::path input;
   };
   const Done& done(int number) const;
@@ -64,7 +64,7 @@ class Session {
 
   std::filesystem::path folder_;
   std::vector<Done> done_;
-  pipeline::report::ReportBodies bodies_;
+  report::ReportBodies bodies_;
 };
 
 }  // namespace mimicx::page

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "core/file.h"
-#include "pipeline/record/outputs.h"
+#include "record/outputs.h"
 
 namespace mimicx::pipeline {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/record/json.h"
-#include "pipeline/record/run_context.h"
-#include "pipeline/record/run_folder.h"
+#include "record/json.h"
+#include "record/run_context.h"
+#include "record/run_folder.h"
 
 namespace mimicx::pipeline {
 

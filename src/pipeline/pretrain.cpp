@@ -9,14 +9,14 @@
 
 #include "core/build.h"
 #include "core/error.h"
-#include "core/npz.h"
-#include "pipeline/inputs.h"
+#include "core/npz/npz.h"
+#include "files/inputs.h"
 #include "pipeline/options_folder.h"
-#include "pipeline/preparation.h"
-#include "pipeline/record/folder_lock.h"
-#include "pipeline/record/json.h"
-#include "pipeline/record/names.h"
-#include "pipeline/record/run_folder.h"
+#include "record/folder_lock.h"
+#include "record/json.h"
+#include "record/names.h"
+#include "record/run_folder.h"
+#include "run/preparation.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -28,21 +28,21 @@ struct Motions {
   bool all_good = true;
 };
 
-Motions read_motions(const std::vector<MotionInput>& inputs, const PretrainConfig& config,
+Motions read_motions(const std::vector<files::MotionInput>& inputs, const PretrainConfig& config,
                      const record::RunContext& context) {
   Motions motions;
-  const std::vector<std::string> files = paths_of(inputs);
+  const std::vector<std::string> files = files::paths_of(inputs);
   std::set<std::string> taken;
   context.progress.start("preparing motions", 0.0, static_cast<double>(files.size()), "motions");
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
     try {
-      PreparedMotion motion =
-          prepare_motion(files[i], config.read, config.fit ? Correction::kKeypoints : Correction::kPoses);
-      tell_decisions(files[i], motion.input, context.messages);
+      run::PreparedMotion motion = run::prepare_motion(
+          files[i], config.read, config.fit ? run::Correction::kKeypoints : run::Correction::kPoses);
+      run::tell_decisions(files[i], motion.input, context.messages);
       // Names tell motions apart inside the set; the same file name in two folders is two motions.
       const std::string name = record::unique_name(inputs[i].name, taken);
-      motions.features.push_back({name, motion::motion_features(motion.reference)});
+      motions.features.push_back({name, options::motion_features(motion.reference)});
       taken.insert(name);
       motions.references.push_back(std::move(motion.reference));
     } catch (const std::exception& error) {
@@ -211,8 +211,9 @@ std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<
 }
 
 record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context) {
-  const std::vector<MotionInput> inputs = find_motions(config.inputs, config.out, &context.messages);
-  const std::vector<std::string> files = paths_of(inputs);
+  const std::vector<files::MotionInput> inputs =
+      files::find_motions(config.inputs, config.out, &context.messages);
+  const std::vector<std::string> files = files::paths_of(inputs);
   const record::RunFolder folder{config.out};
   claim_options(folder, files, config.force);
   const record::FolderLock lock(folder.root);

@@ -16,12 +16,12 @@
 /// What it never does: open any ground truth.
 #pragma once
 
-#include "motion/import/motion_file.h"
+#include "import/motion_file.h"
 #include "nn/autoencoder.h"
 #include "pipeline/options/clusters.h"
 #include "pipeline/options/option_set.h"
-#include "pipeline/record/run_context.h"
 #include "pipeline/training.h"
+#include "record/run_context.h"
 
 namespace mimicx::pipeline {
 
@@ -33,7 +33,7 @@ struct PretrainConfig {
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
   bool fit = false;         ///< move motions onto their keypoints first, where they have any
-  motion::import::ReadConfig read;
+  import::ReadConfig read;
   bool force = false;  ///< overwrite files that no run made
   int threads = 1;
 };

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pipeline/choice.h"
-#include "rl/tracking/rollout.h"
+#include "judge/choice.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline {
 
@@ -15,7 +15,7 @@ ChosenSet choose_set(const motion::Reference& reference,
   if (sets.empty()) throw std::invalid_argument("choose_set: expected a set of options, found none");
   const int acting = clip->size() - 1;
   ChosenSet chosen;
-  Candidate best;
+  judge::Candidate best;
   for (int s = 0; s < sets.count() && !best.success; ++s) {
     if (s > 0 && should_stop && should_stop()) break;
     options::ArrangedClip arranged = options::arrange(clip, tracking, *sets[s], config, should_stop);
@@ -24,10 +24,10 @@ ChosenSet choose_set(const motion::Reference& reference,
     const bool stopped = arranged.searched < acting;
     if (stopped && s > 0) break;
     if (!stopped && sets.count() > 1) {
-      const Candidate found = candidate_of(
+      const judge::Candidate found = judge::candidate_of(
           reference,
           rl::tracking::roll_out(arranged.clip, tracking, rl::tracking::mean_action(arranged.agents)));
-      if (s > 0 && !better(found, best)) continue;
+      if (s > 0 && !judge::better(found, best)) continue;
       best = found;
     }
     chosen.set = s;

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "core/file.h"
-#include "core/npz.h"
+#include "core/npz/npz.h"
 #include "core/parallel.h"
 #include "motion/metrics.h"
 #include "pipeline/training_log.h"
-#include "rl/tracking/environment.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_environment.h"
+#include "rl/tracking/tracking_rollout.h"
 #include "rl/trainer.h"
 
 namespace mimicx::pipeline {

@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/record/ending.h"
-#include "pipeline/record/progress.h"
-#include "pipeline/record/table.h"
 #include "pipeline/training_config.h"
+#include "record/ending.h"
+#include "record/progress.h"
+#include "record/table.h"
 #include "rl/policy.h"
-#include "rl/tracking/clip.h"
+#include "rl/tracking/tracking_clip.h"
 #include "rl/trainer.h"
 
 namespace mimicx::pipeline {

@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "pipeline/output/simulation_settings.h"
-#include "pipeline/setting.h"
-#include "rl/tracking/environment.h"
+#include "core/setting.h"
+#include "files/simulation_settings.h"
+#include "rl/tracking/tracking_environment.h"
 
 namespace mimicx::pipeline {
 
@@ -27,7 +27,7 @@ void for_each_tracking_setting(Config& t, const Visit& visit) {
   visit("terminate_distance", t.terminate_distance);
   visit("bin_frames", t.bin_frames);
   visit("uniform_starts", t.uniform_starts);
-  output::for_each_simulation_setting(t.simulation, visit);
+  files::for_each_simulation_setting(t.simulation, visit);
 }
 
 /// Calls visit(name, field) for every number of the configuration but samples and seed.

@@ -11,7 +11,7 @@
 
 #include "core/named_values.h"
 #include "rl/ppo_config.h"
-#include "rl/tracking/config.h"
+#include "rl/tracking/tracking_config.h"
 
 namespace mimicx::pipeline {
 

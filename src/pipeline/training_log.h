@@ -1,9 +1,9 @@
 /// The log of a training: a row per iteration, a column per number.
 #pragma once
 
-#include "pipeline/record/table.h"
+#include "record/table.h"
 #include "rl/ppo.h"
-#include "rl/tracking/environment.h"
+#include "rl/tracking/tracking_environment.h"
 
 namespace mimicx::pipeline {
 

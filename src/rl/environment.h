@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/containers.h"
-#include "core/npz.h"
+#include "core/npz/npz.h"
 #include "nn/matrix.h"
 
 namespace mimicx::rl {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "core/npz.h"
+#include "core/npz/npz.h"
 #include "nn/mlp.h"
 #include "nn/normaliser.h"
 

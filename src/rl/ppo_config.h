@@ -11,7 +11,7 @@
 
 namespace mimicx::rl {
 
-/// There are no defaults: whoever trains says all of it (src/pipeline/configurations.h for the trainings that
+/// There are no defaults: whoever trains says all of it (src/program/configurations.h for the trainings that
 /// people run).
 struct PpoConfig {
   // Roll-out and returns.

@@ -7,7 +7,7 @@
 #include "core/elementary.h"
 #include "core/random.h"
 #include "rl/tracking/mirror.h"
-#include "rl/tracking/pack.h"
+#include "rl/tracking/tracking_pack.h"
 
 namespace mimicx::teaching {
 namespace {
@@ -78,7 +78,7 @@ double distance_from_teacher(const TrackingPack& pack, int lane) {
 
 }  // namespace
 
-void append(const Lessons& more, Lessons& lessons) {
+void append_lessons(const Lessons& more, Lessons& lessons) {
   lessons.states.insert(lessons.states.end(), more.states.begin(), more.states.end());
   lessons.actions.insert(lessons.actions.end(), more.actions.begin(), more.actions.end());
   lessons.weighed_by.insert(lessons.weighed_by.end(), more.weighed_by.begin(), more.weighed_by.end());

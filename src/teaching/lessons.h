@@ -38,7 +38,7 @@ struct Lessons {
 };
 
 /// Behind the rows that are there.
-void append(const Lessons& more, Lessons& lessons);
+void append_lessons(const Lessons& more, Lessons& lessons);
 
 /// An agent that has learnt nothing: two or more hidden layers, mean actions near zero.
 rl::Agent beginner(int state_size, const std::vector<int>& hidden, std::uint64_t seed);

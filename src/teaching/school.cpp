@@ -84,7 +84,7 @@ Material gather_material(const Teachers& teachers, int count, const rl::tracking
   for (const Lessons& lessons : taken) rows += lessons.rows();
   material.lessons.states.reserve(static_cast<std::size_t>(rows) *
                                   static_cast<std::size_t>(pupil.agent.actor.inputs()));
-  for (Lessons& lessons : taken) append(std::exchange(lessons, {}), material.lessons);
+  for (Lessons& lessons : taken) append_lessons(std::exchange(lessons, {}), material.lessons);
   return material;
 }
 

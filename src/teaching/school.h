@@ -12,7 +12,7 @@
 #include <string>
 
 #include "control/plan_control.h"
-#include "core/npz.h"
+#include "core/npz/npz.h"
 #include "teaching/lessons.h"
 #include "teaching/regression.h"
 

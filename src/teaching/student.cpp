@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "motion/metrics.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::teaching {
 namespace {
@@ -16,7 +16,7 @@ enum StudentStream : std::uint64_t { kStudentRows = 0x57d0 };
 
 /// Appends lessons and drops the oldest beyond `most` rows.
 void add(const Lessons& fresh, int state_size, int most, Lessons& all) {
-  append(fresh, all);
+  append_lessons(fresh, all);
   const int extra = all.rows() - most;
   if (extra <= 0) return;
   all.states.erase(all.states.begin(), all.states.begin() + std::ptrdiff_t{extra} * state_size);

@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "control/plan.h"
-#include "rl/tracking/clip.h"
+#include "rl/tracking/tracking_clip.h"
 
 namespace mimicx::teaching {
 

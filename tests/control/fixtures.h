@@ -6,9 +6,9 @@
 #include "control/system.h"
 #include "control/tangent.h"
 #include "core/random.h"
-#include "motion/prepare.h"
-#include "motion/synth/synth.h"
-#include "rl/tracking/clip.h"
+#include "motion/prepare/prepare.h"
+#include "rl/tracking/tracking_clip.h"
+#include "synth/synth.h"
 
 namespace mimicx::control {
 
@@ -17,10 +17,10 @@ using rl::tracking::simulator_state;
 /// A synthetic motion, cut to its first frames (0: all of it).
 inline motion::Reference synthetic_reference(const std::string& kind, std::uint64_t seed,
                                              std::size_t frames = 0) {
-  motion::synth::SynthConfig options;
+  synth::SynthConfig options;
   options.kind = kind;
   options.seed = seed;
-  motion::Reference reference = motion::prepare_reference(motion::synth::synthesize(options), {}, nullptr);
+  motion::Reference reference = motion::prepare_reference(synth::synthesize(options), {}, nullptr);
   if (frames > 0 && frames < reference.frames.size()) {
     reference.frames.resize(frames);
     reference.poses.resize(frames);

@@ -2,7 +2,7 @@
 /// derivatives by the chain rule and over double for differences.
 #pragma once
 
-#include "control/analytic.h"
+#include "control/analytic/analytic.h"
 
 namespace mimicx::control {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "control/fixtures.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::control {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "control/fixtures.h"
 #include "control/tangent.h"
-#include "rl/tracking/pack.h"
+#include "rl/tracking/tracking_pack.h"
 
 namespace mimicx::control {
 namespace {

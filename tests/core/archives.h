@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "core/npz.h"
+#include "core/npz/npz.h"
 
 namespace mimicx {
 

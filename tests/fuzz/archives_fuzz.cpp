@@ -1,28 +1,26 @@
 // Archives of numbers other than plain motions: body models, options, policies, plans, gains, feasibility,
 // and motions with the forces that `audit` and `convert` look at.
+#include "audit/audit_file.h"
+#include "audit/thrown.h"
 #include "core/file.h"
+#include "core/temporary_folder.h"
+#include "files/motion_output.h"
+#include "files/plan_file.h"
+#include "files/policy_file.h"
+#include "files/recorded_forces.h"
 #include "fuzz/driver.h"
 #include "fuzz/members.h"
+#include "import/body_model.h"
+#include "import/small_body_model.h"
 #include "motion/clip_file.h"
-#include "motion/import/body_model.h"
-#include "motion/import/small_body_model.h"
 #include "motion/made_motions.h"
-#include "motion/prepare.h"
-#include "pipeline/audit/audit_file.h"
-#include "pipeline/exchange/recorded_forces.h"
+#include "motion/prepare/prepare.h"
 #include "pipeline/options/constant_option.h"
 #include "pipeline/options/option_set.h"
-#include "pipeline/output/motion_output.h"
-#include "pipeline/output/plan_file.h"
-#include "pipeline/output/policy_file.h"
-#include "pipeline/record/feasibility_file.h"
-#include "pipeline/temporary_folder.h"
-#include "pipeline/thrown.h"
+#include "record/feasibility_file.h"
 
 namespace mimicx::fuzz {
 namespace {
-
-using namespace pipeline;
 
 /// What `write(path)` writes.
 template <class Write>
@@ -36,39 +34,41 @@ Npz options_file() {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(3), {});
   nn::AutoEncoderConfig encoder;
   encoder.hidden = encoder.code = encoder.steps = 2;
-  options::OptionSet set;
-  options::Option encoded = options::constant_option(rl::tracking::kEncodedRest + encoder.code, 0.1f);
-  encoded.encoder = nn::train_autoencoder(options::encoder_inputs(*clip), encoder, 1);
+  pipeline::options::OptionSet set;
+  pipeline::options::Option encoded =
+      pipeline::options::constant_option(rl::tracking::kEncodedRest + encoder.code, 0.1f);
+  encoded.encoder = nn::train_autoencoder(pipeline::options::encoder_inputs(*clip), encoder, 1);
   set.options.push_back({encoded, "walks", {}, 2, 1000});
-  set.options.push_back({options::constant_option(rl::tracking::kStateSize, 0.1f), "stands", {}, 1, 500});
-  return written([&](const auto& path) { options::write_options(path, set); });
+  set.options.push_back(
+      {pipeline::options::constant_option(rl::tracking::kStateSize, 0.1f), "stands", {}, 1, 500});
+  return written([&](const auto& path) { pipeline::options::write_options(path, set); });
 }
 
 Npz policy_file() {
-  output::StoredPolicy policy;
+  files::StoredPolicy policy;
   const motion::Reference reference = rl::tracking::swaying_reference(3);
   policy.motion = reference;
   policy.states = rl::tracking::simulator_states(reference);
   policy.agent = rl::tracking::agent_that_does(0.1f, rl::tracking::kStateSize);
-  return written([&](const auto& path) { output::write_policy(path, test::standing_clip(3, 0.9), policy); });
+  return written([&](const auto& path) { files::write_policy(path, test::standing_clip(3, 0.9), policy); });
 }
 
 Npz plan_file() {
-  output::StoredPlan plan;
+  files::StoredPlan plan;
   plan.reference = rl::tracking::simulator_states(rl::tracking::swaying_reference(3));
   plan.plan.states = plan.reference;
   plan.plan.residuals.resize(2);
   plan.plan.soft_help.resize(2);
   plan.plan.ending = control::Ending::kLost;
   plan.plan.loss = control::Loss{1, kLeftFoot, 0.41};
-  return written([&](const auto& path) { output::write_plan(path, plan); });
+  return written([&](const auto& path) { files::write_plan(path, plan); });
 }
 
 Npz gains_file() {
-  output::StoredGains gains;
+  files::StoredGains gains;
   gains.gains.assign(1, Eigen::MatrixXf::Constant(kDofs, control::kMemory, 0.5f));
   gains.curvature = Eigen::MatrixXf::Identity(kDofs, kDofs);
-  return written([&](const auto& path) { output::write_gains(path, gains); });
+  return written([&](const auto& path) { files::write_gains(path, gains); });
 }
 
 Npz feasibility_file() {
@@ -80,8 +80,8 @@ Npz feasibility_file() {
   return written([&](const auto& path) { record::write_feasibility(path, all); });
 }
 
-const Thrown& thrown() {
-  static const Thrown motion;
+const audit::Thrown& thrown() {
+  static const audit::Thrown motion;
   return motion;
 }
 
@@ -99,7 +99,7 @@ Npz forces_file() {
   reference.frames.resize(kFrames), rollout.poses.resize(kFrames), rollout.forces.resize(kFrames);
   rollout.rewards.resize(kFrames);
   return written([&](const auto& path) {
-    output::write_simulated(path, test::standing_clip(kFrames, 0.9), reference, rollout);
+    files::write_simulated(path, test::standing_clip(kFrames, 0.9), reference, rollout);
   });
 }
 
@@ -107,15 +107,15 @@ void audit_archive(const Npz& npz) { audit::audit_bytes(format_npz(npz), "fuzz.n
 
 const std::vector<Archive>& archives() {
   static const std::vector<Archive> all = {
-      {test::SmallModel().file(), [](const Npz& npz) { motion::import::body_model_from(npz).joints({1.0}); }},
-      {options_file(), [](const Npz& npz) { options::options_from(npz); }},
-      {policy_file(), [](const Npz& npz) { output::policy_from(npz); }},
-      {plan_file(), [](const Npz& npz) { output::plan_from(npz); }},
-      {gains_file(), [](const Npz& npz) { output::gains_from(npz); }},
+      {test::SmallModel().file(), [](const Npz& npz) { import::body_model_from(npz).joints({1.0}); }},
+      {options_file(), [](const Npz& npz) { pipeline::options::options_from(npz); }},
+      {policy_file(), [](const Npz& npz) { files::policy_from(npz); }},
+      {plan_file(), [](const Npz& npz) { files::plan_from(npz); }},
+      {gains_file(), [](const Npz& npz) { files::gains_from(npz); }},
       {feasibility_file(), [](const Npz& npz) { record::feasibility_from(npz); }},
       {substeps_file(), audit_archive},
       {forces_file(), audit_archive},
-      {forces_file(), [](const Npz& npz) { exchange::recorded_forces(motion::clip_from(npz, "fuzz")); }}};
+      {forces_file(), [](const Npz& npz) { files::recorded_forces(motion::clip_from(npz, "fuzz")); }}};
   return all;
 }
 

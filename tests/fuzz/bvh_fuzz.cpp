@@ -1,9 +1,9 @@
 /// Target: BVH text, read and retargeted.
 #include "core/error.h"
 #include "fuzz/driver.h"
-#include "motion/import/bvh.h"
-#include "motion/import/bvh_write.h"
-#include "motion/import/retarget.h"
+#include "import/bvh.h"
+#include "import/bvh_write.h"
+#include "import/retarget/retarget.h"
 
 namespace mimicx::fuzz {
 namespace {
@@ -31,15 +31,15 @@ std::vector<std::string> seeds() {
       "Site\n\t\t{\n"
       "\t\t\tOFFSET 0 1 0\n\t\t}\n\t}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n1 2 3 4 5 6 7 8 9\n9 8 7 6 5 4 "
       "3 2 1\n";
-  std::string foreign = motion::import::format_bvh(small_clip());
+  std::string foreign = import::format_bvh(small_clip());
   for (std::size_t at = 0; (at = foreign.find("OFFSET 0.0", at)) != std::string::npos; at += 8)
     foreign.replace(at, 10, "OFFSET 0.1");  // not this program's own skeleton any more
-  return {small, motion::import::format_bvh(small_clip()), foreign};
+  return {small, import::format_bvh(small_clip()), foreign};
 }
 
 void feed(const std::string& bytes) {
   try {
-    motion::import::retarget(motion::import::parse_bvh(bytes, "fuzz.bvh"));
+    import::retarget(import::parse_bvh(bytes, "fuzz.bvh"));
   } catch (const DataError&) {
   }
 }

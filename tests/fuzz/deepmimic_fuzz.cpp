@@ -1,8 +1,8 @@
 /// Target: DeepMimic's JSON, read and retargeted.
 #include "core/error.h"
 #include "fuzz/driver.h"
-#include "motion/import/deepmimic.h"
-#include "motion/import/retarget.h"
+#include "import/deepmimic.h"
+#include "import/retarget/retarget.h"
 
 namespace mimicx::fuzz {
 
@@ -19,7 +19,7 @@ std::vector<std::string> seeds() {
 
 void feed(const std::string& bytes) {
   try {
-    motion::import::retarget(motion::import::parse_deepmimic(bytes, "fuzz.txt"));
+    import::retarget(import::parse_deepmimic(bytes, "fuzz.txt"));
   } catch (const DataError&) {
   }
 }

@@ -3,15 +3,13 @@
 
 #include "core/error.h"
 #include "fuzz/driver.h"
-#include "motion/import/joint_names.h"
+#include "import/retarget/joint_names.h"
 #include "numbers.h"
-#include "pipeline/record/shard.h"
-#include "pipeline/record/table.h"
+#include "record/shard.h"
+#include "record/table.h"
 
 namespace mimicx::fuzz {
 namespace {
-
-using namespace pipeline;
 
 void feed_table(const std::string& bytes) {
   std::string written;
@@ -38,7 +36,7 @@ std::vector<std::string> seeds() {
 void feed(const std::string& bytes) {
   feed_table(bytes);
   try {
-    motion::import::parse_joint_map(bytes, "fuzz.txt");
+    import::parse_joint_map(bytes, "fuzz.txt");
   } catch (const DataError&) {
   }
   try {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/npz.h"
+#include "core/npz/npz.h"
 
 namespace mimicx::fuzz {
 

@@ -1,8 +1,8 @@
 // Arrays: as a Motion-X file, and as each member of an archive, past the checksums that guard a zip.
 #include "fuzz/driver.h"
+#include "import/motion_file.h"
+#include "import/motionx.h"
 #include "motion/clip_file.h"
-#include "motion/import/motion_file.h"
-#include "motion/import/motionx.h"
 #include "motion/made_motions.h"
 
 namespace mimicx::fuzz {
@@ -10,15 +10,15 @@ namespace mimicx::fuzz {
 std::vector<std::string> seeds() {
   motion::Clip clip = test::random_clip(1, 3, 0.3);
   clip.body_model = "smplx";
-  const Eigen::MatrixXf floats = to_matrix(motion::import::to_motionx(clip)).cast<float>();
-  return {format_npy(motion::import::to_motionx(clip)), format_npy(motion::to_npz(clip).at("poses")),
+  const Eigen::MatrixXf floats = to_matrix(import::to_motionx(clip)).cast<float>();
+  return {format_npy(import::to_motionx(clip)), format_npy(motion::to_npz(clip).at("poses")),
           format_npy(motion::to_npz(clip).at("betas")), format_npy(motion::to_npz(clip).at("joint_names")),
           format_npy(NpyArray::from_float({3, 322}, floats.data()))};
 }
 
 void feed(const std::string& bytes) {
   try {
-    motion::import::motion_from(bytes, "fuzz.npy");
+    import::motion_from(bytes, "fuzz.npy");
   } catch (const DataError&) {
   }
   try {

@@ -1,7 +1,7 @@
 // Archives: zip directory, members, and the motion in them.
 #include "fuzz/driver.h"
+#include "import/motion_file.h"
 #include "motion/clip_file.h"
-#include "motion/import/motion_file.h"
 #include "motion/made_motions.h"
 
 namespace mimicx::fuzz {
@@ -21,7 +21,7 @@ std::vector<std::string> seeds() {
 
 void feed(const std::string& bytes) {
   try {
-    motion::import::motion_from(bytes, "fuzz.npz");
+    import::motion_from(bytes, "fuzz.npz");
   } catch (const DataError&) {
   }
 }

@@ -1,8 +1,8 @@
 // Joint positions (T, 22, 3) and HumanML3D's features (T, 263): read, turned into rotations and retargeted.
-#include "core/npy.h"
+#include "core/npz/npy.h"
 #include "fuzz/driver.h"
-#include "motion/import/motion_file.h"
-#include "motion/import/positions.h"
+#include "import/motion_file.h"
+#include "import/positions.h"
 #include "motion/made_motions.h"
 
 namespace mimicx::fuzz {
@@ -15,13 +15,13 @@ std::vector<std::string> seeds() {
   const std::vector<std::string> seeds = {
       format_npy(positions), format_npy(features), format_npy(one_frame),
       format_npy(NpyArray::from_float(positions.shape, Eigen::MatrixXf(floats.transpose()).data()))};
-  for (const std::string& seed : seeds) motion::import::motion_from(seed, "seed.npy");  // each is read
+  for (const std::string& seed : seeds) import::motion_from(seed, "seed.npy");  // each is read
   return seeds;
 }
 
 void feed(const std::string& bytes) {
   try {
-    motion::import::motion_from(bytes, "fuzz.npy");
+    import::motion_from(bytes, "fuzz.npy");
   } catch (const DataError&) {
   }
 }

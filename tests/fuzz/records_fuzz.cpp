@@ -4,15 +4,13 @@
 #include "core/error.h"
 #include "fuzz/driver.h"
 #include "pipeline/options/clusters.h"
-#include "pipeline/record/example_manifest.h"
-#include "pipeline/record/journal.h"
-#include "pipeline/record/sequence_json.h"
-#include "pipeline/record/shard_list.h"
+#include "record/example_manifest.h"
+#include "record/journal.h"
+#include "record/sequence_json.h"
+#include "record/shard_list.h"
 
 namespace mimicx::fuzz {
 namespace {
-
-using namespace pipeline;
 
 /// What a reader makes of the bytes is written as a text that reads as the same.
 template <class Read, class Write>
@@ -26,12 +24,12 @@ void round_trip(const std::string& bytes, const Read& read, const Write& write) 
   if (write(read(written)) != written) throw std::logic_error("reads back as something else: " + written);
 }
 
-options::Clusters some_clusters() {
-  options::ClusterConfig settings;
+pipeline::options::Clusters some_clusters() {
+  pipeline::options::ClusterConfig settings;
   settings.clusters = 2;
-  motion::MotionFeatures low{}, high{};
+  pipeline::options::MotionFeatures low{}, high{};
   high.fill(1.0);
-  return options::cluster_motions({{"a", low}, {"b", high}, {"c", high}}, settings);
+  return pipeline::options::cluster_motions({{"a", low}, {"b", high}, {"c", high}}, settings);
 }
 
 }  // namespace
@@ -46,7 +44,8 @@ std::vector<std::string> seeds() {
       record::Json({{"sequence", record::to_json(entry)}, {"timing", record::to_json(timing)}}).dump() + "\n";
   return {record::format_manifest(manifest),
           record::format_shard_list({manifest, 3, {{"walk", "clips/walk.npz"}, {"run", "clips/run.npz"}}}),
-          line + line, record::format_timing({timing}, {entry}), options::format_clusters(some_clusters())};
+          line + line, record::format_timing({timing}, {entry}),
+          pipeline::options::format_clusters(some_clusters())};
 }
 
 void feed(const std::string& bytes) {
@@ -57,8 +56,8 @@ void feed(const std::string& bytes) {
       bytes, [](const std::string& text) { return record::parse_shard_list(text, "run.json"); },
       record::format_shard_list);
   round_trip(
-      bytes, [](const std::string& text) { return options::parse_clusters(text, "clusters.json"); },
-      options::format_clusters);
+      bytes, [](const std::string& text) { return pipeline::options::parse_clusters(text, "clusters.json"); },
+      pipeline::options::format_clusters);
   record::format_timing(record::parse_timing(bytes), {});
   try {
     record::Manifest manifest;

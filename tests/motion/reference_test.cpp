@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "motion/made_motions.h"
-#include "motion/prepare.h"
+#include "motion/prepare/prepare.h"
 
 namespace mimicx::motion {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "core/npz.h"
+#include "core/npz/npz.h"
 #include "core/random.h"
 
 namespace mimicx::nn {

@@ -47,12 +47,12 @@ void put_hinges_on_their_axes(motion::ReferenceFrame& frame) {
   }
 }
 
-std::vector<pipeline::audit::AuditRow> step_rows(const pipeline::audit::SubstepMotion& motion,
-                                                 const std::vector<rl::tracking::Substep>& steps,
-                                                 const std::vector<motion::ReferenceFrame>& next) {
+std::vector<audit::AuditRow> step_rows(const audit::SubstepMotion& motion,
+                                       const std::vector<rl::tracking::Substep>& steps,
+                                       const std::vector<motion::ReferenceFrame>& next) {
   MujocoCharacter mujoco(motion.character, motion.simulation);
   const double rate = motion.simulation.rate;
-  std::vector<pipeline::audit::AuditRow> rows(steps.size());
+  std::vector<audit::AuditRow> rows(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     physics::MotionState state = still(steps[k].state);
     state.a_root = rate * (next[k].v_root - state.v_root);
@@ -68,35 +68,34 @@ std::vector<pipeline::audit::AuditRow> step_rows(const pipeline::audit::SubstepM
 
 }  // namespace
 
-pipeline::audit::SubstepMotion on_hinge_axes(pipeline::audit::SubstepMotion motion) {
+audit::SubstepMotion on_hinge_axes(audit::SubstepMotion motion) {
   for (rl::tracking::Substep& step : motion.steps) put_hinges_on_their_axes(step.state);
   put_hinges_on_their_axes(motion.last);
   return motion;
 }
 
-pipeline::audit::SimulatedFrames on_hinge_axes(pipeline::audit::SimulatedFrames motion) {
+audit::SimulatedFrames on_hinge_axes(audit::SimulatedFrames motion) {
   for (motion::ReferenceFrame& frame : motion.frames) put_hinges_on_their_axes(frame);
   return motion;
 }
 
-std::vector<pipeline::audit::AuditRow> mujoco_audit_steps(const pipeline::audit::SubstepMotion& motion) {
+std::vector<audit::AuditRow> mujoco_audit_steps(const audit::SubstepMotion& motion) {
   std::vector<motion::ReferenceFrame> next;
   for (std::size_t k = 1; k < motion.steps.size(); ++k) next.push_back(motion.steps[k].state);
   next.push_back(motion.last);
   return step_rows(motion, motion.steps, next);
 }
 
-std::vector<pipeline::audit::AuditRow> mujoco_audit_replayed_steps(
-    const pipeline::audit::SubstepMotion& motion) {
-  const pipeline::audit::Replay replay = pipeline::audit::replay_in_double(motion);
+std::vector<audit::AuditRow> mujoco_audit_replayed_steps(const audit::SubstepMotion& motion) {
+  const audit::Replay replay = audit::replay_in_double(motion);
   return step_rows(motion, replay.steps, replay.next);
 }
 
-std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit::SimulatedFrames& motion,
-                                                           const physics::SimulationConfig& simulation) {
+std::vector<audit::AuditRow> mujoco_audit_frames(const audit::SimulatedFrames& motion,
+                                                 const physics::SimulationConfig& simulation) {
   MujocoCharacter mujoco(motion.character, simulation);
   const double weight = simulation.gravity * motion.character.total_mass();
-  std::vector<pipeline::audit::AuditRow> rows;
+  std::vector<audit::AuditRow> rows;
   for (std::size_t t = 1; t < motion.frames.size(); ++t) {
     const physics::MotionState a = still(motion.frames[t - 1]), b = still(motion.frames[t]);
     const MujocoMomentum before = mujoco_momentum(mujoco, a), after = mujoco_momentum(mujoco, b);
@@ -122,7 +121,7 @@ std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit
       return Vector6d(about(point, mujoco_inverse_dynamics(mujoco, pose, none).root, pose.p_root) -
                       about(point, weight_about_center, mujoco_momentum(mujoco, pose).center));
     };
-    pipeline::audit::AuditRow row;
+    audit::AuditRow row;
     row.index = static_cast<int>(t);
     row.root = motion.fps * (about(point, after.about_center, after.center) -
                              about(point, before.about_center, before.center));
@@ -139,12 +138,11 @@ std::vector<pipeline::audit::AuditRow> mujoco_audit_frames(const pipeline::audit
   return rows;
 }
 
-double largest_difference(const pipeline::audit::Audit& audit,
-                          const std::vector<pipeline::audit::AuditRow>& rows) {
+double largest_difference(const audit::Audit& audit, const std::vector<audit::AuditRow>& rows) {
   if (rows.size() != audit.rows.size()) throw std::invalid_argument("audits of different lengths");
   double largest = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const pipeline::audit::AuditRow& ours = audit.rows[k];
+    const audit::AuditRow& ours = audit.rows[k];
     const double scale = std::max(audit.weight, ours.normal);
     for (const double difference : {(ours.root - rows[k].root).norm() / scale,
                                     std::abs(ours.torque_gap - rows[k].torque_gap) / scale}) {

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/temporary_folder.h"
+#include "motion/standing_clip.h"
 #include "page/played.h"
 #include "page/session.h"
 #include "physics/lanes.h"
-#include "pipeline/record/json.h"
-#include "pipeline/small_run.h"
-#include "pipeline/standing_clip.h"
-#include "pipeline/temporary_folder.h"
+#include "program/small_run.h"
+#include "record/json.h"
 
 namespace mimicx::page {
 namespace {
@@ -17,16 +17,16 @@ namespace {
 struct Planned {
   Planned() {
     const std::filesystem::path file = folder.path / "stand.npz";
-    motion::write_clip(file, pipeline::standing_clip(45));
-    pipeline::run_in_context([&](const pipeline::record::RunContext& context) {
+    motion::write_clip(file, motion::standing_clip(45));
+    program::run_in_context([&](const record::RunContext& context) {
       session.plan(file, context);
-      return pipeline::record::RunOutcome::kAllGood;
+      return record::RunOutcome::kAllGood;
     });
-    plan = pipeline::output::read_plan(folder.path / "session/0/plans/stand.npz");
+    plan = files::read_plan(folder.path / "session/0/plans/stand.npz");
   }
-  pipeline::TemporaryFolder folder;
+  TemporaryFolder folder;
   Session session{folder.path / "session"};
-  pipeline::output::StoredPlan plan;
+  files::StoredPlan plan;
 };
 
 struct PagePlayground : testing::Test {
@@ -117,7 +117,7 @@ TEST_F(PagePlayground, AnotherBodyStandsAsHighOverTheFloor) {
 
 TEST_F(PagePlayground, ItIsToldAsAClipOfOneFrame) {
   play.step();
-  auto said = pipeline::record::Json::parse(played_json(play, "7f"));
+  auto said = record::Json::parse(played_json(play, "7f"));
   EXPECT_EQ(said["frame"], 1);
   EXPECT_EQ(said["frames"], 45);
   const auto& motions = said["clip"]["motions"].elements();

@@ -3,33 +3,33 @@
 #include <gtest/gtest.h>
 
 #include "core/file.h"
-#include "motion/import/motion_file.h"
-#include "pipeline/cli.h"
-#include "pipeline/record/json.h"
-#include "pipeline/results.h"
-#include "pipeline/small_run.h"
+#include "import/motion_file.h"
+#include "program/cli.h"
+#include "program/small_run.h"
+#include "record/json.h"
+#include "run/results.h"
 
 namespace mimicx::page {
 namespace {
 
-using pipeline::record::Json;
+using record::Json;
 
 struct PageSession : testing::Test {
   void SetUp() override {
-    motion::write_clip(stand, pipeline::standing_clip(20));
-    motion::import::write_motion(bvh, pipeline::standing_clip(25));
+    motion::write_clip(stand, motion::standing_clip(20));
+    import::write_motion(bvh, motion::standing_clip(25));
   }
   Json plan(const std::string& file) {
     Json said;
-    pipeline::run_in_context([&](const pipeline::record::RunContext& context) {
+    program::run_in_context([&](const record::RunContext& context) {
       said = Json::parse(session.plan(file, context));
-      return pipeline::record::RunOutcome::kAllGood;
+      return record::RunOutcome::kAllGood;
     });
     return said;
   }
   std::string path(const std::string& name) const { return (folder.path / name).string(); }
 
-  pipeline::TemporaryFolder folder;
+  TemporaryFolder folder;
   Session session{folder.path / "session"};
   std::string stand = path("stand.npz"), bvh = path("turn.bvh");
 };
@@ -37,9 +37,9 @@ struct PageSession : testing::Test {
 TEST_F(PageSession, LeavesTheBytesThatMimicxPlanLeaves) {
   Json said = plan(stand);
   EXPECT_TRUE(said["ok"].get<bool>()) << said["row"]["reason"].dump();
-  const pipeline::Call call = pipeline::mimicx("plan " + stand + " --gains --out " + path("run"));
+  const Call call = program::mimicx("plan " + stand + " --gains --out " + path("run"));
   ASSERT_EQ(call.status, 0) << call.text;
-  auto expected = pipeline::results_of(path("run")), found = pipeline::results_of(path("session/0"));
+  auto expected = run::results_of(path("run")), found = run::results_of(path("session/0"));
   expected.erase("clusters.json");  // a page has no options to map its motions among
   for (auto* files : {&expected, &found}) files->erase("report.html");
   EXPECT_TRUE(expected.contains("motions/stand.npz"));
@@ -57,7 +57,7 @@ TEST_F(PageSession, SavesWhatMimicxConvertWrites) {
   EXPECT_TRUE(session.saved(0, ".npz") == read_file(motion));
   for (const std::string suffix : {".bvh", ".glb", ".csv"}) {
     const std::string out = path("out" + suffix);
-    const pipeline::Call call = pipeline::mimicx("convert " + motion + " " + out);
+    const Call call = program::mimicx("convert " + motion + " " + out);
     ASSERT_EQ(call.status, 0) << call.text;
     EXPECT_TRUE(session.saved(0, suffix) == read_file(out)) << suffix;
   }
@@ -78,9 +78,9 @@ TEST_F(PageSession, SaysOfABadFileWhatTheProgramSays) {
   const auto reason = said["row"]["reason"].get<std::string>();
   EXPECT_EQ(reason.find('\n'), std::string::npos);
   EXPECT_TRUE(said["clip"]["motions"].elements().empty());
-  const pipeline::Call call = pipeline::mimicx("plan " + bad + " --out " + path("run"));
+  const Call call = program::mimicx("plan " + bad + " --out " + path("run"));
   EXPECT_EQ(call.status, 1);
-  EXPECT_TRUE(pipeline::says(call, reason)) << reason << "\n" << call.text;
+  EXPECT_TRUE(program::says(call, reason)) << reason << "\n" << call.text;
   EXPECT_THROW(session.saved(0, ".npz"), std::invalid_argument);
   EXPECT_THROW(session.play(0), std::invalid_argument);
 }

@@ -5,13 +5,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "pipeline/pretrained_options.h"
-#include "pipeline/results.h"
+#include "program/pretrained_options.h"
+#include "run/results.h"
 
 namespace mimicx::pipeline {
 namespace {
 
-using Pretrain = PretrainedOptions;
+using Pretrain = program::PretrainedOptions;
 
 TEST(PretrainEncoders, AreTrainedNoLongerThanTheirPoliciesAreWorth) {
   const nn::AutoEncoderConfig config;
@@ -28,7 +28,7 @@ TEST(ShareSamples, GoBySquareRootsAndSpendTheBudget) {
 
 TEST_F(Pretrain, LeavesEveryFileTheDocumentationNames) {
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
-  const auto files = results_of(out("run"));
+  const auto files = run::results_of(out("run"));
   for (const char* name : {"options.npz", "clusters.json", "manifest.json", "training/option0.csv",
                            "training/option1.csv", "checkpoints/option0.npz", "checkpoints/option1.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
@@ -53,35 +53,35 @@ TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);
   EXPECT_EQ(run(config, 2), record::RunOutcome::kInterrupted);  // in the second option
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
-  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+  EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
 TEST_F(Pretrain, AFinishedOneIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
-  const auto before = results_of(out("run"));
+  const auto before = run::results_of(out("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "clusters.json");
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "clusters.json"), written);
   std::filesystem::remove(out("run") / "options.npz");
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
-  EXPECT_EQ(results_of(out("run")), before);
+  EXPECT_EQ(run::results_of(out("run")), before);
 }
 
 TEST_F(Pretrain, AnOptionWithoutABudgetHasTheSameCheckpointHoweverOftenItIsTakenUp) {
   PretrainConfig config = pretraining("run");
   config.training.samples = 0;
   run(config);
-  const auto files = results_of(out("run"));
+  const auto files = run::results_of(out("run"));
   std::filesystem::remove(out("run") / "options.npz");
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
-  EXPECT_TRUE(results_of(out("run")) == files);
+  EXPECT_TRUE(run::results_of(out("run")) == files);
 }
 
 TEST_F(Pretrain, NamesWhatItCannotReadAndGoesOn) {
   std::ofstream(motions / "broken.npz") << "no archive";
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kSomeFailed);
   EXPECT_EQ(options::read_options(out("run"))->options.size(), 2u);
-  EXPECT_NE(results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
+  EXPECT_NE(run::results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
 }
 
 TEST_F(Pretrain, WithoutAFitNothingDependsOnKeypoints) {
@@ -122,13 +122,13 @@ std::vector<std::string> rows_of(const std::string& log) {
 TEST_F(Pretrain, MoreSamplesContinueTheSameTrainings) {
   PretrainConfig config = pretraining("run");
   run(config);
-  auto before = results_of(out("run"));
+  auto before = run::results_of(out("run"));
   config.training.samples *= 2;
-  const Outcome more =
-      run_in_context([&](const record::RunContext& context) { return pretrain(config, context); });
+  const program::Outcome more =
+      program::run_in_context([&](const record::RunContext& context) { return pretrain(config, context); });
   EXPECT_EQ(more.value, record::RunOutcome::kAllGood);
   EXPECT_NE(more.messages.find("goes on from a training of 3072 samples"), std::string::npos);
-  auto after = results_of(out("run"));
+  auto after = run::results_of(out("run"));
   EXPECT_EQ(after.at("clusters.json"), before.at("clusters.json"));
   for (const char* option : {"training/option0.csv", "training/option1.csv"}) {
     const std::vector<std::string> first = rows_of(before.at(option)), all = rows_of(after.at(option));
@@ -139,7 +139,7 @@ TEST_F(Pretrain, MoreSamplesContinueTheSameTrainings) {
   EXPECT_GE(there->options[0].samples + there->options[1].samples, config.training.samples);
   EXPECT_NE(after.at("manifest.json").find("\"earlier_samples\": [\n   3072\n  ]"), std::string::npos);
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "done already";
-  EXPECT_EQ(results_of(out("run")), after);
+  EXPECT_EQ(run::results_of(out("run")), after);
   config.training.samples /= 2;
   EXPECT_THROW(run(config), std::invalid_argument) << "it has more already";
 }
@@ -147,7 +147,7 @@ TEST_F(Pretrain, MoreSamplesContinueTheSameTrainings) {
 TEST_F(Pretrain, WithMoreSamplesItMattersNotWhereTheEarlierCommandsStopped) {
   PretrainConfig config = pretraining("one");
   const auto with_samples = [&](int times) {
-    config.training.samples = times * small_training().samples;
+    config.training.samples = times * program::small_training().samples;
     return config;
   };
   run(with_samples(1));
@@ -159,17 +159,17 @@ TEST_F(Pretrain, WithMoreSamplesItMattersNotWhereTheEarlierCommandsStopped) {
             record::RunOutcome::kInterrupted);  // before it has spent the first budget
   EXPECT_EQ(run(with_samples(2), 6), record::RunOutcome::kInterrupted);
   EXPECT_EQ(run(with_samples(2)), record::RunOutcome::kAllGood);
-  EXPECT_EQ(results_of(out("one")), results_of(out("two")));
+  EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
 TEST_F(Pretrain, MoreSamplesDoNotExcuseAnotherSetting) {
   PretrainConfig config = pretraining("run");
   run(config);
-  const auto before = results_of(out("run"));
+  const auto before = run::results_of(out("run"));
   config.training.samples *= 2;
   config.training.seed += 1;
   EXPECT_THROW(run(config), std::invalid_argument);
-  EXPECT_EQ(results_of(out("run")), before);
+  EXPECT_EQ(run::results_of(out("run")), before);
 }
 
 TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/named_values.h"
-#include "pipeline/report/words.h"
+#include "report/glossary.h"
 
 namespace mimicx::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/npz.h"
+#include "core/npz/npz.h"
 #include "rl/policy.h"
 #include "rl/ppo_config.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "rl/tracking/mirror.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
 #include "teaching/taught_motion.h"
 
 namespace mimicx::teaching {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
 #include "teaching/taught_motion.h"
 
 namespace mimicx::teaching {

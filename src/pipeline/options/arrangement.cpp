@@ -49,7 +49,7 @@ int nearest_option(const OptionSet& set, const motion::Reference& reference) {
     clusters.clusters.emplace_back();
     clusters.clusters.back().centre = trained.centre;
   }
-  return nearest_cluster(clusters, motion::motion_features(reference));
+  return nearest_cluster(clusters, motion_features(reference));
 }
 
 Choice choose(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,

@@ -6,7 +6,7 @@
 
 #include "core/containers.h"
 #include "pipeline/options/option.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline::options {
 

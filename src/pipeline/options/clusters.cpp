@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "pipeline/options/cluster_words.h"
 #include "pipeline/options/kmeans.h"
-#include "pipeline/options/words.h"
-#include "pipeline/record/json.h"
-#include "pipeline/record/run_folder.h"
+#include "record/json.h"
+#include "record/run_folder.h"
 
 namespace mimicx::pipeline::options {
 namespace {
@@ -31,11 +31,11 @@ void make_canonical(std::vector<NamedFeatures>& motions) {
 
 /// Rows: scaled features.
 Points points_of(const std::vector<NamedFeatures>& motions) {
-  Points points(static_cast<Eigen::Index>(motions.size()), motion::kFeatures);
+  Points points(static_cast<Eigen::Index>(motions.size()), kFeatures);
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    const motion::MotionFeatures scaled = motion::scaled_features(motions[i].features);
+    const MotionFeatures scaled = scaled_features(motions[i].features);
     points.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::Matrix<double, 1, motion::kFeatures>>(scaled.data());
+        Eigen::Map<const Eigen::Matrix<double, 1, kFeatures>>(scaled.data());
   }
   return points;
 }
@@ -46,28 +46,28 @@ MotionCluster cluster_of(const ClusterNode& leaf, const List<NamedFeatures>& mot
     cluster.members.push_back(motions[member].name);
     cluster.features.push_back(motions[member].features);
   }
-  for (std::size_t k = 0; k < motion::kFeatures; ++k)
-    cluster.centre[k] = motion::feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < kFeatures; ++k)
+    cluster.centre[k] = feature_units()[k] * leaf.centre[static_cast<Eigen::Index>(k)];
   cluster.diameter = leaf.diameter;
   return cluster;
 }
 
 /// Each among the others.
 void describe(List<MotionCluster>& clusters) {
-  List<motion::MotionFeatures> centres;
+  List<MotionFeatures> centres;
   for (const MotionCluster& cluster : clusters) centres.push_back(cluster.centre);
   for (int c = 0; c < centres.count(); ++c) clusters[c].description = describe_cluster(centres, c);
 }
 
-record::Json named(const motion::MotionFeatures& values) {
+record::Json named(const MotionFeatures& values) {
   record::Json json = record::Json::object();
-  for (std::size_t k = 0; k < motion::kFeatures; ++k) json[motion::feature_names()[k]] = values[k];
+  for (std::size_t k = 0; k < kFeatures; ++k) json[feature_names()[k]] = values[k];
   return json;
 }
 
-motion::MotionFeatures unnamed(const record::Json& json) {
-  motion::MotionFeatures values;
-  for (std::size_t k = 0; k < motion::kFeatures; ++k) values[k] = json.at(motion::feature_names()[k]);
+MotionFeatures unnamed(const record::Json& json) {
+  MotionFeatures values;
+  for (std::size_t k = 0; k < kFeatures; ++k) values[k] = json.at(feature_names()[k]);
   return values;
 }
 
@@ -86,7 +86,7 @@ MotionCluster cluster_of(const record::Json& json) {
   cluster.members = json.at("members").get<std::vector<std::string>>();
   if (json.contains("features"))
     for (const record::Json& features : json.at("features").elements())
-      cluster.features.push_back(features.get<motion::MotionFeatures>());
+      cluster.features.push_back(features.get<MotionFeatures>());
   if (!cluster.features.empty() && cluster.features.size() != cluster.members.size())
     throw record::JsonError("features of " + std::to_string(cluster.features.size()) + " of " +
                             std::to_string(cluster.members.size()) + " members");
@@ -135,15 +135,14 @@ Clusters joined(const std::vector<Clusters>& parts) {
   return all;
 }
 
-int nearest_cluster(const Clusters& clusters, const motion::MotionFeatures& features) {
-  const motion::MotionFeatures point = motion::scaled_features(features);
+int nearest_cluster(const Clusters& clusters, const MotionFeatures& features) {
+  const MotionFeatures point = scaled_features(features);
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < clusters.clusters.size(); ++c) {
-    const motion::MotionFeatures centre = motion::scaled_features(clusters.clusters[c].centre);
+    const MotionFeatures centre = scaled_features(clusters.clusters[c].centre);
     double squared = 0.0;
-    for (std::size_t k = 0; k < motion::kFeatures; ++k)
-      squared += (point[k] - centre[k]) * (point[k] - centre[k]);
+    for (std::size_t k = 0; k < kFeatures; ++k) squared += (point[k] - centre[k]) * (point[k] - centre[k]);
     if (squared < least) nearest = static_cast<int>(c), least = squared;
   }
   return nearest;
@@ -174,7 +173,7 @@ std::string format_clusters(const Clusters& clusters) {
                         {{"radius", s.radius},
                          {"clusters", s.clusters ? record::Json(*s.clusters) : record::Json(nullptr)},
                          {"seed", s.seed}}},
-                       {"units", named(motion::feature_units())},
+                       {"units", named(feature_units())},
                        {"tree", record::Json::array()},
                        {"clusters", record::Json::array()}};
   for (const ClusterBranch& b : clusters.tree)
@@ -210,7 +209,7 @@ Clusters read_clusters(const std::vector<std::filesystem::path>& paths) {
 Clusters parse_clusters(const std::string& text, const std::filesystem::path& path) {
   try {
     const record::Json json = record::Json::parse(text);
-    if (unnamed(json.at("units")) != motion::feature_units())
+    if (unnamed(json.at("units")) != feature_units())
       throw DataError(path.string(), "units", "the units of this program's features", "others");
     Clusters out;
     const record::Json& settings = json.at("settings");

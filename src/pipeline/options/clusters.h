@@ -1,8 +1,8 @@
 /// Motions sorted into clusters of similar ones, and the file that says so.               docs/method.md §6
 ///
-/// Motions are points of R⁶⁸ (motion/features.h); the clusters are the leaves of hierarchical k-means
-/// (kmeans.h). One option policy is trained per cluster. Numbers run from 0, the calmer branch of every split
-/// first, and do not depend on the order of the input.
+/// Motions are points of R⁶⁸ (pipeline/options/features.h); the clusters are the leaves of hierarchical
+/// k-means (kmeans.h). One option policy is trained per cluster. Numbers run from 0, the calmer branch of
+/// every split first, and do not depend on the order of the input.
 ///
 /// The file is JSON: {"settings", "units", "tree", "clusters"}; distances and diameters are in the features'
 /// units, centres in SI units under the features' names,
@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "core/containers.h"
-#include "motion/features.h"
+#include "pipeline/options/features.h"
 
 namespace mimicx::pipeline::options {
 
 struct NamedFeatures {
   std::string name;  ///< of the motion
-  motion::MotionFeatures features;
+  MotionFeatures features;
 };
 
 struct ClusterConfig {
@@ -33,11 +33,11 @@ struct ClusterConfig {
 };
 
 struct MotionCluster {
-  std::string description;                ///< what its motions are like, in words
-  std::vector<std::string> members;       ///< names, sorted
-  List<motion::MotionFeatures> features;  ///< of the members, SI units; empty from files of older programs
-  motion::MotionFeatures centre{};        ///< mean of their features, SI units
-  double diameter = 0.0;                  ///< largest distance between two of them
+  std::string description;           ///< what its motions are like, in words
+  std::vector<std::string> members;  ///< names, sorted
+  List<MotionFeatures> features;     ///< of the members, SI units; empty from files of older programs
+  MotionFeatures centre{};           ///< mean of their features, SI units
+  double diameter = 0.0;             ///< largest distance between two of them
 };
 
 struct ClusterBranch {
@@ -63,7 +63,7 @@ Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& setti
 Clusters joined(const std::vector<Clusters>& parts);
 
 /// Number of the cluster whose centre is nearest; of equally near ones the first.
-int nearest_cluster(const Clusters& clusters, const motion::MotionFeatures& features);
+int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
 
 /// The tree with its members, indented, for people.
 std::string format_cluster_tree(const Clusters& clusters);

@@ -8,7 +8,7 @@
 
 #include "nn/autoencoder.h"
 #include "rl/policy.h"
-#include "rl/tracking/pack.h"
+#include "rl/tracking/tracking_pack.h"
 
 namespace mimicx::pipeline::options {
 

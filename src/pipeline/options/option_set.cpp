@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "pipeline/record/run_folder.h"
+#include "record/run_folder.h"
 
 namespace mimicx::pipeline::options {
 namespace {

@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "core/containers.h"
-#include "core/npz.h"
-#include "motion/features.h"
+#include "core/npz/npz.h"
+#include "pipeline/options/features.h"
 #include "pipeline/options/option.h"
 
 namespace mimicx::pipeline::options {
 
 struct TrainedOption {
   Option option;
-  std::string description;          ///< what its motions are like
-  motion::MotionFeatures centre{};  ///< of its cluster
-  int motions = 0;                  ///< number of motions it was trained on
+  std::string description;  ///< what its motions are like
+  MotionFeatures centre{};  ///< of its cluster
+  int motions = 0;          ///< number of motions it was trained on
   std::int64_t samples = 0;
 };
 

@@ -8,8 +8,8 @@
 #include "pipeline/options/constant_option.h"
 #include "pipeline/options/side_by_side.h"
 #include "pipeline/options/two_poses.h"
-#include "rl/tracking/rollout.h"
 #include "rl/tracking/tracking_fixture.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline::options {
 namespace {
@@ -163,10 +163,10 @@ TEST(Arrangement, SingleIsTheOptionWhoseOwnRollOutEarnsMost) {
 TEST(Arrangement, NearestIsTheOptionOfTheNearestCentre) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   OptionSet set = set_of({0.0F, 0.0F, 0.0F});
-  const motion::MotionFeatures features = motion::motion_features(clip->reference);
+  const MotionFeatures features = motion_features(clip->reference);
   for (int k = 0; k < 3; ++k) {
     set.options[k].centre = features;
-    set.options[k].centre[motion::kAcceleration] += std::abs(k - 1) + 0.5;
+    set.options[k].centre[kAcceleration] += std::abs(k - 1) + 0.5;
   }
   EXPECT_EQ(arrange(clip, {}, set, selecting(Selector::kNearest)).options, List<int>(30, 1));
 }

@@ -9,23 +9,22 @@
 
 #include "core/file.h"
 #include "core/random.h"
-#include "pipeline/options/words.h"
-#include "pipeline/temporary_folder.h"
+#include "core/temporary_folder.h"
+#include "pipeline/options/cluster_words.h"
 
 namespace mimicx::pipeline::options {
 namespace {
 
 /// Upright, every joint at `speed` (m/s) in the plane.
-motion::MotionFeatures travelling(double speed) {
-  motion::MotionFeatures f{};
-  f[motion::kRootHeight] = 0.93;
-  for (std::size_t j = 0; j < kBodies; ++j) f[motion::kPlanarVelocity + j] = speed * speed;
+MotionFeatures travelling(double speed) {
+  MotionFeatures f{};
+  f[kRootHeight] = 0.93;
+  for (std::size_t j = 0; j < kBodies; ++j) f[kPlanarVelocity + j] = speed * speed;
   return f;
 }
 
-motion::MotionFeatures noisy(motion::MotionFeatures f, Random& random) {
-  for (std::size_t k = 0; k < motion::kFeatures; ++k)
-    f[k] += 0.1 * random.uniform() * motion::feature_units()[k];
+MotionFeatures noisy(MotionFeatures f, Random& random) {
+  for (std::size_t k = 0; k < kFeatures; ++k) f[k] += 0.1 * random.uniform() * feature_units()[k];
   return f;
 }
 
@@ -38,17 +37,16 @@ std::vector<NamedFeatures> some_motions() {
     motions.push_back({"walk" + std::to_string(i), noisy(travelling(1.3), random)});
   }
   for (int i = 0; i < 3; ++i) {
-    motion::MotionFeatures lying = noisy(travelling(0.0), random);
-    lying[motion::kRootHeight] = 0.2;
+    MotionFeatures lying = noisy(travelling(0.0), random);
+    lying[kRootHeight] = 0.2;
     motions.push_back({"lie" + std::to_string(i), lying});
   }
   return motions;
 }
 
-double scaled_distance(const motion::MotionFeatures& a, const motion::MotionFeatures& b) {
+double scaled_distance(const MotionFeatures& a, const MotionFeatures& b) {
   double squared = 0.0;
-  for (std::size_t k = 0; k < motion::kFeatures; ++k)
-    squared += std::pow((a[k] - b[k]) / motion::feature_units()[k], 2);
+  for (std::size_t k = 0; k < kFeatures; ++k) squared += std::pow((a[k] - b[k]) / feature_units()[k], 2);
   return std::sqrt(squared);
 }
 
@@ -125,7 +123,7 @@ TEST(Clusters, JoinedAreThePartsNumberedOn) {
   }
   EXPECT_EQ(both.settings.clusters, 6);
   EXPECT_EQ(both.settings.radius, part.settings.radius);
-  List<motion::MotionFeatures> centres;
+  List<MotionFeatures> centres;
   for (const MotionCluster& cluster : both.clusters) centres.push_back(cluster.centre);
   for (int c = 0; c < 6; ++c)
     EXPECT_EQ(both.clusters[c].description, describe_cluster(centres, c)) << "among all of them";
@@ -205,19 +203,19 @@ TEST(Clusters, ImpossibleWishesAreInvalid) {
 TEST(ClusterWords, SayWhatAMotionIsLike) {
   EXPECT_EQ(describe_motion(travelling(0.0)),
             "calm, upright (hips at 0.93 m), stays in place, feet stay down, arms quiet");
-  motion::MotionFeatures f = travelling(1.1);
-  f[motion::kRootHeight] = 0.6;
-  f[motion::kRootTurning] = 4.0;  // 2 rad/s
-  f[motion::kPlanarVelocity + kLeftWrist] = f[motion::kPlanarVelocity + kRightWrist] = 5.0;
-  f[motion::kVerticalVelocity + kLeftFoot] = 0.5;
-  for (std::size_t j = 0; j < kBodies; ++j) f[motion::kAcceleration + j] = 64.0;
+  MotionFeatures f = travelling(1.1);
+  f[kRootHeight] = 0.6;
+  f[kRootTurning] = 4.0;  // 2 rad/s
+  f[kPlanarVelocity + kLeftWrist] = f[kPlanarVelocity + kRightWrist] = 5.0;
+  f[kVerticalVelocity + kLeftFoot] = 0.5;
+  for (std::size_t j = 0; j < kBodies; ++j) f[kAcceleration + j] = 64.0;
   EXPECT_EQ(describe_motion(f),
             "vigorous, low (hips at 0.60 m), moves about at 1.1 m/s, turns (115 degrees/s), feet swing high, "
             "arms busy");
 }
 
 TEST(ClusterWords, NameOnlyTheClusterThatStandsOut) {
-  const std::vector<motion::MotionFeatures> centres = {travelling(0.0), travelling(1.2), travelling(2.5)};
+  const std::vector<MotionFeatures> centres = {travelling(0.0), travelling(1.2), travelling(2.5)};
   EXPECT_EQ(describe_cluster(centres, 1).find("fastest"), std::string::npos);
   EXPECT_NE(describe_cluster(centres, 2).find("of all the fastest"), std::string::npos);
 }

@@ -6,11 +6,11 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/npz.h"
+#include "core/npz/npz.h"
+#include "core/temporary_folder.h"
 #include "motion/clip_file.h"
+#include "motion/standing_clip.h"
 #include "pipeline/options/constant_option.h"
-#include "pipeline/standing_clip.h"
-#include "pipeline/temporary_folder.h"
 #include "rl/tracking/tracking_fixture.h"
 
 namespace mimicx::pipeline::options {
@@ -63,7 +63,7 @@ TEST(OptionSet, SetsAreNumberedOnAndNamedByTheirChecksums) {
 
 TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
   const TemporaryFolder folder;
-  motion::write_clip(folder.path / "clip.npz", standing_clip(20));
+  motion::write_clip(folder.path / "clip.npz", motion::standing_clip(20));
   EXPECT_THROW(read_options(folder.path / "clip.npz"), DataError);
   OptionSet wrong = some_set();
   wrong.options[1].option.encoder.reset();  // its policy is made for an encoded state

@@ -6,8 +6,8 @@
 
 #include "pipeline/options/constant_option.h"
 #include "pipeline/options/side_by_side.h"
-#include "rl/tracking/rollout.h"
 #include "rl/tracking/tracking_fixture.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline::options {
 namespace {

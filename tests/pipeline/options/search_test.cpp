@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/options/two_poses.h"
-#include "rl/tracking/rollout.h"
+#include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::pipeline::options {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rl/ppo_fixture.h"
-#include "rl/tracking/environment.h"
+#include "rl/tracking/tracking_environment.h"
 #include "rl/tracking/tracking_fixture.h"
 #include "rl/trainer.h"
 

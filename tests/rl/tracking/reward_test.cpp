@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/synth/noise.h"
 #include "rl/tracking/tracking_fixture.h"
+#include "synth/noise/noise.h"
 
 namespace mimicx::rl::tracking {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "motion/reference.h"
 #include "rl/policy.h"
-#include "rl/tracking/pack.h"
+#include "rl/tracking/tracking_pack.h"
 
 namespace mimicx::rl::tracking {
 

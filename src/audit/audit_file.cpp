@@ -1,0 +1,134 @@
+#include "audit/audit_file.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "audit/audit_summary.h"
+#include "files/simulated_members.h"
+#include "motion/clip_file.h"
+#include "record/json.h"
+
+namespace mimicx::audit {
+namespace {
+
+record::Json to_json(const Audit& audit) {
+  record::Json summary = record::Json::object();
+  for (const auto& [name, value] : summary_of(audit)) summary[name] = record::number(value);
+  record::Json rows = {{"index", record::Json::array()},          {"root_force_N", record::Json::array()},
+                       {"root_moment_Nm", record::Json::array()}, {"torque_gap_Nm", record::Json::array()},
+                       {"torque_share", record::Json::array()},   {"power_W", record::Json::array()}};
+  for (const AuditRow& row : audit.rows) {
+    rows["index"].push_back(row.index);
+    rows["root_moment_Nm"].push_back(
+        {record::number(row.root[0]), record::number(row.root[1]), record::number(row.root[2])});
+    rows["root_force_N"].push_back(
+        {record::number(row.root[3]), record::number(row.root[4]), record::number(row.root[5])});
+    rows["torque_gap_Nm"].push_back(record::number(row.torque_gap));
+    rows["torque_share"].push_back(record::number(row.torque_share));
+    rows["power_W"].push_back(record::number(row.power));
+  }
+  return {{"evidence", evidence_name(audit.evidence)},
+          {"passed", audit.failures.empty()},
+          {"failures", audit.failures},
+          {"weight_N", audit.weight},
+          {"rows_per_second", audit.rate},
+          {"summary", summary},
+          {"rows", rows}};
+}
+
+}  // namespace
+
+SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
+  if (clip.body_model != "mimicx")
+    throw DataError(npz.path, "body_model", "'mimicx' beside joint_torques", "'" + clip.body_model + "'");
+  SimulatedFrames motion;
+  motion.character = make_character(clip.betas);
+  motion.fps = clip.fps;
+  const auto rotations = motion::joint_rotations(clip);
+  const std::size_t rows = rotations.size();
+  for (std::size_t t = 0; t < rows; ++t) {
+    motion::ReferenceFrame frame;
+    frame.p_root = clip.trans[t] + rest_pelvis(clip.body_model);
+    frame.q = rotations[t];
+    motion.frames.push_back(frame);
+  }
+  files::read_velocities(npz, "velocities", motion.frames);
+  const files::VectorRows torques = files::read_joints(npz, "joint_torques", rows),
+                          ranges = files::read_joints(npz, "range_torques", rows);
+  const files::WrenchRows ground = files::read_wrenches(npz, "ground_wrenches", rows),
+                          self = files::read_wrenches(npz, "self_contact_wrenches", rows);
+  for (std::size_t t = 0; t < rows; ++t) motion.forces.push_back({torques[t], ranges[t], ground[t], self[t]});
+  return motion;
+}
+
+std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
+                              const import::ReadConfig& read) {
+  return audit_bytes(read_file(path), path, poses_alone, read);
+}
+
+std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::path& path, bool poses_alone,
+                               const import::ReadConfig& read) {
+  if (import::recognise(bytes) == import::MotionFormat::kNpz) {
+    const Npz npz = parse_npz(bytes, path.string());
+    if (holds_substeps(npz)) {
+      const SubstepMotion motion = read_substeps(npz);
+      return {audit_steps(motion), audit_replayed_steps(motion)};
+    }
+    if (npz.has("joint_torques") && !poses_alone)
+      return {audit_frames(simulated_frames(motion::clip_from(npz, path.stem().string()), npz),
+                           physics::SimulationConfig{})};
+  }
+  const motion::Clip clip = import::motion_from(bytes, path, read);
+  if (clip.frames() < 3)
+    throw DataError(path.string(), "", "at least 3 frames", std::to_string(clip.frames()));
+  return {audit_poses(clip)};
+}
+
+std::string evidence_name(Evidence evidence) {
+  constexpr Array<const char*, 4> kNames = {"physics steps", "replayed in double", "frames", "poses alone"};
+  return kNames[static_cast<int>(evidence)];
+}
+
+std::string audit_table_head() {
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "%-28s %-18s %22s %24s %15s %12s %13s %9s\n%-28s %-18s %22s %24s %15s %12s %13s %9s\n",
+                "motion", "evidence", "unexplained root force", "unexplained root moment", "joint torque",
+                "friction", "", "work", "", "", "mean     max at", "mean      max at", "gap  bound", "beyond",
+                "pull   air", "+ J");
+  return text;
+}
+
+std::string format_audit(const std::string& path, const Audit& audit) {
+  const NamedValues values = summary_of(audit);
+  const auto value = [&](const char* name) { return value_of(values, name); };
+  char text[400];
+  std::snprintf(text, sizeof text, "%-28s %-18s %9.3g %7.4g N %5.0f %8.3g %7.3g N·m %4.0f",
+                std::filesystem::path(path).stem().string().c_str(), evidence_name(audit.evidence).c_str(),
+                value("root_force_mean_N"), value("root_force_max_N"), value("root_force_worst"),
+                value("root_moment_mean_Nm"), value("root_moment_max_Nm"), value("root_moment_worst"));
+  std::string line = text;
+  if (audit.evidence != Evidence::kPosesAlone) {
+    std::snprintf(text, sizeof text, " %8.3g %4.0f %% %10.2g %% %6.2g %4.2g %% %9.0f",
+                  value("torque_gap_mean_Nm"), 100.0 * value("torque_worst_share"),
+                  value("beyond_cone_percent"), value("pull_percent"), value("in_air_percent"),
+                  value("work_positive_J"));
+    line += text;
+  }
+  line += "\n";
+  for (const std::string& failure : audit.failures) line += "  FAILS: " + path + ": " + failure + "\n";
+  return line;
+}
+
+std::string audit_json(const std::vector<AuditedFile>& files) {
+  record::Json list = record::Json::array();
+  for (const AuditedFile& file : files) {
+    record::Json audits = record::Json::array();
+    for (const Audit& audit : file.audits) audits.push_back(to_json(audit));
+    list.push_back({{"file", file.path}, {"audits", audits}});
+  }
+  return record::document(record::Json({{"files", list}}));
+}
+
+}  // namespace mimicx::audit

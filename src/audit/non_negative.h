@@ -1,0 +1,26 @@
+/// Non-negative least squares for wrenches: the best that pushes can do.
+///
+/// What forces x ≥ 0 along the columns of A come closest to a wrench b of six numbers? With a small weight ε
+/// on the forces themselves the answer is unique:
+///     minimise ½‖A x − b‖² + ½ε‖x‖²  over x ≥ 0.
+/// Its conditions (Karush, Kuhn, Tucker) say x = max(0, Aᵀr)/ε with r = b − A x. So only r has to be found,
+/// six numbers however many columns there are: it is where
+///     φ(r) = ½‖r‖² − bᵀr + ‖max(0, Aᵀr)‖²/2ε
+/// is smallest. φ is strictly convex and quadratic between the planes aᵢᵀr = 0; Newton's steps with an exact
+/// line search over these pieces end at its minimum after finitely many (D. P. Bertsekas, "Nonlinear
+/// Programming" (2016), §3.4 for the duality; the pieces as in O. L. Mangasarian, "A finite Newton method for
+/// classification", Optim. Methods Softw. 17 (2002)). Lawson and Hanson's active sets find the same x, one
+/// column after the other.
+#pragma once
+
+#include "core/so3.h"
+
+namespace mimicx::audit {
+
+using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// @param small  ε > 0, in parts of ‖aᵢ‖² ≈ 1
+/// @return x, one per column; empty for a matrix without columns
+Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b, double small);
+
+}  // namespace mimicx::audit

@@ -1,0 +1,36 @@
+/// `substeps/NAME.npz`: every physics step of a simulated motion, for an exact audit and for replay.
+///
+/// The file holds all that determines the simulation: shape, every simulation setting, the state before each
+/// step and after the last one, and what the PD controllers aimed at; and what acted in each step. Numbers
+/// are the simulator's own (float32), so that a replay starts from the same bits.
+#pragma once
+
+#include <filesystem>
+
+#include "physics/model.h"
+#include "rl/tracking/tracking_rollout.h"
+
+namespace mimicx::audit {
+
+struct SubstepMotion {
+  Character character;
+  physics::SimulationConfig simulation;
+  std::vector<rl::tracking::Substep> steps;
+  motion::ReferenceFrame last;  ///< state after the last step
+};
+
+void write_substeps(const std::filesystem::path& path, const SubstepMotion& motion);
+/// Whether an archive is such a file.
+bool holds_substeps(const Npz& npz);
+/// @throws DataError naming file and member
+SubstepMotion read_substeps(const Npz& npz);
+
+/// The motion as double precision makes it: each step solved anew from the recorded state before it, towards
+/// the recorded target. `next` are the states after the steps; forces are those of the solve.
+struct Replay {
+  std::vector<rl::tracking::Substep> steps;
+  std::vector<motion::ReferenceFrame> next;
+};
+Replay replay_in_double(const SubstepMotion& motion);
+
+}  // namespace mimicx::audit

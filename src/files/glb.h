@@ -1,0 +1,49 @@
+/// A binary glTF 2.0 file under construction: arrays of numbers in its one buffer, and its JSON.
+///
+/// Source: Khronos, "glTF 2.0 Specification", its chapters on binary data storage and on the GLB file format.
+/// Little endian; numbers are single precision or whole; every array begins at a multiple of four bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/json.h"
+
+namespace mimicx::files {
+
+/// What an array of a buffer is for; the numbers of glTF.
+enum class BufferUse { kAnimation = 0, kVertices = 34962, kIndices = 34963 };
+
+class Glb {
+ public:
+  /// Its JSON begins with this, at byte kJsonAt of the file.
+  static constexpr std::string_view kJsonOpening = R"({"asset":{"version":"2.0","generator":"mimicx")";
+  static constexpr std::size_t kJsonAt = 20;
+
+  Glb();
+
+  /// @param type        "SCALAR", "VEC3", "VEC4", "MAT4"
+  /// @param with_range  least and largest value, as positions and times must have them
+  /// @return the number of the accessor
+  int add(const std::vector<float>& values, const std::string& type, BufferUse use, bool with_range = false);
+  int add(const std::vector<std::uint8_t>& values, const std::string& type, BufferUse use);
+  int add(const std::vector<std::uint32_t>& values, const std::string& type, BufferUse use);
+
+  /// Appends to a list at the top of the JSON. @return its place there
+  int append(const std::string& list, record::Json element);
+
+  record::Json json;
+
+  /// The whole file.
+  std::string bytes() const;
+
+ private:
+  int add_array(const void* data, std::size_t bytes, std::size_t count, int component,
+                const std::string& type, BufferUse use, record::Json range);
+
+  std::string buffer_;
+};
+
+}  // namespace mimicx::files

@@ -1,0 +1,135 @@
+#include "files/inputs.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "core/error.h"
+#include "import/motion_file.h"
+#include "record/outputs.h"
+#include "record/run_folder.h"
+
+namespace mimicx::files {
+namespace {
+
+constexpr std::size_t kNamesSaid = 8;  ///< of what is left out of a folder
+
+std::filesystem::path whole_path(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path found = std::filesystem::weakly_canonical(path, error);
+  return error ? path : found;
+}
+
+/// Beside AMASS's motions stand files of the same suffix that hold a body shape alone.
+bool is_shape_file(const std::filesystem::path& path) {
+  const std::string stem = path.stem().string();
+  return stem == "shape" || stem.ends_with("_stagei");
+}
+
+bool is_input(const std::filesystem::path& path) {
+  return import::is_motion_file(path) && path.stem().extension() != ".clean" && !is_shape_file(path);
+}
+
+/// What a folder stands for.
+class Folder {
+ public:
+  Folder(const std::filesystem::path& root, const std::filesystem::path& out)
+      : root_(root), out_(out.empty() ? out : whole_path(out)) {
+    if (record::holds_run(root)) return;
+    look_into(root);
+    std::sort(files_.begin(), files_.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+    std::sort(skipped_.begin(), skipped_.end());
+  }
+  const std::vector<MotionInput>& files() const { return files_; }
+
+  /// "in: left out: notes.txt, walk.clean.npz (no motions, or made by an earlier run)"
+  void tell_skipped(std::ostream& messages) const {
+    if (skipped_.empty()) return;
+    messages << root_.string() << ": left out: ";
+    for (std::size_t i = 0; i < std::min(kNamesSaid, skipped_.size()); ++i)
+      messages << (i > 0 ? ", " : "") << skipped_[i];
+    if (skipped_.size() > kNamesSaid) messages << " and " << skipped_.size() - kNamesSaid << " more";
+    messages << " (no motions, or made by an earlier run)\n";
+  }
+
+ private:
+  void look_into(const std::filesystem::path& folder) {
+    if (!seen_.insert(whole_path(folder)).second) return;  // links may lead back
+    std::error_code error;
+    std::filesystem::directory_iterator at(folder, error);
+    if (error) skipped_.push_back(inside(folder));
+    for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
+      const std::filesystem::path path = at->path();
+      std::error_code none;
+      if (!std::filesystem::is_directory(path, none))
+        is_input(path) ? files_.push_back({path.string(), inside(path, path.stem())})
+                       : skipped_.push_back(inside(path));
+      else if (path.extension() == ".mimicx" || whole_path(path) == out_ || record::holds_run(path))
+        skipped_.push_back(inside(path) + "/");
+      else
+        look_into(path);
+    }
+  }
+  std::string inside(const std::filesystem::path& path) const { return inside(path, path.filename()); }
+  /// Relative to the root, ending with `last`.
+  std::string inside(const std::filesystem::path& path, const std::filesystem::path& last) const {
+    return (path.parent_path().lexically_relative(root_) / last).lexically_normal().generic_string();
+  }
+
+  std::filesystem::path root_, out_;
+  std::set<std::filesystem::path> seen_;
+  std::vector<MotionInput> files_;
+  std::vector<std::string> skipped_;
+};
+
+/// Every file once, as it was spelled first.
+std::vector<MotionInput> each_once(const std::vector<MotionInput>& files) {
+  std::vector<MotionInput> once;
+  std::set<std::filesystem::path> seen;
+  for (const MotionInput& file : files)
+    if (seen.insert(whole_path(file.path)).second) once.push_back(file);
+  return once;
+}
+
+}  // namespace
+
+std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
+                                      const std::filesystem::path& out, std::ostream* messages) {
+  std::vector<MotionInput> files;
+  for (const std::string& input : inputs) {
+    const MotionInput itself{input, std::filesystem::path(input).stem().string()};
+    std::error_code error;
+    const bool is_folder = std::filesystem::is_directory(input, error);
+    if (is_folder) std::filesystem::directory_iterator(input, error);
+    if (!is_folder || error) {  // what cannot be looked into stands for itself: reading it says why
+      files.push_back(itself);
+      continue;
+    }
+    const Folder folder(input, out);
+    if (messages != nullptr) folder.tell_skipped(*messages);
+    if (folder.files().empty() && inputs.size() == 1)
+      throw DataError(input, "", "motion files in this folder",
+                      record::holds_run(input) ? "a run, whose motions are in motions/" : "none");
+    if (folder.files().empty()) files.push_back(itself);
+    files.insert(files.end(), folder.files().begin(), folder.files().end());
+  }
+  return each_once(files);
+}
+
+std::vector<std::string> paths_of(const std::vector<MotionInput>& inputs) {
+  std::vector<std::string> paths;
+  for (const MotionInput& input : inputs) paths.push_back(input.path);
+  return paths;
+}
+
+std::vector<std::string> unique_names(const std::vector<MotionInput>& inputs) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const MotionInput& input : inputs) {
+    names.push_back(record::unique_name(input.name, taken));
+    taken.insert(names.back());
+  }
+  return names;
+}
+
+}  // namespace mimicx::files

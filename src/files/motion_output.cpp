@@ -1,0 +1,105 @@
+#include "files/motion_output.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "files/simulated_members.h"
+#include "motion/clip_file.h"
+#include "motion/passthrough.h"
+#include "motion/resample.h"
+
+namespace mimicx::files {
+namespace {
+
+constexpr Precision kPrecision = Precision::kFloat64;  // as every member of a motion
+
+using Members = std::vector<std::pair<std::string, NpyArray>>;
+
+NpyArray positions_member(const std::vector<PerBody<Vector3d>>& frames) {
+  std::vector<double> values;
+  for (const auto& frame : frames)
+    for (const auto& p : frame) values.insert(values.end(), p.data(), p.data() + 3);
+  return NpyArray::from_double({frames.size(), kBodies, 3}, values.data());
+}
+
+NpyArray rewards_member(const std::vector<rl::tracking::Reward>& rewards) {
+  std::vector<double> values;
+  for (const auto& r : rewards) values.push_back(r.total);
+  return NpyArray::from_double({values.size()}, values.data());
+}
+
+/// (T, 6): a column per factor, in the order of kRewardTermNames.
+NpyArray reward_factors_member(const std::vector<rl::tracking::Reward>& rewards) {
+  std::vector<double> values;
+  for (const auto& r : rewards) values.insert(values.end(), r.term.begin(), r.term.end());
+  return NpyArray::from_double({rewards.size(), rl::tracking::kRewardTerms}, values.data());
+}
+
+/// Members of the input at the frames that were simulated.
+motion::Passthrough members_for(const motion::Clip& input, double fps, std::size_t frames) {
+  const motion::Clip resampled = motion::resampled(input, fps);
+  return motion::first_frames(resampled.passthrough, resampled.rotations.size(),
+                              std::min(frames, resampled.rotations.size()));
+}
+
+}  // namespace
+
+void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
+  std::vector<Vector3d> p_root;
+  std::vector<PerBody<Quaterniond>> q;
+  std::vector<motion::ReferenceFrame> states;
+  VectorRows joints, torques, ranges;
+  WrenchRows ground, self;
+  for (const auto& pose : rollout.poses) {
+    p_root.push_back(pose.frame.p_root);
+    q.push_back(pose.frame.q);
+    joints.push_back(pose.p_WB);
+    states.push_back(pose.frame);
+  }
+  for (const auto& forces : rollout.forces) {
+    torques.push_back(forces.joint_torque);
+    ranges.push_back(forces.range_torque);
+    ground.push_back(forces.ground);
+    self.push_back(forces.self_contact);
+  }
+  motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) motion::put_on_body_of(input, clip);
+  clip.gender = input.gender;
+  if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
+  clip.passthrough = members_for(input, reference.fps, rollout.poses.size());
+  const Members extra = {{"joints", positions_member(joints)},
+                         {"velocities", velocities_member(states, kPrecision)},
+                         {"joint_torques", joints_member(torques, kPrecision)},
+                         {"range_torques", joints_member(ranges, kPrecision)},
+                         {"ground_wrenches", wrenches_member(ground, kPrecision)},
+                         {"self_contact_wrenches", wrenches_member(self, kPrecision)},
+                         {"reward", rewards_member(rollout.rewards)},
+                         {"reward_factors", reward_factors_member(rollout.rewards)}};
+  motion::write_clip(path, clip, extra);
+}
+
+void write_input(const std::filesystem::path& path, const motion::Clip& input) {
+  motion::Clip used = input;
+  used.passthrough.clear();
+  motion::write_clip(path, used);
+}
+
+void write_reference(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference) {
+  std::vector<Vector3d> p_root;
+  std::vector<PerBody<Quaterniond>> q;
+  std::vector<PerBody<Vector3d>> joints;
+  for (std::size_t t = 0; t < reference.frames.size(); ++t) {
+    p_root.push_back(reference.frames[t].p_root);
+    q.push_back(reference.frames[t].q);
+    joints.push_back(reference.poses[t].p_WB);
+  }
+  motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
+  if (input.rest_joints) motion::put_on_body_of(input, clip);
+  clip.keypoints = reference.keypoints;
+  motion::write_clip(path, clip, {{"joints", positions_member(joints)}});
+}
+
+}  // namespace mimicx::files

@@ -1,0 +1,27 @@
+/// Simulated and prepared motions as files in our own layout (docs/formats.md).
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "motion/clip.h"
+#include "motion/reference.h"
+#include "rl/tracking/tracking_rollout.h"
+
+namespace mimicx::files {
+
+/// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards
+/// and their factors; members of the input that the program does not use come along at its frames
+/// (motion/passthrough.h).
+void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
+
+/// The poses of an input as they were read, in our world, at its own frame rate: what a report shows beside
+/// the result. Without keypoints and what passes through.
+void write_input(const std::filesystem::path& path, const motion::Clip& input);
+
+/// The prepared reference of an input.
+void write_reference(const std::filesystem::path& path, const motion::Clip& input,
+                     const motion::Reference& reference);
+
+}  // namespace mimicx::files

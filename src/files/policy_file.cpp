@@ -1,0 +1,55 @@
+#include "files/policy_file.h"
+
+#include "files/simulation_settings.h"
+#include "files/state_members.h"
+#include "motion/clip_file.h"
+
+namespace mimicx::files {
+namespace {
+
+constexpr const char* kAgentPrefix = "policy.";
+constexpr const char* kStatePrefix = "state_";
+
+}  // namespace
+
+void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored) {
+  PerFrame<Vector3d> p_root;
+  PerFrame<PerBody<Quaterniond>> q;
+  for (const motion::ReferenceFrame& frame : stored.motion.frames) {
+    p_root.push_back(frame.p_root);
+    q.push_back(frame.q);
+  }
+  motion::Clip clip =
+      motion::to_clip(stored.motion.name, stored.motion.fps, stored.motion.character, p_root, q);
+  if (input.rest_joints) motion::put_on_body_of(input, clip);
+  Npz npz = motion::to_npz(clip);
+  add_states(kStatePrefix, stored.states, Precision::kFloat32, npz);
+  for_each_simulation_setting(stored.simulation, [&](const std::string& name, const auto& field) {
+    const double value = static_cast<double>(field);
+    npz.set(name, NpyArray::from_double({1}, &value));
+  });
+  rl::save(npz, kAgentPrefix, stored.agent);
+  write_npz(path, npz);
+}
+
+StoredPolicy read_policy(const std::filesystem::path& path) { return policy_from(read_npz(path)); }
+
+StoredPolicy policy_from(const Npz& npz) {
+  const motion::Clip clip = motion::clip_from(npz, std::filesystem::path(npz.path).stem().string());
+  StoredPolicy stored;
+  stored.states = read_states(npz, kStatePrefix);
+  stored.simulation = read_simulation(npz);
+  motion::Reference body;
+  body.name = clip.name;
+  body.fps = clip.fps;
+  body.character = motion::character_of(clip);
+  stored.motion = rl::tracking::reference_of_states(body, stored.states);
+  stored.agent = rl::load_agent(npz, kAgentPrefix);
+  if (stored.agent.actor.inputs() != rl::tracking::kStateSize || stored.agent.actor.outputs() != kDofs)
+    throw DataError(
+        npz.path, "policy.actor", "a network from 570 to 55 numbers",
+        std::to_string(stored.agent.actor.inputs()) + " to " + std::to_string(stored.agent.actor.outputs()));
+  return stored;
+}
+
+}  // namespace mimicx::files

@@ -1,0 +1,31 @@
+/// policies/NAME.npz: a policy that follows one motion, with everything that is needed to run it.
+///                                                                                       docs/formats.md
+///
+/// The file is itself a motion file: it holds the motion that the policy follows, with its body. Beside that
+/// stand the exact states of that motion, the simulation that it acts in, and the networks.
+#pragma once
+
+#include <filesystem>
+
+#include "core/npz/npz.h"
+#include "motion/clip.h"
+#include "physics/model.h"
+#include "rl/policy.h"
+#include "rl/tracking/tracking_clip.h"
+
+namespace mimicx::files {
+
+struct StoredPolicy {
+  motion::Reference motion;              ///< that it follows: name, rate, body
+  List<physics::State<double>> states;   ///< [frames] of that motion, in the simulator's numbers
+  physics::SimulationConfig simulation;  ///< in which it acts
+  rl::Agent agent;
+};
+
+/// @param input  whose body the motion is on
+void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored);
+/// @throws DataError naming file and member that is not there, or not of its shape
+StoredPolicy read_policy(const std::filesystem::path& path);
+StoredPolicy policy_from(const Npz& npz);
+
+}  // namespace mimicx::files

@@ -1,0 +1,64 @@
+/// Settings of the keypoint fit: what it believes before it has looked, and its effort.
+///
+/// Every σ is that of one term of the cost in docs/method.md, "Keypoint fit". The level of every keypoint and
+/// the power of the confidence are only where the fit begins: it finds its own (levels.h).
+#pragma once
+
+namespace mimicx::fit {
+
+struct FitConfig {
+  int iterations = 12;      ///< of Gauss-Newton, at most; contacts, labels and levels are found anew in each
+  int threads = 1;          ///< no influence on the result
+  bool find_levels = true;  ///< false: `keypoint_sigma` and `confidence_power` are believed
+
+  // Keypoints, in heights of the person's box.
+  double keypoint_sigma = 0.005;      ///< of a detection with its offsets taken out
+  double keypoint_correlation = 0.5;  ///< of its error from frame to frame at 30 fps
+  double confidence_power = 1.0;      ///< σ grows with confidence to the minus this power
+  double flat_offset_sigma = 0.005;   ///< static offset of a keypoint in the picture
+  double limb_offset_sigma = 0.004;   ///< m, static offset of a keypoint on its limb
+  double keypoint_kernel = 0.03;      ///< residual at which a detection has lost half its weight, at first
+
+  // What is known of camera and body; 0 keeps what the file says.
+  double focal_sigma = 0.01;  ///< relative
+  double tilt_sigma = 0.3;    ///< degrees
+  double lead_sigma = 1.0;    ///< frames at 30 fps by which the keypoints are ahead of the motion
+  double beta_sigma = 0.4;    ///< per entry, where the shape is of our own body model
+  /// Where the file's shape means nothing here (standard body): how people differ in stature, and in the
+  /// lengths of their limbs beside it. Relative.
+  double stature_spread = 0.04, proportion_spread = 0.025;
+  /// Factor on the weight of focal length, tilt and shape. Keypoint errors of neighbouring frames are alike,
+  /// more than `keypoint_correlation` says; without the factor the keypoints would overrule what the file
+  /// says.
+  double told_weight = 10.0;
+
+  // Corrections: size, and change from frame to frame at 30 fps.
+  double joint_sigma = 6.0;          ///< degrees
+  double root_rotation_sigma = 4.0;  ///< degrees
+  double root_position_sigma = 1.0;  ///< m
+  /// Number of frames at 30 fps over which the input's error stays about the same. The sizes of the
+  /// corrections of so many frames weigh as much as one.
+  double prior_frames = 30.0;
+  double joint_rate = 0.5;    ///< degrees per frame
+  double joint_bend = 0.3;    ///< degrees per frame²
+  double root_rate = 0.003;   ///< m per frame
+  double root_bend = 0.0006;  ///< m per frame²
+
+  // The result.
+  double acceleration_sigma = 0.012;  ///< m per frame², of every joint
+  double floor_sigma = 0.02;          ///< m, height of a foot point that stands
+  double slip_sigma = 0.003;          ///< m per frame, of a foot point that stands
+  double penetration_sigma = 0.003;   ///< m, of a foot point below the floor
+
+  // Poses alone (poses.h): where they differ from the above.
+  double pose_slip = 0.0028;         ///< m per frame; a motion whose standing feet slide less is left alone
+  double pose_prior_frames = 15.0;   ///< `prior_frames` of a smooth motion
+  double tremor_prior_frames = 5.0;  ///< of one that trembles: its errors last less
+  double pose_joint_rate = 0.5, pose_joint_bend = 0.2;  ///< `joint_rate`, `joint_bend`
+  double pose_root_rotation_sigma = 2.5;                ///< degrees
+  double pose_slip_sigma = 0.003;                       ///< m per frame
+  /// Number of frames at 30 fps whose zero-moment points weigh as much as one. 0: balance is not asked for.
+  double balance_frames = 8.0;
+};
+
+}  // namespace mimicx::fit

@@ -1,0 +1,27 @@
+/// DeepMimic motion clips: JSON with a row of 44 numbers per frame, for the humanoid of Peng et al.,
+/// "DeepMimic: Example-Guided Deep Reinforcement Learning of Physics-Based Character Skills" (SIGGRAPH 2018).
+///
+///     {"Loop": "wrap", "Frames": [[duration, root position 3, root rotation 4, chest 4, neck 4,
+///                                  right hip 4, knee 1, ankle 4, shoulder 4, elbow 1, left …the same], …]}
+///
+/// Rotations are quaternions w x y z relative to the parent; knees and elbows turn about z by an angle in
+/// radians. Metres, y up; at rest the humanoid looks along x with its arms hanging. The files hold no bone
+/// lengths: those of the published humanoid are used. Keys other than "Frames" are checked to be JSON and
+/// left alone.
+///
+/// What it does not do: no other characters of that project (their rows are of other lengths).
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "import/retarget/skeleton.h"
+
+namespace mimicx::import {
+
+/// @throws DataError naming file and line
+SkeletonMotion read_deepmimic(const std::filesystem::path& path);
+/// The same from text in memory. @param path  for messages; its stem is the motion's name
+SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace mimicx::import

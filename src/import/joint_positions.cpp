@@ -1,0 +1,169 @@
+#include "import/joint_positions.h"
+
+#include <algorithm>
+#include <array>
+
+#include "character/body_words.h"
+#include "character/character.h"
+#include "core/elementary.h"
+#include "core/error.h"
+
+namespace mimicx::import {
+namespace {
+
+using Positions = PerBody<Vector3d>;
+using Rotations = PerBody<Quaterniond>;
+
+constexpr double kStraight = 0.1, kBent = 0.35;  ///< sine of the bend from which a hinge shows, fully shows
+constexpr double kTallest = 5.0;                 ///< m, of features that are not normalised
+
+PerFrame<Positions> positions_of(const Eigen::MatrixXd& rows) {
+  PerFrame<Positions> frames;
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    auto& p = frames.emplace_back();
+    for (int b = 0; b < kBodies; ++b) p[b] = rows.row(t).segment<3>(3 * b);
+  }
+  return frames;
+}
+
+/// The root's heading and place are sums over the frames before; the joints stand in its heading.
+PerFrame<Positions> positions_of_features(const Eigen::MatrixXd& rows, const std::string& path) {
+  constexpr int kTurn = 0, kStep = 1, kHeight = 3, kJointsAt = 4;
+  const auto height = rows.col(kHeight);
+  if (height.minCoeff() < 0.0 || height.maxCoeff() > kTallest || height.maxCoeff() < 0.2)
+    throw DataError(path, "", "HumanML3D's features in metres",
+                    "heights of the root of " + std::to_string(height.minCoeff()) + " to " +
+                        std::to_string(height.maxCoeff()) +
+                        " m: are they normalised? Multiply by Std.npy and add Mean.npy");
+  PerFrame<Positions> frames;
+  double heading = 0.0;  // half the angle, as the features have it
+  Vector3d root = Vector3d::Zero();
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    if (t > 0) heading += rows(t - 1, kTurn);
+    const Quaterniond to_world(cos(heading), 0.0, -sin(heading), 0.0);
+    if (t > 0) root += to_world * Vector3d(rows(t - 1, kStep), 0.0, rows(t - 1, kStep + 1));
+    root.y() = rows(t, kHeight);
+    auto& p = frames.emplace_back();
+    p[kPelvis] = root;
+    for (int b = 1; b < kBodies; ++b) {
+      p[b] = to_world * Vector3d(rows.row(t).segment<3>(kJointsAt + 3 * (b - 1)));
+      p[b].x() += root.x();
+      p[b].z() += root.z();
+    }
+  }
+  return frames;
+}
+
+/// The rotation that takes x to `across` and y as near to `along` as it can.
+Quaterniond frame_of(const Vector3d& across, const Vector3d& along) {
+  Matrix3d m;
+  m.col(0) = across.normalized();
+  m.col(2) = m.col(0).cross(along).normalized();
+  m.col(1) = m.col(2).cross(m.col(0));
+  return Quaterniond(m);
+}
+
+/// An upper limb, whose hinge stands across the plane of its two bones where these are not in line.
+/// @param q  of the limb, its bone in place
+Quaterniond with_hinge(const Quaterniond& q, int hinge, const Vector3d& upper, const Vector3d& lower) {
+  const Vector3d u = upper.normalized(), across = u.cross(lower.normalized()), now = q * hinge_axis(hinge);
+  const double shown = std::clamp((across.norm() - kStraight) / (kBent - kStraight), 0.0, 1.0);
+  if (shown == 0.0) return q;
+  const Vector3d flat = (now - now.dot(u) * u).normalized();
+  const double angle = atan2(flat.cross(across).dot(u), flat.dot(across));
+  return (rotation_about(u, shown * angle) * q).normalized();
+}
+
+struct Limb {
+  int upper, lower, end;
+};
+constexpr std::array<Limb, 4> kLimbs = {{{kLeftHip, kLeftKnee, kLeftAnkle},
+                                         {kRightHip, kRightKnee, kRightAnkle},
+                                         {kLeftShoulder, kLeftElbow, kLeftWrist},
+                                         {kRightShoulder, kRightElbow, kRightWrist}}};
+
+/// World rotations of the bodies, as at rest where all bones point as the character's do.
+Rotations rotations_of(const Character& character, const Positions& p) {
+  Rotations q;
+  const Vector3d hips = 0.5 * (p[kLeftHip] + p[kRightHip]),
+                 shoulders = 0.5 * (p[kLeftShoulder] + p[kRightShoulder]);
+  q[kPelvis] = frame_of(p[kLeftHip] - p[kRightHip], shoulders - hips);
+  const Quaterniond chest = frame_of(p[kLeftShoulder] - p[kRightShoulder], shoulders - hips);
+  for (int b = 1; b < kBodies; ++b) {
+    q[b] = q[kParents[b]];
+    if (b == kSpine1) q[b] = slerp(q[kPelvis], 1.0 / 3.0, chest);
+    if (b == kSpine2) q[b] = slerp(q[kPelvis], 2.0 / 3.0, chest);
+    if (b == kSpine3) q[b] = chest;
+    for (const Limb& limb : kLimbs) {
+      if (b == limb.upper) {
+        q[b] = swung(q[b], character.joint_offset[limb.lower], p[limb.lower] - p[b]);
+        q[b] = with_hinge(q[b], limb.lower, p[limb.lower] - p[b], p[limb.end] - p[limb.lower]);
+      }
+      if (b == limb.lower) q[b] = swung(q[b], character.joint_offset[limb.end], p[limb.end] - p[b]);
+    }
+    for (const auto& [from, to] :
+         {std::pair{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}, {kNeck, kHead}})
+      if (b == from) q[b] = swung(q[b], character.joint_offset[to], p[to] - p[b]);
+  }
+  return q;
+}
+
+/// Every bone as the character's at rest, as long as it is in the mean.
+PerJoint<SkeletonJoint> joints_of(const Character& character, const PerFrame<Positions>& frames,
+                                  const std::string& path) {
+  PerJoint<SkeletonJoint> joints;
+  for (int b = 0; b < kBodies; ++b) {
+    const int parent = kParents[b];
+    double length = 0.0;
+    for (const Positions& p : frames)
+      length += parent < 0 ? 0.0 : (p[b] - p[parent]).norm() / static_cast<double>(frames.size());
+    if (parent >= 0 && !(length > 0.0))
+      throw DataError(path, "", body_in_words(b) + " and its parent at different places", "both at one");
+    const Vector3d rest = parent < 0 ? Vector3d::Zero() : character.joint_offset[b].normalized();
+    // Called otherwise than ours: retarget.h takes a skeleton of our own for a file of ours, y up and exact.
+    joints.push_back({parent < 0 ? "root" : std::string(kBodyNames[b]), parent, length * rest});
+  }
+  return joints;
+}
+
+}  // namespace
+
+bool is_positions(const std::vector<std::size_t>& shape) {
+  return (shape.size() == 3 && shape[1] == kBodies && shape[2] == 3) ||
+         (shape.size() == 2 && shape[1] == kHumanMl3dFeatures);
+}
+
+SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& name,
+                                     const std::string& path) {
+  const bool features = array.shape.size() == 2;
+  if (array.type == NpyArray::Type::kText || array.shape[0] == 0)
+    throw DataError(path, "", "at least one frame of numbers", "none");
+  const Eigen::MatrixXd rows = to_matrix(array);
+  for (Eigen::Index t = 0; t < rows.rows(); ++t)
+    if (!rows.row(t).allFinite() || rows.row(t).cwiseAbs().maxCoeff() > 1e7)
+      throw DataError(path, "frame " + std::to_string(t), "finite numbers within ±1e7", "one that is not");
+  const PerFrame<Positions> frames = features ? positions_of_features(rows, path) : positions_of(rows);
+  const Character character = make_character();
+  SkeletonMotion motion;
+  motion.name = name;
+  motion.path = path;
+  motion.fps = kPositionsFps;
+  motion.metric_y_up = features;
+  motion.joints = joints_of(character, frames, path);
+  for (const Positions& p : frames) {
+    const Rotations q = rotations_of(character, p);
+    auto& translation = motion.translation.emplace_back();
+    auto& rotation = motion.rotation.emplace_back();
+    for (int b = 0; b < kBodies; ++b) {
+      const int parent = kParents[b];
+      translation.push_back(parent < 0 ? p[b] : Vector3d(q[parent].conjugate() * (p[b] - p[parent])));
+      rotation.push_back(parent < 0 ? q[b] : (q[parent].conjugate() * q[b]).normalized());
+    }
+  }
+  motion.decisions.emplace_back(features
+                                    ? "frame rate: 20 fps, HumanML3D's; --fps overrides"
+                                    : "frame rate: 20 fps, as motion generators have it; --fps overrides");
+  return motion;
+}
+
+}  // namespace mimicx::import

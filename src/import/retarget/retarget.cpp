@@ -1,0 +1,310 @@
+#include "import/retarget/retarget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "character/body_words.h"
+#include "core/units.h"
+#include "import/body_fit.h"
+#include "import/retarget/retarget_floor.h"
+#include "import/retarget/retarget_solve.h"
+#include "import/world.h"
+
+namespace mimicx::import {
+namespace {
+
+template <class... Values>
+std::string sentence(const char* format, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+/// What is worked on: landmarks of every frame, and what is said about them.
+struct Source {
+  JointMap map;
+  PerBody<bool> turns{};
+  PerFrame<Landmarks> frames;   ///< first in the file's unit and axes, then z up and in metres
+  PerFrame<Landmarks> neutral;  ///< poses the calibration starts from, like `frames`
+  std::string neutral_name;
+  bool neutral_stands = true;  ///< it is a stance, not the frames that come nearest to one
+};
+
+Source read_source(const SkeletonMotion& motion, const std::filesystem::path& joint_map) {
+  Source source;
+  source.map = map_joints(motion, joint_map);
+  for (int b = 0; b < kBodies; ++b)
+    source.turns[b] = source.map[b] >= 0 && !motion.joints[source.map[b]].end_site;
+  for (int t = 0; t < motion.frames(); ++t)
+    source.frames.push_back(landmarks_of(pose_of(motion, t), source.map));
+  return source;
+}
+
+/// Bones that directions are taken from must be there in every frame.
+void check_bones(const SkeletonMotion& motion, const Source& source) {
+  const double least = 0.01 * leg_length(source.frames);
+  for (int t = 0; t < source.frames.count(); ++t) {
+    const auto check = [&](int from, int to) {
+      if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
+        throw DataError(motion.path, "frame " + std::to_string(t + 1),
+                        body_in_words(from) + " and " + body_in_words(to) + " at different places",
+                        "both at one");
+    };
+    check(kLeftHip, kRightHip);
+    check(kLeftShoulder, kRightShoulder);
+    for (const Bone& bone : kBones) check(bone.body, bone.end);
+    check(kLeftHip, kLeftShoulder);
+  }
+}
+
+void drop_t_pose(Source& source, motion::Clip& clip) {
+  if (!starts_with_t_pose(source.frames)) return;
+  source.neutral = {source.frames[0]};
+  source.neutral_name = "the T-pose of the first frame";
+  source.frames.erase(source.frames.begin());
+  clip.decisions.emplace_back("the first frame is a T-pose: left out of the motion");
+}
+
+/// Up axis of the motion; the format's custom where the motion does not show one.
+char find_up(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
+             motion::Clip& clip) {
+  const auto found = up_of(source.frames);
+  std::string why = "stretched bodies stand along it";
+  char up = found.value_or('y');
+  if (config.up) {
+    up = *config.up;
+    why = "as told";
+  } else if (motion.metric_y_up) {
+    up = 'y';
+    why = "the format says so";
+  } else if (!found) {
+    why = "the custom of the format; nobody stands up straight here";
+  }
+  clip.decisions.emplace_back("up axis " + axis_name(up) + ": " + why);
+  return up;
+}
+
+double find_scale(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
+                  motion::Clip& clip) {
+  const double leg = leg_length(source.frames);
+  if (config.scale != 0.0) {
+    clip.decisions.push_back(
+        sentence("unit %.6g m: as told; legs are %.2f m long", config.scale, config.scale * leg));
+    return config.scale;
+  }
+  if (motion.metric_y_up) return 1.0;
+  if (const auto unit = unit_of(leg)) {
+    clip.decisions.push_back(
+        sentence("unit %s: legs are %.4g units, %.2f m long", unit->name, leg, unit->metres * leg));
+    return unit->metres;
+  }
+  const BodyLengths standard = lengths_of(joint_offsets({}));
+  const double scale = standard[kThigh] + standard[kShank];
+  clip.warnings.push_back(
+      sentence("legs are %.4g units long, which no known unit explains: taken for %.2f m", leg, scale));
+  return scale / leg;
+}
+
+/// The poses in which the body is taken to be neutral, z up.
+void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterniond& up, double scale,
+                    motion::Clip& clip) {
+  for (Landmarks& pose : source.neutral) pose = transformed(pose, up, scale);
+  const Landmarks rest = landmarks_of(rest_pose(motion), source.map);
+  if (const auto rest_up = up_of({rest}); rest_up && is_stance(rest)) {
+    source.neutral = {transformed(rest, rotation_to_z_up(*rest_up), scale)};
+    source.neutral_name = "the rest pose";
+  } else if (source.neutral.empty()) {
+    // A tenth of the frames: one alone may be mid-gesture.
+    std::vector<std::pair<double, int>> order;
+    for (int t = 0; t < source.frames.count(); ++t) order.emplace_back(bend_of(source.frames[t]), t);
+    std::sort(order.begin(), order.end());
+    order.resize((order.size() + 9) / 10);
+    for (const auto& [bend, t] : order) source.neutral.push_back(source.frames[t]);
+    source.neutral_stands = false;
+    source.neutral_name = sentence("the %zu frames nearest to a straight stance", order.size());
+  }
+  clip.decisions.emplace_back("neutral pose: " + source.neutral_name);
+  int backwards = 0;
+  for (const Landmarks& pose : source.neutral)
+    for (const auto& [ankle, toes] : {std::array{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}})
+      if (source.map[toes] >= 0) backwards += pose.direction(ankle, toes).dot(pose.forward()) < 0.0 ? 1 : -1;
+  if (backwards > 0) clip.warnings.emplace_back("the toes point backwards: are left and right exchanged?");
+}
+
+BodyLengths measured_lengths(const Source& source) {
+  const auto mean = [](const PerFrame<Landmarks>& poses, int from, int to) {
+    double sum = 0.0;
+    for (const Landmarks& pose : poses) sum += (pose.p[from] - pose.p[to]).norm();
+    return sum / static_cast<double>(poses.size());
+  };
+  const auto limb = [&](int left, int left_end, int right, int right_end) {
+    return 0.5 * (mean(source.frames, left, left_end) + mean(source.frames, right, right_end));
+  };
+  BodyLengths lengths{};
+  lengths[kThigh] = limb(kLeftHip, kLeftKnee, kRightHip, kRightKnee);
+  lengths[kShank] = limb(kLeftKnee, kLeftAnkle, kRightKnee, kRightAnkle);
+  lengths[kUpperArm] = limb(kLeftShoulder, kLeftElbow, kRightShoulder, kRightElbow);
+  lengths[kForearm] = limb(kLeftElbow, kLeftWrist, kRightElbow, kRightWrist);
+  // End sites of feet are the tips of the toes, not the balls.
+  if (source.turns[kLeftFoot] && source.turns[kRightFoot])
+    lengths[kFootLength] = limb(kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot);
+  lengths[kHipWidth] = mean(source.frames, kLeftHip, kRightHip);
+  lengths[kShoulderWidth] = mean(source.neutral, kLeftShoulder, kRightShoulder);
+  for (const Landmarks& pose : source.neutral)
+    lengths[kTrunk] +=
+        (pose.between(kLeftShoulder, kRightShoulder) - pose.between(kLeftHip, kRightHip)).norm() /
+        static_cast<double>(source.neutral.size());
+  return lengths;
+}
+
+/// Frames of the character that follow the landmarks.
+void solve(const Character& character, const Calibration& calibration, const PerFrame<Landmarks>& frames,
+           double leg_ratio, motion::Clip& clip) {
+  const Vector3d hips = 0.5 * (character.joint_offset[kLeftHip] + character.joint_offset[kRightHip]);
+  clip.rotations.clear();
+  clip.trans.clear();
+  for (const Landmarks& pose : frames) {
+    const auto q = body_rotations(character, calibration, pose);
+    auto& rotations = clip.rotations.emplace_back();
+    rotations[0] = log_map(q[0]);
+    for (int b = 1; b < kBodies; ++b) rotations[b] = log_map(q[kParents[b]].conjugate() * q[b]);
+    clip.trans.push_back(leg_ratio * pose.between(kLeftHip, kRightHip) - q[0] * hips -
+                         mimicx::rest_pelvis(clip.body_model));
+  }
+}
+
+/// Joints that mean the same in every skeleton.
+constexpr PerBody<bool> kCompared = [] {
+  PerBody<bool> compared{};
+  compared.fill(true);
+  for (const int body : {kPelvis, kSpine1, kSpine2, kSpine3, kLeftCollar, kRightCollar})
+    compared[body] = false;
+  return compared;
+}();
+
+void measure(const motion::Clip& clip, const Source& source, double lift, RetargetReport& report) {
+  report.residual_mm.fill(std::numeric_limits<double>::quiet_NaN());
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  double sum = 0.0;
+  int count = 0;
+  for (int b = 1; b < kBodies; ++b) {
+    if (source.map[b] < 0 || !kCompared[b]) continue;
+    double distance = 0.0;
+    for (int t = 0; t < poses.count(); ++t)
+      distance +=
+          (poses[t].p_WB[b] - report.leg_ratio * source.frames[t].p[b] - lift * Vector3d::UnitZ()).norm();
+    report.residual_mm[b] = kMm * distance / static_cast<double>(poses.size());
+    sum += report.residual_mm[b];
+    ++count;
+  }
+  report.mean_residual_mm = sum / count;
+}
+
+/// The residual of every body that has one, in one line.
+std::string residuals_line(const RetargetReport& report) {
+  std::string line;
+  for (int b = 0; b < kBodies; ++b)
+    if (!std::isnan(report.residual_mm[b]))
+      line += (line.empty() ? "residuals in mm: " : ", ") + body_in_words(b) +
+              sentence(" %.0f", report.residual_mm[b]);
+  return line;
+}
+
+/// A skeleton that `write_bvh` wrote: the bodies themselves, offsets those of some β.
+/// @return false where it is not
+bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
+  PerBody<int> joint{};
+  PerBody<Vector3d> offsets;
+  for (int b = 0; b < kBodies; ++b) {
+    const auto found = std::find_if(motion.joints.begin(), motion.joints.end(), [&](const SkeletonJoint& j) {
+      return j.name == kBodyNames[b] && !j.end_site;
+    });
+    if (found == motion.joints.end()) return false;
+    if (b > 0 && found->parent != joint[kParents[b]]) return false;
+    joint[b] = static_cast<int>(found - motion.joints.begin());
+    offsets[b] = found->offset;
+  }
+  double error = 0.0;
+  const auto betas = fit_betas(offsets, error);
+  constexpr double kSame = 1e-6;  // m
+  if (error > kSame || joint[0] != 0) return false;
+  clip.betas = betas;
+  const Quaterniond up = rotation_to_z_up('y');
+  for (int t = 0; t < motion.frames(); ++t) {
+    auto& rotations = clip.rotations.emplace_back();
+    for (int b = 0; b < kBodies; ++b) rotations[b] = log_map(motion.rotation[t][joint[b]]);
+    rotations[0] = log_map(up * motion.rotation[t][0]);
+    clip.trans.push_back(up * motion.translation[t][0] - mimicx::rest_pelvis(clip.body_model));
+  }
+  clip.decisions.emplace_back("the skeleton is this program's own: taken over as it is, y up, metres");
+  return true;
+}
+
+void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config, RetargetReport& report,
+                      motion::Clip& clip) {
+  Source source = read_source(motion, config.joint_map);
+  check_bones(motion, source);
+  for (int b = 0; b < kBodies; ++b)
+    if (source.map[b] < 0 && b != kSpine1 && b != kSpine2) report.unmapped.push_back(body_in_words(b));
+  drop_t_pose(source, clip);
+  report.up = find_up(motion, source, config, clip);
+  report.scale = find_scale(motion, source, config, clip);
+  const Quaterniond up = rotation_to_z_up(report.up);
+  for (Landmarks& pose : source.frames) pose = transformed(pose, up, report.scale);
+  choose_neutral(motion, source, up, report.scale, clip);
+
+  const BodyLengths lengths = measured_lengths(source);
+  if (!config.standard_body) clip.betas = fit_betas(lengths);
+  const Character character = make_character(clip.betas);
+  const BodyLengths made = lengths_of(character.joint_offset);
+  report.leg_ratio = (made[kThigh] + made[kShank]) / (lengths[kThigh] + lengths[kShank]);
+  Calibration calibration = calibrate(character, source.neutral, source.turns, source.map);
+  const Twists twists = measure_twists(character, calibration, source.frames);
+  calibration = calibrate(character, source.neutral, source.turns, source.map, twists);
+  solve(character, calibration, source.frames, report.leg_ratio, clip);
+  level_soles(source.neutral_stands, calibration, clip);
+  solve(character, calibration, source.frames, report.leg_ratio, clip);
+  report.lift = put_on_floor(clip);
+  report.neutral = source.neutral_name;
+  measure(clip, source, report.lift, report);
+  clip.decisions.push_back(sentence(
+      config.standard_body
+          ? "standard body: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the mean"
+          : "body shape fitted: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the "
+            "mean",
+      report.leg_ratio, report.mean_residual_mm));
+  clip.decisions.push_back(residuals_line(report));
+  std::string missing;
+  for (const std::string& name : report.unmapped) missing += (missing.empty() ? "" : ", ") + name;
+  if (!missing.empty()) clip.warnings.emplace_back("no joint for " + missing + ": held as at rest");
+}
+
+}  // namespace
+
+motion::Clip retarget(const SkeletonMotion& motion, const RetargetConfig& config, RetargetReport* report) {
+  if (!(config.scale >= 0.0 && std::isfinite(config.scale)))
+    throw std::invalid_argument("retarget: the scale must be positive, or 0 to find it");
+  motion::Clip clip;
+  clip.name = motion.name;
+  clip.fps = motion.fps;
+  clip.warnings = motion.warnings;
+  clip.decisions = motion.decisions;
+  RetargetReport local;
+  const bool as_is = !config.standard_body && config.scale == 0.0 && !config.up && config.joint_map.empty();
+  local.own = as_is && take_own_skeleton(motion, clip);
+  if (!local.own) retarget_foreign(motion, config, local, clip);
+  for (int t = 0; t < clip.frames(); ++t) {
+    bool finite = clip.trans[t].allFinite();
+    for (const Vector3d& r : clip.rotations[t]) finite = finite && r.allFinite();
+    if (!finite)
+      throw DataError(motion.path, "frame " + std::to_string(t + 1), "a pose that a body can take",
+                      "a degenerate one");
+  }
+  if (report != nullptr) *report = local;
+  return clip;
+}
+
+}  // namespace mimicx::import

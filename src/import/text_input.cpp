@@ -1,0 +1,137 @@
+#include "import/text_input.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/file.h"
+#include "core/number_text.h"
+
+namespace mimicx::import {
+namespace {
+
+std::string in_quotes(std::string_view word) { return std::string(1, '\'').append(word).append(1, '\''); }
+
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// Length of the UTF-8 sequence at the start of `text`; 0 where there is none or it is a control character.
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  const std::size_t length = lead >= 0xc2 && lead < 0xe0   ? 2
+                             : lead >= 0xe0 && lead < 0xf0 ? 3
+                             : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                           : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  // Overlong forms, surrogates and what lies past U+10FFFF.
+  const unsigned char second = byte(1);
+  if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0) ||
+      (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90))
+    return 0;
+  return length;
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path) { return read_file(path, kMaxTextBytes); }
+
+std::string printable(std::string_view word) {
+  constexpr int kMaxCharacters = 40;
+  std::string out;
+  for (int i = 0; i < kMaxCharacters && !word.empty(); ++i) {
+    const std::size_t length = sequence_length(word);
+    out += length == 0 ? "?" : word.substr(0, length);
+    word.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return word.empty() ? out : out + "...";
+}
+
+bool parse_number(std::string_view word, double& value) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const std::optional<double> number = number_from(word);
+  value = number.value_or(0.0);
+  return number && std::isfinite(value);
+}
+
+TextInput::TextInput(std::string_view text, std::string path, std::string_view marks)
+    : text_(text), path_(std::move(path)), marks_(marks) {
+  if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);  // byte order mark
+}
+
+void TextInput::skip_space() {
+  for (; at_ < text_.size() && is_space(text_[at_]); ++at_)
+    if (text_[at_] == '\n' || (text_[at_] == '\r' && (at_ + 1 == text_.size() || text_[at_ + 1] != '\n')))
+      ++line_;
+}
+
+std::string_view TextInput::word() {
+  skip_space();
+  const std::size_t begin = at_;
+  const auto is_mark = [&](char c) { return marks_.find(c) != std::string_view::npos; };
+  if (at_ < text_.size() && is_mark(text_[at_])) return text_.substr(at_++, 1);
+  while (at_ < text_.size() && !is_space(text_[at_]) && !is_mark(text_[at_])) ++at_;
+  return text_.substr(begin, at_ - begin);
+}
+
+std::string_view TextInput::word_on_line() {
+  const std::size_t at = at_, line = line_;
+  const std::string_view next = word();
+  if (line_ == line) return next;
+  at_ = at;
+  line_ = line;
+  return {};
+}
+
+std::string_view TextInput::peek() {
+  const std::size_t at = at_, line = line_;
+  const std::string_view next = word();
+  at_ = at;
+  line_ = line;
+  return next;
+}
+
+std::string_view TextInput::quoted() {
+  const std::size_t begin = at_;
+  for (; at_ < text_.size(); ++at_) {
+    if (text_[at_] == '"') return text_.substr(begin, at_++ - begin);
+    if (text_[at_] == '\n') ++line_;
+    if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+  }
+  fail_with("a closing quotation mark", "the end of the file");
+}
+
+void TextInput::expect(std::string_view expected) {
+  const std::string_view found = word();
+  if (found != expected) fail(in_quotes(expected), found);
+}
+
+double TextInput::number(const std::string& what) {
+  const std::string_view text = word();
+  double value = 0.0;
+  if (!parse_number(text, value)) fail(what, text);
+  return value;
+}
+
+std::size_t TextInput::integer(const std::string& what, std::size_t low, std::size_t high) {
+  const std::string_view text = word();
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
+    fail(what + " (an integer from " + std::to_string(low) + " to " + std::to_string(high) + ")", text);
+  return value;
+}
+
+void TextInput::fail(const std::string& expected, std::string_view word) const {
+  fail_with(expected, word.empty() ? "the end of the file" : in_quotes(printable(word)));
+}
+
+void TextInput::fail_with(const std::string& expected, const std::string& found) const {
+  throw DataError(path_, "line " + std::to_string(line_), expected, found);
+}
+
+}  // namespace mimicx::import

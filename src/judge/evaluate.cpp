@@ -1,0 +1,187 @@
+#include "judge/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "files/inputs.h"
+#include "record/json.h"
+
+namespace mimicx::judge {
+namespace {
+
+motion::MotionSamples samples_of(const motion::Clip& clip) {
+  return motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps);
+}
+
+EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const import::ReadConfig& read) {
+  EvaluatedMotion result;
+  result.name = name;
+  try {
+    const PairedMotion pair = read_pair(files, read);
+    result.frames = pair.evaluated.frames();
+    result.metrics = motion::evaluate_motion(pair.evaluated, &pair.truth);
+    result.ok = true;
+  } catch (const std::exception& error) {
+    result.reason = error.what();
+  }
+  return result;
+}
+
+std::string metric_cell(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, " %9.2f", value);
+  return std::isfinite(value) ? text : "         -";
+}
+
+std::string titles() {
+  std::string text;
+  for (const auto& d : motion::metric_definitions()) {
+    char title[32];
+    std::snprintf(title, sizeof title, " %9s", d.name);
+    text += title;
+  }
+  return text;
+}
+
+record::Json file_json(const EvaluatedMotion& m) {
+  record::Json json = {
+      {"name", m.name}, {"status", m.ok ? "ok" : "failed"}, {"reason", m.reason}, {"frames", m.frames}};
+  for (const auto& d : motion::metric_definitions())
+    json["metrics"][d.name] = {{"value", record::number((m.metrics.*d.value).value)},
+                               {"count", (m.metrics.*d.value).count}};
+  return json;
+}
+
+}  // namespace
+
+std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path) {
+  std::map<std::string, std::filesystem::path> named;
+  for (const files::MotionInput& input : files::find_motions({path.string()})) {
+    const bool clean = input.name.ends_with(".clean");
+    named.emplace(clean ? input.name.substr(0, input.name.size() - 6) : input.name, input.path);
+  }
+  return named;
+}
+
+std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions) {
+  std::map<std::string, Pair> pairs;
+  for (const auto& [name, path] : named_motions(motions)) pairs[name].motion = path;
+  const bool two_files = !std::filesystem::is_directory(truth) && !std::filesystem::is_directory(motions);
+  if (two_files)
+    pairs.begin()->second.truth = truth;
+  else
+    for (const auto& [name, path] : named_motions(truth)) pairs[name].truth = path;
+  return pairs;
+}
+
+PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read) {
+  if (pair.truth.empty())
+    throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
+  return {samples_of(import::read_motion(pair.motion, read)),
+          samples_of(import::read_motion(pair.truth, read))};
+}
+
+Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions,
+                            const import::ReadConfig& read) {
+  Evaluation evaluation;
+  for (const auto& [name, pair] : paired(truth, motions))
+    if (pair.motion.empty())
+      evaluation.unmatched.push_back(name);
+    else
+      evaluation.motions.push_back(evaluate_file(name, pair, read));
+  return evaluation;
+}
+
+double mean_of(const Evaluation& evaluation, const motion::MetricDefinition& metric) {
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& m : evaluation.motions) {
+    const double value = (m.metrics.*metric.value).value;
+    if (!m.ok || !std::isfinite(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
+Comparison compare_folders(const std::filesystem::path& truth, const std::vector<std::string>& folders,
+                           const import::ReadConfig& read) {
+  Comparison comparison;
+  std::map<std::string, std::size_t> evaluated;  // in how many folders
+  for (const std::string& folder : folders) {
+    comparison.labels.push_back(folder);
+    comparison.evaluations.push_back(evaluate_folders(truth, folder, read));
+    for (const EvaluatedMotion& m : comparison.evaluations.back().motions) {
+      evaluated[m.name] += m.ok ? 1 : 0;
+      if (!m.ok) comparison.failures.push_back(folder + "/" + m.name + ": " + m.reason);
+    }
+  }
+  for (Evaluation& evaluation : comparison.evaluations)
+    std::erase_if(evaluation.motions, [&](const auto& m) { return evaluated.at(m.name) < folders.size(); });
+  for (const auto& [name, count] : evaluated) comparison.left_out += count < folders.size() ? 1 : 0;
+  return comparison;
+}
+
+std::string format_comparison(const Comparison& comparison) {
+  std::size_t width = 0;
+  for (const std::string& label : comparison.labels) width = std::max(width, label.size());
+  std::string text = padded("", width) + titles();
+  for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
+    text += '\n' + padded(comparison.labels[k], width);
+    for (const auto& d : motion::metric_definitions())
+      text += metric_cell(mean_of(comparison.evaluations[k], d));
+  }
+  text += "\nmeans over " + std::to_string(comparison.evaluations.front().motions.size()) + " motions";
+  if (comparison.left_out > 0)
+    text += "; " + std::to_string(comparison.left_out) + " that not every folder has are left out";
+  return text + '\n';
+}
+
+std::string comparison_json(const Comparison& comparison) {
+  record::Json json = {
+      {"rows", record::Json::array()}, {"motions", record::Json::array()}, {"left_out", comparison.left_out}};
+  for (std::size_t k = 0; k < comparison.labels.size(); ++k) {
+    record::Json mean = record::Json::object();
+    for (const auto& d : motion::metric_definitions())
+      mean[d.name] = record::number(mean_of(comparison.evaluations[k], d));
+    json["rows"].push_back({{"folder", comparison.labels[k]}, {"mean", mean}});
+  }
+  for (const EvaluatedMotion& m : comparison.evaluations.front().motions) json["motions"].push_back(m.name);
+  for (const auto& d : motion::metric_definitions())
+    json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
+  return record::document(json);
+}
+
+std::string format_evaluation(const Evaluation& evaluation) {
+  std::size_t width = 4;
+  for (const auto& m : evaluation.motions) width = std::max(width, m.name.size());
+  std::string text = padded("", width) + titles();
+  for (const auto& m : evaluation.motions) {
+    text += '\n' + padded(m.name, width);
+    if (!m.ok) text += "  " + m.reason;
+    for (const auto& d : motion::metric_definitions())
+      if (m.ok) text += metric_cell((m.metrics.*d.value).value);
+  }
+  text += '\n' + padded("mean", width);
+  for (const auto& d : motion::metric_definitions()) text += metric_cell(mean_of(evaluation, d));
+  return text + '\n';
+}
+
+std::string evaluation_json(const Evaluation& evaluation) {
+  record::Json json = {{"motions", record::Json::array()},
+                       {"mean", record::Json::object()},
+                       {"definitions", record::Json::object()}};
+  for (const auto& m : evaluation.motions) json["motions"].push_back(file_json(m));
+  for (const auto& d : motion::metric_definitions()) {
+    json["mean"][d.name] = record::number(mean_of(evaluation, d));
+    json["definitions"][d.name] = {{"unit", d.unit}, {"definition", d.definition}};
+  }
+  json["unmatched"] = evaluation.unmatched;
+  return record::document(json);
+}
+
+}  // namespace mimicx::judge

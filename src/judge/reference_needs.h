@@ -1,0 +1,30 @@
+/// What a reference asks for that no body has: for the manifest, for feasibility/NAME.npz, and in words.
+///
+/// The poses alone say which force would have to come from outside (audit/pose_needs.h). Where a
+/// plan was lost, its soft stage says the same with contacts that are simulated: what was left of the help on
+/// the pelvis, which has a price.
+#pragma once
+
+#include <string>
+
+#include "audit/pose_needs.h"
+#include "core/named_values.h"
+#include "motion/reference.h"
+#include "record/feasibility_file.h"
+
+namespace mimicx::judge {
+
+/// Without frames where the reference has fewer than 3.
+audit::PoseNeeds needs_of(const motion::Reference& reference);
+
+/// Frames that the soft stage reached, mean and largest force, acceleration and moment of its help, and the
+/// frame of the largest force. None without help. @param help  moment and force, N·m, N
+NamedValues help_values(const PerFrame<Vector6d>& help, double mass);
+
+/// "with help the body passes frames 0-21: at most 310 N (4.4 m/s2) at frame 5 and 90 N (1.3 m/s2) on average
+/// push the pelvis, at most 120 N m turn it". Empty where there was no help between these frames.
+std::string help_in_words(const PerFrame<Vector6d>& help, double mass, int first, int last);
+
+record::FrameFeasibility frame_feasibility(const audit::PoseNeeds& needs, const PerFrame<Vector6d>& help);
+
+}  // namespace mimicx::judge

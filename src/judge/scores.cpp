@@ -1,0 +1,57 @@
+#include "judge/scores.h"
+
+#include "core/units.h"
+
+namespace mimicx::judge {
+namespace {
+
+std::vector<BodyPoses> simulated_poses(const Character& character,
+                                       const rl::tracking::TrackingRollout& rollout) {
+  std::vector<BodyPoses> poses;
+  for (const auto& pose : rollout.poses)
+    poses.push_back(forward_kinematics(character, pose.frame.p_root, pose.frame.q));
+  return poses;
+}
+
+/// The first `frames` frames.
+motion::MotionSamples head_of(motion::MotionSamples samples, std::size_t frames) {
+  samples.joints.resize(frames);
+  samples.surface.resize(frames);
+  samples.self_depth.resize(frames);
+  return samples;
+}
+
+}  // namespace
+
+NamedValues named_values(const motion::Metrics& metrics) {
+  NamedValues values;
+  for (const auto& definition : motion::metric_definitions())
+    values.emplace_back(definition.name, (metrics.*definition.value).value);
+  return values;
+}
+
+Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
+  const Character& character = reference.character;
+  const motion::MotionSamples simulated =
+      motion::sample_motion(character, simulated_poses(character, rollout), reference.fps);
+  const motion::MotionSamples asked = motion::sample_motion(character, reference.poses, reference.fps);
+  const motion::MotionSamples same_length = head_of(asked, simulated.joints.size());
+  Scores scores;
+  scores.values = named_values(motion::evaluate_motion(simulated, &same_length));
+  const motion::Success success = motion::judge_success(simulated, asked);
+  scores.values.emplace_back("max_distance_mm", kMm * success.max_distance_m);
+  scores.success = success.success;
+  scores.reason = success.reason;
+  return scores;
+}
+
+NamedValues score_input(const motion::Clip& input, const motion::Reference& reference) {
+  const Character character = motion::character_of(input);
+  const motion::MotionSamples raw = motion::sample_motion(character, motion::poses_of(input), input.fps);
+  if (raw.frames() != reference.size() || input.fps != reference.fps)
+    return named_values(motion::evaluate_motion(raw, nullptr));
+  const motion::MotionSamples prepared = motion::sample_motion(character, reference.poses, reference.fps);
+  return named_values(motion::evaluate_motion(raw, &prepared));
+}
+
+}  // namespace mimicx::judge

@@ -1,0 +1,29 @@
+/// The numbers that a run records of a motion, by the names of docs/metrics.md.
+#pragma once
+
+#include <string>
+
+#include "core/named_values.h"
+#include "motion/metrics.h"
+#include "motion/reference.h"
+#include "rl/tracking/tracking_rollout.h"
+
+namespace mimicx::judge {
+
+/// By name, in the order of the tables.
+NamedValues named_values(const motion::Metrics& metrics);
+
+struct Scores {
+  NamedValues values;
+  bool success = false;
+  std::string reason;  ///< why it is no success
+};
+
+/// A simulated motion against the reference it was asked to follow. Success as docs/metrics.md defines it.
+Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
+
+/// The input as it came (free joints, its own height) against what preparation made of it; NaN where the
+/// frames do not correspond because the input was resampled.
+NamedValues score_input(const motion::Clip& input, const motion::Reference& reference);
+
+}  // namespace mimicx::judge

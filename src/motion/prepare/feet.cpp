@@ -1,0 +1,113 @@
+#include "motion/prepare/feet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/quantile.h"
+#include "core/units.h"
+#include "motion/surface.h"
+
+namespace mimicx::motion {
+namespace {
+
+constexpr double kStandingSpeed = 0.4;    // m/s
+constexpr double kStandingHeight = 0.06;  // m over the low percentile
+constexpr double kLowShare = 0.1;
+constexpr std::size_t kFewestFrames = 10;
+constexpr double kSmallest = 10.0 * kDegree, kLargest = 30.0 * kDegree;
+constexpr double kLargestBend = 60.0 * kDegree;
+
+/// Speed of a joint at a frame, m/s, by central differences.
+double speed(const PerFrame<BodyPoses>& poses, int t, int body, double fps) {
+  const int before = std::max(t - 1, 0), after = std::min(t + 1, poses.count() - 1);
+  if (after == before) return 0.0;
+  return fps / (after - before) * (poses[after].p_WB[body] - poses[before].p_WB[body]).norm();
+}
+
+/// Body-fixed rotation that levels a body whose up axis (y) should point up in the given frames.
+Quaterniond levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& standing, int body) {
+  Array<std::vector<double>, 3> up;  // world's up in the body's frame
+  for (int t = 0; t < poses.count(); ++t) {
+    if (!standing[t]) continue;
+    const Vector3d u = poses[t].q_WB[body].conjugate() * Vector3d::UnitZ();
+    for (int k = 0; k < 3; ++k) up[k].push_back(u[k]);
+  }
+  if (up[0].size() < kFewestFrames) return Quaterniond::Identity();
+  const Vector3d median(quantile(up[0], 0.5), quantile(up[1], 0.5), quantile(up[2], 0.5));
+  if (median.norm() < 0.5) return Quaterniond::Identity();  // no common direction
+  const Vector3d rotation = log_map(rotation_between(Vector3d::UnitY(), median));
+  const double angle = rotation.norm();
+  if (angle < kSmallest || angle > 1.5 * kLargest) return Quaterniond::Identity();
+  return exp_map(std::min(1.0, kLargest / angle) * rotation);
+}
+
+}  // namespace
+
+PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
+  const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
+  PerFrame<double> heights;
+  for (const BodyPoses& pose : poses) heights.push_back(pose.p_WB[ankle].z());
+  const double low = quantile(heights, kLowShare);
+  PerFrame<bool> standing(poses.size());
+  for (int t = 0; t < poses.count(); ++t)
+    standing[t] = heights[t] < low + kStandingHeight && speed(poses, t, ankle, fps) < kStandingSpeed &&
+                  speed(poses, t, ball, fps) < kStandingSpeed;
+  return standing;
+}
+
+double level_feet(Reference& reference) {
+  double largest = 0.0;
+  for (int ankle : {kLeftAnkle, kRightAnkle}) {
+    const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
+    const PerFrame<bool> standing = standing_frames(reference.poses, ankle, reference.fps);
+    const Quaterniond sole = levelling(reference.poses, standing, ankle);
+    const Quaterniond toes = levelling(reference.poses, standing, ball);
+    for (ReferenceFrame& frame : reference.frames) {
+      Quaterniond &q_ankle = frame.q[ankle], &q_ball = frame.q[ball];
+      q_ankle = (q_ankle * sole).normalized();
+      q_ball = (sole.conjugate() * q_ball * toes).normalized();
+    }
+    for (const Quaterniond& q : {sole, toes}) largest = std::max(largest, log_map(q).norm() / kDegree);
+  }
+  return largest;
+}
+
+PerFrame<double> support_heights(const Reference& reference) {
+  const std::vector<SurfacePoint> points = surface_points(reference.character);
+  const auto left = standing_frames(reference.poses, kLeftAnkle, reference.fps);
+  const auto right = standing_frames(reference.poses, kRightAnkle, reference.fps);
+  PerFrame<double> heights;
+  for (int t = 0; t < reference.size(); ++t) {
+    std::vector<SurfacePoint> support;
+    for (const SurfacePoint& point : points)
+      if ((point.body != kLeftFoot || left[t]) && (point.body != kRightFoot || right[t]))
+        support.push_back(point);
+    heights.push_back(lowest_height(support, reference.poses[t]));
+  }
+  return heights;
+}
+
+void bend_toes(Reference& reference) {
+  for (int t = 0; t < reference.size(); ++t)
+    for (int ball : {kLeftFoot, kRightFoot}) {
+      const Vector3d& p = reference.poses[t].p_WB[ball];
+      const Quaterniond& q = reference.poses[t].q_WB[ball];
+      const auto lowest = [&](double angle) {  // of the toe points, extended by that angle
+        const Quaterniond bent = q * exp_map(Vector3d(-angle, 0, 0));
+        double z = p.z();
+        for (const ContactPoint& point : reference.character.contact_points)
+          if (point.body == ball) z = std::min(z, (p + bent * point.p_B).z());
+        return z;
+      };
+      if (lowest(0.0) >= 0.0) continue;
+      double low = 0.0, high = kLargestBend;
+      for (int halving = 0; halving < 30; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (lowest(middle) < 0.0 ? low : high) = middle;
+      }
+      Quaterniond& joint = reference.frames[t].q[ball];
+      joint = (joint * exp_map(Vector3d(-high, 0, 0))).normalized();
+    }
+}
+
+}  // namespace mimicx::motion

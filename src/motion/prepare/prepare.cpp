@@ -1,0 +1,149 @@
+#include "motion/prepare/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/units.h"
+#include "motion/prepare/feet.h"
+#include "motion/prepare/hinge.h"
+#include "motion/prepare/limb_glitches.h"
+#include "motion/prepare/repair.h"
+#include "motion/prepare/separation.h"
+#include "motion/resample.h"
+#include "motion/surface.h"
+
+namespace mimicx::motion {
+namespace {
+
+constexpr double kOddFloorShift = 1.0;  ///< m
+constexpr double kOddSpeed = 10.0;      ///< m/s, mean of the pelvis
+constexpr double kUpright = 0.3;        ///< vertical component of the pelvis' up axis
+constexpr double kOddLyingShare = 0.8;
+
+std::string text(const char* format, double value) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+/// Largest and mean distance of the joints of two motions, mm.
+struct Distance {
+  double mean = 0, max = 0;
+};
+Distance distance_mm(const PerFrame<BodyPoses>& a, const PerFrame<BodyPoses>& b) {
+  Distance d;
+  for (int t = 0; t < a.count(); ++t)
+    for (int j = 0; j < kBodies; ++j) {
+      const double mm = kMm * (a[t].p_WB[j] - b[t].p_WB[j]).norm();
+      d.mean += mm / static_cast<double>(a.size() * kBodies);
+      d.max = std::max(d.max, mm);
+    }
+  return d;
+}
+
+/// Adds a note for every sign that a file was read with the wrong axes, scale or frame rate.
+void note_oddities(const PerFrame<BodyPoses>& poses, double fps, double floor_shift,
+                   std::vector<std::string>& notes) {
+  double path = 0.0, lying = 0.0;
+  for (int t = 0; t < poses.count(); ++t) {
+    if (t > 0) path += (poses[t].p_WB[0] - poses[t - 1].p_WB[0]).norm();
+    if ((poses[t].q_WB[0] * Vector3d::UnitY()).z() < kUpright)
+      lying += 1.0 / static_cast<double>(poses.size());
+  }
+  const double speed = path * fps / static_cast<double>(poses.size() - 1);
+  if (speed > kOddSpeed) notes.push_back(text("mean speed %.1f m/s: are scale and frame rate right?", speed));
+  if (lying > kOddLyingShare)
+    notes.push_back(text("lying or upside down in %.0f %% of the frames: is z up?", 100.0 * lying));
+  if (std::abs(floor_shift) > kOddFloorShift)
+    notes.push_back(text(floor_shift < 0.0
+                             ? "moved %.2f m down to the floor: is the translation in metres, z up?"
+                             : "moved %.2f m up to the floor: is the translation in metres, z up?",
+                         std::abs(floor_shift)));
+}
+
+void forward(Reference& reference) {
+  reference.poses.clear();
+  for (const ReferenceFrame& f : reference.frames)
+    reference.poses.push_back(forward_kinematics(reference.character, f.p_root, f.q));
+}
+
+/// Puts the reference on the floor and reports by how much it moved.
+/// @param bend   the feet were levelled: their stiff toes may be bent, and they do not count in frames in
+///               which the foot does not stand
+/// @param known  the floor is known to be z = 0: the motion as a whole stays where it is
+void align_with_floor(bool bend, bool known, Reference& reference, PreparationReport& report) {
+  const std::vector<SurfacePoint> points = surface_points(reference.character);
+  PerFrame<double> moved(reference.frames.size(), 0.0);
+  const auto align = [&](const PerFrame<double>& lowest) {
+    const FloorCorrection floor = floor_correction(lowest, reference.fps, known);
+    report.floor_shift_mm += kMm * floor.shift;
+    for (int t = 0; t < reference.size(); ++t) {
+      reference.frames[t].p_root.z() += floor.height[t];
+      moved[t] += floor.height[t];
+    }
+    forward(reference);
+  };
+  if (bend) {
+    align(support_heights(reference));
+    bend_toes(reference);
+    forward(reference);
+  }
+  PerFrame<double> lowest;
+  for (const BodyPoses& pose : reference.poses) lowest.push_back(lowest_height(points, pose));
+  align(lowest);
+  for (double height : moved)
+    report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(height));
+}
+
+}  // namespace
+
+Reference prepare_reference(const Clip& clip, const PreparationConfig& config, PreparationReport* report) {
+  require_usable(clip, 2);
+  PreparationReport r;
+  const Clip input = resampled(clip, config.fps);
+  require_usable(input, 2);
+  Clip bridged = input;
+  Reference out;
+  out.name = clip.name;
+  out.fps = config.fps;
+  out.character = character_of(clip);
+  out.keypoints = input.keypoints;
+  out.flagged = find_glitches(input);
+  r.flagged_frames = static_cast<int>(std::count(out.flagged.begin(), out.flagged.end(), true));
+  if (config.bridge_flagged) {
+    bridge_glitches(bridged, out.flagged);
+    const List<LimbGlitch> limbs = find_limb_glitches(bridged);
+    for (const LimbGlitch& glitch : limbs) r.limb_frames += glitch.last - glitch.first + 1;
+    bridge_limb_glitches(bridged, limbs);
+  }
+
+  const auto q = to_hinges(out.character, joint_rotations(bridged));
+  const Vector3d pelvis = rest_pelvis(clip);
+  for (int t = 0; t < q.count(); ++t) {
+    ReferenceFrame frame;
+    frame.p_root = bridged.trans[t] + pelvis;
+    frame.q = q[t];
+    out.frames.push_back(frame);
+  }
+  forward(out);
+  const Distance hinge = distance_mm(poses_of(bridged), out.poses);
+  r.hinge_residual_mean_mm = hinge.mean;
+  r.hinge_residual_max_mm = hinge.max;
+  if (config.separate) r.arms_moved_mm = kMm * separate_arms(out);
+  if (config.level_feet) {
+    r.foot_level_deg = level_feet(out);
+    if (r.foot_level_deg > 0.0) forward(out);
+  }
+  if (config.ground) align_with_floor(r.foot_level_deg > 0.0, clip.on_floor, out, r);
+  differentiate(out.frames, out.fps);
+  const Distance change = distance_mm(poses_of(input), out.poses);
+  r.change_mean_mm = change.mean;
+  r.change_max_mm = change.max;
+  r.notes = input.warnings;
+  note_oddities(out.poses, out.fps, r.floor_shift_mm / kMm, r.notes);
+  if (report) *report = r;
+  return out;
+}
+
+}  // namespace mimicx::motion

@@ -1,0 +1,19 @@
+/// The middle of a run by training: policies learn to follow one motion, and their mean actions are rolled
+/// out over the whole of it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/training.h"
+#include "run/sequence_run.h"
+
+namespace mimicx::pipeline {
+
+/// The result is interrupted where the training was.
+/// @param agents  to start from, one per option of the clip's arrangement
+run::SimulatedSequence train_sequence(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                                      const std::vector<rl::Agent>& agents, const TrainingConfig& config,
+                                      const run::SequenceJob& job);
+
+}  // namespace mimicx::pipeline

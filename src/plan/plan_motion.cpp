@@ -1,0 +1,139 @@
+#include "plan/plan_motion.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/file.h"
+#include "core/units.h"
+#include "files/plan_file.h"
+#include "plan/certainty.h"
+#include "plan/job_watch.h"
+#include "plan/plan_loss.h"
+
+namespace mimicx::plan {
+namespace {
+
+/// The plan that an earlier run finished for this very input; none where the file is not that.
+std::optional<files::StoredPlan> finished_plan(const run::SequenceJob& job) {
+  const std::filesystem::path file = job.folder.plan(job.name);
+  if (!std::filesystem::exists(file)) return {};
+  try {
+    files::StoredPlan stored = files::read_plan(file);
+    if (stored.plan.ending != control::Ending::kStopped && stored.input_checksum == job.input_checksum)
+      return stored;
+  } catch (const DataError&) {  // a damaged one is made anew
+  }
+  return {};
+}
+
+control::System system_of(const motion::Reference& reference, const files::StoredPlan& stored) {
+  return control::make_system(reference.character, stored.simulation, stored.reference, stored.fps);
+}
+
+files::StoredPlan make(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+                       const control::PlanConfig& plan, JobWatch& watch) {
+  const run::SequenceJob& job = watch.job;
+  job.context.progress.start(job.name + ": plan", 0.0, reference.size(), "frames");
+  files::StoredPlan stored;
+  stored.input_checksum = job.input_checksum;
+  stored.fps = reference.fps;
+  stored.simulation = simulation;
+  stored.reference = rl::tracking::simulator_states(reference);
+  control::PlanControl control = watch.control();
+  control.progress = [&](int done, int) { job.context.progress.update(done, ""); };
+  stored.plan = control::make_plan(system_of(reference, stored), plan, control);
+  return stored;
+}
+
+/// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
+void leave_gains(const motion::Reference& reference, const control::PlanConfig& config,
+                 const files::StoredPlan& stored, JobWatch& watch) {
+  const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
+  std::filesystem::remove(file);
+  if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
+  const control::System system = system_of(reference, stored);
+  const control::Cost cost = control::make_cost(system, config.weights, config.certainty);
+  List<Eigen::MatrixXf> curvature;
+  files::StoredGains feedback;
+  feedback.gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
+                                           config.gain_config, watch.control(), &curvature);
+  if (feedback.gains.empty()) return;  // it was told to stop
+  feedback.curvature = Eigen::MatrixXf::Zero(kDofs, kDofs);
+  for (const Eigen::MatrixXf& Q : curvature) feedback.curvature += Q / static_cast<float>(curvature.size());
+  make_folder(file.parent_path());
+  files::write_gains(file, feedback);
+}
+
+rl::tracking::TrackingRollout replay(const motion::Reference& reference, const files::StoredPlan& stored,
+                                     bool substeps) {
+  rl::tracking::TrackingConfig tracking;
+  tracking.simulation = stored.simulation;
+  std::size_t t = 0;
+  const auto& residuals = stored.plan.residuals;
+  const auto planned = [&](int, const float*, float* action) {
+    if (t < residuals.size())
+      std::copy(residuals[t].begin(), residuals[t].end(), action);
+    else
+      std::fill(action, action + kDofs, 0.0f);
+    ++t;
+  };
+  return rl::tracking::roll_out(rl::tracking::make_tracking_clip(reference, tracking), tracking, planned,
+                                substeps);
+}
+
+NamedValues numbers_of_plan(const control::Plan& plan) {
+  return {{"frames", static_cast<double>(plan.states.size())},
+          {"cost", plan.cost},
+          {"worst_distance_mm", kMm * plan.worst_distance},
+          {"iterations", static_cast<double>(plan.iterations)},
+          {"linearised_frames", static_cast<double>(plan.linearised)},
+          {"backtracks", static_cast<double>(plan.backtracks)},
+          {"by_way_of_help", plan.by_way_of_help ? 1.0 : 0.0}};
+}
+
+record::Ending ending_of(const control::Plan& plan) {
+  switch (plan.ending) {
+    case control::Ending::kFollowed:
+      return record::Ending::kFollowed;
+    case control::Ending::kLost:
+      return record::Ending::kLost;
+    case control::Ending::kStopped:
+      return record::Ending::kLimitSeconds;
+  }
+  return record::Ending::kNone;
+}
+
+}  // namespace
+
+run::SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
+                                     const run::SequenceJob& job, control::Plan* planned) {
+  run::SimulatedSequence made;
+  made.method = "plan";
+  JobWatch watch{job};
+  control::PlanConfig settings = config.plan;
+  settings.certainty = certainty_of(reference, config.plan.plausible_acceleration);
+  std::optional<files::StoredPlan> stored = finished_plan(job);
+  if (!stored) {
+    stored = make(reference, config.simulation, settings, watch);
+    if (!watch.interrupted) {
+      make_folder(job.folder.plan(job.name).parent_path());
+      files::write_plan(job.folder.plan(job.name), *stored);
+    }
+  }
+  if (!watch.interrupted) leave_gains(reference, settings, *stored, watch);
+  made.planning_seconds = record::steady_seconds() - watch.started;
+  made.interrupted = watch.interrupted;
+  if (made.interrupted) return made;
+  const control::Plan& plan = stored->plan;
+  made.ending = ending_of(plan);
+  made.plan = numbers_of_plan(plan);
+  made.help = control::wrenches_of(plan.soft_help, reference.character.total_mass());
+  if (plan.loss) made.reason = loss_in_words(*plan.loss, job.needs, made.help);
+  if (made.ending == record::Ending::kLimitSeconds)
+    made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
+  made.after = replay(reference, *stored, job.substeps);
+  if (planned) *planned = std::move(stored->plan);
+  return made;
+}
+
+}  // namespace mimicx::plan

@@ -1,0 +1,86 @@
+/// A policy as the files of `mimicx export-policy` mean it: the motion that it follows as their splines say
+/// it, its network with all its bits or in 8 (small_network.h), and records of what it answers.
+///                                                                          docs/exported_policies.md
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "files/policy_file.h"
+#include "policy_export/motion_spline.h"
+#include "policy_export/small_network.h"
+
+namespace mimicx::policy_export {
+
+/// One question to the policy and its answer by runtime.h.
+struct Record {
+  int frame = 0;
+  State now{};
+  std::array<float, kStateCount> observation{};
+  std::array<float, kActionCount> action{};
+  Targets targets{};
+};
+
+struct ExportedPolicy {
+  files::StoredPolicy meant;  ///< runs in the program: the same motion and the same weights, to the bit
+  float max_action = 0.0F;    ///< rad
+  MotionSpline motion;
+  bool in_8_bits = false;
+  SmallNetwork small;                ///< where it is in 8 bits
+  std::vector<std::int16_t> inputs;  ///< of the first layer
+  std::vector<Record> records;
+
+  int widest() const;  ///< largest number of inputs or outputs of a layer
+};
+
+inline constexpr int kWidestEver = 4096;  ///< of the networks that are exported
+
+/// @throws std::invalid_argument for a network that runtime.h cannot run, and as fit_spline
+ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits);
+
+/// Calls f with the policy as runtime.h takes it: a Policy<float>, or a Policy<std::int8_t> in 8 bits. It is
+/// gone afterwards.
+template <class F>
+void with_policy(const ExportedPolicy& exported, F&& f);
+
+/// What the policy answers in the runtime's arithmetic.
+Record answer(const ExportedPolicy& exported, int frame, const State& now);
+
+// ---- the template -------------------------------------------------------------------------------
+
+template <class F>
+void with_policy(const ExportedPolicy& exported, F&& f) {
+  const rl::Agent& agent = exported.meant.agent;
+  const auto& actor = agent.actor;
+  const Character& character = exported.meant.motion.character;
+  std::vector<double> offsets;
+  for (const Vector3d& offset : character.joint_offset)
+    offsets.insert(offsets.end(), offset.begin(), offset.end());
+  std::vector<float> shape, mean, factor;
+  for (const double beta : character.betas) shape.push_back(static_cast<float>(beta));
+  for (const std::int16_t i : exported.inputs) {
+    mean.push_back(agent.observations.shift(0, i));
+    factor.push_back(agent.observations.factor(0, i));
+  }
+  const auto run = [&](auto weights_of, const std::int8_t* powers) {
+    using Weight = std::remove_cvref_t<decltype(*weights_of(std::size_t{0}))>;
+    std::vector<Layer<Weight>> layers;
+    for (std::size_t l = 0; l < actor.weights.size(); ++l) {
+      const int inputs =
+          l == 0 ? static_cast<int>(exported.inputs.size()) : static_cast<int>(actor.weights[l].rows());
+      layers.push_back({inputs, static_cast<int>(actor.weights[l].cols()), weights_of(l),
+                        exported.in_8_bits ? exported.small.layers[l].scales.data() : nullptr,
+                        actor.biases[l].data()});
+    }
+    f(Policy<Weight>{exported.motion.view(), offsets.data(), shape.data(), exported.inputs.data(),
+                     mean.data(), factor.data(), agent.observations.limit, powers,
+                     static_cast<int>(layers.size()), layers.data(), exported.max_action});
+  };
+  if (exported.in_8_bits)
+    run([&](std::size_t l) { return exported.small.layers[l].codes.data(); }, exported.small.powers.data());
+  else
+    run([&](std::size_t l) { return actor.weights[l].data(); }, nullptr);
+}
+
+}  // namespace mimicx::policy_export

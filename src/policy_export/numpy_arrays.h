@@ -1,0 +1,11 @@
+/// A policy as an archive of NumPy: docs/exported_policies.md lists its members.
+#pragma once
+
+#include "core/npz/npz.h"
+#include "policy_export/exported_policy.h"
+
+namespace mimicx::policy_export {
+
+Npz to_arrays(const ExportedPolicy& exported);
+
+}  // namespace mimicx::policy_export

@@ -1,0 +1,48 @@
+/// `mimicx adapt`: cleans each motion, by a plan, by policies, or by policies where the plan fails.
+///
+/// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion.
+/// *Paper*: trained options, of the first set that follows, are arranged over the motion, and those that act
+/// are fine-tuned jointly; minutes.
+///                                                                     docs/method.md §8, §9
+/// *Auto*: the plan, and where a policy is asked for, one that it teaches (teach_sequence.h); where the
+/// plan's roll-out is no success the paper's method with its whole budget. The better of the roll-outs is
+/// written (choice.h), and the manifest says which.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pipeline/options/arrangement.h"
+#include "pipeline/training.h"
+#include "plan/plan_settings.h"
+#include "run/sequence_run.h"
+#include "teaching/teaching_settings.h"
+
+namespace mimicx::program {
+
+enum class AdaptMethod { kAuto, kPlan, kPaper };
+
+struct AdaptConfig {
+  AdaptMethod method = AdaptMethod::kAuto;
+  run::RunConfig run;
+  plan::MotionPlanConfig plan;  ///< simulated as `training` says
+  teaching::TeachingConfig teaching;
+  pipeline::TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
+  pipeline::options::ArrangementConfig arrangement;
+  pipeline::options::OptionSets options;  ///< to start from (set_choice.h); not looked at by the plan alone
+};
+
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const AdaptConfig& config);
+
+/// Changes a setting of the plan, of teaching, of the arrangement, or of the training, by its name.
+/// @throws std::invalid_argument as those of planning.h and training_config.h
+void apply_setting(AdaptConfig& config, const std::string& name, double value);
+/// @throws std::invalid_argument naming a setting that the method cannot have
+void check(const AdaptConfig& config);
+
+/// @throws std::invalid_argument as `run_sequences`, and without options or with an arrangement that cannot
+/// be where the method may need them
+record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context);
+
+}  // namespace mimicx::program

@@ -1,0 +1,50 @@
+/// The configurations that people run, as the columns of one table. `mimicx config` prints it.
+///
+///     plan            optimal control, without any training (plan.h)                    docs/control.md
+///     imitate         one policy per motion, trained from scratch
+///     adapt           the plan, and where it fails trained options, fine-tuned jointly   docs/method.md §9
+///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
+///     pretrain paper  the same with the paper's networks
+///     teach           options taught by plans                                           docs/teaching.md §5
+///     fit             the keypoint fit, which all of them begin with          docs/method.md, "Keypoint fit"
+///
+/// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
+/// (reward, starts, simulation), the encoder, the plan and the fit, which have one value for all, beside
+/// their meaning (rl/tracking/tracking_config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h,
+/// control/plan.h, fit/fit_config.h). The printed table has them, too.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/containers.h"
+#include "pipeline/pretrain.h"
+#include "pipeline/scratch.h"
+#include "plan/plan_command.h"
+#include "program/adapt_command.h"
+#include "teaching/teach_command.h"
+
+namespace mimicx::program {
+
+pipeline::ImitateConfig imitate_configuration();
+AdaptConfig adapt_configuration();
+teaching::TeachConfig teach_configuration();
+/// @param preset  "small" or "paper" @throws std::invalid_argument for another one
+pipeline::PretrainConfig pretrain_configuration(const std::string& preset);
+
+inline constexpr Array<const char*, 7> kConfigurationNames = {
+    "plan", "imitate", "adapt", "pretrain small", "pretrain paper", "teach", "fit"};
+
+/// A setting by the name that manifests record, in every configuration; NaN where one has no such setting.
+struct ConfigurationRow {
+  std::string name;
+  Array<double, 7> values;  ///< in the order of kConfigurationNames
+};
+std::vector<ConfigurationRow> configuration_rows();
+
+/// A line per setting, columns aligned; "-" where there is none.
+std::string format_configurations();
+/// {"plan": {name: value, …}, …}, the settings in the order of the table.
+std::string configurations_json();
+
+}  // namespace mimicx::program

@@ -1,0 +1,69 @@
+#include "record/outputs.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "core/npz/npz.h"
+
+namespace mimicx::record {
+namespace {
+
+std::string bytes_at(const std::filesystem::path& path, std::size_t at, std::size_t count) {
+  std::string bytes(count, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(at));
+  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+bool is_own_archive(const std::filesystem::path& path) {
+  try {
+    const std::string bytes = read_file(path);
+    return format_npz(parse_npz(bytes, path.string())) == bytes;
+  } catch (const std::exception&) {  // no archive at all
+    return false;
+  }
+}
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none);
+}
+
+}  // namespace
+
+bool is_own_file(const std::filesystem::path& path, std::string_view opening, std::size_t at) {
+  return opening.empty() ? is_own_archive(path) : bytes_at(path, at, opening.size()) == opening;
+}
+
+Outputs::Outputs(const std::vector<std::string>& inputs, bool force) : force_(force) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::canonical(input, error);
+    if (!error) inputs_.insert(path);  // one that is not there cannot be overwritten
+  }
+}
+
+void Outputs::claim(const std::filesystem::path& path, std::string_view opening, std::size_t at) {
+  if (path.empty()) return;
+  claim_new(path);
+  if (force_ || !is_there(path) || is_own_file(path, opening, at)) return;
+  throw OutputRefused(path.string() +
+                      " is there and is no such file of this program's: --force overwrites it");
+}
+
+void Outputs::claim_own(const std::filesystem::path& path) { claim_new(path); }
+
+void Outputs::claim_new(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!claimed_.insert(std::filesystem::absolute(path, error).lexically_normal()).second)
+    throw OutputRefused(path.string() + " would be written twice");
+  if (!is_there(path)) return;
+  if (inputs_.contains(std::filesystem::canonical(path, error)))
+    throw OutputRefused(path.string() + " is an input: it would be overwritten");
+  if (!std::filesystem::is_regular_file(path, error))
+    throw OutputRefused(path.string() + " is no file that could be written");
+}
+
+}  // namespace mimicx::record

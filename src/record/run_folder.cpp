@@ -1,0 +1,40 @@
+#include "record/run_folder.h"
+
+#include <cstdio>
+#include <system_error>
+
+#include "core/error.h"
+#include "record/outputs.h"
+
+namespace mimicx::record {
+
+void RunFolder::create() const {
+  for (const char* part : {"motions", "references"}) make_folder(root / part);
+}
+
+bool holds_run(const std::filesystem::path& folder) {
+  return is_own_file(folder / "manifest.json", "{\n \"run\"") ||
+         is_own_file(folder / "shards" / "run.json", "{\n \"run\"");
+}
+
+std::string unique_name(const std::string& wanted, const std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (int n = 2; taken.contains(name); ++n) name = wanted + "-" + std::to_string(n);
+  return name;
+}
+
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+std::string checksum(std::string_view bytes) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(fnv1a(bytes)));
+  return text;
+}
+
+std::string file_checksum(const std::filesystem::path& path) { return checksum(read_file(path)); }
+
+}  // namespace mimicx::record

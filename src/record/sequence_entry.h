@@ -1,0 +1,65 @@
+/// What a run records of a motion: what was done with it, and how long that took.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/named_values.h"
+#include "record/ending.h"
+
+namespace mimicx::record {
+
+/// Names in the folder of a run, and what `file_checksum` says of the files.
+using FileChecksums = std::vector<std::pair<std::string, std::string>>;
+
+struct SequenceEntry {
+  std::string name;            ///< key of the sequence's files in the folder
+  std::string input;           ///< as given on the command line
+  std::string input_checksum;  ///< of the input's bytes; empty when it could not be read
+  std::string output;          ///< relative to the folder; empty when there is none
+  FileChecksums files;         ///< what the sequence left, to tell whether it is still there
+  bool ok = false;
+  std::string reason;  ///< why it failed
+  std::string method;  ///< what made the motion: imitate, plan, policy or paper
+  Ending ending = Ending::kNone;
+  int frames = 0;
+  double fps = 0.0;
+  std::uint64_t seed = 0;
+  std::int64_t samples = 0;
+  /// Mean reward per frame of the mean-action roll-out, before and after training.
+  double reward_before = std::numeric_limits<double>::quiet_NaN();
+  double reward_after = std::numeric_limits<double>::quiet_NaN();
+  /// Which option acts from which frame on: {first frame, option}; empty for a training from scratch.
+  std::vector<std::array<int, 2>> arrangement;
+  NamedValues plan;            ///< what planning it took; empty where nothing was planned
+  NamedValues policy;          ///< what the policy took that the plan taught, and how it does alone; or empty
+  NamedValues fit;             ///< what the keypoint fit did; empty without one
+  NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
+  NamedValues metrics;         ///< of the simulated motion, against the prepared reference
+  NamedValues metrics_before;  ///< of the simulated motion before training
+  bool ok_before = false;      ///< whether the motion was a success before training
+  NamedValues audit;           ///< of the simulated motion: what its forces leave unexplained (audit.h)
+  NamedValues preparation;     ///< what preparation did to the input
+  /// What the prepared reference needs from outside (audit/pose_verdict.h); empty under 3 frames.
+  NamedValues feasibility;
+  std::vector<std::string> decisions;  ///< what reading the input decided
+  std::vector<std::string> notes;
+
+  /// Whether the same command may keep this result instead of doing it again.
+  bool finished() const { return !output.empty() && ending != Ending::kLimitSeconds; }
+};
+
+/// Wall-clock record of one sequence, summed over interruptions.
+struct Timing {
+  std::string name;
+  double seconds = 0.0;           ///< of all work on it
+  double planning_seconds = 0.0;  ///< of planning
+  double training_seconds = 0.0;  ///< of training
+  int threads = 0;
+};
+
+}  // namespace mimicx::record

@@ -1,0 +1,18 @@
+/// `timing.json`: how long every motion took. Wall-clock times differ from run to run, so they stand apart
+/// from the files that are promised to be the same bytes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "record/sequence_entry.h"
+
+namespace mimicx::record {
+
+std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
+/// Empty when there is no such file or it is unreadable: times are a convenience.
+std::vector<Timing> read_timing(const std::filesystem::path& path);
+std::vector<Timing> parse_timing(const std::string& text);
+
+}  // namespace mimicx::record

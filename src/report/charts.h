@@ -1,0 +1,41 @@
+/// The plots and the bars of a clip: which lines, over what, in which words.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "audit/evidence.h"
+#include "core/npz/npz.h"
+#include "report/report.h"
+
+namespace mimicx::report {
+
+/// What there is to draw; null and empty where a run has none.
+struct ChartSources {
+  std::vector<std::pair<Who, const MeasuredMotion*>> motions;  ///< at one frame rate
+  const audit::Audit* audit_of_input = nullptr;                ///< by its poses alone
+  const audit::Audit* audit_of_cleaned = nullptr;              ///< by its recorded forces
+  const std::vector<GroundForces>* ground = nullptr;
+  double weight = 0.0;           ///< N
+  const Npz* members = nullptr;  ///< of the cleaned motion: reward and its factors
+};
+
+/// Whose motion, in words.
+std::string title_of(Who who);
+
+/// Over the clip's time.
+std::vector<ReportChart> charts_of(const ChartSources& sources);
+
+/// A chart per column of a training log, over its samples; columns "title:part" share one.
+std::vector<ReportChart> training_charts(const record::Table& log);
+
+/// Share of the visits of a frame in training that ended in a fall. @param falls  training/NAME.falls.csv
+ReportChart falls_chart(const record::Table& falls, double fps);
+
+/// Where the input sinks, floats, slides and shakes; where the feet of the cleaned motion are pushed by the
+/// floor, or without recorded forces touch it. @param input  null: no flaws
+std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotion& cleaned,
+                                const std::vector<GroundForces>& ground, double weight);
+
+}  // namespace mimicx::report

@@ -1,0 +1,85 @@
+#include "run/preparation.h"
+
+#include "fit/poses.h"
+#include "motion/prepare/prepare.h"
+
+namespace mimicx::run {
+namespace {
+
+NamedValues values_of(const motion::PreparationReport& r) {
+  return {{"floor_shift_mm", r.floor_shift_mm},
+          {"max_floor_shift_mm", r.max_floor_shift_mm},
+          {"hinge_residual_mean_mm", r.hinge_residual_mean_mm},
+          {"hinge_residual_max_mm", r.hinge_residual_max_mm},
+          {"change_mean_mm", r.change_mean_mm},
+          {"change_max_mm", r.change_max_mm},
+          {"arms_moved_mm", r.arms_moved_mm},
+          {"foot_level_deg", r.foot_level_deg},
+          {"flagged_frames", static_cast<double>(r.flagged_frames)},
+          {"limb_frames", static_cast<double>(r.limb_frames)}};
+}
+
+NamedValues values_of(const fit::FitReport& r) {
+  return {{"residual_before_percent", r.residual_before},
+          {"residual_after_percent", r.residual_after},
+          {"iterations", static_cast<double>(r.iterations)},
+          {"focal_scale", r.focal_scale},
+          {"tilt_deg", r.tilt_deg},
+          {"shape_change", r.shape_change},
+          {"keypoint_sigma_percent", r.keypoint_sigma},
+          {"keypoint_sigma_max_percent", r.keypoint_sigma_max},
+          {"confidence_power", r.confidence_power},
+          {"lead_frames", r.lead_frames},
+          {"swapped_frames", static_cast<double>(r.swapped_frames)},
+          {"dropped_points", static_cast<double>(r.dropped_points)},
+          {"change_mean_mm", r.change_mean_mm},
+          {"change_max_mm", r.change_max_mm}};
+}
+
+motion::PreparationConfig preparing(Correction correction) {
+  motion::PreparationConfig config;
+  if (correction == Correction::kNone)
+    config.separate = config.level_feet = config.ground = config.bridge_flagged = false;
+  return config;
+}
+
+}  // namespace
+
+PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
+                              Correction correction, int threads) {
+  PreparedMotion motion;
+  fit::FitConfig config;
+  config.threads = threads;
+  motion.input = import::read_motion(path, read);
+  motion.has_fit = correction == Correction::kKeypoints && motion.input.keypoints.has_value();
+  const int fewest = motion.has_fit ? 3 : 2;
+  if (motion.input.frames() < fewest)
+    throw DataError(path.string(), "", "at least " + std::to_string(fewest) + " frames",
+                    std::to_string(motion.input.frames()));
+  fit::FitReport fitting, planting;
+  if (motion.has_fit) {
+    motion.fitted = fit::fit_keypoints(motion.input, config, &fitting);
+    motion.fit_values = values_of(fitting);
+  } else if (correction == Correction::kNone) {
+    motion.fitted = motion.input;
+  } else {
+    motion.fitted = fit::fit_poses(motion.input, config, &planting);
+  }
+  for (const fit::FitReport* report : {&fitting, &planting})
+    motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
+  motion::PreparationReport report;
+  motion.reference = motion::prepare_reference(motion.fitted, preparing(correction), &report);
+  if (!motion.has_fit) motion.reference.keypoints.reset();
+  motion.preparation_values = values_of(report);
+  motion.preparation_values.emplace_back("pose_fit_mean_mm", planting.change_mean_mm);
+  motion.preparation_values.emplace_back("pose_fit_max_mm", planting.change_max_mm);
+  motion.notes.insert(motion.notes.end(), report.notes.begin(), report.notes.end());
+  return motion;
+}
+
+void tell_decisions(const std::string& file, const motion::Clip& clip, std::ostream& out) {
+  for (const auto* lines : {clip.summary.empty() ? &clip.decisions : &clip.summary, &clip.warnings})
+    for (const std::string& line : *lines) out << file << ": " << line << '\n';
+}
+
+}  // namespace mimicx::run

@@ -1,0 +1,94 @@
+#include "run/sequence_result.h"
+
+#include "audit/audit.h"
+#include "audit/audit_summary.h"
+#include "audit/pose_verdict.h"
+#include "audit/substeps.h"
+#include "files/motion_output.h"
+#include "judge/reference_needs.h"
+#include "judge/scores.h"
+#include "motion/clip_file.h"
+#include "run/kept_files.h"
+
+namespace mimicx::run {
+namespace {
+
+/// Whether the recorded forces explain the motion, into the entry.
+void audit_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+                    const rl::tracking::TrackingRollout& rollout, record::SequenceEntry& entry) {
+  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
+  for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
+  const audit::Audit audit = audit::audit_frames(motion, simulation);
+  entry.audit = audit::summary_of(audit);
+  for (const std::string& failure : audit.failures) entry.notes.push_back("audit: " + failure);
+}
+
+std::filesystem::path with_parents(const std::filesystem::path& file) {
+  make_folder(file.parent_path());
+  return file;
+}
+
+}  // namespace
+
+void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry) {
+  if (needs.frames.empty()) return;
+  const audit::PoseVerdict verdict = audit::verdict_on(needs);
+  entry.feasibility = verdict.values;
+  if (verdict.longest.wrong != audit::Wrong::kNothing)
+    entry.notes.push_back("the reference is not feasible: " + verdict.words);
+}
+
+void judge_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+                    const SimulatedSequence& made, record::SequenceEntry& entry) {
+  entry.method = made.method;
+  entry.plan = made.plan;
+  entry.policy = made.policy;
+  append(entry.feasibility, judge::help_values(made.help, reference.character.total_mass()));
+  entry.samples = made.samples;
+  entry.ending = made.ending;
+  entry.arrangement = made.arrangement;
+  entry.notes.insert(entry.notes.end(), made.notes.begin(), made.notes.end());
+  if (made.before) {
+    const judge::Scores before = judge::score_simulated(reference, *made.before);
+    entry.reward_before = made.before->mean_reward;
+    entry.metrics_before = before.values;
+    entry.ok_before = before.success;
+  }
+  const judge::Scores after = judge::score_simulated(reference, made.after);
+  entry.reward_after = made.after.mean_reward;
+  entry.metrics = after.values;
+  entry.ok = after.success;
+  entry.reason = after.reason;
+  if (!made.reason.empty()) {
+    if (entry.ok)
+      entry.notes.push_back(made.reason);
+    else
+      entry.reason = made.reason + "; " + after.reason;
+  }
+  audit_sequence(reference, simulation, made.after, entry);
+}
+
+void write_sequence(const record::RunFolder& folder, bool substeps,
+                    const physics::SimulationConfig& simulation, const JudgedMotion& motion,
+                    const SimulatedSequence& made, record::SequenceEntry& entry) {
+  files::write_input(with_parents(folder.input(entry.name)), motion.input);
+  if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
+  files::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
+  if (!motion.needs.frames.empty())
+    record::write_feasibility(with_parents(folder.feasibility(entry.name)),
+                              judge::frame_feasibility(motion.needs, made.help));
+  const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
+  std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
+  files::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
+  std::filesystem::remove(folder.substeps(entry.name));
+  if (substeps)
+    audit::write_substeps(
+        with_parents(folder.substeps(entry.name)),
+        {motion.reference.character, simulation, made.after.substeps, made.after.last_state});
+  std::filesystem::remove(folder.policy(entry.name));
+  if (made.taught) files::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
+  entry.output = output;
+  entry.files = checksums_of(folder, entry);
+}
+
+}  // namespace mimicx::run

@@ -1,0 +1,364 @@
+#include "run/sequence_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "core/file.h"
+#include "core/npz/npz.h"
+#include "core/parallel.h"
+#include "files/clean_copy.h"
+#include "files/motion_output.h"
+#include "judge/reference_needs.h"
+#include "judge/scores.h"
+#include "motion/clip_file.h"
+#include "report/clip_beside.h"
+#include "report/clip_report.h"
+#include "report/run_report.h"
+#include "run/failure.h"
+#include "run/kept_files.h"
+#include "run/preparation.h"
+#include "run/run_outputs.h"
+#include "run/run_state.h"
+#include "run/run_words.h"
+#include "run/sequence_result.h"
+
+namespace mimicx::run {
+namespace {
+
+/// Between reports while a run goes on: s, and in parts of the time that the last one took. A report reads
+/// all motions; so it costs a hundredth of the time, however many there are.
+constexpr double kReportSeconds = 30.0, kReportShare = 100.0;
+
+/// One motion at work: the run, and what is this motion's own. Several work side by side; then `run` is only
+/// read, but for what `publish` changes under its lock.
+struct Worker {
+  const RunState& run;
+  record::RunContext context;
+  int threads;
+};
+
+Correction correction_of(const RunConfig& config) {
+  if (config.as_is) return Correction::kNone;
+  return config.fit ? Correction::kKeypoints : Correction::kPoses;
+}
+
+/// Makes input, fit and reference of a finished sequence again where they are damaged; of other files it says
+/// so.
+void restore_files(const Worker& worker, const record::SequenceEntry& entry,
+                   const std::vector<std::string>& damaged) {
+  const RunState& run = worker.run;
+  std::optional<PreparedMotion> motion;  // made once, where a file needs it
+  for (const std::string& name : damaged) {
+    const std::filesystem::path file = run.folder.root / name;
+    const bool input = file == run.folder.input(entry.name), fit = file == run.folder.fit(entry.name),
+               again = input || fit || file == run.folder.reference(entry.name);
+    worker.context.messages << entry.name << ": " << name << " is gone or damaged"
+                            << (again ? ": made again\n" : ", and is not made again\n");
+    if (!again) continue;
+    if (!motion)
+      motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads);
+    make_folder(file.parent_path());
+    if (input)
+      files::write_input(file, motion->input);
+    else if (fit)
+      motion::write_clip(file, motion->fitted);
+    else
+      files::write_reference(file, motion->input, motion->reference);
+  }
+}
+
+/// Whether a training ended because its budget did, and there is more of it now.
+bool goes_on(const RunState& run, const record::SequenceEntry& there) {
+  return there.samples > 0 && there.samples < run.method.samples &&
+         (there.ending == record::Ending::kBudget || !there.ok);
+}
+
+/// Fills what is known of an input before any work. @param there  its earlier result, or null
+/// @return false where that still stands
+bool begin_entry(const Worker& worker, const std::string& input, const record::SequenceEntry* there,
+                 record::SequenceEntry& entry) {
+  const RunState& run = worker.run;
+  entry.input = input;
+  entry.name = run.names.at(input);
+  entry.seed = run.method.seed;
+  entry.input_checksum = record::file_checksum(input);
+  const auto has = [](const std::filesystem::path& file) { return std::filesystem::exists(file); };
+  const bool complete =
+      there && has(run.folder.root / there->output) &&
+      (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
+      (!run.config.gains || there->ending != record::Ending::kFollowed || has(run.folder.gains(entry.name)));
+  if (!complete || !there->finished() || there->input_checksum != entry.input_checksum) return true;
+  if (goes_on(run, *there)) return true;
+  const std::vector<std::string> damaged = damaged_files(run.folder, *there);
+  if (std::find(damaged.begin(), damaged.end(), there->output) != damaged.end()) {
+    worker.context.messages << entry.name << ": " << there->output << " is damaged: made again\n";
+    return true;
+  }
+  entry = *there;
+  restore_files(worker, entry, damaged);
+  return false;
+}
+
+/// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
+/// sees a wrong axis there can stop the run.
+JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
+  const RunState& run = worker.run;
+  JudgedMotion motion{prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads),
+                      {}};
+  motion.needs = judge::needs_of(motion.reference);
+  entry.frames = motion.reference.size();
+  entry.fps = motion.reference.fps;
+  entry.fit = motion.fit_values;
+  entry.preparation = motion.preparation_values;
+  entry.decisions = motion.input.decisions;
+  entry.notes = motion.notes;
+  judge_reference(motion.needs, entry);
+  const std::vector<std::string>& summary = motion.input.summary;
+  if (run.config.quiet) return motion;
+  for (const auto* lines :
+       {summary.empty() ? &std::as_const(entry.decisions) : &summary, &std::as_const(entry.notes)})
+    for (const auto& line : *lines) worker.context.messages << entry.name << ": " << line << '\n';
+  return motion;
+}
+
+/// What became of a motion.
+struct Done {
+  record::SequenceEntry entry;
+  std::size_t told = 0;      ///< notes of the entry that were said already
+  bool kept = false;         ///< the earlier result stands
+  bool interrupted = false;  ///< nothing to record but the time
+  record::Timing timing;     ///< of this time
+};
+
+/// Prepare → simulate → judge and write.
+void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done& done) {
+  const RunState& run = worker.run;
+  record::SequenceEntry& entry = done.entry;
+  const double started = record::steady_seconds();
+  const JudgedMotion motion = prepare_sequence(worker, entry);
+  done.told = entry.notes.size();
+  if (there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
+    entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
+                          " samples; one begun with more would explore longer, and be another");
+  entry.input_metrics = judge::score_input(motion.input, motion.reference);
+  const SimulatedSequence made = run.method.simulate(
+      motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
+                         worker.threads, run.config.limit_seconds, motion.needs, worker.context});
+  done.timing.planning_seconds = made.planning_seconds;
+  done.timing.training_seconds = made.training_seconds;
+  done.interrupted = made.interrupted;
+  if (!made.interrupted) {
+    judge_sequence(motion.reference, run.method.simulation, made, entry);
+    write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, entry);
+    if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
+      report::write_clip_beside(run.folder, entry, report::report_metrics(false));
+  }
+  done.timing.seconds = record::steady_seconds() - started;
+}
+
+/// All the work on one input, whatever goes wrong with it. @param there  its earlier result, or null
+Done work_on(const Worker& worker, const std::string& input, const record::SequenceEntry* there) {
+  Done done;
+  try {
+    done.kept = !begin_entry(worker, input, there, done.entry);
+    if (!done.kept) do_sequence(worker, there, done);
+  } catch (const std::exception& error) {
+    done.entry.ok = false;
+    done.entry.reason = error.what();
+    done.entry.output.clear();  // so that the same command tries again
+  }
+  return done;
+}
+
+/// Adds this time's seconds to those of the motion.
+void add_timing(RunState& run, const std::string& name, const record::Timing& now, int threads) {
+  record::Timing& timing = timing_of(run, name);
+  timing.seconds += now.seconds;
+  timing.planning_seconds += now.planning_seconds;
+  timing.training_seconds += now.training_seconds;
+  timing.threads = threads;
+}
+
+/// Writes a success in its input's own format, where the clean set does not have that format already. Where
+/// the sequence failed, a copy of that name from an earlier run is removed.
+void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
+  const std::filesystem::path input(entry.input);
+  const std::string suffix = files::clean_suffix(input);
+  if (suffix == ".npz" && !run.config.beside && !run.config.input_rate) return;
+  const std::filesystem::path copy =
+      run.config.beside ? copy_beside(input) : run.folder.clean(entry.name, suffix);
+  if (!entry.ok) {
+    std::filesystem::remove(copy);
+    return;
+  }
+  const std::string body = files::write_clean_copy(run.folder.root / entry.output, input, run.config.read,
+                                                   run.config.input_rate, copy);
+  if (run.config.beside && !run.config.quiet)
+    run.context.messages << "  clean motion: " << copy.string() << ", " << body << '\n';
+}
+
+/// Does `copy_clean` and tells what went wrong. The motion itself is written already; the same command tries
+/// the copy again. @return whether nothing went wrong
+bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
+  try {
+    copy_clean(run, entry);
+    return true;
+  } catch (const std::exception& error) {
+    run.context.messages << "  no copy in the input's format: " << error.what() << '\n';
+    return false;
+  }
+}
+
+/// The motions of a run, one after the other or several side by side. What a motion comes to does not depend
+/// on which; what is said of it is said when it is done, all at once, where several are at work.
+class SideBySide {
+ public:
+  SideBySide(RunState& run, int jobs) : run_(run), jobs_(jobs) {
+    if (jobs_ > 1)
+      run_.context.progress.start("motions", 0.0, static_cast<double>(run_.inputs.size()), "motions");
+  }
+
+  /// Works on input `i`, unless the run was asked to stop.
+  void on(int i) {
+    const std::string& input = run_.inputs[static_cast<std::size_t>(i)];
+    std::optional<record::SequenceEntry> there;
+    {
+      const std::lock_guard guard(mutex_);
+      if (stopped_ || (i > 0 && ask())) return interrupted(run_.names.at(input));
+      if (const record::SequenceEntry* entry = run_.manifest.find(input)) there = *entry;
+    }
+    std::ostringstream said;
+    record::Progress silent(said, false, [] { return 0.0; });
+    const bool alone = jobs_ == 1;
+    const auto should_stop = [this] {
+      const std::lock_guard guard(mutex_);
+      return ask();
+    };
+    const Worker worker{
+        run_,
+        {alone ? run_.context.progress : silent, alone ? run_.context.messages : said, should_stop},
+        std::max(1, run_.config.threads / jobs_)};
+    const Done done = work_on(worker, input, there ? &*there : nullptr);
+    const std::lock_guard guard(mutex_);
+    if (!alone) run_.context.messages << said.str();
+    publish(input, done, worker);
+  }
+
+  /// Writes what is known, once, when all work has ended.
+  record::RunOutcome outcome() {
+    if (stopped_) {
+      run_.manifest.sequences.empty() ? write_records(run_) : report();
+      run_.context.progress.finish(interrupted_ + ": interrupted; the same command continues");
+      return record::RunOutcome::kInterrupted;
+    }
+    report();
+    sum_up();
+    return all_good_ ? record::RunOutcome::kAllGood : record::RunOutcome::kSomeFailed;
+  }
+
+ private:
+  void sum_up() {
+    if (run_.config.quiet || run_.inputs.size() < 2) return;
+    std::vector<record::SequenceEntry> entries;
+    for (const std::string& input : run_.inputs)
+      if (const record::SequenceEntry* entry = run_.manifest.find(input)) entries.push_back(*entry);
+    const std::string next = run_.folder.is_part()
+                                 ? "when all parts are done: mimicx merge " + run_.folder.root.string()
+                                 : "to look at: " + run_.folder.report().string();
+    for (const std::string& line : summary(entries, record::steady_seconds() - begun_, next))
+      run_.context.messages << line << '\n';
+  }
+
+  bool ask() { return stopped_ = stopped_ || run_.context.should_stop(); }
+
+  void interrupted(const std::string& name) {
+    stopped_ = true;
+    if (interrupted_.empty()) interrupted_ = name;
+  }
+
+  void report() {
+    const double begun = record::steady_seconds();
+    write_records(run_);
+    if (!run_.folder.is_part())
+      report::write_report(run_.folder, run_.manifest, {.map = run_.config.map.draw, .keep = true});
+    const double now = record::steady_seconds();
+    next_report_ = now + std::max(kReportSeconds, kReportShare * (now - begun));
+  }
+
+  void publish(const std::string& input, const Done& done, const Worker& worker) {
+    const record::SequenceEntry& entry = done.entry;
+    if (!done.kept) add_timing(run_, run_.names.at(input), done.timing, worker.threads);
+    if (done.interrupted) return interrupted(entry.name);
+    run_.manifest.put(entry);
+    if (!done.kept) run_.journal.append(entry, timing_of(run_, entry.name));
+    if (record::steady_seconds() > next_report_) report();
+    tell(entry, done.told);
+    const bool copied = copied_clean(run_, entry);
+    all_good_ = all_good_ && entry.ok && copied;
+    if (jobs_ > 1) run_.context.progress.update(++finished_, "");
+  }
+
+  /// @param told  notes that were told before
+  void tell(const record::SequenceEntry& entry, std::size_t told) {
+    if (run_.config.quiet && entry.ok) return;
+    run_.context.progress.finish(result_line(entry));
+    for (const std::string& line : what_next(entry, run_.folder))
+      run_.context.messages << "  " << line << '\n';
+    for (std::size_t k = told; k < entry.notes.size(); ++k)
+      run_.context.messages << "  " << entry.notes[k] << '\n';
+  }
+
+  RunState& run_;
+  const int jobs_;
+  std::mutex mutex_;
+  bool stopped_ = false, all_good_ = true;
+  std::string interrupted_;  ///< the first motion that was not done
+  int finished_ = 0;
+  const double begun_ = record::steady_seconds();
+  double next_report_ = record::steady_seconds() + kReportSeconds;
+};
+
+}  // namespace
+
+NamedValues settings_of(const RunConfig& config) {
+  const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;
+  return {{"fit", fit},
+          {"as_is", config.as_is ? 1.0 : 0.0},
+          {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
+}
+
+record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
+                                 const record::RunContext& context) {
+  const std::optional<record::ShardList> list = shard_list_of(config, method);
+  check_folder(config, list);
+  const record::RunFolder folder =
+      list ? record::shard_folder(config.out, *config.shard) : record::RunFolder{config.out};
+  const RunLocks locks(folder);
+  if (list) record::agree_on(*list, folder);
+  RunState run = open_run(config, method, context, folder, list);
+  std::vector<std::string> protect = config.protect;
+  protect.insert(protect.end(), config.inputs.begin(), config.inputs.end());
+  record::Outputs outputs(protect, config.force);
+  claim_run(folder, run.names, std::filesystem::exists(folder.manifest()), outputs);
+  folder.create();
+  if (config.map.keep) config.map.keep(folder, context.messages);
+  write_records(run);
+  const int count = static_cast<int>(run.inputs.size());
+  if (list)
+    context.messages << "shard " << config.shard->index << '/' << config.shard->count << ": " << count
+                     << " of " << list->inputs.size() << " motions\n";
+  const int jobs = std::clamp(config.jobs > 0 ? config.jobs : config.threads, 1, std::max(count, 1));
+  SideBySide work(run, jobs);
+  parallel_for(count, jobs, [&](int i) { work.on(i); });
+  return work.outcome();
+}
+
+}  // namespace mimicx::run

@@ -1,0 +1,46 @@
+/// Legs of the synthetic motions: where a foot is, and the joint rotations that put it there.
+///
+/// Closed form: the knee angle from the distance hip–ankle, the hip from that direction and the plane the
+/// knee bends in, the ankle from the foot's orientation. No iteration, hence smooth in its arguments.
+/// What it does not do: joint limits; a target out of reach is met as far as the leg goes and reported.
+#pragma once
+
+#include "character/character.h"
+
+namespace mimicx::synth {
+
+/// Model axes (x left, y up, z forward) → plan axes (x forward, y left, z up): a cyclic permutation.
+inline const Quaterniond kModelToPlan{0.5, 0.5, 0.5, 0.5};
+
+/// A foot on or over the floor. Planted points stay where they are: the foot rolls about its two heel
+/// points (toe_rise) and about its two toe points (heel_rise), never about a point between.
+struct FootTarget {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< floor point under the ankle of the flat foot, m
+  double yaw = 0.0;                                 ///< about the vertical, 0 = toes along x, rad
+  double lift = 0.0;                                ///< height of the sole, m
+  double heel_rise = 0.0;                           ///< pitch of the foot over its toes, rad, ≥ 0
+  double toe_rise = 0.0;                            ///< pitch of the foot over its heel, rad, ≥ 0
+};
+
+/// World pose of the ankle's body and rotation of the toes relative to it.
+struct FootPose {
+  Vector3d p_ankle;
+  Quaterniond q_ankle;
+  Quaterniond q_toes;
+};
+
+/// @param side  0 left, 1 right
+FootPose foot_pose(const Character& character, int side, const FootTarget& target);
+
+struct LegPose {
+  Quaterniond hip;    ///< relative to the pelvis
+  double knee;        ///< flexion, rad
+  Quaterniond ankle;  ///< relative to the shank
+  double shortfall;   ///< how far the ankle stays from its target, m; 0 within reach
+};
+
+/// @param knee_axis  world direction the knee's axis should point to (to the character's left)
+LegPose solve_leg(const Character& character, int side, const Vector3d& p_pelvis, const Quaterniond& q_pelvis,
+                  const FootPose& foot, const Vector3d& knee_axis);
+
+}  // namespace mimicx::synth

@@ -1,0 +1,116 @@
+#include "synth/noise/independent_motion.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "synth/noise/noise_streams.h"
+
+namespace mimicx::synth {
+namespace {
+
+// Time constants, s, and frequencies, Hz.
+constexpr double kJointTau = 1.2, kStrideTau = 2.0, kDriftTau = 2.5, kTurnTau = 1.0;
+constexpr double kJitterFrames = 0.8;
+constexpr double kSlowestWobble = 0.3, kFastestWobble = 0.7;
+constexpr int kStaticFreedom = 4;  ///< of Student's t of the constant errors
+
+/// Vector of three drawn numbers, x first.
+template <class Draw>
+Vector3d drawn_vector(Draw draw) {
+  const double x = draw(), y = draw(), z = draw();
+  return {x, y, z};
+}
+
+/// A person's constant error: Student's t of unit variance.
+double constant_error(Random& random) {
+  constexpr double kVariance = kStaticFreedom / (kStaticFreedom - 2.0);
+  return student_t(random, kStaticFreedom) / std::sqrt(kVariance);
+}
+
+/// One error per axis and frame: size·J or size·S.
+PerFrame<Vector3d> errors_over_time(Random& random, int count, double size, double frames) {
+  PerFrame<Vector3d> errors(count, Vector3d::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const PerFrame<double> noise = smooth_noise(random, count, frames);
+    for (int t = 0; t < count; ++t) errors[t][axis] = size * noise[t];
+  }
+  return errors;
+}
+
+/// A slow oscillation of unit mean square, per axis of its own frequency and phase.
+PerFrame<Vector3d> oscillation(Random& random, int count, double size, double fps) {
+  PerFrame<Vector3d> out(count, Vector3d::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const double frequency = random.uniform(kSlowestWobble, kFastestWobble),
+                 phase = random.uniform(0.0, 2.0 * std::numbers::pi);
+    for (int t = 0; t < count; ++t)
+      out[t][axis] = size * std::numbers::sqrt2 * sin(2.0 * std::numbers::pi * frequency * t / fps + phase);
+  }
+  return out;
+}
+
+void disturb_joint(const IndependentPreset& p, std::uint64_t seed, double fps, int body,
+                   EstimatedMotion& motion) {
+  const auto key = static_cast<std::uint64_t>(body);
+  const int frames = motion.q.count();
+  Random still(seed, {kJointConstantStream, key}), slow(seed, {kJointSlowStream, key}),
+      quick(seed, {kJointJitterStream, key});
+  const double weight = kDegree * independent_joint_weight(body);
+  const Vector3d constant = p.joint_static * drawn_vector([&] { return constant_error(still); });
+  const PerFrame<Vector3d> slowly = errors_over_time(slow, frames, p.joint_slow, kJointTau * fps),
+                           quickly = errors_over_time(quick, frames, p.joint_jitter, kJitterFrames);
+  for (int t = 0; t < frames; ++t) {
+    Quaterniond& joint = motion.q[t][body];
+    if (p.joint_shrink != 0.0) joint = exp_map((1.0 - p.joint_shrink) * log_map(joint));
+    joint = exp_map(weight * (constant + slowly[t] + quickly[t])) * joint;
+  }
+}
+
+}  // namespace
+
+void disturb_rotations(const IndependentPreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
+  for (int body = 1; body < kBodies; ++body) disturb_joint(p, seed, fps, body, motion);
+  Random still(seed, {kRootConstantStream}), wobbling(seed, {kWobbleTurnStream});
+  const Quaterniond constant =
+      exp_map(kDegree * p.root_static * drawn_vector([&] { return constant_error(still); }));
+  const PerFrame<Vector3d> wobble = oscillation(wobbling, motion.q.count(), p.wobble_turn, fps);
+  for (int t = 0; t < motion.q.count(); ++t)
+    motion.q[t][kPelvis] = exp_map(kDegree * wobble[t]) * motion.q[t][kPelvis] * constant;
+}
+
+void disturb_travel(const IndependentPreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
+  const int frames = motion.q.count();
+  Random stride(seed, {kStrideStream}), drift(seed, {kFalseVelocityStream}), turn(seed, {kHeadingWalkStream});
+  const PerFrame<double> scale = smooth_noise(stride, frames, kStrideTau * fps),
+                         forward = smooth_noise(drift, frames, kDriftTau * fps),
+                         sideways = smooth_noise(drift, frames, kDriftTau * fps),
+                         heading = smooth_walk(turn, frames, kTurnTau, fps);
+  Vector3d before = motion.p_root.front(), place = before;
+  for (int t = 0; t < frames; ++t) {
+    const Quaterniond turned = rotation_z(kDegree * p.turn_drift * heading[t]);
+    Vector3d step = motion.p_root[t] - before;
+    before = motion.p_root[t];
+    const double height = before.z();
+    step.z() = 0.0;
+    motion.q[t][kPelvis] = turned * motion.q[t][kPelvis];
+    if (t > 0) {
+      const Vector3d velocity = p.drift * Vector3d(forward[t], sideways[t], 0.0);
+      place += (1.0 + p.stride * scale[t]) * (turned * step) +
+               rotation_z(heading_angle(motion.q[t][kPelvis])) * velocity / fps;
+    }
+    motion.p_root[t] = {place.x(), place.y(), height};
+  }
+}
+
+void disturb_place(const IndependentPreset& p, std::uint64_t seed, double fps, const CameraPath& camera,
+                   EstimatedMotion& motion) {
+  Random distance(seed, {kDistanceStream}), height(seed, {kFloorStream}), wobbling(seed, {kWobbleStream});
+  const Vector3d ray = motion.p_root.front() - eye_of(camera.at(0).extrinsics);
+  const Vector3d offset = p.depth * distance.normal() * ray + p.height * height.normal() * Vector3d::UnitZ();
+  const PerFrame<Vector3d> wobble = oscillation(wobbling, motion.p_root.count(), p.wobble, fps);
+  for (int t = 0; t < motion.p_root.count(); ++t) motion.p_root[t] += offset + wobble[t];
+}
+
+}  // namespace mimicx::synth

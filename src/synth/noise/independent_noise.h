@@ -1,0 +1,32 @@
+/// A second noise model, which shares none of the keypoint fit's assumptions.
+///                                                                   docs/method.md, "Noise model", (4) to
+///                                                                   (15)
+/// The first model (noise.h) and the fit believe in the same joint weights, in constant offsets of keypoints
+/// in the picture, in normal errors and in confidence that tells. This one does not; what a method achieves
+/// on it is nearer to what it achieves on a stranger's estimate. Everything the true clip does not tell comes
+/// from the seed; each term has its own random stream, so that turning one off leaves the others as they are.
+///
+/// What it does not do: no images; the truth is never written into the noisy clip.
+#pragma once
+
+#include "synth/noise/independent_preset.h"
+#include "synth/noise/noise_keypoints.h"
+
+namespace mimicx::synth {
+
+struct IndependentNoiseConfig {
+  IndependentPreset preset = independent_preset();
+  CameraError camera =
+      camera_error("perturbed");  ///< its `beta` is left out: the preset errs in shape itself
+  motion::KeypointSet keypoints = motion::KeypointSet::kJoints22;
+  std::uint64_t seed = 0;
+};
+
+/// As `add_noise`. @throws std::invalid_argument for fewer than 2 frames or another body model than "mimicx".
+motion::Clip add_independent_noise(const motion::Clip& truth, const IndependentNoiseConfig& config);
+
+/// The shape that is told: `stature` and `proportions` off.
+std::array<double, kBetas> mistaken_betas(const std::array<double, kBetas>& betas,
+                                          const IndependentPreset& preset, std::uint64_t seed);
+
+}  // namespace mimicx::synth

@@ -1,0 +1,58 @@
+/// Amplitudes of the independent noise model, by name and with units.   docs/method.md, "Noise model", (4) to
+/// (15)
+///
+/// "Independent" of the keypoint fit: no error here has the form, the weights or the distribution that the
+/// fit's cost believes in, so what the fit makes of it says what it makes of a stranger's estimate.
+#pragma once
+
+#include <string_view>
+
+#include "character/character.h"
+
+namespace mimicx::synth {
+
+/// Zero everywhere: no error.
+struct IndependentPreset {
+  // Rotations.
+  double joint_static = 0;  ///< °, constant error of a joint, about its parent's axes, Student's t, times v_j
+  double joint_slow = 0;    ///< °, slow error, times v_j
+  double joint_jitter = 0;  ///< °, from frame to frame, times v_j
+  double joint_shrink = 0;  ///< share of every joint's rotation that is missing: a regression to the mean
+  double root_static = 0;   ///< °, constant error of the root, about its own axes
+  double wobble_turn = 0;   ///< °, rms of a slow oscillation of the root's orientation, world axes
+  // Place of the root.
+  double wobble = 0;      ///< m, rms of a slow oscillation of the root's place
+  double depth = 0;       ///< relative error of the distance from the camera, in the first frame
+  double stride = 0;      ///< relative error of the speed over the floor, wandering
+  double drift = 0;       ///< m/s, false velocity in the person's own heading
+  double turn_drift = 0;  ///< °/√s, walk of the heading; the path turns with it
+  double height = 0;      ///< m, constant error of the height
+  double skate = 0;       ///< m/s, slip of a foot that stands, per axis
+  // The body that is told.
+  double stature = 0;      ///< relative error
+  double proportions = 0;  ///< error of every other entry of β
+  // Keypoints. Box: larger side of the person's box in the picture.
+  double time_offset = 0;        ///< frames by which the keypoints are late or early
+  double offset_limb = 0;        ///< m per axis, constant in the frame of the keypoint's limb
+  double offset_view = 0;        ///< m, turns with the direction from which the limb is seen
+  double wander = 0;             ///< % of the box, slow
+  double tail = 0;               ///< % of the box, frame by frame, scale of Student's t
+  double foreshortening = 0;     ///< factor by which the two above grow for a limb that points at the camera
+  double occlusion = 0;          ///< % of the box, where the body hides the point
+  double swap_rate = 0;          ///< left and right mixed up, per second
+  double gap_rate = 0;           ///< frames without any detection: gaps per second
+  double drop_share = 0;         ///< single detections that are missing
+  double confidence_truth = 0;   ///< correlation of the confidence with how good a detection is
+  double confidence_spread = 0;  ///< standard deviation of the confidence
+  // The told camera.
+  double camera_turn = 0;  ///< pan and roll of the told camera, in σ of its tilt
+};
+
+/// The levels of "independent". Its metrics on real clips: docs/method.md, "Noise model".
+IndependentPreset independent_preset();
+
+/// v_j: how large the rotation error of a joint is beside the others'. These are not the weights of
+/// estimator_error.h on purpose.
+double independent_joint_weight(int body);
+
+}  // namespace mimicx::synth

@@ -1,0 +1,25 @@
+/// The amplitudes of both noise models by name: what `--noise NAME=VALUE` sets, and what the tables print.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "synth/noise/independent_preset.h"
+#include "synth/noise/noise.h"
+
+namespace mimicx::synth {
+
+template <class Preset>
+struct Amplitude {
+  const char* name;
+  const char* unit;
+  double Preset::*value;
+  double least = 0.0;  ///< smallest value that makes sense
+  double most = 1e6;
+};
+
+/// All of a preset, in the order of its fields.
+std::span<const Amplitude<NoisePreset>> amplitudes(const NoisePreset&);
+std::span<const Amplitude<IndependentPreset>> amplitudes(const IndependentPreset&);
+
+}  // namespace mimicx::synth

@@ -1,0 +1,36 @@
+/// How many plans teach one policy: its settings by name, and the rounds with their checkpoints.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/named_values.h"
+#include "record/run_context.h"
+#include "teaching/plan_teachers.h"
+#include "teaching/school.h"
+
+namespace mimicx::teaching {
+
+/// The numbers by name, all of them beginning with "school_".
+NamedValues school_settings(const SchoolConfig& school);
+
+/// Changes one of them. @return whether there is one of that name
+/// @throws std::invalid_argument for a fraction where a whole number is expected
+bool change_setting(SchoolConfig& school, const std::string& name, double value);
+
+/// @throws std::invalid_argument naming a setting that no school can have
+void check(const SchoolConfig& school);
+
+/// Teaches one policy by all of the plans; goes on where the checkpoint in the folder left it.
+///
+///     DIR/training/NAME.csv     a row per round: lessons, bodies put back per thousand of them, loss
+///     DIR/checkpoints/NAME.npz  the pupil
+///
+/// @param task  the simulation that all plans were made under
+/// @return none where it was interrupted; the checkpoint has what is done
+std::optional<Pupil> teach_option(const std::vector<PlannedMotion>& motions, const SchoolConfig& school,
+                                  const rl::tracking::TrackingConfig& task, const record::RunFolder& folder,
+                                  const std::string& name, int threads, const record::RunContext& context);
+
+}  // namespace mimicx::teaching

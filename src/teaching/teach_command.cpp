@@ -1,0 +1,182 @@
+#include "teaching/teach_command.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "core/build.h"
+#include "core/npz/npz.h"
+#include "core/parallel.h"
+#include "core/setting.h"
+#include "pipeline/options/features.h"
+#include "pipeline/options/option_set.h"
+#include "pipeline/options_folder.h"
+#include "record/folder_lock.h"
+#include "record/names.h"
+#include "teaching/plan_teachers.h"
+#include "teaching/school_rounds.h"
+
+namespace mimicx::teaching {
+namespace {
+
+/// Plans the motions that have no plan yet.
+record::RunOutcome plan_inputs(const TeachConfig& config, const record::RunContext& context) {
+  plan::PlanMotionsConfig planning = config.planning;
+  planning.run.out = config.out / "plans";
+  planning.run.gains = true;
+  return plan::plan_motions(planning, context);
+}
+
+/// All that there is to learn from: those of earlier runs, then those of this one.
+std::vector<PlannedMotion> motions_of(const TeachConfig& config) {
+  std::vector<PlannedMotion> motions;
+  std::vector<std::filesystem::path> folders(config.plans.begin(), config.plans.end());
+  if (!config.planning.run.inputs.empty()) folders.push_back(config.out / "plans");
+  for (const std::filesystem::path& folder : folders) {
+    std::vector<PlannedMotion> more = followed_plans({folder});
+    if (more.empty())
+      throw std::invalid_argument(folder.string() +
+                                  " has no plan that was followed and has feedback gains: `mimicx plan "
+                                  "--gains` leaves them");
+    motions.insert(motions.end(), more.begin(), more.end());
+  }
+  return motions;
+}
+
+record::Json teaching_record(const TeachConfig& config, const std::vector<PlannedMotion>& motions) {
+  record::Json settings = record::Json::object(), inputs = record::Json::array();
+  for (const auto& [name, value] : settings_of(config)) settings[name] = value;
+  for (const PlannedMotion& motion : motions)
+    inputs.push_back({{"input", record::to_utf8(motion.input)}, {"checksum", motion.checksum}});
+  return {{"version", MIMICX_VERSION},
+          {"target", kArithmetic},
+          {"seed", config.school.seed},
+          {"settings", settings},
+          {"inputs", inputs}};
+}
+
+/// The motions' names in the set, one for each, whatever folder they come from.
+std::vector<std::string> names_of(const std::vector<PlannedMotion>& motions) {
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const PlannedMotion& motion : motions)
+    taken.insert(names.emplace_back(record::unique_name(motion.name, taken)));
+  return names;
+}
+
+/// So many visits to each of so many motions. A round has no motion twice.
+SchoolConfig school_for(const TeachConfig& config, int motions) {
+  SchoolConfig school = config.school;
+  school.packs = std::min(school.packs, motions);
+  school.rounds = (config.visits * motions + school.packs - 1) / school.packs;
+  return school;
+}
+
+/// Calls add(name, field, least, most) for what the schooling of an option does not know.
+template <class Config, class Add>
+void for_each_cluster_setting(Config& config, const Add& add) {
+  add("school_visits", config.visits, 1, 1e5);
+}
+
+pipeline::options::Clusters cluster(const TeachConfig& config, const std::vector<PlannedMotion>& motions,
+                                    const std::vector<std::string>& names) {
+  List<pipeline::options::NamedFeatures> features(static_cast<int>(motions.size()));
+  parallel_for(features.count(), config.planning.run.threads, [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    features[i] = {names[k], pipeline::options::motion_features(reference_of(motions[k]))};
+  });
+  pipeline::options::Clusters clusters = pipeline::options::cluster_motions(features, config.clusters);
+  pipeline::options::write_clusters(config.out / "clusters.json", clusters);
+  return clusters;
+}
+
+/// The motions of these names.
+std::vector<PlannedMotion> members(const pipeline::options::MotionCluster& cluster,
+                                   const std::vector<PlannedMotion>& motions,
+                                   const std::vector<std::string>& names) {
+  std::vector<PlannedMotion> found;
+  for (const std::string& member : cluster.members)
+    found.push_back(
+        motions[static_cast<std::size_t>(std::find(names.begin(), names.end(), member) - names.begin())]);
+  return found;
+}
+
+}  // namespace
+
+NamedValues settings_of(const TeachConfig& config) {
+  NamedValues values = numbers_in([&](const auto& add) { for_each_cluster_setting(config, add); });
+  append(values, school_settings(config.school));
+  values.emplace_back("cluster_radius", config.clusters.radius);
+  values.emplace_back("clusters", config.clusters.clusters.value_or(0));
+  append(values, settings_of(config.planning));
+  return values;
+}
+
+void apply_setting(TeachConfig& config, const std::string& name, double value) {
+  if (change_one([&](const auto& add) { for_each_cluster_setting(config, add); }, name, value)) return;
+  if (!change_setting(config.school, name, value)) apply_setting(config.planning.planning, name, value);
+}
+
+void check(const TeachConfig& config) {
+  require_ranges([&](const auto& add) { for_each_cluster_setting(config, add); });
+  check(config.school);
+  check(config.planning.planning);
+}
+
+record::RunOutcome teach(const TeachConfig& config, const record::RunContext& context) {
+  const record::RunFolder folder{config.out};
+  std::vector<std::string> files = config.planning.run.inputs;
+  files.insert(files.end(), config.plans.begin(), config.plans.end());
+  pipeline::claim_options(folder, files, config.planning.run.force);
+  const record::FolderLock lock(folder.root);
+  record::RunOutcome outcome = record::RunOutcome::kAllGood;
+  if (!config.planning.run.inputs.empty()) outcome = plan_inputs(config, context);
+  if (outcome == record::RunOutcome::kInterrupted) return outcome;
+  const std::vector<PlannedMotion> motions = motions_of(config);
+  const record::Json record = teaching_record(config, motions);
+  if (pipeline::finished_outcome(folder, record)) {
+    context.messages << folder.root.string() << ": these options are taught already\n";
+    return outcome;
+  }
+  folder.create();
+  write_file_atomically(folder.manifest(), record::Json({{"run", record}}).dump(1) + "\n");
+  const std::vector<std::string> names = names_of(motions);
+  const pipeline::options::Clusters clusters = cluster(config, motions, names);
+  rl::tracking::TrackingConfig task;
+  task.simulation = config.planning.planning.simulation;
+  pipeline::options::OptionSet set;
+  record::Json taught = record::Json::array();
+  for (int index = 0; index < clusters.clusters.count(); ++index) {
+    const pipeline::options::MotionCluster& cluster = clusters.clusters[index];
+    const std::string name = "option" + std::to_string(index);
+    SchoolConfig school = school_for(config, static_cast<int>(cluster.members.size()));
+    school.seed += static_cast<std::uint64_t>(index);
+    const auto pupil = teach_option(members(cluster, motions, names), school, task, folder, name,
+                                    config.planning.run.threads, context);
+    if (!pupil) {
+      context.progress.finish("interrupted; the same command continues");
+      return record::RunOutcome::kInterrupted;
+    }
+    context.progress.finish(name + ": done, " + cluster.description);
+    set.options.push_back({{pupil->agent, {}},
+                           cluster.description,
+                           cluster.centre,
+                           static_cast<int>(cluster.members.size()),
+                           pupil->taken});
+    taught.push_back({{"name", name},
+                      {"description", cluster.description},
+                      {"motions", cluster.members.size()},
+                      {"lessons", pupil->taken}});
+  }
+  pipeline::options::write_options(config.out / "options.npz", set);
+  write_file_atomically(folder.manifest(),
+                        record::Json({{"run", record},
+                                      {"inputs", record::Json::array()},
+                                      {"options", taught},
+                                      {"checksum", record::file_checksum(config.out / "options.npz")}})
+                                .dump(1) +
+                            "\n");
+  return outcome;
+}
+
+}  // namespace mimicx::teaching

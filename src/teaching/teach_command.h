@@ -1,0 +1,47 @@
+/// `mimicx teach`: options taught by plans.                                          docs/teaching.md §5
+///
+/// Read → fit → prepare → plan, with feedback (a run of `mimicx plan --gains` in DIR/plans) → features →
+/// clusters; then, cluster by cluster, one policy is taught by all plans of the cluster (teaching/school.h).
+/// Motions whose plan is lost teach nothing; they are named.
+///
+///     DIR/options.npz              the set, as `mimicx pretrain` leaves it
+///     DIR/clusters.json            which motion is in which cluster
+///     DIR/plans/                   the run that planned them; absent where all were planned before
+///     DIR/training/optionK.csv     a row per round
+///     DIR/checkpoints/optionK.npz  the complete state of the teaching
+///     DIR/manifest.json            inputs, settings, lessons
+///
+/// The same command continues an interrupted run; its files end up the same bytes as those of a run that was
+/// never interrupted, whatever the number of threads.
+/// What it never does: open any ground truth.
+#pragma once
+
+#include "pipeline/options/clusters.h"
+#include "plan/plan_command.h"
+#include "teaching/school.h"
+
+namespace mimicx::teaching {
+
+struct TeachConfig {
+  std::vector<std::string> plans;  ///< folders of runs of `mimicx plan --gains`
+  /// Motions to plan here; `run.out` is set to DIR/plans. Its threads and jobs are those of all of it.
+  plan::PlanMotionsConfig planning;
+  std::filesystem::path out;
+  int visits = 16;  ///< of every motion, in all: of them come the rounds of an option's school
+  SchoolConfig school;
+  pipeline::options::ClusterConfig clusters{.clusters = 1};
+};
+
+/// The settings, as the manifest lists them.
+NamedValues settings_of(const TeachConfig& config);
+
+/// Changes one of them, or one of the plan's.
+/// @throws std::invalid_argument for an unknown name or a fraction where a whole number is expected
+void apply_setting(TeachConfig& config, const std::string& name, double value);
+
+/// @throws std::invalid_argument naming a setting that no teaching can have
+void check(const TeachConfig& config);
+
+record::RunOutcome teach(const TeachConfig& config, const record::RunContext& context);
+
+}  // namespace mimicx::teaching

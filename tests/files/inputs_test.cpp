@@ -1,0 +1,94 @@
+#include "files/inputs.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/temporary_folder.h"
+
+namespace mimicx::files {
+namespace {
+
+struct FindMotions : testing::Test {
+  std::string path(const std::string& name) const { return (folder.path / name).string(); }
+  void touch(const std::string& name, const std::string& text = "x") const {
+    std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+    std::ofstream(path(name)) << text;
+  }
+  /// "name" of every motion found in `in`.
+  std::vector<std::string> names(const std::string& out = {}) const {
+    std::vector<std::string> found;
+    for (const MotionInput& input : find_motions({path("in")}, out)) found.push_back(input.name);
+    return found;
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(FindMotions, InFoldersOfFoldersByPathAndNamesThemByTheirPlace) {
+  for (const char* file : {"in/b.npz", "in/CMU/01/01_02_poses.npz", "in/CMU/01/01_01_poses.npz", "in/a.bvh"})
+    touch(file);
+  EXPECT_EQ(names(), (std::vector<std::string>{"CMU/01/01_01_poses", "CMU/01/01_02_poses", "a", "b"}));
+  EXPECT_EQ(find_motions({path("in")})[0].path, path("in/CMU/01/01_01_poses.npz"));
+  EXPECT_EQ(find_motions({path("in/CMU/01/01_02_poses.npz")})[0].name, "01_02_poses");
+}
+
+TEST_F(FindMotions, LeavesOutWhatIsNoMotionAndWhatRunsLeftAndSaysSo) {
+  for (const char* file :
+       {"in/a.npz", "in/a.clean.npz", "in/a.mimicx/motions/a.npz", "in/sub/shape.npz", "in/sub/notes.md",
+        "in/sub/neutral_stagei.npz", "in/out/motions/a.npz", "in/fitted/a.npz"})
+    touch(file);
+  touch("in/out/manifest.json", "{\n \"run\": {}}");
+  touch("in/sub/manifest.json", "{}");
+  std::ostringstream messages;
+  const auto found = find_motions({path("in")}, path("in/./fitted"), &messages);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "a");
+  EXPECT_EQ(messages.str(), path("in") +
+                                ": left out: a.clean.npz, a.mimicx/, fitted/, out/, sub/manifest.json, "
+                                "sub/neutral_stagei.npz, sub/notes.md, sub/shape.npz (no motions, or made by "
+                                "an earlier run)\n");
+}
+
+TEST_F(FindMotions, SaysOfHundredsOfOtherFilesHowManyThereAre) {
+  touch("in/a.npz");
+  for (int k = 100; k < 130; ++k) touch("in/" + std::to_string(k) + ".txt");
+  std::ostringstream messages;
+  find_motions({path("in")}, {}, &messages);
+  EXPECT_NE(messages.str().find("106.txt, 107.txt and 22 more (no"), std::string::npos) << messages.str();
+}
+
+TEST_F(FindMotions, FollowsLinksOnceAndNeverInCircles) {
+  touch("in/sub/a.npz");
+  touch("elsewhere/b.npz");
+  std::filesystem::create_directory_symlink(path("in"), path("in/sub/back"));
+  std::filesystem::create_directory_symlink(path("elsewhere"), path("in/link"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"link/b", "sub/a"}));
+}
+
+TEST_F(FindMotions, AFileNamedTwiceIsThereOnce) {
+  touch("in/a.npz");
+  EXPECT_EQ(find_motions({path("in"), path("in/a.npz"), path("in/../in/a.npz")}).size(), 1u);
+}
+
+TEST_F(FindMotions, AFolderWithoutMotionsIsAnErrorThatSaysWhereARunHasThem) {
+  touch("in/notes.md");
+  touch("run/manifest.json", "{\n \"run\": {}}");
+  touch("run/motions/a.npz");
+  const auto complaint = [&](const std::string& name) {
+    try {
+      find_motions({path(name)});
+    } catch (const DataError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(complaint("in"), path("in") + ": expected motion files in this folder, found none");
+  EXPECT_EQ(complaint("run"), path("run") +
+                                  ": expected motion files in this folder, found a run, whose motions are in "
+                                  "motions/");
+}
+
+}  // namespace
+}  // namespace mimicx::files

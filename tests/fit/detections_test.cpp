@@ -1,0 +1,128 @@
+/// Detections that are exchanged, missing or far off, and those of the feet.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "fit/fitted_clips.h"
+
+namespace mimicx::fit {
+namespace {
+
+using namespace test;
+
+/// Mean angle between the ankles of two clips, degrees.
+double ankle_error(const motion::Clip& a, const motion::Clip& b) {
+  const PerFrame<BodyPoses> p = motion::poses_of(a), q = motion::poses_of(b);
+  double sum = 0.0;
+  for (int t = 0; t < p.count(); ++t)
+    for (const int body : {kLeftAnkle, kRightAnkle})
+      sum += p[t].q_WB[body].angularDistance(q[t].q_WB[body]) / (2.0 * p.count() * kDegree);
+  return sum;
+}
+
+TEST(Fit, PointsOfTheFeetTurnTheAnkles) {
+  const motion::Clip truth = truth_of("kick");
+  const auto fitted = [&](motion::KeypointSet set) {
+    return fit_keypoints(disturbed(truth, 1, set), exact_camera(), nullptr);
+  };
+  const double without = ankle_error(truth, fitted(motion::KeypointSet::kCoco17)),
+               with = ankle_error(truth, fitted(motion::KeypointSet::kCoco133));
+  EXPECT_LT(with, 0.7 * without);
+  EXPECT_LT(with, 2.0);
+}
+
+TEST(Fit, ABurstOfExchangedSidesIsHealed) {
+  const motion::Clip truth = truth_of("walk"), input = disturbed(truth, 3);
+  const motion::Clip expected = fit_keypoints(input, exact_camera(), nullptr);
+  motion::Clip swapped = input;
+  for (std::size_t t = 30; t < 38; ++t) {
+    for (const std::size_t left : std::initializer_list<std::size_t>{
+             kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftShoulder, kLeftElbow, kLeftWrist})
+      std::swap(swapped.keypoints->uvc[t][left], swapped.keypoints->uvc[t][left + 1]);
+  }
+  FitReport report;
+  const motion::Clip fitted = fit_keypoints(swapped, exact_camera(), &report);
+  EXPECT_EQ(report.swapped_frames, 8);
+  EXPECT_TRUE(fitted.keypoints->uvc == input.keypoints->uvc);
+  EXPECT_LT(against(expected, fitted).gmpjpe.value, 0.5);
+}
+
+TEST(Fit, DetectionsWithoutConfidenceAreNeverRead) {
+  const motion::Clip truth = truth_of("walk");
+  motion::Clip zeros = disturbed(truth, 4), garbage = zeros;
+  Random random(1, {});
+  int dropped = 0;
+  for (std::size_t t = 0; t < zeros.keypoints->uvc.size(); ++t)
+    for (std::size_t k = 0; k < kBodies; ++k)
+      if (random.uniform() < 0.2) {
+        zeros.keypoints->uvc[t][k].setZero();
+        garbage.keypoints->uvc[t][k] = Vector3d(1e4 * random.normal(), -5e3, 0.0);
+        ++dropped;
+      }
+  FitReport report;
+  const motion::Clip a = fit_keypoints(zeros, exact_camera(), &report);
+  const motion::Clip b = fit_keypoints(garbage, exact_camera(), nullptr);
+  EXPECT_EQ(report.dropped_points, dropped);
+  EXPECT_TRUE(a.rotations == b.rotations && a.trans == b.trans);
+  EXPECT_LT(against(truth, a).mpjpe.value, 9.0);
+}
+
+TEST(Fit, FarOffDetectionsAreSetAside) {
+  const motion::Clip truth = truth_of("squat");
+  motion::Clip input = disturbed(truth, 4);
+  Random random(2, {});
+  for (auto& frame : input.keypoints->uvc)
+    for (Vector3d& point : frame)
+      if (random.uniform() < 0.05)
+        point.head<2>() += 300.0 * Eigen::Vector2d(random.normal(), random.normal());
+  const motion::Metrics after = against(truth, fit_keypoints(input, exact_camera(), nullptr));
+  EXPECT_LT(after.mpjpe.value, 10.0);
+  EXPECT_LT(after.mrpe.value, 25.0);
+}
+
+/// Mean distance of some bodies of two clips over some frames, relative to the pelvis, mm.
+double error_where(const motion::Clip& a, const motion::Clip& b, int first, int last,
+                   const std::vector<int>& bodies) {
+  const PerFrame<BodyPoses> p = motion::poses_of(a), q = motion::poses_of(b);
+  double sum = 0.0;
+  for (int t = first; t < last; ++t)
+    for (const int body : bodies)
+      sum += (p[t].p_WB[body] - p[t].p_WB[0] - q[t].p_WB[body] + q[t].p_WB[0]).norm();
+  return kMm * sum / static_cast<double>(bodies.size()) / (last - first);
+}
+
+const std::vector<int> kLegs = {kLeftHip,   kRightHip,   kLeftKnee, kRightKnee,
+                                kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot};
+
+TEST(Fit, TwoSecondsWithoutAnyDetectionComeCloserToTheTruthAsWell) {
+  for (const char* preset : {"gvhmr-like", "vibe-like"}) {
+    const motion::Clip truth = synthetic_clip("walk", 5, 150);
+    motion::Clip noisy = noisy_of(truth, preset, motion::KeypointSet::kJoints22, 3);
+    for (int t = 45; t < 105; ++t)
+      for (Vector3d& point : noisy.keypoints->uvc[t]) point.setZero();
+    const motion::Clip fitted = fit_keypoints(noisy, {}, nullptr);
+    std::vector<int> all(kBodies);
+    std::iota(all.begin(), all.end(), 0);
+    EXPECT_LT(error_where(fitted, truth, 45, 105, all), error_where(noisy, truth, 45, 105, all)) << preset;
+    EXPECT_LT(error_where(fitted, truth, 65, 85, all), error_where(noisy, truth, 65, 85, all)) << preset;
+  }
+}
+
+TEST(Fit, LegsThatAreNeverSeenDoNotGetWorse) {
+  for (const char* preset : {"gvhmr-like", "vibe-like"})
+    for (const char* kind : {"walk", "squat"}) {
+      const motion::Clip truth = truth_of(kind);
+      motion::Clip noisy = noisy_of(truth, preset, motion::KeypointSet::kCoco17, 3);
+      for (auto& frame : noisy.keypoints->uvc)
+        for (std::size_t k = 11; k < 17; ++k) frame[k].setZero();  // hips, knees, ankles
+      const motion::Clip fitted = fit_keypoints(noisy, {}, nullptr);
+      EXPECT_LE(error_where(fitted, truth, 0, 90, kLegs), error_where(noisy, truth, 0, 90, kLegs))
+          << preset << " " << kind;
+      EXPECT_LT(against(truth, fitted).mpjpe.value, against(truth, noisy).mpjpe.value)
+          << preset << " " << kind;
+    }
+}
+
+}  // namespace
+}  // namespace mimicx::fit

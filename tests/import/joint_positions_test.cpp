@@ -1,0 +1,107 @@
+#include "import/joint_positions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/npz/npy.h"
+#include "core/random.h"
+#include "import/motion_file.h"
+#include "import/positions.h"
+#include "motion/resample.h"
+#include "synth/synth.h"
+
+namespace mimicx::import {
+namespace {
+
+using test::features_of, test::positions_of;
+
+/// A synthetic motion at 20 fps.
+motion::Clip truth(const std::string& kind) {
+  synth::SynthConfig config;
+  config.kind = kind;
+  config.seed = 3;
+  motion::Clip clip = motion::resampled(synth::synthesize(config), 20.0);
+  clip.keypoints.reset();
+  return clip;
+}
+
+motion::Clip read_positions(const NpyArray& array, const ReadConfig& config = {}) {
+  return motion_from(format_npy(array), "motion.npy", config);
+}
+
+/// Mean distance of the joints that mean the same, best turned about the vertical and moved, mm.
+double mean_joint_distance(const motion::Clip& a, const motion::Clip& b) {
+  const auto p = motion::poses_of(a), q = motion::poses_of(b);
+  Eigen::Matrix3Xd from(3, 0), to(3, 0);
+  for (int t = 0; t < p.count(); ++t)
+    for (const int body : {kLeftHip, kRightHip, kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle, kLeftShoulder,
+                           kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist}) {
+      from.conservativeResize(3, from.cols() + 1), to.conservativeResize(3, to.cols() + 1);
+      from.col(from.cols() - 1) = p[t].p_WB[body], to.col(to.cols() - 1) = q[t].p_WB[body];
+    }
+  const Vector3d middle_from = from.rowwise().mean(), middle_to = to.rowwise().mean();
+  from.colwise() -= middle_from, to.colwise() -= middle_to;
+  const double angle =
+      std::atan2((from.row(0).cwiseProduct(to.row(1)) - from.row(1).cwiseProduct(to.row(0))).sum(),
+                 (from.row(0).cwiseProduct(to.row(0)) + from.row(1).cwiseProduct(to.row(1))).sum());
+  return 1000.0 * (rotation_z(angle).toRotationMatrix() * from - to).colwise().norm().mean();
+}
+
+TEST(JointPositions, TheirMotionIsTheOneTheyCameFrom) {
+  for (const char* kind : {"walk", "squat", "punch", "kick", "dance"}) {
+    const motion::Clip exact = truth(kind), clip = read_positions(positions_of(exact));
+    EXPECT_EQ(clip.fps, 20.0);
+    ASSERT_EQ(clip.frames(), exact.frames());
+    EXPECT_LT(mean_joint_distance(clip, exact), 25.0) << kind;
+  }
+}
+
+TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
+  const motion::Clip exact = truth("walk");
+  ReadConfig config;
+  config.fps = 30.0;
+  const motion::Clip clip = read_positions(positions_of(exact, 100.0), config);
+  EXPECT_LT(mean_joint_distance(clip, exact), 25.0);
+  EXPECT_EQ(clip.fps, 30.0);
+}
+
+TEST(JointPositions, HumanMl3dsFeaturesGiveTheSameMotion) {
+  for (const char* kind : {"walk_turn", "turn_in_place"}) {
+    const motion::Clip exact = truth(kind), clip = read_positions(features_of(positions_of(exact)));
+    EXPECT_LT(mean_joint_distance(clip, exact), 25.0) << kind;
+    EXPECT_EQ(clip.summary.at(0), "HumanML3D features: 20 frames per second, y up, metres");
+  }
+}
+
+TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
+  const motion::Clip exact = truth("squat"), clip = read_positions(positions_of(exact));
+  for (const int knee : {kLeftKnee, kRightKnee})
+    for (int t = 0; t < clip.frames(); ++t) {
+      const Vector3d r = clip.rotations[t][knee];
+      if (r.norm() < 0.5) continue;
+      EXPECT_GT(std::abs(r.normalized().dot(hinge_axis(knee))), 0.97) << t;
+    }
+}
+
+TEST(JointPositions, WhatIsNoMotionIsRefusedInOneLine) {
+  const NpyArray positions = positions_of(truth("walk"));
+  EXPECT_THROW(read_positions(features_of(positions, -1.0)), DataError) << "normalised features";
+  NpyArray collapsed = positions;
+  std::fill(collapsed.bytes.begin(), collapsed.bytes.end(), std::uint8_t{0});
+  EXPECT_THROW(read_positions(collapsed), DataError);
+  std::vector<double> values = positions.to_double();
+  values[100] = std::nan("");
+  EXPECT_THROW(read_positions(NpyArray::from_double(positions.shape, values.data())), DataError);
+  EXPECT_THROW(read_positions(NpyArray::from_double({0, kBodies, 3}, values.data())), DataError);
+  Random random(3);
+  for (double& value : values) value = random.uniform(-1.0, 1.0);
+  try {
+    read_positions(NpyArray::from_double(positions.shape, values.data()));
+  } catch (const DataError&) {
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::import

@@ -1,0 +1,427 @@
+#include "import/motion_file.h"
+#include "motion/clip_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "core/file.h"
+#include "import/bvh.h"
+#include "import/deepmimic.h"
+#include "import/motionx.h"
+#include "import/plausibility.h"
+#include "import/world.h"
+#include "motion/made_motions.h"
+#include "motion/prepare/prepare.h"
+#include "motion/scratch.h"
+#include "synth/synth.h"
+
+namespace mimicx::import {
+namespace {
+
+namespace fs = std::filesystem;
+using test::scratch;
+
+/// A synthetic motion as a file of somebody else: body model smplx, so that nothing in it is believed.
+motion::Clip foreign(const std::string& kind) {
+  synth::SynthConfig config;
+  config.kind = kind;
+  config.seed = 3;
+  motion::Clip clip = synth::synthesize(config);
+  clip.betas = {};
+  clip.body_model = "smplx";
+  clip.keypoints.reset();
+  clip.name = kind;
+  return clip;
+}
+
+motion::Clip written_and_read(const motion::Clip& clip, const ReadConfig& config = {}) {
+  const fs::path path = test::scratch(clip.name + ".npz");
+  motion::write_clip(path, clip);
+  return read_motion(path, config);
+}
+
+bool decided(const motion::Clip& clip, const std::string& words) {
+  return std::any_of(clip.decisions.begin(), clip.decisions.end(),
+                     [&](const std::string& line) { return line.find(words) != std::string::npos; });
+}
+
+/// Largest distance of the joints of two motions, m.
+double largest_joint_distance(const motion::Clip& a, const motion::Clip& b) {
+  const auto p = motion::poses_of(a), q = motion::poses_of(b);
+  double most = p.size() == q.size() ? 0.0 : std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < p.size() && t < q.size(); ++t)
+    for (std::size_t j = 0; j < kBodies; ++j) most = std::max(most, (p[t].p_WB[j] - q[t].p_WB[j]).norm());
+  return most;
+}
+
+TEST(ReadMotion, LeavesASoundFileAsItIs) {
+  for (const std::string& kind : synth::basic_kinds()) {
+    const motion::Clip clip = foreign(kind), back = written_and_read(clip);
+    EXPECT_EQ(back.rotations, clip.rotations) << kind;
+    EXPECT_EQ(back.trans, clip.trans) << kind;
+    EXPECT_EQ(back.fps, 30.0) << kind;
+    EXPECT_TRUE(decided(back, "format: ")) << kind;
+    EXPECT_TRUE(decided(back, "up axis: z")) << kind;
+    EXPECT_TRUE(back.warnings.empty()) << kind;
+  }
+}
+
+TEST(ReadMotion, TurnsEveryAxisUpAndSaysSo) {
+  const motion::Clip clip = foreign("walk");
+  for (const char axis : std::string("xyXYZ")) {
+    motion::Clip turned = clip;
+    rotate_world(rotation_to_z_up(axis).conjugate(), turned);
+    EXPECT_GT(largest_joint_distance(turned, clip), 0.5);
+    const motion::Clip back = written_and_read(turned);
+    EXPECT_LT(largest_joint_distance(back, clip), 1e-9) << axis;
+    EXPECT_TRUE(decided(back, axis == 'Z' ? "upside down" : "up axis: " + axis_name(axis))) << axis;
+    ReadConfig asked;
+    asked.up = axis;
+    EXPECT_LT(largest_joint_distance(written_and_read(turned, asked), clip), 1e-9);
+    asked.up = 'z';
+    EXPECT_LT(largest_joint_distance(written_and_read(turned, asked), turned), 1e-9)
+        << "the user is believed";
+  }
+}
+
+TEST(ReadMotion, CrawlingIsNoReasonToTurnTheWorld) {
+  // Flat on the belly, sliding forward: the body stands along x, but the floor is under it.
+  motion::Clip clip = test::random_clip(5, 90, 0.05);
+  const Quaterniond lie(Eigen::AngleAxisd(-test::kPi / 2, Vector3d::UnitX()));
+  rotate_world(lie, clip);
+  for (std::size_t t = 0; t < clip.trans.size(); ++t) clip.trans[t].y() += 0.01 * static_cast<double>(t);
+  clip.body_model = "smplx";
+  clip.name = "crawl";
+  const motion::Clip back = written_and_read(clip);
+  EXPECT_EQ(back.trans, clip.trans);
+  EXPECT_TRUE(decided(back, "lies")) << back.decisions[2];
+}
+
+TEST(ReadMotion, FindsCentimetresAndMillimetres) {
+  const motion::Clip clip = foreign("walk");
+  for (const double scale : {100.0, 1000.0}) {
+    motion::Clip large = clip;
+    scale_world(scale, large);
+    const motion::Clip back = written_and_read(large);
+    EXPECT_LT(largest_joint_distance(back, clip), 1e-9) << scale;
+    EXPECT_TRUE(decided(back, scale == 100.0 ? "centimetres" : "millimetres"));
+    ReadConfig asked;
+    asked.scale = 1.0 / scale;
+    EXPECT_LT(largest_joint_distance(written_and_read(large, asked), clip), 1e-9);
+  }
+}
+
+/// Jumps, two seconds each: half a metre up and down between two pauses, √(8 h / g) = 0.64 s in the air.
+/// @param rates  at which each was recorded; the file says `label`
+motion::Clip jumping(const std::vector<double>& rates, double label) {
+  const double half = std::sqrt(2 * 0.5 / 9.81);
+  motion::Clip clip = test::standing_clip(0, test::standing_height(), label);
+  clip.body_model = "smplx";
+  clip.name = "jumps";
+  for (const double rate : rates) {
+    motion::Clip jump = test::standing_clip(static_cast<int>(2 * rate), test::standing_height(), label);
+    for (std::size_t t = 0; t < jump.trans.size(); ++t) {
+      const double s = static_cast<double>(t) / rate - 1.0;
+      if (std::abs(s) < half) jump.trans[t].z() += 0.5 - 0.5 * 9.81 * s * s;
+    }
+    clip.rotations.insert(clip.rotations.end(), jump.rotations.begin(), jump.rotations.end());
+    clip.trans.insert(clip.trans.end(), jump.trans.begin(), jump.trans.end());
+  }
+  return clip;
+}
+
+TEST(ReadMotion, ThreeFallsThatAgreeTellTheFrameRate) {
+  for (const auto& [label, rate] : {std::pair{60.0, 120.0}, {30.0, 20.0}, {120.0, 60.0}, {30.0, 120.0}}) {
+    const motion::Clip wrong = jumping({rate, rate, rate}, label);
+    const motion::Clip back = written_and_read(wrong);
+    EXPECT_EQ(back.fps, rate) << label;
+    EXPECT_TRUE(decided(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
+    ReadConfig asked;
+    asked.fps = label;
+    EXPECT_EQ(written_and_read(wrong, asked).fps, label) << "the user is believed";
+  }
+}
+
+TEST(ReadMotion, FewFallsAndFallsThatDisagreeOnlySuggestAFrameRate) {
+  const std::vector<std::vector<double>> jumps = {{60.0}, {60.0, 60.0}, {60.0, 60.0, 45.0}};
+  for (const std::vector<double>& rates : jumps) {
+    const motion::Clip back = written_and_read(jumping(rates, 30.0));
+    EXPECT_EQ(back.fps, 30.0) << rates.size();
+    EXPECT_TRUE(decided(back, "frame rate: 30 fps, as given"));
+    ASSERT_EQ(back.warnings.size(), 1u) << rates.size();
+    EXPECT_NE(back.warnings[0].find("--fps 60"), std::string::npos) << back.warnings[0];
+  }
+}
+
+TEST(ReadMotion, SpeedsThatNoHumanHasAreNamed) {
+  motion::Clip clip = foreign("walk");
+  clip.fps = 300.0;
+  const motion::Clip back = written_and_read(clip);
+  ASSERT_FALSE(back.warnings.empty());
+  EXPECT_NE(back.warnings[0].find("m/s"), std::string::npos);
+}
+
+TEST(ReadMotion, AFloorThatTheUserNamesIsZeroAndStays) {
+  motion::Clip clip = foreign("walk");
+  shift_world({0, 0, 0.4}, clip);
+  EXPECT_TRUE(decided(written_and_read(clip), "floor: at 0.4"));
+  ReadConfig asked;
+  asked.floor = 0.3;  // the motion hovers 0.1 m over the floor that the user names
+  const motion::Clip back = written_and_read(clip, asked);
+  motion::PreparationReport report;
+  motion::prepare_reference(back, {}, &report);
+  EXPECT_EQ(report.floor_shift_mm, 0.0);
+  EXPECT_NEAR(detect_floor(back), 0.1, 0.01);
+}
+
+TEST(ReadMotion, OurOwnFilesAreBelieved) {
+  motion::Clip clip = foreign("walk");
+  rotate_world(rotation_to_z_up('y'), clip);
+  clip.body_model = "mimicx";
+  EXPECT_EQ(written_and_read(clip).trans, clip.trans);
+}
+
+TEST(ReadMotion, OptionsThatMakeNoSenseAreRefused) {
+  const motion::Clip clip = foreign("wave");
+  ReadConfig up, scale, fps;
+  up.up = 'w';
+  scale.scale = -1.0;
+  fps.fps = 0.0;
+  for (const ReadConfig& bad : {up, scale, fps})
+    EXPECT_THROW(written_and_read(clip, bad), std::invalid_argument);
+}
+
+TEST(World, EveryAxisCanBeUp) {
+  const Array<char, 6> axes = {'x', 'y', 'z', 'X', 'Y', 'Z'};
+  for (int i = 0; i < 6; ++i) {
+    const char axis = axes[i];
+    const Vector3d up = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(i % 3);
+    EXPECT_LT((rotation_to_z_up(axis) * up - Vector3d::UnitZ()).norm(), 1e-12) << axis;
+  }
+  EXPECT_LT((rotation_to_z_up('y') * Vector3d(1, 2, 3) - Vector3d(1, -3, 2)).norm(), 1e-12);
+  EXPECT_THROW(rotation_to_z_up('q'), std::invalid_argument);
+}
+
+TEST(World, ARotationTurnsEveryJointAndEveryCamera) {
+  motion::Clip clip = test::random_clip(7, 6, 0.6);
+  motion::Keypoints k;
+  k.extrinsics = {Eigen::Matrix4d::Identity()};
+  k.extrinsics[0].topRightCorner<3, 1>() = Vector3d(1, 2, 3);
+  clip.keypoints = k;
+  for (const char* model : {"mimicx", "smplh"}) {
+    clip.body_model = model;
+    const Quaterniond R(Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized()));
+    motion::Clip turned = clip;
+    rotate_world(R, turned);
+    shift_world({0.3, -0.2, 5}, turned);
+    const auto before = motion::poses_of(clip), after = motion::poses_of(turned);
+    for (std::size_t t = 0; t < before.size(); ++t)
+      for (std::size_t j = 0; j < kBodies; ++j) {
+        const Vector3d expected = R * before[t].p_WB[j] + Vector3d(0.3, -0.2, 5);
+        EXPECT_LT((after[t].p_WB[j] - expected).norm(), 1e-12);
+        const Eigen::Vector4d seen = turned.keypoints->extrinsics[0] * after[t].p_WB[j].homogeneous();
+        EXPECT_LT((seen - clip.keypoints->extrinsics[0] * before[t].p_WB[j].homogeneous()).norm(), 1e-12);
+      }
+  }
+}
+
+TEST(Motionx, RoundTripIsExactAndKeepsWhatIsNotUsed) {
+  Eigen::MatrixXd values(5, 322);
+  Random random(3, {1});
+  for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = 0.3 * random.normal();
+  values.rightCols(10).rowwise() = values.row(0).tail(10).eval();
+  const motion::Clip clip = motionx_from(from_matrix(values), "m", "m.npy");
+  const Eigen::MatrixXd back = to_matrix(to_motionx(clip));
+  EXPECT_LT((back - values).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(back.middleCols(66, 243), values.middleCols(66, 243)) << "hands, jaw and face to the bit";
+  // y up in the file: the pelvis of frame 0, turned by hand.
+  const Vector3d pelvis = values.row(0).segment<3>(309).transpose() + mimicx::rest_pelvis("smplx");
+  EXPECT_LT((motion::poses_of(clip)[0].p_WB[0] - Vector3d(pelvis.x(), -pelvis.z(), pelvis.y())).norm(),
+            1e-12);
+}
+
+TEST(Motionx, TheAistScaleIsUndone) {
+  const motion::Clip walk = foreign("walk");
+  Eigen::MatrixXd values = to_matrix(to_motionx(walk));
+  values.middleCols(309, 3) *= 94.0;
+  values.col(311) *= -1.0;
+  const motion::Clip clip = motionx_from(from_matrix(values), "walk", "walk.npy");
+  EXPECT_LT(largest_joint_distance(clip, walk), 1e-9);
+  EXPECT_TRUE(decided(clip, "AIST"));
+  EXPECT_FALSE(decided(motionx_from(to_motionx(walk), "walk", "walk.npy"), "AIST")) << "not twice";
+}
+
+TEST(Motionx, UpIsAnAxisOfTheFile) {
+  const motion::Clip walk = foreign("walk");
+  const fs::path path = test::scratch("walk.npy");
+  write_motion(path, walk);
+  ReadConfig asked;
+  asked.up = 'y';
+  EXPECT_LT(largest_joint_distance(read_motion(path, asked), walk), 1e-9) << "y is up in the format already";
+  EXPECT_TRUE(decided(read_motion(path), "up axis: y, turned to z"));
+
+  motion::Clip turned = walk;  // written with its own axes, z up, against the custom of the format
+  rotate_world(rotation_to_z_up('y'), turned);
+  write_motion(path, turned);
+  const motion::Clip found = read_motion(path);
+  EXPECT_TRUE(decided(found, "up axis: z (")) << found.decisions[2];
+  EXPECT_LT(largest_joint_distance(found, walk), 1e-9);
+  asked.up = 'z';
+  EXPECT_LT(largest_joint_distance(read_motion(path, asked), walk), 1e-9);
+}
+
+TEST(Motionx, OtherShapesAreRefused) {
+  for (const Eigen::MatrixXd& bad : {Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 321)), Eigen::MatrixXd(0, 322)})
+    EXPECT_THROW(motionx_from(from_matrix(bad), "m", "m.npy"), DataError);
+  Eigen::MatrixXd nan = Eigen::MatrixXd::Zero(3, 322);
+  nan(1, 5) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(motionx_from(from_matrix(nan), "m", "m.npy"), DataError);
+  motion::Clip fast = foreign("wave");
+  fast.fps = 60;
+  EXPECT_THROW(to_motionx(fast), std::invalid_argument);
+}
+
+TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
+  const motion::Clip clip = foreign("walk");
+  const fs::path npz = test::scratch("a.npy"), npy = test::scratch("b.npz");
+  write_file_atomically(npz, format_npz(motion::to_npz(clip)));
+  write_file_atomically(npy, format_npy(to_motionx(clip)));
+  EXPECT_LT(largest_joint_distance(read_motion(npz), clip), 1e-9);
+  EXPECT_LT(largest_joint_distance(read_motion(npy), clip), 1e-9);
+}
+
+TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
+  const motion::Clip clip = foreign("walk");
+  for (const char* name : {"WALK.BVH", "walk.Npz", "walk.NPY"}) {
+    write_motion(test::scratch(name), clip);
+    EXPECT_TRUE(is_motion_file(test::scratch(name))) << name;
+    EXPECT_LT(largest_joint_distance(read_motion(test::scratch(name)), clip), 1e-6) << name;
+  }
+}
+
+TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
+  const fs::path folder = test::scratch("folder.npz"), empty = test::scratch("empty.npz"),
+                 text = test::scratch("text.npy"), cut = test::scratch("cut.npz"),
+                 locked = test::scratch("locked.npz");
+  fs::create_directories(folder);
+  write_file_atomically(empty, "");
+  write_file_atomically(text, "once upon a time");
+  const std::string whole = format_npz(motion::to_npz(foreign("wave")));
+  write_file_atomically(cut, whole.substr(0, whole.size() / 2));
+  for (const fs::path& path : {folder, empty, text, cut, test::scratch("none.npz"), fs::path("/dev/zero")}) {
+    try {
+      read_motion(path);
+      ADD_FAILURE() << path;
+    } catch (const DataError& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.rfind(path.string(), 0), 0u) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+  }
+}
+
+TEST(ReadMotion, ANumberThatIsFarTooLargeIsSaidInFewDigits) {
+  motion::Clip own = foreign("wave");
+  Npz rate = motion::to_npz(own);
+  own.body_model = "mimicx";
+  Npz betas = motion::to_npz(own);
+  rate.set("mocap_framerate", NpyArray::scalar(1e308));
+  const std::vector<double> shape(10, 1e308);
+  betas.set("betas", NpyArray::from_double({10}, shape.data()));
+  const std::string bvh = "HIERARCHY\nROOT a\n{\nOFFSET 1e308 0 0\n", deepmimic = "{\"Frames\": [[1e308";
+  for (const std::string& bytes : {format_npz(rate), format_npz(betas), bvh, deepmimic}) try {
+      motion_from(bytes, "a");
+      ADD_FAILURE() << bytes.substr(0, 80);
+    } catch (const DataError& error) {
+      EXPECT_NE(std::string(error.what()).find("found 1e+308"), std::string::npos) << error.what();
+    }
+}
+
+TEST(ReadMotion, AFolderWithAPipeInItIsLookedThroughWithoutWaiting) {
+  const fs::path pipe = test::scratch("pipe.txt");
+  fs::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_FALSE(is_motion_file(pipe));
+  EXPECT_FALSE(holds_positions(pipe));
+  EXPECT_THROW(read_motion(pipe), DataError);
+}
+
+TEST(SharedMotions, AmassAndMotionxFilesOfTheSameMotionAgree) {
+  const fs::path root = fs::path(MIMICX_SHARED_DIR) / "motions";
+  if (!fs::exists(root / "motionx")) GTEST_SKIP() << "no shared motions here";
+  int compared = 0;
+  for (const auto& file : fs::directory_iterator(root / "motionx")) {
+    motion::Clip x = read_motion(file.path());
+    const motion::Clip h = read_motion(root / "amass" / (file.path().stem().string() + "_poses.npz"));
+    // J0 of both models is known to half a millimetre; without it, single precision is left.
+    EXPECT_LT(largest_joint_distance(x, h), 1e-3) << file.path();
+    shift_world(motion::poses_of(h)[0].p_WB[0] - motion::poses_of(x)[0].p_WB[0], x);
+    EXPECT_LT(largest_joint_distance(x, h), 2e-6) << file.path();
+    ++compared;
+  }
+  EXPECT_EQ(compared, 8);
+}
+
+TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
+  const fs::path root = fs::path(MIMICX_SHARED_DIR) / "motions";
+  if (!fs::exists(root)) GTEST_SKIP() << "no shared motions here";
+  int files = 0;
+  for (const char* folder : {"amass", "video", "motionx"})
+    for (const auto& file : fs::directory_iterator(root / folder)) {
+      const motion::Clip clip = read_motion(file.path());
+      EXPECT_TRUE(decided(clip, std::string("up axis: ") + (folder == std::string("motionx") ? "y" : "z")))
+          << file.path();
+      EXPECT_EQ(clip.fps, 30.0) << file.path();
+      for (const char* suffix : {"back.npz", "back.npy", "back.bvh"}) {
+        write_motion(test::scratch(suffix), clip);
+        EXPECT_LT(largest_joint_distance(read_motion(test::scratch(suffix)), clip), 1e-6)
+            << file.path() << ' ' << suffix;
+      }
+      ++files;
+    }
+  EXPECT_EQ(files, 27);
+}
+
+TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
+  const fs::path root = fs::path(MIMICX_SHARED_DIR) / "motions";
+  if (!fs::exists(root)) GTEST_SKIP() << "no shared motions here";
+  int files = 0;
+  for (const char* folder : {"bvh", "deepmimic"})
+    for (const auto& file : fs::directory_iterator(root / folder)) {
+      const motion::Clip clip = read_motion(file.path());
+      EXPECT_TRUE(is_motion_file(file.path())) << file.path();
+      EXPECT_TRUE(decided(clip, "format: ")) << file.path();
+      const bool bvh = folder == std::string("bvh");
+      EXPECT_EQ(clip.fps, (bvh ? read_bvh(file.path()) : read_deepmimic(file.path())).fps) << file.path();
+      for (const char* suffix : {"back.bvh", "back.npz"}) {
+        write_motion(test::scratch(suffix), clip);
+        EXPECT_LT(largest_joint_distance(read_motion(test::scratch(suffix)), clip), 1e-6)
+            << file.path() << ' ' << suffix;
+      }
+      ++files;
+    }
+  EXPECT_EQ(files, 28);
+  EXPECT_FALSE(is_motion_file(root / "README.md"));
+}
+
+TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
+  const motion::Clip clip = foreign("walk");
+  const fs::path path = test::scratch("walk.npz");  // a BVH by another name
+  write_motion(test::scratch("walk.bvh"), clip);
+  fs::copy_file(test::scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
+  EXPECT_LT(largest_joint_distance(read_motion(path), clip), 1e-6);
+  ReadConfig asked;
+  asked.fps = 25.0;
+  EXPECT_EQ(read_motion(path, asked).fps, 25.0);
+  EXPECT_EQ(recognise("\xEF\xBB\xBF\r\n hierarchy\n"), MotionFormat::kBvh);
+  EXPECT_EQ(recognise(" {\"Loop\": 1}"), MotionFormat::kDeepMimic);
+  EXPECT_EQ(recognise("HIERARCH"), MotionFormat::kUnknown);
+  EXPECT_EQ(recognise(""), MotionFormat::kUnknown);
+}
+
+}  // namespace
+}  // namespace mimicx::import

@@ -1,0 +1,116 @@
+#include "judge/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/temporary_folder.h"
+#include "motion/clip_file.h"
+#include "motion/standing_clip.h"
+
+namespace mimicx::judge {
+namespace {
+
+struct Evaluate : testing::Test {
+  void SetUp() override {
+    std::filesystem::create_directory(truth);
+    std::filesystem::create_directory(motions);
+  }
+  /// A truth and a motion that is the truth moved by `metres` to the side.
+  void add_pair(const std::string& name, double metres) const {
+    motion::Clip clip = motion::standing_clip(20);
+    motion::write_clip(truth / (name + ".npz"), clip);
+    for (auto& t : clip.trans) t.x() += metres;
+    motion::write_clip(motions / (name + ".npz"), clip);
+  }
+  double metric(const EvaluatedMotion& m, const std::string& name) const {
+    for (const auto& d : motion::metric_definitions())
+      if (name == d.name) return (m.metrics.*d.value).value;
+    throw std::invalid_argument(name);
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path truth = folder.path / "truth", motions = folder.path / "motions";
+};
+
+TEST_F(Evaluate, AShiftedMotionScoresItsShift) {
+  add_pair("a", 0.030);
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 1u);
+  ASSERT_TRUE(e.motions[0].ok) << e.motions[0].reason;
+  EXPECT_NEAR(metric(e.motions[0], "MRPE"), 30.0, 1e-6);
+  EXPECT_NEAR(metric(e.motions[0], "gMPJPE"), 30.0, 1e-6);
+  EXPECT_NEAR(metric(e.motions[0], "MPJPE"), 0.0, 1e-6);
+}
+
+TEST_F(Evaluate, TheMeanIsOverTheFilesThatHaveAValue) {
+  add_pair("a", 0.010);
+  add_pair("b", 0.030);
+  std::ofstream(motions / "c.npz") << "broken";
+  const Evaluation e = evaluate_folders(truth, motions);
+  ASSERT_EQ(e.motions.size(), 3u);
+  EXPECT_FALSE(e.motions[2].ok);
+  EXPECT_NEAR(mean_of(e, motion::metric_definitions().front()), 20.0, 1e-6);
+}
+
+TEST_F(Evaluate, WhatHasNoPartnerIsSaid) {
+  add_pair("a", 0.0);
+  motion::write_clip(truth / "only_truth.npz", motion::standing_clip(20));
+  motion::write_clip(motions / "only_motion.npz", motion::standing_clip(20));
+  const Evaluation e = evaluate_folders(truth, motions);
+  EXPECT_EQ(e.unmatched, std::vector<std::string>{"only_truth"});
+  ASSERT_EQ(e.motions.size(), 2u);
+  EXPECT_FALSE(e.motions[1].ok);
+  EXPECT_NE(e.motions[1].reason.find("only_motion"), std::string::npos);
+}
+
+TEST_F(Evaluate, LengthsThatDifferAreAFailureOfThatFileAlone) {
+  add_pair("a", 0.0);
+  add_pair("b", 0.0);
+  motion::write_clip(motions / "a.npz", motion::standing_clip(15));
+  const Evaluation e = evaluate_folders(truth, motions);
+  EXPECT_FALSE(e.motions[0].ok);
+  EXPECT_TRUE(e.motions[1].ok);
+}
+
+TEST_F(Evaluate, SeveralFoldersAreComparedOverTheMotionsTheyShare) {
+  add_pair("a", 0.010);
+  add_pair("b", 0.030);
+  add_pair("c", 0.090);
+  const std::filesystem::path fewer = folder.path / "fewer";
+  std::filesystem::create_directory(fewer);
+  for (const char* name : {"a.npz", "b.npz"})  // exact ones
+    std::filesystem::copy(truth / name, fewer / name);
+  const Comparison comparison = compare_folders(truth, {motions.string(), fewer.string()});
+  EXPECT_EQ(comparison.left_out, 1);
+  ASSERT_EQ(comparison.evaluations.size(), 2u);
+  EXPECT_NEAR(mean_of(comparison.evaluations[0], motion::metric_definitions().front()), 20.0, 1e-6);
+  EXPECT_NEAR(mean_of(comparison.evaluations[1], motion::metric_definitions().front()), 0.0, 1e-6);
+  EXPECT_NE(format_comparison(comparison).find("means over 2 motions"), std::string::npos);
+  const auto json = nlohmann::json::parse(comparison_json(comparison));
+  EXPECT_EQ(json.at("motions").size(), 2u);
+  EXPECT_NEAR(json.at("rows").at(0).at("mean").at("MRPE").get<double>(), 20.0, 1e-6);
+}
+
+TEST_F(Evaluate, FoldersWithoutMotionsAreRefused) {
+  EXPECT_THROW(evaluate_folders(truth, motions), DataError);
+  EXPECT_THROW(evaluate_folders(truth, folder.path / "none"), DataError);
+}
+
+TEST_F(Evaluate, JsonHasEveryMetricWithItsDefinition) {
+  add_pair("a", 0.010);
+  const auto json = nlohmann::json::parse(evaluation_json(evaluate_folders(truth, motions)));
+  EXPECT_EQ(json["definitions"].size(), motion::metric_definitions().size());
+  for (const auto& d : motion::metric_definitions()) {
+    EXPECT_FALSE(json["definitions"][d.name]["definition"].get<std::string>().empty());
+    EXPECT_TRUE(json["motions"][0]["metrics"].contains(d.name));
+    EXPECT_TRUE(json["mean"].contains(d.name));
+  }
+  EXPECT_NEAR(json["mean"]["MRPE"].get<double>(), 10.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace mimicx::judge

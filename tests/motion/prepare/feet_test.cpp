@@ -1,0 +1,91 @@
+#include "motion/prepare/feet.h"
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "motion/made_motions.h"
+#include "motion/prepare/prepare.h"
+#include "synth/synth.h"
+
+namespace mimicx::motion {
+namespace {
+
+Clip walk() {
+  synth::SynthConfig config;
+  config.kind = "walk";
+  config.seed = 3;
+  return synth::synthesize(config);
+}
+
+TEST(Feet, ExactMotionsAreLeftAlone) {
+  for (const std::string& kind : synth::synthetic_kinds()) {
+    synth::SynthConfig config;
+    config.kind = kind;
+    PreparationReport report;
+    prepare_reference(synth::synthesize(config), {}, &report);
+    EXPECT_EQ(report.foot_level_deg, 0.0) << kind;
+    EXPECT_LT(report.change_max_mm, 0.5) << kind;
+  }
+}
+
+TEST(Feet, AConstantErrorOfTheFeetIsRemoved) {
+  const Reference exact = prepare_reference(walk(), {}, nullptr);
+  for (const Vector3d& error : {Vector3d(15 * kDegree, 0, 0), Vector3d(-12 * kDegree, 0, 5 * kDegree)}) {
+    PreparationReport report;
+    const Reference levelled = prepare_reference(test::with_turned_feet(walk(), error), {}, &report);
+    EXPECT_NEAR(report.foot_level_deg, error.norm() / kDegree, 1.0);
+    double worst = 0.0;
+    for (std::size_t t = 0; t < exact.poses.size(); ++t)
+      for (std::size_t i = 0; i < kBodies; ++i)
+        worst = std::max(worst, (levelled.poses[t].p_WB[i] - exact.poses[t].p_WB[i]).norm());
+    EXPECT_LT(worst, 0.015);
+
+    PreparationConfig off;
+    off.level_feet = false;
+    const Reference raw = prepare_reference(test::with_turned_feet(walk(), error), off, nullptr);
+    double raw_worst = 0.0;
+    for (std::size_t t = 0; t < exact.poses.size(); ++t)
+      raw_worst = std::max(raw_worst, (raw.poses[t].p_WB[kLeftFoot] - exact.poses[t].p_WB[kLeftFoot]).norm());
+    EXPECT_GT(raw_worst, 0.02) << "the error is large enough for the test to mean something";
+  }
+}
+
+TEST(Feet, StandingFramesAreThoseOfTheStanceFoot) {
+  const Reference r = prepare_reference(walk(), {}, nullptr);
+  const auto left = standing_frames(r.poses, kLeftAnkle, r.fps),
+             right = standing_frames(r.poses, kRightAnkle, r.fps);
+  int both = 0, none = 0;
+  for (std::size_t t = 0; t < left.size(); ++t) {
+    both += left[t] && right[t];
+    none += !left[t] && !right[t];
+  }
+  EXPECT_GT(both, 20) << "stands before and after the walk";
+  EXPECT_LT(none, static_cast<int>(left.size()) / 5) << "a walk has a foot on the floor";
+}
+
+TEST(Feet, ToesBelowTheFloorAreBentUntilTheyLieOnIt) {
+  Reference r = prepare_reference(walk(), {}, nullptr);
+  // Heel up by 40° about the ball of the left foot, toes stiff: their tips are far below the floor.
+  ReferenceFrame& frame = r.frames[0];
+  const Vector3d ball = r.poses[0].p_WB[kLeftFoot];
+  frame.q[kLeftAnkle] = frame.q[kLeftAnkle] * exp_map(Vector3d(40 * kDegree, 0, 0));
+  r.poses[0] = forward_kinematics(r.character, frame.p_root, frame.q);
+  frame.p_root.z() += ball.z() - r.poses[0].p_WB[kLeftFoot].z();
+  r.poses[0] = forward_kinematics(r.character, frame.p_root, frame.q);
+  const auto tips = [&] {
+    double lowest = 1.0;
+    for (const ContactPoint& point : r.character.contact_points)
+      if (point.body == kLeftFoot)
+        lowest = std::min(lowest, (r.poses[0].p_WB[kLeftFoot] + r.poses[0].q_WB[kLeftFoot] * point.p_B).z());
+    return lowest;
+  };
+  ASSERT_LT(tips(), -0.02);
+  const auto before = r.poses[0];
+  bend_toes(r);
+  r.poses[0] = forward_kinematics(r.character, frame.p_root, frame.q);
+  EXPECT_NEAR(tips(), 0.0, 1e-6);
+  for (std::size_t i = 0; i < kBodies; ++i) EXPECT_LT((r.poses[0].p_WB[i] - before.p_WB[i]).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace mimicx::motion

@@ -1,0 +1,323 @@
+// `mimicx plan`, end to end on motions of a second or two.
+#include "plan/plan_command.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/npz/npz.h"
+#include "core/temporary_folder.h"
+#include "core/units.h"
+#include "files/plan_file.h"
+#include "motion/clip_file.h"
+#include "motion/standing_clip.h"
+#include "program/small_run.h"
+#include "record/feasibility_file.h"
+#include "report/glossary.h"
+#include "run/results.h"
+
+namespace mimicx::plan {
+namespace {
+
+struct PlanMotions : testing::Test {
+  void SetUp() override {
+    motion::write_clip(stand, motion::standing_clip(20));
+    motion::write_clip(other, motion::standing_clip(30));
+    motion::write_clip(third, motion::standing_clip(35));
+    motion::Clip leaning = motion::standing_clip(45);  // by 45° to the side, as nobody can stand
+    for (auto& frame : leaning.rotations)
+      frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
+    motion::write_clip(lean, leaning);
+  }
+  PlanMotionsConfig planning(const std::string& name, const std::vector<std::string>& inputs) const {
+    PlanMotionsConfig config = plan_configuration();
+    config.run.inputs = inputs;
+    config.run.out = out(name);
+    config.planning.plan.horizon.backtracks = 1;  // what is lost shall be so soon
+    return config;
+  }
+  static program::Outcome run(const PlanMotionsConfig& config, int asked = -1) {
+    return program::run_in_context(
+        [&](const record::RunContext& context) { return plan_motions(config, context); }, asked);
+  }
+  record::SequenceEntry entry(const std::string& name, std::size_t k = 0) const {
+    return record::read_manifest(out(name) / "manifest.json").sequences.at(k);
+  }
+  std::filesystem::path out(const std::string& name) const { return folder.path / name; }
+
+  TemporaryFolder folder;
+  std::string stand = out("stand.npz").string(), other = out("other.npz").string(),
+              third = out("third.npz").string(), lean = out("lean.npz").string();
+};
+
+TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
+  EXPECT_EQ(run(planning("run", {stand})).value, record::RunOutcome::kAllGood);
+  const auto files = run::results_of(out("run"));
+  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz",
+                           "references/stand.npz", "plans/stand.npz", "feasibility/stand.npz"})
+    EXPECT_TRUE(files.contains(name)) << name;
+  EXPECT_EQ(files.size(), 7u);
+  EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
+  const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
+  EXPECT_EQ(motion.at("joint_torques").shape, (std::vector<std::size_t>{20, 55}));
+  EXPECT_EQ(motion.at("ground_wrenches").shape, (std::vector<std::size_t>{20, 22, 6}));
+}
+
+TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
+  run(planning("run", {stand}));
+  const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
+  EXPECT_EQ(manifest.method, "plan");
+  EXPECT_EQ(manifest.samples, 0);
+  EXPECT_EQ(value_of(manifest.settings, "plan_horizon"), control::HorizonConfig{}.horizon);
+  EXPECT_EQ(value_of(manifest.settings, "physics_rate"), physics::SimulationConfig{}.rate);
+  const record::SequenceEntry& entry = manifest.sequences.at(0);
+  EXPECT_TRUE(entry.ok) << entry.reason;
+  EXPECT_EQ(entry.method, "plan");
+  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
+  EXPECT_EQ(value_of(entry.plan, "frames"), 20);
+  EXPECT_GT(value_of(entry.plan, "iterations"), 0);
+  EXPECT_LT(value_of(entry.metrics, "gMPJPE"), 5.0);
+  EXPECT_LT(value_of(entry.audit, "root_force_mean_N"), 0.05 * 9.81 * make_character().total_mass());
+  for (const std::string& note : entry.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
+}
+
+TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
+  run(planning("run", {stand}));
+  const std::string page = read_file(out("run") / "report.html");
+  EXPECT_NE(page.find("\"words\":\"distance from the prepared reference\""), std::string::npos);
+  EXPECT_NE(page.find("\"name\":\"keypoints (Eq. 3)\""), std::string::npos) << "a factor of the reward";
+  for (const char* who : {"input", "reference", "cleaned"})
+    EXPECT_NE(page.find("\"who\":\"" + std::string(who) + "\",\"frames\":20,"), std::string::npos) << who;
+  EXPECT_EQ(page.find("falls in training"), std::string::npos);
+  EXPECT_EQ(page.find("cannot be shown"), std::string::npos);
+}
+
+TEST_F(PlanMotions, TheReportHasWordsForEveryNumberOfTheManifest) {
+  run(planning("run", {stand}));
+  const record::SequenceEntry made = entry("run");
+  for (const auto& [group, values] :
+       {std::pair{"metrics", made.input_metrics}, std::pair{"metrics", made.metrics},
+        std::pair{"plan", made.plan}, std::pair{"preparation", made.preparation},
+        std::pair{"feasibility", made.feasibility}, std::pair{"audit", made.audit}})
+    for (const auto& [name, value] : values)
+      EXPECT_TRUE(report::has_words(group, name)) << group << ' ' << name;
+}
+
+TEST_F(PlanMotions, TheInputIsKeptAsItWasReadAndMadeAgainWhereItIsDamaged) {
+  run(planning("run", {stand}));
+  const std::filesystem::path kept = out("run") / "inputs" / "stand.npz";
+  const motion::Clip input = motion::read_clip(kept), given = motion::read_clip(stand);
+  EXPECT_EQ(input.trans, given.trans);
+  EXPECT_EQ(input.rotations, given.rotations);
+  const std::string bytes = read_file(kept), page = read_file(out("run") / "report.html");
+  std::filesystem::remove(kept);
+  run(planning("run", {stand}));
+  EXPECT_EQ(read_file(kept), bytes);
+  EXPECT_EQ(read_file(out("run") / "report.html"), page);
+}
+
+TEST_F(PlanMotions, TheRewardIsTheProductOfItsFactors) {
+  run(planning("run", {stand}));
+  const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
+  const std::vector<double> rewards = motion.at("reward").to_double(),
+                            factors = motion.at("reward_factors").to_double();
+  ASSERT_EQ(factors.size(), 6 * rewards.size());
+  for (std::size_t t = 0; t < rewards.size(); ++t) {
+    double product = 1.0;
+    for (std::size_t k = 0; k < 6; ++k) product *= factors[6 * t + k];
+    EXPECT_NEAR(product, rewards[t], 1e-12) << t;
+  }
+}
+
+TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {
+  run(planning("run", {stand}));
+  const files::StoredPlan stored = files::read_plan(out("run") / "plans" / "stand.npz");
+  const auto velocities = read_npz(out("run") / "motions" / "stand.npz").at("velocities").to_double();
+  ASSERT_EQ(stored.plan.states.size(), 20u);
+  for (std::size_t t = 1; t < 20; ++t) {
+    const physics::State<double>& x = stored.plan.states[t];
+    const double* row = velocities.data() + t * (6 + kDofs);
+    EXPECT_EQ(physics::to_eigen(x.v_root), Vector3d(row[0], row[1], row[2])) << t;
+    EXPECT_EQ(physics::to_eigen(x.omega[kPelvis]), Vector3d(row[3], row[4], row[5])) << t;
+    EXPECT_EQ(physics::to_eigen(x.omega[1]), Vector3d(row[6], row[7], row[8])) << t;
+  }
+}
+
+TEST_F(PlanMotions, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
+  PlanMotionsConfig config = planning("one", {other, third});
+  run(config);
+  config.run.out = out("two");
+  config.run.threads = 2;
+  int in_first = 0, in_second = 0;
+  for (int asked = 2; run(config, asked).value == record::RunOutcome::kInterrupted; asked += 2)
+    ++(std::filesystem::exists(out("two") / "motions" / "other.npz") ? in_second : in_first);
+  EXPECT_GT(in_first, 0);
+  EXPECT_GT(in_second, 0);
+  EXPECT_TRUE(entry("two", 0).ok && entry("two", 1).ok);
+  EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
+}
+
+TEST_F(PlanMotions, AFinishedMotionGetsItsStepsFromItsPlan) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  auto before = run::results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "plans" / "stand.npz");
+  config.run.substeps = true;
+  run(config);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "plans" / "stand.npz"), written) << "planned again";
+  auto after = run::results_of(out("run"));
+  EXPECT_EQ(after.erase("substeps/stand.npz"), 1u);
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  auto before = run::results_of(out("run"));
+  const auto written = std::filesystem::last_write_time(out("run") / "plans" / "stand.npz");
+  config.run.gains = true;
+  run(config);
+  EXPECT_EQ(std::filesystem::last_write_time(out("run") / "plans" / "stand.npz"), written) << "planned again";
+  auto after = run::results_of(out("run"));
+  const std::string gains = after.at("gains/stand.npz");
+  after.erase("gains/stand.npz");
+  EXPECT_EQ(after, before);
+  const std::vector<Eigen::MatrixXf> K = files::read_gains(out("run") / "gains" / "stand.npz").gains;
+  ASSERT_EQ(K.size(), 19u);
+  for (const Eigen::MatrixXf& one : K) EXPECT_GT(one.norm(), 0.0f);
+  config.run.out = out("at once");
+  config.run.threads = 2;
+  run(config);
+  EXPECT_EQ(run::results_of(out("at once")).at("gains/stand.npz"), gains);
+}
+
+TEST_F(PlanMotions, APlanOfAnotherInputIsNotTakenUp) {
+  run(planning("run", {stand}));
+  motion::write_clip(stand, motion::standing_clip(25));
+  run(planning("run", {stand}));
+  EXPECT_EQ(files::read_plan(out("run") / "plans" / "stand.npz").plan.states.size(), 25u);
+  EXPECT_EQ(entry("run").frames, 25);
+}
+
+TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
+  EXPECT_EQ(run(planning("run", {lean, stand})).value, record::RunOutcome::kSomeFailed);
+  const record::SequenceEntry lost = entry("run", 0), done = entry("run", 1);
+  EXPECT_FALSE(lost.ok);
+  EXPECT_EQ(lost.ending, record::Ending::kLost);
+  EXPECT_EQ(lost.output, "rejected/lean.npz");
+  EXPECT_LT(value_of(lost.plan, "frames"), 45);
+  for (const char* words :
+       {"the plan is lost at frame ", ": the ", " is 0.", " m from its reference",
+        "the reference is not feasible there: frames ", "the body tips over; ", " N m would have to hold it",
+        "; with help the body passes frames 0-", " N m turn it", "limit 0.5 m"})
+    EXPECT_NE(lost.reason.find(words), std::string::npos) << words << ": " << lost.reason;
+  EXPECT_EQ(lost.reason.find('_'), std::string::npos) << "names of our own: " << lost.reason;
+  EXPECT_GT(value_of(lost.feasibility, "infeasible_share"), 0.1);
+  EXPECT_EQ(value_of(done.feasibility, "infeasible_share"), 0.0);
+  EXPECT_EQ(read_npz(out("run") / "rejected" / "lean.npz").at("poses").shape.at(0), 45u);
+  EXPECT_TRUE(done.ok) << done.reason;
+}
+
+TEST_F(PlanMotions, TheFeasibilityOfEveryFrameIsInItsFileTheManifestAndTheReport) {
+  run(planning("run", {lean, stand}));
+  const record::RunFolder made{out("run")};
+  const record::FrameFeasibility lost = record::read_feasibility(made.feasibility("lean"));
+  const record::SequenceEntry says = entry("run", 0);
+  ASSERT_EQ(lost.need.size(), 45u);
+  double need = 0.0, help = 0.0;
+  for (const Vector6d& w : lost.need) need = std::max(need, w.tail<3>().norm());
+  for (const Vector6d& w : lost.help) help = std::max(help, lost.acceleration(w));
+  EXPECT_EQ(need, value_of(says.feasibility, "force_max_N"));
+  EXPECT_EQ(help, value_of(says.feasibility, "help_accel_max_m_s2"));
+  EXPECT_EQ(lost.help.size(), value_of(says.feasibility, "help_frames"));
+  EXPECT_EQ(lost.wrong.at(22), "tips");
+  // To lean needs the weight on the arm by which the centre of mass is beside the feet, and so does the soft
+  // stage.
+  const double weight = kGravity * lost.mass;
+  EXPECT_GT(lost.need.at(22).head<3>().norm(), 0.2 * weight);
+  EXPECT_GT(lost.help.at(22).norm(), 0.1 * weight);
+
+  const record::FrameFeasibility done = record::read_feasibility(made.feasibility("stand"));
+  EXPECT_EQ(done.need.size(), 20u);
+  EXPECT_TRUE(done.help.empty());
+  EXPECT_TRUE(std::isnan(value_of(entry("run", 1).feasibility, "help_frames")));
+  for (const std::string& word : done.wrong) EXPECT_EQ(word, "feasible");
+  const std::string page = read_file(made.report());
+  EXPECT_NE(page.find("\"help\":{\"force\":["), std::string::npos);
+  EXPECT_NE(page.find("\"tips\""), std::string::npos);
+}
+
+// Its first half second needs half of its weight from outside. Hard plans lose it.
+TEST_F(PlanMotions, FromSoftToHardARealReferenceIsFollowedThatNoBodyCanDo) {
+  const auto dance = std::filesystem::path(MIMICX_SHARED_DIR) / "motions/deepmimic/humanoid3d_dance_a.txt";
+  if (!std::filesystem::exists(dance)) GTEST_SKIP() << "no real motions beside the source tree";
+  PlanMotionsConfig config = plan_configuration();
+  config.run.inputs = {dance.string()};
+  config.run.out = out("run");
+  config.run.threads = 2;
+  run(config);
+  const record::SequenceEntry followed = entry("run");
+  EXPECT_TRUE(followed.ok) << followed.reason;
+  EXPECT_EQ(value_of(followed.plan, "by_way_of_help"), 1.0);
+  EXPECT_GT(value_of(followed.feasibility, "help_force_max_N"), 100.0);
+  // What is written has no help: its own forces explain it.
+  EXPECT_LT(value_of(followed.audit, "root_force_max_N"), 10.0);
+  for (const std::string& note : followed.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
+}
+
+TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
+  PlanMotionsConfig config = planning("run", {other});
+  config.run.limit_seconds = 1e-9;
+  run(config);
+  EXPECT_EQ(entry("run").ending, record::Ending::kLimitSeconds);
+  EXPECT_EQ(value_of(entry("run").plan, "frames"), 1);
+  config.run.limit_seconds = 0.0;
+  run(config);
+  EXPECT_EQ(entry("run").ending, record::Ending::kFollowed);
+  EXPECT_TRUE(entry("run").ok) << entry("run").reason;
+}
+
+TEST_F(PlanMotions, RefusesAFolderOfOtherSettings) {
+  PlanMotionsConfig config = planning("run", {stand});
+  run(config);
+  config.planning.plan.weights.position += 1.0;
+  EXPECT_THROW(run(config), std::invalid_argument);
+}
+
+TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
+  const NamedValues defaults = planning_settings({});
+  for (const auto& [name, value] : defaults) {
+    const bool is_switch = name == "self_contact" || name == "plan_soft_to_hard";
+    const double other = is_switch ? 1.0 - value : value + 1.0;
+    PlanningConfig config;
+    apply_setting(config, name, other);
+    const NamedValues changed = planning_settings(config);
+    for (std::size_t k = 0; k < defaults.size(); ++k)
+      EXPECT_EQ(changed[k].second, defaults[k].first == name ? other : defaults[k].second) << name;
+  }
+  PlanningConfig config;
+  EXPECT_THROW(apply_setting(config, "no_such_setting", 1.0), std::invalid_argument);
+  EXPECT_THROW(apply_setting(config, "plan_horizon", 1.5), std::invalid_argument);
+}
+
+TEST(PlanningSettings, WhatNoPlanCanHaveIsRefusedByName) {
+  EXPECT_NO_THROW(check(PlanningConfig{}));
+  for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"plan_horizon", 0},
+                                                                               {"plan_commit", 0},
+                                                                               {"plan_residual", 0},
+                                                                               {"plan_position", -1},
+                                                                               {"plan_derivatives", 3},
+                                                                               {"physics_rate", 100}}) {
+    PlanningConfig config;
+    apply_setting(config, name, value);
+    try {
+      check(config);
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::plan

@@ -1,0 +1,61 @@
+/// A policy that nobody has taught: random weights of the sizes that are taught, on a short squat.
+#pragma once
+
+#include "core/random.h"
+#include "motion/prepare/prepare.h"
+#include "physics/lanes.h"
+#include "policy_export/exported_policy.h"
+#include "rl/tracking/tracking_rollout.h"
+#include "synth/synth.h"
+
+namespace mimicx::policy_export {
+
+/// Its normaliser knows the states of its own roll-out; its actions are small.
+inline const files::StoredPolicy& small_policy() {
+  static const files::StoredPolicy policy = [] {
+    synth::SynthConfig config;
+    config.kind = "squat";
+    files::StoredPolicy made;
+    motion::Reference reference = motion::prepare_reference(synth::synthesize(config), {}, nullptr);
+    reference.frames.resize(33);
+    for (const physics::State<double>& x : rl::tracking::simulator_states(reference))
+      made.states.push_back(physics::lane_of(physics::in_all_lanes<physics::Pack<4>>(x), 0));
+    made.motion = rl::tracking::reference_of_states(reference, made.states);
+    made.motion.name = "a squat";
+    rl::AgentShape shape;
+    shape.observation_dim = rl::tracking::kStateSize;
+    shape.action_dim = kDofs;
+    shape.hidden = {128, 128};
+    shape.last_scale = 0.02F;
+    made.agent = rl::make_agent(shape, 4);
+    Random random(7, {});
+    for (nn::Matrix<float>& bias : made.agent.actor.biases)
+      for (Eigen::Index k = 0; k < bias.size(); ++k)
+        bias.data()[k] = static_cast<float>(0.02 * random.normal());
+    nn::Matrix<float> seen(0, shape.observation_dim);
+    const auto act = rl::tracking::mean_action({made.agent});
+    rl::tracking::roll_out(rl::tracking::make_tracking_clip(made.motion, {}), {},
+                           [&](int option, const float* state, float* action) {
+                             seen.conservativeResize(seen.rows() + 1, Eigen::NoChange);
+                             for (Eigen::Index k = 0; k < seen.cols(); ++k)
+                               seen(seen.rows() - 1, k) =
+                                   state[k] + static_cast<float>(0.05 * random.normal());
+                             act(option, state, action);
+                           });
+    const nn::Moments moments[] = {nn::moments_of(seen)};
+    nn::update<float>(made.agent.observations, moments);
+    return made;
+  }();
+  return policy;
+}
+
+inline const ExportedPolicy& exported_in_float() {
+  static const ExportedPolicy exported = export_policy(small_policy(), false);
+  return exported;
+}
+inline const ExportedPolicy& exported_in_8_bits() {
+  static const ExportedPolicy exported = export_policy(small_policy(), true);
+  return exported;
+}
+
+}  // namespace mimicx::policy_export

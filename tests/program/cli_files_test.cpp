@@ -1,0 +1,152 @@
+// The subcommands that look at files or write others.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/npz/npz.h"
+#include "import/bvh.h"
+#include "import/bvh_write.h"
+#include "import/motion_file.h"
+#include "physics/mjcf.h"
+#include "program/cli.h"
+
+namespace mimicx::program {
+namespace {
+
+TEST_F(Cli, EvaluateSaysWhatItCouldNotScore) {
+  for (const char* part : {"truth", "a", "b", "c", "d"}) std::filesystem::create_directories(path(part));
+  for (const char* file : {"truth/x.npz", "a/x.npz", "b/x.npz", "a/y.npz", "d/y.npz"})
+    motion::write_clip(path(file), motion::standing_clip(20));
+  std::ofstream(path("c/x.npz")) << "no archive";
+  const std::string truth = "evaluate --truth " + path("truth") + " --motions ";
+  EXPECT_EQ(mimicx(truth + path("b")).status, 0);
+  const Call foreign = mimicx(truth + path("a"));
+  EXPECT_EQ(foreign.status, 1);
+  EXPECT_TRUE(says(foreign, "the truth of y")) << foreign.text;
+  EXPECT_EQ(mimicx(truth + path("b") + " " + path("b")).status, 0);
+  const Call broken = mimicx(truth + path("b") + " " + path("c"));
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_TRUE(says(broken, "c/x: ")) << broken.text;
+  const Call apart = mimicx(truth + path("b") + " " + path("d"));
+  EXPECT_EQ(apart.status, 1);
+  EXPECT_TRUE(says(apart, "no motion is in all")) << apart.text;
+}
+
+TEST_F(Cli, InfoSaysWhatTheFileHolds) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  const Call call = mimicx("info " + path("a.npz"));
+  EXPECT_EQ(call.status, 0);
+  EXPECT_TRUE(says(call, "20 at 30 fps")) << call.text;
+  EXPECT_TRUE(says(call, "mimicx")) << call.text;
+}
+
+TEST_F(Cli, InfoOfOneFrameSaysWhatItHoldsAndThatItIsTooShort) {
+  motion::Clip clip = motion::standing_clip(1);
+  clip.keypoints.emplace();
+  clip.keypoints->names = {"nose", "left_hip", "right_hip"};
+  clip.keypoints->uvc.assign(1, std::vector<Vector3d>(3, Vector3d::Ones()));
+  clip.keypoints->extrinsics = {Eigen::Matrix4d::Identity()};
+  motion::write_clip(path("one.npz"), clip);
+  const Call call = mimicx("info " + path("one.npz"));
+  EXPECT_EQ(call.status, 1);
+  EXPECT_TRUE(says(call, "3 per frame, 2 of them with a place on the body, static camera")) << call.text;
+  EXPECT_TRUE(says(call, path("one.npz") + ": expected at least 2 frames to prepare it, found 1"))
+      << call.text;
+}
+
+TEST_F(Cli, ConvertKeepsTheMotion) {
+  const motion::Clip clip = motion::standing_clip(20);
+  motion::write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("convert " + path("a.npz") + " " + path("new/b.npz")).status, 0);
+  const motion::Clip back = motion::read_clip(path("new/b.npz"));
+  EXPECT_EQ(back.rotations, clip.rotations);
+  EXPECT_EQ(back.trans, clip.trans);
+}
+
+TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndSaysWhatItDecided) {
+  motion::write_clip(path("a.npz"), foreign_clip(60.0));
+  const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_TRUE(says(call, "a.npz: up axis: y, turned to z")) << call.text;
+  const Call info = mimicx("info " + path("b.npy"));
+  EXPECT_TRUE(says(info, "Motion-X") && says(info, "20 at 30 fps")) << info.text;
+  EXPECT_EQ(mimicx("convert " + path("a.npz") + " " + path("c.npy")).status, 1) << "60 fps do not fit";
+}
+
+TEST_F(Cli, AuditFailsLoudlyDoesTheRestAndWritesJson) {
+  motion::Clip clip = motion::standing_clip(20);
+  for (Vector3d& p : clip.trans) p.z() += 0.2;  // hovers
+  motion::write_clip(path("hover.npz"), clip);
+  std::ofstream(path("bad.npz")) << "PK nonsense";
+  const Call call =
+      mimicx("audit " + path("bad.npz") + " " + path("hover.npz") + " --json " + path("audit.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "bad.npz: left out: ")) << call.text;
+  EXPECT_TRUE(says(call, "hover.npz: mean unexplained root force 687 N, 100 % of the weight")) << call.text;
+  EXPECT_TRUE(says(call, "no point within 1 cm of the floor in 100 % of the frames")) << call.text;
+  const auto json = nlohmann::json::parse(read_file(path("audit.json")));
+  const auto& audit = json["files"][0]["audits"][0];
+  EXPECT_EQ(audit["passed"], false);
+  EXPECT_EQ(audit["rows"]["root_force_N"].size(), 18u);
+  EXPECT_NEAR(audit["summary"]["root_force_mean_N"].get<double>(), 9.81 * 70.0, 1.0);
+}
+
+TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
+  motion::Clip clip = motion::standing_clip(20);
+  clip.betas[0] = 2.0;
+  clip.betas[3] = -1.5;
+  motion::write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("export-mjcf --betas 2,0,0,-1.5 " + path("b.xml")).status, 0);
+  EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("m.xml")).status, 0);
+  EXPECT_EQ(mimicx("export-mjcf " + path("new/standard.xml")).status, 0);
+  EXPECT_EQ(read_file(path("b.xml")), physics::to_mjcf(make_character(clip.betas), {}));
+  EXPECT_EQ(read_file(path("m.xml")), read_file(path("b.xml")));
+  EXPECT_EQ(read_file(path("new/standard.xml")), physics::to_mjcf(make_character(), {}));
+}
+
+TEST_F(Cli, ExportMjcfTakesTheBodyThatConvertWritesQposFor) {
+  // A body of known joints, as a licensed model gives it, and one that is fitted to a skeleton.
+  motion::Clip clip = motion::standing_clip(20);
+  clip.body_model = "smplx";
+  clip.rest_joints.emplace();
+  const Character standard = make_character();
+  for (std::size_t b = 0; b < kBodies; ++b)
+    (*clip.rest_joints)[b] =
+        b == 0 ? mimicx::rest_pelvis("smplx")
+               : Vector3d((*clip.rest_joints)[kParents[b]] + 1.1 * standard.joint_offset[b]);
+  motion::write_clip(path("a.npz"), clip);
+  EXPECT_EQ(mimicx("export-mjcf --motion " + path("a.npz") + " " + path("a.xml")).status, 0);
+  EXPECT_EQ(read_file(path("a.xml")), physics::to_mjcf(motion::character_of(clip), {}));
+  EXPECT_NE(read_file(path("a.xml")), physics::to_mjcf(standard, {}));
+
+  motion::Clip shaped = motion::standing_clip(20);
+  shaped.betas[0] = 1.5;
+  import::write_bvh(path("b.bvh"), shaped);
+  const std::string export_b = "export-mjcf --motion " + path("b.bvh") + " " + path("b.xml");
+  EXPECT_EQ(mimicx(export_b).status, 0);
+  EXPECT_EQ(read_file(path("b.xml")),
+            physics::to_mjcf(motion::character_of(import::read_motion(path("b.bvh"))), {}));
+  EXPECT_EQ(mimicx(export_b + " --body standard").status, 0);
+  EXPECT_EQ(read_file(path("b.xml")), physics::to_mjcf(standard, {}));
+}
+
+TEST_F(Cli, ClusterTakesFilesAndFoldersInAnyOrderAndLeavesOutWhatFails) {
+  std::filesystem::create_directory(path("more"));
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  motion::write_clip(path("more/a.npz"), motion::standing_clip(40));
+  motion::write_clip(path("more/b.npz"), motion::standing_clip(60));
+  std::ofstream(path("more/bad.npz")) << "PK nonsense";
+  const std::string end = " --clusters 2 --out ";
+  const Call call = mimicx("cluster " + path("a.npz") + " " + path("more") + end + path("c.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "more/bad.npz: left out")) << call.text;
+  for (const char* line : {"3 motions", "cluster 0: ", "cluster 1: ", "- a\n", "- a-2\n", "- b\n"})
+    EXPECT_TRUE(says(call, line)) << line << call.text;
+  const std::string bytes = read_file(path("c.json"));
+  std::filesystem::remove(path("more/bad.npz"));
+  const Call other = mimicx("cluster " + path("more") + " " + path("a.npz") + end + path("d.json"));
+  EXPECT_EQ(other.status, 0) << other.text;
+  EXPECT_EQ(read_file(path("d.json")), bytes);
+}
+
+}  // namespace
+}  // namespace mimicx::program

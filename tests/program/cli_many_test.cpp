@@ -1,0 +1,56 @@
+// Many motions: folders of folders, and a run that is killed.
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "motion/clip_file.h"
+#include "program/cli.h"
+#include "run/results.h"
+
+namespace mimicx::program {
+namespace {
+
+struct CliMany : Cli {
+  void SetUp() override {
+    for (const char* file : {"in/b.npz", "in/CMU/01/a.npz", "in/CMU/02/a.npz"}) {
+      std::filesystem::create_directories(std::filesystem::path(path(file)).parent_path());
+      motion::write_clip(path(file), motion::standing_clip(20));
+    }
+  }
+};
+
+TEST_F(CliMany, OutputsStandInTheTreeOfTheirInputs) {
+  for (const auto& [command, part] : std::vector<std::pair<std::string, std::string>>{
+           {"plan ", "run/motions/"}, {"fit ", "run/"}, {"corrupt ", "run/noisy/"}}) {
+    const Call call = mimicx(command + path("in") + " --out " + path("run"));
+    EXPECT_EQ(call.status, 0) << call.text;
+    for (const char* name : {"b", "CMU/01/a", "CMU/02/a"})
+      EXPECT_TRUE(std::filesystem::exists(path(part + name + ".npz"))) << command << name << call.text;
+    std::filesystem::remove_all(path("run"));
+  }
+}
+
+TEST_F(CliMany, AFolderInsideTheInputsIsNoInputOfTheNextRun) {
+  const std::string command = "plan " + path("in") + " --out " + path("in/run");
+  EXPECT_EQ(mimicx(command).status, 0);
+  const auto whole = run::results_of(path("in/run"));
+  EXPECT_EQ(mimicx(command).status, 0);
+  EXPECT_EQ(run::results_of(path("in/run")), whole);
+  const std::string fit = "fit " + path("in/CMU") + " --out " + path("in/CMU/fits");
+  EXPECT_EQ(mimicx(fit).status, 0);
+  EXPECT_EQ(mimicx(fit).status, 0) << "its own outputs are replaced, not read";
+}
+
+TEST_F(CliMany, AKilledRunKeepsWhatItHadAndEndsWithTheSameBytes) {
+  const std::string command = "plan " + path("in") + " --threads 1 --out ";
+  ASSERT_EQ(mimicx(command + path("whole")).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("whole/journal.jsonl")));
+  mimicx(command + path("halves") + " 2>&1 & while [ ! -s " + path("halves/journal.jsonl") +
+         " ] && kill -0 $! 2>/dev/null; do sleep 0.005; done; kill -9 $!; wait $!");
+  ASSERT_TRUE(std::filesystem::exists(path("halves/journal.jsonl"))) << "it was killed in its middle";
+  const Call again = mimicx(command + path("halves"));
+  EXPECT_EQ(again.status, 0) << again.text;
+  EXPECT_EQ(run::results_of(path("halves")), run::results_of(path("whole")));
+}
+
+}  // namespace
+}  // namespace mimicx::program

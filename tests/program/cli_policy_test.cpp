@@ -1,0 +1,100 @@
+// `mimicx export-policy`: what it finds, what it refuses, what it leaves alone.
+#include <fstream>
+
+#include "files/policy_file.h"
+#include "program/cli.h"
+#include "record/outputs.h"
+
+namespace mimicx::program {
+namespace {
+
+struct CliPolicy : Cli {
+  void SetUp() override {
+    const motion::Clip clip = motion::standing_clip(20);
+    files::StoredPolicy policy;
+    motion::Reference body;
+    body.name = clip.name;
+    body.character = motion::character_of(clip);
+    for (int t = 0; t < clip.frames(); ++t) {
+      physics::State<double> state{};
+      state.p_root.z = 0.9;
+      for (auto& q : state.q) q.w = 1.0;
+      policy.states.push_back(state);
+    }
+    policy.motion = rl::tracking::reference_of_states(body, policy.states);
+    rl::AgentShape shape;
+    shape.observation_dim = rl::tracking::kStateSize;
+    shape.action_dim = kDofs;
+    shape.hidden = {16};
+    policy.agent = rl::make_agent(shape, 4);
+    for (const char* name : {"run/policies/walk.npz", "run/policies/more/walk.npz"}) {
+      std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+      files::write_policy(path(name), clip, policy);
+    }
+    std::filesystem::create_directories(path("options"));
+    std::ofstream(path("options/options.npz")) << "no matter";
+    std::filesystem::create_directories(path("plain"));
+    std::ofstream(path("plain/manifest.json")) << "{}";
+    std::filesystem::create_directories(path("empty"));
+  }
+};
+
+TEST_F(CliPolicy, WritesEveryKindAndTheSameBytesAgain) {
+  for (const std::string out : {"a.h", "a.onnx", "a.npz", "new/folder/b.h"})
+    for (const std::string more : {"", " --int8"}) {
+      const std::string line = "export-policy " + path("run/walk") + " --out " + path(out) + more;
+      const Call call = mimicx(line);
+      EXPECT_EQ(call.status, 0) << line << '\n' << call.text;
+      const std::string once = read_file(path(out));
+      EXPECT_EQ(mimicx(line).status, 0) << line;
+      EXPECT_EQ(read_file(path(out)), once) << line;
+    }
+}
+
+TEST_F(CliPolicy, FindsAPolicyByNameByFolderAndByFile) {
+  for (const std::string name : {"run/walk", "run/more/walk", "run/policies/walk.npz"})
+    EXPECT_EQ(mimicx("export-policy " + path(name) + " --out " + path("x.h")).status, 0) << name;
+}
+
+TEST_F(CliPolicy, SaysInOneLineWhatIsMissing) {
+  const std::pair<std::string, std::string> cases[] = {
+      {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: there is more/walk, walk"},
+      {path("options/walk") + " --out " + path("x.h"), "it has options, which follow many motions"},
+      {path("plain/walk") + " --out " + path("x.h"), "its motions were given none"},
+      {path("empty/walk") + " --out " + path("x.h"), "it is no folder of `mimicx adapt --out`"},
+      {path("none/walk") + " --out " + path("x.h"), "none is no folder: name a policy as RUN/NAME"},
+      {path("run/walk") + " --out " + path("x.hpp"), "x.hpp: expected a file that ends in .h, .onnx or .npz"},
+      {path("run/walk"), "--out is required"},
+      {path("run/policies/walk.npz") + " --out " + path("run/policies/walk.npz"), "is an input"}};
+  for (const auto& [arguments, words] : cases) {
+    const Call call = mimicx("export-policy " + arguments);
+    EXPECT_EQ(call.status, 2) << arguments << '\n' << call.text;
+    EXPECT_TRUE(says(call, words)) << arguments << '\n' << call.text;
+    EXPECT_EQ(lines_of(call.text).size(), 1U) << arguments << '\n' << call.text;
+    EXPECT_FALSE(std::filesystem::exists(path("x.h")));
+  }
+}
+
+TEST_F(CliPolicy, AFileOfTheUsersIsRefusedUntilForcedAndOurOwnIsReplaced) {
+  for (const std::string out : {"mine.h", "mine.onnx", "mine.npz"}) {
+    std::ofstream(path(out)) << "years of work";
+    const std::string line = "export-policy " + path("run/walk") + " --out " + path(out);
+    const Call refused = mimicx(line);
+    EXPECT_EQ(refused.status, 2) << refused.text;
+    EXPECT_TRUE(says(refused, out + " is there")) << refused.text;
+    EXPECT_EQ(read_file(path(out)), "years of work");
+    EXPECT_EQ(mimicx(line + " --force").status, 0);
+    EXPECT_EQ(mimicx(line + " --int8").status, 0) << "our own is replaced";
+  }
+}
+
+TEST_F(CliPolicy, AFileThatIsNoPolicyIsRefused) {
+  motion::write_clip(path("run/policies/clip.npz"), motion::standing_clip(20));
+  const Call call = mimicx("export-policy " + path("run/clip") + " --out " + path("x.h"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "clip.npz")) << call.text;
+  EXPECT_EQ(lines_of(call.text).size(), 1U) << call.text;
+}
+
+}  // namespace
+}  // namespace mimicx::program

@@ -1,0 +1,171 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <tuple>
+
+#include "core/npz/npz.h"
+#include "import/bvh_write.h"
+#include "import/motion_file.h"
+#include "motion/synthetic_clip.h"
+#include "program/cli.h"
+
+namespace mimicx::program {
+namespace {
+
+motion::Clip synthetic(const std::string& kind) { return test::synthetic_clip(kind, 501); }
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::stringstream in(text);
+  for (std::string part; std::getline(in, part, at);) parts.push_back(part);
+  return parts;
+}
+
+/// A folder of one good motion, one that hovers, a BVH and a broken file.
+struct CliPoses : Cli {
+  void SetUp() override {
+    std::filesystem::create_directory(path("in"));
+    motion::Clip clip = synthetic("squat");
+    motion::write_clip(path("in/good.npz"), clip);
+    for (Vector3d& p : clip.trans) p.z() += 0.1;
+    motion::write_clip(path("in/hover.npz"), clip);
+    import::write_motion(path("in/walk.bvh"), synthetic("walk"));
+    std::ofstream(path("in/bad.npz")) << "PK nonsense";
+  }
+};
+
+TEST_F(CliPoses, ARowPerMotionAndPerFrameAndTheRestIsDone) {
+  const Call call = mimicx("audit --poses " + path("in") + " --csv " + path("a.csv") + " --frames-csv " +
+                           path("f.csv") + " --json " + path("a.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "bad.npz: left out: ")) << call.text;
+  EXPECT_TRUE(says(call, "the body hovers; ")) << call.text;
+  const auto rows = split(read_file(path("a.csv")), '\n');
+  ASSERT_EQ(rows.size(), 5u);
+  const auto head = split(rows[0], ',');
+  const auto cell = [&](int row, const std::string& name) {
+    const auto cells = split(rows.at(static_cast<std::size_t>(row)), ',');
+    return cells.at(static_cast<std::size_t>(std::find(head.begin(), head.end(), name) - head.begin()));
+  };
+  EXPECT_NE(rows[1].find("bad.npz,,"), std::string::npos);
+  EXPECT_NE(rows[1].find("left out"), std::string::npos);
+  for (int row = 2; row <= 4; ++row)
+    EXPECT_EQ(split(rows.at(static_cast<std::size_t>(row)), ',').size(), head.size());
+  EXPECT_EQ(cell(2, "file"), path("in/good.npz"));
+  EXPECT_EQ(cell(2, "infeasible_share"), "0");
+  EXPECT_EQ(cell(3, "infeasible_share"), "1");
+  EXPECT_EQ(cell(3, "longest_wrong"), "hovers");
+  EXPECT_NEAR(std::stod(cell(3, "force_mean_N")), std::stod(cell(3, "weight_N")),
+              0.05 * std::stod(cell(3, "weight_N")));
+  EXPECT_LT(std::stod(cell(4, "infeasible_share")), 0.1) << "the BVH of an exact walk";
+  const auto frames = split(read_file(path("f.csv")), '\n');
+  const int expected =
+      std::stoi(cell(2, "frames")) + std::stoi(cell(3, "frames")) + std::stoi(cell(4, "frames"));
+  EXPECT_EQ(frames.size(), static_cast<std::size_t>(expected) + 1);
+  for (const std::string& line : frames) EXPECT_EQ(split(line, ',').size(), split(frames[0], ',').size());
+  const auto json = nlohmann::json::parse(read_file(path("a.json")));
+  EXPECT_EQ(json["files"].size(), 4u);
+  EXPECT_EQ(json["files"][2]["summary"]["hovers_share"], 1.0);
+}
+
+TEST_F(CliPoses, WritesTheSameBytesWhateverTheThreads) {
+  for (const char* threads : {"1", "2", "3"})
+    mimicx("audit --poses " + path("in") + " --threads " + threads + " --csv " + path("a") + threads +
+           " --frames-csv " + path("f") + threads);
+  for (const char* threads : {"2", "3"}) {
+    EXPECT_EQ(read_file(path("a1")), read_file(path("a") + threads));
+    EXPECT_EQ(read_file(path("f1")), read_file(path("f") + threads));
+  }
+}
+
+TEST_F(CliPoses, NeverOverwritesAnInputOrLeavesHalfAFile) {
+  const std::string good = path("in/good.npz"), before = read_file(good);
+  for (const std::string& arguments :
+       {"--csv " + good, "--frames-csv " + good, "--json " + good, "--csv " + path("in/../in/good.npz"),
+        "--csv " + path("x") + " --frames-csv " + path("x")}) {
+    const Call call = mimicx("audit --poses " + good + " " + arguments);
+    EXPECT_EQ(call.status, 2) << arguments << call.text;
+    EXPECT_EQ(read_file(good), before);
+  }
+  EXPECT_EQ(mimicx("audit " + good + " --csv " + path("x")).status, 2) << "--csv is for --poses";
+  EXPECT_EQ(mimicx("audit --poses " + good + " --reach-mm -1").status, 2);
+  const Call nowhere = mimicx("audit --poses " + good + " --csv " + path("none/x.csv"));
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_TRUE(says(nowhere, "expected a writable file")) << nowhere.text;
+  EXPECT_FALSE(std::filesystem::exists(path("x")));
+  EXPECT_FALSE(std::filesystem::exists(path("x.mimicx-tmp")));
+}
+
+TEST_F(CliPoses, AFloorThatIsSaidIsBelievedAndOneThatIsNotIsLookedFor) {
+  motion::Clip clip = synthetic("squat");
+  clip.body_model = "smplx";
+  for (Vector3d& p : clip.trans) p.z() += 0.3;
+  motion::write_clip(path("foreign.npz"), clip);
+  const Call looked_for = mimicx("audit --poses " + path("foreign.npz"));
+  EXPECT_FALSE(says(looked_for, "hovers")) << looked_for.text;
+  const Call said = mimicx("audit --poses " + path("foreign.npz") + " --floor 0");
+  EXPECT_TRUE(says(said, "hovers")) << said.text;
+}
+
+TEST_F(CliPoses, HelpBeginsWithTwoExamples) {
+  const std::string help = mimicx("audit --help").text;
+  EXPECT_LT(help.find("mimicx audit out/run/motions"), help.find("mimicx audit --poses DIR --csv"));
+  EXPECT_LT(help.find("mimicx audit --poses DIR --csv"), help.find("Usage:"));
+}
+
+/// Truths a, b, c; motions a (moved by 0.1 m) and b (moved by 2 m).
+struct CliProtocol : Cli {
+  void SetUp() override {
+    for (const char* folder : {"truth", "motions"}) std::filesystem::create_directory(path(folder));
+    for (const auto& [name, metres] : {std::pair{"a", 0.1}, {"b", 2.0}, {"c", 0.0}}) {
+      motion::Clip clip = synthetic("walk");
+      motion::write_clip(path(std::string("truth/") + name + ".npz"), clip);
+      for (Vector3d& p : clip.trans) p.x() += metres;
+      if (metres > 0.0) motion::write_clip(path(std::string("motions/") + name + ".npz"), clip);
+    }
+  }
+};
+
+TEST_F(CliProtocol, AMissingMotionIsNoSuccess) {
+  const Call call = mimicx("evaluate --protocol phc --truth " + path("truth") + " --motions " +
+                           path("motions") + " --json " + path("p.json"));
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "motions/c: left out: ")) << call.text;
+  EXPECT_TRUE(says(call, "over 0.5 m")) << call.text;
+  const auto folder = nlohmann::json::parse(read_file(path("p.json")))["folders"][0];
+  EXPECT_NEAR(folder["pooled"]["Succ"]["value"].get<double>(), 100.0 / 3.0, 1e-9);
+  EXPECT_NEAR(folder["pooled"]["E_g-mpjpe"]["value"].get<double>(), 1050.0, 1e-6);
+  EXPECT_NEAR(folder["succeeded"]["E_g-mpjpe"]["value"].get<double>(), 100.0, 1e-6);
+}
+
+TEST_F(CliProtocol, EveryProtocolPrintsItsColumnsAndFoldersGetALineEach) {
+  std::filesystem::remove(path("truth/c.npz"));
+  for (const auto& [protocol, column, source] : {std::tuple{"phc", "E_pa-mpjpe", "after SMPLSim "},
+                                                 {"pmr", "Float", "after arXiv 2412.17377"},
+                                                 {"emdb", "WA-MPJPE", "after WHAM "}}) {
+    const std::string arguments =
+        std::string("evaluate --protocol ") + protocol + " --truth " + path("truth");
+    const Call call = mimicx(arguments + " --motions " + path("motions"));
+    EXPECT_EQ(call.status, 0) << call.text;
+    EXPECT_TRUE(says(call, column) && says(call, "pooled") && says(call, source)) << call.text;
+    const Call two = mimicx(arguments + " --motions " + path("motions") + " " + path("truth"));
+    EXPECT_EQ(two.status, 0) << two.text;
+    EXPECT_TRUE(says(two, path("motions")) && says(two, path("truth"))) << two.text;
+  }
+}
+
+TEST_F(CliProtocol, AnotherRateOrProtocolIsRefused) {
+  motion::Clip clip = synthetic("walk");
+  clip.fps = 60.0;
+  for (const char* folder : {"truth/d.npz", "motions/d.npz"}) motion::write_clip(path(folder), clip);
+  const std::string folders = " --truth " + path("truth") + " --motions " + path("motions");
+  const Call call = mimicx("evaluate --protocol emdb" + folders);
+  EXPECT_EQ(call.status, 1);
+  EXPECT_TRUE(says(call, "motions/d: left out: protocols are defined at 30 frames per second")) << call.text;
+  EXPECT_EQ(mimicx("evaluate --protocol mine" + folders).status, 2);
+  EXPECT_EQ(
+      mimicx("evaluate --protocol phc --truth " + path("none") + " --motions " + path("motions")).status, 1);
+}
+
+}  // namespace
+}  // namespace mimicx::program

@@ -1,0 +1,99 @@
+#include "program/configurations.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "fit/fit_settings.h"
+
+namespace mimicx::program {
+namespace {
+
+/// Of all configurations that train.
+std::vector<pipeline::TrainingConfig> trainings() {
+  return {imitate_configuration().training, adapt_configuration().training,
+          pretrain_configuration("small").training, pretrain_configuration("paper").training};
+}
+
+double value(const std::string& name, int column) {
+  for (const ConfigurationRow& row : configuration_rows())
+    if (row.name == name) return row.values[column];
+  ADD_FAILURE() << "no row " << name;
+  return 0.0;
+}
+
+// A setting of a training that the table lacks is a logic error of every configuration.
+TEST(Configurations, AllAreCompleteAndCanBeDone) {
+  for (const pipeline::TrainingConfig& training : trainings()) EXPECT_NO_THROW(check(training));
+  EXPECT_NO_THROW(check(plan::plan_configuration().planning));
+  EXPECT_NO_THROW(check(adapt_configuration()));
+}
+
+TEST(Configurations, TheTaskIsOneForAll) {
+  for (const pipeline::TrainingConfig& training : trainings())
+    EXPECT_EQ(pipeline::settings_of(training.tracking), pipeline::settings_of(rl::tracking::TrackingConfig{}));
+}
+
+TEST(Configurations, NoSettingIsNamedTwice) {
+  const std::vector<ConfigurationRow> rows = configuration_rows();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(rows[i].name, rows[j].name);
+}
+
+TEST(Configurations, TheTableIsWhatManifestsRecord) {
+  const auto has_all = [](int column, const NamedValues& settings, std::size_t more) {
+    for (const auto& [name, set] : settings) EXPECT_EQ(value(name, column), set) << name;
+    std::size_t rows = 0;
+    for (const ConfigurationRow& row : configuration_rows()) rows += !std::isnan(row.values[column]);
+    EXPECT_EQ(rows, settings.size() + more) << kConfigurationNames[column];
+  };
+  has_all(0, settings_of(plan::plan_configuration()), 0);
+  has_all(1, settings_of(imitate_configuration()), 2);  // the samples and the seed besides
+  has_all(2, settings_of(adapt_configuration()), 2);
+  has_all(3, settings_of(pretrain_configuration("small")), 2);
+  has_all(4, settings_of(pretrain_configuration("paper")), 2);
+  has_all(5, settings_of(teach_configuration()), 1);
+  has_all(6, fit::fit_settings({}), 0);
+}
+
+TEST(Configurations, ThePresetsDifferInTheirNetworksAlone) {
+  for (const ConfigurationRow& row : configuration_rows()) {
+    const double small = row.values[3], paper = row.values[4];
+    if (row.name.starts_with("hidden_"))
+      EXPECT_NE(small, paper) << row.name;
+    else
+      EXPECT_TRUE(small == paper || (std::isnan(small) && std::isnan(paper))) << row.name;
+  }
+  EXPECT_EQ(pretrain_configuration("paper").training.hidden, (std::vector<int>{1024, 1024, 512}));
+  EXPECT_THROW(pretrain_configuration("large"), std::invalid_argument);
+}
+
+TEST(Configurations, TextAndJsonSayTheSame) {
+  const nlohmann::json json = nlohmann::json::parse(configurations_json());
+  std::istringstream lines(format_configurations());
+  std::string line;
+  std::getline(lines, line);  // the head
+  for (const ConfigurationRow& row : configuration_rows()) {
+    ASSERT_TRUE(std::getline(lines, line));
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    EXPECT_EQ(word, row.name);
+    for (int column = 0; column < 5; ++column) {
+      words >> word;
+      const nlohmann::json& settings = json.at(kConfigurationNames[column]);
+      if (word == "-") {
+        EXPECT_FALSE(settings.contains(row.name)) << row.name;
+        continue;
+      }
+      EXPECT_EQ(std::stod(word), row.values[column]) << row.name;
+      EXPECT_EQ(settings.at(row.name), row.values[column]) << row.name;
+    }
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+}  // namespace
+}  // namespace mimicx::program

@@ -1,0 +1,104 @@
+// The options in data/options: what they are recorded to be, and of use.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/temporary_folder.h"
+#include "pipeline/options/clusters.h"
+#include "program/configurations.h"
+#include "synth/set.h"
+
+namespace mimicx::program {
+namespace {
+
+const std::filesystem::path kOptions = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
+const std::filesystem::path kTaught = kOptions / "taught";
+const std::filesystem::path kTestSplit =
+    std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic" / "test" / "noisy";
+
+/// What a run over one motion of the test split records.
+/// @param work  runs `config` in a context
+template <class Config, class Work>
+record::SequenceEntry entry_of(Config& config, const std::string& name, const Work& work) {
+  const TemporaryFolder folder;
+  config.run.inputs = {(kTestSplit / (name + ".npz")).string()};
+  config.run.out = folder.path / "run";
+  config.run.fit = true;
+  config.training.samples = 0;  // the start alone
+  std::ostringstream messages;
+  record::Progress progress(messages, false, record::steady_seconds);
+  work(record::RunContext{progress, messages, [] { return false; }});
+  return record::read_manifest(config.run.out / "manifest.json").sequences.at(0);
+}
+
+record::SequenceEntry adapted(const std::string& name,
+                              const std::shared_ptr<const pipeline::options::OptionSet>& options) {
+  AdaptConfig config = adapt_configuration();
+  config.method = AdaptMethod::kPaper;
+  config.options = {options};
+  return entry_of(config, name, [&](const record::RunContext& context) { adapt(config, context); });
+}
+
+record::SequenceEntry untrained(const std::string& name) {
+  pipeline::ImitateConfig config = imitate_configuration();
+  return entry_of(config, name,
+                  [&](const record::RunContext& context) { pipeline::imitate(config, context); });
+}
+
+TEST(ShippedOptions, AreTheFilesThatTheirPagesRecordAndSmall) {
+  std::uintmax_t size = 0;
+  for (const std::filesystem::path& set : {kOptions, kTaught}) {
+    EXPECT_NE(read_file(set / "README.md").find(record::file_checksum(set / "options.npz")),
+              std::string::npos);
+    EXPECT_LE(std::filesystem::file_size(set / "options.npz"), 8'000'000u);
+    for (const char* name : {"options.npz", "clusters.json"}) size += std::filesystem::file_size(set / name);
+  }
+  EXPECT_LE(size, 15'000'000u);
+}
+
+TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
+  for (const std::filesystem::path& set : {kOptions, kTaught})
+    for (const pipeline::options::MotionCluster& cluster :
+         pipeline::options::read_clusters(set / "clusters.json").clusters)
+      for (const std::string& member : cluster.members)
+        EXPECT_GE(std::stoull(member.substr(member.rfind('_') + 1)), synth::kTrainingSeed) << member;
+}
+
+/// The kinds that tell whether what was learnt holds for others.
+TEST(ShippedOptions, WereTaughtNothingOfThreeKinds) {
+  for (const pipeline::options::MotionCluster& cluster :
+       pipeline::options::read_clusters(kTaught / "clusters.json").clusters)
+    for (const std::string& member : cluster.members)
+      for (const char* kind : {"walk_back_", "pick_up_", "martial_"})
+        EXPECT_FALSE(member.starts_with(kind)) << member;
+}
+
+/// They are those of a later fit than the training's (data/options/README.md), so the means are near the
+/// centres only.
+TEST(ShippedOptions, HaveTheFeaturesOfTheMotionsThatTheyWereTrainedOn) {
+  const pipeline::options::Clusters clusters = pipeline::options::read_clusters(kOptions / "clusters.json");
+  for (const pipeline::options::MotionCluster& cluster : clusters.clusters) {
+    ASSERT_EQ(cluster.features.size(), cluster.members.size());
+    const pipeline::options::MotionFeatures centre = pipeline::options::scaled_features(cluster.centre);
+    for (int k = 0; k < pipeline::options::kFeatures; ++k) {
+      double mean = 0.0;
+      for (const pipeline::options::MotionFeatures& features : cluster.features)
+        mean +=
+            pipeline::options::scaled_features(features)[k] / static_cast<double>(cluster.features.size());
+      EXPECT_NEAR(mean, centre[k], 0.03) << pipeline::options::feature_names()[k];
+    }
+  }
+}
+
+TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
+  const auto options = pipeline::options::read_options(kOptions);
+  for (const char* name : {"squat_1", "wave_1", "turn_in_place_1"}) {
+    const record::SequenceEntry with = adapted(name, options), without = untrained(name);
+    EXPECT_TRUE(with.ok) << name << ": " << with.reason;
+    EXPECT_FALSE(without.ok) << name << ": a zero residual falls";
+    EXPECT_GT(with.reward_after, 2.0 * without.reward_after) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::program

@@ -1,0 +1,31 @@
+#include "record/run_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "core/temporary_folder.h"
+
+namespace mimicx::record {
+namespace {
+
+TEST(RunFolder, InputsOfOneFileNameGetNamesOfTheirOwn) {
+  EXPECT_EQ(unique_name("walk", {}), "walk");
+  EXPECT_EQ(unique_name("walk", {"walk"}), "walk-2");
+  EXPECT_EQ(unique_name("walk", {"walk", "walk-2"}), "walk-3");
+}
+
+TEST(RunFolder, TheChecksumIsFnv1aAndSeesOneChangedBit) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / "f";
+  std::ofstream(path) << "foobar";
+  EXPECT_EQ(file_checksum(path), "85944171f73967e8");  // published test vector of FNV-1a, 64 bits
+  std::ofstream(path) << "foobas";
+  EXPECT_NE(file_checksum(path), "85944171f73967e8");
+  EXPECT_THROW(file_checksum(folder.path / "none"), DataError);
+  EXPECT_THROW(file_checksum(folder.path), DataError);
+}
+
+}  // namespace
+}  // namespace mimicx::record

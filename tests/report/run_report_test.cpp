@@ -1,0 +1,346 @@
+#include "report/run_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "core/temporary_folder.h"
+#include "judge/evaluate.h"
+#include "motion/clip_file.h"
+#include "motion/standing_clip.h"
+#include "pipeline/cluster_map.h"
+#include "pipeline/options/features.h"
+
+namespace mimicx::report {
+namespace {
+
+constexpr int kRunFrames = 6;
+constexpr const char* kEmbedded = "\"application/json\" id=\"clip-";
+
+std::size_t count(const std::string& text, const std::string& words) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
+  return found;
+}
+
+motion::Clip raised(double height) {
+  motion::Clip clip = motion::standing_clip(kRunFrames);
+  for (Vector3d& place : clip.trans) place.z() += height;
+  return clip;
+}
+
+/// A folder of motions as a run leaves them, with input and reference, without forces.
+struct Folder {
+  explicit Folder(int clips) {
+    make_folder(run.root);
+    for (int k = 0; k < clips; ++k) add("clip " + std::to_string(k), k % 7 != 3);
+  }
+  void add(const std::string& name, bool ok) {
+    record::SequenceEntry entry;
+    entry.name = entry.input = name;
+    entry.ok = ok;
+    entry.reason = ok ? "" : "it fell";
+    entry.output = record::RunFolder::motion_name(name, ok);
+    entry.frames = kRunFrames;
+    entry.fps = 30.0;
+    entry.method = "plan";
+    entry.input_metrics = {{"Float", 40.0}, {"FS", 0.0}};
+    entry.metrics = {{"Float", 1.0}, {"FS", 0.125}, {"max_distance_mm", 12.0}};
+    entry.audit = {{"root_force_mean_N", 0.5}};
+    write(run.root / entry.output, raised(0.001));
+    write(run.input(name), raised(0.05));
+    write(run.reference(name), raised(0.0));
+    manifest.put(entry);
+  }
+  static void write(const std::filesystem::path& file, const motion::Clip& clip) {
+    make_folder(file.parent_path());
+    motion::write_clip(file, clip);
+  }
+  std::string page(const ReportOptions& options = {.map = pipeline::draw_kept_map}) {
+    write_report(run, manifest, options);
+    return read_file(run.report());
+  }
+  TemporaryFolder folder;
+  record::RunFolder run{folder.path / "run"};
+  record::Manifest manifest;
+};
+
+nlohmann::json json_element(const std::string& page, const std::string& id) {
+  const std::size_t name = page.find("id=\"" + id + "\""), begin = page.find('>', name) + 1;
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+/// [input, before training, cleaned] of a clip.
+nlohmann::json values(const std::string& page, const std::string& key, std::size_t clip = 0) {
+  const nlohmann::json data = json_element(page, "data");
+  for (std::size_t k = 0; k < data["metrics"].size(); ++k)
+    if (data["metrics"][k]["key"] == key) return data["rows"][clip]["values"][k];
+  return nullptr;
+}
+
+TEST(RunReport, FiftyMotionsAreOneFileAndMoreStandBesideIt) {
+  Folder few(50);
+  const std::string one = few.page();
+  EXPECT_EQ(count(one, kEmbedded), 50u);
+  EXPECT_FALSE(std::filesystem::exists(few.run.root / "report"));
+  few.add("clip 50", true);
+  const std::string page = few.page();
+  EXPECT_EQ(count(page, kEmbedded), 0u);
+  EXPECT_LT(page.size(), one.size() / 2);
+  const std::string script = read_file(few.run.report_clip("clip 7"));
+  const std::string opening = "\nmimicx_clip(";
+  const std::size_t call = script.find(opening);
+  ASSERT_NE(call, std::string::npos);
+  EXPECT_TRUE(script.starts_with("// "));
+  const std::size_t begin = call + opening.size();
+  const auto told = nlohmann::json::parse("[" + script.substr(begin, script.size() - begin - 3) + "]");
+  EXPECT_EQ(told[0], "clip 7");
+  EXPECT_EQ(told[1], json_element(one, "clip-7"));
+  ASSERT_EQ(told[2].size(), 1u) << "all wear the standard body";
+  const std::string key = told[2].begin().key();
+  EXPECT_EQ(told[2][key], json_element(one, "body-" + key));
+  EXPECT_EQ(told[1]["motions"][0]["body"], key);
+  EXPECT_EQ(count(one, "id=\"body-"), 1u);
+  EXPECT_EQ(count(page, "id=\"body-"), 0u);
+  EXPECT_EQ(json_element(page, "skin"), json_element(one, "skin"));
+}
+
+/// All files of the report, by name.
+std::map<std::string, std::string> report_files(const record::RunFolder& run) {
+  std::map<std::string, std::string> files = {{"page", read_file(run.report())}};
+  for (const auto& file : std::filesystem::directory_iterator(run.root / "report"))
+    files[file.path().filename().string()] = read_file(file.path());
+  return files;
+}
+
+TEST(RunReport, KeepsClipsThatWereMadeOfTheSameResultsAndReadsNoneOfTheirMotions) {
+  Folder run(51);
+  run.page();
+  const auto files = report_files(run.run);
+  ASSERT_EQ(files.size(), 52u);
+  std::filesystem::remove_all(run.run.root / "motions");
+  ReportOptions keep;
+  keep.keep = true;
+  run.page(keep);
+  EXPECT_EQ(report_files(run.run), files);
+  EXPECT_NE(run.page(), files.at("page")) << "who asks for the report again has it made of what is there";
+}
+
+TEST(RunReport, AClipOfOtherResultsOrWithATruthOrCutShortIsMadeAgain) {
+  Folder run(51);
+  ReportOptions keep;
+  keep.keep = true;
+  run.page();
+  const auto files = report_files(run.run);
+  const std::filesystem::path file = run.run.report_clip("clip 7");
+  const record::SequenceEntry entry = *run.manifest.find("clip 7");
+  record::SequenceEntry other = entry;
+  other.notes.push_back("done anew");
+  run.manifest.put(other);
+  run.page(keep);
+  EXPECT_NE(read_file(file).find("done anew"), std::string::npos);
+  run.manifest.put(entry);
+  ReportOptions truth;
+  truth.truth = {{"clip 7", run.run.reference("clip 7")}};
+  run.page(truth);
+  EXPECT_NE(read_file(file).find("\"truth\""), std::string::npos);
+  run.page(keep);
+  EXPECT_EQ(report_files(run.run), files);
+  const std::string whole = read_file(file);
+  for (const std::string& damaged : {std::string(), whole.substr(0, whole.find('[') + 4),
+                                     whole.substr(0, whole.size() / 2), "// of another\n" + whole}) {
+    write_file_atomically(file, damaged);
+    run.page(keep);
+    EXPECT_EQ(read_file(file), whole) << damaged.substr(0, 60);
+  }
+}
+
+TEST(RunReport, AThousandInputsThatCouldNotBeReadAreOneFile) {
+  Folder run(0);
+  for (int k = 0; k < 1000; ++k) {
+    record::SequenceEntry entry;
+    entry.name = entry.input = std::to_string(k);
+    entry.reason = "no such file";
+    run.manifest.put(entry);
+  }
+  const std::string page = run.page();
+  EXPECT_EQ(count(page, "no such file"), 1000u);
+  EXPECT_FALSE(std::filesystem::exists(run.run.root / "report"));
+}
+
+TEST(RunReport, AClipWhoseFilesAreGoneSaysSo) {
+  Folder run(2);
+  std::filesystem::remove(run.run.reference("clip 1"));
+  const std::string page = run.page();
+  EXPECT_FALSE(json_element(page, "clip-0")["motions"].empty());
+  const nlohmann::json clip = json_element(page, "clip-1");
+  EXPECT_TRUE(clip["motions"].empty());
+  EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("cannot be shown: "));
+}
+
+TEST(RunReport, OfAnOlderRunTheInputIsLeftOut) {
+  Folder run(1);
+  std::filesystem::remove(run.run.input("clip 0"));
+  const nlohmann::json clip = json_element(run.page(), "clip-0");
+  ASSERT_EQ(clip["motions"].size(), 2u);
+  EXPECT_EQ(clip["motions"][0]["who"], "reference");
+  for (const auto& bars : clip["bars"]) EXPECT_FALSE(bars["flaw"].get<bool>());
+}
+
+TEST(RunReport, TheTableHasTheManifestsNumbers) {
+  Folder run(1);
+  const std::string page = run.page();
+  EXPECT_EQ(values(page, "Float"), (nlohmann::json{40.0, nullptr, 1.0}));
+  EXPECT_EQ(values(page, "FS"), (nlohmann::json{0.0, nullptr, 0.125}));
+  EXPECT_EQ(values(page, "max_distance_mm")[2], 12.0);
+  EXPECT_EQ(values(page, "root_force_mean_N")[2], 0.5);
+  // A body that hangs 5 cm over the floor needs its weight from nowhere, by its poses.
+  EXPECT_NEAR(values(page, "root_force_mean_N")[0].get<double>(), 9.81 * make_character().total_mass(), 30.0);
+  for (const motion::MetricDefinition& d : motion::metric_definitions())
+    EXPECT_FALSE(values(page, d.name).is_null()) << d.name << " has no column";
+}
+
+TEST(RunReport, AgainstTheTruthItSaysWhatEvaluateSays) {
+  Folder run(1);
+  const std::filesystem::path truth = run.folder.path / "truth";
+  Folder::write(truth / "clip 0.npz", raised(-0.002));
+  ReportOptions options;
+  options.truth = {{"clip 0", truth / "clip 0.npz"}};
+  const std::string page = run.page(options);
+  EXPECT_EQ(json_element(page, "clip-0")["motions"].back()["who"], "truth");
+  for (const auto& [folder, column] : {std::pair{"inputs", 0}, std::pair{"motions", 2}}) {
+    const judge::Evaluation told = judge::evaluate_folders(truth, run.run.root / folder);
+    ASSERT_EQ(told.motions.size(), 1u);
+    for (const char* name : {"MRPE", "gMPJPE", "MPJPE", "Accel", "FS_gt", "Float_gt"}) {
+      double expected = 0.0;
+      for (const motion::MetricDefinition& d : motion::metric_definitions())
+        if (d.name == std::string(name)) expected = (told.motions[0].metrics.*d.value).value;
+      const auto value = values(page, std::string("truth:") + name)[static_cast<std::size_t>(column)];
+      EXPECT_NEAR(value.get<double>(), expected, 1e-5 * std::abs(expected) + 1e-9) << folder << ' ' << name;
+    }
+  }
+  EXPECT_TRUE(values(run.page(), "truth:MRPE").is_null()) << "without a truth there is no such column";
+}
+
+TEST(RunReport, ATruthThatCannotBeReadIsSaid) {
+  Folder run(1);
+  ReportOptions options;
+  options.truth = {{"clip 0", run.folder.path / "none.npz"}};
+  const nlohmann::json clip = json_element(run.page(options), "clip-0");
+  EXPECT_EQ(clip["motions"].size(), 3u);
+  EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("the truth cannot be shown: "));
+}
+
+/// Clusters of stiff bodies that stand, travel and rise.
+pipeline::options::Clusters some_clusters() {
+  std::vector<pipeline::options::NamedFeatures> motions;
+  for (int i = 0; i < 6; ++i) {
+    pipeline::options::MotionFeatures f{};
+    f[pipeline::options::kRootHeight] = 0.9 + 0.01 * i;
+    for (int j = 0; j < kBodies; ++j)
+      f[pipeline::options::kPlanarVelocity + j] = i % 2 == 0 ? 0.0 : 1.0 + 0.1 * i;
+    motions.push_back({"motion " + std::to_string(i), f});
+  }
+  pipeline::options::ClusterConfig settings;
+  settings.clusters = 2;
+  return pipeline::options::cluster_motions(motions, settings);
+}
+
+TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
+  Folder run(2);
+  EXPECT_FALSE(json_element(run.page(), "data").contains("map"));
+  pipeline::options::write_clusters(run.run.clusters(), some_clusters());
+  const nlohmann::json map = json_element(run.page(), "data")["map"];
+  EXPECT_EQ(map["trained"].size(), 6u);
+  ASSERT_EQ(map["clips"].size(), 2u);
+  for (int row = 0; row < 2; ++row) {
+    EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][3], row);
+    EXPECT_EQ(map["clips"][static_cast<std::size_t>(row)][2], 0) << "who stands is with the calm ones";
+  }
+  const std::filesystem::path others = run.folder.path / "others.json";
+  pipeline::options::write_clusters(others, some_clusters());
+  std::filesystem::remove(run.run.clusters());
+  EXPECT_EQ(json_element(run.page({.map = pipeline::map_among({others})}), "data")["map"], map);
+}
+
+TEST(RunReport, ClustersThatCannotBeReadAreSaidAndCostTheMapAlone) {
+  Folder run(1);
+  pipeline::options::Clusters older = some_clusters();
+  for (auto& cluster : older.clusters) cluster.features.clear();
+  for (const auto& [text, reason] :
+       {std::pair<std::string, std::string>{"{}", "the options' clusters.json cannot be read"},
+        {pipeline::options::format_clusters(older),
+         "the options' clusters.json does not have their features"}}) {
+    write_file_atomically(run.run.clusters(), text);
+    const std::string page = run.page();
+    const nlohmann::json data = json_element(page, "data");
+    EXPECT_FALSE(data.contains("map"));
+    EXPECT_EQ(data["run"].back()["name"], "no map of the motions");
+    EXPECT_EQ(data["run"].back()["value"], reason);
+    EXPECT_FALSE(json_element(page, "clip-0")["motions"].empty());
+  }
+}
+
+TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
+  Folder run(1);
+  record::SequenceEntry entry = run.manifest.sequences[0];
+  entry.arrangement = {{0, 2}, {4, 1}};
+  run.manifest.put(entry);
+  motion::Clip clip = raised(0.001);
+  clip.keypoints.emplace();
+  clip.keypoints->names = {"pelvis"};
+  clip.keypoints->uvc.assign(kRunFrames, {Vector3d(10.0, 20.0, 0.5)});
+  clip.keypoints->intrinsics << 100, 0, 10, 0, 100, 20, 0, 0, 1;
+  Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
+  pose.topRows<3>() << 1, 0, 0, 0, 0, 0, -1, 0.9, 0, 1, 0, 4.0;
+  clip.keypoints->extrinsics.assign(1, pose);
+  Folder::write(run.run.root / entry.output, clip);
+  const nlohmann::json shown = json_element(run.page(), "clip-0");
+  EXPECT_EQ(shown["options"], (std::vector<std::vector<int>>{{0, 3, 2}, {4, 5, 1}}));
+  EXPECT_EQ(shown["camera"]["extrinsics"].size(), 1u);
+  const auto& charts = shown["charts"];
+  const bool told = std::any_of(charts.begin(), charts.end(), [](const auto& chart) {
+    return chart["title"]["words"] == "distance from the keypoints" && chart["lines"].size() == 3u;
+  });
+  EXPECT_TRUE(told);
+  // A body that stands 50 mm higher is seen 50 / 4000 · 100 px higher.
+  for (const auto& chart : charts)
+    if (chart["title"]["words"] == "distance from the keypoints") {
+      const double input = chart["lines"][0]["values"][0], cleaned = chart["lines"][2]["values"][0];
+      EXPECT_NEAR(std::abs(input - cleaned), 0.1 * 49.0 / 4.0, 0.05);
+    }
+  // Through a camera that was told to stand 50 mm higher, too, the input is seen where the reference is.
+  motion::Clip of_input = clip;
+  for (Vector3d& place : of_input.trans) place.z() += 0.049;
+  of_input.keypoints->extrinsics[0](1, 3) += 0.05;
+  Folder::write(run.run.input("clip 0"), of_input);
+  const nlohmann::json own = json_element(run.page(), "clip-0");
+  EXPECT_NEAR(own["camera"]["told"]["extrinsics"][0][7].get<double>(), 0.95, 1e-9);
+  for (const auto& chart : own["charts"])
+    if (chart["title"]["words"] == "distance from the keypoints") {
+      const double input = chart["lines"][0]["values"][0], reference = chart["lines"][1]["values"][0];
+      EXPECT_NEAR(input, reference, 1e-3);
+    }
+  of_input.keypoints->extrinsics = clip.keypoints->extrinsics;
+  Folder::write(run.run.input("clip 0"), of_input);
+  EXPECT_FALSE(json_element(run.page(), "clip-0")["camera"].contains("told"))
+      << "it was cleaned with the same";
+}
+
+TEST(RunReport, WallClockTimesAreThereOnlyWhereTheyAreAskedFor) {
+  Folder run(1);
+  write_file_atomically(run.run.timing(),
+                        "{\"sequences\": [{\"name\": \"clip 0\", \"seconds\": 125.0, "
+                        "\"planning_seconds\": 2.0, \"training_seconds\": 0.0, \"threads\": 2}]}");
+  EXPECT_EQ(run.page().find("2 min 5 s"), std::string::npos);
+  ReportOptions options;
+  options.times = true;
+  EXPECT_NE(run.page(options).find("2 min 5 s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mimicx::report

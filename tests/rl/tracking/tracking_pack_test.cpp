@@ -1,0 +1,95 @@
+#include "rl/tracking/tracking_pack.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "rl/tracking/tracking_fixture.h"
+
+namespace mimicx::rl::tracking {
+namespace {
+
+TEST(TrackingPack, ActionHas55EntriesAndZeroResidualAimsAtTheReference) {
+  TrackingConfig config;
+  const auto clip = make_tracking_clip(swaying_reference(30), config);
+  const std::array<float, 55> zero{};
+  TrackingPack pack(clip, config);
+  physics::Data<TrackingPack::P> scratch;
+  for (int lane = 0; lane < physics::kLanes; ++lane) pack.act(lane, zero.data());
+  pack.advance(scratch);
+  EXPECT_EQ(pack.frame(0), 1);
+  EXPECT_LT(pack.worst_distance(0), 0.01) << "one step of PD control towards the reference stays beside it";
+}
+
+TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
+  // With absolute actions that spell out the next reference pose, the motion must be that of zero residuals.
+  TrackingConfig absolute, residual;
+  absolute.action_mode = ActionMode::kAbsolute;
+  const auto clip = make_tracking_clip(swaying_reference(30), residual);
+  TrackingPack a(clip, absolute), r(clip, residual);
+  physics::Data<TrackingPack::P> scratch;
+  const std::array<float, kDofs> zero{};
+  for (int t = 0; t < 5; ++t) {
+    Array<float, kDofs> target{};
+    const motion::ReferenceFrame& next = clip->poses[t + 1].frame;
+    for (int body = 1; body < kBodies; ++body) {
+      const Vector3d v = log_map(next.q[body]);
+      const int dof = first_dof(body);
+      if (is_hinge(body))
+        target[dof] = static_cast<float>(v.dot(hinge_axis(body)));
+      else
+        for (int k = 0; k < 3; ++k) target[dof + k] = static_cast<float>(v[k]);
+    }
+    for (int lane = 0; lane < physics::kLanes; ++lane) {
+      a.act(lane, target.data());
+      r.act(lane, zero.data());
+    }
+    a.advance(scratch);
+    r.advance(scratch);
+  }
+  for (int i = 0; i < kBodies; ++i)
+    EXPECT_LT((a.pose(0).p_WB[i] - r.pose(0).p_WB[i]).norm(), 1e-4) << kBodyNames[i];
+}
+
+TEST(TrackingPack, NumbersThatAreNoneInAnActionCountAsZero) {
+  TrackingConfig config;
+  const auto clip = make_tracking_clip(swaying_reference(10), config);
+  const std::array<float, kDofs> zero{};
+  std::array<float, kDofs> none;
+  none.fill(std::numeric_limits<float>::quiet_NaN());
+  none[3] = std::numeric_limits<float>::infinity();
+  TrackingPack with(clip, config), without(clip, config);
+  physics::Data<TrackingPack::P> scratch;
+  for (int lane = 0; lane < physics::kLanes; ++lane) {
+    with.act(lane, none.data());
+    without.act(lane, zero.data());
+  }
+  with.advance(scratch);
+  without.advance(scratch);
+  for (int i = 0; i < kBodies; ++i) EXPECT_EQ(with.pose(0).p_WB[i], without.pose(0).p_WB[i]);
+}
+
+TEST(TrackingPack, LanesOnDifferentFramesDoNotDisturbEachOther) {
+  TrackingConfig config;
+  const auto clip = make_tracking_clip(swaying_reference(40), config);
+  const std::array<float, kDofs> zero{};
+  std::array<float, kDofs> violent;
+  violent.fill(2.0F);
+  TrackingPack alone(clip, config), mixed(clip, config);
+  physics::Data<TrackingPack::P> scratch;
+  for (int lane = 1; lane < physics::kLanes; ++lane) mixed.reset(lane, lane);
+  for (int t = 0; t < 10; ++t) {
+    for (int lane = 0; lane < physics::kLanes; ++lane) {
+      alone.act(lane, zero.data());
+      mixed.act(lane, lane == 0 ? zero.data() : violent.data());
+    }
+    alone.advance(scratch);
+    mixed.advance(scratch);
+    if (t == 5) mixed.reset(3, 20);
+  }
+  for (int i = 0; i < kBodies; ++i) EXPECT_EQ(alone.pose(0).p_WB[i], mixed.pose(0).p_WB[i]);
+  EXPECT_EQ(mixed.frame(3), 24);
+}
+
+}  // namespace
+}  // namespace mimicx::rl::tracking

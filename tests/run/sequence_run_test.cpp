@@ -1,0 +1,112 @@
+// Several motions of a run at once: the same results as one after the other.
+#include <gtest/gtest.h>
+
+#include "core/temporary_folder.h"
+#include "motion/clip_file.h"
+#include "motion/standing_clip.h"
+#include "plan/plan_command.h"
+#include "program/small_run.h"
+#include "report/run_report.h"
+#include "run/merge.h"
+#include "run/results.h"
+
+namespace mimicx::run {
+namespace {
+
+struct SideBySide : testing::Test {
+  SideBySide() {
+    for (int k = 0; k < 5; ++k) {
+      inputs.push_back((folder.path / ("stand" + std::to_string(k) + ".npz")).string());
+      motion::write_clip(inputs.back(), motion::standing_clip(40 - 5 * k));  // the first takes longest
+    }
+  }
+  plan::PlanMotionsConfig planning(const std::string& name, int jobs) const {
+    plan::PlanMotionsConfig config = plan::plan_configuration();
+    config.run.inputs = inputs;
+    config.run.out = folder.path / name;
+    config.run.threads = 2;
+    config.run.jobs = jobs;
+    return config;
+  }
+  static program::Outcome run(const plan::PlanMotionsConfig& config, int asked = -1) {
+    return program::run_in_context(
+        [&](const record::RunContext& context) { return plan::plan_motions(config, context); }, asked);
+  }
+  std::map<std::string, std::string> results(const std::string& name) const {
+    return results_of(folder.path / name);
+  }
+
+  TemporaryFolder folder;
+  std::vector<std::string> inputs;
+};
+
+TEST_F(SideBySide, IsTheSameBytesAsOneAfterTheOther) {
+  EXPECT_EQ(run(planning("one", 1)).value, record::RunOutcome::kAllGood);
+  EXPECT_EQ(run(planning("three", 3)).value, record::RunOutcome::kAllGood);
+  EXPECT_EQ(run(planning("auto", 0)).value, record::RunOutcome::kAllGood);
+  EXPECT_TRUE(results("one") == results("three"));
+  EXPECT_TRUE(results("one") == results("auto"));
+}
+
+TEST_F(SideBySide, GoesOnAfterAnInterruptionToTheSameBytes) {
+  run(planning("whole", 1));
+  for (const int asked : {2, 5, 9}) {
+    const std::string name = "halves" + std::to_string(asked);
+    EXPECT_EQ(run(planning(name, 2), asked).value, record::RunOutcome::kInterrupted);
+    EXPECT_EQ(run(planning(name, 2)).value, record::RunOutcome::kAllGood);
+    EXPECT_TRUE(results("whole") == results(name)) << asked;
+  }
+}
+
+TEST_F(SideBySide, PartsOfManyMotionsLeaveTheirClipsForTheReportAndMergingMakesNoneAgain) {
+  inputs.clear();
+  for (int k = 0; k <= report::kMostEmbedded; ++k) {
+    inputs.push_back((folder.path / ("stand" + std::to_string(k) + ".npz")).string());
+    motion::write_clip(inputs.back(), motion::standing_clip(4));
+  }
+  EXPECT_EQ(run(planning("whole", 2)).value, record::RunOutcome::kAllGood);
+  for (const int index : {1, 0}) {
+    plan::PlanMotionsConfig part = planning("parts", 2);
+    part.run.shard = {index, 2};
+    EXPECT_EQ(run(part).value, record::RunOutcome::kAllGood);
+  }
+  const std::filesystem::path out = folder.path / "parts";
+  ASSERT_TRUE(std::filesystem::exists(out / "report" / "stand50.js"));
+  std::filesystem::remove_all(out / "references");  // which a clip cannot be made without
+  {
+    const RunLocks locks = lock_shards(out);
+    write_merged(out, gather_shards(out), false, {});
+  }
+  auto merged = results("parts"), whole = results("whole");
+  std::erase_if(merged, [](const auto& file) { return file.first.starts_with("shards/"); });
+  std::erase_if(whole, [](const auto& file) { return file.first.starts_with("references/"); });
+  EXPECT_TRUE(merged == whole);
+}
+
+TEST_F(SideBySide, AnInputThatFailsStopsNoOther) {
+  inputs[1] = (folder.path / "gone.npz").string();
+  EXPECT_EQ(run(planning("run", 2)).value, record::RunOutcome::kSomeFailed);
+  const record::Manifest manifest = record::read_manifest(folder.path / "run" / "manifest.json");
+  ASSERT_EQ(manifest.sequences.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(manifest.sequences[k].input, inputs[k]) << "in the inputs' order, whichever is done first";
+    EXPECT_EQ(manifest.sequences[k].ok, k != 1);
+  }
+}
+
+TEST_F(SideBySide, WhatIsSaidOfAMotionStaysTogether) {
+  const std::string said = run(planning("run", 3)).messages;
+  for (int k = 0; k < 5; ++k) {
+    const std::string name = "stand" + std::to_string(k);
+    const std::size_t first = said.find(name + ": "), last = said.rfind(name + ": ok");
+    ASSERT_NE(last, std::string::npos) << said;
+    for (int other = 0; other < 5; ++other) {
+      if (other == k) continue;
+      const std::size_t between = said.find("stand" + std::to_string(other) + ": ", first);
+      EXPECT_FALSE(between < last) << said;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::run

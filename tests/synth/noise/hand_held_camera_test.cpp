@@ -1,0 +1,93 @@
+#include "synth/noise/hand_held_camera.h"
+
+#include <gtest/gtest.h>
+
+#include "synth/noise/estimate.h"
+#include "synth/noise/independent_fixtures.h"
+
+namespace mimicx::synth {
+namespace {
+
+/// A carried camera that is told exactly.
+CameraError exact_moving() {
+  CameraError error;
+  error.moving = true;
+  return error;
+}
+
+TEST(CarriedCamera, ShowsTheTrueJointsWhereAPinholeOfEachFrameDoes) {
+  for (const char* kind : {"walk", "dance"}) {
+    const motion::Clip& truth = test::truth_of(kind);
+    const PerFrame<BodyPoses> poses = test::poses_of_clip(truth);
+    IndependentNoiseConfig config = test::only(nullptr, 0.0, 4);
+    config.camera = exact_moving();
+    const motion::Clip noisy = add_independent_noise(truth, config);
+    const motion::Keypoints& k = *noisy.keypoints;
+    ASSERT_EQ(k.extrinsics.count(), truth.frames());
+    for (int t = 0; t < truth.frames(); ++t)
+      for (int b = 0; b < kBodies; ++b)
+        EXPECT_LT((k.uvc[t][b].head<2>() - test::pinhole(k, t, poses[t].p_WB[b])).norm(), 1e-6);
+  }
+}
+
+TEST(CarriedCamera, TheFittedModelsDetectionsGoThroughTheCameraOfTheirFrame) {
+  const motion::Clip& truth = test::truth_of("walk");
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(truth);
+  NoiseConfig config = test::silent(4);
+  config.camera = exact_moving();
+  const motion::Keypoints k = *add_noise(truth, config).keypoints;
+  int near = 0, far = 0;  // swapped ones are far
+  for (int t = 0; t < truth.frames(); ++t)
+    for (int b = 0; b < kBodies; ++b) {
+      if (k.uvc[t][b].z() == 0.0) continue;
+      ++((k.uvc[t][b].head<2>() - test::pinhole(k, t, poses[t].p_WB[b])).norm() < 40.0 ? near : far);
+    }
+  EXPECT_GT(near, 20 * far);
+}
+
+TEST(CarriedCamera, PansAfterThePersonAndKeepsThemInThePicture) {
+  for (const char* kind : {"walk", "jog", "kick"})
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of(kind));
+      const CameraPath camera = carry_camera(poses, seed, 30.0);
+      for (int t = 0; t < poses.count(); ++t) {
+        EXPECT_TRUE((camera.extrinsics[t].block<3, 3>(0, 0).isUnitary(1e-12)));
+        EXPECT_GT(-camera.extrinsics[t](1, 2), 0.8);  // up is up
+        for (const Vector3d& joint : poses[t].p_WB) {
+          const Vector3d uv = project(camera.at(t), joint);
+          ASSERT_TRUE(uv.x() > 96.0 && uv.x() < 1824.0 && uv.y() > 54.0 && uv.y() < 1026.0);
+        }
+      }
+      for (int t = 1; t < poses.count(); ++t) {  // hands, not teleports
+        EXPECT_LT((eye_of(camera.extrinsics[t]) - eye_of(camera.extrinsics[t - 1])).norm(), 0.05);
+        EXPECT_NE(camera.extrinsics[t], camera.extrinsics[t - 1]);
+      }
+    }
+}
+
+TEST(CarriedCamera, WhatIsToldDriftsAwayFromItsStartWithTheRootOfTime) {
+  const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("walk"));
+  const int last = poses.count() - 1;
+  const double seconds = last / 30.0, tau = 0.5;
+  CameraError error = exact_moving();
+  error.turn_drift = 0.4, error.place_drift = 0.02;
+  test::Spread turn, place;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const CameraPath camera = carry_camera(poses, seed, 30.0), told = told_camera(camera, error, seed, 30.0);
+    EXPECT_TRUE(told.extrinsics[0].isApprox(camera.extrinsics[0], 1e-12));
+    const Matrix3d off =
+        told.extrinsics[last].block<3, 3>(0, 0) * camera.extrinsics[last].block<3, 3>(0, 0).transpose();
+    const Vector3d turned = log_map(Quaterniond(off)) / test::kDegree,
+                   moved = eye_of(told.extrinsics[last]) - eye_of(camera.extrinsics[last]);
+    for (int axis = 0; axis < 3; ++axis) turn.add(turned[axis]), place.add(moved[axis]);
+  }
+  // Variance of the integral of a process with autocorrelation exp(−Δ²/4τ²) / (2√π τ).
+  const double variance =
+      seconds * std::erf(seconds / (2.0 * tau)) -
+      2.0 * tau / std::sqrt(M_PI) * (1.0 - std::exp(-seconds * seconds / (4.0 * tau * tau)));
+  EXPECT_NEAR(turn.rms(), 0.4 * std::sqrt(variance), 0.04 * std::sqrt(variance));
+  EXPECT_NEAR(place.rms(), 0.02 * std::sqrt(variance), 0.002 * std::sqrt(variance));
+}
+
+}  // namespace
+}  // namespace mimicx::synth
