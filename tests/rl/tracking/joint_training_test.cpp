@@ -42,12 +42,53 @@ TEST(JointTraining, EveryFrameIsValuedByTheCriticOfTheOptionThatActsThere) {
         ++bootstraps[1];
       }
     }
-    for (Eigen::Index i = 0; i < group.last_values.size(); ++i)
-      EXPECT_TRUE(group.last_values(0, i) == value[0] || group.last_values(0, i) == value[1]);
   }
+  for (int g = 0; g < trainer.buffer().groups.count(); ++g)
+    for (int i = 0; i < trainer.buffer().group_size; ++i)
+      EXPECT_EQ(trainer.buffer().groups[g].last_values(0, i), value[environment.actor(g, i)]);
   EXPECT_GT(rows[0], 0);
   EXPECT_GT(rows[1], 0);
   EXPECT_GT(bootstraps[1], 0);
+}
+
+// A_t is the sum of (γλ)ᵏ δ_{t+k} up to the episode's end; critics that say the same of every state make each
+// δ known.
+TEST(JointTraining, AReturnAcrossASwitchIsBootstrappedWithTheCriticOfTheNextOption) {
+  TrackingEnvironment environment({halved_clip(24)}, {}, 2 * physics::kLanes, physics::kLanes, 5);
+  List<Agent> agents(2, agent_that_does(0.0F));
+  const double value[] = {3.0, 11.0};
+  for (int k = 0; k < 2; ++k) {
+    agents[k].critic.weights.back().setZero();
+    agents[k].critic.biases.back().setConstant(static_cast<float>(value[k]));
+  }
+  PpoConfig config = ppo_for_tests();
+  config.horizon = 40;
+  PpoTrainer<TrackingEnvironment> trainer(config, kCourse, agents, environment);
+  trainer.iterate(2);
+  const int width = trainer.buffer().group_size;
+  int switches = 0;
+  for (int g = 0; g < trainer.buffer().groups.count(); ++g) {
+    const GroupRollout& group = trainer.buffer().groups[g];
+    const auto actor = [&](int t, int i) {
+      return t < config.horizon ? group.actors[static_cast<std::size_t>(t * width + i)]
+                                : environment.actor(g, i);
+    };
+    for (int i = 0; i < width; ++i)
+      for (int first = 0; first < config.horizon; ++first) {
+        double sum = 0.0, weight = 1.0;
+        for (int t = first; t < config.horizon; ++t, weight *= config.gamma * config.lambda) {
+          const bool fell = group.terminated(t, i), ended = group.truncated(t, i);
+          const double next = fell    ? 0.0
+                              : ended ? value[1]
+                                      : value[actor(t + 1, i)];  // the clip ends in option 1
+          sum += weight * (group.rewards(t, i) + config.gamma * next - value[actor(t, i)]);
+          if (fell || ended) break;
+          switches += t == first && actor(t, i) != actor(t + 1, i);
+        }
+        EXPECT_NEAR(group.advantages(first, i), sum, 1e-4);
+      }
+  }
+  EXPECT_GT(switches, 0);
 }
 
 TEST(JointTraining, AnOptionLearnsFromItsOwnFramesAlone) {

@@ -28,6 +28,54 @@ TEST(TrackingState, HasExactly570NumbersAndWritesThemAll) {
   EXPECT_TRUE(std::isnan(state[570])) << "wrote past its end";
 }
 
+/// P by another way: the body itself is moved so that the heading is x and the origin is under the simulated
+/// pelvis, and its numbers are read off. @param offset  of the simulated root on the floor
+std::vector<double> features_of(const Character& character, const Pose& pose, double heading,
+                                const Eigen::Vector2d& offset) {
+  const Eigen::Vector2d back = -(Eigen::Rotation2Dd(-heading) * offset);
+  const Pose m = moved(character, pose, -heading, back);
+  std::vector<double> p = {m.frame.p_root.z()};
+  const auto put = [&p](const Vector3d& v) { p.insert(p.end(), v.data(), v.data() + 3); };
+  const Matrix3d R = m.frame.q[0].toRotationMatrix();
+  put(R.col(0)), put(R.col(1)), put(m.frame.v_root), put(R * m.frame.omega[0]);
+  for (int body = 1; body < kBodies; ++body) {
+    const Matrix3d r = m.frame.q[body].toRotationMatrix();
+    if (is_hinge(body)) {
+      const Vector3d sine(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
+      p.push_back(std::atan2(0.5 * sine.dot(hinge_axis(body)), 0.5 * (r.trace() - 1.0)));
+    } else {
+      put(r.col(0)), put(r.col(1));
+    }
+  }
+  for (int body = 1; body < kBodies; ++body)
+    is_hinge(body) ? p.push_back(m.frame.omega[body].dot(hinge_axis(body))) : put(m.frame.omega[body]);
+  for (const int body : {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot}) put(m.p_WB[body] - m.frame.p_root);
+  p.push_back(m.frame.p_root.x()), p.push_back(m.frame.p_root.y());
+  return p;
+}
+
+TEST(TrackingState, HasTheNumbersOfDocsMethod3InTheirOrder) {
+  const Character character = make_character();
+  Random random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Pose reference = pose_of(character, random_frame(random, 0.5)),
+               simulated = pose_of(character, random_frame(random, 0.5));
+    const Vector3d forward = simulated.frame.q[0].toRotationMatrix().col(2);
+    const double heading = std::atan2(forward.y(), forward.x());
+    const Eigen::Vector2d at = simulated.frame.p_root.head<2>();
+    const std::vector<double> wanted = features_of(character, reference, heading, at),
+                              is = features_of(character, simulated, heading, at);
+    std::vector<double> expected(wanted.begin(), wanted.begin() + 186);
+    for (int k = 0; k < 10; ++k) expected.push_back(k == 0 ? 0.7 : 0.0);
+    expected.insert(expected.end(), is.begin(), is.begin() + 186);
+    for (std::size_t k = 0; k < 186; ++k) expected.push_back(wanted[k] - is[k]);
+    expected.insert(expected.end(), wanted.begin() + 186, wanted.end());
+    const auto state = state_of(reference, simulated, 0.7);
+    ASSERT_EQ(expected.size(), state.size());
+    for (std::size_t k = 0; k < state.size(); ++k) EXPECT_NEAR(state[k], expected[k], 2e-5) << k;
+  }
+}
+
 TEST(TrackingState, IgnoresWhereBothLookAndStand) {
   const Character character = make_character();
   Random random(4);
