@@ -177,9 +177,9 @@ TEST(TrackingEnvironment, EpisodesStartAllOverTheClipAndMoreOftenWhereTheCharact
   const int frames = 60;
   const auto clip = make_tracking_clip(swaying_reference(frames), config);
   TrackingEnvironment environment({clip}, config, 2048, 512, 17);
+  const List<double> evenly(6, 1.0 / 6);
   constexpr double kUnlikely = 25.0;  // of 5 degrees of freedom: 1 in 7000
-  EXPECT_LT(chi_squared(start_weights(List<double>(6), 0.4), 10, frames, first_frames_reached(environment)),
-            kUnlikely);
+  EXPECT_LT(chi_squared(evenly, 10, frames, first_frames_reached(environment)), kUnlikely);
 
   const List<double> rates = {0, 0, 0, 0.5, 0, 0};
   Npz state;
@@ -188,8 +188,13 @@ TEST(TrackingEnvironment, EpisodesStartAllOverTheClipAndMoreOftenWhereTheCharact
   environment.load(state, "e.");
   first_frames_reached(environment);  // falls, and starts anew where the falls are said to be
   const List<std::int64_t> reached = first_frames_reached(environment);
-  EXPECT_LT(chi_squared(start_weights(rates, config.uniform_starts), 10, frames, reached), kUnlikely);
-  EXPECT_GT(chi_squared(start_weights(List<double>(6), 0.4), 10, frames, reached), 10.0 * kUnlikely);
+  // Two fifths start anywhere; the rest in the bin of the falls and the two before it, as 10 : 7 : 4
+  // (docs/method.md §9).
+  const double even = 0.4 / 6, hard = 0.6 / 21;
+  EXPECT_LT(chi_squared({even, even + 4 * hard, even + 7 * hard, even + 10 * hard, even, even}, 10, frames,
+                        reached),
+            kUnlikely);
+  EXPECT_GT(chi_squared(evenly, 10, frames, reached), 10.0 * kUnlikely);
 }
 
 TEST(TrackingEnvironment, LearnsWhereItFalls) {
