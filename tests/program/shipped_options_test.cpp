@@ -17,14 +17,13 @@ const std::filesystem::path kTestSplit =
     std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "synthetic" / "test" / "noisy";
 
 /// What a run over one motion of the test split records.
-/// @param work  runs `config` in a context
+/// @param work  runs `config`, which says how many samples are drawn, in a context
 template <class Config, class Work>
 record::SequenceEntry entry_of(Config& config, const std::string& name, const Work& work) {
   const TemporaryFolder folder;
   config.run.inputs = {(kTestSplit / (name + ".npz")).string()};
   config.run.out = folder.path / "run";
   config.run.fit = true;
-  config.training.samples = 0;  // the start alone
   std::ostringstream messages;
   record::Progress progress(messages, false, record::steady_seconds);
   work(record::RunContext{progress, messages, [] { return false; }});
@@ -32,8 +31,11 @@ record::SequenceEntry entry_of(Config& config, const std::string& name, const Wo
 }
 
 record::SequenceEntry adapted(const std::string& name,
-                              const std::shared_ptr<const pipeline::options::OptionSet>& options) {
+                              const std::shared_ptr<const pipeline::options::OptionSet>& options,
+                              std::int64_t samples = 0) {
   AdaptConfig config = adapt_configuration();
+  config.training.samples = samples;
+  config.training.evaluate_iterations = 10;
   config.method = AdaptMethod::kPaper;
   config.options = {options};
   return entry_of(config, name, [&](const record::RunContext& context) { adapt(config, context); });
@@ -41,6 +43,7 @@ record::SequenceEntry adapted(const std::string& name,
 
 record::SequenceEntry untrained(const std::string& name) {
   pipeline::ImitateConfig config = imitate_configuration();
+  config.training.samples = 0;
   return entry_of(config, name,
                   [&](const record::RunContext& context) { pipeline::imitate(config, context); });
 }
@@ -88,6 +91,14 @@ TEST(ShippedOptions, HaveTheFeaturesOfTheMotionsThatTheyWereTrainedOn) {
       EXPECT_NEAR(mean, centre[k], 0.03) << pipeline::options::feature_names()[k];
     }
   }
+}
+
+TEST(ShippedOptions, FineTuningBringsAMotionThatTheyFollowNearerToItsReference) {
+  const record::SequenceEntry tuned = adapted("squat_1", pipeline::options::read_options(kOptions), 40'000);
+  EXPECT_TRUE(tuned.ok_before);
+  EXPECT_TRUE(tuned.ok);
+  EXPECT_LT(value_of(tuned.metrics, "MPJPE"), 0.8 * value_of(tuned.metrics_before, "MPJPE"));
+  EXPECT_LT(1.0 - tuned.reward_after, 0.8 * (1.0 - tuned.reward_before));
 }
 
 TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
