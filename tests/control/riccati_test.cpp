@@ -53,7 +53,7 @@ double riccati_residual(const Regulator& r, const Eigen::MatrixXd& P) {
 
 /// The solution of the algebraic Riccati equation by another way, the structure-preserving doubling
 /// algorithm: step k is the cost of 2ᵏ frames (E. K.-W. Chu, H.-Y. Fan, W.-W. Lin, C.-S. Wang, Int. J.
-/// Control 77 (2004), §2).
+/// Control 77 (2004)).
 Eigen::MatrixXd algebraic_solution(const Regulator& r) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(r.A.rows(), r.A.rows());
   Eigen::MatrixXd A = r.A, G = product_of(r.B, product_of(inverse(r.R), transposed(r.B))), H = r.Q;
