@@ -63,8 +63,6 @@ void for_each_training_setting(Config& config, const Visit& visit) {
   visit("kl_stop", p.kl_stop);
   visit("penalty_weight", p.penalty_weight);
   visit("penalty_fraction", p.penalty_fraction);
-  visit("bound_weight", p.bound_weight);
-  visit("mean_bound", p.mean_bound);
   visit("gradient_slots", p.gradient_slots);
   visit("pass_rows", p.pass_rows);
 

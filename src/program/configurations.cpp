@@ -60,8 +60,6 @@ constexpr Array<Row, 43> kTable = {{{
   {"kl_stop",            {4,         4,         4,         4}},
   {"penalty_weight",     {0,         0,         0,         0}},
   {"penalty_fraction",   {0.125,     0.125,     0.125,     0.125}},
-  {"bound_weight",       {0,         0,         0,         0}},
-  {"mean_bound",         {3,         3,         3,         3}},
   {"gradient_slots",     {4,         4,         4,         4}},
   {"pass_rows",          {256,       256,       256,       256}},
 

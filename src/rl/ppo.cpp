@@ -22,6 +22,8 @@ struct AdvantageScale {
   float mean = 0.0F, factor = 1.0F;
 };
 
+constexpr float kSaturatedMean = 3.0F;  ///< mean actions beyond ± this count as saturated
+
 /// Row `row` of the whole buffer: its group and its row there.
 struct RowPlace {
   const GroupRollout& group;
@@ -119,10 +121,6 @@ void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::
   const nn::Var surrogate = surrogate_loss(tape, density, tape.refer(slot.old_log_density),
                                            tape.refer(slot.advantages), static_cast<float>(config.clip));
   nn::Var loss = nn::scale(tape, surrogate, share);
-  if (config.bound_weight > 0.0) {
-    const nn::Var excess = bound_loss(tape, means, static_cast<float>(config.mean_bound));
-    loss = nn::add(tape, loss, nn::scale(tape, excess, static_cast<float>(config.bound_weight) * share));
-  }
   if (config.penalty_weight > 0.0) {
     // The rows are shuffled: the first ones are a random sample, and stand for all rows of the pass.
     const Eigen::Index n = slot.observations.rows();
@@ -292,7 +290,7 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
     learner.step_size = adapted_step_size(config, learner.step_size, stats.kl);
 }
 
-void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationStats& stats) {
+void describe_rollout(const RolloutBuffer& buffer, IterationStats& stats) {
   double reward = 0.0, saturated = 0.0, components = 0.0;
   double error = 0.0, error_squares = 0.0, target_sum = 0.0, target_squares = 0.0;
   std::int64_t episodes = 0, steps = 0;
@@ -305,7 +303,7 @@ void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationS
       target_sum += goal;
       target_squares += goal * goal;
     }
-    saturated += static_cast<double>((group.means.array().abs() > static_cast<float>(mean_bound)).count());
+    saturated += static_cast<double>((group.means.array().abs() > kSaturatedMean).count());
     components += static_cast<double>(group.means.size());
     episodes += group.ended_episodes;
     steps += group.ended_steps;

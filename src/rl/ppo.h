@@ -37,7 +37,7 @@ struct IterationStats {
   double mean_reward = 0.0;          ///< per step
   double mean_episode_length = 0.0;  ///< of the episodes that ended, steps; 0 when none did
   double explained_variance = 0.0;   ///< 1 − Var(return − V)/Var(return), before the update
-  double saturation = 0.0;           ///< share of the mean actions' components beyond ± mean_bound
+  double saturation = 0.0;           ///< share of the mean actions' components beyond ± 3
   double sigma = 0.0;
   bool learned = false;  ///< false for a first iteration, which only measures the observations
   int minibatches = 0;   ///< gradient steps taken
@@ -82,7 +82,7 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
             double sigma, const ShuffleKey& key, int threads, UpdateScratch& scratch, IterationStats& stats);
 
 /// Reward, episode length, explained variance and saturation of a roll-out.
-void describe_rollout(const RolloutBuffer& buffer, double mean_bound, IterationStats& stats);
+void describe_rollout(const RolloutBuffer& buffer, IterationStats& stats);
 
 /// Adam's moments for every parameter of the network, of its shape. @throws DataError where they are others
 nn::Adam<float> load_moments(const Npz& archive, const std::string& prefix, nn::Mlp<float>& network);

@@ -47,10 +47,6 @@ struct PpoConfig {
   double penalty_weight;
   double penalty_fraction;  ///< share of every minibatch on which it is evaluated
 
-  // Means beyond ± mean_bound cost weight · Σ excess² and are counted as saturated.
-  double bound_weight;
-  double mean_bound;
-
   // How the work is cut. The bits of the result depend on it; they do not depend on the number of threads.
   int gradient_slots;  ///< parts of a minibatch whose gradients are taken side by side
   int pass_rows;       ///< rows of one forward and backward pass

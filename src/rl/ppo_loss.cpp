@@ -36,13 +36,6 @@ nn::Var gradient_penalty(nn::Tape<S>& tape, const nn::Mlp<S>& actor, std::span<c
 }
 
 template <class S>
-nn::Var bound_loss(nn::Tape<S>& tape, nn::Var means, S bound) {
-  const nn::Var above = nn::activate(tape, nn::scale(tape, means, S(1), -bound), nn::Activation::kRelu);
-  const nn::Var below = nn::activate(tape, nn::scale(tape, means, S(-1), -bound), nn::Activation::kRelu);
-  return nn::add(tape, nn::sum(tape, nn::square(tape, above)), nn::sum(tape, nn::square(tape, below)));
-}
-
-template <class S>
 nn::Var value_loss(nn::Tape<S>& tape, nn::Var values, nn::Var targets) {
   return nn::scale(tape, nn::sum(tape, nn::square(tape, nn::sub(tape, values, targets))), S(0.5));
 }
@@ -55,8 +48,6 @@ template nn::Var gradient_penalty(nn::Tape<float>&, const nn::Mlp<float>&, std::
                                   nn::Var, float);
 template nn::Var gradient_penalty(nn::Tape<double>&, const nn::Mlp<double>&, std::span<const nn::Var>,
                                   nn::Var, nn::Var, double);
-template nn::Var bound_loss(nn::Tape<float>&, nn::Var, float);
-template nn::Var bound_loss(nn::Tape<double>&, nn::Var, double);
 template nn::Var value_loss(nn::Tape<float>&, nn::Var, nn::Var);
 template nn::Var value_loss(nn::Tape<double>&, nn::Var, nn::Var);
 

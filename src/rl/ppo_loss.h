@@ -26,10 +26,6 @@ template <class S>
 nn::Var gradient_penalty(nn::Tape<S>& tape, const nn::Mlp<S>& actor, std::span<const nn::Var> parameters,
                          nn::Var observations, nn::Var actions, S sigma);
 
-/// Σ max(|μ| − bound, 0)².
-template <class S>
-nn::Var bound_loss(nn::Tape<S>& tape, nn::Var means, S bound);
-
 /// ½ Σ (v − target)².
 template <class S>
 nn::Var value_loss(nn::Tape<S>& tape, nn::Var values, nn::Var targets);

@@ -57,7 +57,7 @@ class PpoTrainer {
     for (const auto [group, character] : restarted) buffer_.groups[group].ages[character] = 0;
     samples_ += buffer_.rows();
     stats.samples = samples_;
-    describe_rollout(buffer_, config_.mean_bound, stats);
+    describe_rollout(buffer_, stats);
     assign_rows();
     std::vector<IterationStats> parts(learners_.size(), stats);
     for (std::size_t k = 0; k < learners_.size(); ++k) {

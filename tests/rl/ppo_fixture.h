@@ -30,8 +30,6 @@ inline PpoConfig ppo_for_tests() {
           .kl_stop = 4.0,
           .penalty_weight = 0.0,
           .penalty_fraction = 0.125,
-          .bound_weight = 0.0,
-          .mean_bound = 3.0,
           .gradient_slots = 4,
           .pass_rows = 512};
 }
@@ -46,8 +44,6 @@ inline PpoConfig small_config() {
   config.sigma_start = config.sigma_end = 0.3;
   config.penalty_weight = 0.01;
   config.penalty_fraction = 0.25;
-  config.bound_weight = 0.1;
-  config.mean_bound = 0.05;
   return config;
 }
 
