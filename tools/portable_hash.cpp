@@ -144,7 +144,7 @@ nn::Matrix<float> random_rows(int rows, int columns) {
 
 nn::Mlp<float> policy() {
   Random random(4, {});
-  return nn::make_mlp<float>({570, 128, 128, kDofs}, nn::Activation::kElu, 0.1f, random);
+  return nn::make_mlp<float>({570, 128, 128, kDofs}, 0.1f, random);
 }
 
 Hash forward_pass() {

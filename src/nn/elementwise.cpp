@@ -15,51 +15,20 @@ void map_unary(const Matrix<S>& x, Matrix<S>& y, F f) {
   for (Eigen::Index i = 0; i < n; ++i) out[i] = f(in[i]);
 }
 
-template <class S, class F>
-void map_binary(const Matrix<S>& a, const Matrix<S>& b, Matrix<S>& y, F f) {
-  const S* left = a.data();
-  const S* right = b.data();
-  S* out = y.data();
-  const Eigen::Index n = a.size();
-  for (Eigen::Index i = 0; i < n; ++i) out[i] = f(left[i], right[i]);
-}
-
 }  // namespace
 
 template <class S>
-void apply_activation(Activation activation, const Matrix<S>& x, Matrix<S>& y) {
-  switch (activation) {
-    case Activation::kLinear:
-      map_unary(x, y, [](S v) { return v; });
-      break;
-    case Activation::kRelu:
-      map_unary(x, y, [](S v) { return v < S(0) ? S(0) : v; });
-      break;
-    case Activation::kElu:
-      map_unary(x, y, [](S v) { return elu_value(v); });
-      break;
-    case Activation::kTanh:
-      map_unary(x, y, [](S v) { return tanh_value(v); });
-      break;
-  }
+void apply_elu(const Matrix<S>& x, Matrix<S>& y) {
+  map_unary(x, y, [](S v) { return elu_value(v); });
 }
 
 template <class S>
-void multiply_by_slope(Activation activation, const Matrix<S>& g, const Matrix<S>& y, Matrix<S>& result) {
-  switch (activation) {
-    case Activation::kLinear:
-      map_unary(g, result, [](S v) { return v; });
-      break;
-    case Activation::kRelu:
-      map_binary(g, y, result, [](S v, S out) { return out > S(0) ? v : S(0); });
-      break;
-    case Activation::kElu:
-      map_binary(g, y, result, [](S v, S out) { return v * ((out < S(0) ? out : S(0)) + S(1)); });
-      break;
-    case Activation::kTanh:
-      map_binary(g, y, result, [](S v, S out) { return v * (S(1) - out * out); });
-      break;
-  }
+void multiply_by_elu_slope(const Matrix<S>& g, const Matrix<S>& y, Matrix<S>& result) {
+  const S* left = g.data();
+  const S* value = y.data();
+  S* out = result.data();
+  const Eigen::Index n = g.size();
+  for (Eigen::Index i = 0; i < n; ++i) out[i] = left[i] * ((value[i] < S(0) ? value[i] : S(0)) + S(1));
 }
 
 template <class S>
@@ -92,11 +61,11 @@ void sum_rows(const Matrix<S>& x, Matrix<S>& row) {
   }
 }
 
-#define MIMICX_INSTANTIATE(S)                                                                  \
-  template void apply_activation(Activation, const Matrix<S>&, Matrix<S>&);                    \
-  template void multiply_by_slope(Activation, const Matrix<S>&, const Matrix<S>&, Matrix<S>&); \
-  template void apply_exp(const Matrix<S>&, Matrix<S>&);                                       \
-  template S ordered_sum(const S*, Eigen::Index);                                              \
+#define MIMICX_INSTANTIATE(S)                                                          \
+  template void apply_elu(const Matrix<S>&, Matrix<S>&);                               \
+  template void multiply_by_elu_slope(const Matrix<S>&, const Matrix<S>&, Matrix<S>&); \
+  template void apply_exp(const Matrix<S>&, Matrix<S>&);                               \
+  template S ordered_sum(const S*, Eigen::Index);                                      \
   template void sum_rows(const Matrix<S>&, Matrix<S>&);
 MIMICX_INSTANTIATE(float)
 MIMICX_INSTANTIATE(double)

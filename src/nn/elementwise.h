@@ -1,4 +1,4 @@
-/// Our own exp and tanh, activation functions over arrays, and sums with a defined order.
+/// Our own exp, the activation elu over arrays, and sums with a defined order.
 ///
 /// The standard library's functions give different bits on different CPUs, and Eigen's differ between the
 /// vectorised body of a row and its tail. These are made of + − · / and bit shifts only, without fused
@@ -6,14 +6,11 @@
 /// it stands.
 ///
 /// The method of the exponential is that of core/exponential.h.
-/// Error against the exact value, in units in the last place: exp 2, expm1 3, tanh 4 (tested).
+/// Error against the exact value, in units in the last place: exp 2, expm1 3 (tested).
 /// exp saturates at |x| = 87 (float) and 708 (double) instead of overflowing or underflowing. NaN stays NaN.
 #pragma once
 
-#include <cmath>
-
 #include "core/exponential.h"
-#include "nn/activation.h"
 #include "nn/matrix.h"
 
 namespace mimicx::nn {
@@ -23,12 +20,10 @@ struct ActivationLimits;
 template <>
 struct ActivationLimits<float> {
   static constexpr float kExp = 87.0f;
-  static constexpr float kTanh = 10.0f;  ///< tanh is 1 from here on
 };
 template <>
 struct ActivationLimits<double> {
   static constexpr double kExp = 708.0;
-  static constexpr double kTanh = 20.0;
 };
 
 /// e^x = scale · (1 + fraction), scale a power of two.
@@ -59,15 +54,6 @@ inline S expm1_value(S x) {
   return (scale - S(1)) + scale * fraction;
 }
 
-/// tanh x = e/(e + 2), e = e^{2x} − 1, on |x|: odd symmetry is exact.
-template <class S>
-inline S tanh_value(S x) {
-  const S limit = ActivationLimits<S>::kTanh;
-  const S magnitude = std::abs(x) > limit ? limit : std::abs(x);
-  const S e = expm1_value(S(2) * magnitude);
-  return std::copysign(e / (e + S(2)), x);
-}
-
 /// x where x > 0, else e^x − 1: the sum of the two sides, one of which is 0.
 template <class S>
 inline S elu_value(S x) {
@@ -76,12 +62,12 @@ inline S elu_value(S x) {
   return positive + expm1_value(negative);
 }
 
-/// y = φ(x); y may be x.
+/// y = elu(x); y may be x.
 template <class S>
-void apply_activation(Activation activation, const Matrix<S>& x, Matrix<S>& y);
-/// result = g · φ'(x), with φ' expressed by y = φ(x).
+void apply_elu(const Matrix<S>& x, Matrix<S>& y);
+/// result = g · elu'(x). The slope is a function of y = elu(x) alone, so a layer stores y and nothing else.
 template <class S>
-void multiply_by_slope(Activation activation, const Matrix<S>& g, const Matrix<S>& y, Matrix<S>& result);
+void multiply_by_elu_slope(const Matrix<S>& g, const Matrix<S>& y, Matrix<S>& result);
 /// y = e^x, resized.
 template <class S>
 void apply_exp(const Matrix<S>& x, Matrix<S>& y);

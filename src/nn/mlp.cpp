@@ -11,23 +11,14 @@
 
 namespace mimicx::nn {
 
-namespace {
-
 template <class S>
-Activation layer_activation(const Mlp<S>& mlp, int layer) {
-  return layer + 1 < mlp.layers() ? mlp.activation : Activation::kLinear;
-}
-
-}  // namespace
-
-template <class S>
-Mlp<S> make_mlp(const std::vector<int>& sizes, Activation activation, S last_scale, Random& random) {
+Mlp<S> make_mlp(const std::vector<int>& sizes, S last_scale, Random& random) {
   if (sizes.size() < 2 || std::any_of(sizes.begin(), sizes.end(), [](int n) { return n < 1; }))
     raise(std::invalid_argument("make_mlp: expected at least two sizes, each at least 1"));
-  Mlp<S> mlp{sizes, activation, {}, {}};
+  Mlp<S> mlp{sizes, {}, {}};
   for (std::size_t layer = 0; layer + 1 < sizes.size(); ++layer) {
     const bool last = layer + 2 == sizes.size();
-    const double gain = last ? double(last_scale) : (activation == Activation::kRelu ? std::sqrt(2.0) : 1.0);
+    const double gain = last ? double(last_scale) : 1.0;
     const double deviation = gain / std::sqrt(double(sizes[layer]));
     Matrix<S> weight(sizes[layer], sizes[layer + 1]);
     for (Eigen::Index i = 0; i < weight.size(); ++i)
@@ -63,7 +54,8 @@ Var forward(Tape<S>& tape, const Mlp<S>& mlp, std::span<const Var> parameters, V
   assert(parameters.size() == 2 * mlp.weights.size());
   for (int layer = 0; layer < mlp.layers(); ++layer) {
     const auto first = 2 * static_cast<std::size_t>(layer);
-    x = affine(tape, x, parameters[first], parameters[first + 1], layer_activation(mlp, layer));
+    x = affine(tape, x, parameters[first], parameters[first + 1],
+               layer + 1 < mlp.layers() ? Activation::kElu : Activation::kLinear);
   }
   return x;
 }
@@ -79,17 +71,16 @@ void evaluate(const Mlp<S>& mlp, const Matrix<S>& input, Workspace<S>& workspace
     Matrix<S>& y = last ? output : workspace.hidden[index];
     y.resize(input.rows(), mlp.weights[index].cols());
     gemm(false, false, *x, mlp.weights[index], mlp.biases[index].data(), y);
-    const Activation activation = layer_activation(mlp, layer);
-    if (activation != Activation::kLinear) apply_activation(activation, y, y);
+    if (!last) apply_elu(y, y);
     x = &y;
   }
 }
 
-#define MIMICX_INSTANTIATE(S)                                                \
-  template Mlp<S> make_mlp(const std::vector<int>&, Activation, S, Random&); \
-  template std::vector<Matrix<S>*> parameters(Mlp<S>&);                      \
-  template std::vector<Var> parameters_on_tape(Tape<S>&, const Mlp<S>&);     \
-  template Var forward(Tape<S>&, const Mlp<S>&, std::span<const Var>, Var);  \
+#define MIMICX_INSTANTIATE(S)                                               \
+  template Mlp<S> make_mlp(const std::vector<int>&, S, Random&);            \
+  template std::vector<Matrix<S>*> parameters(Mlp<S>&);                     \
+  template std::vector<Var> parameters_on_tape(Tape<S>&, const Mlp<S>&);    \
+  template Var forward(Tape<S>&, const Mlp<S>&, std::span<const Var>, Var); \
   template void evaluate(const Mlp<S>&, const Matrix<S>&, Workspace<S>&, Matrix<S>&);
 MIMICX_INSTANTIATE(float)
 MIMICX_INSTANTIATE(double)

@@ -5,16 +5,14 @@
 #include <vector>
 
 #include "core/random.h"
-#include "nn/activation.h"
 #include "nn/ops.h"
 
 namespace mimicx::nn {
 
-/// y = W_L(… φ(x·W_1 + b_1) …) + b_L: the activation follows every layer but the last.
+/// y = W_L(… elu(x·W_1 + b_1) …) + b_L: elu follows every layer but the last.
 template <class S>
 struct Mlp {
-  std::vector<int> sizes;  ///< inputs, widths of the hidden layers, outputs
-  Activation activation = Activation::kElu;
+  std::vector<int> sizes;          ///< inputs, widths of the hidden layers, outputs
   std::vector<Matrix<S>> weights;  ///< [layer] in × out
   std::vector<Matrix<S>> biases;   ///< [layer] 1 × out
 
@@ -23,11 +21,11 @@ struct Mlp {
   int outputs() const { return sizes.back(); }
 };
 
-/// Biases 0; weights normal with deviation √(g / fan-in), g = 2 for relu and 1 otherwise; the last
-/// layer's deviation is last_scale/√fan-in (small: the untrained policy acts near its bias).
+/// Biases 0; weights normal with deviation 1/√fan-in; the last layer's deviation is last_scale/√fan-in
+/// (small: the untrained policy acts near its bias).
 /// @throws std::invalid_argument for fewer than two sizes or a size < 1.
 template <class S>
-Mlp<S> make_mlp(const std::vector<int>& sizes, Activation activation, S last_scale, Random& random);
+Mlp<S> make_mlp(const std::vector<int>& sizes, S last_scale, Random& random);
 
 /// The parameters in their fixed order W_1, b_1, W_2, b_2 …
 template <class S>

@@ -69,56 +69,39 @@ Var matmul(Tape<S>& tape, Var a, Var b, bool transpose_a, bool transpose_b) {
   return c;
 }
 
-// ---- activations -------------------------------------------------------------------------------------
+// ---- layers ------------------------------------------------------------------------------------------
 
 template <class S>
-static Var slope_product(Tape<S>& tape, Var g, Var y, Activation activation);
+static Var elu_slope_product(Tape<S>& tape, Var g, Var y);
 
-// r = g ⊙ φ'(y), φ' being a function of y = φ(x): dL/dg = G ⊙ φ'(y), dL/dy = G ⊙ g ⊙ dφ'/dy with
-// dφ'/dy = −2y for tanh (φ' = 1 − y²), 1 on the bent side of elu (φ' = y + 1), else 0.
+// r = g ⊙ φ'(y), φ' being a function of y = elu(x): dL/dg = G ⊙ φ'(y), dL/dy = G ⊙ g ⊙ dφ'/dy with
+// dφ'/dy = 1 on the bent side (φ' = y + 1), else 0.
 template <class S>
-static Gradients slope_product_adjoint(Tape<S>& tape, Var node, Var outer, const Wanted& wanted) {
-  const Recipe<S> recipe = tape.recipe(node);
-  const Var g = recipe.inputs[0], y = recipe.inputs[1];
-  const auto activation = static_cast<Activation>(recipe.flags[0]);
+static Gradients elu_slope_product_adjoint(Tape<S>& tape, Var node, Var outer, const Wanted& wanted) {
+  const auto [g, y] = std::array{tape.recipe(node).inputs[0], tape.recipe(node).inputs[1]};
   Gradients result;
-  if (wanted[0]) result[0] = slope_product(tape, outer, y, activation);
-  if (wanted[1] && activation == Activation::kTanh) {
-    result[1] = multiply(tape, multiply(tape, outer, g), scale(tape, y, S(-2)));
-  } else if (wanted[1] && activation == Activation::kElu) {
+  if (wanted[0]) result[0] = elu_slope_product(tape, outer, y);
+  if (wanted[1]) {
     const Var bent = indicator(tape, y, y, [](S value, S) { return !(value > S(0)); });
     result[1] = multiply(tape, multiply(tape, outer, g), bent);
   }
   return result;
 }
 
-/// g ⊙ φ'(y): the adjoint of an activation, as an operation.
+/// g ⊙ φ'(y): the adjoint of elu, as an operation.
 template <class S>
-static Var slope_product(Tape<S>& tape, Var g, Var y, Activation activation) {
-  if (activation == Activation::kLinear) return g;
-  const Var r =
-      append_like<S>(tape, {slope_product_adjoint<S>, {g, y}, {}, {static_cast<int>(activation)}}, g);
-  multiply_by_slope(activation, tape.value(g), tape.value(y), tape.buffer(r));
+static Var elu_slope_product(Tape<S>& tape, Var g, Var y) {
+  const Var r = append_like<S>(tape, {elu_slope_product_adjoint<S>, {g, y}}, g);
+  multiply_by_elu_slope(tape.value(g), tape.value(y), tape.buffer(r));
   return r;
-}
-
-template <class S>
-static Gradients activate_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
-  return {slope_product(tape, g, node, static_cast<Activation>(tape.recipe(node).flags[0]))};
-}
-
-template <class S>
-Var activate(Tape<S>& tape, Var x, Activation activation) {
-  const Var y = append_like<S>(tape, {activate_adjoint<S>, {x}, {}, {static_cast<int>(activation)}}, x);
-  apply_activation(activation, tape.value(x), tape.buffer(y));
-  return y;
 }
 
 // y = φ(x·W + b): with D = G ⊙ φ'(y), dL/dx = D·Wᵀ, dL/dW = xᵀ·D, dL/db = column sums of D.
 template <class S>
 static Gradients affine_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
   const Recipe<S> recipe = tape.recipe(node);
-  const Var d = slope_product(tape, g, node, static_cast<Activation>(recipe.flags[0]));
+  const bool bent = recipe.flags[0] == static_cast<int>(Activation::kElu);
+  const Var d = bent ? elu_slope_product(tape, g, node) : g;
   Gradients result;
   if (wanted[0]) result[0] = matmul(tape, d, recipe.inputs[1], false, true);
   if (wanted[1]) result[1] = matmul(tape, recipe.inputs[0], d, true, false);
@@ -135,7 +118,7 @@ Var affine(Tape<S>& tape, Var x, Var weight, Var bias, Activation activation) {
                             in.rows(), w.cols());
   Matrix<S>& out = tape.buffer(y);
   gemm<S>(false, false, in, w, tape.value(bias).data(), out);
-  if (activation != Activation::kLinear) apply_activation(activation, out, out);
+  if (activation == Activation::kElu) apply_elu(out, out);
   return y;
 }
 
@@ -245,35 +228,7 @@ Var clamp(Tape<S>& tape, Var x, S low, S high) {
   return y;
 }
 
-// ---- rows, sums and broadcasts -----------------------------------------------------------------------
-
-template <class S>
-static Gradients add_row_adjoint(Tape<S>& tape, Var, Var g, const Wanted& wanted) {
-  return {g, wanted[1] ? column_sum(tape, g) : Var{}};
-}
-
-template <class S>
-Var add_row(Tape<S>& tape, Var x, Var row) {
-  assert(tape.value(row).rows() == 1 && tape.value(row).cols() == tape.value(x).cols());
-  const Var y = append_like<S>(tape, {add_row_adjoint<S>, {x, row}}, x);
-  tape.buffer(y) = tape.value(x).rowwise() + tape.value(row).row(0);
-  return y;
-}
-
-template <class S>
-static Gradients multiply_row_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
-  const auto inputs = tape.recipe(node).inputs;
-  return {wanted[0] ? multiply_row(tape, g, inputs[1]) : Var{},
-          wanted[1] ? column_sum(tape, multiply(tape, g, inputs[0])) : Var{}};
-}
-
-template <class S>
-Var multiply_row(Tape<S>& tape, Var x, Var row) {
-  assert(tape.value(row).rows() == 1 && tape.value(row).cols() == tape.value(x).cols());
-  const Var y = append_like<S>(tape, {multiply_row_adjoint<S>, {x, row}}, x);
-  tape.buffer(y) = (tape.value(x).array().rowwise() * tape.value(row).row(0).array()).matrix();
-  return y;
-}
+// ---- sums and broadcasts -----------------------------------------------------------------------------
 
 /// Adjoint of every sum: the gradient is spread over the shape of the input.
 template <class S>
@@ -339,9 +294,6 @@ Var broadcast(Tape<S>& tape, Var x, Index rows, Index cols) {
   template Var multiply(Tape<S>&, Var, Var);                \
   template Var minimum(Tape<S>&, Var, Var);                 \
   template Var scale(Tape<S>&, Var, S, S);                  \
-  template Var add_row(Tape<S>&, Var, Var);                 \
-  template Var multiply_row(Tape<S>&, Var, Var);            \
-  template Var activate(Tape<S>&, Var, Activation);         \
   template Var exp(Tape<S>&, Var);                          \
   template Var square(Tape<S>&, Var);                       \
   template Var clamp(Tape<S>&, Var, S, S);                  \

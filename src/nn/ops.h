@@ -4,7 +4,6 @@
 /// shape is a programmer's slip and asserted.
 #pragma once
 
-#include "nn/activation.h"
 #include "nn/tape.h"
 
 namespace mimicx::nn {
@@ -12,6 +11,8 @@ namespace mimicx::nn {
 /// op(a) · op(b), op = transpose where the flag is set.
 template <class S>
 Var matmul(Tape<S>& tape, Var a, Var b, bool transpose_a = false, bool transpose_b = false);
+enum class Activation { kLinear, kElu };
+
 /// activation(x · weight + bias): x [n, in], weight [in, out], bias [1, out].
 template <class S>
 Var affine(Tape<S>& tape, Var x, Var weight, Var bias, Activation activation = Activation::kLinear);
@@ -30,14 +31,7 @@ Var minimum(Tape<S>& tape, Var a, Var b);
 /// factor · x + offset.
 template <class S>
 Var scale(Tape<S>& tape, Var x, S factor, S offset = S(0));
-/// x [n, m] plus, or times, a row [1, m] in every row.
-template <class S>
-Var add_row(Tape<S>& tape, Var x, Var row);
-template <class S>
-Var multiply_row(Tape<S>& tape, Var x, Var row);
 
-template <class S>
-Var activate(Tape<S>& tape, Var x, Activation activation);
 template <class S>
 Var exp(Tape<S>& tape, Var x);
 template <class S>

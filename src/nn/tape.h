@@ -42,7 +42,7 @@ class Tape {
     Rule rule = nullptr;  ///< null: constant as far as gradients are concerned
     std::array<Var, kMaxInputs> inputs{};
     std::array<S, 2> numbers{};  ///< factors and bounds
-    std::array<int, 2> flags{};  ///< transposes, kind of activation
+    std::array<int, 2> flags{};  ///< transposes, activation
   };
 
   Tape() = default;

@@ -69,8 +69,6 @@ ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits) 
   out.meant = policy;
   out.in_8_bits = in_8_bits;
   rl::Agent& agent = out.meant.agent;
-  if (agent.actor.activation != nn::Activation::kElu)
-    throw std::invalid_argument("its network has units of another kind than elu");
   if (out.widest() > kWidestEver)
     throw std::invalid_argument("its network has a layer of more than " + std::to_string(kWidestEver) +
                                 " units");

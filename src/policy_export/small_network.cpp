@@ -117,7 +117,7 @@ SmallNetwork quantise(const nn::Matrix<float>& observations, rl::Agent& agent) {
     }
     y.resize(x.rows(), weights.cols());
     nn::gemm(false, false, x, weights, agent.actor.biases[layer].data(), y);
-    nn::apply_activation(agent.actor.activation, y, y);
+    nn::apply_elu(y, y);
     x = y;
   }
   return small;

@@ -26,10 +26,9 @@ double ReturnScale::deviation() const {
 
 Agent make_agent(const AgentShape& shape, std::uint64_t seed) {
   Random actor_random(seed, {kActorInit}), critic_random(seed, {kCriticInit});
-  return {nn::make_mlp(layer_sizes(shape.observation_dim, shape.hidden, shape.action_dim), shape.activation,
-                       shape.last_scale, actor_random),
-          nn::make_mlp(layer_sizes(shape.observation_dim, shape.hidden, 1), shape.activation, 1.0F,
-                       critic_random),
+  return {nn::make_mlp(layer_sizes(shape.observation_dim, shape.hidden, shape.action_dim), shape.last_scale,
+                       actor_random),
+          nn::make_mlp(layer_sizes(shape.observation_dim, shape.hidden, 1), 1.0F, critic_random),
           nn::make_normaliser<float>(shape.observation_dim, shape.observation_limit),
           {}};
 }

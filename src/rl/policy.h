@@ -45,8 +45,7 @@ struct Agent {
 struct AgentShape {
   int observation_dim = 0;
   int action_dim = 0;
-  std::vector<int> hidden;  ///< widths of the hidden layers; empty: a linear policy
-  nn::Activation activation = nn::Activation::kElu;
+  std::vector<int> hidden;         ///< widths of the hidden layers; empty: a linear policy
   float last_scale = 0.02F;        ///< actor's last layer: the untrained policy acts near zero
   float observation_limit = 5.0F;  ///< normalised observations are clipped to ± this
 };

@@ -27,7 +27,7 @@ TYPED_TEST_SUITE(Checkpoint, Scalars);
 TYPED_TEST(Checkpoint, RestoresEverythingBitForBitThroughAFile) {
   using S = TypeParam;
   Random random(31);
-  auto mlp = make_mlp<S>({5, 4, 3}, Activation::kTanh, S(0.1), random);
+  auto mlp = make_mlp<S>({5, 4, 3}, S(0.1), random);
   for (auto* p : parameters(mlp)) *p = random_parameters<S>(p->rows(), p->cols(), random);
   auto adam = make_adam<S>(parameters(mlp));
   std::vector<Matrix<S>> gradients;
@@ -52,7 +52,6 @@ TYPED_TEST(Checkpoint, RestoresEverythingBitForBitThroughAFile) {
   const auto adam2 = load_adam<S>(in, "actor.adam.");
   const auto normaliser2 = load_normaliser<S>(in, "states.");
   EXPECT_EQ(mlp2.sizes, mlp.sizes);
-  EXPECT_EQ(mlp2.activation, mlp.activation);
   EXPECT_EQ(mlp2.weights, mlp.weights);
   EXPECT_EQ(mlp2.biases, mlp.biases);
   EXPECT_EQ(adam2.steps, adam.steps);
@@ -75,7 +74,7 @@ TEST(CheckpointErrors, NameTheMemberThatIsWrong) {
   Random random(32);
   Npz archive;
   archive.path = "some.npz";
-  save(archive, "actor.", make_mlp<float>({5, 4, 3}, Activation::kElu, 0.1f, random));
+  save(archive, "actor.", make_mlp<float>({5, 4, 3}, 0.1f, random));
   const auto message = [&](const Npz& broken) {
     try {
       load_mlp<float>(broken, "actor.");

@@ -17,21 +17,16 @@ Inputs copies(Mlp<double>& mlp) {
   return result;
 }
 
-Mlp<double> small_network(Activation activation) {
+Mlp<double> small_network() {
   Random random(21);
-  auto mlp = make_mlp<double>({4, 6, 5, 3}, activation, 0.7, random);
+  auto mlp = make_mlp<double>({4, 6, 5, 3}, 0.7, random);
   for (auto& bias : mlp.biases) bias = 0.3 * random_matrix(1, bias.cols(), random);
   return mlp;
 }
 
-class EveryActivation : public testing::TestWithParam<Activation> {};
-INSTANTIATE_TEST_SUITE_P(Mlp, EveryActivation,
-                         testing::Values(Activation::kRelu, Activation::kElu, Activation::kTanh),
-                         [](const auto& info) { return std::string(to_string(info.param)); });
-
 /// Clipped surrogate of PPO: min(r·A, clip(r, 0.8, 1.2)·A), r = exp(log π − log π_old).
-TEST_P(EveryActivation, SurrogateLossGradientMatchesFiniteDifferences) {
-  auto mlp = small_network(GetParam());
+TEST(Mlp, SurrogateLossGradientMatchesFiniteDifferences) {
+  auto mlp = small_network();
   Random random(22);
   const auto states = random_matrix(7, 4, random), actions = random_matrix(7, 3, random);
   const auto advantages = random_matrix(7, 1, random);
@@ -51,7 +46,7 @@ TEST_P(EveryActivation, SurrogateLossGradientMatchesFiniteDifferences) {
 Var log_probability(Tape<double>& t, const Mlp<double>& mlp, std::span<const Var> p, Var states,
                     const Matrix<double>& actions, const Matrix<double>& deviations) {
   const Var error = sub(t, t.constant(actions), forward(t, mlp, p, states));
-  const Var scaled = multiply_row(t, error, t.constant(deviations.cwiseInverse()));
+  const Var scaled = multiply(t, error, t.constant(deviations.cwiseInverse().replicate(actions.rows(), 1)));
   return scale(t, sum(t, square(t, scaled)), -0.5);
 }
 
@@ -63,8 +58,8 @@ Var penalty(Tape<double>& t, const Mlp<double>& mlp, std::span<const Var> p, con
   return sum(t, square(t, gradient<double>(t, log, wrt)[0]));
 }
 
-TEST_P(EveryActivation, PenaltyGradientMatchesFiniteDifferences) {
-  auto mlp = small_network(GetParam());
+TEST(Mlp, PenaltyGradientMatchesFiniteDifferences) {
+  auto mlp = small_network();
   Random random(23);
   const auto states = random_matrix(5, 4, random), actions = random_matrix(5, 3, random);
   const Matrix<double> deviations = (Matrix<double>(1, 3) << 0.5, 0.9, 1.4).finished();
@@ -78,8 +73,8 @@ TEST_P(EveryActivation, PenaltyGradientMatchesFiniteDifferences) {
 /// E‖∇_s log π(a|s)‖² = Σ_i ‖∇_s μ_i‖²/σ_i².  docs/method.md §7. The left side is quadratic in ε = (a − μ)/σ,
 /// so the three points ε = √3·e_i, whose mean of εεᵀ is the unit matrix, give its expectation exactly; the
 /// Jacobian of the right side is taken by finite differences.
-TEST_P(EveryActivation, ExpectedPenaltyEqualsJacobianNormOverVariance) {
-  const auto mlp = small_network(GetParam());
+TEST(Mlp, ExpectedPenaltyEqualsJacobianNormOverVariance) {
+  const auto mlp = small_network();
   Random random(24);
   const auto states = random_matrix(6, 4, random);
   const Matrix<double> deviations = (Matrix<double>(1, 3) << 0.2, 0.7, 1.3).finished();
@@ -110,9 +105,9 @@ TEST_P(EveryActivation, ExpectedPenaltyEqualsJacobianNormOverVariance) {
   EXPECT_NEAR(average, expected, 1e-7 * expected);
 }
 
-TEST_P(EveryActivation, EvaluateEqualsForwardBitForBit) {
+TEST(Mlp, EvaluateEqualsForwardBitForBit) {
   Random random(25);
-  const auto mlp = make_mlp<float>({37, 32, 16, 5}, GetParam(), 1.0f, random);
+  const auto mlp = make_mlp<float>({37, 32, 16, 5}, 1.0f, random);
   for (const int rows : {1, 3, 64}) {
     const Matrix<float> x = random_matrix(rows, 37, random).cast<float>();
     Tape<float> tape;
@@ -127,7 +122,7 @@ TEST_P(EveryActivation, EvaluateEqualsForwardBitForBit) {
 
 TEST(Mlp, ARowOfTheOutputIgnoresTheContentOfOtherRows) {
   Random random(26);
-  const auto mlp = make_mlp<float>({37, 32, 5}, Activation::kElu, 1.0f, random);
+  const auto mlp = make_mlp<float>({37, 32, 5}, 1.0f, random);
   const Matrix<float> x = random_matrix(19, 37, random).cast<float>();
   Workspace<float> workspace;
   Matrix<float> together, disturbed;
@@ -142,7 +137,7 @@ TEST(Mlp, ARowOfTheOutputIgnoresTheContentOfOtherRows) {
 
 TEST(Mlp, EvaluateKeepsItsBuffers) {
   Random random(27);
-  const auto mlp = make_mlp<float>({8, 16, 16, 12, 2}, Activation::kTanh, 1.0f, random);
+  const auto mlp = make_mlp<float>({8, 16, 16, 12, 2}, 1.0f, random);
   const Matrix<float> x = random_matrix(10, 8, random).cast<float>();
   Workspace<float> workspace;
   Matrix<float> output;
@@ -160,20 +155,20 @@ TEST(Mlp, EvaluateKeepsItsBuffers) {
 
 TEST(Mlp, InitialWeightsHaveTheStatedDeviations) {
   Random random(28);
-  const auto mlp = make_mlp<double>({400, 300, 200}, Activation::kRelu, 0.01, random);
+  const auto mlp = make_mlp<double>({400, 300, 200}, 0.01, random);
   const auto deviation = [](const Matrix<double>& w) {
     return std::sqrt(w.squaredNorm() / double(w.size()));
   };
   // The relative error of a deviation from n normal numbers is 1/√(2n): five times that here.
-  EXPECT_NEAR(deviation(mlp.weights[0]) / std::sqrt(2.0 / 400), 1.0, 5 / std::sqrt(2.0 * 400 * 300));
+  EXPECT_NEAR(deviation(mlp.weights[0]) / std::sqrt(1.0 / 400), 1.0, 5 / std::sqrt(2.0 * 400 * 300));
   EXPECT_NEAR(deviation(mlp.weights[1]) / (0.01 / std::sqrt(300)), 1.0, 5 / std::sqrt(2.0 * 300 * 200));
   EXPECT_TRUE(mlp.biases[0].isZero(0));
 }
 
 TEST(Mlp, RefusesImpossibleSizes) {
   Random random(29);
-  EXPECT_THROW(make_mlp<float>({3}, Activation::kElu, 1.0f, random), std::invalid_argument);
-  EXPECT_THROW(make_mlp<float>({3, 0, 2}, Activation::kElu, 1.0f, random), std::invalid_argument);
+  EXPECT_THROW(make_mlp<float>({3}, 1.0f, random), std::invalid_argument);
+  EXPECT_THROW(make_mlp<float>({3, 0, 2}, 1.0f, random), std::invalid_argument);
 }
 
 }  // namespace

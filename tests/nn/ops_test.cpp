@@ -34,8 +34,6 @@ std::vector<Case> cases() {
       {"multiply_by_itself", {{3, 4}}, [](T& t, X x) { return multiply(t, x[0], x[0]); }},
       {"minimum", {{3, 4}, {3, 4}}, [](T& t, X x) { return minimum(t, x[0], x[1]); }},
       {"scale", {{3, 4}}, [](T& t, X x) { return scale(t, x[0], 1.5, -0.25); }},
-      {"add_row", {{3, 4}, {1, 4}}, [](T& t, X x) { return add_row(t, x[0], x[1]); }},
-      {"multiply_row", {{3, 4}, {1, 4}}, [](T& t, X x) { return multiply_row(t, x[0], x[1]); }},
       {"exp", {{3, 4}}, [](T& t, X x) { return exp(t, x[0]); }},
       {"square", {{3, 4}}, [](T& t, X x) { return square(t, x[0]); }},
       {"clamp", {{3, 4}}, [](T& t, X x) { return clamp(t, x[0], -0.5, 0.7); }},
@@ -51,13 +49,10 @@ std::vector<Case> cases() {
       list.push_back({std::string("matmul_") + (ta ? "t" : "n") + (tb ? "t" : "n"),
                       {ta ? std::array{4, 3} : std::array{3, 4}, tb ? std::array{5, 4} : std::array{4, 5}},
                       [=](T& t, X x) { return matmul(t, x[0], x[1], ta, tb); }});
-  for (const auto kind : {Activation::kLinear, Activation::kRelu, Activation::kElu, Activation::kTanh}) {
-    const std::string name(to_string(kind));
-    list.push_back({"activate_" + name, {{3, 4}}, [=](T& t, X x) { return activate(t, x[0], kind); }});
-    list.push_back({"affine_" + name, {{3, 4}, {4, 2}, {1, 2}}, [=](T& t, X x) {
-                      return affine(t, x[0], x[1], x[2], kind);
-                    }});
-  }
+  for (const auto kind : {Activation::kLinear, Activation::kElu})
+    list.push_back({kind == Activation::kElu ? "affine_elu" : "affine_linear",
+                    {{3, 4}, {4, 2}, {1, 2}},
+                    [=](T& t, X x) { return affine(t, x[0], x[1], x[2], kind); }});
   return list;
 }
 
@@ -128,7 +123,7 @@ TEST(Tape, ComputesNoGradientThatNobodyAskedFor) {
   const auto nodes_of_gradient = [](bool with_input) {
     Tape<double> tape;
     const Var x = tape.constant(5, 4, 1.0), w = tape.constant(4, 3, 1.0), b = tape.constant(1, 3, 0.0);
-    const Var loss = sum(tape, affine(tape, x, w, b, Activation::kTanh));
+    const Var loss = sum(tape, affine(tape, x, w, b, Activation::kElu));
     const int before = tape.size();
     std::vector<Var> wrt = {w, b};
     if (with_input) wrt.push_back(x);

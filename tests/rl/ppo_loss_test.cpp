@@ -20,7 +20,7 @@ M normal_matrix(Eigen::Index rows, Eigen::Index cols, Random& random) {
   return m;
 }
 
-nn::Mlp<double> small_actor(Random& random) { return nn::make_mlp<double>({5, 12, 3}, nn::Activation::kTanh, 1.0, random); }
+nn::Mlp<double> small_actor(Random& random) { return nn::make_mlp<double>({5, 12, 3}, 1.0, random); }
 
 TEST(PpoLoss, SurrogateIsTheClippedRatioTimesTheAdvantage) {
   // Rows: ratio inside, above and below the clip range, with an advantage of either sign.

@@ -20,7 +20,6 @@ Agent agent_for(int observations, int actions, std::uint64_t seed) {
   shape.observation_dim = observations;
   shape.action_dim = actions;
   shape.hidden = {32, 32};
-  shape.activation = nn::Activation::kTanh;
   return make_agent(shape, seed);
 }
 
@@ -65,7 +64,7 @@ TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
   config.sigma_start = config.sigma_end = 0.4;
   Agent agent = agent_for(2, 1, 1);
   Random random(1);
-  agent.actor = nn::make_mlp<float>({2, 1}, nn::Activation::kLinear, 0.02F, random);
+  agent.actor = nn::make_mlp<float>({2, 1}, 0.02F, random);
   PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kToyCourse, {agent}, world);
   Eigen::RowVector3d law = Eigen::RowVector3d::Zero();
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
