@@ -63,8 +63,8 @@ struct Problem {
     control::take_lane(fan, 0, plan);
     double regularisation = 0.0;
     for (int i = 0; i < 3; ++i)
-      control::improve(system, cost, {}, 1, true, 0.2, models, sweep, regularisation, plan);
-    control::build_models(system, cost, plan, {}, 1, models);
+      control::improve(system, cost, 1, true, 0.2, models, sweep, regularisation, plan);
+    control::build_models(system, cost, plan, 1, models);
   }
   static control::System make(bool soft) {
     std::vector<physics::State<double>> reference;
@@ -128,19 +128,21 @@ void register_all(Problem& hard, Problem& soft) {
   const auto add = [](const std::string& name, auto function) {
     benchmark::RegisterBenchmark(name.c_str(), function)->MinTime(0.2)->Repetitions(5);
   };
-  const auto derivatives = [&](const std::string& name, Problem& p, control::Linearisation how) {
-    add(name, [&p, how](benchmark::State& s) {
+  const auto analytic = [&](const std::string& name, Problem& p) {
+    add(name, [&p](benchmark::State& s) {
       const auto scratch = std::make_unique<control::LinearisationScratch>();
       per_frame(s, [&](int t) {
-        benchmark::DoNotOptimize(control::linearise(p.system, p.plan.point(t), how, *scratch));
+        benchmark::DoNotOptimize(control::linearise(p.system, p.plan.point(t), *scratch));
       });
     });
   };
-  derivatives("analytic", hard, {control::Derivatives::kAnalytic, {}});
-  derivatives("analytic, soft", soft, {control::Derivatives::kAnalytic, {}});
-  derivatives("columns", hard, {control::Derivatives::kColumns, {}});
-  derivatives("columns, soft", soft, {control::Derivatives::kColumns, {}});
-  derivatives("smoothed", hard, {control::Derivatives::kSmoothed, {}});
+  analytic("analytic", hard);
+  analytic("analytic, soft", soft);
+  add("smoothed", [&](benchmark::State& s) {
+    per_frame(s, [&](int t) {
+      benchmark::DoNotOptimize(control::linearise_smoothed(hard.system, hard.plan.point(t), {}));
+    });
+  });
   add("cost", [&](benchmark::State& s) {
     per_frame(s, [&](int t) {
       const physics::State<double>& x = hard.plan.x[t];
@@ -170,11 +172,10 @@ void print_summary(const BestReporter& r) {
   const double whole = r.ms("analytic") + r.ms("cost") + r.ms("sweep") + r.ms("line search");
   for (const char* name : {"analytic", "cost", "sweep", "line search"})
     std::printf("  %-16s %8.3f %6.1f %%\n", name, r.ms(name), 100.0 * r.ms(name) / whole);
-  for (const char* name : {"analytic, soft", "columns", "columns, soft", "smoothed"})
-    std::printf("  %-16s %8.3f\n", name, r.ms(name));
+  for (const char* name : {"analytic, soft", "smoothed"}) std::printf("  %-16s %8.3f\n", name, r.ms(name));
   if (r.ms("mujoco") > 0.0)
-    std::printf("  %-16s %8.3f, mjd_transitionFD: %.0f x analytic, %.0f x columns\n", "mujoco",
-                r.ms("mujoco"), r.ms("mujoco") / r.ms("analytic"), r.ms("mujoco") / r.ms("columns"));
+    std::printf("  %-16s %8.3f, mjd_transitionFD: %.0f x analytic\n", "mujoco", r.ms("mujoco"),
+                r.ms("mujoco") / r.ms("analytic"));
 }
 
 }  // namespace

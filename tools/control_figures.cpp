@@ -134,8 +134,7 @@ Course improve_often(const System& system, const Cost& cost, Trajectory window, 
   bool fresh = true;
   for (int k = 0; k < iterations; ++k) {
     const double before = window.cost;
-    const Iteration done =
-        improve(system, cost, {}, kThreads, fresh, 0.2, models, sweep, regularisation, window);
+    const Iteration done = improve(system, cost, kThreads, fresh, 0.2, models, sweep, regularisation, window);
     fresh = done.decrease >= 0.0;
     course.cost.push_back(window.cost);
     course.promised.push_back(before - sweep.decrease);
@@ -268,11 +267,11 @@ std::string contact_figure(const System& stand) {
   for (const double height : {-2.0, 2.0}) {
     const FramePoint point{0, standing_at(stand, 1e-3 * height), {}, {}};
     const double at = velocity_after(stand, point.x);
-    const auto rise = [&](const Linearisation& how) {
-      const FrameMatrix F = linearise(stand, point, how, *scratch);
+    const auto rise = [](const FrameMatrix& F) {
       return 1e-3 * static_cast<double>(F(kRootVelocity + 2, 2));
     };
-    const double exact = rise({}), smoothed = rise(GainConfig{}.linearisation);
+    const double exact = rise(linearise(stand, point, *scratch));
+    const double smoothed = rise(linearise_smoothed(stand, point, *GainConfig{}.smoothing));
     print("height, velocity, slopes in m/s per mm", {height, at, exact, smoothed});
     const bool first = height < 0.0;
     velocity.curves.push_back(
@@ -286,12 +285,12 @@ std::string contact_figure(const System& stand) {
 std::string pushes_figure(const System& system, const Cost& cost) {
   const Trajectory plan = trajectory_of(make_plan(system, {}, {.threads = kThreads}));
   GainConfig stiff;
-  stiff.linearisation = {};
+  stiff.smoothing = {};
   stiff.residual = cost.weights.residual;
   stiff.change = cost.weights.change;
   GainConfig wide = stiff, dear;
-  wide.linearisation = GainConfig{}.linearisation;
-  dear.linearisation = {};
+  wide.smoothing = GainConfig{}.smoothing;
+  dear.smoothing = {};
   const PlanControl control{.threads = kThreads};
   struct Law {
     std::string name;

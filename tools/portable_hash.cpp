@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "control/gains.h"
 #include "control/linearisation.h"
 #include "control/plan.h"
 #include "core/bits.h"
@@ -190,27 +191,26 @@ Hash linearisation() {
   const auto scratch = std::make_unique<control::LinearisationScratch>();
   control::FramePoint point{0, control::as_floats(system.at(0)), {}, {}};
   Hash hash;
-  for (const auto how : {control::Derivatives::kAnalytic, control::Derivatives::kColumns}) {
-    const control::FrameMatrix F = control::linearise(system, point, {how, {}}, *scratch);
+  for (const control::FrameMatrix& F :
+       {control::linearise(system, point, *scratch), control::linearise_smoothed(system, point, {})})
     for (Eigen::Index i = 0; i < F.size(); ++i) hash.add(double{F.data()[i]});
-  }
   return hash;
 }
 
-control::Plan plan_of_30_frames() {
-  control::PlanConfig config;
-  config.gains = true;
-  control::Plan plan = control::make_plan(system_of(30), config);
+control::Plan plan_of(const control::System& system) {
+  control::Plan plan = control::make_plan(system, {});
   if (plan.ending != control::Ending::kFollowed) fail("the plan lost its reference");
   return plan;
 }
 
-Hash hash_of(const control::Plan& plan) {
+/// The plan and its feedback gains.
+Hash hash_of(const control::System& system, const control::Plan& plan) {
   Hash hash;
   for (const auto& x : plan.states) hash.add(x);
   for (const auto& u : plan.residuals)
     for (const float value : u) hash.add(double{value});
-  for (const Eigen::MatrixXf& K : plan.gains)
+  const control::Cost cost = control::make_cost(system, {});
+  for (const Eigen::MatrixXf& K : control::feedback_gains(system, cost, control::trajectory_of(plan), {}, {}))
     for (Eigen::Index i = 0; i < K.size(); ++i) hash.add(double{K.data()[i]});
   hash.add(plan.cost);
   return hash;
@@ -248,8 +248,9 @@ int run() {
   if (!met_itself) fail("no fall had self contact");
   print("forward pass", forward_pass());
   print("linearisation", linearisation());
-  const control::Plan plan = plan_of_30_frames();
-  print("plan of 30 frames", hash_of(plan));
+  const control::System system = system_of(30);
+  const control::Plan plan = plan_of(system);
+  print("plan of 30 frames", hash_of(system, plan));
   print("archive", archive(plan));
   print("skin", skin_of_a_body());
   return 0;

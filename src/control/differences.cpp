@@ -23,30 +23,6 @@ struct Bundle {
         help(help_of(system, point.u)) {}
 };
 
-/// Moves one lane along column k of F.
-void perturb(const System& system, const FramePoint& point, int k, double step, int lane, Tangent<P>& delta,
-             Bundle& bundle) {
-  const auto moved = [&](const Control& u, int moved_entry) {
-    return [&u, moved_entry, step](int entry) {
-      const double value = static_cast<double>(u[entry]);
-      return entry == moved_entry ? value + step : value;
-    };
-  };
-  if (k < kTangent) {
-    delta[k].set(lane, static_cast<float>(step));
-  } else if (k < kMemory) {
-    const int dof = k - kTangent, body = dofs()[dof].body;
-    set_joint_target(system, point.frame, body, moved(point.before, dof), lane, bundle.from);
-  } else if (k < kMemory + kDofs) {
-    const int dof = k - kMemory, body = dofs()[dof].body;
-    set_joint_target(system, point.frame + 1, body, moved(point.u, dof), lane, bundle.to);
-  } else {
-    const auto entry = moved(point.u, k - kMemory);
-    set_help(
-        system, [&](int i) { return entry(kDofs + i); }, lane, bundle.help);
-  }
-}
-
 /// The target at a frame with every residual moved in every lane. In the packs' own arithmetic, which differs
 /// from `set_target` by rounding.
 void move_target(const System& system, int frame, const Control& u, const P* moves, Target<P>& out) {
@@ -104,33 +80,6 @@ double DifferenceSteps::of(int k) const {
 
 DifferenceSteps DifferenceSteps::scaled(double f) const {
   return {f * position, f * rotation, f * velocity, f * spin, f * residual, f * help, f * help_spin};
-}
-
-FrameMatrix linearise_by_columns(const System& system, const FramePoint& point,
-                                 const DifferenceSteps& steps) {
-  const int columns = kMemory + system.controls();
-  FrameMatrix F(kTangent, columns);
-  const auto scratch = std::make_unique<Data<P>>();
-  const auto base = std::make_unique<Bundle>(system, point);
-  State<P> ends[2];
-  for (int first = 0; first < columns; first += kLanes) {
-    const int lanes = std::min(kLanes, columns - first);
-    for (int side = 0; side < 2; ++side) {
-      Bundle bundle = *base;
-      Tangent<P> delta;
-      delta.fill(P(0.0));
-      for (int lane = 0; lane < lanes; ++lane) {
-        const int k = first + lane;
-        perturb(system, point, k, side == 0 ? steps.of(k) : -steps.of(k), lane, delta, bundle);
-      }
-      if (first < kTangent) retract(bundle.x, delta);
-      advance(system, bundle.from, bundle.to, bundle.help, bundle.x, *scratch);
-      ends[side] = bundle.x;
-    }
-    half_difference(ends[0], ends[1], lanes, first, F);
-  }
-  for (int k = 0; k < columns; ++k) F.col(k) /= static_cast<float>(steps.of(k));
-  return F;
 }
 
 FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, const DifferenceSteps& steps) {

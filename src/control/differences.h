@@ -1,15 +1,14 @@
-/// Derivatives of a control frame by differences, with perturbed characters in the lanes of packs.
+/// Smoothed derivatives of a control frame, with perturbed characters in the lanes of packs.
 ///
 ///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, help)
 ///
 /// F has 122 rows and 122 + 55 + 55 columns, and 6 more for the help of a soft system.
 ///
-/// Two ways. *Columns*: central differences, one coordinate at a time. *Smoothed*: all coordinates at once,
-/// along ± the rows of a Hadamard matrix, and a least-squares fit, which for orthogonal rows is a product. It
-/// averages F over a neighbourhood in which contacts open and close, which the derivative at a point cannot
-/// show; the sizes of its steps say how far it smooths. Random signs per column (a fixed stream per frame)
-/// keep the same coordinates from always moving together; what is even in the perturbation cancels between +
-/// and −.
+/// All coordinates move at once, along ± the rows of a Hadamard matrix; F is the least-squares fit, which for
+/// orthogonal rows is a product. It averages F over a neighbourhood in which contacts open and close, which
+/// the derivative at a point cannot show; the sizes of the steps say how far it smooths. Random signs per
+/// column (a fixed stream per frame) keep the same coordinates from always moving together; what is even in
+/// the perturbation cancels between + and −.
 /// Sources: antithetic pairs as in Salimans et al., "Evolution Strategies" (2017), §2.1; why smoothing:
 /// Suh et al., "Do Differentiable Simulators Give Better Policy Gradients?" (2022); the fit and its
 /// steps: docs/control.md §4, (6).
@@ -48,9 +47,7 @@ struct FramePoint {
 /// F [122 × kMemory + system.controls()]: columns of x, of the residuals before, of the controls.
 using FrameMatrix = Eigen::Matrix<float, kTangent, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// One coordinate at a time. A column that goes wrong in the simulator is zero.
-FrameMatrix linearise_by_columns(const System& system, const FramePoint& point, const DifferenceSteps& steps);
-/// Over a neighbourhood.
+/// @return F; the ends of frames that go wrong in the simulator count as zero
 FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, const DifferenceSteps& steps);
 
 }  // namespace mimicx::control

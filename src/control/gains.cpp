@@ -40,7 +40,7 @@ List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, con
     if (control.should_stop && control.should_stop()) return {};
     const int first = std::max(0, last - config.block);
     const Trajectory block = piece(motion, first, last);
-    build_models(system, soft, block, config.linearisation, control.threads, models, [&](int k) {
+    const auto sweep = [&](int k) {
       const int t = first + k;
       if (t == n - 1) value = last_value(models.back().cost);
       const SweepResult step =
@@ -50,7 +50,8 @@ List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, con
         (*curvature)[t] = Eigen::MatrixXd(Quu.selfadjointView<Eigen::Lower>()).cast<float>();
       }
       gains[t] = step.positive ? law.K : Eigen::MatrixXf::Zero(system.controls(), kMemory);
-    });
+    };
+    build_models(system, soft, block, control.threads, models, sweep, config.smoothing);
   }
   return gains;
 }

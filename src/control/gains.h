@@ -15,7 +15,7 @@
 namespace mimicx::control {
 
 struct GainConfig {
-  Linearisation linearisation{Derivatives::kSmoothed, DifferenceSteps{}.scaled(6.0)};
+  std::optional<DifferenceSteps> smoothing = DifferenceSteps{}.scaled(6.0);  ///< none: not smoothed
   double residual = 1600.0;  ///< weights in place of the plan's own
   double change = 1600.0;
   int block = 32;  ///< frames that are linearised at once

@@ -43,9 +43,9 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
 
 }  // namespace
 
-void build_models(const System& system, const Cost& cost, const Trajectory& trajectory,
-                  const Linearisation& how, int threads, List<FrameModel>& models,
-                  const std::function<void(int t)>& sweep) {
+void build_models(const System& system, const Cost& cost, const Trajectory& trajectory, int threads,
+                  List<FrameModel>& models, const std::function<void(int t)>& sweep,
+                  const std::optional<DifferenceSteps>& smoothing) {
   const int n = trajectory.size();
   models.resize(n + 1);
   const auto build_cost = [&](int t) {
@@ -58,7 +58,9 @@ void build_models(const System& system, const Cost& cost, const Trajectory& traj
     const int t = n - 1 - k;
     if (!scratch[worker]) scratch[worker] = std::make_unique<LinearisationScratch>();
     build_cost(t);
-    models[t].F = linearise(system, trajectory.point(t), how, *scratch[worker]);
+    const FramePoint point = trajectory.point(t);
+    models[t].F = smoothing ? linearise_smoothed(system, point, *smoothing)
+                            : linearise(system, point, *scratch[worker]);
   };
   parallel_chain(n, threads, build, [&](int k) {
     if (sweep) sweep(n - 1 - k);
@@ -153,12 +155,11 @@ void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, in
 
 }  // namespace
 
-Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
-                  double trusted, List<FrameModel>& models, Sweep& sweep, double& regularisation,
-                  Trajectory& trajectory) {
+Iteration improve(const System& system, const Cost& cost, int threads, bool fresh, double trusted,
+                  List<FrameModel>& models, Sweep& sweep, double& regularisation, Trajectory& trajectory) {
   if (fresh) {
     Backwards backwards{system, cost, trajectory, models, regularisation, sweep};
-    build_models(system, cost, trajectory, how, threads, models, [&](int t) { backwards.frame(t); });
+    build_models(system, cost, trajectory, threads, models, [&](int t) { backwards.frame(t); });
   } else {
     sweep_back(system, cost, trajectory, models, regularisation, sweep);
   }

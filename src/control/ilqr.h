@@ -5,6 +5,8 @@
 /// the controls.
 #pragma once
 
+#include <optional>
+
 #include "control/linearisation.h"
 #include "control/trajectory.h"
 
@@ -20,9 +22,10 @@ struct FrameModel {
 /// bytes for any number of threads.
 /// @param sweep  called with t = n − 1, …, 0, one after the other, as soon as the models of t and of the
 ///               frames behind it are there: it runs beside the models of the frames before; may be empty
-void build_models(const System& system, const Cost& cost, const Trajectory& trajectory,
-                  const Linearisation& how, int threads, List<FrameModel>& models,
-                  const std::function<void(int t)>& sweep = {});
+/// @param smoothing  none: the derivatives of the nominal motion; else those of differences.h
+void build_models(const System& system, const Cost& cost, const Trajectory& trajectory, int threads,
+                  List<FrameModel>& models, const std::function<void(int t)>& sweep = {},
+                  const std::optional<DifferenceSteps>& smoothing = {});
 
 struct Sweep {
   List<Feedback> laws;    ///< [n]
@@ -55,8 +58,7 @@ struct Iteration {
 /// states; when all do, the gaps are gone.
 /// @param fresh  build the models anew; false: those of the call before are still right
 /// @param regularisation  adapted: less after a full step, more after a short or no one
-Iteration improve(const System& system, const Cost& cost, const Linearisation& how, int threads, bool fresh,
-                  double trusted, List<FrameModel>& models, Sweep& sweep, double& regularisation,
-                  Trajectory& trajectory);
+Iteration improve(const System& system, const Cost& cost, int threads, bool fresh, double trusted,
+                  List<FrameModel>& models, Sweep& sweep, double& regularisation, Trajectory& trajectory);
 
 }  // namespace mimicx::control

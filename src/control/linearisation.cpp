@@ -13,8 +13,9 @@ Target<double> reference_target(const System& system, int frame) {
   return target;
 }
 
-FrameMatrix linearise_analytically(const System& system, const FramePoint& point,
-                                   LinearisationScratch& scratch) {
+}  // namespace
+
+FrameMatrix linearise(const System& system, const FramePoint& point, LinearisationScratch& scratch) {
   ControlFrame frame;
   frame.start = point.x;
   frame.from = reference_target(system, point.frame);
@@ -38,21 +39,6 @@ FrameMatrix linearise_analytically(const System& system, const FramePoint& point
   }
   if (scratch.derivative.wrong || !F.allFinite()) F.setZero();
   return F;
-}
-
-}  // namespace
-
-FrameMatrix linearise(const System& system, const FramePoint& point, const Linearisation& how,
-                      LinearisationScratch& scratch) {
-  switch (how.derivatives) {
-    case Derivatives::kColumns:
-      return linearise_by_columns(system, point, how.steps);
-    case Derivatives::kSmoothed:
-      return linearise_smoothed(system, point, how.steps);
-    case Derivatives::kAnalytic:
-      break;
-  }
-  return linearise_analytically(system, point, scratch);
 }
 
 }  // namespace mimicx::control

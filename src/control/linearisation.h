@@ -1,4 +1,5 @@
-/// The ways to linearise a control frame, behind one function.
+/// The linear model of a control frame: derivatives of the nominal motion, by the chain rule through every
+/// step.
 #pragma once
 
 #include "control/analytic/analytic.h"
@@ -6,25 +7,13 @@
 
 namespace mimicx::control {
 
-enum class Derivatives {
-  kAnalytic,  ///< of the nominal motion, by the chain rule through every step
-  kColumns,   ///< central differences, one coordinate at a time
-  kSmoothed,  ///< least squares over a neighbourhood
-};
-
-struct Linearisation {
-  Derivatives derivatives = Derivatives::kAnalytic;
-  DifferenceSteps steps;  ///< of the differences
-};
-
 /// What one worker needs; large, to be kept from frame to frame. Its contents do not matter.
 struct LinearisationScratch {
   FrameScratch<P> frame;
   FrameDerivative<P> derivative;
 };
 
-/// F [122 × kMemory + system.controls()] at a point.
-FrameMatrix linearise(const System& system, const FramePoint& point, const Linearisation& how,
-                      LinearisationScratch& scratch);
+/// F [122 × kMemory + system.controls()] at a point; zero where the motion goes wrong in the simulator.
+FrameMatrix linearise(const System& system, const FramePoint& point, LinearisationScratch& scratch);
 
 }  // namespace mimicx::control

@@ -20,8 +20,8 @@ struct Attempt {
     start.x = {as_floats(system.at(0))};
     HorizonConfig horizon = config.horizon;
     horizon.backtracks = std::min(horizon.backtracks, backtracks);
-    HorizonResult found = follow_in_windows(system, cost, config.linearisation, horizon, control,
-                                            std::move(start), system.frames() - 1, guess);
+    HorizonResult found =
+        follow_in_windows(system, cost, horizon, control, std::move(start), system.frames() - 1, guess);
     plan.iterations += found.iterations;
     plan.linearised += found.linearised;
     plan.backtracks += found.backtracks;
@@ -144,8 +144,6 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   plan.ending = found.ending;
   roll_plain(system, cost, found.motion);  // its cost and distances from the reference
   fill(system, found.motion, plan);
-  if (config.gains && plan.ending == Ending::kFollowed)
-    plan.gains = feedback_gains(system, cost, found.motion, config.gain_config, control);
   return plan;
 }
 

@@ -17,7 +17,6 @@
 
 #include <optional>
 
-#include "control/gains.h"
 #include "control/receding_horizon.h"
 
 namespace mimicx::control {
@@ -25,12 +24,9 @@ namespace mimicx::control {
 struct PlanConfig {
   CostWeights weights;
   List<Certainty> certainty;  ///< [frames], or empty
-  Linearisation linearisation;
   HorizonConfig horizon;
   bool soft_to_hard = true;  ///< where the reference is lost, plan again by way of help
   double stiffening = 8.0;   ///< factor on the price of help from stage to stage, at first
-  bool gains = false;        ///< compute the feedback gains of a plan that was followed
-  GainConfig gain_config;
 };
 
 /// Where a reference was lost.
@@ -47,7 +43,6 @@ struct Plan {
   /// Help that was left in the soft stage of a hard plan, [frames that it reached − 1]: what somebody outside
   /// of the body would have to do. Empty where no soft stage was needed.
   List<Array<float, kHelp>> soft_help;
-  List<Eigen::MatrixXf> gains;  ///< [frames planned − 1] K_t (gains.h), where asked for
   Ending ending = Ending::kFollowed;
   std::optional<Loss> loss;
   bool by_way_of_help = false;  ///< followed only after a plan with help had shown how

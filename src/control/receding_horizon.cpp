@@ -17,7 +17,6 @@ constexpr Array<int, 3> kLonger = {0, 12, -5};
 struct Task {
   const System& system;
   const Cost& cost;
-  const Linearisation& how;
   const HorizonConfig& config;
   int threads;
 };
@@ -82,7 +81,7 @@ void solve_window(const Task& task, bool first, Window& window, HorizonResult& r
   double regularisation = 0.0;
   bool fresh = true;
   for (int i = 0; !is_good(task.config, plan, i, first); ++i) {
-    const Iteration done = improve(task.system, task.cost, task.how, task.threads, fresh, task.config.trusted,
+    const Iteration done = improve(task.system, task.cost, task.threads, fresh, task.config.trusted,
                                    window.models, window.sweep, regularisation, plan);
     ++result.iterations;
     if (fresh) result.linearised += plan.size();
@@ -150,10 +149,10 @@ void roll_plain(const System& system, const Cost& cost, Trajectory& motion) {
   take_lane(fan, 0, motion);
 }
 
-HorizonResult follow_in_windows(const System& system, const Cost& cost, const Linearisation& how,
-                                const HorizonConfig& config, const PlanControl& control, Trajectory start,
-                                int end, const Trajectory& guess) {
-  const Task task{system, cost, how, config, control.threads};
+HorizonResult follow_in_windows(const System& system, const Cost& cost, const HorizonConfig& config,
+                                const PlanControl& control, Trajectory start, int end,
+                                const Trajectory& guess) {
+  const Task task{system, cost, config, control.threads};
   HorizonResult result;
   result.motion = std::move(start);
   Trajectory& motion = result.motion;

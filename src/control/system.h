@@ -54,24 +54,19 @@ System make_system(const Character& character, const SimulationConfig& config, L
 /// A state in the numbers that the simulator can hold.
 State<double> as_floats(const State<double>& x);
 
-/// The PD target of one joint at frame t under a residual, in one lane.
+/// The PD targets of all joints at frame t under residuals, in one lane.
 /// @param entry  maps a degree of freedom to its residual
-template <class Entry>
-void set_joint_target(const System& system, int frame, int body, const Entry& entry, int lane,
-                      Target<P>& out) {
-  const Quaterniond reference = to_eigen(system.at(frame).q[body]);
-  set_lane(out.q[body], lane, residual_target(reference, action_rotation(body, system.max_residual, entry)));
-}
-/// That of all joints.
 template <class Entry>
 void set_target(const System& system, int frame, const Entry& entry, int lane, Target<P>& out) {
   for (int body = 1; body < kBodies; ++body) {
-    set_joint_target(system, frame, body, entry, lane, out);
+    const Quaterniond reference = to_eigen(system.at(frame).q[body]);
+    const Vector3d rotation = action_rotation(body, system.max_residual, entry);
+    set_lane(out.q[body], lane, residual_target(reference, rotation));
     const Vector3d omega = to_eigen(system.at(frame).omega[body]);
     set_lane(out.omega[body], lane, system.velocity_feed_forward ? omega : Vector3d::Zero());
   }
 }
-/// That of all joints in all lanes.
+/// Those in all lanes.
 Target<P> target_of(const System& system, int frame, const Control& u);
 
 /// The wrench on the pelvis that six numbers of help stand for: f = m a, n = m r² α, in one lane.

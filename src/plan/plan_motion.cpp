@@ -55,8 +55,8 @@ void leave_gains(const motion::Reference& reference, const control::PlanConfig& 
   const control::Cost cost = control::make_cost(system, config.weights, config.certainty);
   List<Eigen::MatrixXf> curvature;
   files::StoredGains feedback;
-  feedback.gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan),
-                                           config.gain_config, watch.control(), &curvature);
+  feedback.gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan), {},
+                                           watch.control(), &curvature);
   if (feedback.gains.empty()) return;  // it was told to stop
   feedback.curvature = Eigen::MatrixXf::Zero(kDofs, kDofs);
   for (const Eigen::MatrixXf& Q : curvature) feedback.curvature += Q / static_cast<float>(curvature.size());

@@ -25,16 +25,6 @@ void for_each_plan_setting(Config& config, const Add& add) {
   add("plan_help_spin", w.help_spin, 0, 1e9);
   add("plan_last", w.last, 1, 1e9);
 
-  add("plan_derivatives", config.linearisation.derivatives, 0, 2);
-  auto& s = config.linearisation.steps;
-  add("plan_step_position", s.position, 1e-9, 1);
-  add("plan_step_rotation", s.rotation, 1e-9, 1);
-  add("plan_step_velocity", s.velocity, 1e-9, 10);
-  add("plan_step_spin", s.spin, 1e-9, 10);
-  add("plan_step_residual", s.residual, 1e-9, 1);
-  add("plan_step_help", s.help, 1e-9, 100);
-  add("plan_step_help_spin", s.help_spin, 1e-9, 100);
-
   auto& h = config.horizon;
   add("plan_horizon", h.horizon, 1, 1000);
   add("plan_commit", h.commit, 1, 1000);

@@ -70,8 +70,8 @@ std::optional<Teacher> make_teacher(const motion::Reference& reference, const co
   control::Trajectory start;
   start.x = {control::as_floats(system.at(0))};
   control::HorizonResult found =
-      control::follow_in_windows(system, cost, config.derivatives, config.horizon, control, std::move(start),
-                                 system.frames() - 1, on_own_states(reference, plan));
+      control::follow_in_windows(system, cost, config.horizon, control, std::move(start), system.frames() - 1,
+                                 on_own_states(reference, plan));
   if (found.ending != control::Ending::kFollowed) return {};
   Teacher teacher;
   teacher.clip = rl::tracking::make_tracking_clip(planned, task);
@@ -81,7 +81,7 @@ std::optional<Teacher> make_teacher(const motion::Reference& reference, const co
   if (teacher.followed < config.enough * config.pushes.trials) {
     Teacher other = teacher;
     control::GainConfig gains = config.gains;
-    gains.linearisation.steps = control::DifferenceSteps{}.scaled(config.less_smoothing);
+    gains.smoothing = control::DifferenceSteps{}.scaled(config.less_smoothing);
     if (!take_feedback(system, cost, config, gains, control, other)) return {};
     if (other.followed > teacher.followed) teacher = std::move(other);
   }

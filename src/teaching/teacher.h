@@ -11,15 +11,15 @@
 #include <memory>
 #include <optional>
 
+#include "control/gains.h"
 #include "control/plan.h"
 #include "rl/tracking/tracking_clip.h"
 
 namespace mimicx::teaching {
 
 struct TeacherConfig {
-  control::CostWeights weights;        ///< of the short plan, and behind the gains
-  control::Linearisation derivatives;  ///< of the short plan
-  control::HorizonConfig horizon;      ///< likewise
+  control::CostWeights weights;    ///< of the short plan, and behind the gains
+  control::HorizonConfig horizon;  ///< likewise
   control::GainConfig gains;
   /// Feedback from derivatives that are smoothed over centimetres holds motions with room to spare; motions
   /// at the edge of balance are held better by less smoothing. Where the first kind survives less than

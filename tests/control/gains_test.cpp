@@ -31,7 +31,7 @@ TEST(Gains, HoldAWalkUnderPushesThatFellTheBarePlan) {
 TEST(Gains, SoftenedOnesHoldMoreThanStiffOnes) {
   const Walk walk;
   GainConfig stiff;
-  stiff.linearisation = {};
+  stiff.smoothing = {};
   stiff.residual = walk.cost.weights.residual;
   stiff.change = walk.cost.weights.change;
   const auto followed = [&](const GainConfig& config) {

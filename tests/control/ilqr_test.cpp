@@ -37,8 +37,7 @@ TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
   const double first = last;
   bool fresh = true;
   for (int i = 0; i < 5; ++i) {
-    const Iteration done =
-        improve(p.system, p.cost, {}, 2, fresh, 0.2, models, sweep, regularisation, p.plan);
+    const Iteration done = improve(p.system, p.cost, 2, fresh, 0.2, models, sweep, regularisation, p.plan);
     EXPECT_LE(p.plan.cost, last);
     fresh = done.decrease >= 0.0;
     EXPECT_EQ(fresh, p.plan.cost < last);
@@ -59,7 +58,7 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
     Sweep sweep;
     double regularisation = 0.0;
     for (int i = 0; i < 2; ++i)
-      improve(p->system, p->cost, {}, threads, true, 0.2, models, sweep, regularisation, p->plan);
+      improve(p->system, p->cost, threads, true, 0.2, models, sweep, regularisation, p->plan);
   }
   EXPECT_EQ(one.plan.cost, two.plan.cost);
   EXPECT_EQ(one.plan.u, two.plan.u);
@@ -69,13 +68,13 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
 TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
   WalkingProblem p;
   List<FrameModel> after, beside;
-  build_models(p.system, p.cost, p.plan, {}, 1, after);
+  build_models(p.system, p.cost, p.plan, 1, after);
   const auto same = [&](int t) {
     EXPECT_EQ(beside[t].F, after[t].F);
     EXPECT_EQ(beside[t].cost.gradient, after[t].cost.gradient);
   };
   int next = p.plan.size() - 1;
-  build_models(p.system, p.cost, p.plan, {}, 2, beside, [&](int t) {
+  build_models(p.system, p.cost, p.plan, 2, beside, [&](int t) {
     EXPECT_EQ(t, next--);
     if (t + 1 == p.plan.size()) {
       EXPECT_EQ(beside[t + 1].cost.gradient, after[t + 1].cost.gradient);
@@ -91,17 +90,16 @@ TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
   List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
-  for (int i = 0; i < 3; ++i)
-    improve(p.system, p.cost, {}, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  for (int i = 0; i < 3; ++i) improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
   const double before = p.plan.cost;
   // A small step along the law: the cost falls by α (2 − α) of the promised decrease.
   for (Control& u : p.plan.u) u[static_cast<std::size_t>(first_dof(kLeftShoulder))] += 0.01f;
   p.roll();
   const double raised = p.plan.cost;
   ASSERT_GT(raised, before);
-  build_models(p.system, p.cost, p.plan, {}, 2, models);
+  build_models(p.system, p.cost, p.plan, 2, models);
   sweep_back(p.system, p.cost, p.plan, models, 0.0, sweep);
-  improve(p.system, p.cost, {}, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
   EXPECT_NEAR(raised - p.plan.cost, sweep.decrease, 0.2 * sweep.decrease);
 }
 

@@ -56,12 +56,12 @@ TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
   List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
-  improve(p.system, p.cost, {}, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
   EXPECT_TRUE(p.plan.gaps.empty());
   EXPECT_LT(p.plan.worst, 0.02);
   const double closed = p.plan.cost;
   EXPECT_TRUE(std::isfinite(closed));
-  improve(p.system, p.cost, {}, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
   EXPECT_LE(p.plan.cost, closed);
 }
 
@@ -72,7 +72,7 @@ TEST(Shooting, FramesBehindTheTrustedOnesKeepTheirStates) {
   List<FrameModel> models;
   Sweep sweep;
   double regularisation = 0.0;
-  improve(p.system, p.cost, {}, 2, true, 1e-9, models, sweep, regularisation, p.plan);
+  improve(p.system, p.cost, 2, true, 1e-9, models, sweep, regularisation, p.plan);
   ASSERT_EQ(p.plan.gaps.size(), 21u);
   EXPECT_EQ(to_eigen(p.plan.x[10].p_root), to_eigen(before.x[10].p_root));
   EXPECT_EQ(p.plan.u, before.u);

@@ -306,7 +306,7 @@ TEST(PlanningSettings, WhatNoPlanCanHaveIsRefusedByName) {
                                                                                {"plan_commit", 0},
                                                                                {"plan_residual", 0},
                                                                                {"plan_position", -1},
-                                                                               {"plan_derivatives", 3},
+                                                                               {"plan_stiffening", 1},
                                                                                {"physics_rate", 100}}) {
     PlanningConfig config;
     apply_setting(config, name, value);
