@@ -71,12 +71,10 @@ Quat<T> between(const Quat<T>& a, const Quat<T>& b, T s) {
 /// Puts the help on the pelvis, between the two parts of a step where the forces on bodies are summed.
 template <class T>
 struct WithHelp : StepParts {
-  Data<T>& d;
   Wrench<T> help;
 
-  WithHelp(Data<T>& data, const Wrench<T>& wrench) : d(data), help(wrench) {}
-  void finished(Stage stage) {
-    if (stage != kKinematics) return;
+  explicit WithHelp(const Wrench<T>& wrench) : help(wrench) {}
+  void after_rigid_bodies(Data<T>& d) {
     d.bias[0].n -= help.n;
     d.bias[0].f -= help.f;
   }
@@ -103,7 +101,7 @@ State<T> simulate(const Model<double>& model, const ControlFrame& frame, int col
     (column < kFrameColumns + 3 ? help.n : help.f) += times(h, kUnit[(column - kFrameColumns) % 3]);
   const Target<T> from = turned(frame.from, w), to = turned(frame.to, u);
   Data<T> d;
-  WithHelp<T> parts(d, help);
+  WithHelp<T> parts(help);
   Target<T> target;
   for (int k = 1; k <= frame.substeps; ++k) {
     const T s(static_cast<double>(k) / frame.substeps);

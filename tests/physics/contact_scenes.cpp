@@ -45,20 +45,20 @@ double energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double 
 
 }  // namespace
 
-SceneReport run_scene(Scene scene, double rate, int passes, const SceneStep& advance) {
+SceneReport run_scene(Scene scene, double rate, int passes) {
   using P = Pack<kLanes>;
   const Character c = make_character();
   SimulationConfig o;
   o.rate = rate;
   o.passes = passes;
-  const auto s = std::make_unique<ScenePack>(c, o);
+  const auto s = std::make_unique<Simulation<P>>(c, o);
   for (int lane = 0; lane < kLanes; ++lane)
     set_lane(snapshot_of(scene, c, static_cast<std::uint64_t>(lane)), lane, s->state, s->target);
   SceneReport report;
   Array<double, kLanes> first{};
   double normal = 0, pull = 0, beyond = 0;
   for (int k = 0; k < static_cast<int>(3 * rate); ++k) {
-    report.wrong = advance(*s) || report.wrong;
+    report.wrong = any(s->advance()) || report.wrong;
     for (int lane = 0; lane < kLanes; ++lane) {
       const double now = energy(c, s->data, lane, o.gravity);
       double& start = first[lane];

@@ -5,8 +5,6 @@
 /// the start. Impulses are summed over all points, lanes and steps.
 #pragma once
 
-#include <functional>
-
 #include "physics/test_states.h"
 
 namespace mimicx::physics {
@@ -25,13 +23,7 @@ struct SceneReport {
   bool operator==(const SceneReport&) const = default;
 };
 
-using ScenePack = Simulation<Pack<kLanes>>;
-/// Moves the scene on by one step; true where some lane went wrong in it.
-using SceneStep = std::function<bool(ScenePack&)>;
-
 Snapshot snapshot_of(Scene scene, const Character& character, std::uint64_t lane);
-SceneReport run_scene(
-    Scene scene, double rate, int passes,
-    const SceneStep& advance = [](ScenePack& s) { return any(s.advance()); });
+SceneReport run_scene(Scene scene, double rate, int passes);
 
 }  // namespace mimicx::physics

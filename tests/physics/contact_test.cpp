@@ -114,7 +114,7 @@ int runaways(Scene scene, double rate, int passes, int characters) {
   o.passes = passes;
   int gone = 0;
   for (int first = 0; first < characters; first += kLanes) {
-    ScenePack s(c, o);
+    Simulation<Pack<kLanes>> s(c, o);
     for (int lane = 0; lane < kLanes; ++lane)
       set_lane(snapshot_of(scene, c, static_cast<std::uint64_t>(first + lane)), lane, s.state, s.target);
     std::array<bool, kLanes> wrong{};

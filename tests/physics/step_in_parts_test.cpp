@@ -1,4 +1,4 @@
-// The tests' step in parts is the simulator's step, bit by bit: what is measured of it holds for `step`.
+// The tests' step in parts is the simulator's step, bit by bit.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -56,18 +56,6 @@ TEST(StepInParts, GivesTheBitsOfStep) {
       expect_the_bits_of_step<Pack<8>>(config);
       expect_the_bits_of_step<Pack<16>>(config);
     }
-}
-
-TEST(StepInParts, GivesTheFiguresOfAScene) {
-  const auto in_parts = [](ScenePack& s) {
-    StepParts as_it_is;
-    step_in_parts(s.model, s.target, s.state, s.data, as_it_is);
-    return any(gone_wrong(s.model, s.state));
-  };
-  for (Scene scene : {Scene::kFall, Scene::kDrop, Scene::kThrow})
-    for (int passes : {1, 2, 4})
-      EXPECT_EQ(run_scene(scene, 240.0, passes), run_scene(scene, 240.0, passes, in_parts))
-          << kSceneNames[static_cast<int>(scene)] << " " << passes;
 }
 
 }  // namespace
