@@ -13,6 +13,7 @@
 #include <string>
 
 #include "control/fixtures.h"
+#include "control/gains.h"
 #include "control/plan.h"
 #include "control/shooting.h"
 #include "core/elementary.h"

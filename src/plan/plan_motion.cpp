@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "control/gains.h"
 #include "core/file.h"
 #include "core/units.h"
 #include "files/plan_file.h"
