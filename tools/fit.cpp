@@ -1,6 +1,6 @@
-#include "fit/fit.h"
 #include "core/file.h"
-#include "fit/poses.h"
+#include "fit/keypoint_fit.h"
+#include "fit/pose_fit.h"
 #include "motion/clip_file.h"
 
 #include <cstdio>

@@ -73,7 +73,7 @@ std::string name_of(const std::filesystem::path& file) {
   return (folder.empty() ? file.filename() : folder / file.filename()).string();
 }
 
-List<picture::Performance> performances_of(const RenderArguments& a) {
+List<picture::PosedMotion> motions_of(const RenderArguments& a) {
   const int count = static_cast<int>(a.files.size());
   List<motion::Clip> clips;
   for (const std::string& file : a.files) {
@@ -81,15 +81,15 @@ List<picture::Performance> performances_of(const RenderArguments& a) {
     motion::require_usable(clips.back(), 1);
     run::tell_decisions(file, clips.back(), std::cerr);
   }
-  List<picture::Performance> performances(count);
+  List<picture::PosedMotion> motions(count);
   parallel_for(count, a.threads, [&](int k) {
     const bool shows = a.arrows && a.read.text().empty();
-    performances[k] =
-        picture::performance_of(clips[k], a.skin, shows ? files::recorded_forces(clips[k]) : std::nullopt);
+    motions[k] =
+        picture::posed_motion(clips[k], a.skin, shows ? files::recorded_forces(clips[k]) : std::nullopt);
     const auto i = static_cast<std::size_t>(k);
-    performances[k].label = a.labels.empty() ? name_of(a.files[i]) : a.labels[i];
+    motions[k].label = a.labels.empty() ? name_of(a.files[i]) : a.labels[i];
   });
-  return performances;
+  return motions;
 }
 
 int render(const RenderArguments& a) {
@@ -103,9 +103,9 @@ int render(const RenderArguments& a) {
   if (config.kind == picture::Kind::kAnimation && !config.at.empty())
     throw UsageError("--at: an animation shows all moments; --from and --to choose a part");
   claim_picture(a);
-  const List<picture::Performance> performances = performances_of(a);
+  const List<picture::PosedMotion> motions = motions_of(a);
   bool forces = false;
-  for (const picture::Performance& p : performances) forces |= !p.forces.empty();
+  for (const picture::PosedMotion& p : motions) forces |= !p.forces.empty();
   if (a.arrows && !forces)
     throw DataError(a.files.front(), "", "a motion with forces",
                     a.read.text().empty()
@@ -113,12 +113,12 @@ int render(const RenderArguments& a) {
                         : "one that is read in another way than it was simulated in (" + a.read.text() + ")");
   picture::Layout layout;
   try {
-    layout = picture::lay_out(performances, config);
+    layout = picture::lay_out(motions, config);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("render: ") + error.what());
   }
   make_folder(a.out.parent_path());
-  picture::write_picture(a.out, performances, layout, config.rate, a.threads);
+  picture::write_picture(a.out, motions, layout, config.rate, a.threads);
   std::printf("%s: %d x %d pixels, %d moments from %.2f to %.2f s\n", a.out.string().c_str(),
               layout.size.width, layout.size.height, layout.moments.count(), layout.moments.front(),
               layout.moments.back());

@@ -10,7 +10,7 @@
 #include "record/outputs.h"
 #include "record/progress.h"
 #include "shared_arguments.h"
-#include "synth/set.h"
+#include "synth/data_set.h"
 
 namespace mimicx::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include "audit/floor_push.h"
 #include "audit/torque_shares.h"
 #include "core/units.h"
-#include "motion/surface.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::audit {
 namespace {

@@ -1,7 +1,7 @@
 /// Settings of the keypoint fit: what it believes before it has looked, and its effort.
 ///
 /// Every σ is that of one term of the cost in docs/method.md, "Keypoint fit". The level of every keypoint and
-/// the power of the confidence are only where the fit begins: it finds its own (levels.h).
+/// the power of the confidence are only where the fit begins: it finds its own (error_levels.h).
 #pragma once
 
 namespace mimicx::fit {
@@ -50,7 +50,7 @@ struct FitConfig {
   double slip_sigma = 0.003;          ///< m per frame, of a foot point that stands
   double penetration_sigma = 0.003;   ///< m, of a foot point below the floor
 
-  // Poses alone (poses.h): where they differ from the above.
+  // Poses alone (pose_fit.h): where they differ from the above.
   double pose_slip = 0.0028;         ///< m per frame; a motion whose standing feet slide less is left alone
   double pose_prior_frames = 15.0;   ///< `prior_frames` of a smooth motion
   double tremor_prior_frames = 5.0;  ///< of one that trembles: its errors last less

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLargestAngle = 100.0;  ///< rad: sixteen turns of one joint
 constexpr double kUsualAngle = 12.6;     ///< rad: two turns in half of the frames are degrees, not a slip
-constexpr double kFastJoint = 12.0;      ///< m/s, as in repair.h
+constexpr double kFastJoint = 12.0;      ///< m/s, as in motion/prepare/glitches.cpp
 constexpr double kOverMotion = 3.0;      ///< so much faster than the motion itself is the way out of a T-pose
 constexpr double kLongestWayOut = 0.25;  ///< s, out of a T-pose
 constexpr double kFastBody = 15.0;       ///< m/s of the pelvis

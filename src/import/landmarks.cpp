@@ -5,7 +5,7 @@
 
 #include "core/elementary.h"
 #include "core/quantile.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 
 namespace mimicx::import {
 namespace {

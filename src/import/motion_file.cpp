@@ -18,7 +18,7 @@
 #include "import/motionx.h"
 #include "import/plausibility.h"
 #include "import/retarget/retarget.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 #include "motion/clip_file.h"
 
 namespace mimicx::import {

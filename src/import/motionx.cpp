@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "import/plausibility.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 
 namespace mimicx::import {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/elementary.h"
 #include "core/quantile.h"
 #include "core/units.h"
-#include "import/world.h"
-#include "motion/surface.h"
+#include "import/world_transform.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::import {
 namespace {

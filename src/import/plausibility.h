@@ -5,7 +5,8 @@
 /// it falls with g when nothing carries it.
 /// Thresholds and what they were measured on: docs/formats.md, "What reading decides".
 ///
-/// What it does not do: no change of the clip (world.h does), no repair of single frames (repair.h).
+/// What it does not do: no change of the clip (world_transform.h does), no repair of single frames
+/// (motion/prepare/glitches.h).
 #pragma once
 
 #include <optional>

@@ -4,7 +4,8 @@
 /// The world is z up, in metres; joints stand in the order of `Body`, which is that of the first 22 joints of
 /// every SMPL-family model. Files are read and written by clip_file.h and import/motion_file.h.
 ///
-/// What it does not do: no resampling (resample.h), no repair (repair.h), no change of axes (import/world.h).
+/// What it does not do: no resampling (resample.h), no repair (prepare/prepare.h), no change of axes
+/// (import/world_transform.h).
 #pragma once
 
 #include <array>

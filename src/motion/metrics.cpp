@@ -7,8 +7,8 @@
 #include "character/body_words.h"
 #include "core/elementary.h"
 #include "core/units.h"
-#include "motion/segments.h"
-#include "motion/similarity.h"
+#include "motion/closest_points.h"
+#include "motion/procrustes.h"
 
 namespace mimicx::motion {
 namespace {

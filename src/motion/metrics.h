@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/surface.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::motion {
 

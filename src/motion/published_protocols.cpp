@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "core/units.h"
-#include "motion/similarity.h"
-#include "motion/surface.h"
+#include "motion/procrustes.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::motion {
 namespace {

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "page/played.h"
+#include "page/played_frame_json.h"
 #include "page/session.h"
 #include "record/json.h"
 

@@ -38,23 +38,23 @@ std::string in_seconds(double time) {
 }
 
 /// @throws std::invalid_argument
-Stretch common_stretch(const List<Performance>& performances, const PictureConfig& config) {
+Stretch common_stretch(const List<PosedMotion>& motions, const PictureConfig& config) {
   Stretch stretch = config.stretch;
-  for (const Performance& p : performances) stretch.last = std::min(stretch.last, p.seconds());
+  for (const PosedMotion& p : motions) stretch.last = std::min(stretch.last, p.seconds());
   const auto refuse = [&](double time) {
     throw std::invalid_argument(in_seconds(time) + " is not in the motion, which ends at " +
                                 in_seconds(stretch.last));
   };
   if (stretch.first > stretch.last) refuse(stretch.first);
   for (const double time : config.at)
-    if (time < 0.0 || time > stretch.last + 0.5 / performances[0].fps) refuse(time);
+    if (time < 0.0 || time > stretch.last + 0.5 / motions[0].fps) refuse(time);
   return stretch;
 }
 
-List<double> moments_of(const List<Performance>& performances, const PictureConfig& config) {
-  const Stretch stretch = common_stretch(performances, config);
+List<double> moments_of(const List<PosedMotion>& motions, const PictureConfig& config) {
+  const Stretch stretch = common_stretch(motions, config);
   if (!config.at.empty()) return config.at;
-  if (config.kind == Kind::kStill) return {telling_moment(performances[0], stretch)};
+  if (config.kind == Kind::kStill) return {telling_moment(motions[0], stretch)};
   if (config.kind != Kind::kAnimation) return even_moments(stretch, config.moments);
   List<double> moments;
   for (int k = 0; stretch.first + k / config.rate <= stretch.last + 1e-9; ++k)
@@ -63,20 +63,19 @@ List<double> moments_of(const List<Performance>& performances, const PictureConf
 }
 
 /// The middle of all pelvises at a moment, on the floor.
-Vector3d middle_at(const List<Performance>& performances, double time) {
+Vector3d middle_at(const List<PosedMotion>& motions, double time) {
   Vector3d middle = Vector3d::Zero();
-  for (const Performance& p : performances)
-    middle += p.poses[p.frame_at(time)].p_WB[kPelvis] / static_cast<double>(performances.count());
+  for (const PosedMotion& p : motions)
+    middle += p.poses[p.frame_at(time)].p_WB[kPelvis] / static_cast<double>(motions.count());
   return {middle.x(), middle.y(), 0.0};
 }
 
 /// Points around the body, and that on the floor below it: to the six sides of its capsules' ends.
-void add_outline(const Performance& performance, double time, const Vector3d& origin,
-                 List<Vector3d>& points) {
-  const BodyPoses& poses = performance.poses[performance.frame_at(time)];
+void add_outline(const PosedMotion& motion, double time, const Vector3d& origin, List<Vector3d>& points) {
+  const BodyPoses& poses = motion.poses[motion.frame_at(time)];
   const Vector3d pelvis = poses.p_WB[kPelvis];
   points.push_back(Vector3d(pelvis.x(), pelvis.y(), 0.0) - origin);
-  for (const Capsule& c : performance.character.capsule)
+  for (const Capsule& c : motion.character.capsule)
     for (const Vector3d& end : {c.a_B, c.b_B})
       for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-c.radius, c.radius})
@@ -86,16 +85,14 @@ void add_outline(const Performance& performance, double time, const Vector3d& or
 
 class Planner {
  public:
-  Planner(const List<Performance>& performances, const PictureConfig& config)
-      : performances_(performances), config_(config), moments_(moments_of(performances, config)) {
-    const double heading = heading_angle(performances[0].poses[0].q_WB[kPelvis]);
+  Planner(const List<PosedMotion>& motions, const PictureConfig& config)
+      : motions_(motions), config_(config), moments_(moments_of(motions, config)) {
+    const double heading = heading_angle(motions[0].poses[0].q_WB[kPelvis]);
     look_.azimuth = heading - config.view * std::numbers::pi / 180.0;
     for (const double time : moments_)
-      for (const Performance& p : performances_) add_outline(p, time, origin_at(time), points_);
-    columns_ = is_beside(config.kind)        ? performances.count()
-               : config.kind == Kind::kStrip ? moments_.count()
-                                             : 1;
-    rows_ = is_beside(config.kind) ? 1 : performances.count();
+      for (const PosedMotion& p : motions_) add_outline(p, time, origin_at(time), points_);
+    columns_ = is_beside(config.kind) ? motions.count() : config.kind == Kind::kStrip ? moments_.count() : 1;
+    rows_ = is_beside(config.kind) ? 1 : motions.count();
     size_ = config.size ? *config.size : natural();
     if (cell_width() < kLeastCell || cell_height() < kLeastCell)
       throw std::invalid_argument("a picture of " + std::to_string(columns_) + " x " + std::to_string(rows_) +
@@ -116,7 +113,7 @@ class Planner {
  private:
   /// What the camera's place is relative to.
   Vector3d origin_at(double time) const {
-    return config_.kind == Kind::kStrip ? middle_at(performances_, time) : Vector3d(Vector3d::Zero());
+    return config_.kind == Kind::kStrip ? middle_at(motions_, time) : Vector3d(Vector3d::Zero());
   }
 
   Size natural() const {
@@ -155,7 +152,7 @@ class Planner {
 
   Note label_of(const Cell& cell) const {
     const double height = text_height(), right = is_beside(config_.kind) ? cell.x + cell.width : size_.width;
-    return {performances_[cell.performance].label, cell.x + height, cell.y + 1.8 * height, height,
+    return {motions_[cell.motion].label, cell.x + height, cell.y + 1.8 * height, height,
             right - cell.x - 2.0 * height};
   }
 
@@ -167,7 +164,7 @@ class Planner {
             cell.width - 2.0 * height};
   }
 
-  const List<Performance>& performances_;
+  const List<PosedMotion>& motions_;
   const PictureConfig& config_;
   List<double> moments_;
   render::Look look_;
@@ -179,9 +176,9 @@ class Planner {
 
 }  // namespace
 
-Layout lay_out(const List<Performance>& performances, const PictureConfig& config) {
-  if (performances.empty()) throw std::invalid_argument("lay_out: no motion to show");
-  return Planner(performances, config).layout();
+Layout lay_out(const List<PosedMotion>& motions, const PictureConfig& config) {
+  if (motions.empty()) throw std::invalid_argument("lay_out: no motion to show");
+  return Planner(motions, config).layout();
 }
 
 }  // namespace mimicx::picture

@@ -33,7 +33,7 @@ struct PictureConfig {
 
 /// A part of a picture: one motion at some moments.
 struct Cell {
-  int performance;
+  int motion;
   List<double> moments;  ///< s
   render::Camera camera;
   int x, y, width, height;  ///< pixels
@@ -63,6 +63,6 @@ inline constexpr int kLeastCell = 16;
 
 /// @throws std::invalid_argument for moments where not all motions are, and for a size that leaves cells no
 /// room
-Layout lay_out(const List<Performance>& performances, const PictureConfig& config);
+Layout lay_out(const List<PosedMotion>& motions, const PictureConfig& config);
 
 }  // namespace mimicx::picture

@@ -23,19 +23,19 @@ List<double> even_moments(const Stretch& stretch, int count) {
   return moments;
 }
 
-double telling_moment(const Performance& performance, const Stretch& stretch) {
-  const int first = performance.frame_at(stretch.first), last = performance.frame_at(stretch.last);
+double telling_moment(const PosedMotion& motion, const Stretch& stretch) {
+  const int first = motion.frame_at(stretch.first), last = motion.frame_at(stretch.last);
   Places mean = Places::Zero();
-  for (int t = first; t <= last; ++t) mean += places_of(performance.poses[t]) / (last - first + 1.0);
+  for (int t = first; t <= last; ++t) mean += places_of(motion.poses[t]) / (last - first + 1.0);
   int best = first;
   double farthest = -1.0;
   for (int t = first; t <= last; ++t) {
-    const double distance = (places_of(performance.poses[t]) - mean).squaredNorm();
+    const double distance = (places_of(motion.poses[t]) - mean).squaredNorm();
     if (distance <= farthest) continue;
     farthest = distance;
     best = t;
   }
-  return best / performance.fps;
+  return best / motion.fps;
 }
 
 }  // namespace mimicx::picture

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/containers.h"
-#include "picture/performance.h"
+#include "picture/posed_motion.h"
 
 namespace mimicx::picture {
 
@@ -16,6 +16,6 @@ List<double> even_moments(const Stretch& stretch, int count);
 
 /// The moment that says most about a motion: whose pose is farthest from the motion's mean one, in the mean
 /// square of the joints' places relative to the pelvis, seen from where the body looks.
-double telling_moment(const Performance& performance, const Stretch& stretch);
+double telling_moment(const PosedMotion& motion, const Stretch& stretch);
 
 }  // namespace mimicx::picture

@@ -9,12 +9,11 @@
 namespace mimicx::picture {
 
 /// The same pixels for any number of threads.
-render::Image draw_page(const List<Performance>& performances, const Page& page, const Size& size,
-                        int threads);
+render::Image draw_page(const List<PosedMotion>& motions, const Page& page, const Size& size, int threads);
 
 /// Writes the layout's one page, or its pages as an animation, as PNG. @param rate  pages per second
 /// @throws DataError when the file cannot be written
-void write_picture(const std::filesystem::path& path, const List<Performance>& performances,
-                   const Layout& layout, double rate, int threads);
+void write_picture(const std::filesystem::path& path, const List<PosedMotion>& motions, const Layout& layout,
+                   double rate, int threads);
 
 }  // namespace mimicx::picture

@@ -1,5 +1,5 @@
 /// A policy as the files of `mimicx export-policy` mean it: the motion that it follows as their splines say
-/// it, its network with all its bits or in 8 (small_network.h), and records of what it answers.
+/// it, its network with all its bits or in 8 (quantised_network.h), and records of what it answers.
 ///                                                                          docs/exported_policies.md
 #pragma once
 
@@ -9,7 +9,7 @@
 
 #include "files/policy_file.h"
 #include "policy_export/motion_spline.h"
-#include "policy_export/small_network.h"
+#include "policy_export/quantised_network.h"
 
 namespace mimicx::policy_export {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "policy_export/header.h"
+#include "policy_export/cpp_header.h"
 #include "policy_export/numpy_arrays.h"
 #include "policy_export/onnx.h"
 

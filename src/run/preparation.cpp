@@ -1,6 +1,6 @@
 #include "run/preparation.h"
 
-#include "fit/poses.h"
+#include "fit/pose_fit.h"
 #include "motion/prepare/prepare.h"
 
 namespace mimicx::run {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/named_values.h"
-#include "fit/fit.h"
+#include "fit/keypoint_fit.h"
 #include "import/motion_file.h"
 #include "motion/reference.h"
 

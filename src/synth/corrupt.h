@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "import/motion_file.h"
-#include "synth/noise/estimate.h"
+#include "synth/noise/noise_model.h"
 
 namespace mimicx::synth {
 

@@ -1,10 +1,10 @@
 /// What walking kinds have in common: the body follows the feet.
 ///
-/// What it does not do: decide where the feet go (FootSwing, synth/motion_script.h).
+/// What it does not do: decide where the feet go (FootSwing, synth/footsteps.h).
 #pragma once
 
 #include "core/units.h"
-#include "synth/motion_script.h"
+#include "synth/footsteps.h"
 
 namespace mimicx::synth {
 

@@ -11,7 +11,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "synth/motion_script.h"
+#include "synth/footsteps.h"
 
 namespace mimicx::synth {
 

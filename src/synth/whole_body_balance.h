@@ -14,7 +14,7 @@
 #pragma once
 
 #include "core/units.h"
-#include "synth/motion_script.h"
+#include "synth/plan_frame.h"
 
 namespace mimicx::synth {
 

@@ -6,7 +6,7 @@
 
 #include "core/units.h"
 #include "motion/reference.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::audit {
 namespace {

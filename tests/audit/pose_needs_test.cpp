@@ -12,7 +12,7 @@
 #include "core/units.h"
 #include "motion/standing_clip.h"
 #include "physics/inverse_dynamics.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::audit {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "motion/prepare/prepare.h"
 #include "rl/tracking/tracking_clip.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::control {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/temporary_folder.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 #include "motion/standing_clip.h"

@@ -9,7 +9,7 @@
 #include "motion/prepare/prepare.h"
 #include "physics/lanes.h"
 #include "rl/tracking/tracking_rollout.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::files {
 namespace {

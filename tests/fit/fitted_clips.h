@@ -2,12 +2,12 @@
 #pragma once
 
 #include "core/units.h"
-#include "fit/fit.h"
+#include "fit/keypoint_fit.h"
 #include "motion/keypoint_names.h"
 #include "motion/made_motions.h"
 #include "motion/metrics.h"
 #include "motion/synthetic_clip.h"
-#include "synth/noise/noise.h"
+#include "synth/noise/estimator_noise.h"
 
 namespace mimicx::fit::test {
 

@@ -4,7 +4,7 @@
 
 #include "import/motion_file.h"
 #include "import/motionx.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 #include "motion/resample.h"

@@ -10,7 +10,7 @@
 #include "import/motion_file.h"
 #include "import/positions.h"
 #include "motion/resample.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::import {
 namespace {

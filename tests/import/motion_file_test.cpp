@@ -13,11 +13,11 @@
 #include "import/deepmimic.h"
 #include "import/motionx.h"
 #include "import/plausibility.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
 #include "motion/scratch.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::import {
 namespace {

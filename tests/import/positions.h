@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "import/joint_positions.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 
 namespace mimicx::test {
 

@@ -1,5 +1,5 @@
 #include "motion/metrics.h"
-#include "motion/segments.h"
+#include "motion/closest_points.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "motion/similarity.h"
+#include "motion/procrustes.h"
 #include "motion/standing_samples.h"
 
 namespace mimicx::motion {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::test {
 

@@ -4,7 +4,7 @@
 
 #include "core/temporary_folder.h"
 #include "motion/standing_clip.h"
-#include "page/played.h"
+#include "page/played_frame_json.h"
 #include "page/session.h"
 #include "physics/lanes.h"
 #include "program/small_run.h"

@@ -8,10 +8,10 @@ namespace mimicx::picture {
 namespace {
 
 /// Walks along x without moving its legs. @param height  how much too high it stands, m
-Performance gliding(int frames, double height) {
+PosedMotion gliding(int frames, double height) {
   motion::Clip clip = motion::standing_clip(frames);
   for (int t = 0; t < frames; ++t) clip.trans[t] += Vector3d(0.05 * t, 0, height);
-  return performance_of(clip, files::Skin::kShapes, std::nullopt);
+  return posed_motion(clip, files::Skin::kShapes, std::nullopt);
 }
 
 PictureConfig of_kind(Kind kind) {
@@ -25,7 +25,7 @@ bool same_camera(const render::Camera& a, const render::Camera& b) {
 }
 
 TEST(Layout, RowsOfAStripShowTheSameMomentsByTheSameCameras) {
-  const List<Performance> two = {gliding(61, 0.0), gliding(91, 0.1)};
+  const List<PosedMotion> two = {gliding(61, 0.0), gliding(91, 0.1)};
   PictureConfig config = of_kind(Kind::kStrip);
   config.moments = 5;
   const Layout layout = lay_out(two, config);
@@ -34,8 +34,8 @@ TEST(Layout, RowsOfAStripShowTheSameMomentsByTheSameCameras) {
   EXPECT_EQ(layout.moments, (List<double>{0.0, 0.5, 1.0, 1.5, 2.0})) << "where both are";
   for (int c = 0; c < 5; ++c) {
     const Cell &upper = layout.pages[0].cells[c], &lower = layout.pages[0].cells[5 + c];
-    EXPECT_EQ(upper.performance, 0);
-    EXPECT_EQ(lower.performance, 1);
+    EXPECT_EQ(upper.motion, 0);
+    EXPECT_EQ(lower.motion, 1);
     EXPECT_EQ(upper.moments, lower.moments);
     EXPECT_EQ(upper.x, lower.x);
     EXPECT_TRUE(same_camera(upper.camera, lower.camera));
@@ -45,12 +45,12 @@ TEST(Layout, RowsOfAStripShowTheSameMomentsByTheSameCameras) {
 }
 
 /// Every cell sees every body that it shows, whole.
-void expect_all_seen(const List<Performance>& performances, const Layout& layout) {
+void expect_all_seen(const List<PosedMotion>& motions, const Layout& layout) {
   for (const Page& page : layout.pages)
     for (const Cell& cell : page.cells) {
       EXPECT_LE(cell.x + cell.width, layout.size.width);
       EXPECT_LE(cell.y + cell.height, layout.size.height);
-      const Performance& p = performances[cell.performance];
+      const PosedMotion& p = motions[cell.motion];
       for (const double time : cell.moments)
         for (const render::Solid& solid : solids_at(p, p.frame_at(time), render::Colour::Ones()))
           for (const Vector3d& v : solid.vertices) {
@@ -62,7 +62,7 @@ void expect_all_seen(const List<Performance>& performances, const Layout& layout
 }
 
 TEST(Layout, EveryKindSeesAllThatItShowsAtAnySize) {
-  const List<Performance> two = {gliding(31, 0.0), gliding(31, 0.6)};
+  const List<PosedMotion> two = {gliding(31, 0.0), gliding(31, 0.6)};
   for (const Kind kind : {Kind::kStill, Kind::kStroboscope, Kind::kStrip, Kind::kAnimation})
     for (const auto& size :
          {std::optional<Size>(), std::optional<Size>({400, 700}), std::optional<Size>({1100, 200})}) {
@@ -80,7 +80,7 @@ TEST(Layout, EveryKindSeesAllThatItShowsAtAnySize) {
 }
 
 TEST(Layout, AnAnimationHasAPagePerFrameAndACameraThatStandsStill) {
-  const List<Performance> one = {gliding(31, 0.0)};
+  const List<PosedMotion> one = {gliding(31, 0.0)};
   PictureConfig config = of_kind(Kind::kAnimation);
   config.rate = 10.0;
   config.stretch = {0.2, 0.8};
@@ -93,7 +93,7 @@ TEST(Layout, AnAnimationHasAPagePerFrameAndACameraThatStandsStill) {
 }
 
 TEST(Layout, TheViewIsRelativeToTheBody) {
-  const List<Performance> one = {gliding(2, 0.0)};  // looks along -y
+  const List<PosedMotion> one = {gliding(2, 0.0)};  // looks along -y
   const auto from = [&](double view) {
     PictureConfig config = of_kind(Kind::kStill);
     config.view = view;
@@ -104,9 +104,9 @@ TEST(Layout, TheViewIsRelativeToTheBody) {
   EXPECT_TRUE(from(90.0).isApprox(-Vector3d::UnitX(), 1e-6)) << "its right side";
 }
 
-std::string complaint(const List<Performance>& performances, const PictureConfig& config) {
+std::string complaint(const List<PosedMotion>& motions, const PictureConfig& config) {
   try {
-    lay_out(performances, config);
+    lay_out(motions, config);
     return {};
   } catch (const std::invalid_argument& error) {
     return error.what();
@@ -114,7 +114,7 @@ std::string complaint(const List<Performance>& performances, const PictureConfig
 }
 
 TEST(Layout, MomentsThatAreNotThereAndPicturesWithoutRoomAreRefused) {
-  const List<Performance> one = {gliding(31, 0.0)};
+  const List<PosedMotion> one = {gliding(31, 0.0)};
   PictureConfig config = of_kind(Kind::kStrip);
   config.at = {0.5, 1.2};
   EXPECT_EQ(complaint(one, config), "1.20 s is not in the motion, which ends at 1.00 s");

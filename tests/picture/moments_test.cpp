@@ -19,19 +19,18 @@ TEST(Moments, TheTellingOneIsThatOfTheRaisedArmWhereverTheBodyTurns) {
     clip.trans[t].x() += 0.1 * t;
   }
   clip.rotations[23][kLeftShoulder] = Vector3d(0, 0, 1.2);
-  const Performance performance = performance_of(clip, files::Skin::kShapes, std::nullopt);
-  EXPECT_DOUBLE_EQ(telling_moment(performance, {0.0, performance.seconds()}), 23 / 30.0);
-  EXPECT_LT(telling_moment(performance, {0.0, 0.5}), 0.51) << "of that stretch";
+  const PosedMotion motion = posed_motion(clip, files::Skin::kShapes, std::nullopt);
+  EXPECT_DOUBLE_EQ(telling_moment(motion, {0.0, motion.seconds()}), 23 / 30.0);
+  EXPECT_LT(telling_moment(motion, {0.0, 0.5}), 0.51) << "of that stretch";
 }
 
-TEST(Performance, ShowsTheNearestFrame) {
-  const Performance performance =
-      performance_of(motion::standing_clip(10), files::Skin::kShapes, std::nullopt);
-  EXPECT_EQ(performance.seconds(), 0.3);
-  EXPECT_EQ(performance.frame_at(-1.0), 0);
-  EXPECT_EQ(performance.frame_at(0.116), 3);
-  EXPECT_EQ(performance.frame_at(0.117), 4);
-  EXPECT_EQ(performance.frame_at(9.0), 9);
+TEST(PosedMotion, ShowsTheNearestFrame) {
+  const PosedMotion motion = posed_motion(motion::standing_clip(10), files::Skin::kShapes, std::nullopt);
+  EXPECT_EQ(motion.seconds(), 0.3);
+  EXPECT_EQ(motion.frame_at(-1.0), 0);
+  EXPECT_EQ(motion.frame_at(0.116), 3);
+  EXPECT_EQ(motion.frame_at(0.117), 4);
+  EXPECT_EQ(motion.frame_at(9.0), 9);
 }
 
 }  // namespace

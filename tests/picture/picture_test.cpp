@@ -18,21 +18,21 @@ PictureConfig small(Kind kind) {
   return config;
 }
 
-List<Performance> two() {
+List<PosedMotion> two() {
   const motion::Clip clip = files::pushed_clip(12);
-  return {performance_of(clip, files::Skin::kShapes, std::nullopt),
-          performance_of(clip, files::Skin::kShapes, files::recorded_forces(clip))};
+  return {posed_motion(clip, files::Skin::kShapes, std::nullopt),
+          posed_motion(clip, files::Skin::kShapes, files::recorded_forces(clip))};
 }
 
 TEST(Picture, IsTheSameBytesTwiceAndForAnyNumberOfThreads) {
   TemporaryFolder folder;
-  const List<Performance> performances = two();
+  const List<PosedMotion> motions = two();
   for (const Kind kind : {Kind::kStill, Kind::kStroboscope, Kind::kStrip, Kind::kAnimation}) {
     const std::filesystem::path file = folder.path / "a.png";
-    const Layout layout = lay_out(performances, small(kind));
+    const Layout layout = lay_out(motions, small(kind));
     std::string first;
     for (const int threads : {1, 1, 2, 3}) {
-      write_picture(file, performances, layout, 10.0, threads);
+      write_picture(file, motions, layout, 10.0, threads);
       const std::string bytes = read_file(file);
       if (first.empty()) first = bytes;
       EXPECT_EQ(bytes, first) << threads;
@@ -41,13 +41,13 @@ TEST(Picture, IsTheSameBytesTwiceAndForAnyNumberOfThreads) {
 }
 
 TEST(Picture, ArrowsStandWhereThereAreForces) {
-  const List<Performance> performances = two();
-  List<Performance> without = performances;
+  const List<PosedMotion> motions = two();
+  List<PosedMotion> without = motions;
   without[1].forces.clear();
   PictureConfig config = small(Kind::kStill);
   config.at = {4 / 25.0};
-  const Layout layout = lay_out(performances, config);
-  const render::Image a = draw_page(performances, layout.pages[0], layout.size, 1),
+  const Layout layout = lay_out(motions, config);
+  const render::Image a = draw_page(motions, layout.pages[0], layout.size, 1),
                       b = draw_page(without, layout.pages[0], layout.size, 1);
   int left = 0, right = 0;
   for (int y = 0; y < a.height; ++y)
@@ -58,9 +58,9 @@ TEST(Picture, ArrowsStandWhereThereAreForces) {
 }
 
 TEST(Picture, AnArrowIsAsLongAsItsForceAndBeginsWhereItActs) {
-  const List<Performance> performances = two();
-  const List<render::Solid> solids = solids_at(performances[1], 4, render::Colour::Ones());
-  const files::FloorForces& forces = performances[1].forces[3];
+  const List<PosedMotion> motions = two();
+  const List<render::Solid> solids = solids_at(motions[1], 4, render::Colour::Ones());
+  const files::FloorForces& forces = motions[1].forces[3];
   int arrow = 1;
   for (const files::FloorForce& force : forces) {
     if (!force.loaded) continue;
@@ -74,7 +74,7 @@ TEST(Picture, AnArrowIsAsLongAsItsForceAndBeginsWhereItActs) {
 }
 
 TEST(Picture, LeftLimbsAreLighter) {
-  const Performance body = performance_of(motion::standing_clip(2), files::Skin::kShapes, std::nullopt);
+  const PosedMotion body = posed_motion(motion::standing_clip(2), files::Skin::kShapes, std::nullopt);
   const render::Solid solid = solids_at(body, 0, {0.1F, 0.2F, 0.5F})[0];
   for (int v = 0; v < solid.vertices.count(); ++v) {
     const int limb = kLimbOf[body.mesh.joints[v][0]];

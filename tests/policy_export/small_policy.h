@@ -6,7 +6,7 @@
 #include "physics/lanes.h"
 #include "policy_export/exported_policy.h"
 #include "rl/tracking/tracking_rollout.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::policy_export {
 

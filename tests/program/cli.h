@@ -9,7 +9,7 @@
 
 #include "core/shell.h"
 #include "core/temporary_folder.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 #include "motion/standing_clip.h"
 
 namespace mimicx::program {

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "core/file.h"
-#include "motion/surface.h"
+#include "motion/surface_points.h"
 #include "program/cli.h"
 
 namespace mimicx::program {

@@ -7,7 +7,7 @@
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
 #include "program/configurations.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::program {
 namespace {

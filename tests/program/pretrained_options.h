@@ -9,7 +9,7 @@
 #include "motion/clip_file.h"
 #include "motion/standing_clip.h"
 #include "program/small_run.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::program {
 

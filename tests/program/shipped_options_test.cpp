@@ -6,7 +6,7 @@
 #include "core/temporary_folder.h"
 #include "pipeline/options/clusters.h"
 #include "program/configurations.h"
-#include "synth/set.h"
+#include "synth/data_set.h"
 
 namespace mimicx::program {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/units.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::run {
 namespace {

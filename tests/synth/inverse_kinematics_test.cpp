@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 #include "synth/inverse_kinematics.h"
-#include "synth/track.h"
+#include "synth/min_jerk_track.h"
 
 namespace mimicx::synth {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::test {
 

@@ -11,7 +11,7 @@
 #include "import/body_fit.h"
 #include "import/retarget/retarget_floor.h"
 #include "import/retarget/retarget_solve.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 
 namespace mimicx::import {
 namespace {

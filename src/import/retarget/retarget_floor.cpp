@@ -9,7 +9,7 @@
 #include "core/quantile.h"
 #include "core/units.h"
 #include "motion/prepare/feet.h"
-#include "motion/surface.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::import {
 namespace {

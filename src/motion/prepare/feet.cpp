@@ -5,7 +5,7 @@
 
 #include "core/quantile.h"
 #include "core/units.h"
-#include "motion/surface.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::motion {
 namespace {

@@ -1,5 +1,5 @@
 /// Glitches of one limb: for a few frames an estimator takes a leg or an arm for another one, or loses it
-/// behind the body. The pose around it goes on, so find_glitches (repair.h) sees nothing: it asks for jumps
+/// behind the body. The pose around it goes on, so find_glitches (glitches.h) sees nothing: it asks for jumps
 /// that are fast for a whole body.
 #pragma once
 

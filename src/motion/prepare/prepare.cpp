@@ -5,13 +5,14 @@
 #include <cstdio>
 
 #include "core/units.h"
+#include "motion/prepare/arm_separation.h"
 #include "motion/prepare/feet.h"
+#include "motion/prepare/floor_correction.h"
+#include "motion/prepare/glitches.h"
 #include "motion/prepare/hinge.h"
 #include "motion/prepare/limb_glitches.h"
-#include "motion/prepare/repair.h"
-#include "motion/prepare/separation.h"
 #include "motion/resample.h"
-#include "motion/surface.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::motion {
 namespace {

@@ -1,7 +1,7 @@
 /// Preparation: from a clip to the reference that a simulated character is asked to follow.
 ///                                                                                docs/method.md §2, §9
 ///
-/// What it does not do: no fit to keypoints (fit/fit.h), no smoothing, no model of stairs or slopes.
+/// What it does not do: no fit to keypoints (fit/keypoint_fit.h), no smoothing, no model of stairs or slopes.
 #pragma once
 
 #include <string>
@@ -18,10 +18,11 @@ struct PreparationReport {
   double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< docs/method.md §2
   /// Distance of joint positions from the input's, both on the body of the clip.
   double change_mean_mm = 0, change_max_mm = 0;
-  double arms_moved_mm = 0;  ///< largest distance of a joint by separate_arms (motion/prepare/separation.h)
+  double arms_moved_mm =
+      0;  ///< largest distance of a joint by separate_arms (motion/prepare/arm_separation.h)
   double foot_level_deg =
       0;                   ///< largest constant rotation that levelled a sole or toes (motion/prepare/feet.h)
-  int flagged_frames = 0;  ///< frames of glitches (motion/prepare/repair.h)
+  int flagged_frames = 0;  ///< frames of glitches (motion/prepare/glitches.h)
   int limb_frames =
       0;  ///< frames of single limbs' glitches (motion/prepare/limb_glitches.h), all limbs together
   std::vector<std::string> notes;

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "synth/kinds.h"
-#include "synth/kinds/postures.h"
+#include "synth/kinds/random_postures.h"
 #include "synth/whole_body_balance.h"
 
 namespace mimicx::synth {

@@ -1,5 +1,5 @@
 // Down to the floor and up again: kneeling, crawling, lying.
-#include "synth/kinds/postures.h"
+#include "synth/kinds/random_postures.h"
 #include "synth/sketch.h"
 
 namespace mimicx::synth {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "synth/choreography.h"
-#include "synth/kinds/postures.h"
+#include "synth/kinds/random_postures.h"
 
 namespace mimicx::synth {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "synth/choreography.h"
-#include "synth/kinds/postures.h"
+#include "synth/kinds/random_postures.h"
 
 namespace mimicx::synth {
 namespace {

@@ -1,6 +1,6 @@
 /// The points that 2D detectors find on a body, and how large the body is in the picture.
 ///
-/// What it does not do: no errors (noise_keypoints.h, independent_keypoints.h).
+/// What it does not do: no errors (keypoint_noise.h, independent_keypoints.h).
 #pragma once
 
 #include <string>

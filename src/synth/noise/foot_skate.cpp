@@ -4,7 +4,7 @@
 
 #include "core/elementary.h"
 #include "motion/prepare/feet.h"
-#include "synth/noise/noise_streams.h"
+#include "synth/noise/random_processes.h"
 
 namespace mimicx::synth {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "synth/noise/noise_streams.h"
+#include "synth/noise/random_processes.h"
 
 namespace mimicx::synth {
 namespace {

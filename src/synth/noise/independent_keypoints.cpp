@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/elementary.h"
-#include "synth/noise/noise_streams.h"
 #include "synth/noise/occlusion.h"
+#include "synth/noise/random_processes.h"
 
 namespace mimicx::synth {
 namespace {

@@ -1,16 +1,17 @@
 /// A second noise model, which shares none of the keypoint fit's assumptions.
 ///                                                                   docs/method.md, "Noise model", (4) to
 ///                                                                   (15)
-/// The first model (noise.h) and the fit believe in the same joint weights, in constant offsets of keypoints
-/// in the picture, in normal errors and in confidence that tells. This one does not; what a method achieves
-/// on it is nearer to what it achieves on a stranger's estimate. Everything the true clip does not tell comes
-/// from the seed; each term has its own random stream, so that turning one off leaves the others as they are.
+/// The first model (estimator_noise.h) and the fit believe in the same joint weights, in constant offsets of
+/// keypoints in the picture, in normal errors and in confidence that tells. This one does not; what a method
+/// achieves on it is nearer to what it achieves on a stranger's estimate. Everything the true clip does not
+/// tell comes from the seed; each term has its own random stream, so that turning one off leaves the others
+/// as they are.
 ///
 /// What it does not do: no images; the truth is never written into the noisy clip.
 #pragma once
 
 #include "synth/noise/independent_preset.h"
-#include "synth/noise/noise_keypoints.h"
+#include "synth/noise/keypoint_noise.h"
 
 namespace mimicx::synth {
 

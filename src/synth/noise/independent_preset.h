@@ -52,7 +52,7 @@ struct IndependentPreset {
 IndependentPreset independent_preset();
 
 /// v_j: how large the rotation error of a joint is beside the others'. These are not the weights of
-/// estimator_error.h on purpose.
+/// estimator_noise.cpp on purpose.
 double independent_joint_weight(int body);
 
 }  // namespace mimicx::synth

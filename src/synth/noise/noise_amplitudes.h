@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "synth/noise/estimator_noise.h"
 #include "synth/noise/independent_preset.h"
-#include "synth/noise/noise.h"
 
 namespace mimicx::synth {
 

@@ -11,9 +11,9 @@
 #include "import/bvh.h"
 #include "import/landmarks.h"
 #include "import/retarget/skeletons.h"
-#include "import/world.h"
+#include "import/world_transform.h"
 #include "motion/made_motions.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::import {
 namespace {

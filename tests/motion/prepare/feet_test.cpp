@@ -5,7 +5,7 @@
 #include "core/units.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
-#include "synth/synth.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::motion {
 namespace {

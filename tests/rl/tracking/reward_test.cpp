@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "rl/tracking/tracking_fixture.h"
-#include "synth/noise/noise.h"
+#include "synth/noise/estimator_noise.h"
 
 namespace mimicx::rl::tracking {
 namespace {

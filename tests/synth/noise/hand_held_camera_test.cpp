@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "synth/noise/estimate.h"
 #include "synth/noise/independent_fixtures.h"
+#include "synth/noise/noise_model.h"
 
 namespace mimicx::synth {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "synth/noise/noise.h"
-#include "synth/synth.h"
+#include "synth/noise/estimator_noise.h"
+#include "synth/synthesize.h"
 
 namespace mimicx::test {
 

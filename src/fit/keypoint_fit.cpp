@@ -1,0 +1,51 @@
+#include "fit/keypoint_fit.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "fit/camera_smoothing.h"
+#include "fit/least_squares/gauss_newton.h"
+
+namespace mimicx::fit {
+namespace {
+
+constexpr std::size_t kFewestKeypoints = 6;  ///< joints among the keypoints, else there is nothing to fit to
+
+/// Why there is nothing to fit to; empty where there is.
+std::string reason_to_refuse(const FitProblem& problem) {
+  if (problem.points.size() < kFewestKeypoints) return "too few keypoints of known joints: left as it is";
+  const auto seen = std::count_if(problem.box.begin(), problem.box.end(), [](double b) { return b > 0.0; });
+  if (2 * seen < problem.frames()) return "the camera does not see the motion: left as it is";
+  return "";
+}
+
+/// The clip, its camera calmed where it trembles.
+motion::Clip with_a_calm_camera(const motion::Clip& clip, FitReport& report) {
+  motion::Clip calm = clip;
+  calm.keypoints->extrinsics = calmed(clip.keypoints->extrinsics, clip.fps);
+  if (calm.keypoints->extrinsics != clip.keypoints->extrinsics)
+    report.notes.emplace_back("the told camera trembles from frame to frame: smoothed over 0.1 s");
+  return calm;
+}
+
+}  // namespace
+
+motion::Clip fit_keypoints(const motion::Clip& clip, const FitConfig& config, FitReport* report) {
+  FitReport r;
+  motion::Clip fitted = clip;
+  if (!clip.keypoints) {
+    r.notes.emplace_back("no keypoints: left as it is");
+  } else {
+    motion::require_usable(clip, 3);
+    const motion::Clip calm = with_a_calm_camera(clip, r);
+    FitProblem problem = make_problem(calm, config);
+    if (const std::string why = reason_to_refuse(problem); !why.empty())
+      r.notes.push_back(why);
+    else
+      fitted = solved(calm, problem, r);
+  }
+  if (report) *report = r;
+  return fitted;
+}
+
+}  // namespace mimicx::fit

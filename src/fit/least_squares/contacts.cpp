@@ -1,0 +1,55 @@
+#include "fit/least_squares/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/quantile.h"
+
+namespace mimicx::fit {
+namespace {
+
+constexpr double kSpeed = 0.3;                             ///< m/s over five frames at 30 fps
+constexpr double kHeight = 0.03, kUnsettledHeight = 0.05;  ///< m
+constexpr double kLowShare = 0.1;
+constexpr double kSpeedWindow = 2.0 / 30.0;  ///< s to either side
+constexpr double kLevel = 0.5;               ///< vertical part of a sole's normal
+constexpr int kPointsPerFoot = kFootPoints / 2;
+
+/// Low percentile of the height of a foot's lowest point, m. @param first  the foot's first point
+double floor_under(const PerFrame<FootPositions>& feet, int first) {
+  std::vector<double> lowest;
+  for (const FootPositions& p : feet) {
+    double z = p[first].z();
+    for (int i = first; i < first + kPointsPerFoot; ++i) z = std::min(z, p[i].z());
+    lowest.push_back(z);
+  }
+  return ranked(lowest, static_cast<int>(kLowShare * static_cast<double>(lowest.size())));
+}
+
+}  // namespace
+
+Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool settled) {
+  Contacts contacts(feet.size());
+  const int last = feet.count() - 1;
+  const int window = static_cast<int>(std::max(1.0, std::round(kSpeedWindow * fps)));
+  for (const int first : {0, kPointsPerFoot}) {
+    const double ceiling = settled ? kHeight : floor_under(feet, first) + kUnsettledHeight;
+    for (int t = 0; t <= last; ++t) {
+      const int before = std::max(t - window, 0), after = std::min(t + window, last);
+      for (int i = first; i < first + kPointsPerFoot; ++i) {
+        const double speed = (feet[after][i] - feet[before][i]).norm() * fps / (after - before);
+        contacts[t][i] = feet[t][i].z() < ceiling && speed < kSpeed;
+      }
+    }
+  }
+  return contacts;
+}
+
+void keep_level_soles(const FitProblem& problem, const PerFrame<FrameKinematics>& motion,
+                      Contacts& contacts) {
+  for (int t = 0; t < contacts.count(); ++t)
+    for (int i = 0; i < kFootPoints; ++i)
+      if (motion[t].R[problem.foot_points[i].body](2, 1) < kLevel) contacts[t][i] = false;
+}
+
+}  // namespace mimicx::fit

@@ -1,0 +1,210 @@
+#include "fit/least_squares/gauss_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/elementary.h"
+#include "core/parallel.h"
+#include "core/quantile.h"
+#include "core/units.h"
+#include "fit/least_squares/balance_term.h"
+#include "fit/least_squares/error_levels.h"
+#include "fit/least_squares/fit_terms.h"
+#include "fit/least_squares/left_right.h"
+#include "fit/least_squares/projection.h"
+
+namespace mimicx::fit {
+namespace {
+
+constexpr int kDraws = 3;                       ///< of the solution's error, for the levels
+constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
+constexpr double kPercent = 100.0;
+constexpr int kUnsettled = 3;           ///< iterations until the motion is on the floor
+constexpr double kLargestTurn = 0.35;   ///< rad: longest step of one joint in one iteration
+constexpr double kFarOff = 3.0;         ///< kernels: a detection this far off was set aside
+constexpr double kSmallestStep = 1e-5;  ///< rad and m: below, the fit has converged
+
+/// A state with everything that follows from it.
+struct Evaluated {
+  PerFrame<FrameKinematics> motion;
+  PerFrame<FootPositions> feet;
+};
+
+Evaluated evaluate(const FitProblem& problem, const FitState& state) {
+  constexpr int kFrames = 32;  // a chunk
+  const Character character = character_of(problem, state);
+  const int frames = problem.frames();
+  Evaluated e{PerFrame<FrameKinematics>(frames), PerFrame<FootPositions>(frames)};
+  parallel_for((frames + kFrames - 1) / kFrames, problem.config.threads, [&](int chunk) {
+    for (int t = chunk * kFrames; t < std::min((chunk + 1) * kFrames, frames); ++t) {
+      e.motion[t] = kinematics(problem, state, character, t);
+      e.feet[t] = foot_positions(character, e.motion[t]);
+    }
+  });
+  return e;
+}
+
+/// Where the detections should be, pixels: [frames][K].
+PerFrame<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const FitState& state,
+                                               const Evaluated& e) {
+  PerFrame<std::vector<Eigen::Vector2d>> predicted;
+  for (int t = 0; t < problem.frames(); ++t) {
+    predicted.emplace_back();
+    for (std::size_t k = 0; k < problem.points.size(); ++k) {
+      const Projection seen = see(problem, state, e.motion, t, k);
+      const Eigen::Vector2d detected = problem.uvc[t][k].head<2>();
+      predicted.back().push_back(seen.valid ? Eigen::Vector2d(detected + problem.box[t] * seen.error)
+                                            : detected);
+    }
+  }
+  return predicted;
+}
+
+struct Residual {
+  double rms = 0.0;  ///< % of the box
+  int dropped = 0;
+};
+
+Residual residual_of(const FitProblem& problem, const FitState& state, const Evaluated& e) {
+  Residual out;
+  double squares = 0.0, weights = 0.0;
+  for (int t = 0; t < problem.frames(); ++t)
+    for (std::size_t k = 0; k < problem.points.size(); ++k) {
+      const double confidence = problem.uvc[t][k].z();
+      const Projection seen = see(problem, state, e.motion, t, k);
+      if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.config.keypoint_kernel)
+        ++out.dropped;
+      if (confidence <= 0.0 || !seen.valid) continue;
+      squares += confidence * seen.error.squaredNorm();
+      weights += confidence;
+    }
+  if (weights > 0.0) out.rms = kPercent * std::sqrt(squares / weights);
+  return out;
+}
+
+/// Moves the state along a Gauss-Newton step, shortened where a joint would turn too far. @return its length
+double advance(const BandSolution& step, FitState& state) {
+  double turn = 0.0, longest = 0.0;
+  for (const VectorXd& x : step.x) {
+    if (!x.allFinite()) throw std::domain_error("keypoint fit: a step is not finite");
+    turn = std::max(turn, x.tail(kFrameUnknowns - kRootRotation).cwiseAbs().maxCoeff());
+    longest = std::max(longest, x.cwiseAbs().maxCoeff());
+  }
+  const double scale = std::min(1.0, kLargestTurn / std::max(turn, 1e-12));
+  for (int t = 0; t < state.c.count(); ++t) state.c[t] += scale * step.x[t];
+  state.g += scale * step.g;
+  return scale * longest;
+}
+
+/// Keypoints of the clip with the labels and the camera of the fit.
+void correct_keypoints(const FitProblem& problem, const FitState& state, motion::Keypoints& keypoints) {
+  for (int t = 0; t < keypoints.uvc.count(); ++t)
+    for (std::size_t k = 0; k < problem.points.size(); ++k)
+      keypoints.uvc[t][problem.points[k].column] = problem.uvc[t][k];
+  keypoints.intrinsics.topLeftCorner<2, 2>() *= exp(state.g[kLogFocal]);
+  const Matrix3d turn = rotation_about(Vector3d::UnitX(), state.g[kTilt]).toRotationMatrix();
+  for (Eigen::Matrix4d& extrinsics : keypoints.extrinsics)
+    extrinsics.topRows<3>() = (turn * extrinsics.topRows<3>()).eval();
+}
+
+motion::Clip result_of(const motion::Clip& input, const FitProblem& problem, const FitState& state) {
+  PerFrame<Vector3d> p_root;
+  PerFrame<PerBody<Quaterniond>> q;
+  for (int t = 0; t < problem.frames(); ++t) {
+    p_root.push_back(problem.p_root[t] + state.c[t].head<3>());
+    q.push_back(rotations_of(problem, state, t));
+  }
+  motion::Clip out = motion::to_clip(input.name, input.fps, character_of(problem, state), p_root, q);
+  if (input.rest_joints) motion::put_on_body_of(input, out);
+  out.gender = input.gender;
+  out.passthrough = input.passthrough;
+  out.warnings = input.warnings;
+  out.decisions = input.decisions;
+  out.on_floor = input.on_floor;
+  out.keypoints = input.keypoints;
+  if (!problem.points.empty()) correct_keypoints(problem, state, *out.keypoints);
+  return out;
+}
+
+/// Largest and mean distance of the joints of two clips, mm.
+void report_change(const motion::Clip& before, const motion::Clip& after, FitReport& report) {
+  const PerFrame<BodyPoses> a = motion::poses_of(before), b = motion::poses_of(after);
+  for (int t = 0; t < a.count(); ++t)
+    for (int j = 0; j < kBodies; ++j) {
+      const double mm = kMm * (a[t].p_WB[j] - b[t].p_WB[j]).norm();
+      report.change_mean_mm += mm / static_cast<double>(a.size() * kBodies);
+      report.change_max_mm = std::max(report.change_max_mm, mm);
+    }
+}
+
+Contacts contacts_of(const FitProblem& problem, const Evaluated& e, bool settled) {
+  Contacts contacts = find_contacts(e.feet, problem.fps, settled || problem.poses_alone);
+  if (problem.poses_alone) keep_level_soles(problem, e.motion, contacts);
+  return contacts;
+}
+
+/// The Gauss-Newton step from a state, and draws of its error.
+SolutionWithDraws step_from(const FitProblem& problem, const FitState& state, const Evaluated& e,
+                            const Contacts& contacts, int draws, Random& random) {
+  NormalEquations equations = linearise(problem, state, e.motion, e.feet, contacts);
+  if (problem.poses_alone)
+    add_balance(problem, character_of(problem, state), e.motion, e.feet, contacts, equations.band);
+  return solve(equations.band, equations.border, draws, random, problem.config.threads);
+}
+
+/// Gauss-Newton with labels and contacts found anew before each step, levels after it.
+FitState iterate(FitProblem& problem, FitReport& report) {
+  const PerFrame<std::vector<Vector3d>> detected = problem.uvc;
+  Random random(kLevelStream);
+  FitState state = initial_state(problem);
+  Evaluated e = evaluate(problem, state);
+  report.residual_before = residual_of(problem, state, e).rms;
+  for (report.iterations = 0; report.iterations < problem.config.iterations;) {
+    report.swapped_frames = order_labels(detected, predict(problem, state, e), problem);
+    const bool settled = report.iterations >= kUnsettled;
+    const Contacts contacts = contacts_of(problem, e, settled);
+    const bool levels = settled && problem.config.find_levels && !problem.points.empty();
+    const SolutionWithDraws found = step_from(problem, state, e, contacts, levels ? kDraws : 0, random);
+    const double step = advance(found, state);
+    e = {};  // memory
+    e = evaluate(problem, state);
+    problem.settled = settled;
+    if (levels) problem.levels = levels_of(problem, state, e.motion, found.draws);
+    ++report.iterations;
+    if (step < kSmallestStep && report.iterations > kUnsettled) break;
+  }
+  const Residual residual = residual_of(problem, state, e);
+  report.residual_after = residual.rms;
+  report.dropped_points = residual.dropped;
+  return state;
+}
+
+void report_levels(const FitProblem& problem, const FitState& state, FitReport& report) {
+  report.lead_frames = state.g[kLead];
+  report.confidence_power = problem.levels.confidence_power;
+  if (problem.points.empty()) return;
+  const std::vector<double>& sigma = problem.levels.keypoint;
+  report.keypoint_sigma = kPercent * median(sigma);
+  report.keypoint_sigma_max = kPercent * *std::max_element(sigma.begin(), sigma.end());
+}
+
+}  // namespace
+
+motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& report) {
+  try {
+    const FitState state = iterate(problem, report);
+    const motion::Clip fitted = result_of(clip, problem, state);
+    report.focal_scale = exp(state.g[kLogFocal]);
+    report.tilt_deg = state.g[kTilt] / kDegree;
+    report_levels(problem, state, report);
+    report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
+    report_change(clip, fitted, report);
+    return fitted;
+  } catch (const std::domain_error& error) {
+    report.notes.push_back(std::string(error.what()) + ": left as it is");
+    return clip;
+  }
+}
+
+}  // namespace mimicx::fit

@@ -1,0 +1,79 @@
+#include "fit/pose_fit.h"
+
+#include <algorithm>
+
+#include "core/quantile.h"
+#include "core/units.h"
+#include "fit/least_squares/contacts.h"
+#include "fit/least_squares/gauss_newton.h"
+#include "motion/prepare/floor_correction.h"
+#include "motion/surface_points.h"
+
+namespace mimicx::fit {
+namespace {
+
+constexpr int kFewestFrames = 4;  ///< that show a tremor
+
+/// Puts the input on the floor, as slowly as preparation does: where feet stand can be seen there alone.
+void put_on_floor(bool known, FitProblem& problem) {
+  const Character character = character_of(problem, initial_state(problem));
+  const std::vector<motion::SurfacePoint> points = motion::surface_points(character);
+  PerFrame<double> lowest;
+  for (int t = 0; t < problem.frames(); ++t)
+    lowest.push_back(
+        motion::lowest_height(points, forward_kinematics(character, problem.p_root[t], problem.q[t])));
+  const motion::FloorCorrection floor = motion::floor_correction(lowest, problem.fps, known);
+  for (int t = 0; t < problem.frames(); ++t) problem.p_root[t].z() += floor.height[t];
+}
+
+/// A problem without detections, on the floor.
+FitProblem problem_of(const motion::Clip& clip, const FitConfig& config) {
+  motion::Clip blind = clip;
+  blind.keypoints.reset();
+  FitProblem problem = make_problem(blind, config);
+  problem.poses_alone = true;
+  problem.calms = problem.rotation_jitter >= kTremor * kDegree;
+  FitConfig& own = problem.config;
+  own.prior_frames = problem.calms ? config.tremor_prior_frames : config.pose_prior_frames;
+  own.joint_rate = config.pose_joint_rate;
+  own.joint_bend = config.pose_joint_bend;
+  own.root_rotation_sigma = config.pose_root_rotation_sigma;
+  own.slip_sigma = config.pose_slip_sigma;
+  put_on_floor(clip.on_floor, problem);
+  return problem;
+}
+
+double slip_of(const FitProblem& problem) {
+  const FitState state = initial_state(problem);
+  const Character character = character_of(problem, state);
+  PerFrame<FootPositions> feet;
+  for (int t = 0; t < problem.frames(); ++t)
+    feet.push_back(foot_positions(character, kinematics(problem, state, character, t)));
+  const Contacts contacts = find_contacts(feet, problem.fps, true);
+  std::vector<double> steps;
+  for (int t = 0; t + 1 < problem.frames(); ++t)
+    for (int i = 0; i < kFootPoints; ++i)
+      if (contacts[t][i] && contacts[t + 1][i]) steps.push_back((feet[t + 1][i] - feet[t][i]).norm());
+  return steps.empty() ? 0.0 : median(steps) * problem.fps / kReferenceFps;
+}
+
+}  // namespace
+
+double stance_slip(const motion::Clip& clip) {
+  motion::require_usable(clip, 1);
+  return slip_of(problem_of(clip, {}));
+}
+
+motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitReport* report) {
+  FitReport r;
+  if (report) *report = r;
+  if (clip.frames() < kFewestFrames) return clip;
+  motion::require_usable(clip, kFewestFrames);
+  FitProblem problem = problem_of(clip, config);
+  motion::Clip fitted =
+      problem.calms || slip_of(problem) >= config.pose_slip ? solved(clip, problem, r) : clip;
+  if (report) *report = r;
+  return fitted;
+}
+
+}  // namespace mimicx::fit

@@ -1,0 +1,65 @@
+#include "motion/prepare/floor_correction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "motion/prepare/sliding_window.h"
+
+namespace mimicx::motion {
+namespace {
+
+/// Share of the heights of the lowest point that lies below the support.
+constexpr double kSupportShare = 0.25;
+constexpr double kSupportWindow = 1.2;         ///< s
+constexpr double kSupportSmoothing = 0.3;      ///< s, standard deviation
+constexpr double kMaxDrift = 0.15;             ///< m
+constexpr double kPenetrationAllowed = 0.010;  ///< m
+constexpr int kLiftRadius = 2;                 ///< frames
+
+/// Gaussian of standard deviation `sigma` (frames), normalised where the ends cut it.
+PerFrame<double> smoothed(const PerFrame<double>& x, double sigma) {
+  const int radius = static_cast<int>(std::ceil(3.0 * sigma));
+  PerFrame<double> out(x.size());
+  for (int i = 0; i < x.count(); ++i) {
+    double sum = 0.0, weights = 0.0;
+    for (int k = std::max(0, i - radius); k <= std::min(x.count() - 1, i + radius); ++k) {
+      const double u = (k - i) / sigma, weight = exp(-0.5 * u * u);
+      sum += weight * x[k];
+      weights += weight;
+    }
+    out[i] = sum / weights;
+  }
+  return out;
+}
+
+/// A smooth curve nowhere under `need`: the maximum over twice the radius, averaged twice over the radius.
+PerFrame<double> smooth_cover(const PerFrame<double>& need) {
+  const auto highest = [](const std::vector<double>& w) { return *std::max_element(w.begin(), w.end()); };
+  const auto mean = [](const std::vector<double>& w) {
+    double sum = 0.0;
+    for (const double v : w) sum += v;
+    return sum / static_cast<double>(w.size());
+  };
+  return sliding(sliding(sliding(need, 2 * kLiftRadius, highest), kLiftRadius, mean), kLiftRadius, mean);
+}
+
+}  // namespace
+
+FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known) {
+  FloorCorrection out;
+  out.shift = known ? 0.0 : -nearest_rank(lowest, kSupportShare);
+  const int radius = static_cast<int>(0.5 * kSupportWindow * fps);
+  PerFrame<double> drift = sliding(lowest, radius, [&](const std::vector<double>& w) {
+    return std::clamp(-nearest_rank(w, kSupportShare) - out.shift, -kMaxDrift, kMaxDrift);
+  });
+  drift = smoothed(drift, kSupportSmoothing * fps);
+  PerFrame<double> need(lowest.size());
+  for (int t = 0; t < lowest.count(); ++t)
+    need[t] = std::max(0.0, -(lowest[t] + out.shift + drift[t]) - kPenetrationAllowed);
+  const PerFrame<double> lift = smooth_cover(need);
+  for (int t = 0; t < lowest.count(); ++t) out.height.push_back(out.shift + drift[t] + lift[t]);
+  return out;
+}
+
+}  // namespace mimicx::motion

@@ -1,0 +1,260 @@
+#include "policy_export/cpp_header.h"
+
+#include <charconv>
+#include <stdexcept>
+
+#include "policy_export/runtime_text.h"
+
+namespace mimicx::policy_export {
+namespace {
+
+constexpr std::size_t kColumns = 118;
+
+/// The shortest decimals that are this number, as a literal of C++.
+template <class Real>
+std::string decimals(Real x) {
+  std::string out(32, '\0');
+  const char* const end = std::to_chars(out.data(), out.data() + out.size(), x).ptr;
+  out.resize(static_cast<std::size_t>(end - out.data()));
+  if (out.find_first_of(".e") == std::string::npos) out += ".0";
+  return out;
+}
+
+std::string literal(float x) { return decimals(x) + "F"; }
+std::string literal(double x) { return decimals(x); }
+std::string literal(std::int8_t x) { return std::to_string(x); }
+std::string literal(std::int16_t x) { return std::to_string(x); }
+
+const char* type_name(float) { return "float"; }
+const char* type_name(double) { return "double"; }
+const char* type_name(std::int8_t) { return "std::int8_t"; }
+const char* type_name(std::int16_t) { return "std::int16_t"; }
+
+/// Numbers separated by commas, broken into lines.
+template <class T>
+std::string list_of(const T* values, std::size_t count) {
+  std::string out;
+  std::size_t column = kColumns;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string number = literal(values[i]) + ",";
+    if (column + number.size() > kColumns) {
+      out += "\n ";
+      column = 1;
+    }
+    out += number;
+    column += number.size();
+  }
+  return out;
+}
+
+template <class T>
+std::string c_array(const std::string& name, const T* values, std::size_t count) {
+  return std::string("inline constexpr ") + type_name(T{}) + " " + name + "[" + std::to_string(count) +
+         "] = {" + list_of(values, count) + "};\n";
+}
+
+std::string constant(const std::string& type, const std::string& name, const std::string& value,
+                     const std::string& comment) {
+  return "inline constexpr " + type + " " + name + " = " + value + ";  ///< " + comment + "\n";
+}
+
+/// A text as a literal of C++.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      out += '?';
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+/// runtime.h without its own opening and with another namespace around it.
+std::string runtime_in(const std::string& name) {
+  const std::string own = "namespace mimicx::policy_export {\n";
+  std::string text(kRuntimeText);
+  const std::size_t at = text.find(own), end = text.rfind("}  // namespace");
+  if (at == std::string::npos || end == std::string::npos)
+    throw std::logic_error("runtime.h has another namespace");
+  return "namespace " + name + " {\n" + text.substr(at + own.size(), end - at - own.size());
+}
+
+std::string joints(const Character& character) {
+  std::string names =
+      "/// Bodies by their number: the joint i connects body i to its parent.\n"
+      "inline constexpr const char* kJointName[kBodyCount] = {";
+  std::vector<double> kp, kd, torque, centre, half;
+  for (int body = 0; body < kBodies; ++body) {
+    if (body % 6 == 0) names += "\n   ";
+    names += " \"" + std::string(kBodyNames[body]) + "\",";
+    const JointParameters& joint = character.joint[body];
+    kp.push_back(joint.kp);
+    kd.push_back(joint.kd);
+    torque.push_back(joint.torque_limit);
+    for (int k = 0; k < 3; ++k) {
+      centre.push_back(joint.centre[k]);
+      half.push_back(joint.half_range[k]);
+    }
+  }
+  return names +
+         "};\n// PD controllers, N·m/rad and N·m·s/rad, and the largest torque, N·m; entry 0 is not used\n" +
+         c_array("kStiffness", kp.data(), kp.size()) + c_array("kDamping", kd.data(), kd.size()) +
+         c_array("kTorqueLimit", torque.data(), torque.size()) +
+         "// Range: rotations from the centre (a rotation vector) stay inside an ellipsoid of these half "
+         "axes, rad\n" +
+         c_array("kRangeCentre", centre.data(), centre.size()) +
+         c_array("kRangeHalfAxes", half.data(), half.size());
+}
+
+template <class Weight>
+std::string data_of(const ExportedPolicy& exported, const Policy<Weight>& policy) {
+  const MotionSpline& motion = exported.motion;
+  const auto inputs = exported.inputs.size();
+  std::string out = c_array("kKnots", motion.knots.data(), motion.knots.size()) +
+                    c_array("kMiddle", policy.motion.middle, kChannels) +
+                    c_array("kStep", policy.motion.step, kChannels) +
+                    c_array("kSpeedCodes", motion.speeds.data(), motion.speeds.size()) +
+                    c_array("kSpeedStep", policy.motion.speed_step, kSpeeds) +
+                    c_array("kJointOffset", policy.joint_offset, 3 * kBodyCount) +
+                    c_array("kShape", policy.shape, kShapeCount) + c_array("kInput", policy.input, inputs) +
+                    c_array("kMean", policy.mean, inputs) + c_array("kFactor", policy.factor, inputs);
+  if (policy.power != nullptr) out += c_array("kPower", policy.power, inputs);
+  std::string layers;
+  for (int l = 0; l < policy.layers; ++l) {
+    const Layer<Weight>& layer = policy.layer[l];
+    const std::string number = std::to_string(l);
+    const auto outputs = static_cast<std::size_t>(layer.outputs);
+    out += c_array("kWeights" + number, layer.weights, static_cast<std::size_t>(layer.inputs) * outputs);
+    if (layer.scales != nullptr) out += c_array("kScales" + number, layer.scales, outputs);
+    out += c_array("kBiases" + number, layer.biases, outputs);
+    layers += "    {" + std::to_string(layer.inputs) + ", " + std::to_string(layer.outputs) + ", kWeights" +
+              number + ", " + (layer.scales != nullptr ? "kScales" + number : "nullptr") + ", kBiases" +
+              number + "},\n";
+  }
+  const std::string type = type_name(Weight{});
+  return out + "inline constexpr Layer<" + type + "> kLayers[] = {\n" + layers + "};\n" +
+         "inline constexpr Policy<" + type + "> kPolicy = {\n    {" + std::to_string(motion.frames) + ", " +
+         std::to_string(motion.spacing) + ", " + literal(motion.fps) +
+         ", kKnots, kMiddle, kStep, kSpeedCodes, kSpeedStep},\n    kJointOffset, kShape, kInput, kMean, "
+         "kFactor, " +
+         literal(policy.limit) + ", " + (policy.power != nullptr ? "kPower" : "nullptr") + ", " +
+         std::to_string(policy.layers) + ", kLayers, " + literal(policy.max_action) + "};\n";
+}
+
+/// Rows of a matrix, each in braces, in braces.
+template <std::size_t kRows, std::size_t kColumns>
+void append_rows(const float (&rows)[kRows][kColumns], std::string& out) {
+  out += "{";
+  for (const auto& row : rows) out.append("{").append(list_of(row, kColumns)).append("},");
+  out += "}";
+}
+
+std::string records_of(const ExportedPolicy& exported) {
+  std::string out =
+      "struct Record {\n  int frame;\n  State now;\n  float action[kActionCount];\n"
+      "  float target_q[kBodyCount][4];\n};\ninline constexpr Record kRecords[] = {\n";
+  for (const Record& record : exported.records) {
+    const State& now = record.now;
+    out.append("{").append(std::to_string(record.frame)).append(", {{").append(list_of(now.p_root, 3));
+    out.append("}, {").append(list_of(now.v_root, 3)).append("}, ");
+    append_rows(now.q, out);
+    out += ", ";
+    append_rows(now.omega, out);
+    out.append("},\n{").append(list_of(record.action.data(), kActionCount)).append("}, ");
+    append_rows(record.targets.q, out);
+    out += "},\n";
+  }
+  return out + "};\n";
+}
+
+/// What a user calls. kWidest is that of the network.
+constexpr std::string_view kCalls = R"(
+/// The motion at a frame: a body that starts on it starts here.
+inline State reference(int frame) { return motion_at(kPolicy.motion, frame); }
+
+/// What the PD controllers shall aim at from `frame` to the next one, for a body that is in the state `now`. In
+/// between, the simulation moves the targets from the last ones to these: rotations by normalised linear
+/// interpolation, velocities linearly. At frame 0 the last ones are the joints of reference(0).
+inline Targets follow(int frame, const State& now) { return follow<kWidest>(kPolicy, frame, now); }
+
+/// Asks what was asked when this file was made. @return the largest difference from what was answered, rad; 0 on
+/// every machine of IEEE 754 where the compiler fuses no multiplications (-ffp-contract=off), and under 1e-4 else
+inline float self_test() {
+  float worst = 0.0F;
+  const auto compare = [&](float a, float b) {
+    const float difference = a > b ? a - b : b - a;
+    if (worst == worst && !(difference <= worst)) worst = difference;  // no number stays
+  };
+  for (const Record& record : kRecords) {
+    float observation[kStateCount], action[kActionCount];
+    const State next = reference(record.frame + 1);
+    observe(kPolicy, next, record.now, observation);
+    decide<kWidest>(kPolicy, observation, action);
+    for (int k = 0; k < kActionCount; ++k) compare(action[k], record.action[k]);
+    const Targets targets = targets_of(kPolicy, next, record.action);
+    for (int body = 1; body < kBodyCount; ++body)
+      for (int k = 0; k < 4; ++k) compare(targets.q[body][k], record.target_q[body][k]);
+  }
+  return worst;
+}
+)";
+
+}  // namespace
+
+std::string namespace_of(const std::string& name) {
+  std::string out = "policy_";
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (plain || out.back() != '_') out += plain ? c : '_';
+  }
+  return out;
+}
+
+std::string to_header(const ExportedPolicy& exported) {
+  const motion::Reference& motion = exported.meant.motion;
+  const physics::SimulationConfig& simulation = exported.meant.simulation;
+  const std::string space = namespace_of(motion.name);
+  std::string out(kHeaderOpening);
+  out += " (" MIMICX_VERSION "), which follows one motion: " + quoted(motion.name) + ", " +
+         std::to_string(exported.motion.frames) + " frames at " + literal(exported.motion.fps) +
+         " per second.\n"
+         "// C++17; no heap, no exceptions, no other file.\n"
+         "//\n"
+         "//     auto body = " +
+         space +
+         "::reference(0);             // where the body starts\n"
+         "//     for (int t = 0; t + 1 < " +
+         space +
+         "::kFrames; ++t) {\n"
+         "//       auto targets = " +
+         space +
+         "::follow(t, body);   // for the PD controllers\n"
+         "//       body = ...;                                       // a frame later, by your simulation\n"
+         "//     }\n"
+         "#pragma once\n\n#include <cmath>\n#include <cstdint>\n\n";
+  out += runtime_in(space);
+  out +=
+      "// ---- this policy -----------------------------------------------------------------------------\n\n";
+  out += "inline constexpr char kName[] = " + quoted(motion.name) + ";\n";
+  out += constant("int", "kFrames", std::to_string(exported.motion.frames), "of the motion");
+  out += constant("double", "kFps", literal(exported.motion.fps),
+                  "frames, and answers of the policy, per second");
+  out +=
+      constant("double", "kPhysicsRate", literal(simulation.rate), "steps per second that it was taught in");
+  out += constant("double", "kGravity", literal(simulation.gravity), "m/s²");
+  out += constant("double", "kFriction", literal(simulation.friction), "of the floor");
+  out += constant("int", "kWidest", std::to_string(exported.widest()), "layer of the network");
+  out += joints(motion.character);
+  with_policy(exported, [&](const auto& policy) { out += data_of(exported, policy); });
+  out += records_of(exported);
+  out += kCalls;
+  return out + "\n}  // namespace " + space + "\n";
+}
+
+}  // namespace mimicx::policy_export

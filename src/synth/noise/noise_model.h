@@ -1,0 +1,38 @@
+/// An estimate of any clean clip, by whichever noise model: what `mimicx corrupt` writes.
+///
+/// What it does not do: no reading of files and no retargeting (synth/corrupt.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "synth/noise/estimator_noise.h"
+#include "synth/noise/independent_noise.h"
+
+namespace mimicx::synth {
+
+using NoiseModel = std::variant<NoisePreset, IndependentPreset>;
+
+/// A model by name ("independent", "gvhmr", "vibe"; "independent" where none is named) with single amplitudes
+/// set by NAME=VALUE. @param words  one name at most; amplitudes in any order
+/// @throws std::invalid_argument for an unknown name, with those that are known, and for a value that makes
+/// no sense
+NoiseModel noise_model(const std::vector<std::string>& words);
+
+struct EstimateConfig {
+  NoiseModel noise = independent_preset();
+  CameraError camera = camera_error("perturbed");
+  std::optional<motion::KeypointSet> keypoints =
+      motion::KeypointSet::kJoints22;  ///< none: neither detections nor a camera
+};
+
+/// @param seed  of this clip  @throws std::invalid_argument as `add_noise`
+motion::Clip estimate(const motion::Clip& truth, const EstimateConfig& config, std::uint64_t seed);
+
+/// The seed of a clip: a hash of the set's seed and the clip's name, so that a clip gets the same errors
+/// whichever others are corrupted with it.
+std::uint64_t clip_seed(std::uint64_t seed, const std::string& name);
+
+}  // namespace mimicx::synth

@@ -1,0 +1,135 @@
+#include "fit/keypoint_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "fit/fitted_clips.h"
+#include "motion/resample.h"
+
+namespace mimicx::fit {
+namespace {
+
+using namespace test;
+
+bool same_clip(const motion::Clip& a, const motion::Clip& b) {
+  return a.rotations == b.rotations && a.trans == b.trans && a.betas == b.betas &&
+         a.body_model == b.body_model && a.keypoints.has_value() == b.keypoints.has_value() &&
+         (!a.keypoints ||
+          (a.keypoints->uvc == b.keypoints->uvc && a.keypoints->intrinsics == b.keypoints->intrinsics &&
+           a.keypoints->extrinsics == b.keypoints->extrinsics));
+}
+
+TEST(Fit, ExactDetectionsBringTheTruthBack) {
+  for (const char* kind : {"walk", "squat"}) {
+    const motion::Clip truth = truth_of(kind), input = disturbed(truth, 1);
+    FitReport report;
+    const motion::Metrics before = against(truth, input);
+    const motion::Metrics after = against(truth, fit_keypoints(input, exact_camera(), &report));
+    EXPECT_GT(before.mpjpe.value, 20.0);
+    EXPECT_GT(before.mrpe.value, 150.0);
+    EXPECT_LT(after.mpjpe.value, 8.0) << kind;
+    EXPECT_LT(after.mrpe.value, 15.0) << kind;
+    EXPECT_LT(after.fs_gt.value, 1.0) << kind;  // mm per frame
+    EXPECT_GT(report.residual_before, 3.0);
+    EXPECT_LT(report.residual_after, 0.1);
+    EXPECT_EQ(report.swapped_frames, 0);
+    EXPECT_EQ(report.dropped_points, 0);
+    EXPECT_NEAR(report.focal_scale, 1.0, 1e-9);  // the camera was to be believed
+    EXPECT_NEAR(report.tilt_deg, 0.0, 1e-6);
+  }
+}
+
+TEST(Fit, KneesAndElbowsAreHingesAfterwards) {
+  const motion::Clip fitted = fit_keypoints(disturbed(truth_of("walk"), 2), {}, nullptr);
+  for (const auto& frame : fitted.rotations)
+    for (int b : {kLeftKnee, kRightKnee, kLeftElbow, kRightElbow})
+      EXPECT_LT(frame[b].cross(hinge_axis(b)).norm(), 1e-9);
+}
+
+TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {
+  const motion::Clip truth = truth_of("walk");
+  motion::Clip input = disturbed(truth, 5);
+  input.keypoints->intrinsics.topLeftCorner<2, 2>() *= 1.10;
+  FitConfig config;
+  config.beta_sigma = 0.0;
+  FitReport report;
+  fit_keypoints(input, config, &report);
+  EXPECT_LT(std::abs(std::log(report.focal_scale)), 3.0 * config.focal_sigma);
+  EXPECT_LT(std::abs(report.tilt_deg), 3.0 * config.tilt_sigma);
+}
+
+TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
+  const motion::Clip truth = truth_of("walk");
+  motion::Clip input = disturbed(truth, 6);
+  const double told = 0.6 * test::kPi / 180.0;
+  Eigen::Matrix4d& E = input.keypoints->extrinsics[0];
+  E.topRows<3>() = (Eigen::AngleAxisd(told, Vector3d::UnitX()).toRotationMatrix() * E.topRows<3>()).eval();
+  FitConfig config;
+  config.focal_sigma = config.beta_sigma = 0.0;
+  FitReport report;
+  const motion::Clip fitted = fit_keypoints(input, config, &report);
+  EXPECT_NEAR(report.tilt_deg, -0.6, 0.15);
+  const Eigen::Matrix4d exact = exact_keypoints(truth).extrinsics[0];
+  EXPECT_LT((fitted.keypoints->extrinsics[0] - exact).norm(), (E - exact).norm() / 3.0);
+}
+
+TEST(Fit, NoisyEstimatesComeCloserToTheTruth) {
+  for (const char* preset : {"gvhmr-like", "vibe-like"})
+    for (const motion::KeypointSet set : {motion::KeypointSet::kJoints22, motion::KeypointSet::kCoco17}) {
+      const motion::Clip truth = truth_of("walk"), noisy = noisy_of(truth, preset, set, 3);
+      FitReport report;
+      const motion::Clip fitted = fit_keypoints(noisy, {}, &report);
+      const motion::Metrics before = against(truth, noisy), after = against(truth, fitted);
+      EXPECT_LT(after.mpjpe.value, 0.6 * before.mpjpe.value) << preset;
+      EXPECT_LT(after.pa_mpjpe.value, 0.6 * before.pa_mpjpe.value) << preset;
+      EXPECT_LT(after.vel.value, before.vel.value) << preset;
+      EXPECT_LT(after.accel.value, before.accel.value) << preset;
+      EXPECT_LT(after.fs_gt.value, before.fs_gt.value) << preset;
+      EXPECT_LT(after.gp.value, 1.0) << preset;
+      EXPECT_LT(report.residual_after, report.residual_before) << preset;
+    }
+}
+
+TEST(Fit, TheFrameRateDoesNotChangeTheResultMuch) {
+  const motion::Clip truth = truth_of("squat");
+  const motion::Clip slow = noisy_of(truth, "gvhmr-like", motion::KeypointSet::kJoints22, 2);
+  const motion::Clip at_30 = fit_keypoints(slow, {}, nullptr);
+  const motion::Clip at_60 =
+      motion::resampled(fit_keypoints(motion::resampled(slow, 60.0), {}, nullptr), 30.0);
+  EXPECT_LT(against(at_30, at_60).mpjpe.value, 4.0);
+}
+
+TEST(Fit, RepeatsBitForBitWhateverTheThreads) {
+  const motion::Clip noisy = noisy_of(truth_of("walk"), "vibe-like", motion::KeypointSet::kJoints22, 1);
+  FitConfig three;
+  three.threads = 3;
+  EXPECT_TRUE(same_clip(fit_keypoints(noisy, {}, nullptr), fit_keypoints(noisy, three, nullptr)));
+}
+
+TEST(Fit, AClipWithNothingToFitToComesBackUnchangedAndSaysWhy) {
+  const auto expect_unchanged = [](const motion::Clip& clip, const std::string& why) {
+    FitReport report;
+    EXPECT_TRUE(same_clip(fit_keypoints(clip, {}, &report), clip));
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_NE(report.notes[0].find(why), std::string::npos) << report.notes[0];
+    EXPECT_EQ(report.iterations, 0);
+  };
+  expect_unchanged(truth_of("stand"), "no keypoints");
+  motion::Clip strangers = disturbed(truth_of("stand"), 1);
+  for (std::string& name : strangers.keypoints->names) name = "marker_" + name;
+  expect_unchanged(strangers, "too few keypoints");
+  motion::Clip unseen = disturbed(truth_of("stand"), 1);
+  unseen.keypoints->extrinsics[0](2, 3) -= 100.0;  // everybody is behind the camera
+  expect_unchanged(unseen, "does not see");
+}
+
+TEST(Fit, NumbersThatAreNoneAreRefused) {
+  motion::Clip clip = disturbed(truth_of("stand"), 1);
+  clip.trans[7].x() = std::nan("");
+  EXPECT_THROW(fit_keypoints(clip, {}, nullptr), DataError);
+}
+
+}  // namespace
+}  // namespace mimicx::fit

@@ -1,0 +1,83 @@
+#include "motion/prepare/arm_separation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "motion/closest_points.h"
+#include "motion/prepare/prepare.h"
+#include "motion/synthetic_clip.h"
+
+namespace mimicx::motion {
+namespace {
+
+Clip standing() { return test::synthetic_clip("stand", 501, 60); }
+
+/// The left arm swings into the trunk and out of it again, as an estimator may leave it.
+Clip with_arm_inside(Clip clip, double turn) {
+  for (int t = 15; t < 45; ++t)
+    clip.rotations[t][kLeftShoulder] = clip.rotations[30][kLeftShoulder] + Vector3d(0, -0.35 * turn, -turn);
+  return clip;
+}
+
+Reference prepared(const Clip& clip, bool separate) {
+  PreparationConfig config;
+  config.separate = separate;
+  return prepare_reference(clip, config, nullptr);
+}
+
+/// Largest overlap of a pair with an arm, m, from the capsules' axes.
+double deepest(const Reference& reference) {
+  double deepest = 0.0;
+  for (const BodyPoses& poses : reference.poses)
+    for (const auto& [a, b] : reference.character.self_pairs) {
+      if (kLimbOf[a] < 3 && kLimbOf[b] < 3) continue;
+      const Capsule &A = reference.character.capsule[a], &B = reference.character.capsule[b];
+      const auto world = [&](int body, const Vector3d& p_B) -> Vector3d {
+        return poses.p_WB[body] + poses.q_WB[body] * p_B;
+      };
+      const double distance =
+          segment_distance(world(a, A.a_B), world(a, A.b_B), world(b, B.a_B), world(b, B.b_B));
+      deepest = std::max(deepest, A.radius + B.radius - distance);
+    }
+  return deepest;
+}
+
+TEST(Separation, AnArmInsideTheTrunkComesOut) {
+  const Clip clip = with_arm_inside(standing(), 0.45);
+  const Reference inside = prepared(clip, false), outside = prepared(clip, true);
+  ASSERT_GT(deepest(inside), 0.08);
+  EXPECT_LT(deepest(outside), kAllowedOverlap + 0.01);  // a soft bound: the way there is smooth, too
+  for (int t = 0; t < inside.size(); ++t)               // only shoulders and elbows turn
+    for (int body = 0; body < kBodies; ++body)
+      if (body != kLeftShoulder && body != kLeftElbow && body != kRightShoulder && body != kRightElbow) {
+        EXPECT_EQ(inside.frames[t].q[body].coeffs(), outside.frames[t].q[body].coeffs()) << t << " " << body;
+      }
+}
+
+TEST(Separation, TheWayOutIsShort) {
+  Reference reference = prepared(with_arm_inside(standing(), 0.45), false);
+  const double depth = deepest(reference), moved = separate_arms(reference);
+  EXPECT_GT(moved, depth - kAllowedOverlap - 0.005);  // no arm comes out without moving as far
+  EXPECT_LT(moved, 3.0 * (depth - kAllowedOverlap));
+}
+
+TEST(Separation, AReferenceWithoutOverlapKeepsItsBytes) {
+  const Clip clip = standing();
+  const Reference without = prepared(clip, false), with = prepared(clip, true);
+  ASSERT_LT(deepest(without), kAllowedOverlap);
+  for (int t = 0; t < without.size(); ++t)
+    for (int body = 0; body < kBodies; ++body)
+      EXPECT_EQ(without.frames[t].q[body].coeffs(), with.frames[t].q[body].coeffs());
+}
+
+TEST(Separation, ElbowsStayHinges) {
+  const Reference reference = prepared(with_arm_inside(standing(), 0.45), true);
+  for (const ReferenceFrame& frame : reference.frames) {
+    const Vector3d turn = log_map(frame.q[kLeftElbow]);
+    EXPECT_LT(turn.cross(hinge_axis(kLeftElbow)).norm(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::motion
