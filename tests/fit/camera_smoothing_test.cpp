@@ -34,18 +34,18 @@ double distance(const PerFrame<Eigen::Matrix4d>& a, const PerFrame<Eigen::Matrix
   return std::sqrt(sum / a.count());
 }
 
-TEST(CameraPath, APathThatDoesNotTrembleStaysToTheBit) {
+TEST(CameraSmoothing, SteadyPathStaysBitIdentical) {
   for (const int frames : {1, 2, 3, 200}) EXPECT_EQ(calmed(carried(frames, 0.0), 30.0), carried(frames, 0.0));
 }
 
-TEST(CameraPath, TheWhitePartIsMeasuredAndAThirdOfTheErrorTakenOutInSpiteOfSway) {
+TEST(CameraSmoothing, MeasuresJitterAndRemovesAThirdOfTheErrorDespiteSway) {
   const PerFrame<Eigen::Matrix4d> truth = carried(300, 0.0), told = carried(300, 0.3);
   EXPECT_NEAR(jitter_of_camera(told).turn, 0.3 * kDegree, 0.1 * kDegree);
   EXPECT_NEAR(jitter_of_camera(told).place, 0.015, 0.004);
   EXPECT_LT(distance(calmed(told, 30.0), truth), 0.67 * distance(told, truth));
 }
 
-TEST(CameraPath, ATremblingCameraDoesNotShrinkTheWorld) {
+TEST(CameraSmoothing, TremblingCameraDoesNotShrinkTheWorld) {
   const motion::Clip truth = truth_of("walk");
   const motion::Clip still = noisy_of(truth, "gvhmr-like", motion::KeypointSet::kJoints22, 3);
   motion::Clip trembling = still;

@@ -21,7 +21,7 @@ double ankle_error(const motion::Clip& a, const motion::Clip& b) {
   return sum;
 }
 
-TEST(Fit, PointsOfTheFeetTurnTheAnkles) {
+TEST(Fit, FootKeypointsCorrectTheAnkles) {
   const motion::Clip truth = truth_of("kick");
   const auto fitted = [&](motion::KeypointSet set) {
     return fit_keypoints(disturbed(truth, 1, set), exact_camera(), nullptr);
@@ -32,7 +32,7 @@ TEST(Fit, PointsOfTheFeetTurnTheAnkles) {
   EXPECT_LT(with, 2.0);
 }
 
-TEST(Fit, ABurstOfExchangedSidesIsHealed) {
+TEST(Fit, RestoresABurstOfExchangedSides) {
   const motion::Clip truth = truth_of("walk"), input = disturbed(truth, 3);
   const motion::Clip expected = fit_keypoints(input, exact_camera(), nullptr);
   motion::Clip swapped = input;
@@ -48,7 +48,7 @@ TEST(Fit, ABurstOfExchangedSidesIsHealed) {
   EXPECT_LT(against(expected, fitted).gmpjpe.value, 0.5);
 }
 
-TEST(Fit, DetectionsWithoutConfidenceAreNeverRead) {
+TEST(Fit, IgnoresDetectionsWithoutConfidence) {
   const motion::Clip truth = truth_of("walk");
   motion::Clip zeros = disturbed(truth, 4), garbage = zeros;
   Random random(1, {});
@@ -68,7 +68,7 @@ TEST(Fit, DetectionsWithoutConfidenceAreNeverRead) {
   EXPECT_LT(against(truth, a).mpjpe.value, 9.0);
 }
 
-TEST(Fit, FarOffDetectionsAreSetAside) {
+TEST(Fit, ResistsFarOffDetections) {
   const motion::Clip truth = truth_of("squat");
   motion::Clip input = disturbed(truth, 4);
   Random random(2, {});
@@ -95,7 +95,7 @@ double error_where(const motion::Clip& a, const motion::Clip& b, int first, int 
 const std::vector<int> kLegs = {kLeftHip,   kRightHip,   kLeftKnee, kRightKnee,
                                 kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot};
 
-TEST(Fit, TwoSecondsWithoutAnyDetectionComeCloserToTheTruthAsWell) {
+TEST(Fit, ImprovesTwoSecondsWithoutDetections) {
   for (const char* preset : {"gvhmr-like", "vibe-like"}) {
     const motion::Clip truth = synthetic_clip("walk", 5, 150);
     motion::Clip noisy = noisy_of(truth, preset, motion::KeypointSet::kJoints22, 3);
@@ -109,7 +109,7 @@ TEST(Fit, TwoSecondsWithoutAnyDetectionComeCloserToTheTruthAsWell) {
   }
 }
 
-TEST(Fit, LegsThatAreNeverSeenDoNotGetWorse) {
+TEST(Fit, UnseenLegsDoNotGetWorse) {
   for (const char* preset : {"gvhmr-like", "vibe-like"})
     for (const char* kind : {"walk", "squat"}) {
       const motion::Clip truth = truth_of(kind);

@@ -21,7 +21,7 @@ bool same_clip(const motion::Clip& a, const motion::Clip& b) {
            a.keypoints->extrinsics == b.keypoints->extrinsics));
 }
 
-TEST(Fit, ExactDetectionsBringTheTruthBack) {
+TEST(Fit, ExactDetectionsRecoverTheTruth) {
   for (const char* kind : {"walk", "squat"}) {
     const motion::Clip truth = truth_of(kind), input = disturbed(truth, 1);
     FitReport report;
@@ -48,7 +48,7 @@ TEST(Fit, KneesAndElbowsAreHingesAfterwards) {
       EXPECT_LT(frame[b].cross(hinge_axis(b)).norm(), 1e-9);
 }
 
-TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {
+TEST(Fit, FocalLengthStaysWithinItsPrior) {
   const motion::Clip truth = truth_of("walk");
   motion::Clip input = disturbed(truth, 5);
   input.keypoints->intrinsics.topLeftCorner<2, 2>() *= 1.10;
@@ -60,7 +60,7 @@ TEST(Fit, AForeignFocalLengthStaysWithinItsPrior) {
   EXPECT_LT(std::abs(report.tilt_deg), 3.0 * config.tilt_sigma);
 }
 
-TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
+TEST(Fit, FindsAnErrorOfTheCameraTilt) {
   const motion::Clip truth = truth_of("walk");
   motion::Clip input = disturbed(truth, 6);
   const double told = 0.6 * test::kPi / 180.0;
@@ -75,7 +75,7 @@ TEST(Fit, AnErrorOfTheCamerasTiltIsFound) {
   EXPECT_LT((fitted.keypoints->extrinsics[0] - exact).norm(), (E - exact).norm() / 3.0);
 }
 
-TEST(Fit, NoisyEstimatesComeCloserToTheTruth) {
+TEST(Fit, MovesNoisyEstimatesCloserToTheTruth) {
   for (const char* preset : {"gvhmr-like", "vibe-like"})
     for (const motion::KeypointSet set : {motion::KeypointSet::kJoints22, motion::KeypointSet::kCoco17}) {
       const motion::Clip truth = truth_of("walk"), noisy = noisy_of(truth, preset, set, 3);
@@ -92,7 +92,7 @@ TEST(Fit, NoisyEstimatesComeCloserToTheTruth) {
     }
 }
 
-TEST(Fit, TheFrameRateDoesNotChangeTheResultMuch) {
+TEST(Fit, ResultHardlyDependsOnTheFrameRate) {
   const motion::Clip truth = truth_of("squat");
   const motion::Clip slow = noisy_of(truth, "gvhmr-like", motion::KeypointSet::kJoints22, 2);
   const motion::Clip at_30 = fit_keypoints(slow, {}, nullptr);
@@ -101,14 +101,14 @@ TEST(Fit, TheFrameRateDoesNotChangeTheResultMuch) {
   EXPECT_LT(against(at_30, at_60).mpjpe.value, 4.0);
 }
 
-TEST(Fit, RepeatsBitForBitWhateverTheThreads) {
+TEST(Fit, IsBitIdenticalForAnyNumberOfThreads) {
   const motion::Clip noisy = noisy_of(truth_of("walk"), "vibe-like", motion::KeypointSet::kJoints22, 1);
   FitConfig three;
   three.threads = 3;
   EXPECT_TRUE(same_clip(fit_keypoints(noisy, {}, nullptr), fit_keypoints(noisy, three, nullptr)));
 }
 
-TEST(Fit, AClipWithNothingToFitToComesBackUnchangedAndSaysWhy) {
+TEST(Fit, ClipWithoutUsableKeypointsStaysUnchangedWithANote) {
   const auto expect_unchanged = [](const motion::Clip& clip, const std::string& why) {
     FitReport report;
     EXPECT_TRUE(same_clip(fit_keypoints(clip, {}, &report), clip));
@@ -125,7 +125,7 @@ TEST(Fit, AClipWithNothingToFitToComesBackUnchangedAndSaysWhy) {
   expect_unchanged(unseen, "does not see");
 }
 
-TEST(Fit, NumbersThatAreNoneAreRefused) {
+TEST(Fit, RejectsNonFiniteValues) {
   motion::Clip clip = disturbed(truth_of("stand"), 1);
   clip.trans[7].x() = std::nan("");
   EXPECT_THROW(fit_keypoints(clip, {}, nullptr), DataError);

@@ -33,7 +33,7 @@ motion::Clip sliding(motion::Clip clip, double speed) {
   return clip;
 }
 
-TEST(FitPoses, AStanceThatSlidesIsStillAfterwards) {
+TEST(FitPoses, StopsASlidingStance) {
   for (const char* kind : {"squat", "bow", "punch"}) {
     const motion::Clip truth = truth_of(kind), slid = sliding(truth, 0.005);
     EXPECT_GT(against(truth, slid).fs_gt.value, 4.5) << kind;  // mm per frame
@@ -43,7 +43,7 @@ TEST(FitPoses, AStanceThatSlidesIsStillAfterwards) {
   }
 }
 
-TEST(FitPoses, AMotionThatFloatsAndSlidesStandsOnTheFloor) {
+TEST(FitPoses, PutsAFloatingAndSlidingMotionOnTheFloor) {
   const motion::Clip truth = truth_of("squat");
   for (const double height : {0.12, -0.07}) {
     motion::Clip lifted = sliding(truth, 0.005);
@@ -54,7 +54,7 @@ TEST(FitPoses, AMotionThatFloatsAndSlidesStandsOnTheFloor) {
   }
 }
 
-TEST(FitPoses, ABodyThatLeansOffItsFeetIsBroughtOverThem) {
+TEST(FitPoses, MovesALeaningBodyOverItsFeet) {
   const motion::Clip truth = truth_of("squat");
   motion::Clip leaning = sliding(truth, 0.005);
   const Quaterniond lean = exp_map(Vector3d(0.09, 0.0, 0.0));  // about the world's x axis
@@ -68,7 +68,7 @@ TEST(FitPoses, ABodyThatLeansOffItsFeetIsBroughtOverThem) {
   EXPECT_LT(with, without) << "balance tells of the lean";
 }
 
-TEST(FitPoses, EstimatesComeCloserToTheTruth) {
+TEST(FitPoses, MovesEstimatesCloserToTheTruth) {
   for (const char* preset : {"gvhmr-like", "vibe-like"})
     for (const char* kind : {"walk", "punch"}) {
       const motion::Clip truth = truth_of(kind), noisy = estimate_of(truth, preset);
@@ -84,7 +84,7 @@ TEST(FitPoses, EstimatesComeCloserToTheTruth) {
     }
 }
 
-TEST(FitPoses, ATremblingMotionIsCalmed) {
+TEST(FitPoses, SmoothsATremblingMotion) {
   for (const char* kind : {"walk", "punch"}) {
     const motion::Clip truth = truth_of(kind), noisy = estimate_of(truth, "vibe-like");
     const motion::Clip calm = fit_poses(noisy, {}, nullptr);
@@ -94,7 +94,7 @@ TEST(FitPoses, ATremblingMotionIsCalmed) {
   }
 }
 
-TEST(FitPoses, WhatIsCleanStaysByteForByte) {
+TEST(FitPoses, CleanMotionStaysByteIdentical) {
   for (const char* kind : {"walk", "jog", "kick", "punch", "jump", "side_step"}) {
     const motion::Clip truth = truth_of(kind);
     EXPECT_LT(stance_slip(truth), 0.001) << kind;
@@ -102,7 +102,7 @@ TEST(FitPoses, WhatIsCleanStaysByteForByte) {
   }
 }
 
-TEST(FitPoses, NeverLooksAtTheKeypoints) {
+TEST(FitPoses, IgnoresTheKeypoints) {
   const motion::Clip noisy = estimate_of(truth_of("walk"), "gvhmr-like");
   motion::Clip blind = noisy;
   blind.keypoints.reset();
@@ -111,7 +111,7 @@ TEST(FitPoses, NeverLooksAtTheKeypoints) {
   EXPECT_EQ(fitted.keypoints->uvc, noisy.keypoints->uvc);
 }
 
-TEST(FitPoses, WhereAPersonLiesOrCrawlsFeetDoNotStand) {
+TEST(FitPoses, FeetOfALyingOrCrawlingPersonDoNotStand) {
   motion::Clip lying = truth_of("stand");
   const Quaterniond over = exp_map(Vector3d(test::kPi / 2, 0.0, 0.0));
   for (auto& frame : lying.rotations) frame[0] = log_map(over * exp_map(frame[0]));
@@ -119,7 +119,7 @@ TEST(FitPoses, WhereAPersonLiesOrCrawlsFeetDoNotStand) {
   EXPECT_LT(against(slid, fitted).mpjpe.value, 0.1) << "nothing holds";
 }
 
-TEST(FitPoses, NumbersThatAreNoneAreRefused) {
+TEST(FitPoses, RejectsNonFiniteValues) {
   motion::Clip clip = truth_of("stand");
   clip.trans[7].x() = std::nan("");
   EXPECT_THROW(fit_poses(clip, {}, nullptr), DataError);

@@ -14,7 +14,7 @@ std::array<double, kBetas> random_betas(std::uint64_t seed, double size) {
   return betas;
 }
 
-TEST(BodyFit, LengthsOfABodyAreMatched) {
+TEST(BodyFit, MatchesTheLengthsOfABody) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const BodyLengths wanted = lengths_of(joint_offsets(random_betas(seed, 2.0)));
     const BodyLengths made = lengths_of(joint_offsets(fit_betas(wanted)));
@@ -22,11 +22,11 @@ TEST(BodyFit, LengthsOfABodyAreMatched) {
   }
 }
 
-TEST(BodyFit, TheStandardBodyIsLeftAlone) {
+TEST(BodyFit, StandardLengthsGiveTheStandardBody) {
   for (const double beta : fit_betas(lengths_of(joint_offsets({})))) EXPECT_NEAR(beta, 0.0, 1e-9);
 }
 
-TEST(BodyFit, WhatIsNotKnownStaysAsItIs) {
+TEST(BodyFit, UnknownLengthsLeaveOtherBetasAtZero) {
   BodyLengths lengths{};
   lengths[kThigh] = 0.5;
   const auto betas = fit_betas(lengths);
@@ -35,7 +35,7 @@ TEST(BodyFit, WhatIsNotKnownStaysAsItIs) {
   EXPECT_NEAR(betas[4], 0.0, 1e-9);  // arm length
 }
 
-TEST(BodyFit, GiantsAndDwarfsStayWithinTheBounds) {
+TEST(BodyFit, ExtremeLengthsStayWithinTheBounds) {
   BodyLengths lengths = lengths_of(joint_offsets({}));
   for (const double factor : {0.1, 0.6, 1.8, 100.0}) {
     BodyLengths scaled = lengths;
@@ -44,7 +44,7 @@ TEST(BodyFit, GiantsAndDwarfsStayWithinTheBounds) {
   }
 }
 
-TEST(BodyFit, OffsetsGiveTheirShapeBack) {
+TEST(BodyFit, RecoversTheShapeFromOffsets) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     auto betas = random_betas(seed, 4.9);
     betas[1] = 0.0;  // girth moves no joint

@@ -27,7 +27,7 @@ TEST(BodyModel, JointsAreTheRegressorTimesTheShapedVertices) {
   for (int j = 0; j < kBodies; ++j) EXPECT_LT((joints[j] - small.joint(j, kSomeBetas)).norm(), 1e-12) << j;
 }
 
-TEST(BodyModel, FilesOfAnotherLayoutAreRefusedByMember) {
+TEST(BodyModel, RejectsOtherLayoutsNamingTheMember) {
   const SmallModel small;
   const auto refused = [&](const std::string& key, const NpyArray& array) {
     Npz npz = small.file();
@@ -42,7 +42,7 @@ TEST(BodyModel, FilesOfAnotherLayoutAreRefusedByMember) {
   EXPECT_THROW(read_body_model(test::scratch("none.npz")), DataError);
 }
 
-TEST(BodyModel, AMotionIsPlayedOnTheJointsOfItsOwnBody) {
+TEST(BodyModel, MotionUsesTheJointsOfItsOwnBody) {
   const SmallModel small;
   write_npz(test::scratch("model.npz"), small.file());
   motion::Clip clip = test::random_clip(3, 4, 0.4);
@@ -91,7 +91,7 @@ TEST(BodyModel, TheStandardBodyKeepsThePelvisWhereItIs) {
   EXPECT_EQ(motion::poses_of(read)[2].p_WB[0], motion::poses_of(clip)[2].p_WB[0]);
 }
 
-TEST(BodyModel, BetasOfAnotherModelStayAside) {
+TEST(BodyModel, IgnoresBetasOfAnotherModel) {
   const SmallModel small;
   write_npz(test::scratch("model.npz"), small.file());
   motion::Clip clip = test::random_clip(3, 4, 0.4);

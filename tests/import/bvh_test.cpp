@@ -136,7 +136,7 @@ TEST(Bvh, PositionChannelsReplaceTheOffset) {
   EXPECT_EQ(rest_pose(motion).p[2], Vector3d(1, 17, 4));
 }
 
-TEST(Bvh, NamesEndSitesAndFrameRateAreRead) {
+TEST(Bvh, ReadsNamesEndSitesAndFrameRate) {
   const SkeletonMotion motion = parse_bvh(kSmall, "folder/small.bvh");
   EXPECT_EQ(motion.name, "small");
   ASSERT_EQ(motion.joints.size(), 3u);
@@ -148,7 +148,7 @@ TEST(Bvh, NamesEndSitesAndFrameRateAreRead) {
   EXPECT_NE(motion.decisions[0].find("120"), std::string::npos);
 }
 
-TEST(Bvh, LayoutDoesNotMatter) {
+TEST(Bvh, AcceptsAnyWhitespaceAndCase) {
   std::string other;
   for (std::size_t i = 0; i < kSmall.size(); ++i) {  // mixed line ends, tabs, blank lines
     const char c = kSmall[i];
@@ -161,14 +161,14 @@ TEST(Bvh, LayoutDoesNotMatter) {
   for (int t = 0; t < 2; ++t) EXPECT_EQ(pose_of(a, t).p, pose_of(b, t).p);
 }
 
-TEST(Bvh, NamesMayHaveBlanksAndBytesThatAreNoText) {
+TEST(Bvh, AcceptsNamesWithBlanksAndInvalidText) {
   EXPECT_EQ(parse_bvh(replaced(kSmall, "JOINT Chest\n  {", "JOINT Bip01 L Thigh {"), "a").joints[1].name,
             "Bip01 L Thigh");
   EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", "Ch\xff\xc3st\x01"), "a").joints[1].name, "Ch??st?");
   EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", "\xe8\x85\xb0"), "a").joints[1].name, "\xe8\x85\xb0");
 }
 
-TEST(Bvh, WhatIsWrongIsSaidWithItsLine) {
+TEST(Bvh, ReportsErrorsWithTheirLine) {
   expect_refusal("", "line 1", "the end of the file");
   expect_refusal("PK\x03\x04", "line 1", "'HIERARCHY'");
   expect_refusal(replaced(kSmall, "OFFSET 0 10 0", "OFFSET 0 ten 0"), "line 8", "'ten'");
@@ -188,7 +188,7 @@ TEST(Bvh, WhatIsWrongIsSaidWithItsLine) {
   expect_refusal(replaced(kSmall, "51 61", "51 inf"), "line 20", "'inf'");
 }
 
-TEST(Bvh, ClaimsAreNotBelievedBeforeMemoryIsTaken) {
+TEST(Bvh, ChecksTheClaimedSizeBeforeAllocating) {
   expect_refusal(replaced(kSmall, "Frames: 2", "Frames: 5000000"), "line 18", "5000000 frames");
   expect_refusal(replaced(kSmall, "Frames: 2", "Frames: 18446744073709551616"), "line 17",
                  "18446744073709551616");
@@ -200,19 +200,19 @@ TEST(Bvh, ClaimsAreNotBelievedBeforeMemoryIsTaken) {
   expect_refusal(wide, "line", "4096 joints");
 }
 
-TEST(Bvh, EveryTruncationIsRefused) {
+TEST(Bvh, RejectsEveryTruncation) {
   const std::size_t last_number = kSmall.rfind(' ');
   for (std::size_t length = 0; length <= last_number; ++length)
     EXPECT_NE(refusal(kSmall.substr(0, length)).find("line"), std::string::npos) << length;
 }
 
-TEST(Bvh, FramesPastTheClaimAreNamed) {
+TEST(Bvh, WarnsOfFramesBeyondTheClaimedNumber) {
   const SkeletonMotion motion = parse_bvh(replaced(kSmall, "Frames: 2", "Frames: 1"), "a.bvh");
   EXPECT_EQ(motion.frames(), 1);
   ASSERT_EQ(motion.warnings.size(), 1u);
 }
 
-TEST(Bvh, FoldersAndMissingFilesAreRefused) {
+TEST(Bvh, RejectsFoldersAndMissingFiles) {
   EXPECT_THROW(read_bvh(::testing::TempDir()), DataError);
   EXPECT_THROW(read_bvh("/no/such/file.bvh"), DataError);
   const fs::path pipe = fs::path(::testing::TempDir()) / "mimicx_bvh_test_pipe";

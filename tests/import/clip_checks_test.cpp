@@ -38,7 +38,7 @@ PerBody<Vector3d> arms_out(const motion::Clip& clip) {
   return pose;
 }
 
-TEST(ClipChecks, TPosesInFrontAreLeftOutTogetherWithTheWayOutOfThem) {
+TEST(ClipChecks, DropsALeadingTPoseAndTheTransitionOutOfIt) {
   for (const int poses : {1, 3})
     for (const int way : {0, 1, 2}) {
       const motion::Clip sound = motion::resampled(walk(), 120.0);
@@ -62,7 +62,7 @@ TEST(ClipChecks, TPosesInFrontAreLeftOutTogetherWithTheWayOutOfThem) {
     }
 }
 
-TEST(ClipChecks, MembersOfTheFramesAreLeftOutWithTheTPose) {
+TEST(ClipChecks, DropsPerFrameMembersOfTheTPose) {
   motion::Clip clip = walk();
   clip.rotations.insert(clip.rotations.begin(), arms_out(clip));
   clip.trans.insert(clip.trans.begin(), clip.trans[0]);
@@ -75,7 +75,7 @@ TEST(ClipChecks, MembersOfTheFramesAreLeftOutWithTheTPose) {
   EXPECT_EQ(back.passthrough[0].second.shape[0], back.rotations.size());
 }
 
-TEST(ClipChecks, ATPoseThatAHumanLeavesStays) {
+TEST(ClipChecks, KeepsATPoseThatIsLeftAtHumanSpeed) {
   motion::Clip clip = walk();
   const PerBody<Vector3d> t = arms_out(clip), first = clip.rotations[0];
   for (int k = 30; k-- > 0;) {  // a second
@@ -87,7 +87,7 @@ TEST(ClipChecks, ATPoseThatAHumanLeavesStays) {
   EXPECT_EQ(read_as_foreign(clip).frames(), clip.frames());
 }
 
-TEST(ClipChecks, AJumpOfTheBodyIsSaidWhetherOrNotItComesBack) {
+TEST(ClipChecks, WarnsOfAJumpOfTheBodyWithOrWithoutReturn) {
   for (const bool back : {false, true}) {
     motion::Clip clip = walk();
     for (int t = 40; t < (back ? 41 : clip.frames()); ++t) clip.trans[t].x() += 8.0;
@@ -99,7 +99,7 @@ TEST(ClipChecks, AJumpOfTheBodyIsSaidWhetherOrNotItComesBack) {
   EXPECT_FALSE(says(read_as_foreign(walk()).warnings, "jumps"));
 }
 
-TEST(ClipChecks, AnAngleThatIsNoneIsSaidAndHeldAndAFileInDegreesIsRefused) {
+TEST(ClipChecks, HoldsInvalidAnglesAndRejectsDegrees) {
   motion::Clip clip = walk();
   clip.rotations[20][kLeftKnee] = {1e30, 0.0, 0.0};
   const motion::Clip back = read_as_foreign(clip);
@@ -117,7 +117,7 @@ TEST(ClipChecks, AnAngleThatIsNoneIsSaidAndHeldAndAFileInDegreesIsRefused) {
   }
 }
 
-TEST(ClipChecks, APersonBehindTheCameraIsRefused) {
+TEST(ClipChecks, RejectsAPersonBehindTheCamera) {
   motion::Clip clip = walk();
   motion::Keypoints k;
   k.names = {"left_hip"};

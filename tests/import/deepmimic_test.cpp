@@ -49,7 +49,7 @@ void expect_refused_clip(const std::string& text, const std::string& place, cons
   }
 }
 
-TEST(DeepMimic, RestPoseHangsItsArmsAndStandsOnStraightLegs) {
+TEST(DeepMimic, RestPoseHasHangingArmsAndStraightLegs) {
   const SkeletonMotion motion = parse_deepmimic(json({rest_row()}), "a.txt");
   EXPECT_LT((place(motion, "right_ankle") - Vector3d(0, 0.9 - 0.421546 - 0.409870, 0.084887)).norm(), 1e-12);
   EXPECT_LT((place(motion, "left_elbow_end") - place(motion, "left_shoulder") -
@@ -80,7 +80,7 @@ TEST(DeepMimic, QuaternionsAreWxyzAndNormalised) {
   EXPECT_LT((thigh - Vector3d(0, 0, -0.421546)).norm(), 1e-12);
 }
 
-TEST(DeepMimic, TheLastDurationDoesNotCount) {
+TEST(DeepMimic, IgnoresTheLastDuration) {
   const SkeletonMotion motion =
       parse_deepmimic(json({rest_row(0.016666), rest_row(0.016666), rest_row(0.0)}), "b/a.txt");
   EXPECT_EQ(motion.fps, 60.0);
@@ -92,7 +92,7 @@ TEST(DeepMimic, TheLastDurationDoesNotCount) {
             1u);
 }
 
-TEST(DeepMimic, OtherKeysAreCheckedAndLeftAlone) {
+TEST(DeepMimic, ChecksAndIgnoresOtherKeys) {
   const std::string other =
       "\"A, \\\" [\": [], \"B\": {\"x\": [1, -2.5e3, {\"y\": null}], \"z\": true}, \"C\": {},";
   EXPECT_EQ(parse_deepmimic(json({rest_row()}, other), "a").frames(), 1);
@@ -101,7 +101,7 @@ TEST(DeepMimic, OtherKeysAreCheckedAndLeftAlone) {
   expect_refused_clip("{\"B\": \"open", "line 1", "quotation mark");
 }
 
-TEST(DeepMimic, WhatIsWrongIsSaidWithItsLine) {
+TEST(DeepMimic, ReportsErrorsWithTheirLine) {
   const std::string good = json({rest_row(), rest_row()});
   expect_refused_clip("", "line 1", "the end of the file");
   expect_refused_clip("[1]", "line 1", "'['");
@@ -126,11 +126,11 @@ TEST(DeepMimic, WhatIsWrongIsSaidWithItsLine) {
   expect_refused_clip(nan.replace(nan.find("0.9"), 3, "nan"), "line 5", "number 3 of the 44 of frame 1");
 }
 
-TEST(DeepMimic, BracketsWithoutEndAreBounded) {
+TEST(DeepMimic, BoundsTheNestingOfBrackets) {
   expect_refused_clip("{\"A\": " + std::string(1000000, '['), "line 1", "64 levels");
 }
 
-TEST(DeepMimic, EveryTruncationIsRefused) {
+TEST(DeepMimic, RejectsEveryTruncation) {
   const std::string good = json({rest_row()});
   for (std::size_t length = 0; length + 1 < good.size(); ++length)
     EXPECT_THROW(parse_deepmimic(good.substr(0, length), "a.txt"), DataError) << length;

@@ -49,7 +49,7 @@ double mean_joint_distance(const motion::Clip& a, const motion::Clip& b) {
   return 1000.0 * (rotation_z(angle).toRotationMatrix() * from - to).colwise().norm().mean();
 }
 
-TEST(JointPositions, TheirMotionIsTheOneTheyCameFrom) {
+TEST(JointPositions, RecoverTheMotionTheyCameFrom) {
   for (const char* kind : {"walk", "squat", "punch", "kick", "dance"}) {
     const motion::Clip exact = truth(kind), clip = read_positions(positions_of(exact));
     EXPECT_EQ(clip.fps, 20.0);
@@ -67,7 +67,7 @@ TEST(JointPositions, UnitIsFoundAndTheFrameRateOverridden) {
   EXPECT_EQ(clip.fps, 30.0);
 }
 
-TEST(JointPositions, HumanMl3dsFeaturesGiveTheSameMotion) {
+TEST(JointPositions, HumanMl3dFeaturesGiveTheSameMotion) {
   for (const char* kind : {"walk_turn", "turn_in_place"}) {
     const motion::Clip exact = truth(kind), clip = read_positions(features_of(positions_of(exact)));
     EXPECT_LT(mean_joint_distance(clip, exact), 25.0) << kind;
@@ -85,7 +85,7 @@ TEST(JointPositions, KneesAndElbowsBendAboutTheirHinges) {
     }
 }
 
-TEST(JointPositions, WhatIsNoMotionIsRefusedInOneLine) {
+TEST(JointPositions, RejectInvalidArraysInOneLine) {
   const NpyArray positions = positions_of(truth("walk"));
   EXPECT_THROW(read_positions(features_of(positions, -1.0)), DataError) << "normalised features";
   NpyArray collapsed = positions;

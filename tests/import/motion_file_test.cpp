@@ -58,7 +58,7 @@ double largest_joint_distance(const motion::Clip& a, const motion::Clip& b) {
   return most;
 }
 
-TEST(ReadMotion, LeavesASoundFileAsItIs) {
+TEST(ReadMotion, KeepsAValidFileUnchanged) {
   for (const std::string& kind : synth::basic_kinds()) {
     const motion::Clip clip = foreign(kind), back = written_and_read(clip);
     EXPECT_EQ(back.rotations, clip.rotations) << kind;
@@ -70,7 +70,7 @@ TEST(ReadMotion, LeavesASoundFileAsItIs) {
   }
 }
 
-TEST(ReadMotion, TurnsEveryAxisUpAndSaysSo) {
+TEST(ReadMotion, TurnsEveryUpAxisToZAndReportsIt) {
   const motion::Clip clip = foreign("walk");
   for (const char axis : std::string("xyXYZ")) {
     motion::Clip turned = clip;
@@ -88,7 +88,7 @@ TEST(ReadMotion, TurnsEveryAxisUpAndSaysSo) {
   }
 }
 
-TEST(ReadMotion, CrawlingIsNoReasonToTurnTheWorld) {
+TEST(ReadMotion, CrawlingDoesNotChangeTheUpAxis) {
   // Flat on the belly, sliding forward: the body stands along x, but the floor is under it.
   motion::Clip clip = test::random_clip(5, 90, 0.05);
   const Quaterniond lie(Eigen::AngleAxisd(-test::kPi / 2, Vector3d::UnitX()));
@@ -134,7 +134,7 @@ motion::Clip jumping(const std::vector<double>& rates, double label) {
   return clip;
 }
 
-TEST(ReadMotion, ThreeFallsThatAgreeTellTheFrameRate) {
+TEST(ReadMotion, ThreeAgreeingFallsSetTheFrameRate) {
   for (const auto& [label, rate] : {std::pair{60.0, 120.0}, {30.0, 20.0}, {120.0, 60.0}, {30.0, 120.0}}) {
     const motion::Clip wrong = jumping({rate, rate, rate}, label);
     const motion::Clip back = written_and_read(wrong);
@@ -146,7 +146,7 @@ TEST(ReadMotion, ThreeFallsThatAgreeTellTheFrameRate) {
   }
 }
 
-TEST(ReadMotion, FewFallsAndFallsThatDisagreeOnlySuggestAFrameRate) {
+TEST(ReadMotion, FewOrDisagreeingFallsOnlySuggestAFrameRate) {
   const std::vector<std::vector<double>> jumps = {{60.0}, {60.0, 60.0}, {60.0, 60.0, 45.0}};
   for (const std::vector<double>& rates : jumps) {
     const motion::Clip back = written_and_read(jumping(rates, 30.0));
@@ -157,7 +157,7 @@ TEST(ReadMotion, FewFallsAndFallsThatDisagreeOnlySuggestAFrameRate) {
   }
 }
 
-TEST(ReadMotion, SpeedsThatNoHumanHasAreNamed) {
+TEST(ReadMotion, WarnsOfInhumanSpeeds) {
   motion::Clip clip = foreign("walk");
   clip.fps = 300.0;
   const motion::Clip back = written_and_read(clip);
@@ -165,7 +165,7 @@ TEST(ReadMotion, SpeedsThatNoHumanHasAreNamed) {
   EXPECT_NE(back.warnings[0].find("m/s"), std::string::npos);
 }
 
-TEST(ReadMotion, AFloorThatTheUserNamesIsZeroAndStays) {
+TEST(ReadMotion, TheFloorGivenByTheUserBecomesZeroAndStays) {
   motion::Clip clip = foreign("walk");
   shift_world({0, 0, 0.4}, clip);
   EXPECT_TRUE(decided(written_and_read(clip), "floor: at 0.4"));
@@ -178,14 +178,14 @@ TEST(ReadMotion, AFloorThatTheUserNamesIsZeroAndStays) {
   EXPECT_NEAR(detect_floor(back), 0.1, 0.01);
 }
 
-TEST(ReadMotion, OurOwnFilesAreBelieved) {
+TEST(ReadMotion, TrustsOurOwnFiles) {
   motion::Clip clip = foreign("walk");
   rotate_world(rotation_to_z_up('y'), clip);
   clip.body_model = "mimicx";
   EXPECT_EQ(written_and_read(clip).trans, clip.trans);
 }
 
-TEST(ReadMotion, OptionsThatMakeNoSenseAreRefused) {
+TEST(ReadMotion, RejectsInvalidOptions) {
   const motion::Clip clip = foreign("wave");
   ReadConfig up, scale, fps;
   up.up = 'w';
@@ -206,7 +206,7 @@ TEST(World, EveryAxisCanBeUp) {
   EXPECT_THROW(rotation_to_z_up('q'), std::invalid_argument);
 }
 
-TEST(World, ARotationTurnsEveryJointAndEveryCamera) {
+TEST(World, RotationTurnsEveryJointAndEveryCamera) {
   motion::Clip clip = test::random_clip(7, 6, 0.6);
   motion::Keypoints k;
   k.extrinsics = {Eigen::Matrix4d::Identity()};
@@ -229,7 +229,7 @@ TEST(World, ARotationTurnsEveryJointAndEveryCamera) {
   }
 }
 
-TEST(Motionx, RoundTripIsExactAndKeepsWhatIsNotUsed) {
+TEST(Motionx, RoundTripIsExactAndKeepsUnusedColumns) {
   Eigen::MatrixXd values(5, 322);
   Random random(3, {1});
   for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = 0.3 * random.normal();
@@ -244,7 +244,7 @@ TEST(Motionx, RoundTripIsExactAndKeepsWhatIsNotUsed) {
             1e-12);
 }
 
-TEST(Motionx, TheAistScaleIsUndone) {
+TEST(Motionx, UndoesTheAistScale) {
   const motion::Clip walk = foreign("walk");
   Eigen::MatrixXd values = to_matrix(to_motionx(walk));
   values.middleCols(309, 3) *= 94.0;
@@ -255,7 +255,7 @@ TEST(Motionx, TheAistScaleIsUndone) {
   EXPECT_FALSE(decided(motionx_from(to_motionx(walk), "walk", "walk.npy"), "AIST")) << "not twice";
 }
 
-TEST(Motionx, UpIsAnAxisOfTheFile) {
+TEST(Motionx, UpOptionNamesAnAxisOfTheFile) {
   const motion::Clip walk = foreign("walk");
   const fs::path path = test::scratch("walk.npy");
   write_motion(path, walk);
@@ -274,7 +274,7 @@ TEST(Motionx, UpIsAnAxisOfTheFile) {
   EXPECT_LT(largest_joint_distance(read_motion(path, asked), walk), 1e-9);
 }
 
-TEST(Motionx, OtherShapesAreRefused) {
+TEST(Motionx, RejectsOtherShapes) {
   for (const Eigen::MatrixXd& bad : {Eigen::MatrixXd(Eigen::MatrixXd::Zero(3, 321)), Eigen::MatrixXd(0, 322)})
     EXPECT_THROW(motionx_from(from_matrix(bad), "m", "m.npy"), DataError);
   Eigen::MatrixXd nan = Eigen::MatrixXd::Zero(3, 322);
@@ -285,7 +285,7 @@ TEST(Motionx, OtherShapesAreRefused) {
   EXPECT_THROW(to_motionx(fast), std::invalid_argument);
 }
 
-TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
+TEST(ReadMotion, RecognisesFormatsByContentNotBySuffix) {
   const motion::Clip clip = foreign("walk");
   const fs::path npz = test::scratch("a.npy"), npy = test::scratch("b.npz");
   write_file_atomically(npz, format_npz(motion::to_npz(clip)));
@@ -294,7 +294,7 @@ TEST(ReadMotion, RecognisesTheContentNotTheSuffix) {
   EXPECT_LT(largest_joint_distance(read_motion(npy), clip), 1e-9);
 }
 
-TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
+TEST(ReadMotion, SuffixesAreCaseInsensitive) {
   const motion::Clip clip = foreign("walk");
   for (const char* name : {"WALK.BVH", "walk.Npz", "walk.NPY"}) {
     write_motion(test::scratch(name), clip);
@@ -303,7 +303,7 @@ TEST(ReadMotion, SuffixesInCapitalsAreTheSame) {
   }
 }
 
-TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
+TEST(ReadMotion, ReportsUnreadableFilesInOneLineNamingTheFile) {
   const fs::path folder = test::scratch("folder.npz"), empty = test::scratch("empty.npz"),
                  text = test::scratch("text.npy"), cut = test::scratch("cut.npz"),
                  locked = test::scratch("locked.npz");
@@ -324,7 +324,7 @@ TEST(ReadMotion, WhatCannotBeReadIsOneLineThatNamesTheFile) {
   }
 }
 
-TEST(ReadMotion, ANumberThatIsFarTooLargeIsSaidInFewDigits) {
+TEST(ReadMotion, PrintsHugeNumbersInFewDigits) {
   motion::Clip own = foreign("wave");
   Npz rate = motion::to_npz(own);
   own.body_model = "mimicx";
@@ -341,7 +341,7 @@ TEST(ReadMotion, ANumberThatIsFarTooLargeIsSaidInFewDigits) {
     }
 }
 
-TEST(ReadMotion, AFolderWithAPipeInItIsLookedThroughWithoutWaiting) {
+TEST(ReadMotion, DoesNotBlockOnAPipeInAFolder) {
   const fs::path pipe = test::scratch("pipe.txt");
   fs::remove(pipe);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -366,7 +366,7 @@ TEST(SharedMotions, AmassAndMotionxFilesOfTheSameMotionAgree) {
   EXPECT_EQ(compared, 8);
 }
 
-TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
+TEST(SharedMotions, EveryNpzAndNpyRoundTrips) {
   const fs::path root = fs::path(MIMICX_SHARED_DIR) / "motions";
   if (!fs::exists(root)) GTEST_SKIP() << "no shared motions here";
   int files = 0;
@@ -386,7 +386,7 @@ TEST(SharedMotions, EveryNpzAndNpyReadsAndComesBack) {
   EXPECT_EQ(files, 27);
 }
 
-TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
+TEST(SharedMotions, EverySkeletonFileRoundTripsInEachFormat) {
   const fs::path root = fs::path(MIMICX_SHARED_DIR) / "motions";
   if (!fs::exists(root)) GTEST_SKIP() << "no shared motions here";
   int files = 0;
@@ -408,7 +408,7 @@ TEST(SharedMotions, EverySkeletonFileReadsAndComesBackAsEachFormat) {
   EXPECT_FALSE(is_motion_file(root / "README.md"));
 }
 
-TEST(ReadMotion, SkeletonsAreRecognisedAndOptionsReachThem) {
+TEST(ReadMotion, RecognisesSkeletonsAndAppliesOptionsToThem) {
   const motion::Clip clip = foreign("walk");
   const fs::path path = test::scratch("walk.npz");  // a BVH by another name
   write_motion(test::scratch("walk.bvh"), clip);

@@ -98,7 +98,7 @@ TEST(ClipFile, WrittenFilesHaveTheDocumentedMembers) {
   EXPECT_EQ(npz.at("joint_names").text[21], "right_wrist");
 }
 
-TEST(ClipFile, EveryLayoutGivesTheFirst66ColumnsAndKeepsTheRest) {
+TEST(ClipFile, EveryLayoutReadsTheBodyAndKeepsTheOtherColumns) {
   for (const auto& [columns, model] :
        {std::pair<std::size_t, std::string>{66, "smplx"}, {72, "smpl"}, {156, "smplh"}, {165, "smplx"}}) {
     const Clip clip = read(amass(columns));
@@ -116,7 +116,7 @@ TEST(ClipFile, EveryLayoutGivesTheFirst66ColumnsAndKeepsTheRest) {
   }
 }
 
-TEST(ClipFile, ColumnsAndBetasThatAreNotUsedComeBackWhereTheyWere) {
+TEST(ClipFile, UnusedColumnsAndBetasAreWrittenBackInPlace) {
   for (const std::size_t columns : {66u, 72u, 156u, 165u}) {
     Npz npz = amass(columns);
     npz.set("betas", test::counted(1, 16));
@@ -128,7 +128,7 @@ TEST(ClipFile, ColumnsAndBetasThatAreNotUsedComeBackWhereTheyWere) {
   }
 }
 
-TEST(ClipFile, SmplxFilesComeBackWithTheArraysTheirReadersExpect) {
+TEST(ClipFile, SmplxFilesAreWrittenWithNamedArrays) {
   Npz npz;
   npz.set("root_orient", test::counted(3, 3, 7.0));
   npz.set("pose_body", test::counted(3, 63, 8.0));
@@ -143,7 +143,7 @@ TEST(ClipFile, SmplxFilesComeBackWithTheArraysTheirReadersExpect) {
   }
 }
 
-TEST(ClipFile, NamedArraysGoBeforePoses) {
+TEST(ClipFile, NamedArraysTakePrecedenceOverPoses) {
   Npz npz = amass(165);
   npz.set("root_orient", test::counted(3, 3, 7.0));
   npz.set("pose_body", test::counted(3, 63, 8.0));
@@ -158,7 +158,7 @@ TEST(ClipFile, NamedArraysGoBeforePoses) {
   EXPECT_TRUE(passed_on(clip, "poses_rest"));
 }
 
-TEST(ClipFile, AnAmassFileOfSmplxComesBackWithAllOfItsColumns) {
+TEST(ClipFile, AmassFileOfSmplxKeepsAllColumns) {
   Npz npz = amass(165);
   const NpyArray poses = npz.at("poses");
   npz.set("root_orient", test::counted(3, 3, 7.0));
@@ -171,7 +171,7 @@ TEST(ClipFile, AnAmassFileOfSmplxComesBackWithAllOfItsColumns) {
       EXPECT_EQ(back.at("poses").to_double()[165 * t + c], poses.to_double()[165 * t + c]);
 }
 
-TEST(ClipFile, ReadersThatSlicePosesFindHandsAndJawOfNamedArrays) {
+TEST(ClipFile, WritesHandsAndJawOfNamedArraysIntoPoses) {
   Npz npz;
   npz.set("root_orient", test::counted(3, 3, 7.0));
   npz.set("pose_body", test::counted(3, 63, 8.0));
@@ -187,7 +187,7 @@ TEST(ClipFile, ReadersThatSlicePosesFindHandsAndJawOfNamedArrays) {
   EXPECT_EQ(poses.middleCols(75, 90), to_matrix(npz.at("pose_hand")));
 }
 
-TEST(ClipFile, BothSpellingsOfTheFrameRateAreReadAndOneIsNeeded) {
+TEST(ClipFile, ReadsBothFrameRateKeysAndRequiresOne) {
   Npz npz;
   for (const char* key : {"poses", "trans"}) npz.set(key, amass().at(key));
   expect_refusal(npz, "mocap_frame_rate");
@@ -199,7 +199,7 @@ TEST(ClipFile, BothSpellingsOfTheFrameRateAreReadAndOneIsNeeded) {
   }
 }
 
-TEST(ClipFile, BadDataIsRefusedWithMemberAndReason) {
+TEST(ClipFile, RejectsBadDataNamingMemberAndReason) {
   Npz npz;
   for (const char* key : {"poses", "mocap_framerate"}) npz.set(key, amass().at(key));
   expect_refusal(npz, "'trans'");
@@ -234,7 +234,7 @@ TEST(ClipFile, BadDataIsRefusedWithMemberAndReason) {
   expect_refusal(npz, "keypoints_2d");
 }
 
-TEST(ClipFile, AnotherJointOrderIsRefused) {
+TEST(ClipFile, RejectsAnotherJointOrder) {
   std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
   Npz npz = amass();
   npz.set("joint_names", NpyArray::from_text(names));
@@ -247,7 +247,7 @@ TEST(ClipFile, AnotherJointOrderIsRefused) {
   expect_refusal(npz, "end of the list");
 }
 
-TEST(ClipFile, ForeignBetasWarnOnceAndMeanTheStandardBody) {
+TEST(ClipFile, ForeignBetasWarnOnceAndGiveTheStandardBody) {
   Npz npz = amass(156);
   EXPECT_TRUE(read(npz).warnings.empty());
   npz.set("betas", with_value(npz.at("betas"), 1, 2.0));
@@ -264,7 +264,7 @@ TEST(ClipFile, ForeignBetasWarnOnceAndMeanTheStandardBody) {
   expect_refusal(npz, "within");
 }
 
-TEST(ClipFile, KeypointsWithoutCameraAreLeftAloneWithAWarning) {
+TEST(ClipFile, KeypointsWithoutCameraAreIgnoredWithAWarning) {
   Npz npz = to_npz(test::clip_with_everything());
   Npz without;
   for (const auto& [key, array] : npz.members())
@@ -289,7 +289,7 @@ Npz with_unnamed_keypoints(std::size_t count) {
   return npz;
 }
 
-TEST(ClipFile, UnnamedKeypointsOfAKnownNumberGetTheNamesOfTheirSetAndItIsSaid) {
+TEST(ClipFile, NamesUnnamedKeypointsOfKnownCountAndReportsIt) {
   for (const auto& [count, set] : {std::pair<std::size_t, KeypointSet>{22, KeypointSet::kJoints22},
                                    {17, KeypointSet::kCoco17},
                                    {133, KeypointSet::kCoco133}}) {
@@ -304,7 +304,7 @@ TEST(ClipFile, UnnamedKeypointsOfAKnownNumberGetTheNamesOfTheirSetAndItIsSaid) {
   }
 }
 
-TEST(ClipFile, ThatFaceAndFingersAreNotUsedIsSaidInOneLine) {
+TEST(ClipFile, ReportsUnusedFaceAndFingerKeypointsInOneLine) {
   EXPECT_EQ(read(with_unnamed_keypoints(17)).decisions.size(), 1u);  // nose, eyes and ears need no words
   const Clip clip = read(with_unnamed_keypoints(133));
   ASSERT_EQ(clip.decisions.size(), 2u);
@@ -312,14 +312,14 @@ TEST(ClipFile, ThatFaceAndFingersAreNotUsedIsSaidInOneLine) {
   EXPECT_EQ(clip.decisions[1].find('\n'), std::string::npos);
 }
 
-TEST(ClipFile, KeypointNamesThatCannotBeReadAreNotGuessed) {
+TEST(ClipFile, RejectsUnreadableKeypointNames) {
   Npz npz = with_unnamed_keypoints(22);
   npz.path = "pickled.npz";
   npz.set_unsupported("keypoint_names", UnsupportedArray("pickled.npz", "keypoint_names", "text", "objects"));
   EXPECT_THROW(clip_from(npz, "pickled"), UnsupportedArray);
 }
 
-TEST(ClipFile, UnnamedKeypointsOfAnotherNumberAreRefusedInOneLine) {
+TEST(ClipFile, RejectsUnnamedKeypointsOfUnknownCountInOneLine) {
   for (const std::size_t count : {1u, 16u, 25u, 134u}) {
     const std::string message = refusal(with_unnamed_keypoints(count));
     EXPECT_NE(message.find("keypoint_names"), std::string::npos) << message;

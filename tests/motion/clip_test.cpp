@@ -16,7 +16,7 @@ TEST(Clip, PelvisIsTransPlusTheModelsRestPelvis) {
   }
 }
 
-TEST(Clip, OfAPlayedMotionHasItsPoses) {
+TEST(Clip, ToClipKeepsThePoses) {
   Random random(9, {1});
   const Character character = make_character({1, 0, -1, 0, 0, 0.5, 0, 0, 0, 0});
   PerFrame<Vector3d> p;

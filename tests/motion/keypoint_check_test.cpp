@@ -38,14 +38,14 @@ Checked checked(const std::function<void(Keypoints&)>& change) {
   return c;
 }
 
-TEST(KeypointCheck, SoundOnesAreLeftAsTheyAre) {
+TEST(KeypointCheck, ValidKeypointsStayUnchanged) {
   const Checked c = checked([](Keypoints&) {});
   EXPECT_EQ(c.failure, "");
   EXPECT_TRUE(c.decisions.empty());
   EXPECT_EQ(c.keypoints.uvc, sound().uvc);
 }
 
-TEST(KeypointCheck, ConfidencesInPercentAndALittleOverOneArePutRightAndSaid) {
+TEST(KeypointCheck, CorrectsAndReportsConfidencesAboveOne) {
   const Checked percent = checked([](Keypoints& k) {
     for (auto& frame : k.uvc)
       for (Vector3d& p : frame) p.z() *= 100.0;
@@ -60,7 +60,7 @@ TEST(KeypointCheck, ConfidencesInPercentAndALittleOverOneArePutRightAndSaid) {
   EXPECT_EQ(over.keypoints.uvc[3][1].z(), 0.5);
 }
 
-TEST(KeypointCheck, APointFarOutOfThePictureIsNotDetectedAndAllOfThemAreRefused) {
+TEST(KeypointCheck, AFarPointCountsAsUndetectedAndAllFarPointsAreRejected) {
   const Checked one = checked([](Keypoints& k) { k.uvc[4][1] = {1e12, 500.0, 0.9}; });
   EXPECT_EQ(one.failure, "");
   EXPECT_EQ(one.keypoints.uvc[4][1].z(), 0.0);
@@ -73,7 +73,7 @@ TEST(KeypointCheck, APointFarOutOfThePictureIsNotDetectedAndAllOfThemAreRefused)
   EXPECT_EQ(all.failure, "a.npz: keypoints_2d: expected pixels, found points 1e+12 px away");
 }
 
-TEST(KeypointCheck, KeypointsOfWhichNoneIsDetectedAreSaid) {
+TEST(KeypointCheck, ReportsKeypointsWithoutAnyDetection) {
   for (const double confidence : {0.0, -1.0}) {
     const Checked none = checked([&](Keypoints& k) {
       for (auto& frame : k.uvc)
@@ -85,7 +85,7 @@ TEST(KeypointCheck, KeypointsOfWhichNoneIsDetectedAreSaid) {
   }
 }
 
-TEST(KeypointCheck, WhatIsNoDetectionOrNoCameraIsOneLineThatSaysWhatWasExpected) {
+TEST(KeypointCheck, RejectsInvalidDetectionsAndCamerasInOneLine) {
   const auto scale = [](double by) {
     return [by](Keypoints& k) { k.extrinsics[0].topLeftCorner<3, 3>() *= by; };
   };

@@ -40,7 +40,7 @@ TEST(Metrics, ConstantOffsetShowsInGlobalErrorsOnly) {
   EXPECT_EQ(m.accel.count, 18u * 22u);
 }
 
-TEST(Metrics, DriftsOfFirstAndSecondOrderAreVelAndAccel) {
+TEST(Metrics, VelIsALinearDriftAndAccelAQuadraticOne) {
   const MotionSamples truth = samples_of(test::random_clip(2, 21, 0.4));
   const Metrics linear = evaluate_motion(
       moved(truth, [](double t) -> Vector3d { return t * Vector3d(0.003, 0, 0.004); }), &truth);
@@ -62,7 +62,7 @@ TEST(Metrics, JitterIsTheThirdDerivativeOfACubic) {
   EXPECT_NEAR(m.jitter.value, third / 10.0, 1e-9);
 }
 
-TEST(Metrics, ScaledPoseIsLocalErrorButNoProcrustesError) {
+TEST(Metrics, ScalingAPoseChangesMpjpeButNotPaMpjpe) {
   const MotionSamples truth = samples_of(test::random_clip(3, 10, 0.4));
   MotionSamples scaled = truth;
   double mean = 0.0;
@@ -96,7 +96,7 @@ TEST(Metrics, TurnAboutTheRootMovesEachJointByItsChord) {
   EXPECT_NEAR(m.pa_mpjpe.value, 0.0, 1e-6);
 }
 
-TEST(Metrics, MirroredPoseIsNotForgivenByProcrustes) {
+TEST(Metrics, ProcrustesAlignmentExcludesReflections) {
   const MotionSamples truth = samples_of(test::random_clip(5, 5, 0.6));
   MotionSamples mirrored = truth;
   for (auto& joints : mirrored.joints)
@@ -138,7 +138,7 @@ TEST(Penetration, IsTheDepthOfTheSunkPoints) {
   EXPECT_NEAR(evaluate_motion(test::standing_samples(4), nullptr).floating.value, 0.0, 1e-9);
 }
 
-TEST(Penetration, MeansTheSunkPointsAndTakesTheDeepestForMax) {
+TEST(Penetration, AveragesTheSunkPointsAndMaxTakesTheDeepest) {
   MotionSamples s = test::standing_samples(2);
   for (Vector3d& p : s.surface[0]) p.z() = 1.0;
   s.surface[0][3].z() = -0.010;
@@ -159,7 +159,7 @@ TEST(Float, IsTheHeightOfAStaticLiftAboveTheTolerance) {
   EXPECT_NEAR(lifted(0.0726), 72.6, 1e-9);
 }
 
-TEST(Float, WhereTheTruthJumpsOnlyFloatGtForgives) {
+TEST(Float, OnlyFloatGtIgnoresJumpsOfTheTruth) {
   const MotionSamples truth = moved(test::standing_samples(10),
                                     [](double t) -> Vector3d { return Vector3d(0, 0, t < 4 ? 0.0 : 0.3); });
   const Metrics same = evaluate_motion(truth, &truth);
@@ -171,7 +171,7 @@ TEST(Float, WhereTheTruthJumpsOnlyFloatGtForgives) {
   EXPECT_NEAR(lifted.float_gt.value, 20.0, 1e-9);
 }
 
-TEST(FootSlideGt, LooksOnlyWhereTheTruthStands) {
+TEST(FootSlideGt, CountsOnlyPointsThatStandInTheTruth) {
   const MotionSamples truth = test::standing_samples(10);
   const auto slid = [&](double speed) {
     return moved(truth, [&](double t) -> Vector3d { return Vector3d(0, speed * t, 0.5); });
@@ -320,7 +320,7 @@ TEST(Metrics, AreUndefinedWithoutTruthOrEnoughFrames) {
   EXPECT_EQ(single.mpjpe.value, 0.0);
 }
 
-TEST(Metrics, UnequalMotionsAreRefused) {
+TEST(Metrics, RejectsMotionsOfDifferentLengthOrRate) {
   const MotionSamples truth = test::standing_samples(5);
   EXPECT_THROW(evaluate_motion(test::standing_samples(4), &truth), std::invalid_argument);
   MotionSamples faster = truth;
@@ -343,7 +343,7 @@ TEST(Metrics, EveryValueHasOneDefinition) {
   EXPECT_EQ(names.size(), values.size());
 }
 
-TEST(Success, NeedsTheWholeLengthTheDistanceAndTheError) {
+TEST(Success, RequiresFullLengthSmallDistanceAndSmallMpjpe) {
   const MotionSamples reference = samples_of(test::random_clip(7, 20, 0.3));
   EXPECT_TRUE(judge_success(reference, reference).success);
   EXPECT_TRUE(

@@ -53,7 +53,7 @@ MotionSamples walking(int frames, double way) {
   });
 }
 
-TEST(Protocol, ATranslationIsAGlobalErrorAndNoOther) {
+TEST(Protocol, TranslationChangesGlobalErrorsOnly) {
   const MotionSamples truth = walking(150, 6.0), p = moved_samples(truth, {0.3, -0.4, 0.0});
   EXPECT_NEAR(phc("E_g-mpjpe", p, truth), 500.0, 1e-9);
   for (const char* name : {"E_mpjpe", "E_pa-mpjpe", "E_acc", "E_vel"})
@@ -62,7 +62,7 @@ TEST(Protocol, ATranslationIsAGlobalErrorAndNoOther) {
     EXPECT_NEAR(emdb(name, p, truth), 0.0, 1e-6) << name;
 }
 
-TEST(Protocol, ATurnAboutUpAndAScaleVanishInTheAlignmentOfWorldErrors) {
+TEST(Protocol, WorldErrorsIgnoreHeadingAndScale) {
   const MotionSamples truth = walking(230, 6.0);
   const Quaterniond turn = rotation_z(0.7);
   const MotionSamples turned = mapped(truth, [&](int, const Vector3d& p) -> Vector3d { return turn * p; });
@@ -75,7 +75,7 @@ TEST(Protocol, ATurnAboutUpAndAScaleVanishInTheAlignmentOfWorldErrors) {
 
 /// A straight way of n equal steps that is scaled by s: after the rigid fit the pelvis is off by
 /// |s − 1| · |x − mean|, whose mean over the frames is a quarter of the way (for many frames).
-TEST(Protocol, RootErrorOfAScaledStraightWayIsAQuarterOfTheScaleError) {
+TEST(Protocol, RootErrorOfAScaledStraightPathIsAQuarterOfTheScaleError) {
   const int n = 401;
   MotionSamples truth = test::standing_samples(n);
   truth =
@@ -88,7 +88,7 @@ TEST(Protocol, RootErrorOfAScaledStraightWayIsAQuarterOfTheScaleError) {
   EXPECT_NEAR(emdb("RTE", p, truth), 2.5, 0.01);
 }
 
-TEST(Protocol, AMotionThatNeverLeavesItsPlaceHasNoRootError) {
+TEST(Protocol, RootErrorIsUndefinedForAMotionInPlace) {
   const MotionSamples truth = test::standing_samples(20);
   const MetricValue rte = metric_of(Protocol::kEmdb, "RTE", moved_samples(truth, {0.1, 0.0, 0.0}), truth);
   EXPECT_EQ(rte.count, 0u);
@@ -97,7 +97,7 @@ TEST(Protocol, AMotionThatNeverLeavesItsPlaceHasNoRootError) {
 
 /// The first two frames of each segment are exact, later ones are off by d: W-MPJPE is the mean of that. A
 /// second segment of a single frame is fitted alone.
-TEST(Protocol, WorldErrorLooksAtTheFirstTwoFramesOfHundred) {
+TEST(Protocol, WMpjpeAlignsTheFirstTwoOfHundredFrames) {
   const MotionSamples truth = walking(101, 3.0);
   const MotionSamples p = mapped(truth, [](int t, const Vector3d& q) -> Vector3d {
     return q + (t >= 2 ? 0.05 : 0.0) * Vector3d::UnitY();
@@ -106,7 +106,7 @@ TEST(Protocol, WorldErrorLooksAtTheFirstTwoFramesOfHundred) {
   EXPECT_LT(emdb("WA-MPJPE", p, truth), 3.0);
 }
 
-TEST(Protocol, ADriftShowsMoreAfterTheFirstFramesThanAfterAll) {
+TEST(Protocol, DriftRaisesWMpjpeMoreThanWaMpjpe) {
   const MotionSamples truth = walking(100, 3.0);
   const MotionSamples p =
       mapped(truth, [](int t, const Vector3d& q) -> Vector3d { return q + 0.002 * t * Vector3d::UnitY(); });
@@ -114,7 +114,7 @@ TEST(Protocol, ADriftShowsMoreAfterTheFirstFramesThanAfterAll) {
   EXPECT_LT(emdb("WA-MPJPE", p, truth), 0.5 * emdb("W-MPJPE", p, truth));
 }
 
-TEST(Protocol, SuccessEndsWhereTheMeanDistanceOfAFramePassesHalfAMetre) {
+TEST(Protocol, SuccessEndsWhereTheMeanDistanceExceedsHalfAMetre) {
   const MotionSamples truth = walking(30, 1.0);
   const auto off = [&](double metres) {
     return mapped(truth, [&](int t, const Vector3d& p) -> Vector3d {
@@ -127,7 +127,7 @@ TEST(Protocol, SuccessEndsWhereTheMeanDistanceOfAFramePassesHalfAMetre) {
 
 /// The mean is over the pelvis and 19 joints: toes have no say, and the frame that the motion starts from and
 /// the first that is simulated are not judged.
-TEST(Protocol, SuccessIsJudgedWithoutToesAndFromTheThirdFrameOn) {
+TEST(Protocol, SuccessExcludesToesAndTheFirstTwoFrames) {
   const MotionSamples truth = walking(30, 1.0);
   const auto with = [&](int t, int body, double metres) {
     MotionSamples p = truth;
@@ -142,7 +142,7 @@ TEST(Protocol, SuccessIsJudgedWithoutToesAndFromTheThirdFrameOn) {
   EXPECT_EQ(with(1, kPelvis, 10.01), 100.0);
 }
 
-TEST(Protocol, HeightsBeyondFiveMillimetresAreDepthAndFloat) {
+TEST(Protocol, DepthAndFloatCountHeightsBeyondFiveMillimetres) {
   const MotionSamples truth = test::standing_samples(10);
   double lowest = HUGE_VAL;
   for (const Vector3d& p : truth.surface[0]) lowest = std::min(lowest, p.z());
@@ -156,7 +156,7 @@ TEST(Protocol, HeightsBeyondFiveMillimetresAreDepthAndFloat) {
   EXPECT_NEAR(pmr("Float", moved_samples(floor, {0.0, 0.0, 0.03}), truth), 30.0, 1e-9);
 }
 
-TEST(Protocol, AUniformSlideIsItsSpeedInEveryFootSliding) {
+TEST(Protocol, EveryFootSlideEqualsTheSpeedOfAUniformSlide) {
   const MotionSamples truth = test::standing_samples(12);
   const MotionSamples p =
       mapped(truth, [](int t, const Vector3d& q) -> Vector3d { return q + 0.007 * t * Vector3d::UnitY(); });
@@ -167,14 +167,14 @@ TEST(Protocol, AUniformSlideIsItsSpeedInEveryFootSliding) {
   EXPECT_NEAR(emdb("FS", lifted, truth), 7.0, 1e-9);  // the truth stands
 }
 
-TEST(Protocol, PoolingWeighsByTheSamples) {
+TEST(Protocol, PoolingWeightsBySampleCount) {
   const MetricValue all = pooled({{10.0, 1}, {40.0, 2}, {}});
   EXPECT_NEAR(all.value, 30.0, 1e-12);
   EXPECT_EQ(all.count, 3u);
   EXPECT_TRUE(std::isnan(pooled({{}, {}}).value));
 }
 
-TEST(Protocol, RefusesWhatItIsNotDefinedFor) {
+TEST(Protocol, RejectsMotionsItIsNotDefinedFor) {
   const MotionSamples truth = test::standing_samples(10);
   MotionSamples fast = truth;
   fast.fps = 120.0;
@@ -186,7 +186,7 @@ TEST(Protocol, RefusesWhatItIsNotDefinedFor) {
   }
 }
 
-TEST(Similarity, FindsTheTransformThatMadeThePoints) {
+TEST(Similarity, RecoversTheTransformThatMadeThePoints) {
   const Points p = Points::Random(3, 9);
   Similarity made;
   made.scale = 1.7;

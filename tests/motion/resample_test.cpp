@@ -51,7 +51,7 @@ TEST(Resample, KeypointsAndMovingCamerasFollow) {
   EXPECT_LT((third.keypoints->extrinsics[1].topLeftCorner<3, 3>() - Matrix3d::Identity()).norm(), 1e-12);
 }
 
-TEST(Resample, WhatBelongsToFramesFollowsThemAndWhatDoesNotStays) {
+TEST(Resample, ResamplesPerFrameMembersAndKeepsTheOthers) {
   Clip clip = test::standing_clip(9, 1.0, 120.0);
   const Vector3d axis = Vector3d(2, -1, 3).normalized();
   std::vector<double> hand, soft;
@@ -91,7 +91,7 @@ TEST(Resample, WhatBelongsToFramesFollowsThemAndWhatDoesNotStays) {
   }
 }
 
-TEST(Resample, ARateThatWouldMakeFramesWithoutEndIsRefused) {
+TEST(Resample, RejectsARateThatGivesTooManyFrames) {
   const Clip slow = test::standing_clip(200, 1.0, 0.01);
   try {
     resampled(slow, 30.0);
@@ -101,7 +101,7 @@ TEST(Resample, ARateThatWouldMakeFramesWithoutEndIsRefused) {
   }
 }
 
-TEST(Resample, AMemberAtTheFramesOfTheInputIsThereToTheBit) {
+TEST(Resample, MembersAtInputFramesAreBitIdentical) {
   Clip clip = test::clip_with_everything();
   clip.fps = 60.0;
   const Clip half = resampled(clip, 30.0);

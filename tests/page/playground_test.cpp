@@ -57,20 +57,20 @@ struct PagePlayground : testing::Test {
 };
 std::unique_ptr<Planned> PagePlayground::planned;
 
-TEST_F(PagePlayground, UndisturbedItIsThePlan) { expect_the_plan(play); }
+TEST_F(PagePlayground, UndisturbedStatesAreThePlan) { expect_the_plan(play); }
 
-TEST_F(PagePlayground, ThePlanAloneIsThePlanToo) {
+TEST_F(PagePlayground, WithoutFeedbackStatesAreThePlan) {
   play.set_controller(Controller::kPlan);
   expect_the_plan(play);
 }
 
-TEST_F(PagePlayground, AfterTheLastFrameComesTheFirst) {
+TEST_F(PagePlayground, RestartsAfterTheLastFrame) {
   play_on(play);
   EXPECT_EQ(play.step().frame, 0);
   EXPECT_EQ(play.now().distance, 0.0);
 }
 
-TEST_F(PagePlayground, APushIsSurvivedAndIsAForceFromNowhere) {
+TEST_F(PagePlayground, RecoversFromAPushThatTheAuditReports) {
   for (int t = 0; t < 10; ++t) EXPECT_LT(play.step().unexplained.tail<3>().norm(), 1.0);
   play.push({0.1, 0.0, 0.0});
   const PlayedFrame pushed = play.step();
@@ -80,13 +80,13 @@ TEST_F(PagePlayground, APushIsSurvivedAndIsAForceFromNowhere) {
   EXPECT_LT(play_on(play), 0.2);
 }
 
-TEST_F(PagePlayground, WithoutMotorsItFalls) {
+TEST_F(PagePlayground, FallsWithoutMotors) {
   play.set_controller(Controller::kNone);
   EXPECT_GT(play_on(play), 0.5);
   EXPECT_LT(play.now().state.p_root.z(), 0.6);
 }
 
-TEST_F(PagePlayground, AFloorWithoutFrictionChangesNothingUntilTheNextStep) {
+TEST_F(PagePlayground, FrictionTakesEffectAtTheNextStep) {
   for (int t = 0; t < 5; ++t) play.step();
   const PlayedFrame before = play.now();
   play.set_friction(0.0);
@@ -100,7 +100,7 @@ TEST_F(PagePlayground, AFloorWithoutFrictionChangesNothingUntilTheNextStep) {
   EXPECT_THROW(play.set_friction(-1.0), std::invalid_argument);
 }
 
-TEST_F(PagePlayground, AnotherBodyStandsAsHighOverTheFloor) {
+TEST_F(PagePlayground, AnotherBodyKeepsItsHeightOverTheFloor) {
   const double height = lowest_contact(play.character(), play.now().poses),
                mass = play.character().total_mass();
   std::array<double, kBetas> betas{};
@@ -115,7 +115,7 @@ TEST_F(PagePlayground, AnotherBodyStandsAsHighOverTheFloor) {
   expect_the_plan(play);
 }
 
-TEST_F(PagePlayground, ItIsToldAsAClipOfOneFrame) {
+TEST_F(PagePlayground, JsonIsAClipOfOneFrame) {
   play.step();
   auto said = record::Json::parse(played_json(play, "7f"));
   EXPECT_EQ(said["frame"], 1);

@@ -34,7 +34,7 @@ struct PageSession : testing::Test {
   std::string stand = path("stand.npz"), bvh = path("turn.bvh");
 };
 
-TEST_F(PageSession, LeavesTheBytesThatMimicxPlanLeaves) {
+TEST_F(PageSession, WritesTheBytesOfMimicxPlan) {
   Json said = plan(stand);
   EXPECT_TRUE(said["ok"].get<bool>()) << said["row"]["reason"].dump();
   const Call call = program::mimicx("plan " + stand + " --gains --out " + path("run"));
@@ -51,7 +51,7 @@ TEST_F(PageSession, LeavesTheBytesThatMimicxPlanLeaves) {
   }
 }
 
-TEST_F(PageSession, SavesWhatMimicxConvertWrites) {
+TEST_F(PageSession, SavesTheBytesOfMimicxConvert) {
   plan(stand);
   const std::string motion = path("session/0/motions/stand.npz");
   EXPECT_TRUE(session.saved(0, ".npz") == read_file(motion));
@@ -65,12 +65,12 @@ TEST_F(PageSession, SavesWhatMimicxConvertWrites) {
   EXPECT_THROW(session.saved(1, ".npz"), std::invalid_argument);
 }
 
-TEST_F(PageSession, ABvhComesBackAsTheCleanCopyOfIt) {
+TEST_F(PageSession, SavesABvhAsItsCleanCopy) {
   EXPECT_TRUE(plan(bvh)["ok"].get<bool>());
   EXPECT_TRUE(session.saved(0, ".bvh") == read_file(path("session/0/clean/turn.bvh")));
 }
 
-TEST_F(PageSession, SaysOfABadFileWhatTheProgramSays) {
+TEST_F(PageSession, ReportsBadFilesInTheProgramsWords) {
   const std::string bad = path("bad.bvh");
   write_file_atomically(bad, "HIERARCHY\nROOT hips\n{\n  OFFSET 0 zero 0\n");
   Json said = plan(bad);
@@ -85,7 +85,7 @@ TEST_F(PageSession, SaysOfABadFileWhatTheProgramSays) {
   EXPECT_THROW(session.play(0), std::invalid_argument);
 }
 
-TEST_F(PageSession, AnotherSessionTakesUpWhatAnEarlierOneHasLeft) {
+TEST_F(PageSession, ResumesTheRunsOfAnEarlierSession) {
   plan(bvh);
   plan(stand);
   Session next(folder.path / "session");
@@ -106,7 +106,7 @@ TEST_F(PageSession, MotionsAreNumberedAndShareBodies) {
   EXPECT_EQ(session.play(0).frames(), 20);
 }
 
-TEST_F(PageSession, TheEmptyReportHasMetricsAndASkinAndNoClip) {
+TEST_F(PageSession, EmptyReportHasMetricsAndSkinButNoClip) {
   const std::string page = empty_report();
   const std::string begin = R"(<script id="data" type="application/json">)";
   const std::size_t at = page.find(begin);

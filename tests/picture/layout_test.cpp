@@ -61,7 +61,7 @@ void expect_all_seen(const List<PosedMotion>& motions, const Layout& layout) {
     }
 }
 
-TEST(Layout, EveryKindSeesAllThatItShowsAtAnySize) {
+TEST(Layout, EveryKindShowsWholeBodiesAtAnySize) {
   const List<PosedMotion> two = {gliding(31, 0.0), gliding(31, 0.6)};
   for (const Kind kind : {Kind::kStill, Kind::kStroboscope, Kind::kStrip, Kind::kAnimation})
     for (const auto& size :
@@ -113,7 +113,7 @@ std::string complaint(const List<PosedMotion>& motions, const PictureConfig& con
   }
 }
 
-TEST(Layout, MomentsThatAreNotThereAndPicturesWithoutRoomAreRefused) {
+TEST(Layout, RejectsMomentsOutsideTheMotionAndTooSmallPictures) {
   const List<PosedMotion> one = {gliding(31, 0.0)};
   PictureConfig config = of_kind(Kind::kStrip);
   config.at = {0.5, 1.2};

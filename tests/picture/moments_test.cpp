@@ -7,12 +7,12 @@
 namespace mimicx::picture {
 namespace {
 
-TEST(Moments, AreEvenAndHaveBothEnds) {
+TEST(Moments, AreEvenlySpacedWithBothEnds) {
   EXPECT_EQ(even_moments({1.0, 3.0}, 5), (List<double>{1.0, 1.5, 2.0, 2.5, 3.0}));
   EXPECT_EQ(even_moments({1.0, 3.0}, 1), (List<double>{2.0}));
 }
 
-TEST(Moments, TheTellingOneIsThatOfTheRaisedArmWhereverTheBodyTurns) {
+TEST(Moments, TellingMomentIsTheRaisedArmForAnyHeading) {
   motion::Clip clip = motion::standing_clip(40);
   for (int t = 0; t < 40; ++t) {
     clip.rotations[t][kPelvis] = log_map(rotation_z(0.2 * t) * exp_map(clip.rotations[t][kPelvis]));

@@ -24,7 +24,7 @@ List<PosedMotion> two() {
           posed_motion(clip, files::Skin::kShapes, files::recorded_forces(clip))};
 }
 
-TEST(Picture, IsTheSameBytesTwiceAndForAnyNumberOfThreads) {
+TEST(Picture, IsByteIdenticalForAnyNumberOfThreads) {
   TemporaryFolder folder;
   const List<PosedMotion> motions = two();
   for (const Kind kind : {Kind::kStill, Kind::kStroboscope, Kind::kStrip, Kind::kAnimation}) {
@@ -40,7 +40,7 @@ TEST(Picture, IsTheSameBytesTwiceAndForAnyNumberOfThreads) {
   }
 }
 
-TEST(Picture, ArrowsStandWhereThereAreForces) {
+TEST(Picture, DrawsArrowsOnlyWhereForcesAreRecorded) {
   const List<PosedMotion> motions = two();
   List<PosedMotion> without = motions;
   without[1].forces.clear();

@@ -70,7 +70,7 @@ TEST(Png, AnIndependentDecoderReadsEveryFrameOfAnAnimationAtItsTime) {
   expect_decoded(animation.finish(), expected);
 }
 
-TEST(Png, AnAnimationStoresWhatMovesAlone) {
+TEST(Png, AnimationStoresOnlyWhatChanges) {
   const auto bytes_of = [](int frames) {
     PngAnimation animation;
     for (int k = 0; k < frames; ++k) {
@@ -83,7 +83,7 @@ TEST(Png, AnAnimationStoresWhatMovesAlone) {
   EXPECT_LT(bytes_of(10) - bytes_of(1), bytes_of(1) / 4);
 }
 
-TEST(Png, OursAreKnownAgain) {
+TEST(Png, OwnFilesAreRecognised) {
   TemporaryFolder folder;
   const std::filesystem::path file = folder.path / "a.png";
   const std::string bytes = format_png(patterned(4, 4));

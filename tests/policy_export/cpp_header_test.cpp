@@ -23,7 +23,7 @@ Call compiled(const TemporaryFolder& folder, const std::string& source) {
                "/main");
 }
 
-TEST(PolicyHeader, AnswersAsRecordedToTheBit) {
+TEST(PolicyHeader, MatchesItsRecordsBitForBit) {
   for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits()}) {
     const TemporaryFolder folder;
     write_file_atomically(folder.path / "policy.h", to_header(*exported));
@@ -34,7 +34,7 @@ TEST(PolicyHeader, AnswersAsRecordedToTheBit) {
   }
 }
 
-TEST(PolicyHeader, SeesAWrongWeight) {
+TEST(PolicyHeader, DetectsAWrongWeight) {
   const TemporaryFolder folder;
   std::string text = to_header(exported_in_8_bits());
   const std::size_t at = text.find("kBiases2[55] = {");
@@ -46,7 +46,7 @@ TEST(PolicyHeader, SeesAWrongWeight) {
   EXPECT_EQ(call.status, 0) << call.text;
 }
 
-TEST(PolicyHeader, StandsBesideAnotherOneAndInSeveralFiles) {
+TEST(PolicyHeader, CanBeIncludedBesideAnotherAndInSeveralFiles) {
   const TemporaryFolder folder;
   ExportedPolicy other = exported_in_8_bits();
   other.meant.motion.name = "7/\"other\" one";
@@ -60,13 +60,13 @@ TEST(PolicyHeader, StandsBesideAnotherOneAndInSeveralFiles) {
   EXPECT_EQ(call.status, 0) << call.text;
 }
 
-TEST(PolicyHeader, NamesAreNamesOfCpp) {
+TEST(PolicyHeader, NamespacesAreValidInCpp) {
   EXPECT_EQ(namespace_of("walk_1"), "policy_walk_1");
   EXPECT_EQ(namespace_of("sub/Walk (2)"), "policy_sub_Walk_2_");
   EXPECT_EQ(namespace_of("__x"), "policy_x");
 }
 
-TEST(PolicyHeader, SaysWhatTheBodyCanDo) {
+TEST(PolicyHeader, HoldsGainsTorquesAndRangesOfTheBody) {
   const std::string text = to_header(exported_in_float());
   for (const char* part : {"kJointName", "\"left_knee\"", "kTorqueLimit", "kRangeHalfAxes", "kStiffness",
                            "kPhysicsRate = 240.0"})

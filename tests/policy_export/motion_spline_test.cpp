@@ -38,7 +38,7 @@ List<physics::State<double>> turning(int frames, double speed) {
   return states;
 }
 
-TEST(MotionSpline, GivesBackTheStatesItWasMadeOf) {
+TEST(MotionSpline, ReproducesTheStates) {
   for (const int spacing : {1, 2, 3}) {
     const auto states = turning(120, 4.0);  // two and a half turns
     const auto back = states_of(fit_spline(states, 30.0, spacing));
@@ -56,7 +56,7 @@ TEST(MotionSpline, GivesBackTheStatesItWasMadeOf) {
   }
 }
 
-TEST(MotionSpline, HoldsVelocitiesThatAreNoDerivatives) {
+TEST(MotionSpline, HoldsVelocitiesThatAreNotDerivatives) {
   auto states = turning(60, 1.0);
   states[30].v_root.x += 0.5;
   states[31].omega[kLeftKnee].x += 2.0;
@@ -65,7 +65,7 @@ TEST(MotionSpline, HoldsVelocitiesThatAreNoDerivatives) {
   EXPECT_NEAR(back[31].omega[kLeftKnee].x, states[31].omega[kLeftKnee].x, 2.0 / 127.0);
 }
 
-TEST(MotionSpline, OfTwoFramesIsOne) {
+TEST(MotionSpline, TwoFramesAreEnough) {
   const auto states = turning(2, 1.0);
   for (const int spacing : {1, 5}) {
     const MotionSpline spline = fit_spline(states, 30.0, spacing);
@@ -75,7 +75,7 @@ TEST(MotionSpline, OfTwoFramesIsOne) {
   }
 }
 
-TEST(MotionSpline, RefusesWhatItCannotHold) {
+TEST(MotionSpline, RejectsWhatItCannotRepresent) {
   EXPECT_THROW(fit_spline(turning(1, 1.0), 30.0, 1), std::invalid_argument);
   EXPECT_THROW(fit_spline(turning(9, 1.0), 30.0, 0), std::invalid_argument);
   auto states = turning(300, 1.0);  // ten seconds, in which a shoulder turns about its own axis for ever

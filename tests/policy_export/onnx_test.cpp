@@ -134,7 +134,7 @@ TEST(PolicyOnnx, ComputesTheActionsThatAreRecorded) {
   }
 }
 
-TEST(PolicyOnnx, IsSmall) {
+TEST(PolicyOnnx, StaysUnderItsSizeLimits) {
   EXPECT_LT(to_onnx(exported_in_float()).size(), 400000U);
   EXPECT_LT(to_onnx(exported_in_8_bits()).size(), 110000U);
 }

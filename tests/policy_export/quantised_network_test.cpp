@@ -15,7 +15,7 @@ std::vector<float> action_of(const rl::Agent& agent, const std::array<float, kSt
   return action;
 }
 
-TEST(SmallNetwork, DoesWithoutThePoseThatIsAndTheShape) {
+TEST(QuantisedNetwork, FoldingInputsKeepsTheActions) {
   rl::Agent folded = small_policy().agent;
   fold_inputs(small_policy().motion.character.betas, folded);
   const nn::Matrix<float>& W = folded.actor.weights.front();
@@ -39,7 +39,7 @@ TEST(SmallNetwork, DoesWithoutThePoseThatIsAndTheShape) {
   }
 }
 
-TEST(SmallNetwork, StandsForWeightsOfPowerTimesScaleTimesCode) {
+TEST(QuantisedNetwork, WeightsArePowerTimesScaleTimesCode) {
   rl::Agent agent = small_policy().agent;
   fold_inputs(small_policy().motion.character.betas, agent);
   nn::Matrix<float> seen(4, kStateCount);
@@ -62,7 +62,7 @@ TEST(SmallNetwork, StandsForWeightsOfPowerTimesScaleTimesCode) {
   }
 }
 
-TEST(SmallNetwork, ErrsLessThanRoundingAlone) {
+TEST(QuantisedNetwork, ErrsLessThanPlainRounding) {
   const ExportedPolicy& exported = exported_in_float();
   nn::Matrix<float> seen(exported.motion.frames - 1, kStateCount);
   for (int t = 0; t < seen.rows(); ++t) {

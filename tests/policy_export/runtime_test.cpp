@@ -55,7 +55,7 @@ Largest differences(const ExportedPolicy& exported) {
   return largest;
 }
 
-TEST(PolicyRuntime, FollowsAsTheProgramDoes) {
+TEST(PolicyRuntime, MatchesTheProgram) {
   for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits()}) {
     const Largest largest = differences(*exported);
     EXPECT_LE(largest.observation, kRounding) << "in 8 bits: " << exported->in_8_bits;
@@ -82,7 +82,7 @@ TEST(PolicyRuntime, RotationsAreThoseOfTheCore) {
   }
 }
 
-TEST(PolicyRuntime, AnActionThatIsNoNumberAsksForThePoseOfTheMotion) {
+TEST(PolicyRuntime, NonFiniteActionGivesTheReferencePose) {
   with_policy(exported_in_float(), [](const auto& policy) {
     const State next = motion_at(policy.motion, 5);
     std::array<float, kActionCount> action{};
@@ -102,7 +102,7 @@ TEST(PolicyRuntime, AnActionThatIsNoNumberAsksForThePoseOfTheMotion) {
   });
 }
 
-TEST(PolicyRuntime, ABodyThatIsNoNumberIsAskedForThePoseOfTheMotion) {
+TEST(PolicyRuntime, NonFiniteStateGivesTheReferencePose) {
   State lost = motion_at(exported_in_8_bits().motion.view(), 5);
   lost.v_root[0] = std::numeric_limits<float>::quiet_NaN();
   const Record answered = answer(exported_in_8_bits(), 5, lost);

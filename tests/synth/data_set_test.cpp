@@ -47,7 +47,7 @@ TEST(SynthSet, TakesTheKindsInTurnAndThenTheNextSeed) {
   EXPECT_EQ(names, (std::vector<std::string>{"squat_101", "walk_101", "squat_102", "walk_102", "squat_103"}));
 }
 
-TEST(SynthSet, IsOneOfEachKindUnlessToldOtherwise) {
+TEST(SynthSet, HasOneClipOfEachKindByDefault) {
   std::vector<std::string> kinds;
   for (const SynthConfig& clip : clips_of_set({})) {
     kinds.push_back(clip.kind);
@@ -56,7 +56,7 @@ TEST(SynthSet, IsOneOfEachKindUnlessToldOtherwise) {
   EXPECT_EQ(kinds, basic_kinds());
 }
 
-TEST(SynthSet, RefusesUnknownAndRepeatedKindsNoiseAndCameras) {
+TEST(SynthSet, RejectsUnknownAndRepeatedKindsNoiseAndCameras) {
   SynthSetConfig config;
   config.kinds = {"walk", "fly"};
   EXPECT_THROW(clips_of_set(config), std::invalid_argument);
@@ -90,7 +90,7 @@ TEST(SynthSet, WritesTruthAndNoisyUnderOneNamePerClip) {
   EXPECT_EQ(files_below(folder.path), expected);
 }
 
-TEST(SynthSet, MakesAClipTheSameWhicheverSetItIsIn) {
+TEST(SynthSet, ClipDoesNotDependOnItsSet) {
   SynthSetConfig all, alone;
   alone.kinds = {"wave"};
   alone.seed = 3;

@@ -53,7 +53,7 @@ TEST(SolveLeg, PutsTheFootOnItsTarget) {
   }
 }
 
-TEST(SolveLeg, BendsTheKneeAcrossTheAxisItIsGiven) {
+TEST(SolveLeg, PointsTheKneeAxisAsRequested) {
   const Character c = make_character();
   const Quaterniond q_pelvis = kModelToPlan;
   for (double yaw : {-0.4, 0.0, 0.5}) {
@@ -147,7 +147,7 @@ TEST(MinJerkTrack, ReproducesAParabola) {
   for (double t = 0.0; t <= 0.4; t += 0.05) EXPECT_NEAR(track.at(t), fall(t), 1e-14);
 }
 
-TEST(MinJerkTrack, RefusesNoKnotsAndTwoAtOneTime) {
+TEST(MinJerkTrack, RejectsEmptyAndSimultaneousKnots) {
   EXPECT_THROW(MinJerkTrack(std::vector<Knot>{}), std::invalid_argument);
   EXPECT_THROW(MinJerkTrack({{1.0, 0.0}, {1.0, 2.0}}), std::invalid_argument);
 }

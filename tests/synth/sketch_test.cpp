@@ -104,7 +104,7 @@ TEST(Sketch, IsSlow) {
   });
 }
 
-TEST(Sketch, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
+TEST(Sketch, IsByteIdenticalForEqualOptionsOnly) {
   for (const std::string& kind : floor_kinds()) {
     const std::vector<test::Motion> once = sketches(kind), again = sketches(kind);
     EXPECT_TRUE(once[0].clip.rotations == again[0].clip.rotations &&

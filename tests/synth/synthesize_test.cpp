@@ -137,7 +137,7 @@ TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
   });
 }
 
-TEST(Flights, NothingTurnsABodyThatTouchesNothing) {
+TEST(Flights, NoMomentActsOnABodyInFlight) {
   for (const char* kind : {"jump", "jog"})
     for (const test::Motion& m : test::motions(kind)) {
       const double weight = m.character.total_mass() * test::kG;
@@ -234,7 +234,7 @@ TEST(Synthesize, BeginsAndEndsStandingStill) {
   });
 }
 
-TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
+TEST(Synthesize, IsByteIdenticalForEqualOptionsOnly) {
   for (const std::string& kind : synthetic_kinds()) {
     SynthConfig config;
     config.kind = kind;
@@ -246,7 +246,7 @@ TEST(Synthesize, GivesEqualBytesForEqualOptionsAndOtherMotionsForOtherSeeds) {
   }
 }
 
-TEST(Synthesize, TakesTheShapeItIsGivenAndOneFromTheSeedOnlyWhenAsked) {
+TEST(Synthesize, UsesTheGivenShapeAndDrawsOneOnlyWhenAsked) {
   SynthConfig config;
   config.betas[2] = 1.5;
   EXPECT_EQ(synthesize(config).betas, config.betas);
@@ -255,7 +255,7 @@ TEST(Synthesize, TakesTheShapeItIsGivenAndOneFromTheSeedOnlyWhenAsked) {
   EXPECT_EQ(synthesize(config).betas, synthesize(config).betas);
 }
 
-TEST(Synthesize, MakesEveryLengthAsked) {
+TEST(Synthesize, MakesMotionsOfTheRequestedLength) {
   for (const std::string& kind : synthetic_kinds())
     for (double seconds : {4.0, 12.0}) {
       SynthConfig config;
@@ -265,7 +265,7 @@ TEST(Synthesize, MakesEveryLengthAsked) {
     }
 }
 
-TEST(Synthesize, ServesExtremeShapes) {
+TEST(Synthesize, HandlesExtremeShapes) {
   Random random(3);
   for (const std::string& kind : synthetic_kinds())
     for (int trial = 0; trial < 4; ++trial) {
@@ -277,7 +277,7 @@ TEST(Synthesize, ServesExtremeShapes) {
     }
 }
 
-TEST(Synthesize, RefusesUnknownKindsAndLengths) {
+TEST(Synthesize, RejectsUnknownKindsAndLengths) {
   SynthConfig config;
   config.kind = "fly";
   EXPECT_THROW(synthesize(config), std::invalid_argument);

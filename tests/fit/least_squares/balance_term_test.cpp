@@ -49,7 +49,7 @@ VectorXd off_balance(const Standing& s, const FitState& state) {
   return center_of_mass(character, m.motion[kMiddle].poses).head<2>() - middle;
 }
 
-TEST(FitBalance, TheNormalEquationsAreThoseOfTheFormula) {
+TEST(FitBalance, NormalEquationsMatchTheFormula) {
   const Standing s;
   const BorderedBand system = s.term();
   const test::Moved m = test::move(s.problem, s.state);
@@ -80,7 +80,7 @@ TEST(FitBalance, TheNormalEquationsAreThoseOfTheFormula) {
     }
 }
 
-TEST(FitBalance, NothingIsAskedInFlightOrOnHandsOrWithoutTheTerm) {
+TEST(FitBalance, AddsNothingInFlightOnHandsOrWhenOff) {
   Standing flying;
   for (auto& frame : flying.contacts) frame.fill(false);
   EXPECT_EQ(flying.term().diagonal[kMiddle].norm(), 0.0);

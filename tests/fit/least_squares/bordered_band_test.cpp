@@ -64,7 +64,7 @@ Made random_system(int frames, int n, int m, std::uint64_t seed) {
   return made;
 }
 
-TEST(BorderedBand, SolutionIsThatOfTheDenseSystem) {
+TEST(BorderedBand, MatchesTheDenseSolution) {
   for (int frames : {1, 2, 3, 4, 9}) {
     Made made = random_system(frames, 5, 3, static_cast<std::uint64_t>(frames));
     const VectorXd expected = made.dense.ldlt().solve(made.rhs);
@@ -100,7 +100,7 @@ TEST(BorderedBand, DrawsHaveTheInverseMatrixAsCovariance) {
   EXPECT_LT((scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff(), 0.04);
 }
 
-TEST(BorderedBand, AnIndefiniteSystemIsRefused) {
+TEST(BorderedBand, RejectsAnIndefiniteSystem) {
   Made band = random_system(3, 2, 1, 1);
   band.band.diagonal[1](0, 0) = -1.0;
   EXPECT_THROW(solve(band.band, border_of(band)), std::domain_error);
@@ -110,7 +110,7 @@ TEST(BorderedBand, AnIndefiniteSystemIsRefused) {
 }
 
 /// However long the clip, only a block of the border is there; several blocks are made twice.
-TEST(BorderedBand, TheBorderOfALongClipIsNeverThereAsAWhole) {
+TEST(BorderedBand, HoldsOnlyABlockOfTheBorderOfALongClip) {
   for (int frames : {100, 1100}) {
     BorderedBand band(frames, 1, 1);
     for (MatrixXd& d : band.diagonal) d(0, 0) = 2.0;
@@ -131,7 +131,7 @@ TEST(BorderedBand, TheBorderOfALongClipIsNeverThereAsAWhole) {
 }
 
 /// A long clip's border comes in blocks: what is found solves the equations.
-TEST(BorderedBand, BlocksOfTheBorderDoNotShow) {
+TEST(BorderedBand, BlocksOfTheBorderDoNotChangeTheSolution) {
   for (int frames : {511, 512, 513, 1100}) {
     BorderedBand band(frames, 1, 1);
     for (int t = 0; t < frames; ++t) {

@@ -5,7 +5,7 @@
 namespace mimicx::fit {
 namespace {
 
-TEST(FitContacts, APlantedFootStandsAndASwingingOneDoesNot) {
+TEST(FitContacts, PlantedFootStandsAndSwingingFootDoesNot) {
   PerFrame<FootPositions> feet(30);
   for (std::size_t t = 0; t < feet.size(); ++t)
     for (std::size_t i = 0; i < kFootPoints; ++i)

@@ -75,7 +75,7 @@ double mpjpe(const motion::Clip& truth, const motion::Clip& motion) {
   return motion::evaluate_motion(samples(motion), &t).mpjpe.value;
 }
 
-TEST(FitLevels, AreFoundFromThreeTimesTooLargeAndTooSmall) {
+TEST(FitLevels, ConvergeFromThreeTimesTooLargeAndTooSmall) {
   constexpr double kSigma = 0.006;
   const motion::Clip clip = detected(walk(), kSigma, 1.0);
   for (const double wrong :
@@ -88,7 +88,7 @@ TEST(FitLevels, AreFoundFromThreeTimesTooLargeAndTooSmall) {
   }
 }
 
-TEST(FitLevels, ConfidenceCountsAsMuchAsTheResidualsSay) {
+TEST(FitLevels, FindTheConfidencePowerFromTheResiduals) {
   const auto found = [](double power) {
     FitReport report;
     fit_keypoints(detected(walk(), 0.005, power), exact_camera_of(0.005), &report);
@@ -99,7 +99,7 @@ TEST(FitLevels, ConfidenceCountsAsMuchAsTheResidualsSay) {
   EXPECT_NEAR(found(2.0), 2.0, 0.4);
 }
 
-TEST(FitLevels, AWrongLevelCostsLessWhereTheFitFindsItsOwn) {
+TEST(FitLevels, EstimatedLevelsReduceTheErrorFromAWrongLevel) {
   const motion::Clip truth = walk(), clip = detected(truth, 0.009, 1.0);
   const auto error = [&](double sigma, bool find) {
     FitConfig config = exact_camera_of(sigma);

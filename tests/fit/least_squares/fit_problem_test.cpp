@@ -32,7 +32,7 @@ TEST(FitProblem, CorrectionsTurnJointsInTheirOwnFrames) {
   EXPECT_LT((k.poses.p_WB[0] - (problem.p_root[1] + c.head<3>())).norm(), 1e-12);
 }
 
-TEST(FitProblem, WithoutCorrectionItIsTheInputWithHinges) {
+TEST(FitProblem, ZeroCorrectionIsTheInputWithHinges) {
   const motion::Clip clip = test::random_clip(6, 3, 0.3);
   const FitProblem problem = make_problem(clip, {});
   const PerBody<Quaterniond> q = rotations_of(problem, initial_state(problem), 2);
@@ -40,7 +40,7 @@ TEST(FitProblem, WithoutCorrectionItIsTheInputWithHinges) {
   EXPECT_LT((problem.p_root[2] - motion::poses_of(clip)[2].p_WB[0]).norm(), 1e-12);
 }
 
-TEST(FitProblem, FaceAndFingersAreNoPointsAndEveryOtherHasItsMirror) {
+TEST(FitProblem, LeavesOutFaceAndFingersAndPairsTheOtherPoints) {
   const FitProblem problem = test::random_problem(4, 2, {}, motion::KeypointSet::kCoco133);
   const std::vector<std::string> names = motion::keypoint_names(motion::KeypointSet::kCoco133);
   ASSERT_EQ(problem.points.size(), 18u);  // 12 joints, 6 points of the feet
@@ -95,7 +95,7 @@ TEST(FitProblem, JitterIsTheWhitePartOfTheInput) {
   EXPECT_LT(smooth.position_jitter, 0.0005);
 }
 
-TEST(FitProblem, AForeignBodyDiffersAsPeopleDo) {
+TEST(FitProblem, ForeignBodyGetsTheSpreadOfPeople) {
   motion::Clip clip = test::random_clip(6, 4, 0.1);
   clip.body_model = "smplx";
   clip.keypoints.emplace();
@@ -116,7 +116,7 @@ TEST(FitProblem, AForeignBodyDiffersAsPeopleDo) {
   for (double sigma : make_problem(clip, config).beta_sigma) EXPECT_EQ(sigma, config.beta_sigma);
 }
 
-TEST(FitProblem, ABodyWhoseJointsAreKnownKeepsItsShape) {
+TEST(FitProblem, KnownRestJointsFixTheShape) {
   motion::Clip clip = test::random_clip(6, 4, 0.1);
   clip.body_model = "smplx";
   clip.keypoints.emplace();

@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 using Eigen::MatrixXd;
 
-TEST(FitProjection, ErrorIsThatOfThePinholeCameraOfTheStateInHeightsOfTheBox) {
+TEST(FitProjection, ErrorIsThePinholeProjectionErrorInBoxHeights) {
   const FitProblem problem = test::random_problem(2, 2, {});
   const FitState state = test::random_state(problem, 2, 0.1);
   const Matrix3d& K = problem.intrinsics;
@@ -71,7 +71,7 @@ TEST(FitProjection, DerivativesMatchFiniteDifferences) {
     expect_derivatives(set);
 }
 
-TEST(FitProjection, ALeadIsTheMotionAFewFramesLater) {
+TEST(FitProjection, LeadShiftsTheMotionInTime) {
   const FitProblem problem = test::random_problem(2, 3, {});
   FitState state = initial_state(problem);
   const test::Moved m = test::move(problem, state);
@@ -86,7 +86,7 @@ TEST(FitProjection, ALeadIsTheMotionAFewFramesLater) {
   }
 }
 
-TEST(FitProjection, APointBehindTheCameraIsNotSeen) {
+TEST(FitProjection, PointBehindTheCameraIsInvalid) {
   const FitProblem problem = test::random_problem(2, 1, {});
   EXPECT_FALSE(project_point(problem, initial_state(problem), 0, 0, {0, -50, 1}, {0, 0, 0}).valid);
 }

@@ -58,7 +58,7 @@ Names both(const std::string& left, const std::string& right, const Words& middl
   return names;
 }
 
-TEST(JointNames, VocabulariesAreUnderstood) {
+TEST(JointNames, UnderstandsCommonNamingConventions) {
   expect_found("Mixamo", test::mixamo_names());
   expect_found("LAFAN1", both("Left", "Right", {"Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"},
                               {"#UpLeg", "#Leg", "#Foot", "#Toe", "#Shoulder", "#Arm", "#ForeArm", "#Hand"}));
@@ -95,7 +95,7 @@ TEST(JointNames, VocabulariesAreUnderstood) {
                     {"#femur", "#tibia", "#foot", "#toes", "#clavicle", "#humerus", "#radius", "#wrist"}));
 }
 
-TEST(JointNames, ASurerNameGoesBeforeAnother) {
+TEST(JointNames, PrefersTheMoreSpecificName) {
   PerBody<int> joint;
   SkeletonMotion motion = skeleton(
       both("l", "r", {"pelvis", "spine_01", "spine_02", "spine_03", "neck_01", "head"},
@@ -110,7 +110,7 @@ TEST(JointNames, ASurerNameGoesBeforeAnother) {
   EXPECT_EQ(motion.joints[map[kLeftWrist]].name, "hand_l");
 }
 
-TEST(JointNames, EndSitesStandInForWristsAndFeet) {
+TEST(JointNames, UsesEndSitesForMissingWristsAndFeet) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   for (const int body : {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot}) names[body].clear();
@@ -133,7 +133,7 @@ std::string names_refusal(const SkeletonMotion& motion, const std::filesystem::p
   return "nothing was refused";
 }
 
-TEST(JointNames, MissingBodiesAreNamed) {
+TEST(JointNames, ErrorNamesTheMissingBodies) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   names[kLeftKnee] = "Thing";
@@ -142,7 +142,7 @@ TEST(JointNames, MissingBodiesAreNamed) {
   EXPECT_EQ(message.find("right knee"), std::string::npos) << message;
 }
 
-TEST(JointNames, ALimbOnTheWrongTreeIsRefused) {
+TEST(JointNames, RejectsALimbOnTheWrongParent) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   std::swap(names[kLeftKnee], names[kLeftElbow]);
@@ -159,7 +159,7 @@ std::filesystem::path write_map(const std::string& text) {
   return path;
 }
 
-TEST(JointNames, AUserCanNameJoints) {
+TEST(JointNames, UserMapNamesJoints) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   names[kLeftKnee] = "Genou gauche";
@@ -172,7 +172,7 @@ TEST(JointNames, AUserCanNameJoints) {
   EXPECT_EQ(map[kHead], joint[kHead]);
 }
 
-TEST(JointNames, MistakesInAMapAreSaidWithTheirLine) {
+TEST(JointNames, ReportsErrorsOfAJointMapWithTheirLine) {
   PerBody<int> joint;
   const SkeletonMotion motion = skeleton(test::mixamo_names(), joint);
   EXPECT_NE(names_refusal(motion, write_map("\nleft_knie = x\n")).find("line 2: expected one of the 22"),

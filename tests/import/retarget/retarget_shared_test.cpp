@@ -67,7 +67,7 @@ void expect_followed(const std::string& folder, std::size_t count, const std::ve
   }
 }
 
-TEST(RetargetShared, EveryBvhFileIsFollowed) {
+TEST(RetargetShared, FollowsEveryBvhFile) {
   expect_followed("bvh", 17,
                   {{"dataset-", 14, 17},
                    {"indian", 40, 27},
@@ -79,7 +79,7 @@ TEST(RetargetShared, EveryBvhFileIsFollowed) {
                    {"strutting", 77, 33}});
 }
 
-TEST(RetargetShared, EveryDeepMimicFileIsFollowed) {
+TEST(RetargetShared, FollowsEveryDeepMimicFile) {
   expect_followed("deepmimic", 11, {{"humanoid3d", 26, 23}});
 }
 

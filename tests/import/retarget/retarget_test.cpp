@@ -96,7 +96,7 @@ bool warns(const std::vector<std::string>& sentences, const std::string& words) 
                      [&](const std::string& s) { return s.find(words) != std::string::npos; });
 }
 
-TEST(Retarget, LimbDirectionsAreKeptExactly) {
+TEST(Retarget, KeepsLimbDirectionsExactly) {
   for (const std::string kind : {"walk", "squat", "kick", "dance"})
     for (const test::Disguise& disguise : {t_pose(), a_pose(), along_x()}) {
       const motion::Clip original = synthetic(kind);
@@ -104,7 +104,7 @@ TEST(Retarget, LimbDirectionsAreKeptExactly) {
     }
 }
 
-TEST(Retarget, BodiesTurnAsInTheOriginalFromAnyRestPose) {
+TEST(Retarget, KeepsBodyRotationsForAnyRestPose) {
   for (const std::string kind : {"walk", "squat", "wave", "dance"}) {
     const motion::Clip original = synthetic(kind);
     EXPECT_LT(worst_turn(retarget(test::disguised(original, t_pose())), original), 0.5) << kind;
@@ -114,7 +114,7 @@ TEST(Retarget, BodiesTurnAsInTheOriginalFromAnyRestPose) {
 }
 
 /// A rest pose may hide a twist of straight limbs: palms up, knees turned out.
-TEST(Retarget, TwistsOfTheRestPoseAreFoundWhereLimbsBend) {
+TEST(Retarget, FindsRestPoseTwistsWhereLimbsBend) {
   test::Disguise disguise = t_pose();
   const Quaterniond arm = exp_map(0.7 * Vector3d::UnitX()), leg = exp_map(0.4 * Vector3d::UnitY());
   for (const int body : {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})
@@ -126,7 +126,7 @@ TEST(Retarget, TwistsOfTheRestPoseAreFoundWhereLimbsBend) {
   }
 }
 
-TEST(Retarget, JointsAreWhereTheyWereOnABodyOfAnyShape) {
+TEST(Retarget, KeepsJointPositionsForAnyBodyShape) {
   const std::array<double, kBetas> shape = {1.5, 0, -1, 1, 0.5, -1, 1, 0.5, 0, 1};
   RetargetReport report;
   const motion::Clip original = synthetic("walk", shape);
@@ -140,7 +140,7 @@ TEST(Retarget, JointsAreWhereTheyWereOnABodyOfAnyShape) {
     EXPECT_LT((a[t].p_WB[kLeftAnkle] - b[t].p_WB[kLeftAnkle]).norm(), 0.03);
 }
 
-TEST(Retarget, UnitAndAxesChangeNothing) {
+TEST(Retarget, ResultDoesNotDependOnUnitOrAxes) {
   const motion::Clip original = synthetic("walk");
   const motion::Clip expected = retarget(test::disguised(original, t_pose()));
   const auto places = motion::poses_of(expected);
@@ -165,7 +165,7 @@ TEST(Retarget, UnitAndAxesChangeNothing) {
   }
 }
 
-TEST(Retarget, AnUnknownUnitIsScaledToABodyAndSaid) {
+TEST(Retarget, ScalesAnUnknownUnitToABodyAndReportsIt) {
   test::Disguise disguise = t_pose();
   disguise.unit = 7.0;
   RetargetReport report;
@@ -174,7 +174,7 @@ TEST(Retarget, AnUnknownUnitIsScaledToABodyAndSaid) {
   EXPECT_TRUE(warns(clip.warnings, "no known unit"));
 }
 
-TEST(Retarget, OptionsOverrideWhatIsFound) {
+TEST(Retarget, OptionsOverrideDetection) {
   test::Disguise disguise = t_pose();
   disguise.unit = 80.0;
   RetargetConfig config;
@@ -219,7 +219,7 @@ TEST(Retarget, StandsOnTheFloor) {
   }
 }
 
-TEST(Retarget, ATPoseFrameInFrontIsLeftOut) {
+TEST(Retarget, DropsALeadingTPoseFrame) {
   const motion::Clip original = synthetic("walk");
   for (const test::Disguise& disguise : {t_pose(), along_x()}) {
     motion::Clip with = original;
@@ -234,7 +234,7 @@ TEST(Retarget, ATPoseFrameInFrontIsLeftOut) {
   }
 }
 
-TEST(Retarget, OwnFilesComeBackAsTheyWere) {
+TEST(Retarget, OwnFilesRoundTripUnchanged) {
   motion::Clip original = test::random_clip(5, 30, 0.8);
   original.betas = {1.0, 0.0, 2.0, -1.0, 0.5, 0.3, -2.0, 1.5, 0.7, -0.4};
   const motion::Clip clip = retarget(parse_bvh(format_bvh(original), "own.bvh"));
@@ -247,7 +247,7 @@ TEST(Retarget, OwnFilesComeBackAsTheyWere) {
     }
 }
 
-TEST(Retarget, WhatHasNoJointIsSaidAndFollowsItsParent) {
+TEST(Retarget, UnmappedBodiesFollowTheirParentAndAreReported) {
   SkeletonMotion motion = test::disguised(synthetic("walk"), t_pose());
   motion.joints[kHead].name = "Thing";
   motion.joints[kLeftFoot].name = motion.joints[kRightFoot].name = "Other";
@@ -259,7 +259,7 @@ TEST(Retarget, WhatHasNoJointIsSaidAndFollowsItsParent) {
   for (const auto& rotations : clip.rotations) EXPECT_LT(rotations[kHead].norm(), 1e-6);
 }
 
-TEST(Retarget, TheResidualOfEveryComparedJointIsSaid) {
+TEST(Retarget, ReportsTheResidualOfEveryComparedJoint) {
   RetargetReport report;
   const motion::Clip clip = retarget(test::disguised(synthetic("walk"), along_x()), {}, &report);
   const auto said = std::find_if(clip.decisions.begin(), clip.decisions.end(), [](const std::string& line) {
@@ -279,7 +279,7 @@ TEST(Retarget, TheResidualOfEveryComparedJointIsSaid) {
   EXPECT_EQ(compared, 16);
 }
 
-TEST(Retarget, ExchangedSidesAreNoticed) {
+TEST(Retarget, WarnsOfExchangedSides) {
   test::Disguise disguise = t_pose();
   for (const int body :
        {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, kLeftCollar, kLeftShoulder, kLeftElbow, kLeftWrist})
@@ -288,7 +288,7 @@ TEST(Retarget, ExchangedSidesAreNoticed) {
       warns(retarget(test::disguised(synthetic("walk"), disguise)).warnings, "left and right exchanged"));
 }
 
-TEST(Retarget, ASkeletonWithoutExtentIsRefused) {
+TEST(Retarget, RejectsASkeletonWithoutExtent) {
   SkeletonMotion motion = test::disguised(synthetic("stand"), t_pose());
   for (auto& frame : motion.translation)
     for (std::size_t j = 1; j < frame.size(); ++j) frame[j].setZero();
@@ -302,7 +302,7 @@ TEST(Retarget, OneFrameIsEnough) {
   EXPECT_EQ(retarget(motion).frames(), 1);
 }
 
-TEST(Landmarks, UnitsAreToldByTheLegs) {
+TEST(Landmarks, LegLengthGivesTheUnit) {
   EXPECT_EQ(unit_of(0.8)->metres, 1.0);
   EXPECT_EQ(unit_of(82.0)->metres, 0.01);
   EXPECT_EQ(unit_of(790.0)->metres, 0.001);

@@ -43,7 +43,7 @@ double deepest(const Reference& reference) {
   return deepest;
 }
 
-TEST(Separation, AnArmInsideTheTrunkComesOut) {
+TEST(Separation, MovesAnArmOutOfTheTrunk) {
   const Clip clip = with_arm_inside(standing(), 0.45);
   const Reference inside = prepared(clip, false), outside = prepared(clip, true);
   ASSERT_GT(deepest(inside), 0.08);
@@ -55,14 +55,14 @@ TEST(Separation, AnArmInsideTheTrunkComesOut) {
       }
 }
 
-TEST(Separation, TheWayOutIsShort) {
+TEST(Separation, MovesTheArmHardlyFartherThanItsDepth) {
   Reference reference = prepared(with_arm_inside(standing(), 0.45), false);
   const double depth = deepest(reference), moved = separate_arms(reference);
   EXPECT_GT(moved, depth - kAllowedOverlap - 0.005);  // no arm comes out without moving as far
   EXPECT_LT(moved, 3.0 * (depth - kAllowedOverlap));
 }
 
-TEST(Separation, AReferenceWithoutOverlapKeepsItsBytes) {
+TEST(Separation, ReferenceWithoutOverlapStaysByteIdentical) {
   const Clip clip = standing();
   const Reference without = prepared(clip, false), with = prepared(clip, true);
   ASSERT_LT(deepest(without), kAllowedOverlap);

@@ -17,7 +17,7 @@ Clip walk() {
   return synth::synthesize(config);
 }
 
-TEST(Feet, ExactMotionsAreLeftAlone) {
+TEST(Feet, ExactMotionsStayUnchanged) {
   for (const std::string& kind : synth::synthetic_kinds()) {
     synth::SynthConfig config;
     config.kind = kind;
@@ -28,7 +28,7 @@ TEST(Feet, ExactMotionsAreLeftAlone) {
   }
 }
 
-TEST(Feet, AConstantErrorOfTheFeetIsRemoved) {
+TEST(Feet, RemovesAConstantErrorOfTheFeet) {
   const Reference exact = prepare_reference(walk(), {}, nullptr);
   for (const Vector3d& error : {Vector3d(15 * kDegree, 0, 0), Vector3d(-12 * kDegree, 0, 5 * kDegree)}) {
     PreparationReport report;
@@ -63,7 +63,7 @@ TEST(Feet, StandingFramesAreThoseOfTheStanceFoot) {
   EXPECT_LT(none, static_cast<int>(left.size()) / 5) << "a walk has a foot on the floor";
 }
 
-TEST(Feet, ToesBelowTheFloorAreBentUntilTheyLieOnIt) {
+TEST(Feet, BendsToesBelowTheFloorOntoIt) {
   Reference r = prepare_reference(walk(), {}, nullptr);
   // Heel up by 40° about the ball of the left foot, toes stiff: their tips are far below the floor.
   ReferenceFrame& frame = r.frames[0];

@@ -24,7 +24,7 @@ TEST(FloorCorrection, JumpsKeepTheirHeight) {
   }
 }
 
-TEST(FloorCorrection, SlowDriftOfTheSupportIsRemovedUnderAJumpAsWell) {
+TEST(FloorCorrection, RemovesSlowDriftEvenDuringAJump) {
   std::vector<double> z = test::jump_heights(150, 2.5), drift;
   for (std::size_t t = 0; t < z.size(); ++t) {
     drift.push_back(0.07 + 0.04 * std::sin(2 * test::kPi * static_cast<double>(t) / 150.0));
@@ -46,7 +46,7 @@ TEST(FloorCorrection, NothingStaysDeeperThanTenMillimetres) {
   }
 }
 
-TEST(FloorCorrection, NoiseOfAFewMillimetresIsNotFollowed) {
+TEST(FloorCorrection, IgnoresNoiseOfAFewMillimetres) {
   Random random(2, {2});
   std::vector<double> z(120);
   for (double& v : z) v = 0.002 * random.normal();

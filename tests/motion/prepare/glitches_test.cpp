@@ -9,7 +9,7 @@
 namespace mimicx::motion {
 namespace {
 
-TEST(Glitches, ShortSpikesAreFlaggedAndNothingElse) {
+TEST(Glitches, FlagsShortSpikesAndNothingElse) {
   const Clip clean = test::random_clip(6, 90, 0.3);
   const auto none = find_glitches(clean);
   EXPECT_EQ(std::count(none.begin(), none.end(), true), 0);
@@ -19,7 +19,7 @@ TEST(Glitches, ShortSpikesAreFlaggedAndNothingElse) {
   }
 }
 
-TEST(Glitches, ThrownPositionsAreFlagged) {
+TEST(Glitches, FlagsAFrameAtAnotherPlace) {
   Clip clip = test::random_clip(6, 90, 0.3);
   clip.trans[30].y() += 3.0;
   const auto flagged = find_glitches(clip);
@@ -27,7 +27,7 @@ TEST(Glitches, ThrownPositionsAreFlagged) {
   EXPECT_TRUE(flagged[30]);
 }
 
-TEST(Glitches, FastMotionsAndLastingChangesAreNotFlagged) {
+TEST(Glitches, DoesNotFlagFastMotionsOrLastingChanges) {
   Clip kick =
       test::standing_clip(60, 1.0);  // the whole leg swings up to 30 rad/s and back in 0.4 s, smoothly
   for (std::size_t t = 20; t < 32; ++t)

@@ -38,7 +38,7 @@ test::Rotations random_rotations(Random& random, double amplitude) {
   return q;
 }
 
-TEST(Hinges, BentLimbsKeepBothBonesExactlyAndTheEndItsOrientation) {
+TEST(Hinges, BentLimbsKeepBoneDirectionsAndEndOrientation) {
   Random random(1, {1});
   const Character c = make_character({1, 0, -1, 0, 1, 0, 0, 0, 0, 0.5});
   int bent = 0;
@@ -76,7 +76,7 @@ TEST(Hinges, OtherJointsAreUntouched) {
     EXPECT_EQ(q[body].coeffs(), smpl[body].coeffs()) << kBodyNames[body];
 }
 
-TEST(Hinges, MotionsThatAreHingedAlreadyStayAsTheyAre) {
+TEST(Hinges, HingedMotionsStayUnchanged) {
   Random random(1, {4});
   for (int n = 0; n < 100; ++n) {
     test::Rotations q = random_rotations(random, 0.6);

@@ -20,7 +20,7 @@ Clip with_swapped_leg(Clip clip, int first, int last) {
   return clip;
 }
 
-TEST(LimbGlitches, AStretchOfALimbSomewhereElseIsFoundExactly) {
+TEST(LimbGlitches, FindsTheExactFramesOfADisplacedLimb) {
   const Clip walk = synthetic("walk");
   ASSERT_TRUE(find_limb_glitches(walk).empty());
   for (const auto& [first, last] : {std::pair<int, int>{40, 40}, {60, 62}, {80, 84}}) {
@@ -32,13 +32,13 @@ TEST(LimbGlitches, AStretchOfALimbSomewhereElseIsFoundExactly) {
   }
 }
 
-TEST(LimbGlitches, LongOnesAndLastingChangesAreNoGlitches) {
+TEST(LimbGlitches, IgnoresLongAndLastingChanges) {
   const Clip walk = synthetic("walk");
   EXPECT_TRUE(find_limb_glitches(with_swapped_leg(walk, 60, 75)).empty());
   EXPECT_TRUE(find_limb_glitches(with_swapped_leg(walk, 60, walk.frames() - 1)).empty());
 }
 
-TEST(LimbGlitches, FastMotionsHaveNone) {
+TEST(LimbGlitches, FindsNoneInFastMotions) {
   for (const char* kind : {"kick", "punch", "jump", "jog", "dance"})
     EXPECT_TRUE(find_limb_glitches(synthetic(kind)).empty()) << kind;
   Clip kick = test::standing_clip(60, 1.0);  // the whole leg swings up and back in 0.4 s
@@ -47,7 +47,7 @@ TEST(LimbGlitches, FastMotionsHaveNone) {
   EXPECT_TRUE(find_limb_glitches(kick).empty());
 }
 
-TEST(LimbGlitches, BridgingGivesTheMotionBackAndTouchesNothingElse) {
+TEST(LimbGlitches, BridgingRestoresTheLimbAndChangesNothingElse) {
   const Clip walk = synthetic("walk");
   Clip clip = with_swapped_leg(walk, 60, 62);
   bridge_limb_glitches(clip, find_limb_glitches(clip));

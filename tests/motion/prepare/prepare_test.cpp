@@ -90,7 +90,7 @@ TEST(Prepare, FlaggedFramesAreBridgedAndReported) {
     for (const Vector3d& w : f.omega) EXPECT_LT(w.norm(), 25.0);
 }
 
-TEST(Prepare, OddFilesAreNoted) {
+TEST(Prepare, NotesSignsOfWrongAxesScaleOrRate) {
   const auto notes = [](const Clip& clip) {
     PreparationReport report;
     prepare_reference(clip, {}, &report);
@@ -109,7 +109,7 @@ TEST(Prepare, OddFilesAreNoted) {
   EXPECT_NE(notes(fast)[0].find("speed"), std::string::npos);
 }
 
-TEST(Prepare, RefusesTooShortAndNonFiniteClips) {
+TEST(Prepare, RejectsTooShortAndNonFiniteClips) {
   EXPECT_THROW(prepare_reference(test::standing_clip(1, 1.0), {}, nullptr), DataError);
   EXPECT_THROW(prepare_reference(test::standing_clip(3, 1.0, 120.0), {}, nullptr),
                DataError);  // one frame at 30 fps

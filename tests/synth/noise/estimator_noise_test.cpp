@@ -48,7 +48,7 @@ TEST(AddNoise, WithoutErrorsReturnsTheTruth) {
   }
 }
 
-TEST(AddNoise, GivesEqualBytesForEqualSeedsAndOthersForOtherSeeds) {
+TEST(AddNoise, IsByteIdenticalForEqualSeedsOnly) {
   NoiseConfig config;
   config.seed = 4;
   const motion::Clip a = add_noise(test::truth_of("wave"), config),
@@ -278,7 +278,7 @@ TEST(AddNoise, OpensAndClosesABurstWithAHannWindow) {
   EXPECT_GT(lonely, 0);
 }
 
-TEST(AddNoise, RefusesWhatItCannotUnderstand) {
+TEST(AddNoise, RejectsInvalidInput) {
   EXPECT_THROW(noise_preset("mystery"), std::invalid_argument);
   EXPECT_THROW(camera_error("mystery"), std::invalid_argument);
   motion::Clip clip = test::truth_of("stand");

@@ -15,7 +15,7 @@ CameraError exact_moving() {
   return error;
 }
 
-TEST(CarriedCamera, ShowsTheTrueJointsWhereAPinholeOfEachFrameDoes) {
+TEST(CarriedCamera, ProjectsTrueJointsByThePinholeOfEachFrame) {
   for (const char* kind : {"walk", "dance"}) {
     const motion::Clip& truth = test::truth_of(kind);
     const PerFrame<BodyPoses> poses = test::poses_of_clip(truth);
@@ -30,7 +30,7 @@ TEST(CarriedCamera, ShowsTheTrueJointsWhereAPinholeOfEachFrameDoes) {
   }
 }
 
-TEST(CarriedCamera, TheFittedModelsDetectionsGoThroughTheCameraOfTheirFrame) {
+TEST(CarriedCamera, DetectionsUseTheCameraOfTheirFrame) {
   const motion::Clip& truth = test::truth_of("walk");
   const PerFrame<BodyPoses> poses = test::poses_of_clip(truth);
   NoiseConfig config = test::silent(4);
@@ -45,7 +45,7 @@ TEST(CarriedCamera, TheFittedModelsDetectionsGoThroughTheCameraOfTheirFrame) {
   EXPECT_GT(near, 20 * far);
 }
 
-TEST(CarriedCamera, PansAfterThePersonAndKeepsThemInThePicture) {
+TEST(CarriedCamera, KeepsThePersonInThePicture) {
   for (const char* kind : {"walk", "jog", "kick"})
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of(kind));
@@ -65,7 +65,7 @@ TEST(CarriedCamera, PansAfterThePersonAndKeepsThemInThePicture) {
     }
 }
 
-TEST(CarriedCamera, WhatIsToldDriftsAwayFromItsStartWithTheRootOfTime) {
+TEST(CarriedCamera, GivenPathDriftsWithTheRootOfTime) {
   const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("walk"));
   const int last = poses.count() - 1;
   const double seconds = last / 30.0, tau = 0.5;

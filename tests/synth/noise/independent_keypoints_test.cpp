@@ -147,7 +147,7 @@ TEST(IndependentKeypoints, ErrorsGrowWithForeshortening) {
   EXPECT_GT(largest, 2.0);
 }
 
-TEST(IndependentKeypoints, ErrOnlyWhereTheBodyHidesThePoint) {
+TEST(IndependentKeypoints, OcclusionErrorsOnlyAffectHiddenPoints) {
   const motion::Clip& truth = test::truth_of("walk");
   const Character character = make_character(truth.betas);
   test::Spread size;
@@ -195,7 +195,7 @@ TEST(IndependentKeypoints, AreLateOrEarlyByAFractionOfAFrame) {
   EXPECT_NEAR(late.rms(), 0.5, 0.05);
 }
 
-TEST(IndependentKeypoints, SidesChangePlacesInWholeLimbsAndAsOftenAsStated) {
+TEST(IndependentKeypoints, WholeLimbsSwapSidesAtTheStatedRate) {
   const motion::Clip& truth = test::truth_of("squat");
   int swapped = 0, frames = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -220,7 +220,7 @@ TEST(IndependentKeypoints, SidesChangePlacesInWholeLimbsAndAsOftenAsStated) {
   EXPECT_NEAR(static_cast<double>(swapped) / frames, 0.5 * 7.0 / 30.0, 0.02);
 }
 
-TEST(IndependentKeypoints, FramesAndSingleDetectionsAreMissingAsOftenAsStated) {
+TEST(IndependentKeypoints, FramesAndDetectionsAreMissingAtTheStatedRates) {
   const motion::Clip& truth = test::truth_of("squat");
   int empty = 0, missing = 0, frames = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
@@ -240,7 +240,7 @@ TEST(IndependentKeypoints, FramesAndSingleDetectionsAreMissingAsOftenAsStated) {
   EXPECT_NEAR(static_cast<double>(missing) / (frames * kBodies), 0.1, 0.003);
 }
 
-TEST(IndependentKeypoints, ConfidenceHardlyTellsHowGoodADetectionIs) {
+TEST(IndependentKeypoints, ConfidenceCorrelatesWeaklyWithTheError) {
   IndependentNoiseConfig config;
   config.camera = camera_error("calibrated");
   double c = 0, e = 0, cc = 0, ee = 0, ce = 0, n = 0;
@@ -264,7 +264,7 @@ TEST(IndependentKeypoints, ConfidenceHardlyTellsHowGoodADetectionIs) {
   EXPECT_NEAR(std::sqrt(cc / n - c / n * c / n), config.preset.confidence_spread, 0.03);
 }
 
-TEST(IndependentKeypoints, AreThePointsOfCocoWhereAskedFor) {
+TEST(IndependentKeypoints, AreCocoPointsOnRequest) {
   IndependentNoiseConfig config = only(nullptr, 0.0, 1);
   config.keypoints = motion::KeypointSet::kCoco17;
   const Detected d = detected(test::truth_of("wave"), config);

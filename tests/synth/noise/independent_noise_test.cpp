@@ -26,7 +26,7 @@ TEST(IndependentNoise, WithoutErrorsReturnsTheTruth) {
   }
 }
 
-TEST(IndependentNoise, GivesEqualBytesForEqualSeedsAndOthersForOtherSeeds) {
+TEST(IndependentNoise, IsByteIdenticalForEqualSeedsOnly) {
   IndependentNoiseConfig config;
   config.seed = 4;
   const motion::Clip& truth = test::truth_of("wave");
@@ -52,7 +52,7 @@ Reach reach_of(const std::string& name) {
   return {true, false, false, false};
 }
 
-TEST(IndependentNoise, TurningATermOffChangesWhatTheTermIsAboutAndNothingElse) {
+TEST(IndependentNoise, TurningATermOffChangesOnlyItsOwnQuantities) {
   const motion::Clip& truth = test::truth_of("walk");
   IndependentNoiseConfig all;
   all.preset.swap_rate = all.preset.gap_rate = 1.0;
@@ -194,7 +194,7 @@ TEST(IndependentNoise, TravelErrsInSpeedInTheHeadingAndByAFalseVelocity) {
   EXPECT_NEAR(heading.rms(), std::sqrt(variance), 0.1 * std::sqrt(variance));
 }
 
-TEST(FootSkate, SlipIsPushedAtItsSpeedWhileTheFootStandsAndReturnsInTheAir) {
+TEST(FootSkate, SlipGrowsWhileTheFootStandsAndDecaysInTheAir) {
   PerFrame<bool> standing(4000, true);
   test::Spread speed;
   const PerFrame<Vector3d> slip = drawn_slip(standing, 0.05, kLeftAnkle, 3, 30.0);
@@ -251,7 +251,7 @@ TEST(IndependentNoise, StandingFeetSlipAndNothingElseMoves) {
   EXPECT_NEAR(slip.rms(), 0.05, 0.006);
 }
 
-TEST(IndependentNoise, TellsABodyOfAnotherStatureAndProportionsWithItsFeetOnTheFloor) {
+TEST(IndependentNoise, GivesAnotherBodyShapeWithItsFeetOnTheFloor) {
   const motion::Clip& truth = test::still_truth();
   test::Spread stature, proportions;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -273,7 +273,7 @@ TEST(IndependentNoise, TellsABodyOfAnotherStatureAndProportionsWithItsFeetOnTheF
   EXPECT_NEAR(proportions.rms(), 0.5, 0.02);
 }
 
-TEST(IndependentNoise, TellsPanAndRollInPartsOfTheTilt) {
+TEST(IndependentNoise, PanAndRollErrorsScaleWithTheTiltError) {
   const motion::Clip& truth = test::still_truth();
   test::Spread turn;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -318,7 +318,7 @@ TEST(IndependentNoise, LandsNearThePublishedErrorsOfAVideoEstimator) {
   for (const auto& [name, value] : target) EXPECT_NEAR(mean.at(name), value, 0.3 * value) << name;
 }
 
-TEST(IndependentNoise, RefusesWhatItCannotUnderstand) {
+TEST(IndependentNoise, RejectsInvalidInput) {
   motion::Clip clip = test::truth_of("stand");
   clip.body_model = "smplx";
   EXPECT_THROW(add_independent_noise(clip, {}), std::invalid_argument);

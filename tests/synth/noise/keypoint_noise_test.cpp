@@ -44,7 +44,7 @@ TEST(PlaceCamera, SeesTheWholeMotionFromAPersonsHeight) {
     }
 }
 
-TEST(AddNoise, TellsTheCameraAndTheShapeWithTheirErrors) {
+TEST(AddNoise, AddsErrorsToCameraAndShape) {
   const motion::Clip& truth = test::still_truth();
   const std::map<std::string, std::array<double, 3>> sigmas = {
       {"calibrated", {0.0, 0.0, 0.0}}, {"perturbed", {0.01, 0.3, 0.15}}, {"wild", {0.05, 0.7, 0.3}}};
@@ -123,7 +123,7 @@ TEST(DetectKeypoints, HasABiasPerClipSmallNoiseAndDropouts) {
   EXPECT_NEAR(static_cast<double>(dropped) / all, 0.02, 0.001);
 }
 
-TEST(DetectKeypoints, IsUnsureOfWhatABurstHides) {
+TEST(DetectKeypoints, LowersConfidenceDuringABurst) {
   const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("stand"));
   const std::vector<Burst> bursts = {{kLeftShoulder, 20, 30, Vector3d::Zero()}};
   test::Spread hidden;
@@ -147,7 +147,7 @@ TEST(DetectKeypoints, IsUnsureOfWhatABurstHides) {
   EXPECT_NEAR(hidden.rms(), 0.02, 0.001);
 }
 
-TEST(DetectKeypoints, MixesUpLeftAndRightNowAndThen) {
+TEST(DetectKeypoints, SwapsLeftAndRightAtItsRate) {
   // A line-up of the sides would hide swaps; frames where the left wrist is nearer to the right one's place
   // than to its own count.
   const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("squat"));
@@ -194,7 +194,7 @@ TEST(DetectKeypoints, NamesTheCoco17PointsAndPutsThemOnTheSameJoints) {
   EXPECT_EQ(motion::keypoint_names(motion::KeypointSet::kJoints22)[kLeftFoot], "left_foot");
 }
 
-TEST(DetectKeypoints, WholeBodyPointsLieOnTheBodyPartThatTheyAreCalledAfter) {
+TEST(DetectKeypoints, WholeBodyPointsLieOnTheBodyPartTheyName) {
   const PerFrame<BodyPoses> poses = test::poses_of_clip(test::truth_of("wave"));
   const Camera camera = place_camera(poses, 7);
   const motion::Keypoints k = detect_keypoints(poses, camera, motion::KeypointSet::kCoco133, {}, 7, 30.0);

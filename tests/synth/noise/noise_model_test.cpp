@@ -16,7 +16,7 @@ std::string complaint(const std::vector<std::string>& words) {
   return {};
 }
 
-TEST(NoiseModel, NamesChooseItAndValuesSetSingleAmplitudes) {
+TEST(NoiseModel, IsChosenByNameWithSingleAmplitudesSetByValue) {
   const auto plain = std::get<IndependentPreset>(noise_model({}));
   EXPECT_EQ(plain.stature, independent_preset().stature);
   const auto changed =
@@ -28,7 +28,7 @@ TEST(NoiseModel, NamesChooseItAndValuesSetSingleAmplitudes) {
   EXPECT_EQ(std::get<NoisePreset>(noise_model({"gvhmr"})).drift, noise_preset("gvhmr-like").drift);
 }
 
-TEST(NoiseModel, SaysWhatItKnowsWhereItDoesNotUnderstand) {
+TEST(NoiseModel, RejectsUnknownWordsListingTheKnownOnes) {
   EXPECT_NE(complaint({"mystery"}).find("independent, gvhmr, vibe"), std::string::npos);
   EXPECT_NE(complaint({"burst_rate=1"}).find("no amplitude 'burst_rate'; known: joint_static"),
             std::string::npos);
@@ -43,7 +43,7 @@ TEST(NoiseModel, SaysWhatItKnowsWhereItDoesNotUnderstand) {
   EXPECT_FALSE(complaint({"gvhmr", "vibe"}).empty());
 }
 
-TEST(Estimate, IsTheModelsOwnAndHasNoCameraWithoutKeypoints) {
+TEST(Estimate, EqualsTheModelsResultAndHasNoCameraWithoutKeypoints) {
   const motion::Clip& truth = test::truth_of("wave");
   EstimateConfig config;
   config.noise = noise_preset("gvhmr-like");

@@ -20,7 +20,7 @@ double walked_length(const Vector3d& eye, const Vector3d& point, const Vector3d&
   return (point - eye).norm() * inside / steps;
 }
 
-TEST(Occlusion, LengthInsideACapsuleIsThatOfAWalkAlongTheRay) {
+TEST(Occlusion, LengthInsideACapsuleMatchesRayMarching) {
   Random random(3);
   const auto drawn = [&](double size) {
     const double x = random.uniform(-size, size), y = random.uniform(-size, size),
@@ -44,7 +44,7 @@ TEST(Occlusion, LengthInsideACapsuleIsThatOfAWalkAlongTheRay) {
   EXPECT_EQ(length_inside({0.3, 0, -3}, {0.3, 0, 3}, {0, 0, 0}, {0, 0, 1}, 0.2), 0.0);
 }
 
-TEST(Occlusion, PointsAreHiddenWhereTheWalkFindsMoreThanOneAndAHalfRadii) {
+TEST(Occlusion, HidesPointsBehindMoreThanOneAndAHalfRadii) {
   const Character character = make_character();
   int hidden = 0, seen = 0;
   for (const char* kind : {"walk", "squat", "dance"}) {
@@ -71,7 +71,7 @@ TEST(Occlusion, PointsAreHiddenWhereTheWalkFindsMoreThanOneAndAHalfRadii) {
   EXPECT_GT(seen, 150);
 }
 
-TEST(Occlusion, FromTheSideTheFarHipIsHiddenAndTheNearOneIsNot) {
+TEST(Occlusion, HidesOnlyTheFarHipInASideView) {
   const Character character = make_character();
   PerBody<Quaterniond> q;
   q.fill(Quaterniond::Identity());
