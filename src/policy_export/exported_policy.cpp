@@ -79,8 +79,8 @@ ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits) 
   out.meant.motion = rl::tracking::reference_of_states(policy.motion, out.meant.states);
   if (in_8_bits) {
     fold_inputs(policy.motion.character.betas, agent);
-    out.small = quantise(observations_of(policy), agent);
-    out.inputs = out.small.inputs;
+    out.quantised = quantise(observations_of(policy), agent);
+    out.inputs = out.quantised.inputs;
   } else {
     out.inputs.resize(kStateCount);
     std::iota(out.inputs.begin(), out.inputs.end(), std::int16_t{0});

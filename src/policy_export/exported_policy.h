@@ -27,7 +27,7 @@ struct ExportedPolicy {
   float max_action = 0.0F;    ///< rad
   MotionSpline motion;
   bool in_8_bits = false;
-  SmallNetwork small;                ///< where it is in 8 bits
+  QuantisedNetwork quantised;        ///< where it is in 8 bits
   std::vector<std::int16_t> inputs;  ///< of the first layer
   std::vector<Record> records;
 
@@ -70,7 +70,7 @@ void with_policy(const ExportedPolicy& exported, F&& f) {
       const int inputs =
           l == 0 ? static_cast<int>(exported.inputs.size()) : static_cast<int>(actor.weights[l].rows());
       layers.push_back({inputs, static_cast<int>(actor.weights[l].cols()), weights_of(l),
-                        exported.in_8_bits ? exported.small.layers[l].scales.data() : nullptr,
+                        exported.in_8_bits ? exported.quantised.layers[l].scales.data() : nullptr,
                         actor.biases[l].data()});
     }
     f(Policy<Weight>{exported.motion.view(), offsets.data(), shape.data(), exported.inputs.data(),
@@ -78,7 +78,8 @@ void with_policy(const ExportedPolicy& exported, F&& f) {
                      static_cast<int>(layers.size()), layers.data(), exported.max_action});
   };
   if (exported.in_8_bits)
-    run([&](std::size_t l) { return exported.small.layers[l].codes.data(); }, exported.small.powers.data());
+    run([&](std::size_t l) { return exported.quantised.layers[l].codes.data(); },
+        exported.quantised.powers.data());
   else
     run([&](std::size_t l) { return actor.weights[l].data(); }, nullptr);
 }

@@ -84,7 +84,7 @@ std::vector<float> values_of(const nn::Matrix<float>& matrix) {
 /// The codes of a layer with the inputs that have no weights put back as zeros. [inputs][outputs]
 std::vector<std::int8_t> all_codes(const ExportedPolicy& exported, std::size_t layer, std::size_t inputs,
                                    std::size_t outputs) {
-  const std::vector<std::int8_t>& codes = exported.small.layers[layer].codes;
+  const std::vector<std::int8_t>& codes = exported.quantised.layers[layer].codes;
   if (layer > 0) return codes;
   std::vector<std::int8_t> all(inputs * outputs, 0);
   for (std::size_t r = 0; r < exported.inputs.size(); ++r)
@@ -101,7 +101,7 @@ std::string weights(const ExportedPolicy& exported, std::size_t layer, Graph& gr
   const std::string name = "weight" + std::to_string(layer);
   if (!exported.in_8_bits) return graph.constant(name, {inputs, outputs}, values_of(matrix));
   graph.constant(name + "_codes", {inputs, outputs}, all_codes(exported, layer, inputs, outputs));
-  graph.constant(name + "_scale", {outputs}, exported.small.layers[layer].scales);
+  graph.constant(name + "_scale", {outputs}, exported.quantised.layers[layer].scales);
   const Message axis = Message().bytes(1, "axis").number(3, 1).number(20, kAttributeInt);
   graph.nodes.push_back(node("DequantizeLinear", {name + "_codes", name + "_scale"}, name).message(5, axis));
   return name;
@@ -121,7 +121,7 @@ Graph network(const ExportedPolicy& exported) {
   if (exported.in_8_bits) {
     std::vector<float> powers(inputs, 1.0F);
     for (std::size_t r = 0; r < exported.inputs.size(); ++r)
-      powers[static_cast<std::size_t>(exported.inputs[r])] = std::ldexp(1.0F, exported.small.powers[r]);
+      powers[static_cast<std::size_t>(exported.inputs[r])] = std::ldexp(1.0F, exported.quantised.powers[r]);
     x = graph.apply("Mul", {x, graph.constant("power", {inputs}, powers)}, "raised");
   }
   for (std::size_t l = 0; l < agent.actor.weights.size(); ++l) {

@@ -38,8 +38,8 @@ Eigen::MatrixXd spread_of_errors(const nn::Matrix<float>& x, const std::vector<s
 }
 
 /// @param rows  of the weights, those to keep  @param powers  [rows]  @param U  [rows][rows]
-SmallLayer quantise_layer(const std::vector<std::int16_t>& rows, const std::vector<std::int8_t>& powers,
-                          const Eigen::MatrixXd& U, nn::Matrix<float>& weights) {
+QuantisedLayer quantise_layer(const std::vector<std::int16_t>& rows, const std::vector<std::int8_t>& powers,
+                              const Eigen::MatrixXd& U, nn::Matrix<float>& weights) {
   const auto count = static_cast<Index>(rows.size()), outputs = weights.cols();
   Eigen::MatrixXd exact(count, outputs);
   Eigen::RowVectorXd most = Eigen::RowVectorXd::Zero(outputs);
@@ -48,7 +48,7 @@ SmallLayer quantise_layer(const std::vector<std::int16_t>& rows, const std::vect
     exact.row(r) = weights.row(rows[k]).cast<double>();
     most = most.cwiseMax(exact.row(r).cwiseAbs() * std::ldexp(1.0, -powers[k]));
   }
-  SmallLayer small;
+  QuantisedLayer small;
   for (Index o = 0; o < outputs; ++o) small.scales.push_back(static_cast<float>(most[o] / kLargestWeight));
   for (Index r = 0; r < count; ++r) {
     const auto k = static_cast<std::size_t>(r);
@@ -97,8 +97,8 @@ void fold_inputs(const std::array<double, 10>& shape, rl::Agent& agent) {
   }
 }
 
-SmallNetwork quantise(const nn::Matrix<float>& observations, rl::Agent& agent) {
-  SmallNetwork small;
+QuantisedNetwork quantise(const nn::Matrix<float>& observations, rl::Agent& agent) {
+  QuantisedNetwork quantised;
   nn::Matrix<float> x, y;
   nn::normalise(agent.observations, observations, x);
   for (std::size_t layer = 0; layer < agent.actor.weights.size(); ++layer) {
@@ -110,17 +110,17 @@ SmallNetwork quantise(const nn::Matrix<float>& observations, rl::Agent& agent) {
       rows.push_back(static_cast<std::int16_t>(row));
       powers.push_back(static_cast<std::int8_t>(layer == 0 ? power_of(weights, row) : 0));
     }
-    small.layers.push_back(quantise_layer(rows, powers, spread_of_errors(x, rows), weights));
+    quantised.layers.push_back(quantise_layer(rows, powers, spread_of_errors(x, rows), weights));
     if (layer == 0) {
-      small.inputs = rows;
-      small.powers = powers;
+      quantised.inputs = rows;
+      quantised.powers = powers;
     }
     y.resize(x.rows(), weights.cols());
     nn::gemm(false, false, x, weights, agent.actor.biases[layer].data(), y);
     nn::apply_elu(y, y);
     x = y;
   }
-  return small;
+  return quantised;
 }
 
 }  // namespace mimicx::policy_export

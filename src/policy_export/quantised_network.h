@@ -30,15 +30,15 @@
 
 namespace mimicx::policy_export {
 
-struct SmallLayer {
+struct QuantisedLayer {
   std::vector<std::int8_t> codes;  ///< [inputs that stay][outputs]
   std::vector<float> scales;       ///< [outputs]
 };
 
-struct SmallNetwork {
+struct QuantisedNetwork {
   std::vector<std::int16_t> inputs;  ///< of the first layer, those that stay, ascending
   std::vector<std::int8_t> powers;   ///< [the same] k_i
-  std::vector<SmallLayer> layers;
+  std::vector<QuantisedLayer> layers;
 };
 
 /// Step 1, in place: the rows that are not needed become zero. @param shape  β
@@ -47,6 +47,6 @@ void fold_inputs(const std::array<double, 10>& shape, rl::Agent& agent);
 /// Steps 2 and 3: rows of the first layer that are zero are left out. The agent's weights become those that
 /// the small network stands for, to the bit.
 /// @param observations  [at least 1][570] such as the policy sees
-SmallNetwork quantise(const nn::Matrix<float>& observations, rl::Agent& agent);
+QuantisedNetwork quantise(const nn::Matrix<float>& observations, rl::Agent& agent);
 
 }  // namespace mimicx::policy_export

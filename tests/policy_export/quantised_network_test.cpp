@@ -46,7 +46,7 @@ TEST(QuantisedNetwork, WeightsArePowerTimesScaleTimesCode) {
   for (std::size_t r = 0; r < 4; ++r)
     seen.row(static_cast<Eigen::Index>(r)) = Eigen::Map<const nn::Matrix<float>>(
         exported_in_float().records[r].observation.data(), 1, kStateCount);
-  const SmallNetwork small = quantise(seen, agent);
+  const QuantisedNetwork small = quantise(seen, agent);
   ASSERT_EQ(small.inputs.size(), 374U);
   ASSERT_EQ(small.layers.size(), 3U);
   for (std::size_t l = 0; l < 3; ++l) {

@@ -9,18 +9,23 @@
 #include "core/units.h"
 #include "motion/surface_points.h"
 #include "synth/min_jerk_track.h"
+#include "synth/noise/estimated_motion.h"
 
 namespace mimicx::synth {
 namespace {
 
-/// still·N + slow·S + jitter·J, each from the stream, in this order.
-PerFrame<double> three_scales(Random& random, int frames, double still, double slow, double slow_frames,
-                              double jitter, double jitter_frames) {
-  const double constant = still * random.normal();
-  const PerFrame<double> slowly = smooth_noise(random, frames, slow_frames);
-  const PerFrame<double> quickly = smooth_noise(random, frames, jitter_frames);
-  PerFrame<double> sum(slowly.size());
-  for (int t = 0; t < frames; ++t) sum[t] = constant + slow * slowly[t] + jitter * quickly[t];
+/// Amplitudes of an error on three time scales: constant, slow (correlated over `slow_frames`), fast.
+struct ErrorScales {
+  double constant, slow, slow_frames, jitter, jitter_frames;
+};
+
+/// constant·N + slow·S + jitter·J, drawn in this order.
+PerFrame<double> drawn_error(Random& random, int frames, const ErrorScales& scales) {
+  const double constant = scales.constant * random.normal();
+  const PerFrame<double> slow = smooth_noise(random, frames, scales.slow_frames);
+  const PerFrame<double> jitter = smooth_noise(random, frames, scales.jitter_frames);
+  PerFrame<double> sum(slow.size());
+  for (int t = 0; t < frames; ++t) sum[t] = constant + scales.slow * slow[t] + scales.jitter * jitter[t];
   return sum;
 }
 
@@ -48,8 +53,8 @@ void disturb_joints(const NoisePreset& p, std::uint64_t seed, double fps, Motion
     Random random(seed, {kJointStream, static_cast<std::uint64_t>(body)});
     Array<PerFrame<double>, 3> error;
     for (auto& axis : error)
-      axis = three_scales(random, frames, p.joint_static, p.joint_slow, p.slow_tau * fps, p.joint_jitter,
-                          p.jitter_frames);
+      axis = drawn_error(random, frames,
+                         {p.joint_static, p.joint_slow, p.slow_tau * fps, p.joint_jitter, p.jitter_frames});
     for (int t = 0; t < q.count(); ++t)
       q[t][body] = q[t][body] * exp_map(kJointErrorWeight[body] * kDegree *
                                         Vector3d(error[0][t], error[1][t], error[2][t]));
@@ -72,8 +77,8 @@ void disturb_root(const NoisePreset& p, std::uint64_t seed, double fps, MotionRo
   Random random(seed, {kRootStream}), walk(seed, {kHeadingStream});
   Array<PerFrame<double>, 3> error;
   for (auto& axis : error)
-    axis = three_scales(random, frames, p.root_static, p.root_slow, p.slow_tau * fps, p.root_jitter,
-                        p.jitter_frames);
+    axis = drawn_error(random, frames,
+                       {p.root_static, p.root_slow, p.slow_tau * fps, p.root_jitter, p.jitter_frames});
   double heading = 0.0;
   for (int t = 0; t < q.count(); ++t) {
     const Vector3d degrees(error[0][t], error[1][t], error[2][t] + heading);
@@ -92,8 +97,9 @@ void disturb_path(const NoisePreset& p, std::uint64_t seed, double fps, const Ve
   const Vector3d start(p_root.front().x(), p_root.front().y(), 0.0);
   const auto along = [&](std::uint64_t axis) {
     Random random(seed, {kDepthStream, axis}), drifting(seed, {kDriftStream, axis});
-    PerFrame<double> offset = three_scales(random, frames, p.depth_static, p.depth_slow, p.depth_tau * fps,
-                                           p.depth_jitter, p.depth_jitter_frames);
+    PerFrame<double> offset =
+        drawn_error(random, frames,
+                    {p.depth_static, p.depth_slow, p.depth_tau * fps, p.depth_jitter, p.depth_jitter_frames});
     const PerFrame<double> speed = smooth_noise(drifting, frames, p.drift_tau * fps);
     double drift = 0.0;
     for (int t = 0; t < frames; ++t) {
@@ -114,20 +120,23 @@ void disturb_path(const NoisePreset& p, std::uint64_t seed, double fps, const Ve
 }
 
 /// Item 5: height. Estimators put feet on a floor, more or less, and that floor is off.
+/// @param true_support  [frames] height of the lowest surface point of the truth, m
 void disturb_height(const NoisePreset& p, std::uint64_t seed, double fps,
                     const PerFrame<double>& true_support, const Character& character,
-                    const MotionRotations& q, PerFrame<Vector3d>& p_root) {
-  const int frames = q.count();
+                    EstimatedMotion& motion) {
+  const int frames = motion.frames();
   const std::vector<motion::SurfacePoint> surface = motion::surface_points(character);
-  PerFrame<double> error(q.size());
-  for (int t = 0; t < q.count(); ++t)
-    error[t] =
-        motion::lowest_height(surface, forward_kinematics(character, p_root[t], q[t])) - true_support[t];
+  PerFrame<double> error(motion.q.size());
+  for (int t = 0; t < frames; ++t) {
+    const BodyPoses poses = forward_kinematics(character, motion.p_root[t], motion.q[t]);
+    error[t] = motion::lowest_height(surface, poses) - true_support[t];
+  }
   if (p.snap_frames > 0.0) error = smoothed(error, p.snap_frames);
   Random random(seed, {kHeightStream});
-  const PerFrame<double> offset = three_scales(random, frames, p.height_static, p.height_slow,
-                                               kHeightTau * fps, p.height_jitter, p.depth_jitter_frames);
-  for (int t = 0; t < q.count(); ++t) p_root[t].z() += p.height_offset + offset[t] - p.snap * error[t];
+  const PerFrame<double> offset =
+      drawn_error(random, frames,
+                  {p.height_static, p.height_slow, kHeightTau * fps, p.height_jitter, p.depth_jitter_frames});
+  for (int t = 0; t < frames; ++t) motion.p_root[t].z() += p.height_offset + offset[t] - p.snap * error[t];
 }
 
 /// What the program is told of shape and camera.
@@ -194,14 +203,14 @@ motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config) {
   const Vector3d rest = mimicx::rest_pelvis(truth.body_model);
   const Character character = make_character(truth.betas);
   const std::vector<motion::SurfacePoint> surface = motion::surface_points(character);
-  MotionRotations q(truth.rotations.size());
-  PerFrame<Vector3d> p_root;
+  EstimatedMotion motion;
+  motion.q.resize(truth.rotations.size());
   PerFrame<BodyPoses> poses;
   PerFrame<double> support;
-  for (int t = 0; t < q.count(); ++t) {
-    for (int b = 0; b < kBodies; ++b) q[t][b] = exp_map(truth.rotations[t][b]);
-    p_root.push_back(truth.trans[t] + rest);
-    poses.push_back(forward_kinematics(character, p_root[t], q[t]));
+  for (int t = 0; t < motion.frames(); ++t) {
+    for (int b = 0; b < kBodies; ++b) motion.q[t][b] = exp_map(truth.rotations[t][b]);
+    motion.p_root.push_back(truth.trans[t] + rest);
+    poses.push_back(forward_kinematics(character, motion.p_root[t], motion.q[t]));
     support.push_back(motion::lowest_height(surface, poses[t]));
   }
   const CameraPath camera =
@@ -213,16 +222,16 @@ motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config) {
   noisy.fps = truth.fps;
   noisy.gender = truth.gender;
   noisy.betas = told_betas(truth.betas, config.camera.beta, seed);
-  disturb_joints(preset, seed, truth.fps, q);
-  apply_bursts(bursts, q);
-  disturb_root(preset, seed, truth.fps, q);
+  disturb_joints(preset, seed, truth.fps, motion.q);
+  apply_bursts(bursts, motion.q);
+  disturb_root(preset, seed, truth.fps, motion.q);
   const Vector3d view = camera.extrinsics.front().block<1, 3>(2, 0).transpose();
-  disturb_path(preset, seed, truth.fps, Vector3d(view.x(), view.y(), 0.0).normalized(), p_root);
-  disturb_height(preset, seed, truth.fps, support, make_character(noisy.betas), q, p_root);
-  noisy.rotations.resize(q.size());
-  for (int t = 0; t < q.count(); ++t) {
-    for (int b = 0; b < kBodies; ++b) noisy.rotations[t][b] = log_map(q[t][b]);
-    noisy.trans.push_back(p_root[t] - rest);
+  disturb_path(preset, seed, truth.fps, Vector3d(view.x(), view.y(), 0.0).normalized(), motion.p_root);
+  disturb_height(preset, seed, truth.fps, support, make_character(noisy.betas), motion);
+  noisy.rotations.resize(motion.q.size());
+  for (int t = 0; t < motion.frames(); ++t) {
+    for (int b = 0; b < kBodies; ++b) noisy.rotations[t][b] = log_map(motion.q[t][b]);
+    noisy.trans.push_back(motion.p_root[t] - rest);
   }
   noisy.keypoints = detect_keypoints(poses, camera, config.keypoints, bursts, seed, truth.fps);
   const CameraPath told = told_camera(camera, config.camera, seed, truth.fps);

@@ -6,15 +6,9 @@
 
 #include <cstdint>
 
-#include "character/character.h"
+#include "synth/noise/estimated_motion.h"
 
 namespace mimicx::synth {
-
-/// Root and joint rotations of every frame: what an estimator estimates.
-struct EstimatedMotion {
-  PerFrame<Vector3d> p_root;         ///< m
-  PerFrame<PerBody<Quaterniond>> q;  ///< joints relative to the parent; entry 0: root in world
-};
 
 /// How far a foot has slipped, horizontally, m: speed·S per axis while it stands, and back with a time
 /// constant that is short in the air.

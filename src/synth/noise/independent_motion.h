@@ -5,7 +5,7 @@
 /// body.
 #pragma once
 
-#include "synth/noise/foot_skate.h"
+#include "synth/noise/estimated_motion.h"
 #include "synth/noise/hand_held_camera.h"
 #include "synth/noise/independent_preset.h"
 

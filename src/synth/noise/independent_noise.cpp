@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/units.h"
+#include "synth/noise/foot_skate.h"
 #include "synth/noise/independent_keypoints.h"
 #include "synth/noise/independent_motion.h"
 
