@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "pipeline/cluster_map.h"
 #include "shipped_options.h"
-#include "training.h"
+#include "simulation_commands.h"
 
 namespace mimicx::tools {
 namespace {

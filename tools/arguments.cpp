@@ -7,10 +7,10 @@
 #include <sstream>
 #include <system_error>
 
+#include "command_line_numbers.h"
 #include "commands.h"
-#include "numbers.h"
 #include "record/table.h"
-#include "words.h"
+#include "text.h"
 
 namespace mimicx::tools {
 namespace {

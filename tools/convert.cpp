@@ -3,8 +3,8 @@
 
 #include "commands.h"
 #include "core/file.h"
-#include "files/exchange_file.h"
-#include "files/qpos.h"
+#include "files/exchange/exchange_file.h"
+#include "files/exchange/qpos.h"
 #include "import/motion_file.h"
 #include "motion/resample.h"
 #include "record/outputs.h"

@@ -14,7 +14,7 @@
 #include "record/outputs.h"
 #include "run/preparation.h"
 #include "shared_arguments.h"
-#include "training.h"
+#include "simulation_commands.h"
 
 namespace mimicx::tools {
 namespace {

@@ -1,9 +1,9 @@
-#include "pipeline/scratch.h"
+#include "pipeline/imitate_command.h"
 
 #include <memory>
 
 #include "commands.h"
-#include "training.h"
+#include "simulation_commands.h"
 
 namespace mimicx::tools {
 namespace {

@@ -12,7 +12,7 @@
 #include "commands.h"
 #include "core/build.h"
 #include "record/outputs.h"
-#include "streams.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {

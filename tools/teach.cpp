@@ -5,7 +5,7 @@
 #include "commands.h"
 #include "files/inputs.h"
 #include "shared_arguments.h"
-#include "training.h"
+#include "simulation_commands.h"
 
 namespace mimicx::tools {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
 #include "pipeline/options/arrangement.h"
-#include "pipeline/options/side_by_side.h"
+#include "pipeline/options/option_rewards.h"
 #include "pipeline/training.h"
 #include "program/configurations.h"
 #include "record/run_folder.h"

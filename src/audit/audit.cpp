@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "audit/audit_summary.h"
+#include "audit/body_loads.h"
 #include "audit/feasibility.h"
-#include "audit/torque_shares.h"
 #include "core/elementary.h"
 #include "motion/resample.h"
 #include "physics/inverse_dynamics.h"

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-#include "audit/evidence.h"
+#include "audit/audit_result.h"
 #include "audit/substeps.h"
 #include "motion/clip.h"
 #include "physics/model.h"

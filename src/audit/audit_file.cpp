@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "audit/audit_summary.h"
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
 #include "motion/clip_file.h"
 #include "record/json.h"
 

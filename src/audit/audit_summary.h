@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/evidence.h"
+#include "audit/audit_result.h"
 #include "core/named_values.h"
 
 namespace mimicx::audit {

@@ -51,4 +51,12 @@ void take_off(const Push& push, const BodyPoses& poses, PerBody<Vector3d>& momen
   }
 }
 
+PerBody<double> torque_shares(const Character& c, const PerBody<Vector3d>& torque) {
+  PerBody<double> shares{};
+  for (int b = 1; b < kBodies; ++b)
+    shares[b] =
+        (is_hinge(b) ? std::abs(torque[b].dot(hinge_axis(b))) : torque[b].norm()) / c.joint[b].torque_limit;
+  return shares;
+}
+
 }  // namespace mimicx::audit

@@ -36,4 +36,9 @@ struct Push {
 /// Takes what a push does off the moments that the joints have to give.
 void take_off(const Push& push, const BodyPoses& poses, PerBody<Vector3d>& moments);
 
+/// How near torques come to what the joints can give: the size of each joint's torque in parts of its bound;
+/// of a hinge the part about its axis. Entry 0 is 0.
+/// @param torque  child's frame, N·m
+PerBody<double> torque_shares(const Character& c, const PerBody<Vector3d>& torque);
+
 }  // namespace mimicx::audit

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "audit/body_loads.h"
-#include "audit/floor_push.h"
+#include "audit/friction_cones.h"
 #include "core/units.h"
 
 namespace mimicx::audit {

@@ -3,7 +3,7 @@
 /// Newton and Euler over the character's masses and inertias (audit/body_loads.h), accelerations
 /// from second differences of the frames. Where a foot touches the floor (or, where asked for, any body),
 /// contact forces inside friction cones (μ = 1, four edges) at its points take over what they can of the
-/// force and moment that the whole body needs (audit/floor_push.h), moments about the centre of
+/// force and moment that the whole body needs (audit/friction_cones.h), moments about the centre of
 /// mass. What is left is the root residual: a hand that would have to hold the body. Joint torques follow
 /// from the motion of the bodies beyond a joint and the contact forces on them. Nothing is smoothed: for
 /// exact motions. Real ones are judged by audit/pose_needs.h.

@@ -5,8 +5,7 @@
 #include <stdexcept>
 
 #include "audit/body_loads.h"
-#include "audit/floor_push.h"
-#include "audit/torque_shares.h"
+#include "audit/friction_cones.h"
 #include "core/units.h"
 #include "motion/surface_points.h"
 

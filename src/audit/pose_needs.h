@@ -2,8 +2,8 @@
 ///
 /// Newton and Euler say which moment and force the whole body needs so that it moves as its poses do
 /// (audit/body_loads.h). The best forces that a floor could give at the points near it, inside cones
-/// of friction of eight edges, take off what they can (audit/non_negative.h; a N·m counts as much as
-/// a N). What is left somebody would have to push with.
+/// of friction of eight edges, take off what they can (audit/non_negative_least_squares.h; a N·m counts as
+/// much as a N). What is left somebody would have to push with.
 ///
 /// Real poses tremble, and their second differences are noise. So a frame's need is a mean of those around
 /// it: the weights are those which turn second differences into the second derivative of the parabola that

@@ -5,10 +5,8 @@
 #include <memory>
 
 #include "core/number_text.h"
-#include "files/rows.h"
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
 #include "files/simulation_settings.h"
-#include "files/state_members.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
 #include "motion/clip_file.h"
 #include "motion/passthrough.h"
 #include "motion/resample.h"

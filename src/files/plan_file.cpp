@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
 #include "files/simulation_settings.h"
-#include "files/state_members.h"
 
 namespace mimicx::files {
 namespace {

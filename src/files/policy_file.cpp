@@ -1,7 +1,7 @@
 #include "files/policy_file.h"
 
+#include "files/archive_members.h"
 #include "files/simulation_settings.h"
-#include "files/state_members.h"
 #include "motion/clip_file.h"
 
 namespace mimicx::files {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "audit/torque_shares.h"
+#include "audit/body_loads.h"
 #include "core/units.h"
 #include "motion/surface_points.h"
 #include "record/json.h"
@@ -21,7 +21,7 @@ report::ReportClip clip_of(const Playground& playground, const std::string& body
   motion.support.push_back(
       report::support_of(motion::surface_positions(motion::surface_points(character), now.poses)));
   clip.motions.push_back(motion);
-  clip.ground.push_back(report::ground_forces(now.forces.ground, now.poses));
+  clip.ground.push_back(files::floor_arrows(now.forces.ground, now.poses));
   PerBody<Vector3d> by_controller;
   for (int i = 0; i < kBodies; ++i)
     by_controller[i] = now.forces.joint_torque[i] - now.forces.range_torque[i];

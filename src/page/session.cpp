@@ -4,7 +4,7 @@
 
 #include "core/file.h"
 #include "files/clean_copy.h"
-#include "files/exchange_file.h"
+#include "files/exchange/exchange_file.h"
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "plan/plan_command.h"

@@ -15,7 +15,7 @@
 #include "record/run_context.h"
 #include "record/run_folder.h"
 #include "record/sequence_entry.h"
-#include "report/body_shapes.h"
+#include "report/report_bodies.h"
 
 namespace mimicx::page {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "files/exchange_file.h"
-#include "files/recorded_forces.h"
+#include "files/exchange/exchange_file.h"
+#include "files/floor_forces.h"
 #include "motion/clip.h"
 #include "render/solid.h"
 

@@ -10,7 +10,7 @@
 #include "motion/clip_file.h"
 #include "motion/prepare/prepare.h"
 #include "record/json.h"
-#include "report/digits.h"
+#include "report/base64_digits.h"
 
 namespace mimicx::pipeline {
 namespace {

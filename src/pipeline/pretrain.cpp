@@ -14,8 +14,8 @@
 #include "pipeline/options_folder.h"
 #include "record/folder_lock.h"
 #include "record/json.h"
-#include "record/names.h"
 #include "record/run_folder.h"
+#include "record/utf8_names.h"
 #include "run/preparation.h"
 
 namespace mimicx::pipeline {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "pipeline/training_config.h"
-#include "record/ending.h"
 #include "record/progress.h"
+#include "record/sequence_entry.h"
 #include "record/table.h"
 #include "rl/policy.h"
 #include "rl/tracking/tracking_clip.h"

@@ -4,12 +4,13 @@
 #include <optional>
 
 #include "control/gains.h"
+#include "core/elementary.h"
 #include "core/file.h"
 #include "core/units.h"
 #include "files/plan_file.h"
-#include "plan/certainty.h"
-#include "plan/job_watch.h"
-#include "plan/plan_loss.h"
+#include "motion/prepare/limb_glitches.h"
+#include "plan/plan_failure.h"
+#include "run/method.h"
 
 namespace mimicx::plan {
 namespace {
@@ -32,7 +33,7 @@ control::System system_of(const motion::Reference& reference, const files::Store
 }
 
 files::StoredPlan make(const motion::Reference& reference, const physics::SimulationConfig& simulation,
-                       const control::PlanConfig& plan, JobWatch& watch) {
+                       const control::PlanConfig& plan, run::JobWatch& watch) {
   const run::SequenceJob& job = watch.job;
   job.context.progress.start(job.name + ": plan", 0.0, reference.size(), "frames");
   files::StoredPlan stored;
@@ -48,7 +49,7 @@ files::StoredPlan make(const motion::Reference& reference, const physics::Simula
 
 /// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
 void leave_gains(const motion::Reference& reference, const control::PlanConfig& config,
-                 const files::StoredPlan& stored, JobWatch& watch) {
+                 const files::StoredPlan& stored, run::JobWatch& watch) {
   const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
   std::filesystem::remove(file);
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
@@ -106,11 +107,31 @@ record::Ending ending_of(const control::Plan& plan) {
 
 }  // namespace
 
+List<control::Certainty> certainty_of(const motion::Reference& reference, double plausible) {
+  if (plausible == 0.0) return {};
+  control::Certainty sure;
+  sure.fill(1.0f);
+  List<control::Certainty> certainty(reference.frames.size(), sure);
+  for (int t = 1; t + 1 < reference.size(); ++t) {
+    Array<double, kLimbs> a;
+    for (int limb = 0; limb < kLimbs; ++limb) a[limb] = motion::limb_acceleration(reference.poses, limb, t);
+    for (int body = 0; body < kBodies; ++body) {
+      const double excess = a[kLimbOf[body]] * reference.fps * reference.fps / plausible;
+      const auto c = static_cast<float>(excess > 1.0 ? pow(excess, -4) : 1.0);
+      for (int near : {t - 1, t, t + 1}) certainty[near][body] = std::min(certainty[near][body], c);
+    }
+  }
+  for (int t = 0; t < reference.size(); ++t)
+    if (reference.flagged[t])
+      for (float& c : certainty[t]) c = std::min(c, kBridged);
+  return certainty;
+}
+
 run::SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                      const run::SequenceJob& job, control::Plan* planned) {
   run::SimulatedSequence made;
   made.method = "plan";
-  JobWatch watch{job};
+  run::JobWatch watch{job};
   control::PlanConfig settings = config.plan;
   settings.certainty = certainty_of(reference, config.plan.plausible_acceleration);
   std::optional<files::StoredPlan> stored = finished_plan(job);

@@ -9,7 +9,7 @@
 namespace mimicx::plan {
 
 /// How a motion is planned whose reference may be wrong here and there. The certainty is filled in from the
-/// reference (certainty.h).
+/// reference (plan_motion.h).
 struct MotionPlanConfig : control::PlanConfig {
   double plausible_acceleration = 300.0;  ///< a₀ of the certainty, m/s²; 0: the reference is always right
 };

@@ -1,7 +1,7 @@
 #include "policy_export/numpy_arrays.h"
 
+#include "files/archive_members.h"
 #include "files/simulation_settings.h"
-#include "files/state_members.h"
 
 namespace mimicx::policy_export {
 namespace {

@@ -6,9 +6,7 @@
 #include "core/setting.h"
 #include "judge/choice.h"
 #include "pipeline/cluster_map.h"
-#include "pipeline/set_choice.h"
-#include "pipeline/train_motion.h"
-#include "plan/job_watch.h"
+#include "pipeline/fine_tune.h"
 #include "plan/plan_command.h"
 #include "plan/plan_motion.h"
 #include "teaching/teach_motion.h"
@@ -34,70 +32,6 @@ bool change_arrangement(pipeline::options::ArrangementConfig& config, const std:
 
 plan::PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
-}
-
-/// The job with what is left of its seconds after so many.
-run::SequenceJob after_seconds(const run::SequenceJob& job, double seconds) {
-  run::SequenceJob rest = job;
-  if (job.limit_seconds > 0.0) rest.limit_seconds = std::max(job.limit_seconds - seconds, 1e-9);
-  return rest;
-}
-
-/// What a training goes on from: no checkpoint of another input, and none of other options or of another
-/// arrangement of them, which a search that was told to stop may have left.
-std::string start_of_training(const run::SequenceJob& job, const pipeline::options::OptionSet& set,
-                              const List<int>& arrangement) {
-  std::string text = set.checksum;
-  for (const int option : arrangement) text += ' ' + std::to_string(option);
-  return job.input_checksum + ' ' + record::checksum(text);
-}
-
-/// How the options were found, for the manifest.
-std::vector<std::string> notes_of(const pipeline::ChosenSet& chosen, int frames, int sets, bool timed_out) {
-  std::vector<std::string> notes;
-  const auto one_set = [&](int set) {
-    return "set " + std::to_string(set + 1) + " of " + std::to_string(sets);
-  };
-  if (timed_out)
-    notes.push_back("the search for options ended early, at frame " + std::to_string(chosen.last_searched) +
-                    " of " + std::to_string(frames) + (sets > 1 ? " with " + one_set(chosen.tried - 1) : "") +
-                    ": --limit-seconds");
-  if (chosen.success && chosen.set > 0)
-    notes.push_back("options of " + one_set(chosen.set) + ": the first that follows the motion");
-  if (sets > 1 && !chosen.success && chosen.tried == sets && !timed_out)
-    notes.push_back("options of " + one_set(chosen.set) + ": none follows the motion, this is the best");
-  const List<int>& breaks = chosen.arranged.breaks;
-  if (!breaks.empty())
-    notes.push_back("nothing that was tried could follow at " + std::to_string(breaks.size()) +
-                    " frames, first at frame " + std::to_string(breaks.front()));
-  return notes;
-}
-
-run::SimulatedSequence fine_tune(const AdaptConfig& config, const motion::Reference& reference,
-                                 const run::SequenceJob& job) {
-  const rl::tracking::TrackingConfig& tracking = config.training.tracking;
-  const auto clip = rl::tracking::make_tracking_clip(reference, tracking);
-  plan::JobWatch watch{job};
-  const pipeline::ChosenSet chosen = pipeline::choose_set(reference, clip, tracking, config.options,
-                                                          config.arrangement, watch.control().should_stop);
-  const pipeline::options::ArrangedClip& arranged = chosen.arranged;
-  if (watch.interrupted) {
-    run::SimulatedSequence none;
-    none.interrupted = true;
-    return none;
-  }
-  run::SequenceJob rest = after_seconds(job, record::steady_seconds() - watch.started);
-  rest.input_checksum = start_of_training(job, *config.options[chosen.set], arranged.options);
-  run::SimulatedSequence made =
-      pipeline::train_sequence(arranged.clip, arranged.agents, config.training, rest);
-  if (watch.timed_out) made.ending = record::Ending::kLimitSeconds;
-  made.method = "paper";
-  made.arrangement = pipeline::options::stretches_of(arranged.options);
-  for (auto& [frame, option] : made.arrangement)
-    option += pipeline::options::first_option(config.options, chosen.set);
-  for (std::string& note : notes_of(chosen, clip->size(), config.options.count(), watch.timed_out))
-    made.notes.push_back(std::move(note));
-  return made;
 }
 
 /// A plan that was followed teaches a policy; the better of the two roll-outs stays.
@@ -126,17 +60,24 @@ run::SimulatedSequence teach_after(const AdaptConfig& config, const motion::Refe
   return made;
 }
 
+/// The paper's method: arrange trained options over the motion and fine-tune them.
+run::SimulatedSequence paper_method(const AdaptConfig& config, const motion::Reference& reference,
+                                    const run::SequenceJob& job) {
+  return pipeline::fine_tune(reference, config.options, config.arrangement, config.training, job);
+}
+
+/// Plans the motion, and fine-tunes where the plan's roll-out is no success; the better roll-out is kept.
 run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion::Reference& reference,
                                          const run::SequenceJob& job) {
   control::Plan found;
   run::SimulatedSequence plan = plan::plan_sequence(reference, planning_of(config), job, &found);
   if (plan.interrupted) return plan;
   const judge::Candidate planned = judge::candidate_of(reference, plan.after);
-  const run::SequenceJob rest = after_seconds(job, plan.planning_seconds);
+  const run::SequenceJob rest = run::after_seconds(job, plan.planning_seconds);
   if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)
     return teach_after(config, reference, found, planned, std::move(plan), rest);
   if (planned.success) return plan;
-  run::SimulatedSequence trained = fine_tune(config, reference, rest);
+  run::SimulatedSequence trained = paper_method(config, reference, rest);
   trained.planning_seconds = plan.planning_seconds;
   if (trained.interrupted) return trained;
   const judge::Candidate learned = judge::candidate_of(reference, trained.after);
@@ -173,7 +114,7 @@ run::Method adaptation_of(const AdaptConfig& config) {
   const bool plan_first = config.method == AdaptMethod::kAuto;
   method.name = plan_first ? "auto" : "paper";
   method.simulate = [&config, plan_first](const motion::Reference& reference, const run::SequenceJob& job) {
-    return plan_first ? plan_or_fine_tune(config, reference, job) : fine_tune(config, reference, job);
+    return plan_first ? plan_or_fine_tune(config, reference, job) : paper_method(config, reference, job);
   };
   return method;
 }

@@ -29,7 +29,8 @@ struct AdaptConfig {
   teaching::TeachingConfig teaching;
   pipeline::TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
   pipeline::options::ArrangementConfig arrangement;
-  pipeline::options::OptionSets options;  ///< to start from (set_choice.h); not looked at by the plan alone
+  pipeline::options::OptionSets
+      options;  ///< to start from (option_set_choice.h); not looked at by the plan alone
 };
 
 /// The settings, as the manifest lists them.

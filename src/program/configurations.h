@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "core/containers.h"
+#include "pipeline/imitate_command.h"
 #include "pipeline/pretrain.h"
-#include "pipeline/scratch.h"
 #include "plan/plan_command.h"
 #include "program/adapt_command.h"
 #include "teaching/teach_command.h"

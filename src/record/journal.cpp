@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "core/file.h"
-#include "record/sequence_json.h"
+#include "record/sequence_entry.h"
 
 namespace mimicx::record {
 namespace {

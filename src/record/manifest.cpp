@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "record/names.h"
-#include "record/sequence_json.h"
+#include "record/sequence_entry.h"
 #include "record/table.h"
+#include "record/utf8_names.h"
 
 namespace mimicx::record {
 namespace {

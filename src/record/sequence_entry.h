@@ -1,4 +1,4 @@
-/// What a run records of a motion: what was done with it, and how long that took.
+/// What a run records of a motion, and the same as JSON for the manifest and the journal.
 #pragma once
 
 #include <array>
@@ -9,12 +9,23 @@
 #include <vector>
 
 #include "core/named_values.h"
-#include "record/ending.h"
+#include "record/json.h"
 
 namespace mimicx::record {
 
 /// Names in the folder of a run, and what `file_checksum` says of the files.
 using FileChecksums = std::vector<std::pair<std::string, std::string>>;
+
+/// How the work on a motion ended.
+enum class Ending {
+  kNone,          ///< there was none: the input could not be used
+  kBudget,        ///< all samples were spent
+  kThreshold,     ///< a roll-out was good enough
+  kStall,         ///< roll-outs no longer became better
+  kLimitSeconds,  ///< the safety stop: the results depend on the machine's speed
+  kFollowed,      ///< a plan that reaches the motion's end
+  kLost,          ///< a plan that does not
+};
 
 struct SequenceEntry {
   std::string name;            ///< key of the sequence's files in the folder
@@ -53,13 +64,13 @@ struct SequenceEntry {
   bool finished() const { return !output.empty() && ending != Ending::kLimitSeconds; }
 };
 
-/// Wall-clock record of one sequence, summed over interruptions.
-struct Timing {
-  std::string name;
-  double seconds = 0.0;           ///< of all work on it
-  double planning_seconds = 0.0;  ///< of planning
-  double training_seconds = 0.0;  ///< of training
-  int threads = 0;
-};
+/// A member per value; null for NaN.
+Json to_json(const NamedValues& values);
+/// @throws JsonError
+NamedValues named_values(const Json& json);
+
+Json to_json(const SequenceEntry& entry);
+/// @throws JsonError
+SequenceEntry entry_of(const Json& json);
 
 }  // namespace mimicx::record

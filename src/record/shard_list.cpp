@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "core/file.h"
-#include "record/names.h"
+#include "record/utf8_names.h"
 
 namespace mimicx::record {
 namespace {

@@ -3,9 +3,22 @@
 #include <map>
 
 #include "core/file.h"
-#include "record/sequence_json.h"
+#include "record/utf8_names.h"
 
 namespace mimicx::record {
+
+Json to_json(const Timing& t) {
+  return {{"name", to_utf8(t.name)},
+          {"seconds", t.seconds},
+          {"planning_seconds", t.planning_seconds},
+          {"training_seconds", t.training_seconds},
+          {"threads", t.threads}};
+}
+
+Timing timing_of(const Json& json) {
+  return {from_utf8(json.value("name", "").get<std::string>()), json.value("seconds", 0.0),
+          json.value("planning_seconds", 0.0), json.value("training_seconds", 0.0), json.value("threads", 0)};
+}
 
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences) {
   std::map<std::string, std::int64_t> samples;

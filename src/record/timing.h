@@ -10,6 +10,19 @@
 
 namespace mimicx::record {
 
+/// Wall-clock record of one sequence, summed over interruptions.
+struct Timing {
+  std::string name;
+  double seconds = 0.0;           ///< of all work on it
+  double planning_seconds = 0.0;  ///< of planning
+  double training_seconds = 0.0;  ///< of training
+  int threads = 0;
+};
+
+Json to_json(const Timing& timing);
+/// @throws JsonError
+Timing timing_of(const Json& json);
+
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
 /// Empty when there is no such file or it is unreadable: times are a convenience.
 std::vector<Timing> read_timing(const std::filesystem::path& path);

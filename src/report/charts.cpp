@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/digits.h"
+#include "report/base64_digits.h"
 #include "rl/tracking/reward.h"
 
 namespace mimicx::report {
@@ -75,10 +75,10 @@ ReportChart torque_chart(const ChartSources& sources) {
 ReportChart ground_chart(const ChartSources& sources) {
   ReportChart chart{{"force of the floor", "body weights", "upwards, mean over the frame before"}, {}};
   if (!sources.ground || sources.ground->empty()) return chart;
-  constexpr Array<const char*, kGroundArrows> kNames = {"left foot", "right foot", "rest of the body"};
-  for (int k = 0; k < kGroundArrows; ++k) {
+  constexpr Array<const char*, files::kCarriers> kNames = {"left foot", "right foot", "rest of the body"};
+  for (int k = 0; k < files::kCarriers; ++k) {
     ReportLine line{Who::kNobody, kNames[k], {}};
-    for (const GroundForces& frame : *sources.ground)
+    for (const files::FloorArrows& frame : *sources.ground)
       line.values.push_back(frame[k].force.z() / sources.weight);
     const bool any = std::any_of(line.values.begin(), line.values.end(), [](double f) { return f != 0.0; });
     if (k < 2 || any) chart.lines.push_back(line);
@@ -171,7 +171,7 @@ ReportChart falls_chart(const record::Table& falls, double fps) {
 }
 
 std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotion& cleaned,
-                                const std::vector<GroundForces>& ground, double weight) {
+                                const std::vector<files::FloorArrows>& ground, double weight) {
   std::vector<ReportBars> bars;
   if (input) {
     const Flaws flaws = flaws_of(*input, cleaned);

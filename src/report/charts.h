@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "audit/evidence.h"
+#include "audit/audit_result.h"
 #include "core/npz/npz.h"
 #include "report/report.h"
 
@@ -16,7 +16,7 @@ struct ChartSources {
   std::vector<std::pair<Who, const MeasuredMotion*>> motions;  ///< at one frame rate
   const audit::Audit* audit_of_input = nullptr;                ///< by its poses alone
   const audit::Audit* audit_of_cleaned = nullptr;              ///< by its recorded forces
-  const std::vector<GroundForces>* ground = nullptr;
+  const std::vector<files::FloorArrows>* ground = nullptr;
   double weight = 0.0;           ///< N
   const Npz* members = nullptr;  ///< of the cleaned motion: reward and its factors
 };
@@ -36,6 +36,6 @@ ReportChart falls_chart(const record::Table& falls, double fps);
 /// Where the input sinks, floats, slides and shakes; where the feet of the cleaned motion are pushed by the
 /// floor, or without recorded forces touch it. @param input  null: no flaws
 std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotion& cleaned,
-                                const std::vector<GroundForces>& ground, double weight);
+                                const std::vector<files::FloorArrows>& ground, double weight);
 
 }  // namespace mimicx::report

@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "audit/audit_file.h"
-#include "audit/torque_shares.h"
+#include "audit/body_loads.h"
 #include "core/npz/npz.h"
 #include "core/units.h"
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
 #include "record/feasibility_file.h"
+#include "report/base64_digits.h"
 #include "report/charts.h"
-#include "report/digits.h"
 
 namespace mimicx::report {
 namespace {
@@ -181,7 +181,7 @@ void add_ground(const ClipFiles& files, ReportClip& clip) {
   const files::WrenchRows wrenches =
       files::read_wrenches(files.members, "ground_wrenches", cleaned.poses.size());
   for (std::size_t t = 0; t < wrenches.size(); ++t)
-    clip.ground.push_back(ground_forces(wrenches[t], cleaned.poses[t]));
+    clip.ground.push_back(files::floor_arrows(wrenches[t], cleaned.poses[t]));
   clip.weight = kGravity * cleaned.character.total_mass();
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/units.h"
-#include "report/digits.h"
+#include "report/base64_digits.h"
 
 namespace mimicx::report {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/elementary.h"
 #include "record/json.h"
-#include "report/motion_data.h"
+#include "report/motion_encoding.h"
 #include "report/report_page.h"
 
 namespace mimicx::report {

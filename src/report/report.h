@@ -4,9 +4,9 @@
 /// The page itself (HTML, CSS, JavaScript) stands in src/report/page and is embedded at build time.
 /// The clips' data are embedded in it, or stand in files beside it that the page loads when they are looked
 /// at (a page opened from a disk may load scripts, and nothing else; so these are scripts). Motions are
-/// rotations of bodies (motion_data.h), 141 bytes a frame; bones, shapes and skins stand there once per body
-/// (bodies.h). The page poses and draws them, and computes nothing else: numbers arrive as they are to be
-/// shown.
+/// rotations of bodies (motion_encoding.h), 141 bytes a frame; bones, shapes and skins stand there once per
+/// body (bodies.h). The page poses and draws them, and computes nothing else: numbers arrive as they are to
+/// be shown.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "character/character.h"
+#include "files/floor_forces.h"
 #include "record/table.h"
 #include "report/glossary.h"
-#include "report/ground_forces.h"
 #include "report/motion_curves.h"
-#include "report/support.h"
+#include "report/support_polygon.h"
 #include "report/video_camera.h"
 
 namespace mimicx::report {
@@ -82,11 +82,11 @@ struct ReportFact {
 struct ReportClip {
   double fps = 30.0;
   std::vector<ReportMotion> motions;
-  std::vector<GroundForces> ground;      ///< of the cleaned motion, per frame; may be empty
-  double weight = 0.0;                   ///< of its body, N
-  std::vector<PerBody<double>> torques;  ///< of its joints, 1 = the bound; per frame, may be empty
-  std::optional<ReportCamera> camera;    ///< that saw it, where one did
-  std::vector<ReportStretch> options;    ///< that made it; empty without any
+  std::vector<files::FloorArrows> ground;  ///< of the cleaned motion, per frame; may be empty
+  double weight = 0.0;                     ///< of its body, N
+  std::vector<PerBody<double>> torques;    ///< of its joints, 1 = the bound; per frame, may be empty
+  std::optional<ReportCamera> camera;      ///< that saw it, where one did
+  std::vector<ReportStretch> options;      ///< that made it; empty without any
   std::vector<ReportBars> bars;
   ReportNeeds needs;               ///< from outside, by the poses; may be empty
   std::vector<std::string> wrong;  ///< with each of these frames, in a word

@@ -8,9 +8,9 @@
 
 #include "core/file.h"
 #include "record/timing.h"
-#include "report/body_shapes.h"
-#include "report/clip_beside.h"
 #include "report/clip_report.h"
+#include "report/clip_script_file.h"
+#include "report/report_bodies.h"
 
 namespace mimicx::report {
 namespace {

@@ -30,7 +30,7 @@ struct ReportOptions {
   bool keep = false;   ///< leave the files beside the page that were made of the results as they are now
 };
 
-/// Writes DIR/report.html, and DIR/report/NAME.js of more clips than `kMostEmbedded` (clip_beside.h).
+/// Writes DIR/report.html, and DIR/report/NAME.js of more clips than `kMostEmbedded` (clip_script_file.h).
 /// Sequences without output appear with their reason alone.
 void write_report(const record::RunFolder& folder, const record::Manifest& manifest,
                   const ReportOptions& options = {});

@@ -4,7 +4,7 @@
 
 #include "motion/keypoint_names.h"
 #include "record/json.h"
-#include "report/digits.h"
+#include "report/base64_digits.h"
 
 namespace mimicx::report {
 namespace {

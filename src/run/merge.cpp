@@ -8,7 +8,7 @@
 
 #include "core/file.h"
 #include "record/journal.h"
-#include "record/names.h"
+#include "record/utf8_names.h"
 #include "report/run_report.h"
 #include "run/run_outputs.h"
 

@@ -1,7 +1,6 @@
-/// What a run over motions is told: its settings, and the method that simulates (sequence_run.h).
+/// The settings of a run over motions (sequence_run.h) that do not belong to its method (method.h).
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -9,13 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "audit/pose_needs.h"
 #include "import/motion_file.h"
-#include "record/run_context.h"
 #include "record/run_folder.h"
 #include "record/shard.h"
 #include "report/run_report.h"
-#include "run/simulated_sequence.h"
 
 namespace mimicx::run {
 
@@ -49,30 +45,6 @@ struct RunConfig {
   MotionMap map = {};  ///< empty: the report has none
   int jobs = 1;        ///< motions done side by side, each by its share of the threads; 0: as many as threads
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
-};
-
-/// One motion of a run, for the method that simulates it.
-struct SequenceJob {
-  std::string name;            ///< key of the sequence's files in the folder
-  std::string input_checksum;  ///< a checkpoint of another input is not taken up
-  record::RunFolder folder;
-  bool substeps = false;  ///< record every physics step of the result
-  bool gains = false;     ///< leave the feedback gains of a plan
-  int threads = 1;
-  double limit_seconds = 0.0;     ///< safety stop; 0: none
-  const audit::PoseNeeds& needs;  ///< of the reference; without frames under 3
-  const record::RunContext& context;
-};
-
-/// A way of making the humanoid follow a motion, with everything that its results depend on.
-struct Method {
-  std::string name;  ///< imitate, plan, paper or auto
-  std::uint64_t seed = 0;
-  std::int64_t samples = 0;              ///< budget per motion
-  NamedValues settings;                  ///< as the manifest lists them, those of the RunConfig among them
-  std::string options;                   ///< checksums of the trained options; empty without
-  physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
-  std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;
 };
 
 }  // namespace mimicx::run

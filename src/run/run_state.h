@@ -15,6 +15,7 @@
 #include "record/manifest.h"
 #include "record/shard_list.h"
 #include "record/timing.h"
+#include "run/method.h"
 #include "run/run_config.h"
 
 namespace mimicx::run {

@@ -8,7 +8,7 @@
 #include "judge/reference_needs.h"
 #include "judge/scores.h"
 #include "motion/clip_file.h"
-#include "run/kept_files.h"
+#include "run/file_integrity.h"
 
 namespace mimicx::run {
 namespace {

@@ -4,8 +4,8 @@
 #include "audit/pose_needs.h"
 #include "record/manifest.h"
 #include "record/run_folder.h"
+#include "run/method.h"
 #include "run/preparation.h"
-#include "run/simulated_sequence.h"
 
 namespace mimicx::run {
 

@@ -19,15 +19,14 @@
 #include "judge/reference_needs.h"
 #include "judge/scores.h"
 #include "motion/clip_file.h"
-#include "report/clip_beside.h"
 #include "report/clip_report.h"
+#include "report/clip_script_file.h"
 #include "report/run_report.h"
-#include "run/failure.h"
-#include "run/kept_files.h"
+#include "run/file_integrity.h"
 #include "run/preparation.h"
+#include "run/run_messages.h"
 #include "run/run_outputs.h"
 #include "run/run_state.h"
-#include "run/run_words.h"
 #include "run/sequence_result.h"
 
 namespace mimicx::run {
@@ -219,9 +218,9 @@ bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
 
 /// The motions of a run, one after the other or several side by side. What a motion comes to does not depend
 /// on which; what is said of it is said when it is done, all at once, where several are at work.
-class SideBySide {
+class ParallelRun {
  public:
-  SideBySide(RunState& run, int jobs) : run_(run), jobs_(jobs) {
+  ParallelRun(RunState& run, int jobs) : run_(run), jobs_(jobs) {
     if (jobs_ > 1)
       run_.context.progress.start("motions", 0.0, static_cast<double>(run_.inputs.size()), "motions");
   }
@@ -356,7 +355,7 @@ record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
     context.messages << "shard " << config.shard->index << '/' << config.shard->count << ": " << count
                      << " of " << list->inputs.size() << " motions\n";
   const int jobs = std::clamp(config.jobs > 0 ? config.jobs : config.threads, 1, std::max(count, 1));
-  SideBySide work(run, jobs);
+  ParallelRun work(run, jobs);
   parallel_for(count, jobs, [&](int i) { work.on(i); });
   return work.outcome();
 }

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "record/manifest.h"
+#include "run/method.h"
 #include "run/run_config.h"
 
 namespace mimicx::run {

@@ -12,7 +12,7 @@
 #include "pipeline/options/option_set.h"
 #include "pipeline/options_folder.h"
 #include "record/folder_lock.h"
-#include "record/names.h"
+#include "record/utf8_names.h"
 #include "teaching/plan_teachers.h"
 #include "teaching/school_rounds.h"
 

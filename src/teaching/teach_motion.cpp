@@ -4,7 +4,7 @@
 
 #include "judge/scores.h"
 #include "pipeline/train_motion.h"
-#include "plan/job_watch.h"
+#include "run/method.h"
 
 namespace mimicx::teaching {
 namespace {
@@ -63,7 +63,7 @@ rl::tracking::TrackingRollout seen_from(const motion::Reference& reference,
 TaughtPolicy teach_sequence(const motion::Reference& reference, const control::Plan& plan,
                             const TeachingConfig& config, const control::CostWeights& weights,
                             const pipeline::TrainingConfig& training, const run::SequenceJob& job) {
-  plan::JobWatch watch{job};
+  run::JobWatch watch{job};
   TaughtPolicy taught;
   const rl::tracking::TrackingConfig& task = training.tracking;
   control::PlanControl control = watch.control();

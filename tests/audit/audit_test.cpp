@@ -10,8 +10,8 @@
 #include "audit/audit_summary.h"
 #include "audit/thrown.h"
 #include "core/temporary_folder.h"
+#include "files/archive_members.h"
 #include "files/inputs.h"
-#include "files/simulated_members.h"
 #include "program/configurations.h"
 #include "run/preparation.h"
 

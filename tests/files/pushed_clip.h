@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "files/recorded_forces.h"
-#include "files/simulated_members.h"
+#include "files/archive_members.h"
+#include "files/floor_forces.h"
 #include "motion/clip.h"
 #include "motion/standing_clip.h"
 

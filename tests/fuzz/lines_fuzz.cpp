@@ -1,10 +1,10 @@
 // Small texts: tables, files of joint names, and what is given on a command line (shards, numbers).
 #include <stdexcept>
 
+#include "command_line_numbers.h"
 #include "core/error.h"
 #include "fuzz/driver.h"
 #include "import/retarget/joint_names.h"
-#include "numbers.h"
 #include "record/shard.h"
 #include "record/table.h"
 

@@ -6,7 +6,7 @@
 #include "pipeline/options/clusters.h"
 #include "record/example_manifest.h"
 #include "record/journal.h"
-#include "record/sequence_json.h"
+#include "record/sequence_entry.h"
 #include "record/shard_list.h"
 
 namespace mimicx::fuzz {

@@ -34,8 +34,8 @@ TEST(Charts, WhatTheRunDoesNotHaveIsNotDrawn) {
 
 TEST(Charts, ForcesAreInBodyWeights) {
   const MeasuredMotion motion = standing_reference(3);
-  std::vector<GroundForces> ground(3);
-  for (GroundForces& frame : ground) {
+  std::vector<files::FloorArrows> ground(3);
+  for (files::FloorArrows& frame : ground) {
     frame[0].force.z() = 350.0;
     frame[1].force.z() = 1050.0;
   }
@@ -94,7 +94,7 @@ TEST(Charts, PartsOfATrainingColumnShareAChart) {
 
 TEST(Bars, FeetStandWhereTheFloorPushesThem) {
   const MeasuredMotion motion = standing_reference(6);
-  std::vector<GroundForces> ground(6);
+  std::vector<files::FloorArrows> ground(6);
   for (std::size_t t = 1; t < 6; ++t) ground[t][0].force.z() = t < 4 ? 600.0 : 5.0;
   const std::vector<ReportBars> bars = bars_of(nullptr, motion, ground, 700.0);
   ASSERT_EQ(bars.size(), 2u) << "without an input there are no flaws";

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipeline/options/beam_search.h"
 #include "pipeline/options/clusters.h"
-#include "pipeline/options/search.h"
+#include "pipeline/options/option_rewards.h"
 #include "pipeline/options/selector.h"
-#include "pipeline/options/side_by_side.h"
 
 namespace mimicx::pipeline::options {
 namespace {

@@ -2,9 +2,9 @@
 ///                                                                          docs/method.md §8, §9
 /// A selector names the option of every frame:
 ///
-///     dp       the options run side by side (side_by_side.h), rescues are paid for, and the arrangement of
+///     dp       the options run side by side (option_rewards.h), rescues are paid for, and the arrangement of
 ///              the largest total reward is taken (selector.h): the paper's
-///     beam     a search over real roll-outs (search.h)
+///     beam     a search over real roll-outs (beam_search.h)
 ///     single   the option that does best when it acts alone from the first frame to the last
 ///     nearest  the option whose cluster's centre is nearest to the motion's features; nothing is simulated
 ///

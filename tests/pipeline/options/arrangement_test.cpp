@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pipeline/options/constant_option.h"
-#include "pipeline/options/side_by_side.h"
+#include "pipeline/options/option_rewards.h"
 #include "pipeline/options/two_poses.h"
 #include "rl/tracking/tracking_fixture.h"
 #include "rl/tracking/tracking_rollout.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "pipeline/options/constant_option.h"
-#include "pipeline/options/side_by_side.h"
+#include "pipeline/options/option_rewards.h"
 #include "rl/tracking/tracking_fixture.h"
 #include "rl/tracking/tracking_rollout.h"
 

@@ -1,0 +1,66 @@
+#include "audit/non_negative_least_squares.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mimicx::audit {
+namespace {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr int kMostSteps = 200;  ///< seen: under 20; the bound holds even where rounding would go in circles
+constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which rounding is all that is left
+
+/// Slope of φ along d at r + part · d. `at` = Aᵀr, `change` = Aᵀd.
+double slope_at(double part, const Vector6d& r, const Vector6d& d, const Vector6d& b,
+                const Eigen::VectorXd& at, const Eigen::VectorXd& change, double small) {
+  return (r + part * d - b).dot(d) + (at + part * change).cwiseMax(0.0).dot(change) / small;
+}
+
+/// Where φ is smallest on the way from r to r + d, as a part of it: where its slope, which is linear between
+/// two planes and never falls, is 0.
+double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d& b, const Eigen::VectorXd& at,
+                           const Eigen::VectorXd& change, double small) {
+  const auto slope = [&](double part) { return slope_at(part, r, d, b, at, change, small); };
+  std::vector<double> planes = {1.0};
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+    if (at[i] * change[i] < 0.0 && std::abs(at[i]) < std::abs(change[i]))
+      planes.push_back(-at[i] / change[i]);
+  std::sort(planes.begin(), planes.end());
+  const auto beyond =
+      std::partition_point(planes.begin(), planes.end(), [&](double part) { return slope(part) < 0.0; });
+  if (beyond == planes.end()) return 1.0;
+  const double low = beyond == planes.begin() ? 0.0 : *(beyond - 1), high = *beyond;
+  const double at_low = slope(low), at_high = slope(high);
+  if (!(at_low < 0.0)) return low;
+  return low + (high - low) * (-at_low / (at_high - at_low));
+}
+
+}  // namespace
+
+Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b, double small) {
+  Vector6d r = b;
+  Eigen::VectorXd at = A.transpose() * r;
+  int settled = 0;  // whole steps inside one piece: the second takes away what the first one rounded
+  for (int step = 0; step < kMostSteps && settled < 2; ++step) {
+    const Vector6d slope = r - b + A * at.cwiseMax(0.0) / small;
+    if (slope.norm() <= kNoSlope * b.norm()) break;
+    Matrix6d hessian = Matrix6d::Identity();
+    for (Eigen::Index i = 0; i < A.cols(); ++i)
+      if (at[i] > 0.0) hessian.noalias() += A.col(i) * (A.col(i).transpose() / small);
+    const Vector6d d = -hessian.ldlt().solve(slope);
+    const Eigen::VectorXd change = A.transpose() * d;
+    const double part = smallest_on_the_way(r, d, b, at, change, small);
+    if (part == 0.0) break;
+    r += part * d;
+    const Eigen::VectorXd next = A.transpose() * r;
+    const bool same_piece = ((at.array() > 0.0) == (next.array() > 0.0)).all();
+    at = next;
+    if (part == 1.0 && same_piece) ++settled;
+  }
+  return at.cwiseMax(0.0) / small;
+}
+
+}  // namespace mimicx::audit

@@ -1,0 +1,92 @@
+#include "files/exchange/opensim.h"
+
+#include <cstdio>
+#include <vector>
+
+namespace mimicx::files {
+namespace {
+
+using Row = std::vector<double>;
+
+void add_to_row(const Vector3d& v, Row& row) { row.insert(row.end(), v.data(), v.data() + 3); }
+Vector3d to_ground(const Vector3d& v) { return {v.x(), v.z(), -v.y()}; }
+/// From our axes of a body (x to the left, y up, z forward).
+Vector3d to_segment(const Vector3d& v) { return {v.z(), v.y(), -v.x()}; }
+
+/// @param names  of the columns behind the time @param rows  of the intervals
+std::string storage(std::string_view opening, double fps, const std::vector<std::string>& names,
+                    const std::vector<Row>& rows) {
+  std::string text(opening);
+  text += "nRows=" + std::to_string(rows.size()) + "\nnColumns=" + std::to_string(names.size() + 1) +
+          "\ninDegrees=no\nendheader\ntime";
+  for (const std::string& name : names) text += '\t' + name;
+  text += '\n';
+  char number[40];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::snprintf(number, sizeof number, "%.9f", middle_of_interval(static_cast<int>(i), fps));
+    text += number;
+    for (const double value : rows[i]) {
+      std::snprintf(number, sizeof number, "\t%.6f", value == 0.0 ? 0.0 : value);  // no "-0"
+      text += number;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+bool rests_on_more_than_feet(const List<FloorForces>& floor) {
+  for (const FloorForces& row : floor)
+    if (!row[kOnTheRest].force.isZero(0.0)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string format_mot(const motion::Clip& clip, const RecordedForces& forces) {
+  const List<FloorForces> floor = floor_forces(motion::poses_of(clip), forces);
+  const int carriers = rests_on_more_than_feet(floor) ? 3 : 2;
+  std::vector<std::string> names;
+  for (int c = 0; c < carriers; ++c) {
+    const std::string side(1, "rlo"[c]);
+    for (const char* what : {"_vx", "_vy", "_vz", "_px", "_py", "_pz"})
+      names.push_back("ground_force_" + side + what);
+    for (const char* what : {"_x", "_y", "_z"}) names.push_back("ground_torque_" + side + what);
+  }
+  std::vector<Row> rows;
+  for (const FloorForces& now : floor) {
+    Row row;
+    for (int c = 0; c < carriers; ++c) {
+      add_to_row(to_ground(now[c].force), row);
+      add_to_row(to_ground(now[c].point), row);
+      add_to_row(to_ground(now[c].free_moment * Vector3d::UnitZ()), row);
+    }
+    rows.push_back(row);
+  }
+  return storage(kMotOpening, clip.fps, names, rows);
+}
+
+std::string format_sto(const motion::Clip& clip, const RecordedForces& forces) {
+  std::vector<std::string> names;
+  for (int b = 1; b < kBodies; ++b) {
+    const std::string name(kBodyNames[b]);
+    if (is_hinge(b))
+      names.push_back(name + "_flexion_moment");
+    else
+      for (const char* axis : {"_moment_x", "_moment_y", "_moment_z"}) names.push_back(name + axis);
+  }
+  std::vector<Row> rows;
+  for (int t = 1; t < clip.frames(); ++t) {
+    Row row;
+    for (int b = 1; b < kBodies; ++b) {
+      const Vector3d& torque = forces.torque[t][b];
+      if (is_hinge(b))
+        row.push_back(torque.dot(hinge_axis(b)));
+      else
+        add_to_row(to_segment(torque), row);
+    }
+    rows.push_back(row);
+  }
+  return storage(kStoOpening, clip.fps, names, rows);
+}
+
+}  // namespace mimicx::files

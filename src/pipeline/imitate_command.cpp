@@ -1,0 +1,37 @@
+#include "pipeline/imitate_command.h"
+
+#include "pipeline/train_motion.h"
+
+namespace mimicx::pipeline {
+namespace {
+
+run::Method imitation_of(const ImitateConfig& config) {
+  run::Method method;
+  method.name = "imitate";
+  method.seed = config.training.seed;
+  method.samples = config.training.samples;
+  method.settings = settings_of(config);
+  method.simulation = config.training.tracking.simulation;
+  method.simulate = [&training = config.training](const motion::Reference& reference,
+                                                  const run::SequenceJob& job) {
+    const auto clip = rl::tracking::make_tracking_clip(reference, training.tracking);
+    run::SimulatedSequence made = train_sequence(clip, {untrained_agent(training)}, training, job);
+    made.method = "imitate";
+    return made;
+  };
+  return method;
+}
+
+}  // namespace
+
+NamedValues settings_of(const ImitateConfig& config) {
+  NamedValues settings = settings_of(config.training);
+  append(settings, settings_of(config.run));
+  return settings;
+}
+
+record::RunOutcome imitate(const ImitateConfig& config, const record::RunContext& context) {
+  return run::run_sequences(config.run, imitation_of(config), context);
+}
+
+}  // namespace mimicx::pipeline

@@ -1,0 +1,157 @@
+#include "pipeline/options/beam_search.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+
+#include "pipeline/options/option_characters.h"
+
+namespace mimicx::pipeline::options {
+namespace {
+
+constexpr int kWider = 2;        ///< every retry keeps 2^kWider times as many states
+constexpr int kBack = 3;         ///< beams by which the first retry goes back, and every other one farther
+constexpr int kRemembered = 32;  ///< beams that can be gone back to
+
+/// One way to where the search has come, and the character that has gone it.
+struct Path {
+  List<int> options;        ///< [frames] the option that acts towards the next frame
+  std::vector<int> breaks;  ///< as `Found`
+  double value = 0.0;       ///< R of Eq. 4 so far
+  bool fell = false;
+  int character = 0;
+};
+
+bool better(const Path& a, const Path& b) { return a.fell != b.fell ? b.fell : a.value > b.value; }
+
+/// The paths that go on from a frame, the best first, and their characters.
+struct Beam {
+  int frame = 0;
+  List<Path> paths;
+  Characters characters;
+};
+
+/// Every path of the beam, continued by every option for so many frames.
+List<Path> continued(const List<Path>& beam, int options, int frames, double switch_penalty) {
+  List<Path> paths;
+  for (const Path& from : beam)
+    for (int option = 0; option < options; ++option) {
+      Path path = from;
+      if (!path.options.empty() && path.options.back() != option) path.value += switch_penalty;
+      path.options.resize(static_cast<std::size_t>(path.options.count() + frames), option);
+      paths.push_back(path);
+    }
+  return paths;
+}
+
+/// Lets every path act by its last option. What comes after a fall earns nothing.
+/// @return false where it was told to stop on the way
+bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanAction& policy, int frames,
+         const std::function<bool()>& should_stop) {
+  List<int> options;
+  for (const Path& path : paths) options.push_back(path.options.back());
+  for (int i = 0; i < frames; ++i) {
+    if (should_stop && should_stop()) return false;
+    characters.advance(policy, options);
+    for (Path& path : paths) {
+      path.fell = path.fell || characters.fell(path.character);
+      if (!path.fell) path.value += characters.reward(path.character);
+    }
+  }
+  return true;
+}
+
+/// A character of its own for every path, in the state of the one that it had.
+Characters characters_of(List<Path>& paths, const Characters& from,
+                         const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                         const rl::tracking::TrackingConfig& tracking) {
+  Characters characters(clip, tracking, paths.count());
+  for (int i = 0; i < paths.count(); ++i) {
+    characters.copy(i, from, paths[i].character);
+    paths[i].character = i;
+  }
+  return characters;
+}
+
+/// All continuations of a beam, the best first. @return none where it was told to stop on the way
+std::optional<Beam> expand(const Beam& beam, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                           const rl::tracking::TrackingConfig& tracking,
+                           const rl::tracking::MeanAction& policy, int options, int stretch,
+                           double switch_penalty, const std::function<bool()>& should_stop) {
+  const int frames = std::min(stretch, clip->size() - 1 - beam.frame);
+  List<Path> paths = continued(beam.paths, options, frames, switch_penalty);
+  Characters characters = characters_of(paths, beam.characters, clip, tracking);
+  if (!act(paths, characters, policy, frames, should_stop)) return std::nullopt;
+  std::stable_sort(paths.begin(), paths.end(), better);
+  return Beam{beam.frame + frames, std::move(paths), std::move(characters)};
+}
+
+/// Keeps the best paths that stand, and of the characters theirs.
+void prune(Beam& beam, std::int64_t width, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+           const rl::tracking::TrackingConfig& tracking) {
+  List<Path>& paths = beam.paths;
+  const auto fallen = std::find_if(paths.begin(), paths.end(), [](const Path& path) { return path.fell; });
+  paths.erase(std::min(fallen, paths.begin() + std::min<std::int64_t>(width, paths.count())), paths.end());
+  beam.characters = characters_of(paths, beam.characters, clip, tracking);
+}
+
+/// Of paths that all have fallen the best goes on, put onto the reference.
+void restart(Beam& beam) {
+  beam.paths.resize(1);
+  Path& path = beam.paths.front();
+  path.breaks.push_back(beam.frame);
+  path.fell = false;
+  beam.characters.reset(path.character, beam.frame);
+}
+
+}  // namespace
+
+Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
+                       const rl::tracking::TrackingConfig& tracking,
+                       const std::vector<const Option*>& options, const SearchConfig& config,
+                       const std::function<bool()>& should_stop) {
+  if (options.empty()) throw std::invalid_argument("search_roll_outs: expected options, found none");
+  if (config.width < 1 || config.stretch < 1 || config.retries < 0 || !(config.switch_penalty <= 0.0))
+    throw std::invalid_argument(
+        "search_roll_outs: expected a width and a stretch of at least 1, retries of at least 0, and a switch "
+        "penalty of at most 0");
+  const rl::tracking::MeanAction policy = mean_action_of(options);
+  const int last = clip->size() - 1;
+  std::vector<Beam> trail;  // where the search came through; it goes on from the last
+  trail.push_back({0, List<Path>(1), Characters(clip, tracking, 1)});
+  int retry = 0;    // the attempt that is under way; 0: none has been needed
+  int to_pass = 0;  // the farthest frame at which every path fell since then
+  while (trail.back().frame < last) {
+    const std::int64_t width = std::int64_t{config.width} << (kWider * retry);
+    const int stretch = retry > 0 ? std::max(1, config.stretch / 2) : config.stretch;
+    std::optional<Beam> next = expand(trail.back(), clip, tracking, policy, static_cast<int>(options.size()),
+                                      stretch, config.switch_penalty, should_stop);
+    if (!next) break;
+    if (!next->paths.front().fell) {
+      prune(*next, width, clip, tracking);
+      if (next->frame > to_pass) retry = 0;
+      trail.push_back(std::move(*next));
+    } else if (retry < config.retries) {
+      ++retry;
+      to_pass = std::max(to_pass, next->frame);
+      const auto back = static_cast<std::ptrdiff_t>(kBack) * retry;
+      trail.erase(trail.end() - std::min(back, std::ssize(trail) - 1), trail.end());
+    } else {
+      restart(*next);
+      retry = 0;
+      trail.clear();
+      trail.push_back(std::move(*next));
+    }
+    if (std::ssize(trail) > kRemembered) trail.erase(trail.begin());
+  }
+  const Beam& end = trail.back();
+  const Path& best = end.paths.front();
+  Found found{{}, best.value, best.breaks, end.frame};
+  for (int t = 0; t < last; ++t)
+    found.options.push_back(end.frame == 0 ? 0 : best.options[std::min(t, end.frame - 1)]);
+  return found;
+}
+
+}  // namespace mimicx::pipeline::options

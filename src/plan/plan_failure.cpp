@@ -1,0 +1,51 @@
+#include "plan/plan_failure.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "audit/pose_verdict.h"
+#include "character/body_words.h"
+
+namespace mimicx::plan {
+namespace {
+
+/// Frames before the loss in which its cause is looked for: what topples a body takes most of a second.
+constexpr int kFramesBefore = 30;
+/// Frames behind it that count among those which took help: a body that only just passes falls there.
+constexpr int kFramesAfter = 15;
+
+template <class... Args>
+std::string print(const char* format, Args... args) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+/// What the reference asks for in frames first … last that no body can do.
+std::string needs_in_words(const audit::PoseNeeds& needs, int first, int last) {
+  std::string text;
+  for (const audit::Stretch& stretch : audit::infeasible_stretches(needs))
+    if (stretch.last >= first && stretch.first <= last)
+      text += (text.empty() ? "the reference is not feasible there: " : "; ") + audit::in_words(stretch);
+  if (!text.empty()) return text;
+  return print(
+      "over frames %d to %d the reference needs next to nothing from outside: a body could follow it, "
+      "and no way was found",
+      first, last);
+}
+
+}  // namespace
+
+std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& needs,
+                          const PerFrame<Vector6d>& help) {
+  std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / needs.fps);
+  if (loss.body >= 0)
+    text += print(": the %s is %.2f m from its reference", body_in_words(loss.body).c_str(), loss.distance);
+  if (needs.frames.empty()) return text;
+  const int first = std::max(loss.frame - kFramesBefore, 0);
+  text += "; " + needs_in_words(needs, first, std::min(loss.frame, needs.frames.count() - 1));
+  const std::string helped = judge::help_in_words(help, needs.mass, first, loss.frame + kFramesAfter);
+  return helped.empty() ? text : text + "; " + helped;
+}
+
+}  // namespace mimicx::plan

@@ -1,0 +1,112 @@
+#include "record/sequence_entry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "core/containers.h"
+#include "record/utf8_names.h"
+
+namespace mimicx::record {
+namespace {
+
+constexpr Array<std::string_view, 7> kEndings = {"none",          "budget",   "threshold", "stall",
+                                                 "limit-seconds", "followed", "lost"};
+
+double number_from_json(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json checksums_json(const FileChecksums& files) {
+  Json json = Json::object();
+  for (const auto& [name, checksum] : files) json[to_utf8(name)] = checksum;
+  return json;
+}
+
+Ending ending_of(const std::string& name) {
+  const auto found = std::find(kEndings.begin(), kEndings.end(), name);
+  if (found == kEndings.end()) throw JsonError("an ending '" + name + "'");
+  return static_cast<Ending>(found - kEndings.begin());
+}
+
+}  // namespace
+
+Json to_json(const NamedValues& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = number(value);
+  return json;
+}
+
+NamedValues named_values(const Json& json) {
+  NamedValues values;
+  for (const auto& [name, value] : json.items()) values.emplace_back(name, number_from_json(value));
+  return values;
+}
+
+Json to_json(const SequenceEntry& e) {
+  return {{"name", to_utf8(e.name)},
+          {"input", to_utf8(e.input)},
+          {"input_checksum", e.input_checksum},
+          {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
+          {"status", e.ok ? "ok" : "failed"},
+          {"reason", e.reason},
+          {"method", e.method},
+          {"ending", kEndings[static_cast<int>(e.ending)]},
+          {"frames", e.frames},
+          {"fps", e.fps},
+          {"seed", e.seed},
+          {"samples", e.samples},
+          {"reward_before", number(e.reward_before)},
+          {"reward_after", number(e.reward_after)},
+          {"arrangement", e.arrangement},
+          {"plan", to_json(e.plan)},
+          {"policy", to_json(e.policy)},
+          {"fit", to_json(e.fit)},
+          {"input_metrics", to_json(e.input_metrics)},
+          {"metrics_before", to_json(e.metrics_before)},
+          {"ok_before", e.ok_before},
+          {"metrics", to_json(e.metrics)},
+          {"audit", to_json(e.audit)},
+          {"preparation", to_json(e.preparation)},
+          {"feasibility", to_json(e.feasibility)},
+          {"decisions", e.decisions},
+          {"notes", e.notes},
+          {"files", checksums_json(e.files)}};
+}
+
+SequenceEntry entry_of(const Json& json) {
+  SequenceEntry e;
+  e.name = from_utf8(json.at("name").get<std::string>());
+  e.input = from_utf8(json.at("input").get<std::string>());
+  e.input_checksum = json.at("input_checksum").get<std::string>();
+  if (!json.at("output").is_null()) e.output = from_utf8(json.at("output").get<std::string>());
+  e.ok = json.at("status") == "ok";
+  e.reason = json.at("reason").get<std::string>();
+  e.method = json.value("method", "").get<std::string>();
+  e.ending = ending_of(json.at("ending").get<std::string>());
+  e.frames = json.at("frames");
+  e.fps = json.at("fps");
+  e.seed = json.at("seed");
+  e.samples = json.at("samples");
+  e.reward_before = number_from_json(json.at("reward_before"));
+  e.reward_after = number_from_json(json.at("reward_after"));
+  e.arrangement = json.at("arrangement").get<std::vector<std::array<int, 2>>>();
+  if (json.contains("plan")) e.plan = named_values(json.at("plan"));
+  if (json.contains("policy")) e.policy = named_values(json.at("policy"));  // older manifests have none
+  e.fit = named_values(json.at("fit"));
+  e.metrics_before = named_values(json.at("metrics_before"));
+  e.ok_before = json.at("ok_before");
+  e.input_metrics = named_values(json.at("input_metrics"));
+  e.metrics = named_values(json.at("metrics"));
+  if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // as above
+  e.preparation = named_values(json.at("preparation"));
+  if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above
+  e.decisions = json.value("decisions", Json::array()).get<std::vector<std::string>>();
+  e.notes = json.at("notes").get<std::vector<std::string>>();
+  if (json.contains("files"))  // as above
+    for (const auto& [name, checksum] : json.at("files").items())
+      e.files.emplace_back(from_utf8(name), checksum.get<std::string>());
+  return e;
+}
+
+}  // namespace mimicx::record

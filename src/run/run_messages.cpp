@@ -1,0 +1,153 @@
+#include "run/run_messages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "core/quantile.h"
+#include "record/progress.h"
+
+namespace mimicx::run {
+namespace {
+
+constexpr std::size_t kFailuresNamed = 5;
+
+/// A fault that a person sees, and the metric that measures it.
+struct Fault {
+  const char* name;
+  const char* metric;
+  const char* unit;
+  double scale;  ///< from the metric's unit to that one
+  int decimals;
+  double visible;  ///< less, in that unit, is not worth a word
+};
+
+constexpr std::array<Fault, 4> kFaults = {{{"sliding", "FS_gt", "mm a frame", 1.0, 1, 0.05},
+                                           {"sinking", "GP", "mm", 1.0, 1, 0.05},
+                                           {"floating", "Float_gt", "mm", 1.0, 1, 0.05},
+                                           {"jitter", "Jitter", "m/s^3", 10.0, 0, 5.0}}};
+
+std::string format(const char* how, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, how, number);
+  return text;
+}
+
+/// "sliding 1.7 -> 0.2 mm a frame"; empty where there is nothing to say.
+std::string change(const Fault& fault, double before, double after) {
+  before *= fault.scale;
+  after *= fault.scale;
+  if (!std::isfinite(after)) return {};
+  const bool known = std::isfinite(before);
+  if (after < fault.visible && !(known && before >= fault.visible)) return {};
+  char text[96];
+  if (known)
+    std::snprintf(text, sizeof text, "%s %.*f -> %.*f %s", fault.name, fault.decimals, before, fault.decimals,
+                  after, fault.unit);
+  else
+    std::snprintf(text, sizeof text, "%s %.*f %s", fault.name, fault.decimals, after, fault.unit);
+  return text;
+}
+
+/// Of the successes among entries. Empty where none has the metric.
+std::vector<double> successes(const std::vector<record::SequenceEntry>& entries,
+                              const NamedValues record::SequenceEntry::*values, const std::string& metric) {
+  std::vector<double> out;
+  for (const record::SequenceEntry& entry : entries) {
+    const double value = value_of(entry.*values, metric);
+    if (entry.ok && std::isfinite(value)) out.push_back(value);
+  }
+  return out;
+}
+
+double middle(const std::vector<double>& values) { return values.empty() ? std::nan("") : median(values); }
+
+std::string duration_of_motions(const std::vector<record::SequenceEntry>& entries) {
+  double seconds = 0.0;
+  for (const record::SequenceEntry& entry : entries)
+    if (entry.fps > 0.0) seconds += entry.frames / entry.fps;
+  return record::format_duration(seconds);
+}
+
+std::string failures(const std::vector<record::SequenceEntry>& entries) {
+  std::string line;
+  std::size_t failed = 0;
+  for (const record::SequenceEntry& entry : entries)
+    if (!entry.ok && failed++ < kFailuresNamed) line += (line.empty() ? "" : ", ") + entry.name;
+  if (failed > kFailuresNamed) line += " and " + std::to_string(failed - kFailuresNamed) + " more";
+  return line;
+}
+
+/// What ended the work, and what to do about that.
+std::string ended_by(const record::SequenceEntry& entry) {
+  const std::string budget = entry.method == "imitate" ? "--samples" : "--budget-samples";
+  switch (entry.ending) {
+    case record::Ending::kBudget:
+      return "the training ended with its budget: with a larger " + budget + " than " +
+             std::to_string(entry.samples) + " the same command goes on from here";
+    case record::Ending::kLimitSeconds:
+      return "the time limit ended it: with a larger --limit-seconds the same command goes on";
+    case record::Ending::kStall:
+      return "the training no longer became better: another --seed begins it anew, in another folder";
+    case record::Ending::kLost:
+      if (entry.samples == 0) return "no policy was trained: mimicx adapt does so where a plan is lost";
+      return "neither a plan nor policies could follow: a larger --budget-samples than " +
+             std::to_string(entry.samples) + " goes on with the policies";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string result_line(const record::SequenceEntry& entry) {
+  std::string line = entry.name + ": " + (entry.ok ? "ok" : "failed");
+  if (!entry.reason.empty()) line += ", " + entry.reason;
+  const double distance = value_of(entry.metrics, "gMPJPE");
+  if (std::isfinite(distance)) line += format(", %.1f mm from the reference", distance);
+  for (const Fault& fault : kFaults) {
+    const std::string words =
+        change(fault, value_of(entry.input_metrics, fault.metric), value_of(entry.metrics, fault.metric));
+    if (entry.ok && !words.empty()) line += ", " + words;
+  }
+  return line;
+}
+
+std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entries, double seconds,
+                                 const std::string& next) {
+  const auto done = std::count_if(entries.begin(), entries.end(), [](const auto& entry) { return entry.ok; });
+  std::vector<std::string> lines = {std::to_string(done) + " of " + std::to_string(entries.size()) +
+                                    " motions are ok: " + duration_of_motions(entries) + " of motion in " +
+                                    record::format_duration(seconds)};
+  const std::vector<double> distances = successes(entries, &record::SequenceEntry::metrics, "gMPJPE");
+  if (!distances.empty())
+    lines.push_back(format("  in the median %.1f mm from the reference, ", median(distances)) +
+                    format("at most %.1f mm", *std::max_element(distances.begin(), distances.end())));
+  for (const Fault& fault : kFaults) {
+    const std::string words =
+        change(fault, middle(successes(entries, &record::SequenceEntry::input_metrics, fault.metric)),
+               middle(successes(entries, &record::SequenceEntry::metrics, fault.metric)));
+    if (!words.empty()) lines.push_back("  " + words);
+  }
+  const std::string failed = failures(entries);
+  if (!failed.empty()) lines.push_back("  failed: " + failed);
+  lines.push_back("  " + next);
+  return lines;
+}
+
+std::vector<std::string> what_next(const record::SequenceEntry& entry, const record::RunFolder& folder) {
+  if (entry.ok || entry.output.empty()) return {};
+  std::vector<std::string> lines = {"rejected motion: " + (folder.root / entry.output).string() +
+                                    "; beside its reference in " + folder.report().string()};
+  double infeasible = 0.0;
+  for (const auto& [name, value] : entry.feasibility)
+    if (name == "infeasible_share") infeasible = value;
+  if (const std::string ended = ended_by(entry); !ended.empty()) lines.push_back(ended);
+  if (infeasible > 0.0)
+    lines.push_back("no body can do all of it: mimicx audit --poses '" + entry.input +
+                    "' --frames-csv frames.csv says which frames; leave these out, or correct them");
+  return lines;
+}
+
+}  // namespace mimicx::run

@@ -1,0 +1,69 @@
+// What a run tells the person who waits.
+#include "run/run_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mimicx::run {
+namespace {
+
+record::SequenceEntry walk_entry() {
+  record::SequenceEntry entry;
+  entry.name = "walk";
+  entry.ok = true;
+  entry.frames = 150;
+  entry.fps = 30.0;
+  entry.input_metrics = {{"FS_gt", 1.7}, {"GP", 0.0}, {"Float_gt", std::nan("")}, {"Jitter", 9.0}};
+  entry.metrics = {{"gMPJPE", 12.04}, {"FS_gt", 0.2}, {"GP", 0.01}, {"Float_gt", 3.0}, {"Jitter", 0.4}};
+  return entry;
+}
+
+record::SequenceEntry fallen(const std::string& name) {
+  record::SequenceEntry entry;
+  entry.name = name;
+  entry.reason = "it falls at 2.1 s";
+  entry.metrics = {{"gMPJPE", 800.0}, {"FS_gt", 4.0}};
+  return entry;
+}
+
+TEST(ResultLine, SaysWhatBecameBetterAndLeavesOutWhatWasNoFault) {
+  EXPECT_EQ(result_line(walk_entry()),
+            "walk: ok, 12.0 mm from the reference, sliding 1.7 -> 0.2 mm a frame, floating 3.0 mm, "
+            "jitter 90 -> 4 m/s^3");
+}
+
+TEST(ResultLine, OfAFailureSaysWhy) {
+  EXPECT_EQ(result_line(fallen("jump")), "jump: failed, it falls at 2.1 s, 800.0 mm from the reference");
+  record::SequenceEntry unread;
+  unread.name = "x";
+  unread.reason = "x.npz: key 'poses' expected";
+  EXPECT_EQ(result_line(unread), "x: failed, x.npz: key 'poses' expected");
+}
+
+TEST(Summary, CountsAndNamesFailuresAndTakesTheirNumbersOutOfTheMedians) {
+  std::vector<record::SequenceEntry> entries = {walk_entry(), walk_entry(), fallen("jump")};
+  entries[1].metrics[0].second = 20.0;
+  const std::vector<std::string> lines = summary(entries, 61.0, "to look at: out/report.html");
+  const std::vector<std::string> expected = {"2 of 3 motions are ok: 10 s of motion in 1 min 01 s",
+                                             "  in the median 20.0 mm from the reference, at most 20.0 mm",
+                                             "  sliding 1.7 -> 0.2 mm a frame",
+                                             "  floating 3.0 mm",
+                                             "  jitter 90 -> 4 m/s^3",
+                                             "  failed: jump",
+                                             "  to look at: out/report.html"};
+  EXPECT_EQ(lines, expected);
+}
+
+TEST(Summary, HasEightLinesAtMostHoweverManyFail) {
+  std::vector<record::SequenceEntry> entries(3, walk_entry());
+  for (record::SequenceEntry& entry : entries)
+    entry.input_metrics = {{"FS_gt", 2.0}, {"GP", 2.0}, {"Float_gt", 2.0}, {"Jitter", 2.0}};
+  for (int k = 0; k < 9; ++k) entries.push_back(fallen("fall_" + std::to_string(k)));
+  const std::vector<std::string> lines = summary(entries, 1.0, "report.html");
+  EXPECT_EQ(lines.size(), 8u);
+  EXPECT_EQ(lines[6], "  failed: fall_0, fall_1, fall_2, fall_3, fall_4 and 4 more");
+}
+
+}  // namespace
+}  // namespace mimicx::run

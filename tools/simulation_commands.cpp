@@ -1,0 +1,188 @@
+#include "simulation_commands.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+
+#include "command_line_numbers.h"
+#include "commands.h"
+#include "files/inputs.h"
+#include "record/shard.h"
+#include "run/run_outputs.h"
+#include "shared_arguments.h"
+
+namespace mimicx::tools {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// The first interrupt asks for a checkpoint, a second one ends the program at once.
+void catch_interrupts() {
+  const auto handle = [](int signal) {
+    interrupted = 1;
+    std::signal(signal, SIG_DFL);
+  };
+  std::signal(SIGINT, handle);
+  std::signal(SIGTERM, handle);
+}
+
+int status_of(record::RunOutcome outcome) {
+  switch (outcome) {
+    case record::RunOutcome::kAllGood:
+      return kAllGood;
+    case record::RunOutcome::kSomeFailed:
+      return kSomeFailed;
+    case record::RunOutcome::kInterrupted:
+      return kInterrupted;
+  }
+  return kSomeFailed;
+}
+
+}  // namespace
+
+void add_settings(Command& command, std::vector<std::string>& settings) {
+  command.texts("--set", settings, "NAME=NUMBER",
+                "change a setting by the name that `mimicx config` lists, for experiments; repeatable");
+}
+
+void for_each_setting(const std::vector<std::string>& settings,
+                      const std::function<void(const std::string& name, double value)>& apply,
+                      const std::function<void()>& check) {
+  for (const std::string& setting : settings) {
+    const auto equals = std::min(setting.find('='), setting.size() - 1);
+    const std::optional<double> value = number_of(setting.substr(equals + 1));
+    if (!value) throw UsageError("--set: expected NAME=NUMBER, found '" + setting + "'");
+    try {
+      apply(setting.substr(0, equals), *value);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError("--set " + setting + ": " + error.what());
+    }
+  }
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--set: ") + error.what());
+  }
+}
+
+void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more) {
+  command.files("FILE", run.inputs, "motions and folders of them");
+  command.path("--out", run.out,
+               "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
+               "every input, and its clean motion beside it as NAME.clean.EXT");
+  add_read_arguments(command, run.read);
+  command.choice("--rate", run.input_rate, {{"30", false}, {"input", true}},
+                 "frame rate of the clean copies in the inputs' own formats");
+  command.flag("--substeps", run.substeps,
+               "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
+  command.flag("--quiet", run.quiet, "tell only what went wrong");
+  add_force(command, run.force);
+  add_threads(command, run.threads);
+  run.jobs = 0;
+  command.number("--jobs", run.jobs, kFromZero,
+                 "motions done side by side, each by its share of the threads; the results are the same; "
+                 "0: as many as threads");
+  command.text(
+      "--shard", [&more](const std::string& text) { more.shard = text; }, "I/N|whole",
+      "do part I of N (from 0 on) of the motions, for N machines with the same --out; then `mimicx merge`; "
+      "default: as the task of a Slurm array says, else whole");
+  command.number("--limit-seconds", run.limit_seconds, kPositive,
+                 "safety stop per motion: ends its plan or training early, makes the result depend on the "
+                 "machine, and is recorded as such");
+  add_settings(command, more.settings);
+}
+
+void take_shard(const std::string& asked, run::RunConfig& run) try {
+  if (asked == "whole") return;
+  if (asked.empty() && run.out.empty()) return;  // each motion is a run of its own
+  run.shard = asked.empty() ? record::shard_of_array([](const char* name) { return std::getenv(name); })
+                            : record::parse_shard(asked);
+  if (run.out.empty()) throw UsageError("--shard: goes with --out, the folder that all parts share");
+} catch (const std::invalid_argument& error) {
+  throw UsageError(error.what());
+}
+
+void add_training_arguments(Command& command, pipeline::TrainingConfig& training,
+                            const std::string& samples) {
+  command.number(samples, training.samples, kFromZero, "training budget per motion, in character steps");
+  add_seed(command, training.seed);
+}
+
+void add_as_is(Command& command, run::RunConfig& run) {
+  command.flag("--as-is", run.as_is,
+               "follow the poses as they are: no fit and no repair of any kind, whatever --fit says");
+}
+
+void add_fit_arguments(Command& command, run::RunConfig& run) {
+  command.flag(
+      "--fit", run.fit,
+      "move motions onto their keypoints first, where they have any (default); --no-fit: do not look "
+      "at keypoints at all, correct the motion by its feet, the floor and balance alone, as where a "
+      "file has no keypoints",
+      "--no-fit");
+  add_as_is(command, run);
+}
+
+void add_gains_argument(Command& command, run::RunConfig& run) {
+  command.flag("--gains", run.gains,
+               "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
+}
+
+void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement) {
+  using pipeline::options::Selector;
+  command.choice(
+      "--selector", arrangement.selector,
+      {{"dp", Selector::kDp},
+       {"beam", Selector::kBeam},
+       {"single", Selector::kSingle},
+       {"nearest", Selector::kNearest}},
+      "which option acts when; dp: Eq. 4 on the rewards of options side by side, the paper's; beam: "
+      "a search over real roll-outs; single: the best option alone; nearest: that of the nearest "
+      "cluster");
+  command.number("--switch-penalty", arrangement.switch_penalty, {kAnyNumber.least, 0.0},
+                 "w_p of Eq. 4, in rewards");
+  command.number("--rescue-reward", arrangement.rescue_reward, {0.0, 1.0},
+                 "dp: where the options run side by side, one whose reward falls under this goes on from the "
+                 "state of the best");
+}
+
+int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work) {
+  catch_interrupts();
+  record::Progress progress(std::cerr, record::stderr_is_terminal(), record::steady_seconds);
+  if (quiet) progress.silence();
+  try {
+    return status_of(work(record::RunContext{progress, std::cerr, [] { return interrupted != 0; }}));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& context,
+                              const std::function<record::RunOutcome()>& once) {
+  const std::vector<files::MotionInput> inputs = files::find_motions(run.inputs, run.out, &context.messages);
+  const std::vector<std::string> files = files::paths_of(inputs);
+  if (!run.out.empty()) {
+    for (const files::MotionInput& input : inputs) run.names[input.path] = input.name;
+    run.inputs = files;
+    return once();
+  }
+  record::RunOutcome all = record::RunOutcome::kAllGood;
+  run.beside = true;
+  run.protect = files;
+  run::claim_copies_beside(files, run.force);
+  for (const std::filesystem::path file : files) {
+    run.inputs = {file.string()};
+    run.out = file.parent_path() / (file.stem().string() + ".mimicx");
+    try {
+      const record::RunOutcome outcome = once();
+      if (outcome == record::RunOutcome::kInterrupted) return outcome;
+      if (outcome != record::RunOutcome::kAllGood) all = outcome;
+    } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
+      context.messages << file.string() << ": left out: " << error.what() << '\n';
+      all = record::RunOutcome::kSomeFailed;
+    }
+  }
+  return all;
+}
+
+}  // namespace mimicx::tools

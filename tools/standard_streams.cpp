@@ -1,0 +1,61 @@
+#include "standard_streams.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace mimicx::tools {
+namespace {
+
+constexpr std::string_view kClearLine = "\x1b[K";  ///< the one sequence of our own
+
+bool passes(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte >= 0x20 && byte != 0x7F) || c == '\n' || c == '\r' || c == '\t';
+}
+
+std::string shown(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t taken = text.starts_with(kClearLine) ? kClearLine.size() : 1;
+    if (taken > 1 || passes(text.front())) {
+      out += text.substr(0, taken);
+    } else {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\x%02x", static_cast<unsigned>(text.front()));
+      out += code;
+    }
+    text.remove_prefix(taken);
+  }
+  return out;
+}
+
+}  // namespace
+
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1)  // the lowest number that is free is the one that is handed out
+      open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+ShownControls::ShownControls(std::ostream& out) : out_(out), target_(out.rdbuf(this)) {}
+ShownControls::~ShownControls() { out_.rdbuf(target_); }
+
+ShownControls::int_type ShownControls::overflow(int_type c) {
+  if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+  const char one = traits_type::to_char_type(c);
+  return xsputn(&one, 1) == 1 ? c : traits_type::eof();
+}
+
+std::streamsize ShownControls::xsputn(const char* text, std::streamsize count) {
+  const std::string out = shown({text, static_cast<std::size_t>(count)});
+  const auto size = static_cast<std::streamsize>(out.size());
+  return target_->sputn(out.data(), size) == size ? count : 0;
+}
+
+int ShownControls::sync() { return target_->pubsync(); }
+
+}  // namespace mimicx::tools
