@@ -17,7 +17,7 @@ double largest_force(const std::vector<AuditRow>& rows) {
   return largest;
 }
 
-TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInRecordedAndReplayedSteps) {
+TEST(AuditByMujoco, AgreesOnRecordedAndReplayedSteps) {
   const SubstepMotion as_written = written_and_read(Thrown(240.0, 0.3).steps());
   EXPECT_LT(test::largest_difference(audit_steps(as_written), test::mujoco_audit_steps(as_written)), 1e-5);
   const SubstepMotion motion = test::on_hinge_axes(as_written);
@@ -35,7 +35,7 @@ TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInRecordedAndReplayedSteps) {
               test::largest_difference(replayed, replayed_rows));
 }
 
-TEST(AuditByMujoco, WhatIsNotANumberIsNoAgreement) {
+TEST(AuditByMujoco, NanIsNoAgreement) {
   Audit audit;
   audit.weight = 700.0;
   audit.rows.resize(3);
@@ -45,7 +45,7 @@ TEST(AuditByMujoco, WhatIsNotANumberIsNoAgreement) {
   EXPECT_TRUE(std::isnan(test::largest_difference(audit, rows)));
 }
 
-TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInFrames) {
+TEST(AuditByMujoco, AgreesOnFrames) {
   for (const double size : {0.0, 0.15}) {
     const Thrown thrown(240.0, size);
     const SimulatedFrames frames = test::on_hinge_axes(thrown.frames());
@@ -55,7 +55,7 @@ TEST(AuditByMujoco, FindsTheNumbersOfTheAuditInFrames) {
   }
 }
 
-TEST(AuditByMujoco, FindsAHandThatHelps) {
+TEST(AuditByMujoco, DetectsAnExternalForce) {
   Thrown thrown(240.0, 0.0);
   for (auto& forces : thrown.rollout.forces)
     for (Vector6d& wrench : forces.ground) wrench *= 0.9;

@@ -44,7 +44,7 @@ bool same(const motion::ReferenceFrame& a, const motion::ReferenceFrame& b) {
   return equal;
 }
 
-TEST(Substeps, TheFileKeepsTheSimulatorsOwnBits) {
+TEST(Substeps, RoundTripIsExact) {
   const SubstepMotion motion = Thrown().steps(), back = written_and_read(motion);
   ASSERT_EQ(back.steps.size(), 59U * 8U);
   EXPECT_EQ(back.character.betas, motion.character.betas);
@@ -60,7 +60,7 @@ TEST(Substeps, TheFileKeepsTheSimulatorsOwnBits) {
 }
 
 // The first state and the targets alone give back every recorded state, bit by bit, in float32.
-TEST(Substeps, AFileReplaysToTheSameBits) {
+TEST(Substeps, FileReplaysToTheSameBits) {
   using P = rl::tracking::TrackingPack::P;
   const SubstepMotion motion = written_and_read(Thrown().steps());
   const physics::Model<float> model = physics::make_model<float>(motion.character, motion.simulation);
@@ -94,7 +94,7 @@ TEST(Substeps, AFileReplaysToTheSameBits) {
   }
 }
 
-TEST(Substeps, RecordingThemChangesNothingElse) {
+TEST(Substeps, RecordingDoesNotChangeTheRollout) {
   const Thrown thrown;
   const auto clip = rl::tracking::make_tracking_clip(thrown.reference, thrown.config);
   const auto still = [](int, const float*, float* action) { std::fill(action, action + kDofs, 0.1F); };
@@ -109,7 +109,7 @@ TEST(Substeps, RecordingThemChangesNothingElse) {
   }
 }
 
-TEST(Substeps, ADamagedFileIsNamed) {
+TEST(Substeps, DamagedFileIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path / "s.npz";
   write_substeps(path, Thrown().steps());
@@ -124,7 +124,7 @@ TEST(Substeps, ADamagedFileIsNamed) {
   }
 }
 
-TEST(Substeps, ABodyOrASimulationThatCannotBeIsRefused) {
+TEST(Substeps, RejectsImpossibleBodiesAndSimulations) {
   const TemporaryFolder folder;
   SubstepMotion motion = Thrown().steps();
   motion.steps.resize(2);
@@ -140,7 +140,7 @@ TEST(Substeps, ABodyOrASimulationThatCannotBeIsRefused) {
   EXPECT_NO_THROW(read_substeps(sound));
 }
 
-TEST(Audit, ViolentStepsExplainThemselvesAndToRoundingWhenReplayedInDouble) {
+TEST(Audit, ViolentStepsAreExplainedToRoundingInDouble) {
   const SubstepMotion motion = written_and_read(Thrown(240.0, 0.3).steps());
   const Audit recorded = audit_steps(motion), replayed = audit_replayed_steps(motion);
   double hardest = 0.0;
@@ -158,7 +158,7 @@ TEST(Audit, ViolentStepsExplainThemselvesAndToRoundingWhenReplayedInDouble) {
   EXPECT_EQ(value(recorded, "torque_violations"), 0.0);
 }
 
-TEST(Audit, FramesOfAThrashedCharacterAreExplained) {
+TEST(Audit, FramesOfRandomActionsAreExplained) {
   for (const double size : {0.0, 0.08, 0.15}) {
     const Audit audit = Thrown(240.0, size).audit();
     EXPECT_EQ(all_failures(audit), "") << size;
@@ -169,7 +169,7 @@ TEST(Audit, FramesOfAThrashedCharacterAreExplained) {
 }
 
 // (10) leaves out what the integrator itself does to momentum between two frames: of first order in dt.
-TEST(Audit, WhatFramesLeaveUnexplainedIsOfFirstOrderInThePhysicsStep) {
+TEST(Audit, FrameResidualIsFirstOrderInThePhysicsStep) {
   std::array<double, 3> force{}, moment{};
   for (std::size_t k = 0; k < force.size(); ++k) {
     Thrown thrown(240.0 * static_cast<double>(1 << (2 * k)), 0.0);
@@ -189,7 +189,7 @@ TEST(Audit, WhatFramesLeaveUnexplainedIsOfFirstOrderInThePhysicsStep) {
   }
 }
 
-TEST(Audit, AHandThatHelpsIsFoundWithItsSize) {
+TEST(Audit, DetectsAnExternalForceAndItsSize) {
   Thrown thrown(240.0, 0.0);
   for (auto& forces : thrown.rollout.forces)
     for (Vector6d& wrench : forces.ground) wrench *= 0.9;  // a tenth of the support is not accounted for
@@ -200,7 +200,7 @@ TEST(Audit, AHandThatHelpsIsFoundWithItsSize) {
   EXPECT_NEAR(value(audit, "root_force_mean_N"), 0.1 * support, 0.03 * support);
 }
 
-TEST(Audit, EveryKindOfLieIsNamed) {
+TEST(Audit, NamesEveryKindOfFalsifiedForce) {
   const Thrown good;
   EXPECT_EQ(all_failures(good.audit()), "");
   Thrown lie = good;
@@ -225,7 +225,7 @@ TEST(Audit, EveryKindOfLieIsNamed) {
 }
 
 // Recorded steps know what no frame can: torques of a hard motion that are off by a few percent do not pass.
-TEST(Audit, StepsWithTorquesThatAreOffByAFewPercentAreNamed) {
+TEST(Audit, DetectsTorqueErrorsOfAFewPercent) {
   SubstepMotion motion = Thrown().steps();
   EXPECT_EQ(all_failures(audit_steps(motion)), "");
   for (rl::tracking::Substep& step : motion.steps)
@@ -266,7 +266,7 @@ struct CleanedAndRaw : testing::Test {
 };
 
 // The contrast of docs/physics.md §9, on motions that the shipped options follow without any training.
-TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
+TEST_F(CleanedAndRaw, CleanedMotionPassesAndItsNoisyInputFails) {
   const TemporaryFolder folder;
   program::AdaptConfig config = program::adapt_configuration();
   config.method = program::AdaptMethod::kPaper;
@@ -301,7 +301,7 @@ TEST_F(CleanedAndRaw, ACleanedMotionPassesWhereItsNoisyInputFailsLoudly) {
   }
 }
 
-TEST_F(CleanedAndRaw, EveryNoisyMotionOfTheTestSplitFailsAndEveryTruthPasses) {
+TEST_F(CleanedAndRaw, NoisyTestMotionsFailAndTruthsPass) {
   for (const std::string& path :
        files::paths_of(files::find_motions({split("noisy", "x").parent_path().string()}))) {
     const Audit raw = audit_file(path, false).at(0);
@@ -313,7 +313,7 @@ TEST_F(CleanedAndRaw, EveryNoisyMotionOfTheTestSplitFailsAndEveryTruthPasses) {
     EXPECT_EQ(all_failures(audit_file(path, false).at(0)), "") << path;
 }
 
-TEST_F(CleanedAndRaw, ForcesWithoutWhatBelongsToThemAreRefusedByName) {
+TEST_F(CleanedAndRaw, RejectsIncompleteForcesByName) {
   const TemporaryFolder folder;
   Npz npz = read_npz(split("truth", "stand_1"));
   const std::size_t rows = npz.at("poses").shape[0];

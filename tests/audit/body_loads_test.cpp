@@ -5,7 +5,7 @@
 namespace mimicx::audit {
 namespace {
 
-TEST(TorqueShares, AreTheSizeOverTheBoundAndOfAHingeItsAxisAlone) {
+TEST(TorqueShares, AreTorqueOverBoundAndAboutTheAxisForHinges) {
   const Character c = make_character();
   PerBody<Vector3d> torque;
   torque.fill(Vector3d::Zero());

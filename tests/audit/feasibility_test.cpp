@@ -27,7 +27,7 @@ motion::Clip t_pose(const Height& height) {
   return motion::to_clip("t_pose", 30.0, c, p_root, std::vector<PerBody<Quaterniond>>(p_root.size(), pose));
 }
 
-TEST(Feasibility, StandingStillNeedsNoHand) {
+TEST(Feasibility, StandingStillHasNoResidual) {
   const Feasibility f = feasibility(t_pose([](int) { return 0.0; }));
   EXPECT_LT(f.max_force, 1e-4);
   EXPECT_LT(f.max_moment, 1e-4);
@@ -35,7 +35,7 @@ TEST(Feasibility, StandingStillNeedsNoHand) {
   EXPECT_EQ(f.frames_over_limit, 0);
 }
 
-TEST(Feasibility, FreeFallNeedsNothing) {
+TEST(Feasibility, FreeFallHasNoResidual) {
   const motion::Clip clip = t_pose([](int t) { return 1.0 - 0.5 * kGravity * t * t / 900.0; });
   const Feasibility f = feasibility(clip);
   EXPECT_LT(f.max_force, 1e-9);
@@ -43,7 +43,7 @@ TEST(Feasibility, FreeFallNeedsNothing) {
   EXPECT_LT(f.worst_torque, 1e-9);
 }
 
-TEST(Feasibility, HoveringNeedsAHandThatCarriesTheWeight) {
+TEST(Feasibility, HoveringHasTheWeightAsResidual) {
   const Feasibility f = feasibility(t_pose([](int) { return 0.1; }));
   EXPECT_NEAR(f.mean_force, 1.0, 1e-9);
   EXPECT_NEAR(f.max_force, 1.0, 1e-9);
@@ -51,14 +51,14 @@ TEST(Feasibility, HoveringNeedsAHandThatCarriesTheWeight) {
 }
 
 /// A floor can push but not pull.
-TEST(Feasibility, AFallFasterThanGravityIsNotPulledByTheFloor) {
+TEST(Feasibility, FloorDoesNotPullInAFallFasterThanGravity) {
   const motion::Clip clip =
       t_pose([](int t) { return -0.5 * 1.5 * kGravity * (t - 3) * (t - 3) / 900.0 - 0.01; });
   const Feasibility f = feasibility(clip);
   EXPECT_NEAR(f.mean_force, 0.5, 1e-6);
 }
 
-TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
+TEST(Feasibility, HeldOutArmLoadsTheShoulderWithWeightTimesLever) {
   const motion::Clip clip = t_pose([](int) { return 0.0; });
   const Character c = make_character();
   const BodyPoses poses = motion::poses_of(clip)[3];
@@ -73,7 +73,7 @@ TEST(Feasibility, AnArmHeldOutLoadsTheShoulderWithItsWeightTimesItsLever) {
               expected.norm() / c.joint[kLeftShoulder].torque_limit, 1e-9);
 }
 
-TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
+TEST(Feasibility, SymmetricMotionLoadsBothKneesEqually) {
   synth::SynthConfig config;
   config.kind = "squat";
   const motion::Clip clip = synth::synthesize(config);
@@ -85,7 +85,7 @@ TEST(Feasibility, ASymmetricMotionLoadsBothKneesAlike) {
   }
 }
 
-TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
+TEST(Feasibility, SyntheticMotionsAreFeasible) {
   for (const std::string& kind : synth::synthetic_kinds()) {
     synth::SynthConfig config;
     config.kind = kind;
@@ -100,7 +100,7 @@ TEST(Feasibility, SyntheticMotionsAskForWhatABodyCanGive) {
   }
 }
 
-TEST(Feasibility, RefusesClipsItCannotDifferentiate) {
+TEST(Feasibility, RejectsClipsOfFewerThanThreeFrames) {
   motion::Clip clip = t_pose([](int) { return 0.0; });
   clip.body_model = "smplh";
   EXPECT_THROW(feasibility(clip), std::invalid_argument);

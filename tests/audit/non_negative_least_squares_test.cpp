@@ -55,7 +55,7 @@ void expect_optimal(const Matrix6X& A, const Vector6d& b, double small, const Ei
   }
 }
 
-TEST(NonNegative, IsTheBestOfAllChoicesOfColumns) {
+TEST(NonNegative, MatchesExhaustiveSearchOverActiveSets) {
   Random random(1, {0x6e6e6c73});
   for (int trial = 0; trial < 60; ++trial) {
     const Matrix6X A = random_matrix(random, 1 + trial % 9);
@@ -66,7 +66,7 @@ TEST(NonNegative, IsTheBestOfAllChoicesOfColumns) {
   }
 }
 
-TEST(NonNegative, MeetsTheConditionsOfOptimalityWithManyColumns) {
+TEST(NonNegative, MeetsTheKktConditionsWithManyColumns) {
   Random random(2, {0x6e6e6c73});
   for (int trial = 0; trial < 200; ++trial) {
     const Matrix6X A = random_matrix(random, 1 + 2 * trial);
@@ -77,7 +77,7 @@ TEST(NonNegative, MeetsTheConditionsOfOptimalityWithManyColumns) {
 }
 
 /// Feet close together: columns that are nearly, or exactly, the same.
-TEST(NonNegative, MeetsThemWithColumnsThatDependOnEachOther) {
+TEST(NonNegative, MeetsTheKktConditionsWithDependentColumns) {
   Random random(3, {0x6e6e6c73});
   for (int trial = 0; trial < 300; ++trial) {
     const Matrix6X few = random_matrix(random, 3);
@@ -92,7 +92,7 @@ TEST(NonNegative, MeetsThemWithColumnsThatDependOnEachOther) {
   }
 }
 
-TEST(NonNegative, PushesThatCannotHelpStayZero) {
+TEST(NonNegative, UselessColumnsStayZero) {
   Matrix6X A = Matrix6X::Zero(6, 2);
   A(5, 0) = A(5, 1) = 1.0;
   Vector6d b = Vector6d::Zero();

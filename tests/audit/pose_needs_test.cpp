@@ -56,7 +56,7 @@ TEST(PoseNeeds, ExactMotionsNeedLessThanAThousandthOfTheWeight) {
   }
 }
 
-TEST(PoseNeeds, AMotionLiftedByTenCentimetresNeedsItsWholeWeightWhereItStands) {
+TEST(PoseNeeds, LiftedMotionNeedsItsWeightWhereItStands) {
   const motion::Clip clip = exact("stand");
   const Character c = motion::character_of(clip);
   const PoseNeeds needs =
@@ -75,7 +75,7 @@ TEST(PoseNeeds, AMotionLiftedByTenCentimetresNeedsItsWholeWeightWhereItStands) {
   EXPECT_NE(verdict.words.find("the body hovers"), std::string::npos) << verdict.words;
 }
 
-TEST(PoseNeeds, AMotionLeaningByTwentyDegreesTipsOver) {
+TEST(PoseNeeds, LeaningMotionTipsOver) {
   const motion::Clip clip = exact("stand");
   const Character c = motion::character_of(clip);
   PerFrame<BodyPoses> poses =
@@ -88,7 +88,7 @@ TEST(PoseNeeds, AMotionLeaningByTwentyDegreesTipsOver) {
   EXPECT_GT(value_of(verdict.values, "moment_mean_Nm"), 0.1 * needs.weight);
 }
 
-TEST(PoseNeeds, AMotionTwentyCentimetresInTheFloorIsSunk) {
+TEST(PoseNeeds, MotionInTheFloorIsSunk) {
   const motion::Clip clip = exact("squat");
   const PoseNeeds needs =
       needs_of_poses(motion::character_of(clip),
@@ -100,7 +100,7 @@ TEST(PoseNeeds, AMotionTwentyCentimetresInTheFloorIsSunk) {
 }
 
 /// A rigid pose that falls from rest, and one that falls half again as fast.
-TEST(PoseNeeds, AFlightNeedsNothingAndAFasterFallIsPulled) {
+TEST(PoseNeeds, FlightNeedsNothingAndAFasterFallIsPulled) {
   const motion::Clip clip = motion::standing_clip(1);
   const Character c = motion::character_of(clip);
   const auto falling = [&](double gravity) {
@@ -195,7 +195,7 @@ TEST(BodyLoads, AgreeWithInverseDynamicsOnASmoothMotion) {
 /// A character that the simulator drops and shakes: its poses alone need little, and the floor found for them
 /// is the recorded one, averaged as the needs are. What poses cannot tell is when a force acted between two
 /// frames.
-TEST(PoseNeeds, OfASimulatedMotionAreSmallAndTheFloorIsTheRecordedOne) {
+TEST(PoseNeeds, SimulatedMotionNeedsLittleAndFindsTheRecordedFloorForce) {
   for (const double size : {0.0, 0.08}) {
     const Thrown thrown(240.0, size);
     const SimulatedFrames frames = thrown.frames();
@@ -226,7 +226,7 @@ TEST(PoseNeeds, OfASimulatedMotionAreSmallAndTheFloorIsTheRecordedOne) {
 }
 
 /// Trembling of 1 mm, white, moves the needs of a standing motion by little; raw second differences by a lot.
-TEST(PoseNeeds, SmoothingTakesTheTremblingOut) {
+TEST(PoseNeeds, SmoothingRemovesJitter) {
   motion::Clip clip = exact("stand");
   for (int t = 0; t < clip.frames(); ++t) clip.trans[t].x() += 0.001 * ((t * 7919) % 13 - 6) / 6.0;
   const auto largest = [&](double window) {
@@ -238,7 +238,7 @@ TEST(PoseNeeds, SmoothingTakesTheTremblingOut) {
   EXPECT_LT(6.0 * largest(0.1), largest(0.0));
 }
 
-TEST(PoseNeeds, RefusesWhatItCannotDifferentiate) {
+TEST(PoseNeeds, RejectsFewerThanThreeFrames) {
   const Character c = make_character();
   const PerFrame<BodyPoses> poses = motion::poses_of(motion::standing_clip(5));
   EXPECT_THROW(needs_of_poses(c, motion::poses_of(motion::standing_clip(2)), 30.0), std::invalid_argument);
@@ -247,7 +247,7 @@ TEST(PoseNeeds, RefusesWhatItCannotDifferentiate) {
   EXPECT_THROW(needs_of_poses(c, poses, 30.0, {.friction = -1.0}), std::invalid_argument);
 }
 
-TEST(PoseVerdict, StretchesAreFramesInARowNamedAfterWhatIsWrongInMostOfThem) {
+TEST(PoseVerdict, StretchesAreNamedAfterTheMostFrequentFault) {
   PoseNeeds needs;
   needs.mass = 100.0;
   needs.weight = 981.0;

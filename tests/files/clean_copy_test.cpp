@@ -25,7 +25,7 @@ struct CleanCopy : testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
+TEST_F(CleanCopy, HasTheInputsBodyAtTheSimulatedPlace) {
   const motion::Clip simulated = motion::standing_clip(40);
   const NpyArray joints = from_matrix(Eigen::MatrixXd::Random(40, 66));
   motion::write_clip(path("simulated.npz"), simulated,
@@ -50,7 +50,7 @@ TEST_F(CleanCopy, HasTheBodyOfItsInputAndTheSamePlace) {
   }
 }
 
-TEST_F(CleanCopy, OfABodyThatTheFitChangedIsTheSimulatedOneWithItsJointsAndForces) {
+TEST_F(CleanCopy, KeepsJointsAndForcesWhereTheFitChangedTheShape) {
   motion::Clip simulated = motion::standing_clip(40);
   simulated.betas[0] = 1.25;
   simulated.betas[3] = -0.5;
@@ -71,7 +71,7 @@ TEST_F(CleanCopy, OfABodyThatTheFitChangedIsTheSimulatedOneWithItsJointsAndForce
           << "joints and betas are of one body";
 }
 
-TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndItsHands) {
+TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndHands) {
   motion::Clip input = motion::standing_clip(101);
   input.fps = 50.0;
   input.passthrough.emplace_back("pose_hand", from_matrix(Eigen::MatrixXd::Random(101, 90)));
@@ -86,7 +86,7 @@ TEST_F(CleanCopy, AtTheInputsRateHasItsFramesAndItsHands) {
       EXPECT_LT((copy.rotations[5 * k][j] - simulated.rotations[3 * k][j]).norm(), 1e-9);
 }
 
-TEST_F(CleanCopy, ComesInTheFormatOfItsInput) {
+TEST_F(CleanCopy, HasTheInputsFormat) {
   const motion::Clip simulated = motion::standing_clip(40);
   motion::write_clip(path("simulated.npz"), simulated);
   motion::Clip input = simulated;

@@ -9,7 +9,7 @@
 namespace mimicx::files {
 namespace {
 
-BodyPoses standing() {
+BodyPoses standing_poses() {
   PerBody<Quaterniond> q;
   q.fill(Quaterniond::Identity());
   q[kPelvis] = exp_map(Vector3d(std::numbers::pi / 2, 0.0, 0.3));
@@ -30,7 +30,7 @@ PerBody<Vector6d> none() {
 }
 
 TEST(FloorArrows, OneForceActsAtItsPoint) {
-  const BodyPoses poses = standing();
+  const BodyPoses poses = standing_poses();
   PerBody<Vector6d> wrenches = none();
   const Vector3d point(1.1, -1.9, 0.0), force(30.0, -20.0, 500.0);
   push(poses, kLeftFoot, point, force, wrenches);
@@ -43,7 +43,7 @@ TEST(FloorArrows, OneForceActsAtItsPoint) {
 
 // Of forces straight up the centre of pressure is the mean of their points, weighted by the forces.
 TEST(FloorArrows, FootsPointIsTheMeanOfItsContactsWeightedByForce) {
-  const BodyPoses poses = standing();
+  const BodyPoses poses = standing_poses();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1.0, 1.0), size(1.0, 200.0);
   PerBody<Vector6d> wrenches = none();
@@ -61,7 +61,7 @@ TEST(FloorArrows, FootsPointIsTheMeanOfItsContactsWeightedByForce) {
 }
 
 TEST(FloorArrows, HandsAddToTheThirdArrow) {
-  const BodyPoses poses = standing();
+  const BodyPoses poses = standing_poses();
   PerBody<Vector6d> wrenches = none();
   push(poses, kLeftWrist, {0.2, 0.1, 0.0}, {0.0, 0.0, 40.0}, wrenches);
   EXPECT_EQ(floor_arrows(wrenches, poses)[2].force.z(), 40.0);
@@ -69,7 +69,7 @@ TEST(FloorArrows, HandsAddToTheThirdArrow) {
 
 // The centre of pressure of a tiny force is not defined.
 TEST(FloorArrows, TinyForceHasNoArrow) {
-  const BodyPoses poses = standing();
+  const BodyPoses poses = standing_poses();
   PerBody<Vector6d> wrenches = none();
   push(poses, kLeftFoot, {0.0, 0.0, 0.0}, {5.0, 0.0, 1e-9}, wrenches);
   EXPECT_EQ(floor_arrows(wrenches, poses)[0].force, Vector3d::Zero());

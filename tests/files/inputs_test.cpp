@@ -26,7 +26,7 @@ struct FindMotions : testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(FindMotions, InFoldersOfFoldersByPathAndNamesThemByTheirPlace) {
+TEST_F(FindMotions, SearchesSubfoldersSortedByPathAndNamesByRelativePath) {
   for (const char* file : {"in/b.npz", "in/CMU/01/01_02_poses.npz", "in/CMU/01/01_01_poses.npz", "in/a.bvh"})
     touch(file);
   EXPECT_EQ(names(), (std::vector<std::string>{"CMU/01/01_01_poses", "CMU/01/01_02_poses", "a", "b"}));
@@ -34,7 +34,7 @@ TEST_F(FindMotions, InFoldersOfFoldersByPathAndNamesThemByTheirPlace) {
   EXPECT_EQ(find_motions({path("in/CMU/01/01_02_poses.npz")})[0].name, "01_02_poses");
 }
 
-TEST_F(FindMotions, LeavesOutWhatIsNoMotionAndWhatRunsLeftAndSaysSo) {
+TEST_F(FindMotions, SkipsAndListsOtherFilesAndRunOutputs) {
   for (const char* file :
        {"in/a.npz", "in/a.clean.npz", "in/a.mimicx/motions/a.npz", "in/sub/shape.npz", "in/sub/notes.md",
         "in/sub/neutral_stagei.npz", "in/out/motions/a.npz", "in/fitted/a.npz"})
@@ -51,7 +51,7 @@ TEST_F(FindMotions, LeavesOutWhatIsNoMotionAndWhatRunsLeftAndSaysSo) {
                                 "an earlier run)\n");
 }
 
-TEST_F(FindMotions, SaysOfHundredsOfOtherFilesHowManyThereAre) {
+TEST_F(FindMotions, CountsManySkippedFiles) {
   touch("in/a.npz");
   for (int k = 100; k < 130; ++k) touch("in/" + std::to_string(k) + ".txt");
   std::ostringstream messages;
@@ -59,7 +59,7 @@ TEST_F(FindMotions, SaysOfHundredsOfOtherFilesHowManyThereAre) {
   EXPECT_NE(messages.str().find("106.txt, 107.txt and 22 more (no"), std::string::npos) << messages.str();
 }
 
-TEST_F(FindMotions, FollowsLinksOnceAndNeverInCircles) {
+TEST_F(FindMotions, FollowsEachLinkOnce) {
   touch("in/sub/a.npz");
   touch("elsewhere/b.npz");
   std::filesystem::create_directory_symlink(path("in"), path("in/sub/back"));
@@ -67,12 +67,12 @@ TEST_F(FindMotions, FollowsLinksOnceAndNeverInCircles) {
   EXPECT_EQ(names(), (std::vector<std::string>{"link/b", "sub/a"}));
 }
 
-TEST_F(FindMotions, AFileNamedTwiceIsThereOnce) {
+TEST_F(FindMotions, ListsAFileOnce) {
   touch("in/a.npz");
   EXPECT_EQ(find_motions({path("in"), path("in/a.npz"), path("in/../in/a.npz")}).size(), 1u);
 }
 
-TEST_F(FindMotions, AFolderWithoutMotionsIsAnErrorThatSaysWhereARunHasThem) {
+TEST_F(FindMotions, RejectsFoldersWithoutMotionsAndPointsIntoRuns) {
   touch("in/notes.md");
   touch("run/manifest.json", "{\n \"run\": {}}");
   touch("run/motions/a.npz");

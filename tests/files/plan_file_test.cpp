@@ -47,7 +47,7 @@ struct PlanFile : testing::Test {
   std::filesystem::path file = folder.path / "plan.npz";
 };
 
-TEST_F(PlanFile, ComesBackToTheBit) {
+TEST_F(PlanFile, RoundTripIsExact) {
   StoredPlan plan = planned(8);
   plan.plan.ending = control::Ending::kLost;
   plan.plan.loss = control::Loss{5, kLeftFoot, 0.41};
@@ -75,7 +75,7 @@ TEST_F(PlanFile, ComesBackToTheBit) {
   EXPECT_TRUE(back.plan.by_way_of_help);
 }
 
-TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
+TEST_F(PlanFile, RepeatsThePlanWithOnlyTheBodyAdded) {
   const StoredPlan stored = written(planned(8));
   EXPECT_FALSE(stored.plan.loss);
   EXPECT_TRUE(stored.plan.soft_help.empty());
@@ -97,7 +97,7 @@ TEST_F(PlanFile, WithTheBodyItIsAllThatRepeatsThePlan) {
 }
 
 // Numbers that the field cannot hold, that are no body's, or that no simulation can have.
-TEST_F(PlanFile, NumbersThatNoPlanHasAreRefused) {
+TEST_F(PlanFile, RejectsImpossibleNumbers) {
   StoredPlan plan = planned(4);
   plan.plan.loss = control::Loss{2, kLeftFoot, 0.41};
   written(plan);
@@ -125,7 +125,7 @@ TEST_F(PlanFile, NumbersThatNoPlanHasAreRefused) {
   EXPECT_NO_THROW(plan_from(sound));
 }
 
-TEST_F(PlanFile, GainsComeBackToTheBitAndAreRefusedInAnotherShape) {
+TEST_F(PlanFile, GainsRoundTripExactlyAndRejectOtherShapes) {
   StoredGains stored;
   for (int t = 0; t < 3; ++t) stored.gains.push_back(Eigen::MatrixXf::Random(kDofs, control::kMemory));
   stored.curvature = Eigen::MatrixXf::Random(kDofs, kDofs);
@@ -140,7 +140,7 @@ TEST_F(PlanFile, GainsComeBackToTheBitAndAreRefusedInAnotherShape) {
   EXPECT_THROW(read_gains(file), DataError);
 }
 
-TEST_F(PlanFile, OneThatIsDamagedNamesTheMember) {
+TEST_F(PlanFile, DamagedFileNamesTheMember) {
   StoredPlan plan = planned(4);
   plan.plan.soft_help.resize(3);
   const double one = 1.0;

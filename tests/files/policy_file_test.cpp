@@ -49,20 +49,20 @@ struct PolicyFile : testing::Test {
   StoredPolicy stored;
 };
 
-TEST_F(PolicyFile, ThatIsReadAgainDoesTheSameToTheBit) {
+TEST_F(PolicyFile, RoundTripGivesTheSameActions) {
   const StoredPolicy read = read_policy(file);
   EXPECT_EQ(read.simulation.friction, 0.7);
   EXPECT_EQ(read.motion.fps, stored.motion.fps);
   EXPECT_EQ(end_of(read), end_of(stored));
 }
 
-TEST_F(PolicyFile, IsAMotionFileToo) {
+TEST_F(PolicyFile, IsAlsoAMotionFile) {
   const motion::Clip read = motion::read_clip(file);
   EXPECT_EQ(read.frames(), 20);
   EXPECT_EQ(read.betas, clip.betas);
 }
 
-TEST_F(PolicyFile, WithoutItsNetworkIsRefusedByName) {
+TEST_F(PolicyFile, RejectsAFileWithoutItsNetworkByName) {
   motion::write_clip(file, clip);
   try {
     read_policy(file);

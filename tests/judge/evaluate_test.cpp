@@ -36,7 +36,7 @@ struct Evaluate : testing::Test {
   std::filesystem::path truth = folder.path / "truth", motions = folder.path / "motions";
 };
 
-TEST_F(Evaluate, AShiftedMotionScoresItsShift) {
+TEST_F(Evaluate, ShiftedMotionScoresItsShift) {
   add_pair("a", 0.030);
   const Evaluation e = evaluate_folders(truth, motions);
   ASSERT_EQ(e.motions.size(), 1u);
@@ -46,7 +46,7 @@ TEST_F(Evaluate, AShiftedMotionScoresItsShift) {
   EXPECT_NEAR(metric(e.motions[0], "MPJPE"), 0.0, 1e-6);
 }
 
-TEST_F(Evaluate, TheMeanIsOverTheFilesThatHaveAValue) {
+TEST_F(Evaluate, MeanIsOverFilesWithAValue) {
   add_pair("a", 0.010);
   add_pair("b", 0.030);
   std::ofstream(motions / "c.npz") << "broken";
@@ -56,7 +56,7 @@ TEST_F(Evaluate, TheMeanIsOverTheFilesThatHaveAValue) {
   EXPECT_NEAR(mean_of(e, motion::metric_definitions().front()), 20.0, 1e-6);
 }
 
-TEST_F(Evaluate, WhatHasNoPartnerIsSaid) {
+TEST_F(Evaluate, ListsFilesWithoutAPartner) {
   add_pair("a", 0.0);
   motion::write_clip(truth / "only_truth.npz", motion::standing_clip(20));
   motion::write_clip(motions / "only_motion.npz", motion::standing_clip(20));
@@ -67,7 +67,7 @@ TEST_F(Evaluate, WhatHasNoPartnerIsSaid) {
   EXPECT_NE(e.motions[1].reason.find("only_motion"), std::string::npos);
 }
 
-TEST_F(Evaluate, LengthsThatDifferAreAFailureOfThatFileAlone) {
+TEST_F(Evaluate, DifferentLengthsFailThatFileOnly) {
   add_pair("a", 0.0);
   add_pair("b", 0.0);
   motion::write_clip(motions / "a.npz", motion::standing_clip(15));
@@ -76,7 +76,7 @@ TEST_F(Evaluate, LengthsThatDifferAreAFailureOfThatFileAlone) {
   EXPECT_TRUE(e.motions[1].ok);
 }
 
-TEST_F(Evaluate, SeveralFoldersAreComparedOverTheMotionsTheyShare) {
+TEST_F(Evaluate, ComparesFoldersOverTheirCommonMotions) {
   add_pair("a", 0.010);
   add_pair("b", 0.030);
   add_pair("c", 0.090);
@@ -95,7 +95,7 @@ TEST_F(Evaluate, SeveralFoldersAreComparedOverTheMotionsTheyShare) {
   EXPECT_NEAR(json.at("rows").at(0).at("mean").at("MRPE").get<double>(), 20.0, 1e-6);
 }
 
-TEST_F(Evaluate, FoldersWithoutMotionsAreRefused) {
+TEST_F(Evaluate, RejectsFoldersWithoutMotions) {
   EXPECT_THROW(evaluate_folders(truth, motions), DataError);
   EXPECT_THROW(evaluate_folders(truth, folder.path / "none"), DataError);
 }

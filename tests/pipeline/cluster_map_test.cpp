@@ -35,7 +35,7 @@ options::Clusters two_clusters() {
   return clusters;
 }
 
-TEST(ClusterMap, FindsTheTwoWaysInWhichMotionsDifferAndNamesThem) {
+TEST(ClusterMap, FindsAndNamesTheTwoPrincipalComponents) {
   const ClusterMap map = map_of(two_clusters());
   EXPECT_EQ(map.axes[0].words, "more speed across the floor");
   EXPECT_EQ(map.axes[1].words, "more height of the hips");
@@ -48,7 +48,7 @@ TEST(ClusterMap, FindsTheTwoWaysInWhichMotionsDifferAndNamesThem) {
 }
 
 /// Nothing is stretched: where all differences are seen, distances on the map are those of the features.
-TEST(ClusterMap, DistancesAreThoseOfTheFeatures) {
+TEST(ClusterMap, PreservesFeatureDistances) {
   const ClusterMap map = map_of(two_clusters());
   const Eigen::Vector2d a = map.place(motion_of(0.2, 0.1)), b = map.place(motion_of(1.1, 0.9));
   EXPECT_NEAR((a - b).norm(), std::sqrt(22.0 * 0.9 * 0.9 + 0.8 * 0.8), 1e-9);
@@ -59,7 +59,7 @@ TEST(ClusterMap, DistancesAreThoseOfTheFeatures) {
 }
 
 /// The definition of the first principal component, by trial: no other direction has more variance.
-TEST(ClusterMap, NoDirectionShowsMoreThanTheFirst) {
+TEST(ClusterMap, FirstAxisHasTheLargestVariance) {
   const options::Clusters clusters = two_clusters();
   const ClusterMap map = map_of(clusters);
   const auto variance = [&](const Eigen::VectorXd& direction) {
@@ -82,13 +82,13 @@ TEST(ClusterMap, NoDirectionShowsMoreThanTheFirst) {
   }
 }
 
-TEST(ClusterMap, NeedsTheFeaturesOfThreeMotions) {
+TEST(ClusterMap, RejectsFewerThanThreeMotions) {
   options::Clusters clusters = two_clusters();
   for (auto& cluster : clusters.clusters) cluster.features.clear();
   EXPECT_THROW(map_of(clusters), std::invalid_argument);
 }
 
-TEST(ClusterMap, InThePageAreTrainingMotionsByNameAndClipsByRow) {
+TEST(ClusterMap, JsonHasTrainingMotionsByNameAndClipsByRow) {
   ClusterMap map = map_of(two_clusters());
   map.clips.push_back({{0.5, -0.25}, 1, "", 7});
   const auto json = nlohmann::json::parse(map_json(map));

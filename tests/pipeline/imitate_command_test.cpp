@@ -57,7 +57,7 @@ TEST_F(Imitate, LeavesEveryFileTheDocumentationNames) {
   EXPECT_EQ(log.rows.back()[log.column("samples")], 6 * 64 * 8);
 }
 
-TEST_F(Imitate, TheMotionHasAFrameForEveryFrameOfTheInput) {
+TEST_F(Imitate, MotionHasAFramePerInputFrame) {
   run(small_run(out("run"), {stand}));
   const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
   for (const auto& [name, shape] :
@@ -74,7 +74,7 @@ TEST_F(Imitate, TheMotionHasAFrameForEveryFrameOfTheInput) {
     EXPECT_EQ(motion.at(name).shape, shape) << name;
 }
 
-TEST_F(Imitate, SupportsTheBodyWithTheFloor) {
+TEST_F(Imitate, FloorCarriesTheBodysWeight) {
   run(small_run(out("run"), {stand}));
   const auto wrenches = read_npz(out("run") / "motions" / "stand.npz").at("ground_wrenches").to_double();
   double vertical = 0.0;  // of all bodies, mean over frames 5 … 19
@@ -107,7 +107,7 @@ TEST_F(Imitate, IsTheSameBytesAfterInterruptions) {
   EXPECT_EQ(run::results_of(out("whole")), run::results_of(out("interrupted")));
 }
 
-TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
+TEST_F(Imitate, DropsLogRowsAfterTheCheckpoint) {
   ImitateConfig config = small_run(out("whole"), {stand});
   run(config);
   config.run.out = out("killed");
@@ -121,7 +121,7 @@ TEST_F(Imitate, DropsLogRowsThatWereWrittenAfterTheCheckpoint) {
   EXPECT_EQ(run::results_of(out("whole")), run::results_of(out("killed")));
 }
 
-TEST_F(Imitate, KeepsWhatIsFinished) {
+TEST_F(Imitate, KeepsFinishedMotions) {
   const ImitateConfig config = small_run(out("run"), {stand});
   run(config);
   const auto before = run::results_of(out("run"));
@@ -131,7 +131,7 @@ TEST_F(Imitate, KeepsWhatIsFinished) {
   EXPECT_EQ(std::filesystem::last_write_time(out("run") / "checkpoints" / "stand.npz"), written);
 }
 
-TEST_F(Imitate, AFinishedMotionGetsItsStepsWithoutTrainingAgain) {
+TEST_F(Imitate, AddsSubstepsToAFinishedMotionWithoutTraining) {
   ImitateConfig config = small_run(out("run"), {stand});
   run(config);
   auto before = run::results_of(out("run"));
@@ -146,7 +146,7 @@ TEST_F(Imitate, AFinishedMotionGetsItsStepsWithoutTrainingAgain) {
   EXPECT_EQ(run::results_of(out("at once")).at("substeps/stand.npz"), steps);
 }
 
-TEST_F(Imitate, TheManifestSaysThatTheForcesExplainTheMotion) {
+TEST_F(Imitate, ForcesExplainTheMotion) {
   run(small_run(out("run"), {stand}));
   const NamedValues audit = record::read_manifest(out("run") / "manifest.json").sequences.at(0).audit;
   EXPECT_LT(value_of(audit, "root_force_max_N"), 0.01);
@@ -154,7 +154,7 @@ TEST_F(Imitate, TheManifestSaysThatTheForcesExplainTheMotion) {
   EXPECT_EQ(value_of(audit, "torque_violations"), 0.0);
 }
 
-TEST_F(Imitate, Eq3SeesTheKeypointsOnlyWhereTheMotionWasFittedOntoThem) {
+TEST_F(Imitate, Eq3UsesKeypointsOnlyIfFittedToThem) {
   const std::string noisy = std::string(MIMICX_SOURCE_DIR) + "/data/synthetic/test/noisy/stand_1.npz";
   const auto lowest_projection = [&](bool fit) {
     ImitateConfig config = small_run(out(fit ? "fitted" : "unfitted"), {noisy});
@@ -169,7 +169,7 @@ TEST_F(Imitate, Eq3SeesTheKeypointsOnlyWhereTheMotionWasFittedOntoThem) {
   EXPECT_LT(lowest_projection(true), 1.0);
 }
 
-TEST_F(Imitate, StartsOverWhenTheInputChanged) {
+TEST_F(Imitate, StartsOverIfTheInputChanged) {
   const ImitateConfig config = small_run(out("run"), {stand});
   run(config);
   motion::write_clip(stand, motion::standing_clip(25));
@@ -177,7 +177,7 @@ TEST_F(Imitate, StartsOverWhenTheInputChanged) {
   EXPECT_EQ(read_npz(out("run") / "motions" / "stand.npz").at("poses").shape.at(0), 25u);
 }
 
-TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
+TEST_F(Imitate, RecordsAFailedInputAndContinues) {
   const std::string broken = (folder.path / "broken.npz").string(),
                     none = (folder.path / "none.npz").string();
   std::ofstream(broken) << "not an archive";
@@ -192,7 +192,7 @@ TEST_F(Imitate, AnInputThatFailsIsRecordedAndTheOthersGoOn) {
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
 }
 
-TEST_F(Imitate, AMotionThatCannotBeFollowedStandsApartFromTheCleanOnes) {
+TEST_F(Imitate, UnfollowableMotionIsRejected) {
   motion::Clip leaning = motion::standing_clip(60);  // by 45° to the side, for two seconds: it falls
   for (auto& frame : leaning.rotations)
     frame[kPelvis] = log_map(exp_map(Vector3d(0.0, std::numbers::pi / 4, 0.0)) * exp_map(frame[kPelvis]));
@@ -207,7 +207,7 @@ TEST_F(Imitate, AMotionThatCannotBeFollowedStandsApartFromTheCleanOnes) {
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
 }
 
-TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
+TEST_F(Imitate, RetriesAFailedInput) {
   const std::string late = (folder.path / "late.npz").string();
   const ImitateConfig config = small_run(out("run"), {late});
   EXPECT_EQ(run(config).value, record::RunOutcome::kSomeFailed);
@@ -216,7 +216,7 @@ TEST_F(Imitate, AnInputThatFailedIsTriedAgain) {
   EXPECT_EQ(record::read_manifest(out("run") / "manifest.json").sequences.at(0).output, "motions/late.npz");
 }
 
-TEST_F(Imitate, AResultThatIsGoneIsMadeAgainAndTheOthersGoOn) {
+TEST_F(Imitate, RemakesAMissingResultAndKeepsTheOthers) {
   const ImitateConfig config = small_run(out("run"), {stand, other});
   run(config);
   const auto before = run::results_of(out("run"));
@@ -226,7 +226,7 @@ TEST_F(Imitate, AResultThatIsGoneIsMadeAgainAndTheOthersGoOn) {
   EXPECT_EQ(run::results_of(out("run")), before);
 }
 
-TEST_F(Imitate, WhatCannotBeWrittenIsTriedAgain) {
+TEST_F(Imitate, RetriesAResultThatCouldNotBeWritten) {
   const ImitateConfig config = small_run(out("run"), {stand, other});
   const std::filesystem::path in_the_way = out("run") / "references" / "stand.npz";
   std::filesystem::create_directories(in_the_way / "folder");
@@ -240,7 +240,7 @@ TEST_F(Imitate, WhatCannotBeWrittenIsTriedAgain) {
   EXPECT_TRUE(std::filesystem::exists(out("run") / "motions" / "stand.npz"));
 }
 
-TEST_F(Imitate, ACopyThatCannotBeWrittenCostsNoMotion) {
+TEST_F(Imitate, FailedCopyKeepsTheMotion) {
   ImitateConfig config = small_run(out("run"), {stand});
   config.run.input_rate = true;
   std::filesystem::create_directories(out("run"));
@@ -260,7 +260,7 @@ TEST_F(Imitate, StopsBetweenInputsThatNeedNoTraining) {
   EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
 }
 
-TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
+TEST_F(Imitate, RejectsAFolderOfOtherSettingsUnchanged) {
   ImitateConfig config = small_run(out("run"), {stand});
   run(config);
   const auto before = run::results_of(out("run"));
@@ -272,7 +272,7 @@ TEST_F(Imitate, RefusesAFolderOfOtherSettingsAndLeavesItAlone) {
   EXPECT_EQ(run::results_of(out("run")), before);
 }
 
-TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
+TEST_F(Imitate, RecordsTheTimeLimitAndTheSameCommandContinues) {
   ImitateConfig config = small_run(out("run"), {stand});
   config.run.limit_seconds = 1e-9;
   run(config);
@@ -287,7 +287,7 @@ TEST_F(Imitate, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
   EXPECT_EQ(done.samples, 6 * 64 * 8);
 }
 
-TEST_F(Imitate, AnotherSeedIsAnotherTraining) {
+TEST_F(Imitate, AnotherSeedGivesAnotherTraining) {
   ImitateConfig config = small_run(out("one"), {stand});
   run(config);
   config.run.out = out("two");

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kFrames = 60;
 
-struct SetChoice : testing::Test {
+struct OptionSetChoice : testing::Test {
   using Set = std::shared_ptr<const options::OptionSet>;
 
   /// Two options without encoders, the first of which falls at once and the second of which always does this.
@@ -40,7 +40,7 @@ struct SetChoice : testing::Test {
   options::ArrangementConfig config{.selector = options::Selector::kBeam, .beam_width = 4, .beam_stretch = 5};
 };
 
-TEST_F(SetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {
+TEST_F(OptionSetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {
   int asked = 0;
   const auto count = [&] { return ++asked < 0; };
   const ChosenSet first = choose({set_of(0.0F), encoded_set_of(0.0F)}, count);
@@ -49,7 +49,7 @@ TEST_F(SetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {
   EXPECT_EQ(choose({set_of(1.5F), encoded_set_of(0.0F), set_of(0.0F)}).set, 1);
 }
 
-TEST_F(SetChoice, ItsArrangementIsThatOfTheSetByItself) {
+TEST_F(OptionSetChoice, ArrangementIsThatOfTheSetAlone) {
   const Set follows = set_of(0.02F);
   const ChosenSet chosen = choose({encoded_set_of(1.5F), follows});
   const options::ArrangedClip alone = options::arrange(clip, {}, *follows, config);
@@ -63,7 +63,7 @@ TEST_F(SetChoice, ItsArrangementIsThatOfTheSetByItself) {
   EXPECT_EQ(chosen.tried, 2);
 }
 
-TEST_F(SetChoice, WhereNoneFollowsTheBestIsTakenAndOfEqualsTheFirst) {
+TEST_F(OptionSetChoice, TakesTheBestIfNoneFollowsAndTheFirstOfEquals) {
   EXPECT_EQ(choose({set_of(1.5F), set_of(1.5F)}).set, 0);
   EXPECT_FALSE(choose({set_of(1.5F), set_of(1.5F)}).success);
   const Set falls = set_of(1.5F), falls_later = set_of(0.6F);
@@ -73,7 +73,7 @@ TEST_F(SetChoice, WhereNoneFollowsTheBestIsTakenAndOfEqualsTheFirst) {
 }
 
 /// A search can come to the end of a motion that it has drifted away from: no break, and yet no success.
-TEST_F(SetChoice, ToComeToTheEndIsNotToFollow) {
+TEST_F(OptionSetChoice, ReachingTheEndIsNotEnoughToFollow) {
   rl::tracking::TrackingConfig lenient;
   lenient.terminate_distance = 5.0;
   const Set falls = set_of(1.5F);
@@ -81,7 +81,7 @@ TEST_F(SetChoice, ToComeToTheEndIsNotToFollow) {
   EXPECT_EQ(choose_set(reference, clip, lenient, {falls, set_of(0.0F)}, config).set, 1);
 }
 
-TEST_F(SetChoice, ASearchThatIsStoppedIsTakenOnlyWhereThereIsNoOther) {
+TEST_F(OptionSetChoice, TakesAStoppedSearchOnlyIfThereIsNoOther) {
   const Set falls = set_of(1.5F), follows = set_of(0.0F);
   const auto after = [](int frames) { return [left = frames]() mutable { return left-- <= 0; }; };
   const ChosenSet first = choose({falls, follows}, after(12));

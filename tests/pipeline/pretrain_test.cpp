@@ -13,7 +13,7 @@ namespace {
 
 using Pretrain = program::PretrainedOptions;
 
-TEST(PretrainEncoders, AreTrainedNoLongerThanTheirPoliciesAreWorth) {
+TEST(PretrainEncoders, StepsFallWithTheSamplesOfTheirPolicy) {
   const nn::AutoEncoderConfig config;
   EXPECT_EQ(encoder_steps(config, 10'000'000), config.steps);
   EXPECT_EQ(encoder_steps(config, 10 * config.steps), config.steps);
@@ -21,7 +21,7 @@ TEST(PretrainEncoders, AreTrainedNoLongerThanTheirPoliciesAreWorth) {
   EXPECT_EQ(encoder_steps(config, 0), 100);
 }
 
-TEST(ShareSamples, GoBySquareRootsAndSpendTheBudget) {
+TEST(ShareSamples, AreProportionalToSquareRootsAndSumToTheBudget) {
   const auto shares = share_samples(700, {1, 4, 16});
   EXPECT_EQ(shares, (std::vector<std::int64_t>{100, 200, 400}));
 }
@@ -56,7 +56,7 @@ TEST_F(Pretrain, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
-TEST_F(Pretrain, AFinishedOneIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
+TEST_F(Pretrain, KeepsAFinishedRunAndRemakesMissingOptions) {
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kAllGood);
   const auto before = run::results_of(out("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "clusters.json");
@@ -67,7 +67,7 @@ TEST_F(Pretrain, AFinishedOneIsKeptAndOneWhoseOptionsAreGoneIsDoneAgain) {
   EXPECT_EQ(run::results_of(out("run")), before);
 }
 
-TEST_F(Pretrain, AnOptionWithoutABudgetHasTheSameCheckpointHoweverOftenItIsTakenUp) {
+TEST_F(Pretrain, ZeroBudgetCheckpointDoesNotChangeOnResume) {
   PretrainConfig config = pretraining("run");
   config.training.samples = 0;
   run(config);
@@ -77,14 +77,14 @@ TEST_F(Pretrain, AnOptionWithoutABudgetHasTheSameCheckpointHoweverOftenItIsTaken
   EXPECT_TRUE(run::results_of(out("run")) == files);
 }
 
-TEST_F(Pretrain, NamesWhatItCannotReadAndGoesOn) {
+TEST_F(Pretrain, NamesUnreadableMotionsAndContinues) {
   std::ofstream(motions / "broken.npz") << "no archive";
   EXPECT_EQ(run(pretraining("run")), record::RunOutcome::kSomeFailed);
   EXPECT_EQ(options::read_options(out("run"))->options.size(), 2u);
   EXPECT_NE(run::results_of(out("run")).at("manifest.json").find("broken.npz"), std::string::npos);
 }
 
-TEST_F(Pretrain, WithoutAFitNothingDependsOnKeypoints) {
+TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
   const std::filesystem::path noisy = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy";
   std::filesystem::remove_all(motions);
   std::filesystem::create_directories(motions);
@@ -102,7 +102,7 @@ TEST_F(Pretrain, WithoutAFitNothingDependsOnKeypoints) {
             read_file(out("blind") / "training" / "option0.csv"));
 }
 
-TEST_F(Pretrain, RefusesAFolderWhoseManifestIsNone) {
+TEST_F(Pretrain, RejectsAFolderWithAnInvalidManifest) {
   std::filesystem::create_directories(out("run"));
   for (const char* text : {"", "{", "[]", "{}", "{\"run\": 1}"}) {
     std::ofstream(out("run") / "manifest.json") << text;
@@ -144,7 +144,7 @@ TEST_F(Pretrain, MoreSamplesContinueTheSameTrainings) {
   EXPECT_THROW(run(config), std::invalid_argument) << "it has more already";
 }
 
-TEST_F(Pretrain, WithMoreSamplesItMattersNotWhereTheEarlierCommandsStopped) {
+TEST_F(Pretrain, MoreSamplesGiveTheSameBytesWhereverEarlierRunsStopped) {
   PretrainConfig config = pretraining("one");
   const auto with_samples = [&](int times) {
     config.training.samples = times * program::small_training().samples;
@@ -162,7 +162,7 @@ TEST_F(Pretrain, WithMoreSamplesItMattersNotWhereTheEarlierCommandsStopped) {
   EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
-TEST_F(Pretrain, MoreSamplesDoNotExcuseAnotherSetting) {
+TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
   PretrainConfig config = pretraining("run");
   run(config);
   const auto before = run::results_of(out("run"));
@@ -172,7 +172,7 @@ TEST_F(Pretrain, MoreSamplesDoNotExcuseAnotherSetting) {
   EXPECT_EQ(run::results_of(out("run")), before);
 }
 
-TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {
+TEST_F(Pretrain, RejectsAFolderOfAnotherRun) {
   PretrainConfig config = pretraining("run");
   run(config);
   config.encoder.code = 4;

@@ -9,7 +9,7 @@
 namespace mimicx::pipeline {
 namespace {
 
-TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
+TEST(TrainingSettings, EachChangesByNameAndAlone) {
   const NamedValues defaults = settings_of(program::imitate_configuration().training);
   for (const auto& [name, value] : defaults) {
     const bool flag = name == "residual_actions" || name == "self_contact" || name == "velocity_feed_forward";
@@ -25,7 +25,7 @@ TEST(TrainingSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
   EXPECT_THROW(apply_setting(config, "epochs", 1.5), std::invalid_argument);
 }
 
-TEST(TrainingSettings, WhatNoTrainingCanHaveIsRefusedByName) {
+TEST(TrainingSettings, RejectsImpossibleValuesByName) {
   for (const char* name :
        {"characters", "group_size", "hidden_1", "evaluate_iterations", "horizon", "sigma_start", "epochs",
         "minibatch", "gradient_slots", "pass_rows", "bin_frames", "physics_passes"}) {

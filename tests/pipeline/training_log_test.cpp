@@ -8,7 +8,7 @@
 namespace mimicx::pipeline {
 namespace {
 
-TEST(TrainingLog, EveryValueStandsUnderItsName) {
+TEST(TrainingLog, EveryValueIsInItsColumn) {
   TrainingLogRow row;
   row.iteration.iteration = 3;
   row.iteration.samples = 4096;
@@ -68,7 +68,7 @@ TEST(TrainingLog, EveryValueStandsUnderItsName) {
   }
 }
 
-TEST(TrainingLog, TheReportHasWordsForEveryColumn) {
+TEST(TrainingLog, ReportHasWordsForEveryColumn) {
   for (const std::string& column : empty_training_log().columns)
     EXPECT_TRUE(report::has_words("log", column.substr(0, column.find(':')))) << column;
 }

@@ -5,7 +5,7 @@
 namespace mimicx::pipeline {
 namespace {
 
-TEST(Stall, CountsRollOutsThatFollowAndAreNoBetter) {
+TEST(Stall, CountsFollowingRollOutsWithoutImprovement) {
   EXPECT_EQ(stall_age(3, 0.020, 0.020), 4);
   EXPECT_EQ(stall_age(3, 0.025, 0.020), 4);
   EXPECT_EQ(stall_age(3, 0.015, 0.020), 0) << "markedly better";

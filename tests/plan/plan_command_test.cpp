@@ -63,7 +63,7 @@ TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
   EXPECT_EQ(motion.at("ground_wrenches").shape, (std::vector<std::size_t>{20, 22, 6}));
 }
 
-TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
+TEST_F(PlanMotions, RecordsThePlanAndPassesTheAudit) {
   run(planning("run", {stand}));
   const record::Manifest manifest = record::read_manifest(out("run") / "manifest.json");
   EXPECT_EQ(manifest.method, "plan");
@@ -81,7 +81,7 @@ TEST_F(PlanMotions, TheManifestSaysHowAndTheAuditPasses) {
   for (const std::string& note : entry.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
 }
 
-TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
+TEST_F(PlanMotions, ReportShowsAMotionWithoutTraining) {
   run(planning("run", {stand}));
   const std::string page = read_file(out("run") / "report.html");
   EXPECT_NE(page.find("\"words\":\"distance from the prepared reference\""), std::string::npos);
@@ -92,7 +92,7 @@ TEST_F(PlanMotions, TheReportShowsAMotionWithoutATraining) {
   EXPECT_EQ(page.find("cannot be shown"), std::string::npos);
 }
 
-TEST_F(PlanMotions, TheReportHasWordsForEveryNumberOfTheManifest) {
+TEST_F(PlanMotions, ReportHasWordsForEveryManifestNumber) {
   run(planning("run", {stand}));
   const record::SequenceEntry made = entry("run");
   for (const auto& [group, values] :
@@ -103,7 +103,7 @@ TEST_F(PlanMotions, TheReportHasWordsForEveryNumberOfTheManifest) {
       EXPECT_TRUE(report::has_words(group, name)) << group << ' ' << name;
 }
 
-TEST_F(PlanMotions, TheInputIsKeptAsItWasReadAndMadeAgainWhereItIsDamaged) {
+TEST_F(PlanMotions, KeepsTheInputAndRemakesADamagedCopy) {
   run(planning("run", {stand}));
   const std::filesystem::path kept = out("run") / "inputs" / "stand.npz";
   const motion::Clip input = motion::read_clip(kept), given = motion::read_clip(stand);
@@ -116,7 +116,7 @@ TEST_F(PlanMotions, TheInputIsKeptAsItWasReadAndMadeAgainWhereItIsDamaged) {
   EXPECT_EQ(read_file(out("run") / "report.html"), page);
 }
 
-TEST_F(PlanMotions, TheRewardIsTheProductOfItsFactors) {
+TEST_F(PlanMotions, RewardIsTheProductOfItsFactors) {
   run(planning("run", {stand}));
   const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
   const std::vector<double> rewards = motion.at("reward").to_double(),
@@ -129,7 +129,7 @@ TEST_F(PlanMotions, TheRewardIsTheProductOfItsFactors) {
   }
 }
 
-TEST_F(PlanMotions, TheMotionIsThePlanToTheByte) {
+TEST_F(PlanMotions, MotionRepeatsThePlanExactly) {
   run(planning("run", {stand}));
   const files::StoredPlan stored = files::read_plan(out("run") / "plans" / "stand.npz");
   const auto velocities = read_npz(out("run") / "motions" / "stand.npz").at("velocities").to_double();
@@ -157,7 +157,7 @@ TEST_F(PlanMotions, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
-TEST_F(PlanMotions, AFinishedMotionGetsItsStepsFromItsPlan) {
+TEST_F(PlanMotions, AddsSubstepsToAFinishedMotionFromItsPlan) {
   PlanMotionsConfig config = planning("run", {stand});
   run(config);
   auto before = run::results_of(out("run"));
@@ -170,7 +170,7 @@ TEST_F(PlanMotions, AFinishedMotionGetsItsStepsFromItsPlan) {
   EXPECT_EQ(after, before);
 }
 
-TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
+TEST_F(PlanMotions, AddsGainsToAFinishedPlanWithoutReplanning) {
   PlanMotionsConfig config = planning("run", {stand});
   run(config);
   auto before = run::results_of(out("run"));
@@ -191,7 +191,7 @@ TEST_F(PlanMotions, AFinishedPlanGetsItsGainsWithoutBeingMadeAgain) {
   EXPECT_EQ(run::results_of(out("at once")).at("gains/stand.npz"), gains);
 }
 
-TEST_F(PlanMotions, APlanOfAnotherInputIsNotTakenUp) {
+TEST_F(PlanMotions, IgnoresThePlanOfAnotherInput) {
   run(planning("run", {stand}));
   motion::write_clip(stand, motion::standing_clip(25));
   run(planning("run", {stand}));
@@ -199,7 +199,7 @@ TEST_F(PlanMotions, APlanOfAnotherInputIsNotTakenUp) {
   EXPECT_EQ(entry("run").frames, 25);
 }
 
-TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
+TEST_F(PlanMotions, FailedPlanSaysWhereAndWhyAndOthersFinish) {
   EXPECT_EQ(run(planning("run", {lean, stand})).value, record::RunOutcome::kSomeFailed);
   const record::SequenceEntry lost = entry("run", 0), done = entry("run", 1);
   EXPECT_FALSE(lost.ok);
@@ -218,7 +218,7 @@ TEST_F(PlanMotions, WhatIsLostSaysWhereAndWhyAndTheOthersAreDone) {
   EXPECT_TRUE(done.ok) << done.reason;
 }
 
-TEST_F(PlanMotions, TheFeasibilityOfEveryFrameIsInItsFileTheManifestAndTheReport) {
+TEST_F(PlanMotions, WritesFeasibilityToFileManifestAndReport) {
   run(planning("run", {lean, stand}));
   const record::RunFolder made{out("run")};
   const record::FrameFeasibility lost = record::read_feasibility(made.feasibility("lean"));
@@ -248,7 +248,7 @@ TEST_F(PlanMotions, TheFeasibilityOfEveryFrameIsInItsFileTheManifestAndTheReport
 }
 
 // Its first half second needs half of its weight from outside. Hard plans lose it.
-TEST_F(PlanMotions, FromSoftToHardARealReferenceIsFollowedThatNoBodyCanDo) {
+TEST_F(PlanMotions, FollowsAnInfeasibleReferenceByAssistiveForces) {
   const auto dance = std::filesystem::path(MIMICX_SHARED_DIR) / "motions/deepmimic/humanoid3d_dance_a.txt";
   if (!std::filesystem::exists(dance)) GTEST_SKIP() << "no real motions beside the source tree";
   PlanMotionsConfig config = plan_configuration();
@@ -265,7 +265,7 @@ TEST_F(PlanMotions, FromSoftToHardARealReferenceIsFollowedThatNoBodyCanDo) {
   for (const std::string& note : followed.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
 }
 
-TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
+TEST_F(PlanMotions, RecordsTheTimeLimitAndTheSameCommandContinues) {
   PlanMotionsConfig config = planning("run", {other});
   config.run.limit_seconds = 1e-9;
   run(config);
@@ -277,14 +277,14 @@ TEST_F(PlanMotions, TheSafetyStopIsRecordedAndTheSameCommandGoesOn) {
   EXPECT_TRUE(entry("run").ok) << entry("run").reason;
 }
 
-TEST_F(PlanMotions, RefusesAFolderOfOtherSettings) {
+TEST_F(PlanMotions, RejectsAFolderOfOtherSettings) {
   PlanMotionsConfig config = planning("run", {stand});
   run(config);
   config.planning.plan.weights.position += 1.0;
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 
-TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
+TEST(PlanningSettings, EachChangesByNameAndAlone) {
   const NamedValues defaults = planning_settings({});
   for (const auto& [name, value] : defaults) {
     const bool is_switch = name == "self_contact" || name == "plan_soft_to_hard";
@@ -300,7 +300,7 @@ TEST(PlanningSettings, EveryOneCanBeChangedByItsNameAndChangesNoOther) {
   EXPECT_THROW(apply_setting(config, "plan_horizon", 1.5), std::invalid_argument);
 }
 
-TEST(PlanningSettings, WhatNoPlanCanHaveIsRefusedByName) {
+TEST(PlanningSettings, RejectsImpossibleValuesByName) {
   EXPECT_NO_THROW(check(PlanningConfig{}));
   for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"plan_horizon", 0},
                                                                                {"plan_commit", 0},

@@ -12,7 +12,7 @@ motion::Reference walk_reference() {
   return motion::prepare_reference(test::synthetic_clip("walk", 501), {}, nullptr);
 }
 
-TEST(Certainty, AnOrdinaryMotionIsCertain) {
+TEST(Certainty, OrdinaryMotionIsCertain) {
   const motion::Reference reference = walk_reference();
   const List<control::Certainty> certainty = certainty_of(reference, 150.0);
   ASSERT_EQ(certainty.count(), reference.size());
@@ -22,7 +22,7 @@ TEST(Certainty, AnOrdinaryMotionIsCertain) {
 }
 
 // A foot that is d away for one frame has accelerations of d, 2 d and d times the square of the frame rate.
-TEST(Certainty, AJumpOfALimbMakesThatLimbUncertainByTheFourthPower) {
+TEST(Certainty, FallsWithTheFourthPowerOfALimbsAcceleration) {
   motion::Reference reference = walk_reference();
   for (motion::ReferenceFrame& frame : reference.frames) frame = reference.frames[0];
   for (BodyPoses& poses : reference.poses) poses = reference.poses[0];

@@ -50,7 +50,7 @@ std::shared_ptr<const pipeline::options::OptionSet> falling(const pipeline::opti
   return falls;
 }
 
-TEST_F(Adapt, TriesTheNextSetOfOptionsWhereTheFirstDoesNotFollow) {
+TEST_F(Adapt, TriesTheNextSetIfTheFirstDoesNotFollow) {
   run(pretraining("options"));
   AdaptConfig config = adapting("second", "options");
   config.training.samples = 0;
@@ -99,7 +99,7 @@ std::string differences(const std::map<std::string, std::string>& a,
   return names;
 }
 
-TEST_F(Adapt, WithTwoSetsIsTheSameBytesAfterInterruptionsInAnyOfTheirSearches) {
+TEST_F(Adapt, TwoSetsGiveTheSameBytesAfterInterruptedSearches) {
   run(pretraining("options"));
   AdaptConfig config = adapting("whole", "options");
   config.arrangement.selector = pipeline::options::Selector::kBeam;
@@ -117,7 +117,7 @@ TEST_F(Adapt, WithTwoSetsIsTheSameBytesAfterInterruptionsInAnyOfTheirSearches) {
 }
 
 /// Its search was cut, so it trained options that the whole search does not choose.
-TEST_F(Adapt, ATrainingOfOtherOptionsIsNotGoneOnWith) {
+TEST_F(Adapt, DoesNotContinueATrainingOfOtherOptions) {
   run(pretraining("options"));
   AdaptConfig config = adapting("hasty", "options");
   config.arrangement.selector = pipeline::options::Selector::kBeam;
@@ -137,7 +137,7 @@ TEST_F(Adapt, ATrainingOfOtherOptionsIsNotGoneOnWith) {
       << "a note, and nothing else";
 }
 
-TEST_F(Adapt, ClustersThatCannotBeReadCostTheMapAlone) {
+TEST_F(Adapt, UnreadableClustersOmitOnlyTheMap) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
@@ -152,7 +152,7 @@ TEST_F(Adapt, ClustersThatCannotBeReadCostTheMapAlone) {
   EXPECT_FALSE(std::filesystem::exists(out("run") / "clusters.json"));
 }
 
-TEST_F(Adapt, SaysWhichSetIsTakenWhereNoneFollows) {
+TEST_F(Adapt, NamesTheSetTakenIfNoneFollows) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
@@ -168,7 +168,7 @@ TEST_F(Adapt, SaysWhichSetIsTakenWhereNoneFollows) {
   EXPECT_TRUE(said("options of set 1 of 2: none follows the motion"));
 }
 
-TEST_F(Adapt, ASetWithoutClustersLeavesTheReportWithoutAMap) {
+TEST_F(Adapt, SetWithoutClustersOmitsTheMap) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
@@ -179,7 +179,7 @@ TEST_F(Adapt, ASetWithoutClustersLeavesTheReportWithoutAMap) {
   EXPECT_FALSE(std::filesystem::exists(out("run") / "clusters.json"));
 }
 
-TEST_F(Adapt, WithoutABudgetIsTheOptionsThemselves) {
+TEST_F(Adapt, ZeroBudgetLeavesTheOptionsUnchanged) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.training.samples = 0;
@@ -218,7 +218,7 @@ TEST_F(Adapt, MoreSamplesContinueTheSameTraining) {
 }
 
 // The search comes before the training: it must hear of an interrupt, and of the seconds that are over.
-TEST_F(Adapt, ABeamSearchIsInterruptedAndItsSecondsAreCounted) {
+TEST_F(Adapt, BeamSearchIsInterruptibleAndCountsItsSeconds) {
   run(pretraining("options"));
   AdaptConfig config = adapting("stopped", "options");
   config.arrangement.selector = pipeline::options::Selector::kBeam;
@@ -241,7 +241,7 @@ TEST_F(Adapt, ABeamSearchIsInterruptedAndItsSecondsAreCounted) {
   EXPECT_TRUE(said);
 }
 
-TEST_F(Adapt, EndingsAreToldApart) {
+TEST_F(Adapt, RecordsThresholdAndStallEndings) {
   run(pretraining("options"));
   AdaptConfig config = adapting("good", "options");
   config.training.stop_reward = 1e-9;  // whatever it does is good enough
@@ -256,7 +256,7 @@ TEST_F(Adapt, EndingsAreToldApart) {
             record::Ending::kStall);
 }
 
-TEST_F(Adapt, NothingChangesWhereTheTruthIsDeleted) {
+TEST_F(Adapt, ResultDoesNotDependOnTheTruth) {
   const std::filesystem::path data = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test";
   std::filesystem::create_directories(out("data"));
   std::filesystem::copy(data / "truth", out("data") / "truth");
@@ -273,7 +273,7 @@ TEST_F(Adapt, NothingChangesWhereTheTruthIsDeleted) {
   EXPECT_EQ(with, run::results_of(out("without")));
 }
 
-TEST_F(Adapt, NothingDependsOnKeypointsThatAreNotWanted) {
+TEST_F(Adapt, ResultDoesNotDependOnIgnoredKeypoints) {
   const std::filesystem::path noisy =
       std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
   motion::Clip clip = motion::read_clip(noisy);
@@ -293,7 +293,7 @@ TEST_F(Adapt, NothingDependsOnKeypointsThatAreNotWanted) {
   EXPECT_NE(unwanted, log_of("fitted", noisy, true));
 }
 
-TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
+TEST_F(Adapt, RejectsImpossibleArrangementSettings) {
   run(pretraining("options"));
   for (const pipeline::options::ArrangementConfig& wrong :
        {pipeline::options::ArrangementConfig{0.1, 0.1},
@@ -309,7 +309,7 @@ TEST_F(Adapt, RefusesAnArrangementThatCannotBe) {
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 
-TEST_F(Adapt, ByThePlanAloneNeedsNoOptionsAndIsWhatPlanDoes) {
+TEST_F(Adapt, MethodPlanNeedsNoOptionsAndMatchesPlan) {
   AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPlan;
   config.run.inputs = {(motions / "sway.npz").string()};
@@ -331,7 +331,7 @@ AdaptConfig teaching_quickly(AdaptConfig config) {
   return config;
 }
 
-TEST_F(Adapt, APlanThatIsFollowedTeachesAPolicyAndNothingElseIsTrained) {
+TEST_F(Adapt, FollowedPlanTeachesAPolicyWithoutOtherTraining) {
   run(pretraining("options"));
   const AdaptConfig config = teaching_quickly(adapting("run", "options"));
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
@@ -349,7 +349,7 @@ TEST_F(Adapt, APlanThatIsFollowedTeachesAPolicyAndNothingElseIsTrained) {
   EXPECT_TRUE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));
 }
 
-TEST_F(Adapt, ThePolicyOnDiskDoesWhatTheManifestSays) {
+TEST_F(Adapt, StoredPolicyReproducesTheManifestsNumbers) {
   run(pretraining("options"));
   const AdaptConfig config = teaching_quickly(adapting("run", "options"));
   run(config);
@@ -363,7 +363,7 @@ TEST_F(Adapt, ThePolicyOnDiskDoesWhatTheManifestSays) {
   EXPECT_NEAR(value_of(scores.values, "gMPJPE"), value_of(entry.policy, "gMPJPE"), 1e-9);
 }
 
-TEST_F(Adapt, TeachesNoPolicyUnlessAskedTo) {
+TEST_F(Adapt, TeachesAPolicyOnlyOnRequest) {
   run(pretraining("options"));
   AdaptConfig config = adapting("run", "options");
   config.method = AdaptMethod::kAuto;
@@ -385,7 +385,7 @@ TEST_F(Adapt, TeachingIsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
   EXPECT_EQ(run::results_of(out("one")), run::results_of(out("two")));
 }
 
-TEST_F(Adapt, TheSeedIsThatOfTheLessonsToo) {
+TEST_F(Adapt, SeedAlsoControlsTheLessons) {
   run(pretraining("options"));
   const auto policy_of = [&](const std::string& folder, std::uint64_t seed) {
     AdaptConfig config = teaching_quickly(adapting(folder, "options"));
@@ -398,7 +398,7 @@ TEST_F(Adapt, TheSeedIsThatOfTheLessonsToo) {
   EXPECT_NE(policy, policy_of("two", 2));
 }
 
-TEST_F(Adapt, TeachingThatRunsOutOfSecondsSaysSo) {
+TEST_F(Adapt, RecordsTeachingStoppedByTheTimeLimit) {
   run(pretraining("options"));
   AdaptConfig config = teaching_quickly(adapting("run", "options"));
   config.teaching.student.rounds = 100000;
@@ -411,7 +411,7 @@ TEST_F(Adapt, TeachingThatRunsOutOfSecondsSaysSo) {
   EXPECT_FALSE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));
 }
 
-TEST_F(Adapt, AStudentThatFallsIsPolishedByPpo) {
+TEST_F(Adapt, FallingStudentIsPolishedByPpo) {
   run(pretraining("options"));
   AdaptConfig config = teaching_quickly(adapting("run", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
@@ -436,7 +436,7 @@ AdaptConfig hopeless(AdaptConfig config) {
   return config;
 }
 
-TEST_F(Adapt, WhereThePlanFailsTrainsAndWritesTheBetterOfTheTwo) {
+TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
   run(pretraining("options"));
   AdaptConfig config = hopeless(adapting("auto", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
@@ -466,7 +466,7 @@ TEST_F(Adapt, WhereThePlanFailsTrainsAndWritesTheBetterOfTheTwo) {
   EXPECT_NE(chosen.notes.back().find("; written: the "), std::string::npos) << chosen.notes.back();
 }
 
-TEST_F(Adapt, ATrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
+TEST_F(Adapt, TrainingAfterAPlanIsTheSameBytesAfterInterruptions) {
   run(pretraining("options"));
   AdaptConfig config = hopeless(adapting("whole", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};

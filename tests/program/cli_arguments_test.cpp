@@ -25,7 +25,7 @@ TEST_F(Cli, HelpBeginsWithTwoExamplesWhoseOptionsItExplains) {
   }
 }
 
-TEST_F(Cli, HelpHasNoWordsOfTheLibraryThatPrintsItAndFitsATerminal) {
+TEST_F(Cli, HelpFitsATerminalWithoutLibraryWording) {
   for (const std::string command : kCommands) {
     const Call call = mimicx(command + " --help");
     for (const char* foreign : {"ENUM", "FLOAT", "UINT", "TEXT", " in [", " in {", "REQUIRED", "Excludes"})
@@ -35,7 +35,7 @@ TEST_F(Cli, HelpHasNoWordsOfTheLibraryThatPrintsItAndFitsATerminal) {
   }
 }
 
-TEST_F(Cli, AMistypedWordIsGuessed) {
+TEST_F(Cli, SuggestsACorrectionForAMistypedWord) {
   EXPECT_TRUE(says(mimicx("adpt a.npz --out b"), "there is no command adpt: did you mean adapt?"));
   EXPECT_TRUE(says(mimicx("evalaute"), "did you mean evaluate?"));
   EXPECT_TRUE(says(mimicx("imitate a.npz --sampels 3"), "no option --sampels: did you mean --samples?"));
@@ -45,7 +45,7 @@ TEST_F(Cli, AMistypedWordIsGuessed) {
   EXPECT_TRUE(says(nothing, "there is no command frobnicate") && !says(nothing, "mean")) << nothing.text;
 }
 
-TEST_F(Cli, WholeNumbersMayBeWrittenInThousandsAndMillions) {
+TEST_F(Cli, AcceptsThousandsAndMillionsSuffixes) {
   for (const auto& [text, samples] : std::vector<std::pair<std::string, std::int64_t>>{
            {"3M", 3'000'000}, {"500k", 500'000}, {"1.5M", 1'500'000}, {"2e4", 20'000}, {"7", 7}}) {
     const std::string out = path(text);
@@ -57,7 +57,7 @@ TEST_F(Cli, WholeNumbersMayBeWrittenInThousandsAndMillions) {
     EXPECT_EQ(mimicx("imitate " + path("none.npz") + " --samples '" + text + "'").status, 2) << text;
 }
 
-TEST_F(Cli, WhatIsWrongWithAValueIsOneLineThatSaysWhatWasExpected) {
+TEST_F(Cli, BadValueErrorIsOneLineWithTheExpectedValue) {
   for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
            {"imitate a --samples -1", "--samples: expected a whole number from 0 on, found -1"},
            {"imitate a --seed -1", "--seed: expected a whole number from 0 on, found -1"},
@@ -91,7 +91,7 @@ TEST_F(Cli, WhatIsWrongWithAValueIsOneLineThatSaysWhatWasExpected) {
   }
 }
 
-TEST_F(Cli, AReaderThatGoesAwayEndsNoWorkAndIsStatusOne) {
+TEST_F(Cli, ClosedPipeFinishesTheWorkWithStatusOne) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string fit = std::string(MIMICX_BINARY) + " fit " + path("a.npz") + " --out " + path("out");
   const Call gone = shell("exec 4>&1; { sleep 0.2; " + fit + " 2>&4; echo status $? >&4; } | true");

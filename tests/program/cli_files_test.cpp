@@ -12,7 +12,7 @@
 namespace mimicx::program {
 namespace {
 
-TEST_F(Cli, EvaluateSaysWhatItCouldNotScore) {
+TEST_F(Cli, EvaluateListsUnscoredMotions) {
   for (const char* part : {"truth", "a", "b", "c", "d"}) std::filesystem::create_directories(path(part));
   for (const char* file : {"truth/x.npz", "a/x.npz", "b/x.npz", "a/y.npz", "d/y.npz"})
     motion::write_clip(path(file), motion::standing_clip(20));
@@ -31,7 +31,7 @@ TEST_F(Cli, EvaluateSaysWhatItCouldNotScore) {
   EXPECT_TRUE(says(apart, "no motion is in all")) << apart.text;
 }
 
-TEST_F(Cli, InfoSaysWhatTheFileHolds) {
+TEST_F(Cli, InfoListsTheFilesContents) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const Call call = mimicx("info " + path("a.npz"));
   EXPECT_EQ(call.status, 0);
@@ -39,7 +39,7 @@ TEST_F(Cli, InfoSaysWhatTheFileHolds) {
   EXPECT_TRUE(says(call, "mimicx")) << call.text;
 }
 
-TEST_F(Cli, InfoOfOneFrameSaysWhatItHoldsAndThatItIsTooShort) {
+TEST_F(Cli, InfoReportsAMotionOfOneFrameAsTooShort) {
   motion::Clip clip = motion::standing_clip(1);
   clip.keypoints.emplace();
   clip.keypoints->names = {"nose", "left_hip", "right_hip"};
@@ -62,7 +62,7 @@ TEST_F(Cli, ConvertKeepsTheMotion) {
   EXPECT_EQ(back.trans, clip.trans);
 }
 
-TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndSaysWhatItDecided) {
+TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndPrintsDecisions) {
   motion::write_clip(path("a.npz"), foreign_clip(60.0));
   const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");
   EXPECT_EQ(call.status, 0) << call.text;
@@ -72,7 +72,7 @@ TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndSaysWhatItDecided) {
   EXPECT_EQ(mimicx("convert " + path("a.npz") + " " + path("c.npy")).status, 1) << "60 fps do not fit";
 }
 
-TEST_F(Cli, AuditFailsLoudlyDoesTheRestAndWritesJson) {
+TEST_F(Cli, AuditReportsFailuresContinuesAndWritesJson) {
   motion::Clip clip = motion::standing_clip(20);
   for (Vector3d& p : clip.trans) p.z() += 0.2;  // hovers
   motion::write_clip(path("hover.npz"), clip);
@@ -103,7 +103,7 @@ TEST_F(Cli, ExportMjcfWritesTheShapeOfTheNumbersOrOfTheMotion) {
   EXPECT_EQ(read_file(path("new/standard.xml")), physics::to_mjcf(make_character(), {}));
 }
 
-TEST_F(Cli, ExportMjcfTakesTheBodyThatConvertWritesQposFor) {
+TEST_F(Cli, ExportMjcfUsesTheBodyOfConvertsQpos) {
   // A body of known joints, as a licensed model gives it, and one that is fitted to a skeleton.
   motion::Clip clip = motion::standing_clip(20);
   clip.body_model = "smplx";
@@ -129,7 +129,7 @@ TEST_F(Cli, ExportMjcfTakesTheBodyThatConvertWritesQposFor) {
   EXPECT_EQ(read_file(path("b.xml")), physics::to_mjcf(standard, {}));
 }
 
-TEST_F(Cli, ClusterTakesFilesAndFoldersInAnyOrderAndLeavesOutWhatFails) {
+TEST_F(Cli, ClusterTakesFilesAndFoldersAndSkipsFailures) {
   std::filesystem::create_directory(path("more"));
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   motion::write_clip(path("more/a.npz"), motion::standing_clip(40));

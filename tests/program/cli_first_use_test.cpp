@@ -27,7 +27,7 @@ constexpr const char* kSmall =
     " --threads 1 --set characters=64 --set group_size=16 --set horizon=8 --set minibatch=256"
     " --set hidden_1=16 --set hidden_2=16";
 
-TEST_F(Cli, AFailureSaysWhereItsMotionIsAndWhatToTryNext) {
+TEST_F(Cli, FailurePrintsItsMotionAndTheNextStep) {
   motion::write_clip(path("a.npz"), hovering_clip());
   const std::string command = "plan " + path("a.npz") + " --floor 0 --as-is --threads 1 --out " + path("run");
   const Call call = mimicx(command);
@@ -42,7 +42,7 @@ TEST_F(Cli, AFailureSaysWhereItsMotionIsAndWhatToTryNext) {
   EXPECT_TRUE(says(call, "mimicx audit --poses '" + path("a.npz") + "'")) << call.text;
 }
 
-TEST_F(Cli, QuietTellsOnlyWhatWentWrong) {
+TEST_F(Cli, QuietPrintsOnlyFailures) {
   motion::write_clip(path("good.npz"), motion::standing_clip(30));
   write_file_atomically(path("bad.npz"), "no archive");
   const std::string inputs = "plan " + path("good.npz") + ' ' + path("bad.npz") + " --as-is --threads 1";
@@ -57,7 +57,7 @@ TEST_F(Cli, QuietTellsOnlyWhatWentWrong) {
   EXPECT_FALSE(says(quiet, "good")) << quiet.text;
 }
 
-TEST_F(Cli, ABudgetThatEndedIsSaidAndMoreOfItContinuesTheSameTraining) {
+TEST_F(Cli, ReportsASpentBudgetAndALargerOneContinues) {
   motion::write_clip(path("a.npz"), hovering_clip());
   const std::string command =
       "imitate " + path("a.npz") + " --floor 0 --as-is" + kSmall + " --out " + path("run") + " --samples ";
@@ -79,7 +79,7 @@ TEST_F(Cli, ABudgetThatEndedIsSaidAndMoreOfItContinuesTheSameTraining) {
   EXPECT_EQ(mimicx(command + "512").status, 2) << "less is another run";
 }
 
-TEST_F(Cli, ARunOfOtherSettingsNamesTheSettingThatDiffers) {
+TEST_F(Cli, NamesTheSettingInWhichARunDiffers) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string command = "imitate " + path("a.npz") + " --samples 0 --threads 1 --out " + path("run");
   mimicx(command);
@@ -96,7 +96,7 @@ TEST_F(Cli, ARunOfOtherSettingsNamesTheSettingThatDiffers) {
   EXPECT_TRUE(says(other, "(seed is 1 there, 3 here)")) << other.text;
 }
 
-TEST_F(Cli, OfABvhThreeDecisionsAreToldAndAllWhereAskedFor) {
+TEST_F(Cli, BvhPrintsThreeDecisionsAndAllOnRequest) {
   const std::filesystem::path bvh =
       std::filesystem::path(MIMICX_SHARED_DIR) / "motions" / "bvh" / "strutting_01_000.bvh";
   if (!std::filesystem::exists(bvh)) GTEST_SKIP() << "no " << bvh;
@@ -137,7 +137,7 @@ TEST_F(Cli, EvaluateAndAuditTakeFilesOfEveryFormat) {
   }
 }
 
-TEST_F(Cli, APickleOfAnEstimatorNamesTheConverter) {
+TEST_F(Cli, EstimatorPickleErrorNamesTheConverter) {
   std::ofstream(path("hmr4d_results.pt")) << "PK\x03\x04 archive/data.pkl";
   std::ofstream(path("wham_output")) << "\x80\x04}.";
   for (const char* file : {"hmr4d_results.pt", "wham_output"})
@@ -149,7 +149,7 @@ TEST_F(Cli, APickleOfAnEstimatorNamesTheConverter) {
   std::filesystem::remove_all("OUT");
 }
 
-TEST_F(Cli, JointPositionsAreCleanedAndComeBackAsNpz) {
+TEST_F(Cli, JointPositionsGiveACleanNpz) {
   std::vector<double> values;
   for (const BodyPoses& pose : motion::poses_of(motion::standing_clip(20)))
     for (int b = 0; b < kBodies; ++b)
@@ -161,7 +161,7 @@ TEST_F(Cli, JointPositionsAreCleanedAndComeBackAsNpz) {
   EXPECT_EQ(motion::read_clip(path("gen.clean.npz")).fps, 30.0);
 }
 
-TEST_F(Cli, AMotionFarOverTheFloorIsMovedDown) {
+TEST_F(Cli, MovesAMotionDownOntoTheFloor) {
   motion::Clip clip = motion::standing_clip(20);
   for (Vector3d& p : clip.trans) p.z() += 10.0;
   motion::write_clip(path("a.npz"), clip);
@@ -170,7 +170,7 @@ TEST_F(Cli, AMotionFarOverTheFloorIsMovedDown) {
   EXPECT_TRUE(says(call, " m down to the floor") && !says(call, "moved -")) << call.text;
 }
 
-TEST_F(Cli, NoMessageOfALibraryReachesAUser) {
+TEST_F(Cli, LibraryMessagesDoNotReachTheUser) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   std::filesystem::create_directories(path("run"));
   std::ofstream(path("text")) << "x";

@@ -18,7 +18,7 @@ struct CliMany : Cli {
   }
 };
 
-TEST_F(CliMany, OutputsStandInTheTreeOfTheirInputs) {
+TEST_F(CliMany, OutputsKeepTheFolderTreeOfTheInputs) {
   for (const auto& [command, part] : std::vector<std::pair<std::string, std::string>>{
            {"plan ", "run/motions/"}, {"fit ", "run/"}, {"corrupt ", "run/noisy/"}}) {
     const Call call = mimicx(command + path("in") + " --out " + path("run"));
@@ -29,7 +29,7 @@ TEST_F(CliMany, OutputsStandInTheTreeOfTheirInputs) {
   }
 }
 
-TEST_F(CliMany, AFolderInsideTheInputsIsNoInputOfTheNextRun) {
+TEST_F(CliMany, OutputFolderInsideTheInputsIsSkipped) {
   const std::string command = "plan " + path("in") + " --out " + path("in/run");
   EXPECT_EQ(mimicx(command).status, 0);
   const auto whole = run::results_of(path("in/run"));
@@ -40,7 +40,7 @@ TEST_F(CliMany, AFolderInsideTheInputsIsNoInputOfTheNextRun) {
   EXPECT_EQ(mimicx(fit).status, 0) << "its own outputs are replaced, not read";
 }
 
-TEST_F(CliMany, AKilledRunKeepsWhatItHadAndEndsWithTheSameBytes) {
+TEST_F(CliMany, KilledRunContinuesToTheSameBytes) {
   const std::string command = "plan " + path("in") + " --threads 1 --out ";
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);
   EXPECT_FALSE(std::filesystem::exists(path("whole/journal.jsonl")));

@@ -66,7 +66,7 @@ struct CliOutputs : Cli {
   }
 };
 
-TEST_F(CliOutputs, AFileOfTheUsersIsRefusedUntilForcedAndOurOwnIsReplaced) {
+TEST_F(CliOutputs, ReplacesOwnFilesAndOthersOnlyByForce) {
   for (const Asked& asked : all()) {
     const std::filesystem::path file = path(asked.file);
     std::filesystem::create_directories(file.parent_path());
@@ -85,7 +85,7 @@ TEST_F(CliOutputs, AFileOfTheUsersIsRefusedUntilForcedAndOurOwnIsReplaced) {
   }
 }
 
-TEST_F(CliOutputs, AnInputIsNeverOverwrittenWhateverIsForced) {
+TEST_F(CliOutputs, NeverOverwritesAnInput) {
   const std::string w = path("in/w.npz"), b = path("in/b.npz"), in = path("in");
   std::filesystem::create_directories(path("k/motions"));
   motion::write_clip(path("k/motions/w.npz"), motion::standing_clip(20));
@@ -109,7 +109,7 @@ TEST_F(CliOutputs, AnInputIsNeverOverwrittenWhateverIsForced) {
     }
 }
 
-TEST_F(CliOutputs, ACleanCopyNeverReplacesAFileOfTheUsers) {
+TEST_F(CliOutputs, CleanCopyNeverReplacesOtherFiles) {
   std::ofstream(path("in/w.clean.npz")) << "mine";
   const std::string command = "plan " + path("in/w.npz") + " --threads 1";
   const Call refused = mimicx(command);
@@ -124,7 +124,7 @@ TEST_F(CliOutputs, ACleanCopyNeverReplacesAFileOfTheUsers) {
   EXPECT_EQ(mimicx(command + " " + path("in/w.clean.npz")).status, 2);
 }
 
-TEST_F(CliOutputs, FilesOfAFolderThatAreNotReadAreNamed) {
+TEST_F(CliOutputs, ListsSkippedFiles) {
   std::ofstream(path("in/notes.md")) << "walks";
   std::filesystem::copy(path("in/w.npz"), path("in/w.clean.npz"));
   for (const std::string& command :
@@ -136,7 +136,7 @@ TEST_F(CliOutputs, FilesOfAFolderThatAreNotReadAreNamed) {
   }
 }
 
-TEST_F(CliOutputs, ADamagedMotionIsMadeAgainAndWhatElseIsGoneIsMadeOrSaid) {
+TEST_F(CliOutputs, RemakesDamagedFilesOrReportsThem) {
   const std::string command = "imitate " + path("in/w.npz") + " --samples 1 --threads 1 --out " + path("run");
   const Call first = mimicx(command);
   const auto whole = run::results_of(path("run"));
@@ -160,7 +160,7 @@ TEST_F(CliOutputs, ADamagedMotionIsMadeAgainAndWhatElseIsGoneIsMadeOrSaid) {
   EXPECT_TRUE(says(again, "training/w.csv is gone or damaged, and is not made again")) << again.text;
 }
 
-TEST_F(CliOutputs, AFileInSeveralSpellingsIsOneInput) {
+TEST_F(CliOutputs, SpellingsOfOneFileAreOneInput) {
   const std::string w = path("in/w.npz"), other = path("in/../in/./w.npz");
   const std::string end = " --samples 1 --threads 1 --out " + path("run");
   const Call call = mimicx("imitate " + w + " " + other + " " + w + end);
@@ -170,7 +170,7 @@ TEST_F(CliOutputs, AFileInSeveralSpellingsIsOneInput) {
   EXPECT_EQ(run::results_of(path("run")), whole) << "the same input, spelled otherwise";
 }
 
-TEST_F(CliOutputs, ANameThatIsNoUtf8PassesThroughEveryRecord) {
+TEST_F(CliOutputs, NonUtf8NamesPassThroughAllRecords) {
   const std::string name = "w\xff\xe9";
   std::filesystem::copy(path("in/w.npz"), path("in/" + name + ".npz"));
   const std::string file = "'" + path("in/" + name + ".npz") + "'";
@@ -191,7 +191,7 @@ TEST_F(CliOutputs, ANameThatIsNoUtf8PassesThroughEveryRecord) {
   }
 }
 
-TEST_F(CliOutputs, ASecondProcessOnOneFolderIsRefusedInOneLine) {
+TEST_F(CliOutputs, RejectsASecondProcessOnOneFolder) {
   const record::FolderLock lock(path("run"));
   for (const std::string& command :
        {"imitate " + path("in/w.npz"), "plan " + path("in/w.npz"), "pretrain " + path("in/w.npz"),
@@ -202,7 +202,7 @@ TEST_F(CliOutputs, ASecondProcessOnOneFolderIsRefusedInOneLine) {
   }
 }
 
-TEST_F(CliOutputs, AFullDeviceOnStandardOutputIsStatusOne) {
+TEST_F(CliOutputs, FullDeviceOnStandardOutputIsStatusOne) {
   for (const char* command : {"config", "info IN", "audit --poses IN", "cluster IN --clusters 1 --out OUT"}) {
     const std::string arguments = replaced(replaced(command, "IN", path("in/w.npz")), "OUT", path("c.json"));
     const Call call = mimicx(arguments + " 2>&1 >/dev/full || exit $?");
@@ -211,7 +211,7 @@ TEST_F(CliOutputs, AFullDeviceOnStandardOutputIsStatusOne) {
   }
 }
 
-TEST_F(CliOutputs, APipeInAMotionsPlaceIsRefusedWithoutWaiting) {
+TEST_F(CliOutputs, RejectsAPipeAsMotionWithoutWaiting) {
   ASSERT_EQ(shell("mkfifo " + path("in/pipe.npz")).status, 0);
   const Call call = shell("timeout 20 " + std::string(MIMICX_BINARY) + " plan " + path("in/pipe.npz") +
                           " --out " + path("run") + " 2>&1");
@@ -219,7 +219,7 @@ TEST_F(CliOutputs, APipeInAMotionsPlaceIsRefusedWithoutWaiting) {
   EXPECT_TRUE(says(call, "pipe.npz: expected a regular file")) << call.text;
 }
 
-TEST_F(CliOutputs, WhatIsPrintedToAClosedStreamGoesIntoNoFile) {
+TEST_F(CliOutputs, OutputToAClosedStreamGoesIntoNoFile) {
   for (const char* closed : {"1>&- 2>&-", "0<&- 1>&- 2>&-"}) {
     const std::string out = path(std::string("run_") + closed[0]);
     const Call call = shell(std::string(MIMICX_BINARY) + " plan " + path("in/w.npz") + " --shard 0/1 --out " +
@@ -230,13 +230,13 @@ TEST_F(CliOutputs, WhatIsPrintedToAClosedStreamGoesIntoNoFile) {
   }
 }
 
-TEST_F(CliOutputs, ANameNeverCommandsTheTerminal) {
+TEST_F(CliOutputs, EscapesControlCharactersOfFileNames) {
   const Call call = mimicx("info \"$(printf 'a\\033[31m\\177.npz')\"");
   EXPECT_EQ(call.status, 1);
   EXPECT_EQ(call.text, "mimicx: a\\x1b[31m\\x7f.npz: expected a readable file, found none\n");
 }
 
-TEST_F(CliOutputs, WhatBelongsToFramesComesAlongAtThirtyAndWhatDoesNotStays) {
+TEST_F(CliOutputs, ResamplesMembersPerFrameAndCopiesTheOthers) {
   motion::Clip clip = foreign_clip(60.0);  // 40 frames, hands
   clip.passthrough.emplace_back("dmpls", from_matrix(Eigen::MatrixXd::Random(40, 8)));
   clip.passthrough.emplace_back("num_betas", NpyArray::scalar_int(16));

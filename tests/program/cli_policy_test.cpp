@@ -39,7 +39,7 @@ struct CliPolicy : Cli {
   }
 };
 
-TEST_F(CliPolicy, WritesEveryKindAndTheSameBytesAgain) {
+TEST_F(CliPolicy, WritesEveryKindDeterministically) {
   for (const std::string out : {"a.h", "a.onnx", "a.npz", "new/folder/b.h"})
     for (const std::string more : {"", " --int8"}) {
       const std::string line = "export-policy " + path("run/walk") + " --out " + path(out) + more;
@@ -56,7 +56,7 @@ TEST_F(CliPolicy, FindsAPolicyByNameByFolderAndByFile) {
     EXPECT_EQ(mimicx("export-policy " + path(name) + " --out " + path("x.h")).status, 0) << name;
 }
 
-TEST_F(CliPolicy, SaysInOneLineWhatIsMissing) {
+TEST_F(CliPolicy, NamesWhatIsMissingInOneLine) {
   const std::pair<std::string, std::string> cases[] = {
       {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: there is more/walk, walk"},
       {path("options/walk") + " --out " + path("x.h"), "it has options, which follow many motions"},
@@ -75,7 +75,7 @@ TEST_F(CliPolicy, SaysInOneLineWhatIsMissing) {
   }
 }
 
-TEST_F(CliPolicy, AFileOfTheUsersIsRefusedUntilForcedAndOurOwnIsReplaced) {
+TEST_F(CliPolicy, ReplacesOwnFilesAndOthersOnlyByForce) {
   for (const std::string out : {"mine.h", "mine.onnx", "mine.npz"}) {
     std::ofstream(path(out)) << "years of work";
     const std::string line = "export-policy " + path("run/walk") + " --out " + path(out);
@@ -88,7 +88,7 @@ TEST_F(CliPolicy, AFileOfTheUsersIsRefusedUntilForcedAndOurOwnIsReplaced) {
   }
 }
 
-TEST_F(CliPolicy, AFileThatIsNoPolicyIsRefused) {
+TEST_F(CliPolicy, RejectsAFileWithoutAPolicy) {
   motion::write_clip(path("run/policies/clip.npz"), motion::standing_clip(20));
   const Call call = mimicx("export-policy " + path("run/clip") + " --out " + path("x.h"));
   EXPECT_EQ(call.status, 1) << call.text;

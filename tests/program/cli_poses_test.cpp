@@ -34,7 +34,7 @@ struct CliPoses : Cli {
   }
 };
 
-TEST_F(CliPoses, ARowPerMotionAndPerFrameAndTheRestIsDone) {
+TEST_F(CliPoses, WritesARowPerMotionAndFrameAndSkipsFailures) {
   const Call call = mimicx("audit --poses " + path("in") + " --csv " + path("a.csv") + " --frames-csv " +
                            path("f.csv") + " --json " + path("a.json"));
   EXPECT_EQ(call.status, 1) << call.text;
@@ -68,7 +68,7 @@ TEST_F(CliPoses, ARowPerMotionAndPerFrameAndTheRestIsDone) {
   EXPECT_EQ(json["files"][2]["summary"]["hovers_share"], 1.0);
 }
 
-TEST_F(CliPoses, WritesTheSameBytesWhateverTheThreads) {
+TEST_F(CliPoses, ThreadsDoNotChangeABit) {
   for (const char* threads : {"1", "2", "3"})
     mimicx("audit --poses " + path("in") + " --threads " + threads + " --csv " + path("a") + threads +
            " --frames-csv " + path("f") + threads);
@@ -78,7 +78,7 @@ TEST_F(CliPoses, WritesTheSameBytesWhateverTheThreads) {
   }
 }
 
-TEST_F(CliPoses, NeverOverwritesAnInputOrLeavesHalfAFile) {
+TEST_F(CliPoses, NeverOverwritesInputsOrLeavesPartialFiles) {
   const std::string good = path("in/good.npz"), before = read_file(good);
   for (const std::string& arguments :
        {"--csv " + good, "--frames-csv " + good, "--json " + good, "--csv " + path("in/../in/good.npz"),
@@ -96,7 +96,7 @@ TEST_F(CliPoses, NeverOverwritesAnInputOrLeavesHalfAFile) {
   EXPECT_FALSE(std::filesystem::exists(path("x.mimicx-tmp")));
 }
 
-TEST_F(CliPoses, AFloorThatIsSaidIsBelievedAndOneThatIsNotIsLookedFor) {
+TEST_F(CliPoses, UsesTheGivenFloorAndElseDetectsIt) {
   motion::Clip clip = synthetic("squat");
   clip.body_model = "smplx";
   for (Vector3d& p : clip.trans) p.z() += 0.3;
@@ -126,7 +126,7 @@ struct CliProtocol : Cli {
   }
 };
 
-TEST_F(CliProtocol, AMissingMotionIsNoSuccess) {
+TEST_F(CliProtocol, MissingMotionIsNoSuccess) {
   const Call call = mimicx("evaluate --protocol phc --truth " + path("truth") + " --motions " +
                            path("motions") + " --json " + path("p.json"));
   EXPECT_EQ(call.status, 1) << call.text;
@@ -138,7 +138,7 @@ TEST_F(CliProtocol, AMissingMotionIsNoSuccess) {
   EXPECT_NEAR(folder["succeeded"]["E_g-mpjpe"]["value"].get<double>(), 100.0, 1e-6);
 }
 
-TEST_F(CliProtocol, EveryProtocolPrintsItsColumnsAndFoldersGetALineEach) {
+TEST_F(CliProtocol, PrintsTheProtocolsColumnsAndALinePerFolder) {
   std::filesystem::remove(path("truth/c.npz"));
   for (const auto& [protocol, column, source] : {std::tuple{"phc", "E_pa-mpjpe", "after SMPLSim "},
                                                  {"pmr", "Float", "after arXiv 2412.17377"},
@@ -154,7 +154,7 @@ TEST_F(CliProtocol, EveryProtocolPrintsItsColumnsAndFoldersGetALineEach) {
   }
 }
 
-TEST_F(CliProtocol, AnotherRateOrProtocolIsRefused) {
+TEST_F(CliProtocol, RejectsOtherRatesAndProtocols) {
   motion::Clip clip = synthetic("walk");
   clip.fps = 60.0;
   for (const char* folder : {"truth/d.npz", "motions/d.npz"}) motion::write_clip(path(folder), clip);

@@ -19,7 +19,7 @@ struct CliRender : Cli {
   }
 };
 
-TEST_F(CliRender, EverySuffixAndKindIsDrawnOfEveryFormat) {
+TEST_F(CliRender, DrawsEveryKindFromEveryFormat) {
   for (const char* kind : {"strip", "still", "stroboscope"}) {
     const std::string out = path(std::string(kind) + ".png");
     const Call call =
@@ -35,7 +35,7 @@ TEST_F(CliRender, EverySuffixAndKindIsDrawnOfEveryFormat) {
   EXPECT_TRUE(says(call, "4 moments from 0.00 to 0.60 s")) << call.text;
 }
 
-TEST_F(CliRender, WhatCannotBeIsOneLineAndWritesNothing) {
+TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
   const std::string a = path("a.npz"), png = " --out " + path("x.png");
   const std::vector<std::tuple<std::string, int, std::string>> calls = {
       {a + " --out " + path("x.jpg"), 2, "x.jpg: pictures and animations are written as .png, not '.jpg'"},
@@ -67,7 +67,7 @@ TEST_F(CliRender, WhatCannotBeIsOneLineAndWritesNothing) {
   for (const char* name : {"x.png", "x.jpg"}) EXPECT_FALSE(std::filesystem::exists(path(name))) << name;
 }
 
-TEST_F(CliRender, APictureOfTheUsersIsRefusedUntilForcedAndOurOwnIsReplaced) {
+TEST_F(CliRender, ReplacesOwnPicturesAndOthersOnlyByForce) {
   for (const std::string kind : {"strip", "animation"}) {
     std::ofstream(path("x.png")) << "a photograph";
     const std::string call =

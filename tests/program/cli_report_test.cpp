@@ -17,7 +17,7 @@ struct CliReport : Cli {
   }
 };
 
-TEST_F(CliReport, IsTheSameBytesAsThatOfTheRunWithoutItsInputs) {
+TEST_F(CliReport, MatchesTheRunsReportWithoutItsInputs) {
   const auto whole = run::results_of(path("run"));
   std::filesystem::remove(path("run/report.html"));
   std::filesystem::remove_all(path("in"));
@@ -27,7 +27,7 @@ TEST_F(CliReport, IsTheSameBytesAsThatOfTheRunWithoutItsInputs) {
   EXPECT_EQ(run::results_of(path("run")), whole);
 }
 
-TEST_F(CliReport, SaysWhichClipHasNoTruthAndShowsThoseThatHave) {
+TEST_F(CliReport, NamesClipsWithoutTruthAndShowsTheOthers) {
   std::filesystem::create_directories(path("truth"));
   std::filesystem::copy(path("in/a.npz"), path("truth/a.npz"));
   const Call call = mimicx("report " + path("run") + " --truth " + path("truth"));
@@ -40,7 +40,7 @@ TEST_F(CliReport, SaysWhichClipHasNoTruthAndShowsThoseThatHave) {
   EXPECT_EQ(page.find("\"who\":\"truth\",\"frames\"", first + 1), std::string::npos);
 }
 
-TEST_F(CliReport, OfWhatIsNoRunIsOneLineAndNoFile) {
+TEST_F(CliReport, RejectsAFolderWithoutARun) {
   for (const char* folder : {"in", "nowhere"}) {
     const Call call = mimicx("report " + path(folder));
     EXPECT_NE(call.status, 0);
@@ -51,7 +51,7 @@ TEST_F(CliReport, OfWhatIsNoRunIsOneLineAndNoFile) {
   EXPECT_FALSE(std::filesystem::exists(path("in/report.html")));
 }
 
-TEST_F(CliReport, ATruthThatIsNotThereLeavesTheReportAsItWas) {
+TEST_F(CliReport, MissingTruthLeavesTheReportUnchanged) {
   const std::string page = read_file(path("run/report.html"));
   const Call call = mimicx("report " + path("run") + " --truth " + path("none"));
   EXPECT_NE(call.status, 0);

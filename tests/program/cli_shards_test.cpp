@@ -43,7 +43,7 @@ struct CliShards : Cli {
   }
 };
 
-TEST_F(CliShards, AnyNumberInAnyOrderMergesIntoTheBytesOfTheRunOnOneMachine) {
+TEST_F(CliShards, MergeIntoTheBytesOfTheUnshardedRun) {
   ASSERT_EQ(mimicx(plan("whole")).status, 1);  // one of them cannot be done
   const auto whole = run::results_of(path("whole"));
   ASSERT_TRUE(whole.contains("motions/a-2.npz") && whole.contains("clean/b.bvh") &&
@@ -70,7 +70,7 @@ TEST_F(CliShards, AnyNumberInAnyOrderMergesIntoTheBytesOfTheRunOnOneMachine) {
   EXPECT_EQ(merged("in5"), whole);
 }
 
-TEST_F(CliShards, AKilledOneGoesOnAndTheBytesAreTheSame) {
+TEST_F(CliShards, KilledShardContinuesToTheSameBytes) {
   motion::write_clip(path("in/2/a.npz"),
                      motion::standing_clip(90));  // long after the first of its part is done
   ASSERT_EQ(mimicx(plan("whole")).status, 1);
@@ -90,7 +90,7 @@ TEST_F(CliShards, AKilledOneGoesOnAndTheBytesAreTheSame) {
   EXPECT_EQ(merged("parts"), run::results_of(path("whole")));
 }
 
-TEST_F(CliShards, WhatIsMissingIsNamedAsSbatchTakesItAndFileByFile) {
+TEST_F(CliShards, MergeListsMissingShardsForSbatchAndFiles) {
   mimicx(shard("parts", 0, 4));
   const Call missing = mimicx("merge --missing " + path("parts"));
   EXPECT_EQ(missing.status, 1);
@@ -109,7 +109,7 @@ TEST_F(CliShards, WhatIsMissingIsNamedAsSbatchTakesItAndFileByFile) {
   EXPECT_EQ(none.text, "");
 }
 
-TEST_F(CliShards, AMotionThatIsGoneIsMissingAndDoneAgain) {
+TEST_F(CliShards, DeletedMotionIsMissingAndRemade) {
   for (const int i : {0, 1}) mimicx(shard("parts", i, 2));
   ASSERT_EQ(mimicx("merge " + path("parts")).status, 0);
   const auto before = merged("parts");
@@ -121,7 +121,7 @@ TEST_F(CliShards, AMotionThatIsGoneIsMissingAndDoneAgain) {
   EXPECT_EQ(merged("parts"), before);
 }
 
-TEST_F(CliShards, OfOtherNumbersInputsOrSettingsAreRefusedInALine) {
+TEST_F(CliShards, RejectOtherCountsInputsAndSettingsInOneLine) {
   mimicx(shard("parts", 0, 2));
   for (const auto& [line, said] : std::vector<std::pair<std::string, std::string>>{
            {shard("parts", 0, 3), "holds a run in 2 shards, not in 3"},
@@ -148,7 +148,7 @@ TEST_F(CliShards, OfOtherNumbersInputsOrSettingsAreRefusedInALine) {
       << nothing.text;
 }
 
-TEST_F(CliShards, ThatWereGivenDifferentBudgetsAreNotMerged) {
+TEST_F(CliShards, DifferentBudgetsAreNotMerged) {
   const std::string command = "imitate " + path("in/b.bvh") + " " + path("in/1/a.npz") +
                               " --limit-seconds 1e-3 --threads 1 --set characters=64 --out " + path("parts");
   mimicx(command + " --shard 0/2 --samples 512");
@@ -158,7 +158,7 @@ TEST_F(CliShards, ThatWereGivenDifferentBudgetsAreNotMerged) {
   EXPECT_TRUE(says(merge, "(samples is 1024 there, 512 here)")) << merge.text;
 }
 
-TEST_F(CliShards, AreNotMergedWhileOneIsAtWork) {
+TEST_F(CliShards, AreNotMergedWhileOneIsRunning) {
   for (const int i : {0, 1}) mimicx(shard("parts", i, 2));
   const record::RunFolder part = record::shard_folder(path("parts"), {1, 2});
   const record::FolderLock at_work(part.records, record::Hold::kAlone, "lock");
@@ -171,7 +171,7 @@ TEST_F(CliShards, AreNotMergedWhileOneIsAtWork) {
   EXPECT_LE(mimicx(shard("parts", 0, 2)).status, 1) << "the other one may go on beside it";
 }
 
-TEST_F(CliShards, ATaskOfAnArrayTakesItsOwnPartUnlessToldOtherwise) {
+TEST_F(CliShards, ArrayTaskTakesItsShardByDefault) {
   const auto as_task = [&](const std::string& variables, const std::string& line) {
     return shell(variables + " " + MIMICX_BINARY + " " + line + " 2>&1");
   };
@@ -194,7 +194,7 @@ TEST_F(CliShards, ATaskOfAnArrayTakesItsOwnPartUnlessToldOtherwise) {
   EXPECT_TRUE(std::filesystem::exists(path("in/b.clean.bvh")));
 }
 
-TEST_F(CliShards, TheJobScriptTakesTheirNumberFromTheFolderWhereTheRunHasBegun) {
+TEST_F(CliShards, JobScriptReadsTheShardCountFromAStartedRun) {
   const auto task = [&](const std::string& id, const std::string& count, const std::string& first,
                         const std::string& last) {
     std::ostringstream line;

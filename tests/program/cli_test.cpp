@@ -16,7 +16,7 @@
 namespace mimicx::program {
 namespace {
 
-TEST_F(Cli, HelpIsEverywhere) {
+TEST_F(Cli, EverySubcommandHasHelp) {
   EXPECT_EQ(mimicx("--help").status, 0);
   for (const char* command : kCommands) {
     const Call call = mimicx(std::string(command) + " --help");
@@ -122,7 +122,7 @@ TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
   EXPECT_TRUE(says(table, "pretrain paper") && says(table, "switch_penalty")) << table.text;
 }
 
-TEST_F(Cli, TheSelectorsNumbersAreRecorded) {
+TEST_F(Cli, ManifestRecordsTheSelectorsSettings) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   mimicx("adapt " + path("a.npz") +
          " --budget-samples 0 --threads 1 --switch-penalty -0.5 --rescue-reward 0.25 --selector single" +
@@ -135,7 +135,7 @@ TEST_F(Cli, TheSelectorsNumbersAreRecorded) {
   EXPECT_EQ(manifest["run"]["settings"]["beam_width"], 3);
 }
 
-TEST_F(Cli, OptionsThatComeWithTheProgramAreFoundByTheirName) {
+TEST_F(Cli, FindsShippedOptionsByName) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::filesystem::path shipped = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
   const auto taken = [&](const std::string& options, const std::string& out) {
@@ -158,7 +158,7 @@ TEST_F(Cli, OptionsThatComeWithTheProgramAreFoundByTheirName) {
 }
 
 /// What is asked for by name may lie where the user is; what is taken by default may not.
-TEST_F(Cli, AFolderThatIsNamedAsShippedOptionsDoesNotStandInForThem) {
+TEST_F(Cli, FolderOfAShippedNameDoesNotReplaceTheShippedOptions) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   std::filesystem::create_directory(path("taught"));
   const Call call = shell("cd '" + folder.path.string() +
@@ -172,7 +172,7 @@ TEST_F(Cli, AFolderThatIsNamedAsShippedOptionsDoesNotStandInForThem) {
       << "an empty folder of that name is there";
 }
 
-TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
+TEST_F(Cli, UnreadableFileIsNamedWithStatusOne) {
   std::ofstream(path("bad.npz")) << "PK nonsense";
   for (const std::string& arguments : {"info " + path("bad.npz"), "info " + path("none.npz"),
                                        "convert " + path("bad.npz") + " " + path("o.npz"),
@@ -183,7 +183,7 @@ TEST_F(Cli, AnUnreadableFileIsStatusOneAndNamed) {
   }
 }
 
-TEST_F(Cli, AnInterruptLeavesACheckpointAndTheSameCommandEndsWithTheSameBytes) {
+TEST_F(Cli, InterruptedTrainingContinuesToTheSameBytes) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string settings =
       " --samples 40960 --set characters=64 --set group_size=16 --set horizon=8"
@@ -200,7 +200,7 @@ TEST_F(Cli, AnInterruptLeavesACheckpointAndTheSameCommandEndsWithTheSameBytes) {
   EXPECT_EQ(run::results_of(path("halves")), run::results_of(path("whole")));
 }
 
-TEST_F(Cli, APlanIsInterruptedBetweenWindowsAndTheSameCommandEndsWithTheSameBytes) {
+TEST_F(Cli, InterruptedPlanRestartsToTheSameBytes) {
   motion::write_clip(path("a.npz"), motion::standing_clip(90));
   const std::string command = "plan " + path("a.npz") + " --out ";
   ASSERT_EQ(mimicx(command + path("whole")).status, 0);
@@ -214,7 +214,7 @@ TEST_F(Cli, APlanIsInterruptedBetweenWindowsAndTheSameCommandEndsWithTheSameByte
   EXPECT_EQ(run::results_of(path("halves")), run::results_of(path("whole")));
 }
 
-TEST_F(Cli, AdaptPlansAndTrainsNothingWhereThePlanSucceeds) {
+TEST_F(Cli, AdaptTrainsNothingIfThePlanSucceeds) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const Call call = mimicx("adapt " + path("a.npz"));
   EXPECT_EQ(call.status, 0) << call.text;
@@ -236,7 +236,7 @@ TEST_F(Cli, AdaptPlansAndTrainsNothingWhereThePlanSucceeds) {
   EXPECT_EQ(mimicx("adapt --method paper " + path("a.npz")).status, 1) << "a folder of another method";
 }
 
-TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
+TEST_F(Cli, WithoutOutTheCleanMotionIsBesideItsInput) {
   motion::write_clip(path("a.npz"), foreign_clip(60.0));
   const std::string command = "plan " + path("a.npz") + " --threads 1 --rate input";
   const Call call = mimicx(command);
@@ -257,7 +257,7 @@ TEST_F(Cli, WithoutAFolderTheCleanMotionStandsBesideItsInput) {
       says(mimicx("cluster " + folder.path.string() + " --clusters 1 --out " + path("c.json")), "- a.clean"));
 }
 
-TEST_F(Cli, ABvhComesBackAsACleanBvh) {
+TEST_F(Cli, BvhInputGivesACleanBvh) {
   import::write_bvh(path("clip.bvh"), motion::standing_clip(40));
   const Call call = mimicx("imitate " + path("clip.bvh") + " --samples 1 --threads 1");
   ASSERT_TRUE(std::filesystem::exists(path("clip.mimicx/motions/clip.npz"))) << call.text;
@@ -271,14 +271,14 @@ TEST_F(Cli, ABvhComesBackAsACleanBvh) {
     EXPECT_LT((simulated[20].p_WB[j] - back[20].p_WB[j]).norm(), 1e-6) << j;
 }
 
-TEST_F(Cli, ARunOfOtherReadingIsRefused) {
+TEST_F(Cli, RejectsARunOfOtherReadOptions) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string command = "imitate " + path("a.npz") + " --samples 0 --threads 1 --out " + path("out");
   mimicx(command);
   EXPECT_EQ(mimicx(command + " --fps 25").status, 2);
 }
 
-TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
+TEST_F(Cli, ImitateContinuesAfterAFailedInput) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string command =
       "imitate " + path("none.npz") + " " + path("a.npz") + " --samples 1 --threads 1 --out " + path("out");
@@ -292,7 +292,7 @@ TEST_F(Cli, ImitateDoesTheRestWhenOneInputFails) {
   EXPECT_EQ(mimicx(command + " --seed 2").status, 2) << "a folder of another seed";
 }
 
-TEST_F(Cli, WhatCannotBeLookedAtDoesNotStopTheOthers) {
+TEST_F(Cli, UnreadableFolderDoesNotStopTheOthers) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   motion::write_clip(path("one.npz"), motion::standing_clip(1));
   std::filesystem::create_symlink(path("loop.npz"), path("loop.npz"));
@@ -310,7 +310,7 @@ TEST_F(Cli, WhatCannotBeLookedAtDoesNotStopTheOthers) {
   EXPECT_TRUE(std::filesystem::exists(path("out/motions/a.npz"))) << call.text;
 }
 
-TEST_F(Cli, AFolderThatCannotBeMadeDoesNotStopTheOthers) {
+TEST_F(Cli, UnwritableOutputFolderDoesNotStopTheOthers) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   motion::write_clip(path("b.npz"), motion::standing_clip(20));
   std::ofstream(path("a.mimicx")) << "in the way";

@@ -25,15 +25,16 @@ double value(const std::string& name, int column) {
 }
 
 // A setting of a training that the table lacks is a logic error of every configuration.
-TEST(Configurations, AllAreCompleteAndCanBeDone) {
+TEST(Configurations, AllAreCompleteAndValid) {
   for (const pipeline::TrainingConfig& training : trainings()) EXPECT_NO_THROW(check(training));
   EXPECT_NO_THROW(check(plan::plan_configuration().planning));
   EXPECT_NO_THROW(check(adapt_configuration()));
 }
 
-TEST(Configurations, TheTaskIsOneForAll) {
+TEST(Configurations, AllShareOneTask) {
   for (const pipeline::TrainingConfig& training : trainings())
-    EXPECT_EQ(pipeline::settings_of(training.tracking), pipeline::settings_of(rl::tracking::TrackingConfig{}));
+    EXPECT_EQ(pipeline::settings_of(training.tracking),
+              pipeline::settings_of(rl::tracking::TrackingConfig{}));
 }
 
 TEST(Configurations, NoSettingIsNamedTwice) {
@@ -42,7 +43,7 @@ TEST(Configurations, NoSettingIsNamedTwice) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(rows[i].name, rows[j].name);
 }
 
-TEST(Configurations, TheTableIsWhatManifestsRecord) {
+TEST(Configurations, TableListsWhatManifestsRecord) {
   const auto has_all = [](int column, const NamedValues& settings, std::size_t more) {
     for (const auto& [name, set] : settings) EXPECT_EQ(value(name, column), set) << name;
     std::size_t rows = 0;
@@ -58,7 +59,7 @@ TEST(Configurations, TheTableIsWhatManifestsRecord) {
   has_all(6, fit::fit_settings({}), 0);
 }
 
-TEST(Configurations, ThePresetsDifferInTheirNetworksAlone) {
+TEST(Configurations, PresetsDifferOnlyInTheirNetworks) {
   for (const ConfigurationRow& row : configuration_rows()) {
     const double small = row.values[3], paper = row.values[4];
     if (row.name.starts_with("hidden_"))
@@ -70,7 +71,7 @@ TEST(Configurations, ThePresetsDifferInTheirNetworksAlone) {
   EXPECT_THROW(pretrain_configuration("large"), std::invalid_argument);
 }
 
-TEST(Configurations, TextAndJsonSayTheSame) {
+TEST(Configurations, TextAndJsonAgree) {
   const nlohmann::json json = nlohmann::json::parse(configurations_json());
   std::istringstream lines(format_configurations());
   std::string line;

@@ -9,7 +9,7 @@
 namespace mimicx::program {
 namespace {
 
-TEST(BenchmarkTruth, IsOurBodyAtThirtyFramesOnTheFloorAndNothingElse) {
+TEST(BenchmarkTruth, IsOurBodyAtThirtyFramesOnTheFloor) {
   motion::Clip clip = foreign_clip(60.0);
   import::rotate_world(import::rotation_to_z_up('y'), clip);
   import::shift_world({0.0, 0.0, 0.4}, clip);
@@ -40,7 +40,7 @@ TEST_F(Cli, CorruptWritesPairsThatEvaluateScores) {
   EXPECT_EQ(motion::read_clip(path("b/truth/ours.npz")).trans, motion::standing_clip(40).trans);
 }
 
-TEST_F(Cli, CorruptGivesAFileTheSameBytesWhateverElseIsCorrupted) {
+TEST_F(Cli, CorruptsAFileIndependentlyOfTheOthers) {
   motion::write_clip(path("x.npz"), motion::standing_clip(40));
   motion::write_clip(path("a.npz"), motion::standing_clip(30));
   for (const char* noise : {"independent", "gvhmr"}) {
@@ -85,7 +85,7 @@ TEST_F(Cli, CorruptLeavesNoTruthInTheNoisyFile) {
   }
 }
 
-TEST_F(Cli, CorruptTakesOtherKeypointsAndNone) {
+TEST_F(Cli, CorruptWritesOtherKeypointsOrNone) {
   motion::write_clip(path("x.npz"), motion::standing_clip(20));
   for (const auto& [set, points] : {std::pair("coco17", 17u), std::pair("coco133", 133u)}) {
     EXPECT_EQ(mimicx("corrupt " + path("x.npz") + " --keypoints " + set + " --out " + path(set)).status, 0);
@@ -95,7 +95,7 @@ TEST_F(Cli, CorruptTakesOtherKeypointsAndNone) {
   EXPECT_FALSE(motion::read_clip(path("n/noisy/x.npz")).keypoints);
 }
 
-TEST_F(Cli, CorruptSaysInALineWhatItLeavesOutAndDoesTheRest) {
+TEST_F(Cli, CorruptNamesSkippedFilesAndContinues) {
   motion::write_clip(path("good.npz"), motion::standing_clip(20));
   motion::write_clip(path("one.npz"), motion::standing_clip(1));
   std::ofstream(path("bad.npz")) << "PK nonsense";
@@ -109,7 +109,7 @@ TEST_F(Cli, CorruptSaysInALineWhatItLeavesOutAndDoesTheRest) {
   EXPECT_TRUE(std::filesystem::exists(path("b/noisy/good.npz")));
 }
 
-TEST_F(Cli, CorruptKnowsItsNoises) {
+TEST_F(Cli, CorruptRejectsUnknownNoise) {
   motion::write_clip(path("x.npz"), motion::standing_clip(20));
   const std::string start = "corrupt " + path("x.npz") + " --out " + path("b") + " --noise ";
   const Call unknown = mimicx(start + "mystery");

@@ -48,7 +48,7 @@ record::SequenceEntry untrained(const std::string& name) {
                   [&](const record::RunContext& context) { pipeline::imitate(config, context); });
 }
 
-TEST(ShippedOptions, AreTheFilesThatTheirPagesRecordAndSmall) {
+TEST(ShippedOptions, MatchTheRecordedChecksumsAndAreSmall) {
   std::uintmax_t size = 0;
   for (const std::filesystem::path& set : {kOptions, kTaught}) {
     EXPECT_NE(read_file(set / "README.md").find(record::file_checksum(set / "options.npz")),
@@ -59,7 +59,7 @@ TEST(ShippedOptions, AreTheFilesThatTheirPagesRecordAndSmall) {
   EXPECT_LE(size, 15'000'000u);
 }
 
-TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
+TEST(ShippedOptions, WereNotTrainedOnTestSeeds) {
   for (const std::filesystem::path& set : {kOptions, kTaught})
     for (const pipeline::options::MotionCluster& cluster :
          pipeline::options::read_clusters(set / "clusters.json").clusters)
@@ -68,7 +68,7 @@ TEST(ShippedOptions, WereTrainedOnSeedsThatTheTestSplitDoesNotHave) {
 }
 
 /// The kinds that tell whether what was learnt holds for others.
-TEST(ShippedOptions, WereTaughtNothingOfThreeKinds) {
+TEST(ShippedOptions, WereNotTrainedOnThreeKinds) {
   for (const pipeline::options::MotionCluster& cluster :
        pipeline::options::read_clusters(kTaught / "clusters.json").clusters)
     for (const std::string& member : cluster.members)
@@ -78,7 +78,7 @@ TEST(ShippedOptions, WereTaughtNothingOfThreeKinds) {
 
 /// They are those of a later fit than the training's (data/options/README.md), so the means are near the
 /// centres only.
-TEST(ShippedOptions, HaveTheFeaturesOfTheMotionsThatTheyWereTrainedOn) {
+TEST(ShippedOptions, HaveTheFeaturesOfTheirTrainingMotions) {
   const pipeline::options::Clusters clusters = pipeline::options::read_clusters(kOptions / "clusters.json");
   for (const pipeline::options::MotionCluster& cluster : clusters.clusters) {
     ASSERT_EQ(cluster.features.size(), cluster.members.size());
@@ -93,7 +93,7 @@ TEST(ShippedOptions, HaveTheFeaturesOfTheMotionsThatTheyWereTrainedOn) {
   }
 }
 
-TEST(ShippedOptions, FineTuningBringsAMotionThatTheyFollowNearerToItsReference) {
+TEST(ShippedOptions, FineTuningReducesTheErrorOfAMotionThatTheyFollow) {
   const record::SequenceEntry tuned = adapted("squat_1", pipeline::options::read_options(kOptions), 40'000);
   EXPECT_TRUE(tuned.ok_before);
   EXPECT_TRUE(tuned.ok);
@@ -101,7 +101,7 @@ TEST(ShippedOptions, FineTuningBringsAMotionThatTheyFollowNearerToItsReference) 
   EXPECT_LT(1.0 - tuned.reward_after, 0.8 * (1.0 - tuned.reward_before));
 }
 
-TEST(ShippedOptions, FollowMotionsTheyHaveNeverSeenWhereNoPolicyFalls) {
+TEST(ShippedOptions, FollowUnseenMotionsWithoutFalling) {
   const auto options = pipeline::options::read_options(kOptions);
   for (const char* name : {"squat_1", "wave_1", "turn_in_place_1"}) {
     const record::SequenceEntry with = adapted(name, options), without = untrained(name);

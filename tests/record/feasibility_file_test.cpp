@@ -28,7 +28,7 @@ struct FeasibilityFile : testing::Test {
   std::filesystem::path file = folder.path / "f.npz";
 };
 
-TEST_F(FeasibilityFile, ComesBackToTheBitWithAndWithoutHelp) {
+TEST_F(FeasibilityFile, RoundTripIsExactWithAndWithoutHelp) {
   FrameFeasibility all = example();
   for (int help : {2, 0}) {
     all.help.resize(help);
@@ -41,7 +41,7 @@ TEST_F(FeasibilityFile, ComesBackToTheBitWithAndWithoutHelp) {
   }
 }
 
-TEST_F(FeasibilityFile, AccelerationsAreForcesByTheMass) {
+TEST_F(FeasibilityFile, AccelerationIsForceOverMass) {
   write_feasibility(file, example());
   const Npz npz = read_npz(file);
   const std::vector<double> need = npz.at("need_acceleration").to_double();
@@ -50,7 +50,7 @@ TEST_F(FeasibilityFile, AccelerationsAreForcesByTheMass) {
   EXPECT_DOUBLE_EQ(npz.at("help_acceleration").to_double().at(1), 5.0 * 3.0 / 70.0);
 }
 
-TEST_F(FeasibilityFile, OneThatIsDamagedNamesTheMember) {
+TEST_F(FeasibilityFile, DamagedFileNamesTheMember) {
   for (const char* member : {"need", "wrong", "help", "mass"}) {
     write_feasibility(file, example());
     Npz npz = read_npz(file);

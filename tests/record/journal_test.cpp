@@ -23,7 +23,7 @@ SequenceEntry entry(int k) {
 
 Timing timing(int k) { return {entry(k).name, 1.5 * k, 0.5, 0.25, 2}; }
 
-TEST(Journal, ReplayedItIsTheManifestThatWouldHaveBeenWritten) {
+TEST(Journal, ReplayGivesTheManifestOfAnUninterruptedRun) {
   const TemporaryFolder folder;
   const auto path = folder.path / "journal.jsonl";
   Manifest expected, manifest;
@@ -44,7 +44,7 @@ TEST(Journal, ReplayedItIsTheManifestThatWouldHaveBeenWritten) {
   EXPECT_EQ(format_manifest(manifest), format_manifest(expected)) << "twice is once";
 }
 
-TEST(Journal, ALastLineThatWasCutOffIsNotBelieved) {
+TEST(Journal, IncompleteLastLineIsIgnored) {
   const TemporaryFolder folder;
   const auto path = folder.path / "journal.jsonl";
   Journal journal(path);
@@ -64,7 +64,7 @@ TEST(Journal, ALastLineThatWasCutOffIsNotBelieved) {
   EXPECT_THROW(replay_journal(path, manifest, times), DataError);
 }
 
-TEST(Journal, AnEntryCostsTheSameHoweverManyThereAre) {
+TEST(Journal, AppendingIsConstantTime) {
   const TemporaryFolder folder;
   const auto path = folder.path / "journal.jsonl";
   Journal journal(path);
@@ -78,7 +78,7 @@ TEST(Journal, AnEntryCostsTheSameHoweverManyThereAre) {
   }
 }
 
-TEST(Journal, BeginsAnewAndLeavesNoFileWhenItIsCleared) {
+TEST(Journal, ClearRemovesTheFileAndAppendStartsANewOne) {
   const TemporaryFolder folder;
   const auto path = folder.path / "journal.jsonl";
   Journal journal(path);

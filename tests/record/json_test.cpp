@@ -49,7 +49,7 @@ std::pair<Json, Oracle> random_value(Random& random, int depth) {
   return {json, oracle};
 }
 
-TEST(Json, IsWrittenAsNlohmannWritesItAndReadsBack) {
+TEST(Json, DumpMatchesNlohmannAndParsesBack) {
   Random random(17);
   for (int k = 0; k < 500; ++k) {
     const auto [json, oracle] = random_value(random, 5);
@@ -61,7 +61,7 @@ TEST(Json, IsWrittenAsNlohmannWritesItAndReadsBack) {
   }
 }
 
-TEST(Json, BracesAreObjectsWhereEveryElementIsAPairThatBeginsWithAText) {
+TEST(Json, BracesOfTextPairsAreObjects) {
   const Json json = {{"name", "walk"},  {"list", {1, 2.5, "x"}}, {"pairs", {{"a", 1}}},
                      {"none", nullptr}, {"yes", true},           {"vector", std::vector<double>{1.0, 0.5}}};
   EXPECT_EQ(json.dump(), R"({"name":"walk","list":[1,2.5,"x"],"pairs":{"a":1},"none":null,"yes":true,)"
@@ -69,7 +69,7 @@ TEST(Json, BracesAreObjectsWhereEveryElementIsAPairThatBeginsWithAText) {
   EXPECT_EQ(Json({1, 2}).dump(), "[1,2]");
 }
 
-TEST(Json, ReadsValuesOfTheirKindAndSaysWhatItExpected) {
+TEST(Json, ReadsEachTypeAndNamesTheExpectedOne) {
   const Json json = Json::parse(R"({"n": 3, "x": -2.5, "t": "text", "l": [[1, 2], [3, 4]], "b": true})");
   const int n = json.at("n");
   const double x = json.at("x"), whole = json.at("n");
@@ -90,7 +90,7 @@ TEST(Json, ReadsValuesOfTheirKindAndSaysWhatItExpected) {
   EXPECT_THROW((json.at("l").get<std::array<std::array<int, 2>, 3>>()), JsonError);
 }
 
-TEST(Json, WhatWasFoundIsSaidBehindTheWordFound) {
+TEST(Json, ErrorsSayWhatWasFound) {
   const auto found = [](const char* text, const auto& use) -> std::string {
     try {
       use(Json::parse(text));
@@ -104,7 +104,7 @@ TEST(Json, WhatWasFoundIsSaidBehindTheWordFound) {
   EXPECT_EQ(found("-3", [](const Json& j) { j.get<std::uint64_t>(); }), "a negative number");
 }
 
-TEST(Json, WhatIsNoJsonIsRefused) {
+TEST(Json, RejectsInvalidJson) {
   for (const std::string text : {"", "{", "[1,]", "{\"a\" 1}", "nul", "1 2", "\"\xff\"", "{\"a\":1}}"})
     EXPECT_THROW(Json::parse(text), JsonError) << text;
   EXPECT_THROW(Json::parse(std::string(100'000, '[')), JsonError) << "no stack is deep enough";

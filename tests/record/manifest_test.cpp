@@ -23,7 +23,7 @@ TEST(Manifest, ReadsBackAsTheSameBytes) {
   EXPECT_TRUE(std::isnan(back.sequences.at(0).metrics.at(1).second));
 }
 
-TEST(Manifest, IsLaidOutAsOneDocumentHoweverManyEntriesItHas) {
+TEST(Manifest, IsOneIndentedDocumentForAnyNumberOfEntries) {
   Manifest m = example_manifest();
   for (const std::size_t count : {0u, 1u, 3u}) {
     m.sequences.resize(count, example_manifest().sequences[0]);
@@ -32,7 +32,7 @@ TEST(Manifest, IsLaidOutAsOneDocumentHoweverManyEntriesItHas) {
   }
 }
 
-TEST(Manifest, EntriesOfInputsAreOrderedBehindAllOthers) {
+TEST(Manifest, OrderPutsTheInputsLastInTheirOrder) {
   Manifest m = example_manifest();
   for (const char* input : {"c", "b", "x", "a"}) {
     SequenceEntry e;
@@ -56,7 +56,7 @@ TEST(Manifest, KeepsOneEntryPerInput) {
   EXPECT_EQ(m.find("other.npz"), nullptr);
 }
 
-TEST(Manifest, AResultStandsUnlessItIsMissingOrHitTheSafetyStop) {
+TEST(Manifest, ResultIsFinishedUnlessMissingOrStoppedByTheTimeLimit) {
   SequenceEntry e = example_manifest().sequences[0];
   EXPECT_TRUE(e.finished());
   e.ok = false;  // it fell: spending the same samples again gives the same fall
@@ -68,7 +68,7 @@ TEST(Manifest, AResultStandsUnlessItIsMissingOrHitTheSafetyStop) {
   EXPECT_FALSE(e.finished());
 }
 
-TEST(Manifest, EverySettingThatResultsDependOnIsCompared) {
+TEST(Manifest, DifferencesCompareEverySetting) {
   const Manifest m = example_manifest();
   EXPECT_TRUE(m.differences(example_manifest()).empty());
   const auto differs = [&](auto change) {
@@ -84,7 +84,7 @@ TEST(Manifest, EverySettingThatResultsDependOnIsCompared) {
   EXPECT_TRUE(differs([](Manifest& o) { o.settings.pop_back(); }));
 }
 
-TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
+TEST(Manifest, RejectsOtherFilesByName) {
   const TemporaryFolder folder;
   for (const char* bad : {"", "{", "[]", "{\"run\": {}, \"sequences\": []}"}) {
     std::ofstream(folder.path / "manifest.json") << bad;
@@ -97,7 +97,7 @@ TEST(Manifest, AFileThatIsNoneIsRefusedByName) {
   }
 }
 
-TEST(Manifest, ThatOfTrainedOptionsIsCalledSo) {
+TEST(Manifest, RecognisesTheManifestOfTrainedOptions) {
   try {
     parse_manifest(R"({"run": {"samples": 1}, "options": []})", "o/manifest.json");
     FAIL();
@@ -109,7 +109,7 @@ TEST(Manifest, ThatOfTrainedOptionsIsCalledSo) {
   }
 }
 
-TEST(Manifest, AnEndingThatThereIsNotIsRefused) {
+TEST(Manifest, RejectsUnknownEnding) {
   std::string text = format_manifest(example_manifest());
   const std::string word = "\"ending\": \"budget\"";
   text.replace(text.find(word), word.size(), "\"ending\": \"unheard of\"");

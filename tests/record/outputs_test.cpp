@@ -31,7 +31,7 @@ Npz small_archive() {
   return npz;
 }
 
-TEST_F(OutputsTest, AnInputIsRefusedInEverySpellingEvenByForce) {
+TEST_F(OutputsTest, RefusesAnInputInAnySpellingEvenWithForce) {
   std::filesystem::create_directory(path("d"));
   write_npz(path("d/x.npz"), small_archive());
   std::filesystem::create_symlink(path("d/x.npz"), path("link.npz"));
@@ -42,7 +42,7 @@ TEST_F(OutputsTest, AnInputIsRefusedInEverySpellingEvenByForce) {
           << spelling << force;
 }
 
-TEST_F(OutputsTest, AnArchiveIsOursOnlyWhereItHasOurVeryBytes) {
+TEST_F(OutputsTest, ArchiveIsOursOnlyIfItsBytesAreOurs) {
   write_npz(path("own.npz"), small_archive());
   std::string bytes = format_npz(small_archive());
   EXPECT_TRUE(is_own_file(path("own.npz"), {}));
@@ -56,7 +56,7 @@ TEST_F(OutputsTest, AnArchiveIsOursOnlyWhereItHasOurVeryBytes) {
   EXPECT_NE(refusal(Outputs({}, false), path("text.npz")), "");
 }
 
-TEST_F(OutputsTest, OtherFilesAreOursWhereTheyBeginAsOursDo) {
+TEST_F(OutputsTest, OtherFilesAreOursByTheirFirstBytes) {
   std::ofstream(path("own.json")) << document({{"a", 1}});
   std::ofstream(path("other.json")) << Json({{"a", 1}}).dump(1);
   std::ofstream(path("empty.json"));
@@ -69,7 +69,7 @@ TEST_F(OutputsTest, OtherFilesAreOursWhereTheyBeginAsOursDo) {
   EXPECT_EQ(refusal(Outputs({}, false), path("none.json"), kJsonOpening), "");
 }
 
-TEST_F(OutputsTest, FoldersDevicesAndFilesThatAreClaimedAlreadyAreRefused) {
+TEST_F(OutputsTest, RefusesFoldersDevicesAndSecondClaims) {
   std::filesystem::create_directory(path("d.npz"));
   for (const std::string& bad : {path("d.npz"), std::string("/dev/null")})
     EXPECT_NE(refusal(Outputs({}, true), bad).find("is no file"), std::string::npos) << bad;

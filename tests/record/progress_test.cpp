@@ -7,7 +7,7 @@
 namespace mimicx::record {
 namespace {
 
-TEST(Progress, SaysRateAndTimeLeftOfThisRunAlone) {
+TEST(Progress, RateAndTimeLeftCountThisRunOnly) {
   std::ostringstream out;
   double now = 100.0;
   Progress progress(out, false, [&now] { return now; });
@@ -17,7 +17,7 @@ TEST(Progress, SaysRateAndTimeLeftOfThisRunAlone) {
   EXPECT_EQ(out.str(), "walk  700.0k of 2.00M samples  35 %  20.0k/s  1 min 05 s left  reward 0.500\n");
 }
 
-TEST(Progress, APlainLogGetsALineEveryTenSeconds) {
+TEST(Progress, PlainLogGetsALineEveryTenSeconds) {
   std::ostringstream out;
   double now = 0.0;
   Progress progress(out, false, [&now] { return now; });
@@ -31,7 +31,7 @@ TEST(Progress, APlainLogGetsALineEveryTenSeconds) {
   EXPECT_EQ(text.find('\r'), std::string::npos);
 }
 
-TEST(Progress, ATerminalGetsOneLineThatIsClearedAtTheEnd) {
+TEST(Progress, TerminalGetsOneLineClearedAtTheEnd) {
   std::ostringstream out;
   double now = 0.0;
   Progress progress(out, true, [&now] { return now; });
@@ -47,7 +47,7 @@ TEST(Progress, ATerminalGetsOneLineThatIsClearedAtTheEnd) {
   EXPECT_TRUE(text.ends_with("\r\x1b[Kwalk: ok\n"));
 }
 
-TEST(Progress, CountsAndDurationsReadAsPeopleWriteThem) {
+TEST(Progress, FormatsCountsAndDurations) {
   EXPECT_EQ(format_count(950), "950");
   EXPECT_EQ(format_count(18200), "18.2k");
   EXPECT_EQ(format_count(4e6), "4.00M");

@@ -10,13 +10,13 @@
 namespace mimicx::record {
 namespace {
 
-TEST(RunFolder, InputsOfOneFileNameGetNamesOfTheirOwn) {
+TEST(RunFolder, EqualFileNamesGetUniqueNames) {
   EXPECT_EQ(unique_name("walk", {}), "walk");
   EXPECT_EQ(unique_name("walk", {"walk"}), "walk-2");
   EXPECT_EQ(unique_name("walk", {"walk", "walk-2"}), "walk-3");
 }
 
-TEST(RunFolder, TheChecksumIsFnv1aAndSeesOneChangedBit) {
+TEST(RunFolder, ChecksumIsFnv1aAndDetectsOneChangedBit) {
   const TemporaryFolder folder;
   const auto path = folder.path / "f";
   std::ofstream(path) << "foobar";

@@ -46,7 +46,7 @@ std::string said_of(const ShardList& mine, const ShardList& there) {
 
 bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
-TEST(ShardList, ComesBackAsItWasWrittenWithNamesOfAnyBytes) {
+TEST(ShardList, RoundTripKeepsNamesOfAnyBytes) {
   const TemporaryFolder folder;
   const ShardList list = list_of(2, {{"a", "in/a.npz"}, {"\xff", "in/\xff.npz"}});
   agree_on(list, part_of(folder, 0, 2));
@@ -58,7 +58,7 @@ TEST(ShardList, ComesBackAsItWasWrittenWithNamesOfAnyBytes) {
   EXPECT_TRUE(holds_run(folder.path)) << "its motions are no inputs of another run";
 }
 
-TEST(ShardList, WhatDiffersIsSaidInALine) {
+TEST(ShardList, NamesTheDifferenceInOneLine) {
   const ShardList list = list_of(2, {{"a", "a.npz"}, {"b", "b.npz"}});
   EXPECT_EQ(said_of(list, list), "");
   ShardList other = list;
@@ -76,7 +76,7 @@ TEST(ShardList, WhatDiffersIsSaidInALine) {
   EXPECT_TRUE(has(said_of(other, list), "motion 2 of 2 is b.npz there, none here")) << said_of(other, list);
 }
 
-TEST(ShardList, OfMachinesThatStartAtOnceOneAlonePrevails) {
+TEST(ShardList, OneOfSeveralConcurrentWritersWins) {
   for (int round = 0; round < 20; ++round) {
     const TemporaryFolder folder;
     constexpr int kParts = 8;
@@ -99,7 +99,7 @@ TEST(ShardList, OfMachinesThatStartAtOnceOneAlonePrevails) {
   }
 }
 
-TEST(ShardList, AFileThatIsNoneIsNamed) {
+TEST(ShardList, RejectsOtherFilesByName) {
   const TemporaryFolder folder;
   EXPECT_THROW(read_shard_list(folder.path), DataError);
   make_folder(folder.path / "shards");
@@ -109,7 +109,7 @@ TEST(ShardList, AFileThatIsNoneIsNamed) {
   }
 }
 
-TEST(FolderLock, ThoseWhoShareItKeepOutOneWhoWantsItAloneAndTheOtherWayRound) {
+TEST(FolderLock, SharedAndExclusiveLocksExcludeEachOther) {
   const TemporaryFolder folder;
   for (const char* file : {"", "lock"}) {
     {

@@ -18,7 +18,7 @@ std::vector<std::string> patterned_names(int kinds) {
   return names;
 }
 
-TEST(Shard, EverySequenceIsOfOneAndNoTwoDifferByMoreThanOneSequence) {
+TEST(Shard, EachSequenceIsInOneShardAndSizesDifferByAtMostOne) {
   const std::vector<std::string> names = patterned_names(40);
   for (const int count : {1, 2, 5, 64, 320, 1000}) {
     const std::vector<int> shards = assigned_shards(names, count);
@@ -51,7 +51,7 @@ int shard_by_counting(const std::vector<std::string>& names, const std::string& 
   return static_cast<int>(before % count);
 }
 
-TEST(Shard, IsThePlaceInTheOrderOfTheHashesWhateverTheOrderOfTheList) {
+TEST(Shard, AssignmentDependsOnHashesNotOnListOrder) {
   std::vector<std::string> names = patterned_names(12);
   names.push_back("g\xc3\xa4hn/\xff");  // bytes are bytes
   std::mt19937 shuffle(7);
@@ -63,7 +63,7 @@ TEST(Shard, IsThePlaceInTheOrderOfTheHashesWhateverTheOrderOfTheList) {
   }
 }
 
-TEST(Shard, NamesThatFollowAPatternAreSpread) {
+TEST(Shard, SpreadsNamesThatFollowAPattern) {
   const std::vector<std::string> names = patterned_names(200);
   const std::vector<int> shards = assigned_shards(names, 8);
   std::map<int, int> eighths;  // all that end on _8; dealt in their own order, one shard would have all 200
@@ -72,7 +72,7 @@ TEST(Shard, NamesThatFollowAPatternAreSpread) {
   for (const auto& [shard, size] : eighths) EXPECT_LT(size, 50) << shard;
 }
 
-TEST(Shard, IsReadAsIOfNFromZeroOnAndAnythingElseIsRefused) {
+TEST(Shard, ParsesIOfNFromZeroAndRejectsTheRest) {
   EXPECT_EQ(parse_shard("0/1").count, 1);
   EXPECT_EQ(parse_shard("63/64").index, 63);
   for (const char* text : {"", "3", "/", "1/", "/2", "64/64", "-1/4", "1/0", "0/-1", "1/2/3", "1 /2", "a/b",
@@ -80,7 +80,7 @@ TEST(Shard, IsReadAsIOfNFromZeroOnAndAnythingElseIsRefused) {
     EXPECT_THROW(parse_shard(text), std::invalid_argument) << text;
 }
 
-TEST(Shard, NamesOfItsFoldersSortByNumber) {
+TEST(Shard, FolderNamesSortByNumber) {
   EXPECT_EQ(shard_name({3, 64}), "003-of-064");
   EXPECT_EQ(shard_name({999, 1000}), "0999-of-1000");
   EXPECT_EQ(shard_folder("out", {0, 2}).manifest(), "out/shards/000-of-002/manifest.json");
@@ -102,7 +102,7 @@ std::map<std::string, std::string> task(const char* id, const char* count, const
           {"SLURM_ARRAY_TASK_MAX", last}};
 }
 
-TEST(Shard, OfATaskOfAWholeArrayIsItsPlaceFromZeroOn) {
+TEST(Shard, TaskOfACompleteArrayGetsItsIndex) {
   EXPECT_FALSE(of_variables({}));
   const auto from_zero = of_variables(task("3", "8", "0", "7")),
              from_one = of_variables(task("8", "8", "1", "8"));
@@ -113,7 +113,7 @@ TEST(Shard, OfATaskOfAWholeArrayIsItsPlaceFromZeroOn) {
   EXPECT_EQ(from_one->count, 8);
 }
 
-TEST(Shard, OfATaskOfAnyOtherArrayIsNotGuessed) {
+TEST(Shard, RejectsTasksOfIncompleteArrays) {
   EXPECT_THROW(of_variables({{"SLURM_ARRAY_TASK_ID", "3"}}), std::invalid_argument);
   EXPECT_THROW(of_variables(task("3", "2", "3", "5")), std::invalid_argument) << "--array=3,5";
   EXPECT_THROW(of_variables(task("2", "2", "2", "3")), std::invalid_argument) << "--array=2-3";

@@ -14,7 +14,7 @@
 namespace mimicx::record {
 namespace {
 
-TEST(Table, NumbersReadBackAsTheSameBits) {
+TEST(Table, NumbersRoundTripExactly) {
   const TemporaryFolder folder;
   Random random(1, {7});
   Table table{{"a", "b"}, {}};
@@ -26,7 +26,7 @@ TEST(Table, NumbersReadBackAsTheSameBits) {
   EXPECT_EQ(back.rows, table.rows);
 }
 
-TEST(Table, ValuesThatDoNotExistAreEmptyFields) {
+TEST(Table, MissingValuesAreEmptyFields) {
   const TemporaryFolder folder;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string text = format_csv({{"a", "b", "c"}, {{1.0, nan, 0.5}}});
@@ -35,7 +35,7 @@ TEST(Table, ValuesThatDoNotExistAreEmptyFields) {
   EXPECT_TRUE(std::isnan(read_csv(folder.path / "t.csv").rows.at(0).at(1)));
 }
 
-TEST(Table, ABadLineIsReportedWithFileAndLine) {
+TEST(Table, BadLineIsReportedWithFileAndLine) {
   const TemporaryFolder folder;
   for (const char* bad : {"a,b\n1,2\n1\n", "a,b\n1,2\n1,x\n", "a,b\n1,2\n1,2,3\n"}) {
     std::ofstream(folder.path / "t.csv") << bad;
@@ -48,7 +48,7 @@ TEST(Table, ABadLineIsReportedWithFileAndLine) {
   }
 }
 
-TEST(Table, AnUnknownColumnIsAnError) {
+TEST(Table, RejectsUnknownColumn) {
   EXPECT_EQ((Table{{"a", "b"}, {}}).column("b"), 1u);
   EXPECT_THROW((Table{{"a"}, {}}).column("b"), std::invalid_argument);
 }

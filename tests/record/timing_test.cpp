@@ -10,7 +10,7 @@
 namespace mimicx::record {
 namespace {
 
-TEST(Timing, ReadsBackAndForgivesAFileThatIsNone) {
+TEST(Timing, RoundTripsAndReadsAnInvalidFileAsEmpty) {
   const TemporaryFolder folder;
   const auto path = folder.path / "timing.json";
   EXPECT_TRUE(read_timing(path).empty());

@@ -9,14 +9,14 @@
 namespace mimicx::record {
 namespace {
 
-TEST(Names, UnicodeStaysAsItIs) {
+TEST(Utf8Names, UnicodeIsUnchanged) {
   for (const std::string name : {"walk", "", "Hüfte/骨.npz", "🦴", "\x7f\x01"}) {
     EXPECT_EQ(to_utf8(name), name);
     EXPECT_EQ(from_utf8(name), name);
   }
 }
 
-TEST(Names, AnyBytesComeBackThroughJsonAndDifferentNamesDiffer) {
+TEST(Utf8Names, AnyBytesRoundTripThroughJsonAndStayDistinct) {
   Random random(11, {1});
   for (int round = 0; round < 2000; ++round) {
     std::string name;

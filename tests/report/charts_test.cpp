@@ -20,7 +20,7 @@ const ReportBars& row(const std::vector<ReportBars>& bars, const std::string& na
   throw std::out_of_range(name);
 }
 
-TEST(Charts, WhatTheRunDoesNotHaveIsNotDrawn) {
+TEST(Charts, OmitsMissingData) {
   const MeasuredMotion motion = standing_reference(6);
   ChartSources sources;
   sources.motions = {{Who::kCleaned, &motion}};
@@ -53,7 +53,7 @@ TEST(Charts, ForcesAreInBodyWeights) {
   EXPECT_EQ(forces->lines[1].values, std::vector<double>(3, 1.5));
 }
 
-TEST(Charts, AnAuditStandsAtItsFrames) {
+TEST(Charts, AuditValuesAreAtTheirFrames) {
   const MeasuredMotion motion = standing_reference(5);
   audit::Audit audit;
   for (const int frame : {1, 3}) {
@@ -81,7 +81,7 @@ TEST(Charts, AnAuditStandsAtItsFrames) {
   EXPECT_EQ(found, 2);
 }
 
-TEST(Charts, PartsOfATrainingColumnShareAChart) {
+TEST(Charts, ColumnsOfOneTitleShareAChart) {
   record::Table log{{"iteration", "samples", "reward", "reward_term:pose", "reward_term:velocity", "sigma"},
                     {{0, 512, 0.5, 0.6, 0.7, 0.1}, {1, 1024, 0.6, 0.7, 0.8, 0.1}}};
   const std::vector<ReportChart> charts = training_charts(log);
@@ -92,7 +92,7 @@ TEST(Charts, PartsOfATrainingColumnShareAChart) {
   EXPECT_EQ(charts[1].lines[1].values, (std::vector<double>{0.7, 0.8}));
 }
 
-TEST(Bars, FeetStandWhereTheFloorPushesThem) {
+TEST(Bars, FeetAreInContactWhereTheFloorPushes) {
   const MeasuredMotion motion = standing_reference(6);
   std::vector<files::FloorArrows> ground(6);
   for (std::size_t t = 1; t < 6; ++t) ground[t][0].force.z() = t < 4 ? 600.0 : 5.0;
@@ -105,7 +105,7 @@ TEST(Bars, FeetStandWhereTheFloorPushesThem) {
   EXPECT_TRUE(row(bars, "right foot").spans.empty());
 }
 
-TEST(Bars, WithoutForcesTheHeightOfTheFeetSays) {
+TEST(Bars, ContactFollowsFootHeightWithoutForces) {
   MeasuredMotion motion = standing_reference(4);
   for (auto& points : motion.samples.surface)
     for (std::size_t i = 0; i < points.size(); ++i) points[i].z() = i < kFootPoints / 2 ? 0.004 : 0.3;

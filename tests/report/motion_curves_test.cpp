@@ -33,7 +33,7 @@ int count_true(const std::vector<bool>& frames) {
   return n;
 }
 
-TEST(MotionCurves, OfABodyThatFallsAreThoseOfAParabola) {
+TEST(MotionCurves, FallingBodyHasParabolicCurves) {
   const double g = 9.81;
   const MotionCurves curves =
       curves_of(moved([g](int t) { return Vector3d(0.0, 0.0, 1.0 - 0.5 * g * t * t / (kFps * kFps)); }, 8));
@@ -47,19 +47,19 @@ TEST(MotionCurves, OfABodyThatFallsAreThoseOfAParabola) {
   }
 }
 
-TEST(MotionCurves, TheSlideIsTheWayOfABodyThatGlides) {
+TEST(MotionCurves, SlideOfAGlidingBodyIsItsSpeed) {
   const MotionCurves curves = curves_of(moved([](int t) { return Vector3d(0.003 * t, 0.004 * t, 0.0); }));
   for (std::size_t t = 0; t + 1 < kCurveFrames; ++t) EXPECT_NEAR(curves.slide[t], 5.0, 1e-9);
   EXPECT_TRUE(std::isnan(curves.slide.back()));
 }
 
-TEST(MotionCurves, WhatTouchesNothingHasNoSlide) {
+TEST(MotionCurves, NoContactHasNoSlide) {
   for (const double slide : curves_of(moved([](int t) { return Vector3d(0.1 * t, 0.0, 0.02); })).slide)
     EXPECT_TRUE(std::isnan(slide));
 }
 
 /// The mean of the curve is the metric of docs/metrics.md, where every pair of frames has a contact.
-TEST(MotionCurves, TheMeanSlideIsTheMetric) {
+TEST(MotionCurves, MeanSlideIsTheMetric) {
   const motion::MotionSamples glide =
       moved([](int t) { return Vector3d(0.002 * t * t, 0.001 * t, 0.001 * (t % 3)); });
   double sum = 0.0;
@@ -72,7 +72,7 @@ Flaws flaws(const motion::MotionSamples& input, const motion::MotionSamples& cle
   return flaws_of(measured(input), measured(cleaned));
 }
 
-TEST(Flaws, OfAMotionThatIsTheCleanedOneAreNone) {
+TEST(Flaws, CleanedMotionHasNone) {
   const motion::MotionSamples still = moved(nowhere);
   const Flaws none = flaws(still, still);
   for (const auto* frames : {&none.sinks, &none.floats, &none.slides, &none.shakes}) {
@@ -81,7 +81,7 @@ TEST(Flaws, OfAMotionThatIsTheCleanedOneAreNone) {
   }
 }
 
-TEST(Flaws, EachIsFoundWhereItIsAndNoOther) {
+TEST(Flaws, EachIsFoundInItsFramesOnly) {
   const motion::MotionSamples still = moved(nowhere);
   const auto third = [](int t) { return t >= 4 && t < 8; };
   const Flaws sunk = flaws(moved([](int) { return Vector3d(0.0, 0.0, -0.02); }), still);
@@ -102,13 +102,13 @@ TEST(Flaws, EachIsFoundWhereItIsAndNoOther) {
 }
 
 // A true jump is in the air where the cleaned one is, too.
-TEST(Flaws, AJumpDoesNotFloat) {
+TEST(Flaws, JumpIsNotFloating) {
   const auto jump = [](int t) { return Vector3d(0.0, 0.0, t > 3 && t < 9 ? 0.3 : 0.0); };
   EXPECT_EQ(count_true(flaws(moved(jump), moved(jump)).floats), 0);
   EXPECT_EQ(count_true(flaws(moved(jump), moved(nowhere)).floats), 5);
 }
 
-TEST(Flaws, EndWhereTheShorterMotionDoes) {
+TEST(Flaws, EndWithTheShorterMotion) {
   EXPECT_EQ(flaws(moved(nowhere), moved(nowhere, 5)).sinks.size(), 5u);
   EXPECT_EQ(flaws(moved(nowhere, 5), moved(nowhere)).slides.size(), 5u);
 }
@@ -122,7 +122,7 @@ TEST(Spans, AreTheStretchesOfTrueFrames) {
   EXPECT_TRUE(spans_of({}).empty());
 }
 
-TEST(JointDistances, AreThoseOfTheMove) {
+TEST(JointDistances, EqualTheShift) {
   const std::vector<double> mm =
       joint_distances(moved(nowhere), moved([](int t) { return Vector3d(0.0, 0.01 * t, 0.0); }, 4));
   ASSERT_EQ(mm.size(), 4u);

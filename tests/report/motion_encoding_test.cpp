@@ -38,7 +38,7 @@ BodyPoses posed_by_page(const std::string& text, std::size_t frame, const Charac
   return poses;
 }
 
-TEST(MotionData, PosesComeBackToAMillimetreAndATenthOfADegreeHoweverFarTheyAre) {
+TEST(MotionEncoding, PosesRoundTripToAMillimetreAndATenthOfADegree) {
   const Character c = make_character();
   const std::vector<BodyPoses> poses = {twisted_pose(c, 0.0), twisted_pose(c, 3.1),
                                         twisted_pose(c, 1.0, {-99.0, 120.0, 3.0})};
@@ -53,7 +53,7 @@ TEST(MotionData, PosesComeBackToAMillimetreAndATenthOfADegreeHoweverFarTheyAre) 
   }
 }
 
-TEST(MotionData, ArrowsAreInMillimetresAndNewtons) {
+TEST(MotionEncoding, ArrowsAreInMillimetresAndNewtons) {
   files::FloorArrows frame;
   frame[1] = {{0.1234, -40.0, 0.0}, {-12.0, 3.4, 1500.0}};
   const std::string text = encode_ground({frame});
@@ -63,7 +63,7 @@ TEST(MotionData, ArrowsAreInMillimetresAndNewtons) {
     EXPECT_EQ(number_at(text, 3 * k, 3), k < 5 || k >= 10 ? 0 : expected[k - 5]) << k;
 }
 
-TEST(MotionData, CentresAreInMillimetres) {
+TEST(MotionEncoding, CentresAreInMillimetres) {
   const Character c = make_character();
   const BodyPoses pose = twisted_pose(c, 0.4);
   const std::string text = encode_centers(c, {pose});
@@ -73,7 +73,7 @@ TEST(MotionData, CentresAreInMillimetres) {
                 0.501e-3);
 }
 
-TEST(MotionData, SupportIsCountedAndStandsFromThePelvis) {
+TEST(MotionEncoding, SupportIsCountedAndRelativeToThePelvis) {
   const Character c = make_character();
   const std::vector<BodyPoses> poses = {twisted_pose(c, 0.0), twisted_pose(c, 0.0)};
   const std::string text = encode_support({{}, {{1.4, -2.1}, {1.6, -2.0}}}, poses);
@@ -84,7 +84,7 @@ TEST(MotionData, SupportIsCountedAndStandsFromThePelvis) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(number_at(text, 2 + 2 * k, 2), expected[k]);
 }
 
-TEST(MotionData, TorquesAreInThousandthsOfTheirBounds) {
+TEST(MotionEncoding, TorquesAreInThousandthsOfTheirBounds) {
   PerBody<double> shares{};
   shares[4] = 0.1234;
   shares[21] = 1.25;

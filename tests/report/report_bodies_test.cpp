@@ -11,7 +11,7 @@
 namespace mimicx::report {
 namespace {
 
-TEST(ReportBodies, EqualBodiesAreThereOnceAndHaveOneKeyInAllFiles) {
+TEST(ReportBodies, EqualBodiesShareOneKey) {
   ReportBodies bodies;
   const std::string standard = bodies.take(make_character()), tall = bodies.take(make_character({0.0, 2.0}));
   EXPECT_EQ(bodies.take(make_character()), standard);
@@ -23,7 +23,7 @@ TEST(ReportBodies, EqualBodiesAreThereOnceAndHaveOneKeyInAllFiles) {
 }
 
 /// Reads a body back as the page does, from what it has and what all share.
-TEST(ReportBodies, TheSkinThatThePageReadsIsThatOfTheBody) {
+TEST(ReportBodies, PageDecodesTheBodysSkin) {
   ReportBodies bodies;
   const Character character = make_character({0.5, 1.5, -1.0});
   const std::string key = bodies.take(character);
@@ -51,7 +51,7 @@ TEST(ReportBodies, TheSkinThatThePageReadsIsThatOfTheBody) {
   }
 }
 
-TEST(ReportBodies, BonesAndShapesAreThoseOfTheCharacter) {
+TEST(ReportBodies, BonesAndShapesMatchTheCharacter) {
   ReportBodies bodies;
   const Character character = make_character({-1.0, 0.5});
   const std::string key = bodies.take(character);

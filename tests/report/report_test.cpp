@@ -50,7 +50,7 @@ std::string element(const std::string& page, const std::string& id) {
   return page.substr(begin, page.find("</script>", begin) - begin);
 }
 
-TEST(Report, DataSurvivesTheHtmlAroundIt) {
+TEST(Report, DataIsEscapedForHtml) {
   const std::string page = format_report(example(), {clip_json(example_clip())});
   const auto data = nlohmann::json::parse(element(page, "data"));
   ASSERT_EQ(data["rows"].size(), 1u);
@@ -70,14 +70,14 @@ TEST(Report, DataSurvivesTheHtmlAroundIt) {
   EXPECT_EQ(clip["bars"][0]["spans"], (std::vector<std::vector<int>>{{0, 1}}));
 }
 
-TEST(Report, AClipBesideThePageIsOneCallWithTheSameDataAndItsBodies) {
+TEST(Report, ClipScriptIsOneCallWithDataAndBodies) {
   const std::string json = clip_json(example_clip());
   EXPECT_EQ(clip_script("a \"b\"/c", json, {{"0a", "{\"x\":1}"}, {"4b", "{}"}}),
             "mimicx_clip(\"a \\\"b\\\"/c\", " + json + ", {\"0a\": {\"x\":1}, \"4b\": {}});\n");
   EXPECT_EQ(format_report(example(), {""}).find("\"clip-0\""), std::string::npos);
 }
 
-TEST(Report, WhatARunDoesNotHaveIsNotInThePage) {
+TEST(Report, OmitsMissingData) {
   ReportClip clip = example_clip();
   const auto without = nlohmann::json::parse(clip_json(clip));
   for (const char* key : {"ground", "torques", "camera", "options", "needs"})
@@ -92,7 +92,7 @@ TEST(Report, WhatARunDoesNotHaveIsNotInThePage) {
   EXPECT_EQ(with["motions"][0]["support"].get<std::string>().size(), 3u);
 }
 
-TEST(Report, BodiesStandInThePageOnceByTheirKeys) {
+TEST(Report, EachBodyIsInThePageOnce) {
   Report report = example();
   report.skin = "{\"parents\":[-1]}";
   report.bodies = {{"0a", "{\"a\":1}"}, {"1b", "{\"a\":2}"}};
@@ -103,7 +103,7 @@ TEST(Report, BodiesStandInThePageOnceByTheirKeys) {
   EXPECT_TRUE(nlohmann::json::parse(element(page, "data"))["map"]["clips"].empty());
 }
 
-TEST(Report, NeedsOfTheReferenceAreThereFrameByFrameOrNotAtAll) {
+TEST(Report, ReferenceNeedsAreThereForAllFramesOrNone) {
   ReportClip clip = example_clip();
   EXPECT_FALSE(nlohmann::json::parse(clip_json(clip)).contains("needs"));
   clip.needs = {{310.123456, 0.0, 2.0}, {4.5, 0.0, 0.03}, {12.0, 0.0, 1.0}, {1.0, 0.0, 0.01}};
@@ -143,12 +143,12 @@ TEST(Report, AFrameOfAMotionTakesFewerThanTwoHundredBytes) {
   EXPECT_LT(format_report({}, {}).size(), 100'000u);
 }
 
-TEST(Report, IsTheSameBytesForTheSameRun) {
+TEST(Report, IsDeterministic) {
   EXPECT_EQ(format_report(example(), {clip_json(example_clip())}),
             format_report(example(), {clip_json(example_clip())}));
 }
 
-TEST(Report, OfNothingIsStillAPage) {
+TEST(Report, IsAPageWithoutClips) {
   EXPECT_TRUE(nlohmann::json::parse(element(format_report({}, {}), "data"))["rows"].empty());
 }
 

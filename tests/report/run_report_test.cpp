@@ -82,7 +82,7 @@ nlohmann::json values(const std::string& page, const std::string& key, std::size
   return nullptr;
 }
 
-TEST(RunReport, FiftyMotionsAreOneFileAndMoreStandBesideIt) {
+TEST(RunReport, EmbedsFiftyClipsAndWritesMoreToFiles) {
   Folder few(50);
   const std::string one = few.page();
   EXPECT_EQ(count(one, kEmbedded), 50u);
@@ -117,7 +117,7 @@ std::map<std::string, std::string> report_files(const record::RunFolder& run) {
   return files;
 }
 
-TEST(RunReport, KeepsClipsThatWereMadeOfTheSameResultsAndReadsNoneOfTheirMotions) {
+TEST(RunReport, KeepsClipFilesOfUnchangedResultsWithoutReadingMotions) {
   Folder run(51);
   run.page();
   const auto files = report_files(run.run);
@@ -130,7 +130,7 @@ TEST(RunReport, KeepsClipsThatWereMadeOfTheSameResultsAndReadsNoneOfTheirMotions
   EXPECT_NE(run.page(), files.at("page")) << "who asks for the report again has it made of what is there";
 }
 
-TEST(RunReport, AClipOfOtherResultsOrWithATruthOrCutShortIsMadeAgain) {
+TEST(RunReport, RemakesClipFilesThatAreOutdatedHaveATruthOrAreIncomplete) {
   Folder run(51);
   ReportOptions keep;
   keep.keep = true;
@@ -159,7 +159,7 @@ TEST(RunReport, AClipOfOtherResultsOrWithATruthOrCutShortIsMadeAgain) {
   }
 }
 
-TEST(RunReport, AThousandInputsThatCouldNotBeReadAreOneFile) {
+TEST(RunReport, UnreadableInputsNeedNoClipFiles) {
   Folder run(0);
   for (int k = 0; k < 1000; ++k) {
     record::SequenceEntry entry;
@@ -172,7 +172,7 @@ TEST(RunReport, AThousandInputsThatCouldNotBeReadAreOneFile) {
   EXPECT_FALSE(std::filesystem::exists(run.run.root / "report"));
 }
 
-TEST(RunReport, AClipWhoseFilesAreGoneSaysSo) {
+TEST(RunReport, ClipWithMissingFilesSaysSo) {
   Folder run(2);
   std::filesystem::remove(run.run.reference("clip 1"));
   const std::string page = run.page();
@@ -182,7 +182,7 @@ TEST(RunReport, AClipWhoseFilesAreGoneSaysSo) {
   EXPECT_TRUE(clip["notes"].back().get<std::string>().starts_with("cannot be shown: "));
 }
 
-TEST(RunReport, OfAnOlderRunTheInputIsLeftOut) {
+TEST(RunReport, OmitsTheInputOfOlderRuns) {
   Folder run(1);
   std::filesystem::remove(run.run.input("clip 0"));
   const nlohmann::json clip = json_element(run.page(), "clip-0");
@@ -191,7 +191,7 @@ TEST(RunReport, OfAnOlderRunTheInputIsLeftOut) {
   for (const auto& bars : clip["bars"]) EXPECT_FALSE(bars["flaw"].get<bool>());
 }
 
-TEST(RunReport, TheTableHasTheManifestsNumbers) {
+TEST(RunReport, TableHasTheManifestsNumbers) {
   Folder run(1);
   const std::string page = run.page();
   EXPECT_EQ(values(page, "Float"), (nlohmann::json{40.0, nullptr, 1.0}));
@@ -204,7 +204,7 @@ TEST(RunReport, TheTableHasTheManifestsNumbers) {
     EXPECT_FALSE(values(page, d.name).is_null()) << d.name << " has no column";
 }
 
-TEST(RunReport, AgainstTheTruthItSaysWhatEvaluateSays) {
+TEST(RunReport, MetricsAgainstTheTruthAreThoseOfEvaluate) {
   Folder run(1);
   const std::filesystem::path truth = run.folder.path / "truth";
   Folder::write(truth / "clip 0.npz", raised(-0.002));
@@ -226,7 +226,7 @@ TEST(RunReport, AgainstTheTruthItSaysWhatEvaluateSays) {
   EXPECT_TRUE(values(run.page(), "truth:MRPE").is_null()) << "without a truth there is no such column";
 }
 
-TEST(RunReport, ATruthThatCannotBeReadIsSaid) {
+TEST(RunReport, ReportsAnUnreadableTruth) {
   Folder run(1);
   ReportOptions options;
   options.truth = {{"clip 0", run.folder.path / "none.npz"}};
@@ -250,7 +250,7 @@ pipeline::options::Clusters some_clusters() {
   return pipeline::options::cluster_motions(motions, settings);
 }
 
-TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
+TEST(RunReport, MapsTheClipsWhereClustersAreKnown) {
   Folder run(2);
   EXPECT_FALSE(json_element(run.page(), "data").contains("map"));
   pipeline::options::write_clusters(run.run.clusters(), some_clusters());
@@ -267,7 +267,7 @@ TEST(RunReport, MapsTheClipsWhereTheClustersOfTheOptionsAreKnown) {
   EXPECT_EQ(json_element(run.page({.map = pipeline::map_among({others})}), "data")["map"], map);
 }
 
-TEST(RunReport, ClustersThatCannotBeReadAreSaidAndCostTheMapAlone) {
+TEST(RunReport, UnreadableClustersOmitOnlyTheMap) {
   Folder run(1);
   pipeline::options::Clusters older = some_clusters();
   for (auto& cluster : older.clusters) cluster.features.clear();
@@ -285,7 +285,7 @@ TEST(RunReport, ClustersThatCannotBeReadAreSaidAndCostTheMapAlone) {
   }
 }
 
-TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
+TEST(RunReport, ShowsOptionsAndCameraDetections) {
   Folder run(1);
   record::SequenceEntry entry = run.manifest.sequences[0];
   entry.arrangement = {{0, 2}, {4, 1}};
@@ -331,7 +331,7 @@ TEST(RunReport, ShowsWhichOptionActsWhereAndWhatTheCameraSaw) {
       << "it was cleaned with the same";
 }
 
-TEST(RunReport, WallClockTimesAreThereOnlyWhereTheyAreAskedFor) {
+TEST(RunReport, ShowsWallClockTimesOnlyOnRequest) {
   Folder run(1);
   write_file_atomically(run.run.timing(),
                         "{\"sequences\": [{\"name\": \"clip 0\", \"seconds\": 125.0, "

@@ -16,7 +16,7 @@ double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
 }
 
 /// What makes a polygon the hull: its corners are points, it turns left at each, and no point is outside.
-TEST(ConvexHull, TurnsLeftAtCornersThatArePointsAndHasAllPointsInside) {
+TEST(ConvexHull, IsCounterClockwiseAndContainsAllPoints) {
   Random random(5);
   for (int trial = 0; trial < 50; ++trial) {
     Polygon points;
@@ -33,13 +33,13 @@ TEST(ConvexHull, TurnsLeftAtCornersThatArePointsAndHasAllPointsInside) {
   }
 }
 
-TEST(ConvexHull, OfFewPointsOrPointsInARowIsTheirEnds) {
+TEST(ConvexHull, CollinearPointsGiveTheirEnds) {
   EXPECT_TRUE(convex_hull({}).empty());
   EXPECT_EQ(convex_hull({{1, 2}, {1, 2}}), (Polygon{{1, 2}}));
   EXPECT_EQ(convex_hull({{2, 2}, {0, 0}, {1, 1}, {3, 3}}).size(), 2u);
 }
 
-TEST(Support, IsUnderTheSolesThatTouchTheFloorAndNothingElse) {
+TEST(SupportPolygon, IsTheHullOfTheTouchingSolePoints) {
   std::vector<Vector3d> surface(kFootPoints + 5, Vector3d(9.0, 9.0, 0.0));  // others lie on the floor, too
   for (std::size_t i = 0; i < kFootPoints; ++i) {
     const bool left = i < kFootPoints / 2;

@@ -51,7 +51,7 @@ std::vector<double> distances(const ReportCamera& camera, const PerFrame<BodyPos
   return distances_from_seen(camera, camera.placed, poses);
 }
 
-TEST(ReportCamera, TakesThePointsOfTheBodyAlone) {
+TEST(ReportCamera, KeepsOnlyPointsOfTheBody) {
   const auto camera = camera_of(seen_clip());
   ASSERT_TRUE(camera);
   ASSERT_EQ(camera->points.size(), 5u) << "a nose is on no body";
@@ -64,13 +64,13 @@ TEST(ReportCamera, TakesThePointsOfTheBodyAlone) {
   EXPECT_FALSE(camera_of(faces));
 }
 
-TEST(ReportCamera, DistancesAreThoseOnThePictureOfAMovingCamera) {
+TEST(ReportCamera, DistancesAreInPixelsOfAMovingCamera) {
   const motion::Clip clip = seen_clip();
   for (const double px : distances(*camera_of(clip), poses_of(clip))) EXPECT_NEAR(px, 0.0, 1e-6);
   for (const double px : distances(*camera_of(seen_clip(7.0)), poses_of(clip))) EXPECT_NEAR(px, 7.0, 1e-6);
 }
 
-TEST(ReportCamera, WhatWasSeenWithMoreConfidenceCountsForMore) {
+TEST(ReportCamera, WeighsByConfidence) {
   motion::Clip clip = seen_clip();
   for (auto& frame : clip.keypoints->uvc) {
     for (Vector3d& p : frame) p.z() = 0.0;
@@ -82,7 +82,7 @@ TEST(ReportCamera, WhatWasSeenWithMoreConfidenceCountsForMore) {
     EXPECT_NEAR(px, 0.75 * 5.0 + 0.25 * 9.0, 1e-6);
 }
 
-TEST(ReportCamera, WithoutSightThereIsNoDistance) {
+TEST(ReportCamera, UndetectedPointsHaveNoDistance) {
   motion::Clip clip = seen_clip();
   auto poses = poses_of(clip);
   poses.push_back(poses.back());  // longer than what was seen
@@ -94,7 +94,7 @@ TEST(ReportCamera, WithoutSightThereIsNoDistance) {
   EXPECT_TRUE(std::isnan(px[1]) && std::isnan(px[2]) && std::isnan(px[4]));
 }
 
-TEST(ReportCamera, SurvivesTheWayIntoThePage) {
+TEST(ReportCamera, RoundTripsThroughThePage) {
   const auto camera = camera_of(seen_clip());
   const auto json = nlohmann::json::parse(camera_json(*camera));
   EXPECT_FALSE(json.contains("told"));

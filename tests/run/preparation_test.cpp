@@ -14,14 +14,14 @@ namespace {
 const std::filesystem::path kNoisy =
     std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
 
-TEST(Preparation, ReferencesHaveKeypointsOnlyWhereTheyWereFittedOntoThem) {
+TEST(Preparation, ReferenceKeepsKeypointsOnlyIfFittedToThem) {
   EXPECT_TRUE(prepare_motion(kNoisy, {}, Correction::kKeypoints).reference.keypoints.has_value());
   const PreparedMotion unfitted = prepare_motion(kNoisy, {}, Correction::kPoses);
   EXPECT_TRUE(unfitted.input.keypoints.has_value());
   EXPECT_FALSE(unfitted.reference.keypoints.has_value()) << "Eq. 3 would ask for a second pose";
 }
 
-TEST(Preparation, NoCorrectionIsNone) {
+TEST(Preparation, CorrectionNoneChangesNoPose) {
   const PreparedMotion plain = prepare_motion(kNoisy, {}, Correction::kNone);
   EXPECT_EQ(plain.fitted.rotations, plain.input.rotations);
   ASSERT_EQ(plain.reference.size(), plain.input.frames());
@@ -34,7 +34,7 @@ TEST(Preparation, NoCorrectionIsNone) {
   EXPECT_FALSE(plain.reference.keypoints.has_value());
 }
 
-TEST(Preparation, WithoutItsKeypointsAFileIsPreparedAsIfTheyWereIgnored) {
+TEST(Preparation, AbsentKeypointsGiveTheResultOfIgnoredOnes) {
   const PreparedMotion ignored = prepare_motion(kNoisy, {}, Correction::kPoses);
   motion::Clip bare = ignored.input;
   bare.keypoints.reset();
@@ -47,7 +47,7 @@ TEST(Preparation, WithoutItsKeypointsAFileIsPreparedAsIfTheyWereIgnored) {
         << "files have single precision";
 }
 
-TEST(Preparation, FeetAreLevelledInTheReferenceNotInTheEstimate) {
+TEST(Preparation, LevelsFeetInTheReferenceOnly) {
   constexpr double kPitch = 15 * kDegree;
   synth::SynthConfig config;
   config.kind = "walk";

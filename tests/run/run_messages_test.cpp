@@ -27,13 +27,13 @@ record::SequenceEntry fallen(const std::string& name) {
   return entry;
 }
 
-TEST(ResultLine, SaysWhatBecameBetterAndLeavesOutWhatWasNoFault) {
+TEST(ResultLine, ListsImprovementsAndOmitsInvisibleFaults) {
   EXPECT_EQ(result_line(walk_entry()),
             "walk: ok, 12.0 mm from the reference, sliding 1.7 -> 0.2 mm a frame, floating 3.0 mm, "
             "jitter 90 -> 4 m/s^3");
 }
 
-TEST(ResultLine, OfAFailureSaysWhy) {
+TEST(ResultLine, GivesTheReasonOfAFailure) {
   EXPECT_EQ(result_line(fallen("jump")), "jump: failed, it falls at 2.1 s, 800.0 mm from the reference");
   record::SequenceEntry unread;
   unread.name = "x";
@@ -41,7 +41,7 @@ TEST(ResultLine, OfAFailureSaysWhy) {
   EXPECT_EQ(result_line(unread), "x: failed, x.npz: key 'poses' expected");
 }
 
-TEST(Summary, CountsAndNamesFailuresAndTakesTheirNumbersOutOfTheMedians) {
+TEST(Summary, CountsFailuresAndExcludesThemFromMedians) {
   std::vector<record::SequenceEntry> entries = {walk_entry(), walk_entry(), fallen("jump")};
   entries[1].metrics[0].second = 20.0;
   const std::vector<std::string> lines = summary(entries, 61.0, "to look at: out/report.html");
@@ -55,7 +55,7 @@ TEST(Summary, CountsAndNamesFailuresAndTakesTheirNumbersOutOfTheMedians) {
   EXPECT_EQ(lines, expected);
 }
 
-TEST(Summary, HasEightLinesAtMostHoweverManyFail) {
+TEST(Summary, HasAtMostEightLines) {
   std::vector<record::SequenceEntry> entries(3, walk_entry());
   for (record::SequenceEntry& entry : entries)
     entry.input_metrics = {{"FS_gt", 2.0}, {"GP", 2.0}, {"Float_gt", 2.0}, {"Jitter", 2.0}};

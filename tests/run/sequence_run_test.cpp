@@ -13,8 +13,8 @@
 namespace mimicx::run {
 namespace {
 
-struct SideBySide : testing::Test {
-  SideBySide() {
+struct ParallelRun : testing::Test {
+  ParallelRun() {
     for (int k = 0; k < 5; ++k) {
       inputs.push_back((folder.path / ("stand" + std::to_string(k) + ".npz")).string());
       motion::write_clip(inputs.back(), motion::standing_clip(40 - 5 * k));  // the first takes longest
@@ -40,7 +40,7 @@ struct SideBySide : testing::Test {
   std::vector<std::string> inputs;
 };
 
-TEST_F(SideBySide, IsTheSameBytesAsOneAfterTheOther) {
+TEST_F(ParallelRun, GivesTheBytesOfASequentialRun) {
   EXPECT_EQ(run(planning("one", 1)).value, record::RunOutcome::kAllGood);
   EXPECT_EQ(run(planning("three", 3)).value, record::RunOutcome::kAllGood);
   EXPECT_EQ(run(planning("auto", 0)).value, record::RunOutcome::kAllGood);
@@ -48,7 +48,7 @@ TEST_F(SideBySide, IsTheSameBytesAsOneAfterTheOther) {
   EXPECT_TRUE(results("one") == results("auto"));
 }
 
-TEST_F(SideBySide, GoesOnAfterAnInterruptionToTheSameBytes) {
+TEST_F(ParallelRun, ContinuesToTheSameBytesAfterAnInterruption) {
   run(planning("whole", 1));
   for (const int asked : {2, 5, 9}) {
     const std::string name = "halves" + std::to_string(asked);
@@ -58,7 +58,7 @@ TEST_F(SideBySide, GoesOnAfterAnInterruptionToTheSameBytes) {
   }
 }
 
-TEST_F(SideBySide, PartsOfManyMotionsLeaveTheirClipsForTheReportAndMergingMakesNoneAgain) {
+TEST_F(ParallelRun, MergeReusesTheReportClipsOfTheShards) {
   inputs.clear();
   for (int k = 0; k <= report::kMostEmbedded; ++k) {
     inputs.push_back((folder.path / ("stand" + std::to_string(k) + ".npz")).string());
@@ -83,7 +83,7 @@ TEST_F(SideBySide, PartsOfManyMotionsLeaveTheirClipsForTheReportAndMergingMakesN
   EXPECT_TRUE(merged == whole);
 }
 
-TEST_F(SideBySide, AnInputThatFailsStopsNoOther) {
+TEST_F(ParallelRun, FailingInputStopsNoOther) {
   inputs[1] = (folder.path / "gone.npz").string();
   EXPECT_EQ(run(planning("run", 2)).value, record::RunOutcome::kSomeFailed);
   const record::Manifest manifest = record::read_manifest(folder.path / "run" / "manifest.json");
@@ -94,7 +94,7 @@ TEST_F(SideBySide, AnInputThatFailsStopsNoOther) {
   }
 }
 
-TEST_F(SideBySide, WhatIsSaidOfAMotionStaysTogether) {
+TEST_F(ParallelRun, PrintsTheMessagesOfAMotionTogether) {
   const std::string said = run(planning("run", 3)).messages;
   for (int k = 0; k < 5; ++k) {
     const std::string name = "stand" + std::to_string(k);

@@ -25,7 +25,7 @@ std::span<const float> state_of(const Lessons& lessons, int row) {
   return {lessons.states.data() + row * rl::tracking::kStateSize, rl::tracking::kStateSize};
 }
 
-TEST(Lessons, TheFirstLaneShowsTheMotionItself) {
+TEST(Lessons, FirstLaneFollowsTheMotionUndisturbed) {
   const Teacher& teacher = teacher_of_squat();
   const Lessons lessons = take_lessons(teacher, {}, {}, nullptr, 1, 0);
   ASSERT_EQ(lessons.rows(), teacher.size() * kLanes);
@@ -37,7 +37,7 @@ TEST(Lessons, TheFirstLaneShowsTheMotionItself) {
   }
 }
 
-TEST(Lessons, WithoutDisturbanceAllLanesAreTheSame) {
+TEST(Lessons, LanesAreEqualWithoutDisturbance) {
   LessonConfig calm;
   calm.action_noise = calm.push = 0.0;
   const Lessons lessons = take_lessons(teacher_of_squat(), {}, calm, nullptr, 1, 0);
@@ -47,7 +47,7 @@ TEST(Lessons, WithoutDisturbanceAllLanesAreTheSame) {
   }
 }
 
-TEST(Lessons, AreTheSameForTheSameKeyAndOthersForAnother) {
+TEST(Lessons, DependOnTheKeyOnly) {
   const rl::Agent student = beginner();
   const Lessons a = take_lessons(teacher_of_squat(), {}, {}, &student, 1, 5),
                 b = take_lessons(teacher_of_squat(), {}, {}, &student, 1, 5),
@@ -57,7 +57,7 @@ TEST(Lessons, AreTheSameForTheSameKeyAndOthersForAnother) {
   EXPECT_NE(a.states, c.states);
 }
 
-TEST(Lessons, WhoeverStraysIsPutBackOntoTheMotion) {
+TEST(Lessons, ResetsLanesThatLeaveTheMotion) {
   const rl::Agent student = beginner();
   LessonConfig strict;
   strict.off_path = 0.02;
@@ -70,7 +70,7 @@ TEST(Lessons, WhoeverStraysIsPutBackOntoTheMotion) {
       EXPECT_LT(std::abs(state_of(lessons, row)[std::size_t{570} - static_cast<std::size_t>(entry)]), 0.1f);
 }
 
-TEST(Lessons, InTheMirrorAreTheMirrorImagesOfTheOthers) {
+TEST(Lessons, MirroredLessonsAreMirrorImages) {
   const Lessons as_is = take_lessons(teacher_of_squat(), {}, {}, nullptr, 1, 0);
   const Lessons mirrored = take_lessons(teacher_of_squat(), {}, {}, nullptr, 1, 0, Side::kMirrored);
   std::vector<float> state(rl::tracking::kStateSize), action(kDofs);
@@ -84,7 +84,7 @@ TEST(Lessons, InTheMirrorAreTheMirrorImagesOfTheOthers) {
   }
 }
 
-TEST(Lessons, AdviceDoesNotDependOnWhoActs) {
+TEST(Lessons, ExpertActionDoesNotDependOnTheActingPolicy) {
   // In the first frame all lanes stand where the motion begins, whoever will act next.
   const rl::Agent student = beginner();
   LessonConfig calm;
@@ -96,7 +96,7 @@ TEST(Lessons, AdviceDoesNotDependOnWhoActs) {
   EXPECT_NE(taught.states, own.states) << "the student acts in later frames";
 }
 
-TEST(Pushes, ABeginnerDoesNotSurvive) {
+TEST(Pushes, UntrainedAgentFallsUnderPushes) {
   control::PushTest test;
   test.trials = kLanes;
   EXPECT_EQ(test_pushes(teacher_of_squat().clip, {}, beginner(), test).followed, 0);

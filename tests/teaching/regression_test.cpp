@@ -45,7 +45,7 @@ double loss_of(const Lessons& lessons, const List<Eigen::MatrixXf>& importance, 
   return regression_step(lessons, importance, all_rows(lessons), config, 0.0, 1, agent, adam, scratch);
 }
 
-TEST(Regression, TheLossIsTheMeanOfTheWeightedSquares) {
+TEST(Regression, LossIsTheMeanWeightedSquare) {
   const int rows = 12, frames = 3, size = 5;
   const Lessons lessons =
       random_lessons(rows, frames, size, [](int row, int k) { return 0.01f * float(row - k); });
@@ -70,7 +70,7 @@ TEST(Regression, TheLossIsTheMeanOfTheWeightedSquares) {
 }
 
 // A network that sees nothing can only answer one thing: the mean of the labels under their weights.
-TEST(Regression, WhatCannotBeToldApartBecomesTheWeightedMean) {
+TEST(Regression, EqualStatesLearnTheWeightedMean) {
   Lessons lessons = random_lessons(4, 2, 3, [](int row, int) { return row % 2 == 0 ? 1.0f : 5.0f; });
   std::fill(lessons.states.begin(), lessons.states.end(), 0.0f);
   const List<Eigen::MatrixXf> importance = {3.0f * Eigen::MatrixXf::Identity(kDofs, kDofs),
@@ -84,7 +84,7 @@ TEST(Regression, WhatCannotBeToldApartBecomesTheWeightedMean) {
   for (int k = 0; k < kDofs; ++k) EXPECT_NEAR(agent.actor.biases[0](0, k), (3 * 1.0 + 5.0) / 4, 1e-3) << k;
 }
 
-TEST(Regression, StepsGoDownhill) {
+TEST(Regression, StepsReduceTheLoss) {
   const Lessons lessons =
       random_lessons(64, 4, 6, [](int row, int k) { return 0.3f * float((row * k) % 5); });
   const List<Eigen::MatrixXf> importance(4, Eigen::MatrixXf(Eigen::MatrixXf::Identity(kDofs, kDofs)));

@@ -50,14 +50,14 @@ std::string bytes_of(const Pupil& pupil) {
   return format_npz(archive);
 }
 
-TEST(School, AFewRoundsTeachAMotion) {
+TEST(School, FewRoundsTeachAMotion) {
   const Pupil pupil = taught(thorough(), 2);
   const auto alone =
       rl::tracking::roll_out(teacher_of_squat().clip, {}, rl::tracking::mean_action({pupil.agent}));
   EXPECT_LT(alone.mean_position_error, 0.02);
 }
 
-TEST(School, VisitsEveryTeacherOnceBeforeAnyComesAgain) {
+TEST(School, VisitsEveryTeacherBeforeRepeating) {
   SchoolConfig config = quick_school();
   config.packs = 3;
   Pupil pupil = new_pupil(config);
@@ -79,7 +79,7 @@ TEST(School, VisitsEveryTeacherOnceBeforeAnyComesAgain) {
   EXPECT_TRUE(orders[0] != orders[1] || orders[1] != orders[2]) << "shuffled anew";
 }
 
-TEST(School, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
+TEST(School, DependsOnTheSeedNotOnThreads) {
   SchoolConfig config = quick_school();
   const std::string one = bytes_of(taught(config, 1));
   EXPECT_EQ(one, bytes_of(taught(config, 2)));
@@ -87,7 +87,7 @@ TEST(School, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
   EXPECT_NE(one, bytes_of(taught(config, 1)));
 }
 
-TEST(School, APupilThatWasSavedAndLoadedGoesOnWithTheSameBytes) {
+TEST(School, SavedPupilContinuesWithTheSameBytes) {
   const SchoolConfig config = quick_school();
   Pupil pupil = new_pupil(config);
   for (int round = 0; round < config.rounds; ++round) {
@@ -99,7 +99,7 @@ TEST(School, APupilThatWasSavedAndLoadedGoesOnWithTheSameBytes) {
   EXPECT_EQ(bytes_of(pupil), bytes_of(taught(config)));
 }
 
-TEST(School, MomentsOfAnotherNetworkAreRefused) {
+TEST(School, RejectsOptimiserMomentsOfAnotherNetwork) {
   SchoolConfig narrow, wide;
   narrow.hidden = {2, 2}, wide.hidden = {2, 3};
   Pupil pupil = new_pupil(narrow);
@@ -109,7 +109,7 @@ TEST(School, MomentsOfAnotherNetworkAreRefused) {
   EXPECT_THROW(load_pupil(archive, "x."), DataError);
 }
 
-TEST(School, OneThatIsStoppedLeavesThePupilAsItWas) {
+TEST(School, StoppedRoundLeavesThePupilUnchanged) {
   const SchoolConfig config = quick_school();
   Pupil pupil = new_pupil(config);
   teach_round(squat, 3, {}, config, {.threads = 1}, pupil);
@@ -133,7 +133,7 @@ nn::Matrix<float> first_action(const rl::Agent& agent, float beta) {
   return action;
 }
 
-TEST(School, TheShapeOfTheBodyIsSeenOnlyWhereThatIsAskedFor) {
+TEST(School, PupilSeesTheBodyShapeOnlyOnRequest) {
   SchoolConfig config = quick_school();
   config.rounds = 1;
   const rl::Agent blind = taught(config).agent;
@@ -172,7 +172,7 @@ Teacher one_sided(int) {
   return teacher;
 }
 
-TEST(School, APupilThatAlsoSeesTheMirrorImageFavoursNoSide) {
+TEST(School, MirroredLessonsFavourNoSide) {
   SchoolConfig config = thorough();
   const Lessons lessons = take_lessons(one_sided(0), {}, {}, nullptr, 77, 0);
   config.mirror = false;
@@ -181,7 +181,7 @@ TEST(School, APupilThatAlsoSeesTheMirrorImageFavoursNoSide) {
   EXPECT_LT(asymmetry(taught(config, 1, one_sided).agent, lessons), 0.7f * alone);
 }
 
-TEST(School, DecayMakesWeightsSmallerAndLeavesBiases) {
+TEST(School, DecayShrinksWeightsButNotBiases) {
   SchoolConfig config = quick_school();
   config.step_size = config.last_step_size = 1e-9;  // hardly learns
   config.rounds = 1;

@@ -31,7 +31,7 @@ TEST(Student, FollowsASquatAloneAndUnderPushes) {
   EXPECT_GE(test_pushes(teacher.clip, {}, agent, pushes).followed, 14);
 }
 
-TEST(Student, IsTheSameForAnyNumberOfThreads) {
+TEST(Student, ThreadsDoNotChangeABit) {
   const rl::Agent one = teach(teacher_of_squat(), {}, quick_student(), {.threads = 1}).value(),
                   two = teach(teacher_of_squat(), {}, quick_student(), {.threads = 2}).value();
   for (int layer = 0; layer < one.actor.layers(); ++layer) {
@@ -43,7 +43,7 @@ TEST(Student, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.observations.shift, two.observations.shift);
 }
 
-TEST(Student, AnotherSeedIsAnotherStudent) {
+TEST(Student, AnotherSeedGivesAnotherStudent) {
   StudentConfig config = quick_student();
   config.rounds = 1;
   const rl::Agent one = teach(teacher_of_squat(), {}, config, {}).value();
@@ -51,7 +51,7 @@ TEST(Student, AnotherSeedIsAnotherStudent) {
   EXPECT_NE(one.actor.weights[0], teach(teacher_of_squat(), {}, config, {}).value().actor.weights[0]);
 }
 
-TEST(Student, GoesOnInStagesUntilItFollows) {
+TEST(Student, AddsStagesUntilItFollows) {
   StudentConfig config = quick_student();
   config.rounds = 2;
   config.stages = 3;
@@ -61,7 +61,7 @@ TEST(Student, GoesOnInStagesUntilItFollows) {
   EXPECT_EQ(rounds, 6);
 }
 
-TEST(Student, GivesWayToAWiderOneWhereTheFirstStageFails) {
+TEST(Student, IsWiderAfterAFailedFirstStage) {
   StudentConfig config = quick_student();
   config.rounds = 2;
   config.stages = 2;
@@ -72,7 +72,7 @@ TEST(Student, GivesWayToAWiderOneWhereTheFirstStageFails) {
   EXPECT_EQ(widths, (std::vector<Eigen::Index>{64, 64, 128, 128}));
 }
 
-TEST(Student, LessonsStayWithinTheirBound) {
+TEST(Student, KeepsAtMostTheConfiguredLessons) {
   StudentConfig config = quick_student();
   config.rounds = 3;
   config.most_rows = 100;
@@ -82,7 +82,7 @@ TEST(Student, LessonsStayWithinTheirBound) {
   EXPECT_EQ(taken, 3 * config.packs * physics::kLanes * teacher_of_squat().size());
 }
 
-TEST(Student, StopsWhenItIsTold) {
+TEST(Student, StopsOnRequest) {
   control::PlanControl control;
   int asked = 0;
   control.should_stop = [&] { return ++asked > 10; };

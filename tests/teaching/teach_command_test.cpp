@@ -83,7 +83,7 @@ TEST_F(Teach, IsTheSameBytesForOneAndTwoThreadsAndAfterInterruptions) {
     }
 }
 
-TEST_F(Teach, PlansThatAreThereTeachTheSame) {
+TEST_F(Teach, ExistingPlansGiveTheSameOptions) {
   run(teaching("run"));
   TeachConfig config = teaching("again");
   config.plans = {(out("run") / "plans").string()};
@@ -92,7 +92,7 @@ TEST_F(Teach, PlansThatAreThereTeachTheSame) {
   EXPECT_EQ(read_file(out("again") / "options.npz"), read_file(out("run") / "options.npz"));
 }
 
-TEST_F(Teach, AFinishedOneIsKeptAndOneOfOtherSettingsIsRefused) {
+TEST_F(Teach, KeepsAFinishedRunAndRejectsOtherSettings) {
   run(teaching("run"));
   const auto written = std::filesystem::last_write_time(out("run") / "options.npz");
   EXPECT_NE(run(teaching("run")).messages.find("taught already"), std::string::npos);
@@ -102,7 +102,7 @@ TEST_F(Teach, AFinishedOneIsKeptAndOneOfOtherSettingsIsRefused) {
   EXPECT_NE(refusal([&] { run(config); }).find("school_visits"), std::string::npos);
 }
 
-TEST_F(Teach, AFolderWithoutPlansSaysWhatLeavesThem) {
+TEST_F(Teach, FolderWithoutPlansErrorNamesTheCommand) {
   TeachConfig config = teaching("run");
   config.planning.run.inputs.clear();
   plan::PlanMotionsConfig plan = plan::plan_configuration();
@@ -114,7 +114,7 @@ TEST_F(Teach, AFolderWithoutPlansSaysWhatLeavesThem) {
   EXPECT_NE(refusal([&] { run(config); }).find("--gains"), std::string::npos);
 }
 
-TEST_F(Teach, ATeacherOnItsReferenceRepeatsItsPlan) {
+TEST_F(Teach, TeacherOnTheReferenceRepeatsThePlan) {
   run(teaching("run"));
   const std::vector<PlannedMotion> motions = followed_plans({out("run") / "plans"});
   ASSERT_EQ(motions.size(), 3u);
@@ -132,7 +132,7 @@ TEST_F(Teach, ATeacherOnItsReferenceRepeatsItsPlan) {
   EXPECT_NEAR(teacher.importance.front().trace(), kDofs, 1e-2);
 }
 
-TEST_F(Teach, ATeacherOnThePlannedMotionRepeatsIt) {
+TEST_F(Teach, TeacherOnThePlannedMotionRepeatsIt) {
   run(teaching("run"));
   const PlannedMotion motion = followed_plans({out("run") / "plans"})[1];
   const Teacher teacher = read_teacher(motion, {}, Followed::kPlan);
@@ -150,7 +150,7 @@ TEST_F(Teach, ATeacherOnThePlannedMotionRepeatsIt) {
   EXPECT_GT((reference_of(motion).frames[t].p_root - planned.frames[t].p_root).norm(), 0.0);
 }
 
-TEST_F(Teach, APupilBehindAPlannerSeesThePlannedMotions) {
+TEST_F(Teach, FollowPlanShowsThePupilThePlannedMotions) {
   run(teaching("run"));
   TeachConfig config = teaching("behind");
   apply_setting(config, "school_follow_plan", 1);
@@ -158,7 +158,7 @@ TEST_F(Teach, APupilBehindAPlannerSeesThePlannedMotions) {
   EXPECT_NE(read_file(out("behind") / "options.npz"), read_file(out("run") / "options.npz"));
 }
 
-TEST_F(Teach, APlanOfAnotherSimulationIsRefused) {
+TEST_F(Teach, RejectsAPlanOfAnotherSimulation) {
   run(teaching("run"));
   rl::tracking::TrackingConfig task;
   task.simulation.friction *= 0.5;

@@ -20,7 +20,7 @@ double farthest(const PerFrame<BodyPoses>& a, const std::vector<rl::tracking::Po
   return worst;
 }
 
-TEST(Teacher, ControlsThatActOnThePlannedMotionRepeatIt) {
+TEST(Teacher, ControlsOnThePlannedStatesRepeatTheMotion) {
   const Teacher& teacher = teacher_of_squat();
   ASSERT_EQ(teacher.size(), 44);
   int t = 0;
@@ -34,13 +34,13 @@ TEST(Teacher, ControlsThatActOnThePlannedMotionRepeatIt) {
         << i;
 }
 
-TEST(Teacher, TheMotionThatIsTaughtIsThePlanAndNotWhatItWasPlannedFor) {
+TEST(Teacher, TeachesThePlannedMotionNotTheReference) {
   const Teacher& teacher = teacher_of_squat();
   for (int t = 0; t < 45; ++t)
     EXPECT_EQ(teacher.clip->reference.frames[t].p_root, physics::to_eigen(plan_of_squat().states[t].p_root));
 }
 
-TEST(Teacher, AskedOnItsWayItDoesWhatItDoes) {
+TEST(Teacher, ReplaysThePlanOnPlannedStates) {
   const Teacher& teacher = teacher_of_squat();
   const int t = 20;
   LaneActions before;
@@ -51,7 +51,7 @@ TEST(Teacher, AskedOnItsWayItDoesWhatItDoes) {
   for (int k = 0; k < kDofs; ++k) EXPECT_NEAR(advice[0][k], teacher.motion.u[t][k], 1e-5) << k;
 }
 
-TEST(Teacher, AskedBesideItsWayItAddsTheGainsTimesTheDifferenceUpToALimit) {
+TEST(Teacher, AddsClampedFeedbackOffThePlan) {
   const Teacher& teacher = teacher_of_squat();
   const int t = 20;
   LaneActions before;
@@ -71,7 +71,7 @@ TEST(Teacher, AskedBesideItsWayItAddsTheGainsTimesTheDifferenceUpToALimit) {
   }
 }
 
-TEST(Teacher, ImportanceIsSymmetricPositiveAndOneInTheMean) {
+TEST(Teacher, ImportanceIsSymmetricPositiveWithUnitMeanDiagonal) {
   const Teacher& teacher = teacher_of_squat();
   double sum = 0.0;
   for (const Eigen::MatrixXf& W : teacher.importance) {
@@ -82,14 +82,14 @@ TEST(Teacher, ImportanceIsSymmetricPositiveAndOneInTheMean) {
   EXPECT_NEAR(sum / teacher.size(), 1.0, 1e-5);
 }
 
-TEST(Teacher, APlanThatCannotBeFollowedAgainTeachesNothing) {
+TEST(Teacher, PlanThatCannotBeRepeatedGivesNoTeacher) {
   TeacherConfig impatient;
   impatient.horizon.lost = 1e-9;
   impatient.horizon.backtracks = 0;
   EXPECT_FALSE(make_teacher(short_squat(), plan_of_squat(), impatient, {}, {}));
 }
 
-TEST(Teacher, StopsWhenItIsTold) {
+TEST(Teacher, StopsOnRequest) {
   control::PlanControl control;
   control.should_stop = [] { return true; };
   EXPECT_FALSE(make_teacher(short_squat(), plan_of_squat(), {}, {}, control));

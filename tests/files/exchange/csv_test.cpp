@@ -58,7 +58,7 @@ TEST(Csv, HasTimeJointsAndRootOfEveryFrame) {
   }
 }
 
-TEST(Csv, HasForcesWhereTheyAreKnownAndEmptyCellsElsewhere) {
+TEST(Csv, UnknownForcesAreEmptyCells) {
   const motion::Clip clip = pushed_clip(8);
   const Table table(format_csv(clip, recorded_forces(clip)));
   EXPECT_EQ(table.names.size(), 1u + 3 * kBodies + 4 + 6 * 3 + kDofs);

@@ -21,7 +21,7 @@ std::string complaint(const std::filesystem::path& path, const motion::Clip& cli
   }
 }
 
-TEST(ExchangeFile, EverySuffixIsWrittenAndKnownAgain) {
+TEST(ExchangeFile, WritesAndRecognisesEverySuffix) {
   TemporaryFolder folder;
   const motion::Clip clip = pushed_clip(5);
   for (const char* name : {"a.glb", "a.mot", "a.sto", "a.csv", "b.GLB"}) {
@@ -37,7 +37,7 @@ TEST(ExchangeFile, EverySuffixIsWrittenAndKnownAgain) {
   EXPECT_FALSE(is_exchanged("a.bvh"));
 }
 
-TEST(ExchangeFile, WithoutForcesItSaysHowToGetThem) {
+TEST(ExchangeFile, MissingForcesErrorSaysHowToGetThem) {
   TemporaryFolder folder;
   const motion::Clip clip = turning_clip(5);
   const std::string says =
@@ -51,7 +51,7 @@ TEST(ExchangeFile, WithoutForcesItSaysHowToGetThem) {
   EXPECT_EQ(complaint(folder.path / "a.csv", clip, {}), "") << "a table has what there is";
 }
 
-TEST(ExchangeFile, ForcesThatAreNotThoseOfTheMotionAreNotWritten) {
+TEST(ExchangeFile, RejectsForcesOfAnotherMotion) {
   TemporaryFolder folder;
   ExchangeConfig turned;
   turned.forces_lost = "another world (up=y)";
@@ -61,7 +61,7 @@ TEST(ExchangeFile, ForcesThatAreNotThoseOfTheMotionAreNotWritten) {
   EXPECT_EQ(read_file(folder.path / "a.csv").find("force"), std::string::npos);
 }
 
-TEST(ExchangeFile, SkinIsAsAskedFor) {
+TEST(ExchangeFile, WritesTheRequestedSkin) {
   TemporaryFolder folder;
   ExchangeConfig config;
   write_exchange(folder.path / "a.glb", turning_clip(2), "in.npz", config);

@@ -21,7 +21,7 @@ struct Gltf : testing::Test {
   PerFrame<BodyPoses> poses = motion::poses_of(clip);
 };
 
-TEST_F(Gltf, SkeletonIsWhereForwardKinematicsHasIt) {
+TEST_F(Gltf, SkeletonMatchesForwardKinematics) {
   const GlbReader glb(format_glb(clip, mesh, nullptr));
   for (int t = 0; t < clip.frames(); ++t) {
     const auto world = glb.transforms(t);
@@ -33,7 +33,7 @@ TEST_F(Gltf, SkeletonIsWhereForwardKinematicsHasIt) {
   }
 }
 
-TEST_F(Gltf, KeysStandAtTheFramesAndNeverTakeTheLongWayRound) {
+TEST_F(Gltf, KeysAreAtTheFramesAndTakeTheShortWay) {
   const GlbReader glb(format_glb(clip, mesh, nullptr));
   for (int b = 0; b < kBodies; ++b) {
     std::vector<double> times;
@@ -49,7 +49,7 @@ TEST_F(Gltf, KeysStandAtTheFramesAndNeverTakeTheLongWayRound) {
   }
 }
 
-TEST_F(Gltf, SkinFollowsAsLinearBlendingSays) {
+TEST_F(Gltf, SkinFollowsLinearBlending) {
   // Weights of several bodies, which the shapes do not have.
   for (int v = 0; v < mesh.vertices.count(); v += 2) {
     const int b = mesh.joints[v][0], parent = b == 0 ? kSpine1 : kParents[b];
@@ -84,7 +84,7 @@ TEST_F(Gltf, SkinFollowsAsLinearBlendingSays) {
   }
 }
 
-TEST_F(Gltf, AtRestItStandsOnTheFloorInTheTPose) {
+TEST_F(Gltf, RestPoseIsTheTPoseOnTheFloor) {
   const GlbReader glb(format_glb(clip, mesh, nullptr));
   const auto rest = glb.transforms(-1);
   const PerBody<Vector3d> bind = skin::bind_joints(character);
@@ -102,7 +102,7 @@ TEST_F(Gltf, AtRestItStandsOnTheFloorInTheTPose) {
       0.0, 1e-6);
 }
 
-TEST_F(Gltf, ArrowsStandInTheCentreOfPressureAndAreAsLongAsTheForce) {
+TEST_F(Gltf, ArrowsAreAtTheCentreOfPressureAndScaleWithTheForce) {
   const RecordedForces forces = *recorded_forces(clip);
   const GlbReader glb(format_glb(clip, mesh, &forces));
   for (const auto& [name, carrier] : {std::pair("right_foot_force", kOnRightFoot),
@@ -122,7 +122,7 @@ TEST_F(Gltf, ArrowsStandInTheCentreOfPressureAndAreAsLongAsTheForce) {
   }
 }
 
-TEST_F(Gltf, EveryTriangleHasAnAreaAndFacesAsItsNormalsDo) {
+TEST_F(Gltf, TrianglesHaveAreaAndFaceAlongTheirNormals) {
   const RecordedForces forces = *recorded_forces(clip);
   const GlbReader glb(format_glb(clip, mesh, &forces));
   for (const auto& drawn : glb.json["meshes"]) {
@@ -144,13 +144,13 @@ TEST_F(Gltf, EveryTriangleHasAnAreaAndFacesAsItsNormalsDo) {
   }
 }
 
-TEST_F(Gltf, WithoutArrowsThereAreNone) {
+TEST_F(Gltf, HasArrowsOnlyOnRequest) {
   const GlbReader glb(format_glb(clip, mesh, nullptr));
   EXPECT_EQ(glb.json["nodes"].size(), kBodies + 1u);
   EXPECT_EQ(glb.json["meshes"].size(), 1u);
 }
 
-TEST_F(Gltf, IsTheSameEveryTime) {
+TEST_F(Gltf, IsDeterministic) {
   const RecordedForces forces = *recorded_forces(clip);
   EXPECT_EQ(format_glb(clip, mesh, &forces), format_glb(clip, mesh, &forces));
 }

@@ -57,7 +57,7 @@ void expect_sound(const Storage& s, std::size_t rows) {
   }
 }
 
-TEST(Mot, HasTheForcesOfEveryCarrierOfTheBody) {
+TEST(Mot, HasTheForcesOfFeetAndRest) {
   const motion::Clip clip = pushed_clip(9);
   const Storage s(format_mot(clip, *recorded_forces(clip)));
   expect_sound(s, 8);
@@ -75,12 +75,12 @@ TEST(Mot, HasTheForcesOfEveryCarrierOfTheBody) {
     }
 }
 
-TEST(Mot, OfABodyOnItsFeetHasTwoFeet) {
+TEST(Mot, OmitsTheRestForABodyOnItsFeet) {
   motion::Clip clip = pushed_clip(5);  // the hand comes down later
   EXPECT_EQ(Storage(format_mot(clip, *recorded_forces(clip))).names.size(), 19u);
 }
 
-TEST(Sto, MomentsAreAboutTheAxesOfTheSegmentAsOpenSimHasThem) {
+TEST(Sto, MomentsAreInOpenSimsSegmentAxes) {
   const motion::Clip clip = pushed_clip(7);
   const Storage s(format_sto(clip, *recorded_forces(clip)));
   expect_sound(s, 6);
@@ -100,7 +100,7 @@ TEST(Sto, MomentsAreAboutTheAxesOfTheSegmentAsOpenSimHasThem) {
     }
 }
 
-TEST(OpenSim, FilesBeginAsTheyAreKnownAgainAndAreTheSameEveryTime) {
+TEST(OpenSim, FilesAreRecognisedByTheirOpeningAndDeterministic) {
   const motion::Clip clip = pushed_clip(4);
   const RecordedForces forces = *recorded_forces(clip);
   EXPECT_TRUE(format_mot(clip, forces).starts_with(kMotOpening));

@@ -8,7 +8,7 @@
 namespace mimicx::files {
 namespace {
 
-TEST(Qpos, JointsFollowTheLimbsOneAfterTheOther) {
+TEST(Qpos, JointsAreDepthFirst) {
   TemporaryFolder folder;
   write_qpos(folder.path / "a.npz", motion::standing_clip(3));
   EXPECT_EQ(read_npz(folder.path / "a.npz").at("joint_names").text,
@@ -19,7 +19,7 @@ TEST(Qpos, JointsFollowTheLimbsOneAfterTheOther) {
                 "right_shoulder", "right_elbow", "right_wrist"}));
 }
 
-TEST(Qpos, ForwardKinematicsOfItIsTheMotion) {
+TEST(Qpos, ForwardKinematicsReproducesTheMotion) {
   TemporaryFolder folder;
   motion::Clip clip = motion::standing_clip(9);
   for (std::size_t t = 0; t < 9; ++t) {

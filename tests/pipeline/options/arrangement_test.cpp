@@ -37,7 +37,7 @@ double arrangement_value(const OptionRewards& rewards, const List<int>& options,
   return value;
 }
 
-TEST(Arrangement, IsTheBestOfAllThatThereAre) {
+TEST(Arrangement, IsTheBestOfAll) {
   constexpr int kFrames = 8, kActing = kFrames - 1;
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(kFrames), {});
   const OptionSet set = set_of({0.02F, -0.02F});
@@ -60,7 +60,7 @@ TEST(Arrangement, IsTheBestOfAllThatThereAre) {
   EXPECT_EQ(most, 2u) << "without a switch this would prove little";
 }
 
-TEST(Arrangement, KeepsTheOptionsThatActAndNumbersThemAnew) {
+TEST(Arrangement, KeepsAndRenumbersTheActingOptions) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({1.5F, 0.02F, 1.5F, -0.02F});  // 0 and 2 make the character fall
   const ArrangedClip arranged = arrange(clip, {}, set, {0.0, kRescue});
@@ -75,7 +75,7 @@ TEST(Arrangement, KeepsTheOptionsThatActAndNumbersThemAnew) {
   EXPECT_TRUE(clip->arrangement.empty()) << "the clip that was given is as it was";
 }
 
-TEST(Arrangement, TheClipIsEncodedByTheKeptOptionsInTheirOrder) {
+TEST(Arrangement, ClipIsEncodedByTheKeptOptionsInOrder) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(20), {});
   OptionSet set;
   for (int k = 0; k < 2; ++k) {
@@ -90,7 +90,7 @@ TEST(Arrangement, TheClipIsEncodedByTheKeptOptionsInTheirOrder) {
   EXPECT_EQ(arranged.clip->encoded[0].codes, encode_reference(*set.options[1].option.encoder, *clip).codes);
 }
 
-TEST(Arrangement, NamesTheFramesThatNoOptionCouldFollow) {
+TEST(Arrangement, ListsFramesThatNoOptionFollows) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   EXPECT_TRUE(arrange(clip, {}, set_of({0.0F}), {0.0, kRescue}).breaks.empty());
   const OptionSet bad = set_of({1.5F, 1.5F});
@@ -100,7 +100,7 @@ TEST(Arrangement, NamesTheFramesThatNoOptionCouldFollow) {
   EXPECT_FALSE(arrange(clip, {}, bad, {0.0, kRescue}).breaks.empty());
 }
 
-TEST(Arrangement, ARescueAtAHigherRewardIsAnotherRollOut) {
+TEST(Arrangement, RescueRewardChangesTheRollOut) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({0.3F});
   EXPECT_NE(arrange(clip, {}, set, {0.0, 1e-9}).breaks, arrange(clip, {}, set, {0.0, 0.9999}).breaks);
@@ -123,7 +123,7 @@ ArrangedClip arrange_halves(Selector selector) {
   return arrange(clip, absolute_actions(), options_of_halves(clip->reference), selecting(selector));
 }
 
-TEST(Arrangement, ProgrammeAndBeamFindTheSwitchBetweenTwoOptions) {
+TEST(Arrangement, DynamicProgrammeAndBeamFindTheSwitch) {
   for (const Selector selector : {Selector::kDp, Selector::kBeam}) {
     const auto stretches = stretches_of(arrange_halves(selector).options);
     ASSERT_EQ(stretches.size(), 2u) << static_cast<int>(selector);
@@ -133,7 +133,7 @@ TEST(Arrangement, ProgrammeAndBeamFindTheSwitchBetweenTwoOptions) {
   }
 }
 
-TEST(Arrangement, FollowsBetterWithTheSwitchThanTheBestSingleOptionDoes) {
+TEST(Arrangement, SwitchFollowsBetterThanTheBestSingleOption) {
   const auto reward_of = [](const ArrangedClip& arranged) {
     return rl::tracking::roll_out(arranged.clip, absolute_actions(),
                                   rl::tracking::mean_action(arranged.agents))
@@ -145,7 +145,7 @@ TEST(Arrangement, FollowsBetterWithTheSwitchThanTheBestSingleOptionDoes) {
     EXPECT_GT(reward_of(arrange_halves(selector)), 1.2 * reward_of(single));
 }
 
-TEST(Arrangement, SingleIsTheOptionWhoseOwnRollOutEarnsMost) {
+TEST(Arrangement, SingleIsTheOptionOfLargestOwnReward) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({1.5F, 0.05F, 0.0F, -0.1F});
   const ArrangedClip arranged = arrange(clip, {}, set, selecting(Selector::kSingle));
@@ -171,7 +171,7 @@ TEST(Arrangement, NearestIsTheOptionOfTheNearestCentre) {
   EXPECT_EQ(arrange(clip, {}, set, selecting(Selector::kNearest)).options, List<int>(30, 1));
 }
 
-TEST(Arrangement, RefusesNumbersThatCannotBe) {
+TEST(Arrangement, RejectsImpossibleSettings) {
   const ArrangementConfig good = selecting(Selector::kBeam);
   EXPECT_NO_THROW(check(good));
   for (const auto& spoil : std::vector<void (*)(ArrangementConfig&)>{
@@ -186,7 +186,7 @@ TEST(Arrangement, RefusesNumbersThatCannotBe) {
   }
 }
 
-TEST(Stretches, SayWhereEachOptionBegins) {
+TEST(Stretches, GiveTheFirstFrameOfEachOption) {
   using List = std::vector<std::array<int, 2>>;
   EXPECT_EQ(stretches_of({}), List{});
   EXPECT_EQ(stretches_of({4}), (List{{0, 4}}));

@@ -43,7 +43,7 @@ struct Halves {
   std::vector<const Option*> options;
 };
 
-TEST(Search, ItsValueIsThatOfTheRollOutOfWhatItFound) {
+TEST(BeamSearch, ValueIsThatOfTheRollOut) {
   const Halves halves(40);
   for (const int stretch : {1, 7, 39, 100}) {
     const Found found = search_roll_outs(halves.clip, absolute_actions(), halves.options, {4, stretch, -0.5});
@@ -56,7 +56,7 @@ TEST(Search, ItsValueIsThatOfTheRollOutOfWhatItFound) {
   }
 }
 
-TEST(Search, ABeamThatDropsNothingFindsTheBestOfAllArrangements) {
+TEST(BeamSearch, FullWidthFindsTheOptimum) {
   constexpr int kFrames = 25, kStretch = 4, kStretches = 6;
   const Halves halves(kFrames);
   double best = 0.0;
@@ -70,7 +70,7 @@ TEST(Search, ABeamThatDropsNothingFindsTheBestOfAllArrangements) {
   EXPECT_NEAR(found.value, best, 1e-12);
 }
 
-TEST(Search, APathThatFallsIsDroppedHoweverMuchItEarnedBefore) {
+TEST(BeamSearch, DropsFallenPathsWhateverTheirReward) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(60), {});
   const Option falls = constant_option(rl::tracking::kStateSize, 1.5F),
                stands = constant_option(rl::tracking::kStateSize, 0.0F);
@@ -79,7 +79,7 @@ TEST(Search, APathThatFallsIsDroppedHoweverMuchItEarnedBefore) {
   EXPECT_TRUE(found.breaks.empty());
 }
 
-TEST(Search, WhereEveryPathFallsItGoesOnFromTheReferenceAndSaysWhere) {
+TEST(BeamSearch, RestartsFromTheReferenceWhereAllPathsFall) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(60), {});
   const Option falls = constant_option(rl::tracking::kStateSize, 1.5F);
   const Found found = search_roll_outs(clip, {}, {&falls}, {3, 20, 0.0});
@@ -106,7 +106,7 @@ struct Trap {
   Option leans = constant_option(rl::tracking::kStateSize, 0.0F), stands = leans;
 };
 
-TEST(Search, GoesBackWithMoreStatesToWhereItWentWrong) {
+TEST(BeamSearch, RetriesFromEarlierWithMoreStates) {
   const Trap trap;
   EXPECT_FALSE(trap.search(1, 0).breaks.empty()) << "no trap for a narrow beam";
   const Found found = trap.search(1, 3);
@@ -115,7 +115,7 @@ TEST(Search, GoesBackWithMoreStatesToWhereItWentWrong) {
               1e-12);
 }
 
-TEST(Search, RetriesChangeNothingWhereSomePathStands) {
+TEST(BeamSearch, RetriesChangeNothingIfSomePathStands) {
   const Trap trap;
   const Found found = trap.search(16, 3), without = trap.search(16, 0);
   EXPECT_TRUE(without.breaks.empty());
@@ -123,7 +123,7 @@ TEST(Search, RetriesChangeNothingWhereSomePathStands) {
   EXPECT_EQ(found.value, without.value);
 }
 
-TEST(Search, RetriesThatFindNothingEndInTheBreak) {
+TEST(BeamSearch, FailedRetriesRecordTheBreak) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(60), {});
   const Option falls = constant_option(rl::tracking::kStateSize, 1.5F);
   const Found found = search_roll_outs(clip, {}, {&falls}, {3, 20, 0.0, 2});
@@ -132,14 +132,14 @@ TEST(Search, RetriesThatFindNothingEndInTheBreak) {
   EXPECT_EQ(found.searched, 59);
 }
 
-TEST(Search, TiesGoToTheLowerIndex) {
+TEST(BeamSearch, TiesGoToTheLowerIndex) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(20), {});
   const Option option = constant_option(rl::tracking::kStateSize, 0.0F);
   EXPECT_EQ(search_roll_outs(clip, {}, {&option, &option, &option}, {2, 5, 0.0}).options, List<int>(19, 0));
 }
 
 // Told to stop in the third stretch it has found two, which are those it finds when it is let alone.
-TEST(Search, StopsWhereItIsToldTo) {
+TEST(BeamSearch, StopsOnRequest) {
   const Halves halves(40);
   const SearchConfig config{4, 7, -0.5};
   const Found whole = search_roll_outs(halves.clip, absolute_actions(), halves.options, config);
@@ -163,7 +163,7 @@ TEST(Search, StopsWhereItIsToldTo) {
   EXPECT_EQ(none.options, List<int>(39, 0));
 }
 
-TEST(Search, RefusesNumbersThatCannotBe) {
+TEST(BeamSearch, RejectsImpossibleSettings) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(5), {});
   const Option option = constant_option(rl::tracking::kStateSize, 0.0F);
   for (const SearchConfig& wrong : {SearchConfig{0, 1, 0.0}, SearchConfig{1, 0, 0.0}, SearchConfig{1, 1, 0.1},

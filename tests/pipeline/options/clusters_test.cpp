@@ -56,7 +56,7 @@ ClusterConfig three() {
   return settings;
 }
 
-TEST(Clusters, KindsOfMotionAreToldApart) {
+TEST(Clusters, SeparateKindsOfMotion) {
   const Clusters clusters = cluster_motions(some_motions(), three());
   ASSERT_EQ(clusters.clusters.size(), 3u);
   for (const auto& c : clusters.clusters) {
@@ -66,7 +66,7 @@ TEST(Clusters, KindsOfMotionAreToldApart) {
   }
 }
 
-TEST(Clusters, NoTwoMembersAreFartherApartThanTheRadius) {
+TEST(Clusters, MembersAreWithinTheRadius) {
   const auto motions = some_motions();
   const auto features = [&](const std::string& name) {
     return std::find_if(motions.begin(), motions.end(), [&](const auto& m) { return m.name == name; })
@@ -85,7 +85,7 @@ TEST(Clusters, NoTwoMembersAreFartherApartThanTheRadius) {
   }
 }
 
-TEST(Clusters, OrderOfTheInputIsIrrelevantToTheFile) {
+TEST(Clusters, DoNotDependOnTheInputOrder) {
   auto motions = some_motions();
   const std::string expected = format_clusters(cluster_motions(motions, three()));
   std::reverse(motions.begin(), motions.end());
@@ -94,7 +94,7 @@ TEST(Clusters, OrderOfTheInputIsIrrelevantToTheFile) {
   EXPECT_EQ(format_clusters(cluster_motions(motions, three())), expected);
 }
 
-TEST(Clusters, ANewMotionGoesToTheNearestCentre) {
+TEST(Clusters, NewMotionGoesToTheNearestCentre) {
   const auto motions = some_motions();
   const Clusters clusters = cluster_motions(motions, three());
   for (const auto& m : motions) {
@@ -113,7 +113,7 @@ TEST(Clusters, FileReadsBackAsTheSameBytes) {
   EXPECT_EQ(back.settings.clusters, 3);
 }
 
-TEST(Clusters, JoinedAreThePartsNumberedOn) {
+TEST(Clusters, JoinedPartsAreNumberedConsecutively) {
   const Clusters part = cluster_motions(some_motions(), three());
   const Clusters both = joined({part, part});
   ASSERT_EQ(both.clusters.size(), 6u);
@@ -159,7 +159,7 @@ TEST(Clusters, KeepTheFeaturesOfTheirMembers) {
   EXPECT_EQ(found, motions.size());
 }
 
-TEST(Clusters, OlderFilesHaveNoFeaturesOfMembers) {
+TEST(Clusters, OlderFilesReadWithoutMemberFeatures) {
   TemporaryFolder folder;
   Clusters clusters = cluster_motions(some_motions(), three());
   for (MotionCluster& cluster : clusters.clusters) cluster.features.clear();
@@ -173,7 +173,7 @@ TEST(Clusters, OlderFilesHaveNoFeaturesOfMembers) {
   EXPECT_THROW(read_clusters(folder.path / "c.json"), DataError);
 }
 
-TEST(Clusters, FilesOfOtherUnitsOrNoneAreRefused) {
+TEST(Clusters, RejectFilesOfOtherUnits) {
   TemporaryFolder folder;
   const auto path = folder.path / "c.json";
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
@@ -188,7 +188,7 @@ TEST(Clusters, FilesOfOtherUnitsOrNoneAreRefused) {
   EXPECT_THROW(read_clusters(folder.path / "none.json"), DataError);
 }
 
-TEST(Clusters, ImpossibleWishesAreInvalid) {
+TEST(Clusters, RejectImpossibleSettings) {
   const auto motions = some_motions();
   ClusterConfig settings;
   settings.clusters = 24;
@@ -200,7 +200,7 @@ TEST(Clusters, ImpossibleWishesAreInvalid) {
   EXPECT_THROW(cluster_motions(broken, {}), std::invalid_argument);
 }
 
-TEST(ClusterWords, SayWhatAMotionIsLike) {
+TEST(ClusterWords, DescribeAMotion) {
   EXPECT_EQ(describe_motion(travelling(0.0)),
             "calm, upright (hips at 0.93 m), stays in place, feet stay down, arms quiet");
   MotionFeatures f = travelling(1.1);
@@ -214,7 +214,7 @@ TEST(ClusterWords, SayWhatAMotionIsLike) {
             "arms busy");
 }
 
-TEST(ClusterWords, NameOnlyTheClusterThatStandsOut) {
+TEST(ClusterWords, NameOnlyTheClusterThatDiffers) {
   const std::vector<MotionFeatures> centres = {travelling(0.0), travelling(1.2), travelling(2.5)};
   EXPECT_EQ(describe_cluster(centres, 1).find("fastest"), std::string::npos);
   EXPECT_NE(describe_cluster(centres, 2).find("of all the fastest"), std::string::npos);

@@ -55,7 +55,7 @@ motion::Reference random_reference() {
   return motion::prepare_reference(test::random_clip(3, 90, 0.3), {}, nullptr);
 }
 
-TEST(Features, EverySixtyEightHaveTheirOwnNameAndAPositiveUnit) {
+TEST(Features, HaveUniqueNamesAndPositiveUnits) {
   EXPECT_EQ(kFeatures, 68);
   const auto& names = feature_names();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 68u);
@@ -63,7 +63,7 @@ TEST(Features, EverySixtyEightHaveTheirOwnNameAndAPositiveUnit) {
   for (double unit : feature_units()) EXPECT_GT(unit, 0.0);
 }
 
-TEST(Features, StandingStillIsTheHeightAlone) {
+TEST(Features, StandingStillHasOnlyHeight) {
   const auto f = motion_features(rigid(
       40, [](double) { return Vector3d(1, 2, 0.9); }, still));
   EXPECT_NEAR(f[kRootHeight], 0.9, 1e-12);
@@ -95,7 +95,7 @@ TEST(Features, FreeFallAcceleratesEveryJointWithGravityFromEndToEnd) {
   }
 }
 
-TEST(Features, TurningAboutTheVerticalIsTheSquaredRateAndCirclesOfTheJoints) {
+TEST(Features, TurningGivesTheSquaredRateAndCircularJointSpeeds) {
   const double rate = 1.1;
   const motion::Reference r = rigid(
       60, [](double) { return Vector3d(0, 0, 0.9); }, [&](double s) { return rotation_z(rate * s); });
@@ -112,7 +112,7 @@ TEST(Features, TurningAboutTheVerticalIsTheSquaredRateAndCirclesOfTheJoints) {
   }
 }
 
-TEST(Features, ASomersaultDoesNotTurnAboutTheVertical) {
+TEST(Features, SomersaultHasNoTurning) {
   const auto f = motion_features(rigid(
       60, [](double) { return Vector3d(0, 0, 1.5); },
       [](double s) {
@@ -132,7 +132,7 @@ TEST(Features, HeadingAndPlaceAreIrrelevant) {
   }
 }
 
-TEST(Features, LiftingAMotionChangesTheHeightAlone) {
+TEST(Features, LiftingChangesOnlyTheHeight) {
   const motion::Reference reference = random_reference();
   const auto before = motion_features(reference),
              after = motion_features(moved_poses(reference, 0, {0, 0, 0.25}));
@@ -140,7 +140,7 @@ TEST(Features, LiftingAMotionChangesTheHeightAlone) {
   for (std::size_t k = 1; k < kFeatures; ++k) EXPECT_NEAR(after[k], before[k], 1e-9 * (1.0 + before[k]));
 }
 
-TEST(Features, SmoothingKeepsNoiseOutOfTheAcceleration) {
+TEST(Features, SmoothingSuppressesNoiseInTheAcceleration) {
   Random random(5, {0});
   const auto f = motion_features(rigid(
       600, [&](double) -> Vector3d { return Vector3d(0, 0, 0.9) + 0.005 * test::random_vector(random); },
@@ -150,13 +150,13 @@ TEST(Features, SmoothingKeepsNoiseOutOfTheAcceleration) {
               0.05);  // 0.005 · 900 · √(720/55440): variance of a 9-point parabola's curvature
 }
 
-TEST(Features, TooShortAMotionIsAnError) {
+TEST(Features, RejectTooShortMotions) {
   const auto path = [](double s) { return Vector3d(s, 0, 0.9); };
   EXPECT_THROW(motion_features(rigid(2, path, still)), DataError);
   EXPECT_NEAR(motion_features(rigid(3, path, still))[kPlanarVelocity], 1.0, 1e-10);
 }
 
-TEST(Features, ScaledIsEveryFeatureInItsUnit) {
+TEST(Features, ScaledFeaturesAreInTheirUnits) {
   const auto scaled = scaled_features(feature_units());
   for (double x : scaled) EXPECT_DOUBLE_EQ(x, 1.0);
 }

@@ -79,7 +79,7 @@ TEST(KMeans, FindsTheBestOfAllPartitionsOfAFewPoints) {
   }
 }
 
-TEST(KMeans, EndsWhereRoundingWouldMoveAPointToAndFroForEver) {
+TEST(KMeans, EndsDespiteRoundingCycles) {
   // At 2^53 a double holds even numbers alone: the means are rounded by as much as the points are apart, and
   // the rounds of Lloyd's iteration come back to where they were.
   constexpr double kLarge = 9007199254740992.0;
@@ -105,7 +105,7 @@ TEST(KMeans, CentresAreMeansAndPointsGoToTheNearest) {
   for (int c = 0; c < 5; ++c) EXPECT_LT((sum.row(c) / count[c] - p.centres.row(c)).norm(), 1e-12);
 }
 
-TEST(KMeans, CentresWithoutPointsFindSome) {
+TEST(KMeans, RefillsEmptyCentres) {
   const Points points = random_points(5, 30);
   Points centres(4, 3);
   centres.row(0) = points.row(0);
@@ -157,7 +157,7 @@ TEST(ClusterTree, OrderOfThePointsIsIrrelevant) {
   }
 }
 
-TEST(ClusterTree, NoLeafIsWiderThanTheBoundAndNothingElseWasSplit) {
+TEST(ClusterTree, SplitsExactlyTheNodesWiderThanTheBound) {
   const Points points = random_points(11, 80);
   const ClusterTree complete = complete_tree(points, 0);
   for (double radius : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 100.0})
@@ -167,7 +167,7 @@ TEST(ClusterTree, NoLeafIsWiderThanTheBoundAndNothingElseWasSplit) {
     }
 }
 
-TEST(ClusterTree, ChildrenShareOutTheirParentsPoints) {
+TEST(ClusterTree, ChildrenPartitionTheirParentsPoints) {
   const ClusterTree tree = complete_tree(random_points(12, 50), 4);
   EXPECT_EQ(tree[0].members.size(), 50u);
   for (std::size_t n = 0; n < tree.size(); ++n) {
@@ -184,7 +184,7 @@ TEST(ClusterTree, ChildrenShareOutTheirParentsPoints) {
   }
 }
 
-TEST(ClusterTree, GivesAsManyClustersAsAskedForWithTheWidestBound) {
+TEST(ClusterTree, GivesTheRequestedClustersAtTheWidestBound) {
   const Points points = random_points(13, 42);  // 40 distinct
   const ClusterTree complete = complete_tree(points, 5);
   for (int clusters = 1; clusters <= 40; ++clusters) {

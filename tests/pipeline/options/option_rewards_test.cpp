@@ -20,7 +20,7 @@ SideBySide steady_and_failing(int frames, int period) {
   return rolled;
 }
 
-TEST(Rescues, TheFrameOfARescueEarnsNothingAndThoseBeforeItFadeTowardsIt) {
+TEST(Rescues, RewardFadesToZeroAtTheRescue) {
   SideBySide rolled;
   rolled.rewards.assign(7, {1.0, 0.5});
   rolled.rescued.assign(7, {false, false});
@@ -33,7 +33,7 @@ TEST(Rescues, TheFrameOfARescueEarnsNothingAndThoseBeforeItFadeTowardsIt) {
   }
 }
 
-TEST(Rescues, EachFrameIsChargedForTheNextRescueAlone) {
+TEST(Rescues, EachFrameIsChargedForTheNextRescueOnly) {
   SideBySide rolled;
   rolled.rewards.assign(6, {1.0});
   rolled.rescued.assign(6, {false});
@@ -43,12 +43,12 @@ TEST(Rescues, EachFrameIsChargedForTheNextRescueAlone) {
   for (int t = 0; t < 6; ++t) EXPECT_EQ(charged[t][0], expected[t]) << t;
 }
 
-TEST(Rescues, CostNothingWhereNobodyFailsOrNothingIsAsked) {
+TEST(Rescues, CostNothingWithoutFailuresOrWithZeroFrames) {
   EXPECT_EQ(charge_rescues(steady_and_failing(20, 100), 10), steady_and_failing(20, 100).rewards);
   EXPECT_EQ(charge_rescues(steady_and_failing(20, 5), 0), steady_and_failing(20, 5).rewards);
 }
 
-TEST(Rescues, AnOptionThatLivesOnThemIsNoLongerPreferred) {
+TEST(Rescues, ChargesStopThePreferenceForARescuedOption) {
   const SideBySide rolled = steady_and_failing(120, 20);
   const auto chosen = [&](int frames) {
     return select_options(charge_rescues(rolled, frames), -1000.0).options.front();
@@ -57,7 +57,7 @@ TEST(Rescues, AnOptionThatLivesOnThemIsNoLongerPreferred) {
   EXPECT_EQ(chosen(30), 0);
 }
 
-TEST(Rescues, OneThatFailsIsRescuedAndOneThatFollowsIsNot) {
+TEST(Rescues, OnlyFailingOptionsAreRescued) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
                bad = constant_option(rl::tracking::kStateSize, 1.5F);

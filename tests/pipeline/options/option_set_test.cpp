@@ -33,7 +33,7 @@ OptionSet some_set() {
   return set;
 }
 
-TEST(OptionSet, IsReadBackToTheBit) {
+TEST(OptionSet, RoundTripIsExact) {
   const TemporaryFolder folder;
   const OptionSet set = some_set();
   write_options(folder.path / "options.npz", set);
@@ -51,7 +51,7 @@ TEST(OptionSet, IsReadBackToTheBit) {
   }
 }
 
-TEST(OptionSet, SetsAreNumberedOnAndNamedByTheirChecksums) {
+TEST(OptionSet, SetsAreNumberedConsecutivelyAndNamedByChecksum) {
   const TemporaryFolder folder;
   write_options(folder.path / "options.npz", some_set());
   const auto set = read_options(folder.path);
@@ -61,7 +61,7 @@ TEST(OptionSet, SetsAreNumberedOnAndNamedByTheirChecksums) {
   EXPECT_EQ(checksum_of({set, set}), set->checksum + "+" + set->checksum);
 }
 
-TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
+TEST(OptionSet, RejectsOtherFilesAndMismatchedStateSizes) {
   const TemporaryFolder folder;
   motion::write_clip(folder.path / "clip.npz", motion::standing_clip(20));
   EXPECT_THROW(read_options(folder.path / "clip.npz"), DataError);
@@ -71,7 +71,7 @@ TEST(OptionSet, FilesThatAreNoneAndOptionsThatDoNotFitTheirStateAreRefused) {
   EXPECT_THROW(read_options(folder.path / "wrong.npz"), DataError);
 }
 
-TEST(OptionSet, CountsAndCentresThatAreNoneAreRefused) {
+TEST(OptionSet, RejectsInvalidCountsAndCentres) {
   const TemporaryFolder folder;
   write_options(folder.path / "options.npz", some_set());
   const Npz sound = read_npz(folder.path / "options.npz");

@@ -12,7 +12,7 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-TEST(EncodedState, ThePolicySeesTheReferenceOnlyThroughItsEncoder) {
+TEST(EncodedState, PolicySeesTheReferenceOnlyThroughItsEncoder) {
   rl::tracking::TrackingConfig config;
   const motion::Reference reference = rl::tracking::swaying_reference(20);
   const auto plain = rl::tracking::make_tracking_clip(reference, config);
@@ -40,7 +40,7 @@ TEST(EncodedState, ThePolicySeesTheReferenceOnlyThroughItsEncoder) {
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-5) << k;
 }
 
-TEST(Option, EitherAllHaveAnEncoderOrNone) {
+TEST(Option, AllOrNoneHaveAnEncoder) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(10), {});
   Option with = constant_option(rl::tracking::kEncodedRest + 8, 0.0F),
          without = constant_option(rl::tracking::kStateSize, 0.0F);
@@ -49,7 +49,7 @@ TEST(Option, EitherAllHaveAnEncoderOrNone) {
   EXPECT_EQ(encoded_for(clip, {&without, &without}), clip);
 }
 
-TEST(Option, ComeBackFromAnArchiveToTheBit) {
+TEST(Option, RoundTripIsExact) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(10), {});
   Option option = constant_option(rl::tracking::kEncodedRest + 8, 0.1F);
   option.encoder = some_encoder(*clip);
@@ -60,7 +60,7 @@ TEST(Option, ComeBackFromAnArchiveToTheBit) {
   EXPECT_EQ(encoded_for(clip, {&back})->encoded[0].codes, encoded_for(clip, {&option})->encoded[0].codes);
 }
 
-TEST(SideBySide, WhoFailsTakesOverTheStateOfTheBest) {
+TEST(OptionRewards, FailingCharacterTakesTheBestOnesState) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
                bad = constant_option(rl::tracking::kStateSize, 1.5F);
@@ -95,7 +95,7 @@ TEST(SideBySide, WhoFailsTakesOverTheStateOfTheBest) {
   EXPECT_GE(rescues, 5);
 }
 
-TEST(SideBySide, WhereAllFailTheyRestartFromTheReference) {
+TEST(OptionRewards, AllRestartFromTheReferenceWhereAllFail) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const Option bad = constant_option(rl::tracking::kStateSize, 1.5F);
   const SideBySide result = roll_out_side_by_side(clip, {}, {&bad, &bad}, 0.3);

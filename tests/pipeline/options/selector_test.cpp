@@ -81,7 +81,7 @@ TEST(Selector, ReachesTheOptimumOfAllArrangements) {
   }
 }
 
-TEST(Selector, PrintedRecursionMissesTheOptimum) {
+TEST(Selector, PrintedRecursionIsNotOptimal) {
   int missed = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Problem p = random_problem(seed);
@@ -100,7 +100,7 @@ TEST(Selector, WithoutPenaltyEveryFrameGetsItsBestOption) {
   EXPECT_EQ(select_options(reward, 0.0).options, (std::vector<int>{2, 0, 1}));
 }
 
-TEST(Selector, ALargePenaltyKeepsOneOption) {
+TEST(Selector, LargePenaltyKeepsOneOption) {
   const Rewards reward = {{1, 0}, {0, 1.25}, {1, 0}, {0, 1}};
   const Arrangement found = select_options(reward, -100.0);
   EXPECT_EQ(found.options, (std::vector<int>{1, 1, 1, 1}));
@@ -123,7 +123,7 @@ TEST(Selector, TiesStayAndThenTakeTheLowerIndex) {
   EXPECT_EQ(select_options({{1, 1, 0}, {0, 0, 2}}, -0.5).options, (std::vector<int>{0, 2}));
 }
 
-TEST(Selector, RefusesWhatHasNoOptimum) {
+TEST(Selector, RejectsInputsWithoutAnOptimum) {
   EXPECT_TRUE(select_options({}, -1.0).options.empty());
   EXPECT_THROW(select_options({{1, 2}, {1}}, -1.0), std::invalid_argument);
   EXPECT_THROW(select_options({{}, {}}, -1.0), std::invalid_argument);
