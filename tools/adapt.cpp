@@ -16,7 +16,7 @@ struct AdaptArguments {
   RunArguments more;
 };
 
-/// @throws UsageError where none are given, and none have come with the program
+/// @throws UsageError if none are given, and the program has none
 pipeline::options::OptionSets read_sets(const std::vector<std::string>& given) {
   std::vector<std::filesystem::path> places;
   for (const std::string& set : given) {
@@ -57,7 +57,7 @@ int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& o
 void declare_adapt(CommandLine& line) {
   const auto a = std::make_shared<AdaptArguments>();
   Command command =
-      line.add("adapt", "Clean motions: keypoint fit, then a plan; trained policies where it fails",
+      line.add("adapt", "Clean motions: keypoint fit, then a plan; trained policies if the plan fails",
                "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
                "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
   command.choice("--method", a->config.method,
@@ -65,19 +65,19 @@ void declare_adapt(CommandLine& line) {
                   {"plan", program::AdaptMethod::kPlan},
                   {"paper", program::AdaptMethod::kPaper}},
                  "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
-                 "fine-tuned, minutes per motion; auto: the plan, and only where it fails the paper's "
-                 "method, whose training then takes minutes; the better of the two is kept");
+                 "fine-tuned, minutes per motion; auto: the plan, and only if it fails the paper's "
+                 "method, which takes minutes; the better result is kept");
   command.flag("--policy", a->config.teaching.teach,
-               "every plan that is followed also teaches a policy, which follows the motion alone and stands "
-               "pushes: policies/NAME.npz; 2 to 10 times the motion's length");
+               "every successful plan also teaches a policy, which follows the motion unaided and withstands "
+               "pushes: policies/NAME.npz; takes 2 to 10 times the motion's length");
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);
   add_gains_argument(command, a->config.run);
   command.texts(
       "--options", a->options, "SET",
-      "trained options to start from: a file, a folder with options.npz, or else a set that comes with the "
-      "program: trained or taught; repeatable: the first set that follows the whole motion is taken, "
+      "trained options to start from: a file, a folder with options.npz, or a set that comes with the "
+      "program, trained or taught; repeatable: the first set that follows the whole motion is used, "
       "else the best; default: trained, then taught");
   add_arrangement_arguments(command, a->config.arrangement);
   command.action([a] {

@@ -16,13 +16,14 @@ namespace mimicx::tools {
 namespace {
 
 constexpr std::size_t kNameColumn = 30, kWidth = 100;  ///< of the help, characters
-constexpr std::size_t kLongestNames = 32;              ///< of an option that are listed beside it
+constexpr std::size_t kLongestNames =
+    32;  ///< of all names of an option that are listed beside it; longer lists follow its description
 
 [[noreturn]] void refuse(const std::string& name, const std::string& expected, const std::string& found) {
   throw CLI::ValidationError(name, "expected " + expected + ", found " + (found.empty() ? "nothing" : found));
 }
 
-/// Says more behind the name of an option in the help.
+/// Appends a text to the name of an option in the help.
 void append_text(CLI::Option* option, const std::string& text) {
   if (!text.empty()) option->option_text(option->get_option_text() + " " + text);
 }
@@ -64,7 +65,7 @@ std::optional<int> parsed(const std::string& text) {
 template <class T>
 constexpr const char* kKind = std::is_integral_v<T> ? "a whole number" : "a number";
 
-/// @throws CLI::ValidationError where the text is no such number
+/// @throws CLI::ValidationError if the text is no number in the range
 template <class T>
 T checked_number(const std::string& name, const Range& range, const std::string& text) {
   const std::optional<T> value = parsed<T>(text);
@@ -92,7 +93,7 @@ CLI::Option* add_single(CLI::App* app, const std::string& name, const std::strin
   return option;
 }
 
-/// @param many  several values may stand behind one name
+/// @param many  several values may follow one name
 CLI::Option* add_many(CLI::App* app, const std::string& name, const std::string& form, bool many,
                       const std::function<void(const std::vector<std::string>&)>& take,
                       const std::string& help) {
@@ -119,7 +120,7 @@ Option add_number(CLI::App* app, const std::string& name, Value& value, const st
   return Option(option);
 }
 
-/// The names beside the option where they are short, else behind its description.
+/// Lists the names beside the option if they are short, else after its description.
 struct Names {
   std::string form, help;
 };
@@ -208,7 +209,7 @@ Option Command::existing(const std::string& name, std::filesystem::path& path, c
       app_, name, "FILE",
       [&path, name](const std::string& text) {
         std::error_code none;
-        if (!std::filesystem::is_regular_file(text, none)) refuse(name, "a file that is there", text);
+        if (!std::filesystem::is_regular_file(text, none)) refuse(name, "an existing file", text);
         path = text;
       },
       help));
@@ -317,14 +318,14 @@ Option Command::choose(const std::string& name, const std::vector<std::string>& 
   return Option(option);
 }
 
-/// What stands at the head of a command's own help, by its name.
+/// The beginning of each command's help, by name.
 struct CommandLine::Heads : CLI::Formatter {
   std::map<std::string, std::string> by_name;
 
   std::string make_description(const CLI::App* app) const override { return by_name.at(app->get_name()); }
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     const std::string name = Formatter::make_option_name(option, is_positional);
-    const std::size_t no = name.find("{false}");  // the library's mark of what makes a flag false
+    const std::size_t no = name.find("{false}");  // the library's mark of names that set a flag to false
     return no == std::string::npos ? name : name.substr(0, no);
   }
   std::string make_option_opts(const CLI::Option* option) const override { return option->get_option_text(); }
@@ -372,21 +373,21 @@ std::string guess(const std::string& word, const std::vector<std::string>& words
 
 bool is_option(const std::string& word) { return word.starts_with('-'); }
 
-/// A word that is neither a command nor an option nor wanted.
+/// The message for an unexpected word.
 std::string unknown(const std::string& word, const CLI::App& app, const CLI::App* command) {
   std::vector<std::string> words;
-  if (!is_option(word) && command != nullptr) return "one thing too many: " + word;
+  if (!is_option(word) && command != nullptr) return "unexpected argument: " + word;
   if (!is_option(word)) {
     for (const CLI::App* other : app.get_subcommands([](const CLI::App*) { return true; }))
       words.push_back(other->get_name());
-    return "there is no command " + word + guess(word, words);
+    return "unknown command " + word + guess(word, words);
   }
   for (const CLI::Option* option : (command != nullptr ? *command : app).get_options())
     for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
-  return "there is no option " + word + guess(word, words);
+  return "unknown option " + word + guess(word, words);
 }
 
-/// What is wrong with a line that was parsed so far. @param command  the one asked for, or null
+/// The message for a command line that cannot be parsed. @param command the requested one, or null
 std::string complaint(const CLI::App& app, const CLI::App* command, const CLI::ParseError& error) {
   const std::vector<std::string> left = app.remaining(true);
   const auto is = [&](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };

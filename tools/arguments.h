@@ -1,4 +1,5 @@
-/// The command line, declared: what a subcommand may be told, where that goes, how it is explained.
+/// Declares the command line: the arguments of a subcommand, the variables that get their values, and their
+/// help.
 ///
 ///     Command command = line.add("plan", "Clean motions by optimal control",
 ///                                "mimicx plan clip.bvh              # clip.clean.bvh beside it\n"
@@ -9,12 +10,11 @@
 ///     command.one_of("--rate", a->rate, {"30", "input"}, "frame rate of the copies");
 ///     command.action([a] { return plan(*a); });
 ///
-/// A value is written where it was declared when the line is parsed, so it must outlive `CommandLine::run`.
-/// What it holds before is the default, which the help prints where it is one that could be asked for. Names
-/// with dashes are options, others are positional. What is wrong with a value is said in one line: the
-/// option, what was expected, what was found.
+/// Parsing writes to the declared variables, so they must outlive `CommandLine::run`. Their initial value is
+/// the default; the help prints it if it is a valid value. Names with dashes are options, others are
+/// positional. An error is one line: the option, what was expected, what was found.
 ///
-/// This header hides the command-line library, which is slow to compile: arguments.cpp alone reads it.
+/// Only arguments.cpp includes the command-line library, because it is slow to compile.
 #pragma once
 
 #include <cstdint>
@@ -40,21 +40,21 @@ using Action = std::function<int()>;
 /// The numbers that an option takes; never NaN or an infinity.
 struct Range {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
-  bool above = false;  ///< `least` itself is none of them
+  bool above = false;  ///< `least` itself is excluded
 };
 inline constexpr Range kAnyNumber{}, kFromZero{0.0}, kFromOne{1.0},
     kPositive{0.0, std::numeric_limits<double>::infinity(), true};
 
-/// An argument that was declared, to say more of it.
+/// A declared argument, to set further properties.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
   Option& required();
-  /// Refused beside the other one.
+  /// Not allowed together with the other one.
   Option& excludes(const Option& other);
-  /// Refused without the other one.
+  /// Not allowed without the other one.
   Option& needs(const Option& other);
-  /// The default that the help prints.
+  /// Sets the default that the help prints.
   Option& defaults_to(const std::string& text);
 
  private:
@@ -66,7 +66,7 @@ class Command {
  public:
   Command(CLI::App* app, Action* action) : app_(app), action_(action) {}
 
-  /// What happens where the user asks for this subcommand.
+  /// Sets the work of this subcommand.
   void action(Action work);
 
   Option file(const std::string& name, std::filesystem::path& file, const std::string& help);
@@ -74,11 +74,11 @@ class Command {
   Option files(const std::string& name, std::vector<std::string>& files, const std::string& help);
   /// Any number of files.
   Option optional_files(const std::string& name, std::vector<std::string>& files, const std::string& help);
-  /// Not the empty text.
+  /// A path; not empty.
   Option path(const std::string& name, std::filesystem::path& path, const std::string& help);
-  /// Of a file that is there.
+  /// The path of an existing file.
   Option existing(const std::string& name, std::filesystem::path& path, const std::string& help);
-  /// One or more behind one name.
+  /// One or more paths after one name.
   Option paths(const std::string& name, std::vector<std::string>& paths, const std::string& help);
 
   /// Whole numbers may be written as 3M or 500k.
@@ -92,17 +92,17 @@ class Command {
                 const std::string& help);
   Option number(const std::string& name, std::optional<double>& value, const Range& range,
                 const std::string& help);
-  /// Separated by commas.
+  /// Numbers separated by commas.
   Option numbers(const std::string& name, std::vector<double>& values, const Range& range,
                  const std::string& help);
 
   /// @param no  the name that makes the value false; empty: none
   Option flag(const std::string& yes, bool& value, const std::string& help, const std::string& no = {});
 
-  /// A text that `take` understands. @param form  what it looks like, for the help
+  /// A text that `take` parses. @param form its form, for the help
   Option text(const std::string& name, const std::function<void(const std::string&)>& take,
               const std::string& form, const std::string& help);
-  /// Any text, and again for the next one. @param form  what it looks like, for the help
+  /// Any text, repeatable. @param form its form, for the help
   Option texts(const std::string& name, std::vector<std::string>& values, const std::string& form,
                const std::string& help);
   /// Any texts, separated by commas.
@@ -145,13 +145,13 @@ class CommandLine {
   ~CommandLine();
 
   /// @param purpose   one line, for the list of commands
-  /// @param examples  lines that stand at the head of the command's own help
-  /// @param more      what else stands there
+  /// @param examples  first lines of the command's own help
+  /// @param more      further text of the help
   Command add(const std::string& name, const std::string& purpose, const std::string& examples,
               const std::string& more = {});
 
-  /// Parses, prints help or what is wrong with the line, or does the action of the command asked for.
-  /// @return the exit status: kWrongUsage where the line is wrong
+  /// Parses the line, then prints help or an error, or does the action of the command.
+  /// @return the exit status; kWrongUsage for a wrong line
   int run(int argc, const char* const* argv);
 
  private:

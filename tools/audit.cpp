@@ -84,7 +84,7 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs)
 
 int audit(const AuditArguments& a) {
   if (!a.poses && !(a.csv.empty() && a.frames_csv.empty()))
-    throw UsageError("audit: --csv and --frames-csv go with --poses; --json has what other audits find");
+    throw UsageError("audit: --csv and --frames-csv need --poses; use --json for other audits");
   const std::vector<std::string> inputs = files::paths_of(files::find_motions(a.inputs, {}, &std::cerr));
   claim_outputs(a, inputs);
   return a.poses ? audit_poses(a, inputs) : audit_forces(a, inputs);
@@ -95,19 +95,19 @@ int audit(const AuditArguments& a) {
 void declare_audit(CommandLine& line) {
   const auto a = std::make_shared<AuditArguments>();
   Command command = line.add(
-      "audit", "Do the forces in a file explain the motion in it? Could any?",
+      "audit", "Do the forces in a file explain its motion? Could any forces explain it?",
       "mimicx audit out/run/motions out/run/substeps   # did the recorded forces make these motions?\n"
       "mimicx audit --poses DIR --csv feasible.csv     # could any forces make the motions in DIR?");
   command.files("FILE", a->inputs, "motions and physics steps, and folders of them");
   const Option poses = command.flag(
       "--poses", a->poses,
-      "look at the poses alone: what would have to push from outside, after the best forces that a floor can "
+      "use the poses alone: which external force would be needed beside the best forces that a floor can "
       "give. Reads every motion format");
   command.path("--csv", a->csv, "with --poses: a row per motion").needs(poses);
   command.path("--frames-csv", a->frames_csv, "with --poses: a row per frame").needs(poses);
-  command.path("--json", a->json, "also write every value here; without --poses every row, too");
+  command.path("--json", a->json, "also write all values as JSON; without --poses also all rows");
   command.number("--reach-mm", a->reach_mm, {0.0, 1000.0},
-                 "with --poses: up to which a point over the floor can push on it");
+                 "with --poses: a point up to this far above the floor touches it");
   add_read_arguments(command, a->config.read);
   add_threads(command, a->config.threads);
   add_force(command, a->force);

@@ -1,8 +1,7 @@
-// The certificate by the second engine: the numbers of `mimicx audit` beside those of MuJoCo's inverse
-// dynamics for the same files, `motions/NAME.npz` or `substeps/NAME.npz` of a run. Built where MuJoCo is
-// installed.
-//   audit_mujoco FILE...
-// Exit status: 0 the engines agree to 1e-8 of the forces, 1 they do not or a file could not be read, 2 usage.
+// The audit by a second engine: the numbers of `mimicx audit` and those of MuJoCo's inverse dynamics for the
+// same files, `motions/NAME.npz` or `substeps/NAME.npz` of a run. Built if MuJoCo is installed. audit_mujoco
+// FILE... Exit status: 0 the engines agree to 1e-8 of the forces, 1 they do not or a file could not be read,
+// 2 usage.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

@@ -1,8 +1,7 @@
-// What the floor does wrong, as tables: adhesion, friction beyond its cone, penetration, energy gained in
-// violent contact; and how it carries bodies at rest: penetration, creep, jitter. At 240 and 480 Hz with one
-// to three linearisations of the contacts in a step (docs/physics.md §4). The tests of tests/physics bound
-// them.
-//   bench_contact
+// Errors of the contact model, as tables: adhesion, friction beyond the cone, penetration and energy gain in
+// violent contact; penetration, creep and jitter of bodies at rest. At 240 and 480 Hz with one to three
+// linearisations of the contacts in a step (docs/physics.md §4). The tests of tests/physics bound them.
+// bench_contact
 #include <cstdio>
 
 #include "physics/contact_scenes.h"

@@ -1,8 +1,8 @@
-// What planning costs per control frame (1/30 s) on one core: derivatives of every kind, the cost's quadratic
-// model, the Riccati sweep, the line search; beside MuJoCo's finite-difference derivatives of the same
-// character where that library is installed. The character stands and sways on both feet; best of the
-// repetitions, by processor time. Ends with the share of an iteration and the ratio to MuJoCo.
-//   bench_control [any option of Google Benchmark]
+// Time of planning per control frame (1/30 s) on one core: derivatives of every kind, the cost's quadratic
+// model, the Riccati sweep, the line search; compared with MuJoCo's finite-difference derivatives of the same
+// character if that library is installed. The character stands and sways on both feet; best of the
+// repetitions, by processor time. Ends with the share of an iteration and the ratio to MuJoCo. bench_control
+// [any option of Google Benchmark]
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

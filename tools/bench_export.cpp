@@ -1,5 +1,5 @@
-// What exporting a policy costs: policies of a run as they are and as the files of `mimicx export-policy`
-// mean them, rolled out in the simulator and pushed.
+// The accuracy that exporting a policy loses: policies of a run, and the same after `mimicx export-policy`,
+// rolled out in the simulator and pushed.
 //   bench_export RUN     a folder of `mimicx adapt`
 // A line per policy: frames, and of each kind (as it is, float, int8) MPJPE and mean distance of the bodies
 // from the motion that was taught, mm, and how many pushed trials are followed to the end; the bytes of the

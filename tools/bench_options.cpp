@@ -1,11 +1,10 @@
-// How well options follow motions by themselves, without any fine-tuning: every option alone, from the first
-// frame of each reference to its last. Reads folders of `mimicx plan`.
+// How well options follow motions without fine-tuning: every option alone, over the whole of each reference.
+// Reads folders of `mimicx plan`.
 //   bench_options [--planned] OPTIONS RUN...    OPTIONS: options.npz, or its folder
-// --planned: what they follow are the planned motions, instead of the references that were planned for.
-// A motion is followed where no body is ever farther than 0.5 m from the reference (docs/metrics.md). For
-// each folder a line per kind of motion (its name up to the last "_"): followed by the best option, of those
-// whose plan was followed, and the medians of gMPJPE and MPJPE over those, mm. Exit status: 0 done, 1 a file
-// could not be read, 2 usage.
+// --planned: they follow the planned motions instead of the plans' references. A motion is followed if no
+// body is ever farther than 0.5 m from the reference (docs/metrics.md). For each folder a line per kind of
+// motion (its name up to the last "_"): how many of the motions with a complete plan the best option follows,
+// and the medians of their gMPJPE and MPJPE, mm. Exit status: 0 done, 1 a file could not be read, 2 usage.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

@@ -1,5 +1,5 @@
-// How well stored feedback gains hold their plans, and taught policies their motions: pushes of the pelvis in
-// random directions. Reads a folder of `mimicx plan --gains` or `mimicx adapt`.
+// Tests stored feedback gains and taught policies with pushes of the pelvis in random directions. Reads a
+// folder of `mimicx plan --gains` or `mimicx adapt`.
 //   bench_pushes RUN [SPEED [FRAMES]]     SPEED: change of the pelvis' velocity by one push, m/s; default 0.1
 //                                         FRAMES: from push to push; default 30, a second
 // Exit status: 0 done, 1 a file could not be read, 2 usage.

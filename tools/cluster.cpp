@@ -25,7 +25,7 @@ struct ClusterArguments {
   bool force = false;
 };
 
-/// The files named, and the motions of the folders named, in order of their paths.
+/// The given files, and the motions of the given folders, sorted by path.
 std::vector<files::MotionInput> sorted_motions(const std::vector<std::string>& names) {
   std::vector<files::MotionInput> inputs = files::find_motions(names, {}, &std::cerr);
   for (files::MotionInput& input : inputs)
@@ -54,7 +54,7 @@ int cluster(const ClusterArguments& a) {
       all_good = false;
     }
   }
-  if (motions.empty()) throw std::runtime_error("cluster: found no motion to cluster");
+  if (motions.empty()) throw std::runtime_error("cluster: no motion to cluster");
   pipeline::options::Clusters clusters;
   try {
     clusters = pipeline::options::cluster_motions(std::move(motions), a.config);
@@ -62,8 +62,11 @@ int cluster(const ClusterArguments& a) {
     throw UsageError(error.what());
   }
   pipeline::options::write_clusters(a.out, clusters);
-  std::printf("%zu clusters, no two motions of one farther apart than %.2f\n\n%s", clusters.clusters.size(),
-              clusters.settings.radius, pipeline::options::format_cluster_tree(clusters).c_str());
+  std::printf("%zu clusters, no two motions of one farther apart than %.2f
+
+                  % s ", clusters.clusters.size(),
+                    clusters.settings.radius,
+              pipeline::options::format_cluster_tree(clusters).c_str());
   return all_good ? kAllGood : kSomeFailed;
 }
 

@@ -15,7 +15,7 @@ std::optional<T> parsed(const std::string& text) {
   return value;
 }
 
-/// Above it not every whole number is a double.
+/// The largest range in which every whole number is a double.
 constexpr double kExact = 9007199254740992.0;  // 2⁵³
 
 template <class T>

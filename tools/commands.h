@@ -1,7 +1,7 @@
-/// The subcommands of `mimicx`, a file each: what the command line may ask for, and the work.
+/// The subcommands of `mimicx`, a file each: arguments and work.
 ///
 /// `declare_X` adds the subcommand X to the command line, with its work, which returns the exit status. A
-/// command prints results on standard output, progress and complaints on standard error.
+/// command prints results on standard output, progress and errors on standard error.
 #pragma once
 
 #include <stdexcept>
@@ -13,7 +13,7 @@ inline constexpr int kSomeFailed = 1;
 inline constexpr int kWrongUsage = 2;
 inline constexpr int kInterrupted = 130;  ///< as shells report an interrupt
 
-/// The command line asks for something that cannot be: exit status 2.
+/// An error of the command line: exit status 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

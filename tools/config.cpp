@@ -10,7 +10,7 @@ namespace mimicx::tools {
 void declare_config(CommandLine& line) {
   const auto json = std::make_shared<bool>(false);
   Command command = line.add(
-      "config", "Every setting of trainings, plans and the fit, by the name that manifests and --set use",
+      "config", "List the settings of trainings, plans and the fit, by their names in manifests and --set",
       "mimicx config          # a table\n"
       "mimicx config --json   # the same for programs");
   command.flag("--json", *json, "print JSON instead of a table");

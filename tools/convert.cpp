@@ -24,7 +24,7 @@ struct ConvertArguments {
 
 std::string known_suffixes() { return ".npz, .npy, .bvh, " + files::exchanged_suffixes(); }
 
-/// @throws UsageError, or OutputRefused where the file is not to be overwritten
+/// @throws UsageError, or OutputRefused if the file must not be overwritten
 void claim_output(const ConvertArguments& a) {
   record::Outputs outputs({a.in.string()}, a.force);
   if (files::is_exchanged(a.out)) {
@@ -42,7 +42,8 @@ int convert(const ConvertArguments& a) {
   motion::Clip clip = import::read_motion(a.in, a.read);
   files::ExchangeConfig config = a.exchange;
   if (!a.read.text().empty())
-    config.forces_lost = "one that is read in another way than it was simulated in (" + a.read.text() + ")";
+    config.forces_lost =
+        "one that is read with other options than it was simulated with (" + a.read.text() + ")";
   if (a.rate == "30" && clip.fps != 30.0) {
     clip = motion::resampled(clip, 30.0);
     config.forces_lost = "one at another frame rate than it was simulated at (--rate 30)";
@@ -65,18 +66,20 @@ void declare_convert(CommandLine& line) {
   Command command =
       line.add("convert", "Write a motion in another format, chosen by the suffix",
                "mimicx convert clip.bvh clip.npz                       # AMASS layout\n"
-               "mimicx convert RUN/motions/walk.npz walk.glb --arrows  # a body with a skin, for any viewer",
-               ".npz: AMASS layout; .npy: Motion-X; .bvh: a skeleton; .qpos.npz: MuJoCo's numbers;\n"
-               ".glb: glTF, a body with a skin; .csv: a table. Of motions with forces (plan, adapt),\n"
-               "for OpenSim, .mot: the forces of the floor; .sto: the moments in the joints.");
+               "mimicx convert RUN/motions/walk.npz walk.glb --arrows  # a skinned body, for any viewer",
+               ".npz: AMASS layout; .npy: Motion-X; .bvh: a skeleton; .qpos.npz: MuJoCo's qpos;
+               "
+               ".glb: glTF, a skinned body; .csv: a table. For OpenSim, of motions with forces (plan,
+               "
+               "adapt), .mot: ground reaction forces; .sto: joint moments.");
   command.file("IN", a->in, "motion");
   command.file("OUT", a->out, "where to write it");
   add_read_arguments(command, a->read);
   command.one_of("--rate", a->rate, {"input", "30"}, "frame rate of OUT");
   command.choice<files::Skin>("--skin", a->exchange.skin,
                               {{"mannequin", files::Skin::kMannequin}, {"shapes", files::Skin::kShapes}},
-                              "of a .glb: one smooth skin, or the shapes that the simulator collides with");
-  command.flag("--arrows", a->exchange.arrows, "of a .glb: show the forces of the floor, 1 mm per newton");
+                              "skin of a .glb: a smooth one, or the simulator's collision shapes");
+  command.flag("--arrows", a->exchange.arrows, "in a .glb: show the floor's forces, 1 mm per newton");
   add_force(command, a->force);
   command.action([a] { return convert(*a); });
 }

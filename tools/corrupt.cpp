@@ -23,7 +23,7 @@ struct CorruptArguments {
   bool force = false;
 };
 
-/// @throws UsageError for a noise that cannot be
+/// @throws UsageError for an impossible noise
 synth::CorruptConfig checked_config(const CorruptArguments& a) {
   static const std::map<std::string, std::optional<motion::KeypointSet>> kSets = {
       {"22", motion::KeypointSet::kJoints22},
@@ -71,17 +71,17 @@ void declare_corrupt(CommandLine& line) {
       line.add("corrupt", "Make a benchmark of clean motions: truth/ and noisy/, a file per motion",
                "mimicx corrupt mocap/ --out bench   # then: mimicx adapt bench/noisy --out out/bench\n"
                "mimicx corrupt walk.bvh --out bench --noise gvhmr,drift=0 --camera moving --seed 3",
-               "A motion's errors follow from the seed and its name alone, never from the other files.");
+               "A motion's errors depend on the seed and its name alone, not on the other files.");
   command.files("FILE", a->inputs, "clean motions and folders of them");
   command.path("--out", a->out, "folder to write to").required();
   command.list("--noise", a->noise, "MODEL,NAME=VALUE...",
-               "what estimates them: independent (default; shares nothing with the keypoint fit), gvhmr or "
-               "vibe; single amplitudes behind commas: independent,stature=0,swap_rate=0 "
+               "noise model: independent (default; shares nothing with the keypoint fit), gvhmr or "
+               "vibe; then single amplitudes after commas: independent,stature=0,swap_rate=0 "
                "(docs/method.md, \"Noise model\")");
   command.one_of("--camera", a->camera, {"calibrated", "perturbed", "wild", "moving"},
-                 "how well the camera is known; moving: carried, and told with drift");
+                 "how well the camera is known; moving: hand-held, its track has drift");
   command.one_of("--keypoints", a->keypoints, {"22", "coco17", "coco133", "none"},
-                 "which points are detected; none: nor is a camera told");
+                 "which points are detected; none: no camera either");
   add_seed(command, a->config.seed);
   add_read_arguments(command, a->config.read);
   add_force(command, a->force);

@@ -21,7 +21,7 @@ struct EvaluateArguments {
   bool force = false;
 };
 
-/// The motions of all files and folders named. @throws DataError where one of these holds none
+/// The motions of the given files and folders. @throws DataError if one of these holds none
 std::vector<std::string> files_to_read(const EvaluateArguments& a) {
   std::vector<std::string> files, named = a.motions;
   named.push_back(a.truth.string());
@@ -81,13 +81,13 @@ void declare_evaluate(CommandLine& line) {
   command.path("--truth", a->truth, "true motions: a folder, or one file").required();
   command
       .paths("--motions", a->motions,
-             "motions to score: a folder, or one file; several are compared by their means over the motions "
+             "motions to score: a folder, or one file; several are compared by means over the motions that "
              "that "
-             "all of them hold")
+             "all of them have")
       .required();
   command.one_of("--protocol", a->protocol, motion::protocol_names(),
-                 "the columns of a published protocol instead, docs/metrics.md");
-  command.path("--json", a->json, "also write every value, its count and its definition here");
+                 "use the metrics of a published protocol instead, docs/metrics.md");
+  command.path("--json", a->json, "also write every value, its count and its definition as JSON");
   add_read_arguments(command, a->read);
   add_force(command, a->force);
   command.action([a] { return evaluate(*a); });

@@ -15,8 +15,8 @@ namespace mimicx::tools {
 namespace {
 
 struct ExportMjcfArguments {
-  std::vector<double> betas;          ///< at most 10, the others are 0
-  std::filesystem::path motion, out;  ///< motion: whose body to take instead; empty: none
+  std::vector<double> betas;          ///< at most 10, missing ones are 0
+  std::filesystem::path motion, out;  ///< motion: use its body instead; empty: none
   import::ReadConfig read;
   bool force = false;
 };
@@ -29,7 +29,7 @@ Character character_of_shape(const std::vector<double>& betas) {
   return make_character(shape);
 }
 
-/// The very body that `convert` writes qpos for and `adapt` simulates: read in the same way.
+/// The same body for which `convert` writes qpos and which `adapt` simulates.
 Character character_of_motion(const std::filesystem::path& motion, const import::ReadConfig& read) {
   const motion::Clip clip = import::read_motion(motion, read);
   run::tell_decisions(motion.string(), clip, std::cerr);
@@ -39,7 +39,7 @@ Character character_of_motion(const std::filesystem::path& motion, const import:
 int export_mjcf(const ExportMjcfArguments& a) {
   if (a.motion.empty() && !a.read.text().empty())
     throw UsageError("export-mjcf: " + a.read.text() +
-                     " says how to read a motion, and there is none: --motion FILE");
+                     " says how to read a motion, but no --motion FILE is given");
   record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
   const Character character =
       a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
@@ -52,14 +52,15 @@ int export_mjcf(const ExportMjcfArguments& a) {
 
 void declare_export_mjcf(CommandLine& line) {
   const auto a = std::make_shared<ExportMjcfArguments>();
-  Command command = line.add("export-mjcf", "Write the character of a shape as a MuJoCo model",
-                             "mimicx export-mjcf body.xml --motion clip.npz   # the body of a motion\n"
+  Command command = line.add("export-mjcf", "Write the character as a MuJoCo model",
+                             "mimicx export-mjcf body.xml --motion clip.npz   # the body of a motion
+                             "
                              "mimicx export-mjcf tall.xml --betas 2,-1        # a shape");
   command.file("OUT", a->out, "where to write it: .xml");
   const Option betas =
       command.numbers("--betas", a->betas, {-5.0, 5.0},
                       "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0");
-  command.path("--motion", a->motion, "take the body of this motion: that of its qpos by `convert`")
+  command.path("--motion", a->motion, "use the body of this motion, as `convert` does for its qpos")
       .excludes(betas);
   add_read_arguments(command, a->read);
   add_force(command, a->force);

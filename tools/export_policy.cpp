@@ -18,7 +18,7 @@ struct ExportPolicyArguments {
   bool in_8_bits = false, force = false;
 };
 
-/// The names in RUN/policies, of folders in it, too.
+/// The names in RUN/policies and its subfolders.
 std::vector<std::string> policies_of(const fs::path& run) {
   std::vector<std::string> names;
   std::error_code error;
@@ -37,20 +37,20 @@ std::string some_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Why a folder has no policy of that name.
+/// The message for a policy that does not exist.
 std::string what_is_missing(const fs::path& run, const std::string& name) {
   const std::string asked = run.string() + " has no policy " + name;
-  if (!fs::is_directory(run)) return run.string() + " is no folder: name a policy as RUN/NAME";
-  if (const auto names = policies_of(run); !names.empty()) return asked + ": there is " + some_of(names);
+  if (!fs::is_directory(run)) return run.string() + " is no folder: expected a policy as RUN/NAME";
+  if (const auto names = policies_of(run); !names.empty()) return asked + ": it has " + some_of(names);
   if (fs::exists(run / "options.npz"))
-    return asked + ": it has options, which follow many motions; `mimicx adapt --options " + run.string() +
-           "` makes policies of single ones";
+    return asked + ": it has options, which follow many motions; `mimicx adapt --policy --options " +
+           run.string() + "` makes policies of single motions";
   if (fs::exists(run / "manifest.json"))
-    return asked + ": its motions were given none; `mimicx adapt` teaches one wherever the plan is followed";
+    return asked + ": it has no policies; `mimicx adapt --policy` teaches them";
   return asked + ": it is no folder of `mimicx adapt --out`";
 }
 
-/// RUN/policies/NAME.npz of RUN/NAME, where NAME may have folders; or that file itself.
+/// RUN/policies/NAME.npz for RUN/NAME, where NAME may have folders; or that file itself.
 fs::path find_policy(const fs::path& asked) {
   if (asked.extension() == ".npz" && fs::is_regular_file(asked)) return asked;
   fs::path name = asked.filename();
@@ -91,11 +91,12 @@ void declare_export_policy(CommandLine& line) {
   const auto a = std::make_shared<ExportPolicyArguments>();
   Command command =
       line.add("export-policy", "Write the policy of a motion for other programs",
-               "mimicx export-policy RUN/walk --out walk.h --int8   # one C++17 header, needs nothing\n"
+               "mimicx export-policy RUN/walk --out walk.h --int8   # one self-contained C++17 header
+               "
                "mimicx export-policy RUN/walk --out walk.onnx       # or .npz, for Python");
-  command.file("RUN/NAME", a->policy, "a run of `mimicx adapt` and the motion in it whose policy is taken");
+  command.file("RUN/NAME", a->policy, "a run of `mimicx adapt`, and a motion of it that has a policy");
   command.path("--out", a->out, "where to write it: .h, .onnx or .npz").required();
-  command.flag("--int8", a->in_8_bits, "weights of 8 bits, and the motion in half as many knots");
+  command.flag("--int8", a->in_8_bits, "8-bit weights, and half as many knots of the motion");
   add_force(command, a->force);
   command.action([a] { return export_policy(*a); });
 }

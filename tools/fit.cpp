@@ -36,7 +36,7 @@ void print(const std::string& name, const fit::FitReport& r) {
               r.change_max_mm);
 }
 
-/// Where every input goes, claimed before any work.
+/// The output of every input, claimed before any work.
 std::vector<std::filesystem::path> claimed_outputs(const std::vector<files::MotionInput>& inputs,
                                                    const FitArguments& a) {
   record::Outputs outputs(files::paths_of(inputs), a.force);
@@ -82,14 +82,15 @@ int fit(const FitArguments& a) {
 
 void declare_fit(CommandLine& line) {
   const auto a = std::make_shared<FitArguments>();
-  Command command = line.add("fit", "Move motions onto their 2D keypoints, where they have any",
-                             "mimicx fit DIR --out fitted             # the fit alone, no simulation\n"
-                             "mimicx fit DIR --out planted --poses    # no keypoints: feet, floor, balance");
+  Command command =
+      line.add("fit", "Fit motions to their 2D keypoints, if they have any",
+               "mimicx fit DIR --out fitted             # the fit alone, no simulation\n"
+               "mimicx fit DIR --out planted --poses    # without keypoints: feet, floor, balance");
   command.files("FILE", a->inputs, "motions and folders of them");
   command.path("--out", a->out, "folder for the fitted motions").required();
   add_read_arguments(command, a->read);
   command.flag("--poses", a->poses,
-               "ignore keypoints: plant the feet and balance the motion instead, as plan --no-fit does");
+               "ignore keypoints: plant the feet and balance the motion, as plan --no-fit does");
   const auto add_sigma = [&](const std::string& name, double& sigma, const std::string& what) {
     command.number(name, sigma, kFromZero, "standard error of " + what + "; 0: it is exact");
   };

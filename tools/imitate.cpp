@@ -26,12 +26,12 @@ int imitate_motions(ImitateArguments a) {
 void declare_imitate(CommandLine& line) {
   const auto a = std::make_shared<ImitateArguments>();
   Command command = line.add(
-      "imitate", "Train a simulated character to follow each motion, from nothing",
+      "imitate", "Train a policy to follow each motion, from scratch",
       "mimicx imitate clip.npz                             # clip.clean.npz beside it, after minutes\n"
-      "mimicx imitate DIR --fit --samples 3M --out out/run   # a folder, each on its keypoints first");
+      "mimicx imitate DIR --fit --samples 3M --out out/run   # a folder, fitted to keypoints first");
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--samples");
-  command.flag("--fit", a->config.run.fit, "move motions onto their keypoints first, where they have any");
+  command.flag("--fit", a->config.run.fit, "first fit motions to their keypoints, if they have any");
   add_as_is(command, a->config.run);
   command.action([a] { return imitate_motions(*a); });
 }

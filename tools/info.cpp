@@ -16,13 +16,13 @@ struct InfoArguments {
   import::ReadConfig read;
 };
 
-/// How many keypoints the fit can use.
+/// Number of keypoints that the fit can use.
 std::ptrdiff_t usable_among(const std::vector<std::string>& names) {
   return std::count_if(names.begin(), names.end(),
                        [](const std::string& name) { return motion::place_of_keypoint(name).has_value(); });
 }
 
-/// A member that comes along, as the file calls it.
+/// The name of a passed-through member in the file.
 std::string name_of_member(const std::string& key) {
   if (key == "poses_rest") return "poses[66:]";
   return key == "betas_rest" ? "betas[10:]" : key;
@@ -48,7 +48,7 @@ void describe_file(const motion::Clip& clip) {
   }
 }
 
-/// @param told  warnings of the file, which preparation hands on
+/// @param told  warnings of the file, which preparation repeats
 void describe_preparation(const motion::Reference& reference, const motion::PreparationReport& report,
                           const std::vector<std::string>& told) {
   std::printf("prepared     %d frames at %g fps\n", reference.size(), reference.fps);
@@ -80,9 +80,10 @@ int info(const InfoArguments& a) {
 
 void declare_info(CommandLine& line) {
   const auto a = std::make_shared<InfoArguments>();
-  Command command = line.add("info", "What a motion file holds, what reading decides, what preparation does",
-                             "mimicx info clip.bvh           # axes, unit, frame rate, floor, body\n"
-                             "mimicx info clip.bvh --up z    # what changes where you know better");
+  Command command =
+      line.add("info", "Show the contents of a motion file, reading decisions, and its preparation",
+               "mimicx info clip.bvh           # axes, unit, frame rate, floor, body\n"
+               "mimicx info clip.bvh --up z    # with a known up axis");
   command.file("FILE", a->file, "motion");
   add_read_arguments(command, a->read);
   command.action([a] { return info(*a); });

@@ -13,26 +13,26 @@
 namespace mimicx::tools {
 namespace {
 
-constexpr std::size_t kNamesSaid = 3;  ///< of motions that are missing
+constexpr std::size_t kNamesSaid = 3;  ///< of the missing motions
 
 struct MergeArguments {
   std::filesystem::path out;
   bool missing = false, json = false, force = false;
 };
 
-/// What is missing, and how it is done.
+/// Prints the missing motions, and the commands that do them.
 void tell_missing(const MergeArguments& a, const run::GatheredShards& gathered) {
   const std::string out = a.out.string(), count = std::to_string(gathered.list.count),
                     array = missing_array(gathered);
   std::cerr << out << ": " << gathered.missing.size() << " of " << gathered.list.inputs.size()
-            << " motions are missing, of shards " << array << " of " << count << ":";
+            << " motions are missing, in shards " << array << " of " << count << ":";
   for (std::size_t i = 0; i < std::min(kNamesSaid, gathered.missing.size()); ++i)
     std::cerr << (i > 0 ? ", " : " ") << gathered.missing[i].input.input;
   if (gathered.missing.size() > kNamesSaid)
     std::cerr << " and " << gathered.missing.size() - kNamesSaid << " more";
-  std::cerr << "\n  the run's command with --shard " << gathered.missing.front().shard << '/' << count
-            << " and so on does them; under Slurm: sbatch --array=" << array
-            << " tools/slurm/mimicx.sbatch, and what stood behind it\n";
+  std::cerr << "\n  repeat the run's command with --shard " << gathered.missing.front().shard << '/' << count
+            << " and so on; under Slurm: sbatch --array=" << array
+            << " tools/slurm/mimicx.sbatch, with the same arguments\n";
 }
 
 void print_missing(const run::GatheredShards& gathered) {
@@ -72,17 +72,16 @@ int merge(const MergeArguments& a) try {
 
 void declare_merge(CommandLine& line) {
   const auto a = std::make_shared<MergeArguments>();
-  Command command =
-      line.add("merge", "Put the parts of a run together that several machines did (--shard I/N)",
-               "mimicx merge out/run             # manifest and report, as of a run on one machine\n"
-               "mimicx merge out/run --missing   # which shards and files are still to be done",
-               "Exit status: 0 all is there, 1 something is missing: nothing is written then.");
+  Command command = line.add("merge", "Join the shards of a run that several machines did (--shard I/N)",
+                             "mimicx merge out/run             # manifest and report, as from one machine
+                             "
+                             "mimicx merge out/run --missing   # list missing shards and files",
+                             "Exit status: 0 complete, 1 something is missing and nothing was written.");
   command.file("OUT", a->out, "folder of the run");
-  command.flag(
-      "--missing", a->missing,
-      "write nothing: print what is missing, a line as Slurm's sbatch takes it (--array=3,5-7), then "
-      "the files");
-  command.flag("--json", a->json, "print numbers, and what is missing, as JSON");
+  command.flag("--missing", a->missing,
+               "write nothing: print the missing shards as an option of Slurm's sbatch (--array=3,5-7), then "
+               "the missing files");
+  command.flag("--json", a->json, "print counts and missing motions as JSON");
   add_force(command, a->force);
   command.action([a] { return merge(*a); });
 }

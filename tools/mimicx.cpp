@@ -24,7 +24,7 @@ int run(int argc, char** argv) {
       "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores",
       std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET + ", arithmetic " +
           kArithmetic,
-      "Exit status: 0 all good, 1 some inputs failed (the rest is done), 2 wrong usage, 130 interrupted.");
+      "Exit status: 0 success, 1 some inputs failed (the others are done), 2 wrong usage, 130 interrupted.");
   for (const auto declare :
        {declare_run,     declare_plan,        declare_pretrain,      declare_teach,   declare_adapt,
         declare_imitate, declare_merge,       declare_evaluate,      declare_cluster, declare_fit,
@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
   return line.run(argc, argv);
 }
 
-/// Whether everything that was printed has arrived.
+/// Whether everything that was printed was written.
 bool is_told() {
   std::cout.flush();
   return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -46,7 +46,7 @@ bool is_told() {
 int main(int argc, char** argv) {
   mimicx::tools::occupy_standard_streams();
   const mimicx::tools::ShownControls messages(std::cerr);
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away ends no work; what is lost is said below
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe does not end the work; it is reported below
   try {
     const int status = mimicx::tools::run(argc, argv);
     if (mimicx::tools::is_told()) return status;
@@ -62,8 +62,9 @@ int main(int argc, char** argv) {
     std::cerr << "mimicx: " << error.path1().string() << ": " << error.code().message() << '\n';
     return mimicx::tools::kSomeFailed;
   } catch (const std::bad_alloc&) {
-    std::cerr << "mimicx: there is not enough memory for this\n";
-    return mimicx::tools::kSomeFailed;
+    std::cerr << "mimicx: not enough memory
+                 ";
+        return mimicx::tools::kSomeFailed;
   } catch (const std::exception& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kSomeFailed;

@@ -28,10 +28,10 @@ int plan(PlanArguments a) {
 
 void declare_plan(CommandLine& line) {
   const auto a = std::make_shared<PlanArguments>();
-  Command command = line.add(
-      "plan", "Clean motions by optimal control: keypoint fit, then a plan that the simulator carries out",
-      "mimicx plan clip.bvh                    # clip.clean.bvh beside it, after seconds\n"
-      "mimicx plan DIR --out out/run --gains   # every motion in a folder, with feedback gains");
+  Command command =
+      line.add("plan", "Clean motions by optimal control: keypoint fit, then a plan in the simulator",
+               "mimicx plan clip.bvh                    # clip.clean.bvh beside it, after seconds\n"
+               "mimicx plan DIR --out out/run --gains   # every motion in a folder, with feedback gains");
   add_run_arguments(command, a->config.run, a->more);
   add_fit_arguments(command, a->config.run);
   add_gains_argument(command, a->config.run);

@@ -1,7 +1,7 @@
-// One line per part of the numerical core: its name, and a hash of all the bits that it came to. In portable
+// One line per part of the numerical core: its name, and a hash of all bits of its results. In portable
 // arithmetic (docs/porting.md) every machine and every compiler prints the same lines; tools/check_portable
-// compares them. It needs core, character, physics, control, nn and skin alone, so that it is what one builds
-// first on a new machine.
+// compares them. It needs only core, character, physics, control, nn and skin, so it is the first program to
+// build on a new machine.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

@@ -13,11 +13,11 @@ namespace {
 struct PretrainArguments {
   pipeline::PretrainConfig config = program::pretrain_configuration("small");
   std::string preset = "small";
-  std::optional<std::int64_t> samples;  ///< of all options together; none: what the preset says
+  std::optional<std::int64_t> samples;  ///< of all options together; none: that of the preset
   std::vector<std::string> settings;
 };
 
-/// The configuration with the training of the preset that was asked for.
+/// The configuration with the training of the requested preset.
 pipeline::PretrainConfig preset_of(const PretrainArguments& a) {
   pipeline::PretrainConfig config = a.config;
   config.training = program::pretrain_configuration(a.preset).training;
@@ -42,8 +42,7 @@ void declare_pretrain(CommandLine& line) {
                "mimicx pretrain DIR --out out/options                              # hours\n"
                "mimicx pretrain DIR --out out/options --clusters 5 --samples 20M   # five options, sooner");
   command.files("DIR", a->config.inputs, "motions and folders of them");
-  command.path("--out", a->config.out, "folder of the options; the same command continues what is there")
-      .required();
+  command.path("--out", a->config.out, "folder of the options; the same command continues it").required();
   command
       .number("--samples", a->samples, kFromZero,
               "training budget of all options together, in character steps")
@@ -56,9 +55,9 @@ void declare_pretrain(CommandLine& line) {
   add_force(command, a->config.force);
   add_threads(command, a->config.threads);
   command.flag("--encoder", a->config.use_encoder,
-               "policies see their reference through a denoising encoder (default)", "--no-encoder");
-  command.flag("--fit", a->config.fit,
-               "move motions onto their keypoints first, where they have any (default)", "--no-fit");
+               "policies observe their reference through a denoising encoder (default)", "--no-encoder");
+  command.flag("--fit", a->config.fit, "first fit motions to their keypoints, if they have any (default)",
+               "--no-fit");
   add_settings(command, a->settings);
   command.action([a] { return pretrain_options(preset_of(*a), a->settings); });
 }

@@ -18,7 +18,7 @@
 namespace mimicx::tools {
 namespace {
 
-constexpr int kMostPixels = 8192;  ///< along an edge: what a picture of reasonable size in memory has
+constexpr int kMostPixels = 8192;  ///< along an edge: limits the memory of a picture
 
 struct RenderArguments {
   std::vector<std::string> files;
@@ -67,7 +67,7 @@ void claim_picture(const RenderArguments& a) {
   record::Outputs(a.files, a.force).claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
 }
 
-/// Folder and name: motions of one name in several folders are the rule.
+/// Folder and name, because motions in several folders often have the same names.
 std::string name_of(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path().filename();
   return (folder.empty() ? file.filename() : folder / file.filename()).string();
@@ -107,10 +107,11 @@ int render(const RenderArguments& a) {
   bool forces = false;
   for (const picture::PosedMotion& p : motions) forces |= !p.forces.empty();
   if (a.arrows && !forces)
-    throw DataError(a.files.front(), "", "a motion with forces",
-                    a.read.text().empty()
-                        ? "none: mimicx plan makes a motion that has them"
-                        : "one that is read in another way than it was simulated in (" + a.read.text() + ")");
+    throw DataError(
+        a.files.front(), "", "a motion with forces",
+        a.read.text().empty()
+            ? "none: mimicx plan writes motions with forces"
+            : "one that is read with other options than it was simulated with (" + a.read.text() + ")");
   picture::Layout layout;
   try {
     layout = picture::lay_out(motions, config);
@@ -134,7 +135,7 @@ void declare_render(CommandLine& line) {
       "mimicx render noisy/jump.npz RUN/motions/jump.npz --out jump.png --arrows   # before and after\n"
       "mimicx render clip.bvh --out clip.png --kind animation                      # for any browser",
       "Several motions are shown at the same moments by the same camera, each with its name.\n"
-      "The floor's checks are half a metre; left arms and legs are lighter than right ones.");
+      "A square of the floor is half a metre; left arms and legs are lighter than right ones.");
   command.files("FILE", a->files, "motions");
   command.path("--out", a->out, "where to write it, .png").required();
   command.choice<picture::Kind>(
@@ -143,9 +144,9 @@ void declare_render(CommandLine& line) {
        {"still", picture::Kind::kStill},
        {"stroboscope", picture::Kind::kStroboscope},
        {"animation", picture::Kind::kAnimation}},
-      "moments beside each other; one moment; many moments in one room; a film that every browser plays");
+      "moments side by side; one moment; many moments in one scene; an animated PNG");
   const Option frames = command.number("--frames", a->picture.moments, {1.0, 200.0},
-                                       "how many moments a strip or a stroboscope shows");
+                                       "number of moments of a strip or a stroboscope");
   command
       .numbers("--at", a->at, kFromZero,
                "the moments to show, s, separated by commas; default: evenly spread, of a still the one "
@@ -157,17 +158,17 @@ void declare_render(CommandLine& line) {
   command.text(
       "--view", [a](const std::string& text) { take_view(text, a->picture.view); },
       "front|quarter|side|DEGREES",
-      "where the camera stands: before the body as it looks at first, or so far around to its right side; "
+      "the camera's direction, from the front of the body's first pose towards its right side; "
       "default: quarter, 45 degrees");
   command.text(
       "--size", [a](const std::string& text) { take_size(text, a->picture.size); }, "WIDTHxHEIGHT",
-      "of the whole picture, pixels; default: what the motion needs");
+      "of the whole picture, pixels; default: fits the motion");
   command.number("--rate", a->picture.rate, {1.0, 60.0}, "frames per second of an animation");
-  command.list("--labels", a->labels, "NAME,...", "what to call the motions; default: their files");
-  command.flag("--arrows", a->arrows, "show the forces of the floor, 1 mm per newton");
+  command.list("--labels", a->labels, "NAME,...", "names of the motions; default: their files");
+  command.flag("--arrows", a->arrows, "show the floor's forces, 1 mm per newton");
   command.choice<files::Skin>("--skin", a->skin,
                               {{"mannequin", files::Skin::kMannequin}, {"shapes", files::Skin::kShapes}},
-                              "one smooth skin, or the shapes that the simulator collides with");
+                              "a smooth skin, or the simulator's collision shapes");
   add_read_arguments(command, a->read);
   add_threads(command, a->threads);
   add_force(command, a->force);

@@ -63,19 +63,20 @@ int report(const ReportArguments& a) {
 
 void declare_report(CommandLine& line) {
   const auto a = std::make_shared<ReportArguments>();
-  Command command =
-      line.add("report", "Make the report of a run again, also beside the truth",
-               "mimicx report out/run                 # out/run/report.html, from what is there\n"
-               "mimicx report out/run --truth truth   # with the truth of each clip beside it");
+  Command command = line.add("report", "Write the report of a run again, optionally with the truth",
+                             "mimicx report out/run                 # out/run/report.html, from its files
+                             "
+                             "mimicx report out/run --truth truth   # with the truth of each clip");
   command.file("RUN", a->run, "folder of a run");
   command.path("--truth", a->truth,
-               "folder of true motions, of the clips' names, to show and to measure against");
-  command.texts("--options", a->options, "SET",
-                "folder of trained options, or the name of a set that comes with the program: maps the clips "
-                "among the motions that these were trained on; "
-                "default: those that the run began from");
+               "folder of true motions with the clips' names, to show and to compare with");
+  command.texts(
+      "--options", a->options, "SET",
+      "folder of trained options, or the name of a set that comes with the program: draws a map of the clips "
+      "among their training motions; "
+      "default: those of the run");
   command.flag("--times", a->times,
-               "also say how long the work took; such a report is not the same bytes for every run");
+               "also show how long the work took; the report's bytes then differ from run to run");
   command.action([a] { return report(*a); });
 }
 

@@ -19,7 +19,7 @@ int run_all_stages(RunFileArguments a) {
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
-  a.adapt.method = program::AdaptMethod::kPaper;  // it is the options that are to be tried
+  a.adapt.method = program::AdaptMethod::kPaper;  // uses the trained options
   a.adapt.training.seed = a.pretrain.training.seed;
   a.adapt.run.threads = a.pretrain.threads;
   a.adapt.run.force = a.pretrain.force;
@@ -36,9 +36,9 @@ void declare_run(CommandLine& line) {
   Command command =
       line.add("run", "All stages on a folder: pretrain options on it, then adapt all of it",
                "mimicx run DIR --out out/all                                               # hours\n"
-               "mimicx run DIR --out out/try --pretrain-samples 1M --budget-samples 200k   # a first look");
+               "mimicx run DIR --out out/try --pretrain-samples 1M --budget-samples 200k   # a quick test");
   command.file("DIR", a->in, "folder of motions");
-  command.path("--out", a->out, "where the folders of the two stages go: options/ and clean/").required();
+  command.path("--out", a->out, "folder of the two stages: options/ and clean/").required();
   command.number("--pretrain-samples", a->pretrain.training.samples, kFromZero,
                  "training budget of all options together, in character steps");
   add_cluster_arguments(command, a->pretrain.clusters);

@@ -6,38 +6,37 @@ namespace mimicx::tools {
 
 void add_read_arguments(Command& command, import::ReadConfig& read) {
   command.choice("--up", read.up, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}, {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}},
-                 "the axis that points up in the files; default: looked for");
+                 "the axis that points up in the files; default: detected");
   command.number("--scale", read.scale, kPositive,
-                 "metres per unit of length in the files; default: looked for");
-  command.number("--fps", read.fps, {0.1, 2000.0},
-                 "frame rate the motions were recorded at; default: what the files say");
+                 "metres per unit of length in the files; default: detected");
+  command.number("--fps", read.fps, {0.1, 2000.0}, "frame rate of the motions; default: that of the files");
   command.number("--floor", read.floor, kAnyNumber,
-                 "height of the floor in the files, m, z up; default: where the motion stands");
+                 "height of the floor in the files, m, z up; default: detected");
   command.choice("--body", read.standard_body, {{"file", false}, {"standard", true}},
-                 "file: the body shape of the file, where it is known; standard: the standard body");
+                 "file: the file's body shape, if it has one; standard: the standard body");
   command.existing("--smplx", read.smplx, "your SMPLX_NEUTRAL.npz: gives SMPL-X betas their joints");
   command.existing("--joint-map", read.joint_map,
                    "more joint names for BVH skeletons: a text file, docs/formats.md");
-  command.flag("--verbose", read.verbose, "tell every decision about a file, not three lines of them");
+  command.flag("--verbose", read.verbose, "print all decisions about a file, not three lines of them");
 }
 
 void add_threads(Command& command, int& threads) {
   threads = available_threads();
-  command.number("--threads", threads, {1.0, 1024.0}, "worker threads; no influence on the results");
+  command.number("--threads", threads, {1.0, 1024.0}, "worker threads; they do not influence the results");
 }
 
 void add_force(Command& command, bool& force) {
-  command.flag("--force", force, "overwrite files that this program did not make; inputs never");
+  command.flag("--force", force, "overwrite files that this program did not write; never inputs");
 }
 
 void add_seed(Command& command, std::uint64_t& seed) {
-  command.number("--seed", seed, kFromZero, "root of every random number");
+  command.number("--seed", seed, kFromZero, "seed of all random numbers");
 }
 
 void add_cluster_arguments(Command& command, pipeline::options::ClusterConfig& clusters) {
   const Option radius = command.number("--radius", clusters.radius, kFromZero,
                                        "no two motions of a cluster are farther apart than this");
-  command.number("--clusters", clusters.clusters, kFromOne, "how many clusters to make instead")
+  command.number("--clusters", clusters.clusters, kFromOne, "number of clusters to make instead")
       .excludes(radius);
 }
 

@@ -9,16 +9,16 @@
 
 namespace mimicx::tools {
 
-/// --up, --scale, --fps …: what the user knows better than the files.
+/// --up, --scale, --fps …: how to read the files.
 void add_read_arguments(Command& command, import::ReadConfig& read);
 
-/// --threads; default: all there are.
+/// --threads; default: all of the machine.
 void add_threads(Command& command, int& threads);
 
 /// --force.
 void add_force(Command& command, bool& force);
 
-/// --seed; the default is the value that is there.
+/// --seed; the default is the present value.
 void add_seed(Command& command, std::uint64_t& seed);
 
 /// --radius or --clusters.

@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kTrained = "trained";  ///< by `mimicx pretrain`; in the folder itself
 constexpr const char* kTaught = "taught";    ///< by plans; in the folder of this name
 
-/// data/options of the source tree that holds this program, or of the folder it was started in.
+/// data/options of the source tree that holds this program, or of the working folder.
 std::optional<std::filesystem::path> shipped_options() {
   const std::filesystem::path relative = std::filesystem::path("data") / "options";
   std::error_code error;

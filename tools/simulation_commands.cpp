@@ -68,27 +68,27 @@ void for_each_setting(const std::vector<std::string>& settings,
 void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more) {
   command.files("FILE", run.inputs, "motions and folders of them");
   command.path("--out", run.out,
-               "folder of the run; the same command continues what is there; default: NAME.mimicx beside "
-               "every input, and its clean motion beside it as NAME.clean.EXT");
+               "folder of the run; the same command continues it; default: NAME.mimicx beside "
+               "every input, with its clean motion as NAME.clean.EXT");
   add_read_arguments(command, run.read);
   command.choice("--rate", run.input_rate, {{"30", false}, {"input", true}},
                  "frame rate of the clean copies in the inputs' own formats");
   command.flag("--substeps", run.substeps,
                "also write substeps/NAME.npz: every physics step of the result, for an exact audit");
-  command.flag("--quiet", run.quiet, "tell only what went wrong");
+  command.flag("--quiet", run.quiet, "print only failures");
   add_force(command, run.force);
   add_threads(command, run.threads);
   run.jobs = 0;
   command.number("--jobs", run.jobs, kFromZero,
-                 "motions done side by side, each by its share of the threads; the results are the same; "
+                 "motions done in parallel, each with its share of the threads; the results are the same; "
                  "0: as many as threads");
   command.text(
       "--shard", [&more](const std::string& text) { more.shard = text; }, "I/N|whole",
-      "do part I of N (from 0 on) of the motions, for N machines with the same --out; then `mimicx merge`; "
-      "default: as the task of a Slurm array says, else whole");
+      "do shard I of N (from 0) of the motions, for N machines with the same --out; then `mimicx merge`; "
+      "default: the shard of the Slurm array task, else whole");
   command.number("--limit-seconds", run.limit_seconds, kPositive,
-                 "safety stop per motion: ends its plan or training early, makes the result depend on the "
-                 "machine, and is recorded as such");
+                 "time limit per motion: ends its plan or training early; the result then depends on the "
+                 "machine, and the manifest says so");
   add_settings(command, more.settings);
 }
 
@@ -97,7 +97,7 @@ void take_shard(const std::string& asked, run::RunConfig& run) try {
   if (asked.empty() && run.out.empty()) return;  // each motion is a run of its own
   run.shard = asked.empty() ? record::shard_of_array([](const char* name) { return std::getenv(name); })
                             : record::parse_shard(asked);
-  if (run.out.empty()) throw UsageError("--shard: goes with --out, the folder that all parts share");
+  if (run.out.empty()) throw UsageError("--shard: needs --out, the folder that all shards share");
 } catch (const std::invalid_argument& error) {
   throw UsageError(error.what());
 }
@@ -109,23 +109,21 @@ void add_training_arguments(Command& command, pipeline::TrainingConfig& training
 }
 
 void add_as_is(Command& command, run::RunConfig& run) {
-  command.flag("--as-is", run.as_is,
-               "follow the poses as they are: no fit and no repair of any kind, whatever --fit says");
+  command.flag("--as-is", run.as_is, "follow the poses unchanged: no fit and no repair, regardless of --fit");
 }
 
 void add_fit_arguments(Command& command, run::RunConfig& run) {
-  command.flag(
-      "--fit", run.fit,
-      "move motions onto their keypoints first, where they have any (default); --no-fit: do not look "
-      "at keypoints at all, correct the motion by its feet, the floor and balance alone, as where a "
-      "file has no keypoints",
-      "--no-fit");
+  command.flag("--fit", run.fit,
+               "first fit motions to their keypoints, if they have any (default); --no-fit: ignore "
+               "keypoints and correct the motion by its feet, the floor and balance alone, as for "
+               "files without keypoints",
+               "--no-fit");
   add_as_is(command, run);
 }
 
 void add_gains_argument(Command& command, run::RunConfig& run) {
   command.flag("--gains", run.gains,
-               "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB a frame");
+               "also write gains/NAME.npz: softened feedback gains around every plan, 39 kB per frame");
 }
 
 void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement) {
@@ -136,14 +134,14 @@ void add_arrangement_arguments(Command& command, pipeline::options::ArrangementC
        {"beam", Selector::kBeam},
        {"single", Selector::kSingle},
        {"nearest", Selector::kNearest}},
-      "which option acts when; dp: Eq. 4 on the rewards of options side by side, the paper's; beam: "
+      "how options are chosen; dp: Eq. 4 on the rewards of options side by side, the paper's; beam: "
       "a search over real roll-outs; single: the best option alone; nearest: that of the nearest "
       "cluster");
   command.number("--switch-penalty", arrangement.switch_penalty, {kAnyNumber.least, 0.0},
                  "w_p of Eq. 4, in rewards");
   command.number("--rescue-reward", arrangement.rescue_reward, {0.0, 1.0},
-                 "dp: where the options run side by side, one whose reward falls under this goes on from the "
-                 "state of the best");
+                 "dp: an option whose reward falls under this continues from the "
+                 "state of the best one");
 }
 
 int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work) {
@@ -177,7 +175,7 @@ record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& con
       const record::RunOutcome outcome = once();
       if (outcome == record::RunOutcome::kInterrupted) return outcome;
       if (outcome != record::RunOutcome::kAllGood) all = outcome;
-    } catch (const std::exception& error) {  // its folder cannot be made or read, or holds another run
+    } catch (const std::exception& error) {  // its folder cannot be created or read, or holds another run
       context.messages << file.string() << ": left out: " << error.what() << '\n';
       all = record::RunOutcome::kSomeFailed;
     }

@@ -1,5 +1,5 @@
-/// What the subcommands that simulate motions have in common: their arguments, interrupts, and what `run`
-/// does with two of them.
+/// Shared by the subcommands that simulate motions: their arguments, interrupts, and the work of `adapt` and
+/// `pretrain`, which `run` uses too.
 #pragma once
 
 #include <filesystem>
@@ -16,12 +16,12 @@ namespace mimicx::tools {
 /// --set NAME=NUMBER, repeatable.
 void add_settings(Command& command, std::vector<std::string>& settings);
 /// Calls apply(name, value) for every NAME=NUMBER, then check().
-/// @throws UsageError for what is no NAME=NUMBER, and where apply or check throw std::invalid_argument
+/// @throws UsageError for a text that is no NAME=NUMBER, and if apply or check throw std::invalid_argument
 void for_each_setting(const std::vector<std::string>& settings,
                       const std::function<void(const std::string& name, double value)>& apply,
                       const std::function<void()>& check);
 /// @param settings  NAME=NUMBER each: settings to change, by their names in the manifest
-/// @throws UsageError for a setting that the configuration does not have, or cannot have
+/// @throws UsageError for an unknown name or an impossible value
 template <class Config>
 void apply_settings(const std::vector<std::string>& settings, Config& config) {
   for_each_setting(
@@ -29,18 +29,17 @@ void apply_settings(const std::vector<std::string>& settings, Config& config) {
       [&] { check(config); });
 }
 
-/// What a run over motions is told beside its configuration.
+/// Arguments of a run over motions beside its configuration.
 struct RunArguments {
   std::vector<std::string> settings;  ///< NAME=NUMBER each
-  std::string shard;                  ///< I/N or "whole"; empty: what the environment says
+  std::string shard;                  ///< I/N or "whole"; empty: by the environment
 };
 /// The arguments of every run over motions.
 void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more);
-/// The part of the run that is done here, as asked for; else, where there is an --out, that of the Slurm
-/// array whose task this is.
-/// @throws UsageError for what is no part
+/// Sets the shard of the run: the requested one, else, with --out, that of this task of a Slurm array.
+/// @throws UsageError for an invalid shard
 void take_shard(const std::string& asked, run::RunConfig& run);
-/// Those of a run that trains. @param samples  name of the argument for the budget
+/// The arguments of a run that trains. @param samples name of the argument for the budget
 void add_training_arguments(Command& command, pipeline::TrainingConfig& training, const std::string& samples);
 /// --as-is.
 void add_as_is(Command& command, run::RunConfig& run);
@@ -51,15 +50,15 @@ void add_gains_argument(Command& command, run::RunConfig& run);
 /// --selector, --switch-penalty and --rescue-reward.
 void add_arrangement_arguments(Command& command, pipeline::options::ArrangementConfig& arrangement);
 
-/// Calls work(context) with progress on standard error; the first interrupt makes the context ask to stop, a
-/// second one ends the program. @param quiet  no progress @return the exit status
-/// @throws UsageError for what the command line got wrong
+/// Calls work(context) with progress on standard error. The first interrupt requests a stop by the context, a
+/// second one ends the program. @param quiet no progress @return the exit status
+/// @throws UsageError for errors of the command line
 int with_context(bool quiet, const std::function<record::RunOutcome(const record::RunContext&)>& work);
 
-/// Runs all inputs in the folder that was named; without one, every input in a folder beside it
-/// (NAME.mimicx), its clean motion beside it (NAME.clean.EXT).
-/// @param run   its inputs and folder are changed from run to run
-/// @param once  does the run that `run` then describes
+/// Runs all inputs in the given folder; without one, each input in its own folder beside it (NAME.mimicx),
+/// with its clean motion beside it (NAME.clean.EXT).
+/// @param run   its inputs and folder are set for each run
+/// @param once  does the run that `run` describes
 record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& context,
                               const std::function<record::RunOutcome()>& once);
 

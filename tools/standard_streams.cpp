@@ -10,7 +10,7 @@
 namespace mimicx::tools {
 namespace {
 
-constexpr std::string_view kClearLine = "\x1b[K";  ///< the one sequence of our own
+constexpr std::string_view kClearLine = "\x1b[K";  ///< the only escape sequence that we print
 
 bool passes(char c) {
   const auto byte = static_cast<unsigned char>(c);
@@ -37,7 +37,7 @@ std::string shown(std::string_view text) {
 
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(stream, F_GETFD) == -1)  // the lowest number that is free is the one that is handed out
+    if (fcntl(stream, F_GETFD) == -1)  // open() returns the lowest free number
       open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 

@@ -1,4 +1,4 @@
-/// The standard streams as a program needs them that names files of any name and writes many others.
+/// Safe standard streams: closed ones are occupied, and control characters in file names are escaped.
 #pragma once
 
 #include <ostream>
@@ -6,12 +6,13 @@
 
 namespace mimicx::tools {
 
-/// Puts a closed end where the caller left none (`2>&-`): the next file to be opened would else be taken for
-/// the stream, and messages be written into it. What is printed to a closed end fails, as it did.
+/// Opens a dummy descriptor for each standard stream that the caller closed (`2>&-`). Otherwise the next
+/// opened file would get its number, and messages would be written into it. Printing to such a stream still
+/// fails.
 void occupy_standard_streams();
 
-/// While it lives, control characters that reach a stream are shown (`\x1b`) and not obeyed by a terminal:
-/// names of files may hold any. Line ends, tabs and what `record::Progress` draws its line with pass.
+/// While it lives, control characters to a stream are escaped (`\x1b`), because file names may hold any. Line
+/// ends, tabs and the sequences of `record::Progress` pass.
 class ShownControls : std::streambuf {
  public:
   explicit ShownControls(std::ostream& out);

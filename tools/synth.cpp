@@ -16,15 +16,15 @@ namespace mimicx::tools {
 namespace {
 
 struct SynthArguments {
-  std::filesystem::path out;  ///< folder of a set; empty: none is written
+  std::filesystem::path out;  ///< folder of a set; empty: no set is written
   std::filesystem::path
-      data_set;  ///< folder that gets the project's own test and training split; empty: none
+      data_set;  ///< folder for the project's own test and training split; empty: not written
   synth::SynthSetConfig set;
   bool force = false;
-  bool report = false;  ///< print what each motion of the set demands of a body
+  bool report = false;  ///< print the forces and torques that each motion demands
 };
 
-/// @throws UsageError for a set that cannot be
+/// @throws UsageError for an impossible set
 std::vector<synth::SynthConfig> checked_clips(const synth::SynthSetConfig& set) {
   try {
     return synth::clips_of_set(set);
@@ -71,7 +71,7 @@ void claim_set(const SynthArguments& a) {
   for (const auto& [split, set] : synth::synthetic_splits()) claim(a.data_set / split, set);
 }
 
-/// What may be asked for as kinds.
+/// The valid names of kinds.
 std::vector<std::string> selections() {
   std::vector<std::string> names = synth::synthetic_kinds();
   for (const std::string& name : synth::floor_kinds()) names.push_back(name);
@@ -83,7 +83,7 @@ int synth(SynthArguments a) {
   if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = synth::synthetic_kinds();
   if (a.set.kinds == std::vector<std::string>{"floor"}) a.set.kinds = synth::floor_kinds();
   if (a.out.empty() && a.data_set.empty() && !a.report)
-    throw UsageError("synth: --out DIR or --data-set DIR says where to write");
+    throw UsageError("synth: expected --out DIR or --data-set DIR");
   const std::vector<synth::SynthConfig> clips = checked_clips(a.set);
   claim_set(a);
   std::optional<record::FolderLock> lock;
@@ -102,18 +102,19 @@ int synth(SynthArguments a) {
 
 void declare_synth(CommandLine& line) {
   const auto a = std::make_shared<SynthArguments>();
-  Command command = line.add("synth", "Write synthetic motions: truth/ and noisy/, a file per motion",
-                             "mimicx synth --out set                                  # one of each kind\n"
-                             "mimicx synth --out set --kinds walk,jump --clips 20     # ten of each of two");
+  Command command =
+      line.add("synth", "Write synthetic motions: truth/ and noisy/, a file per motion",
+               "mimicx synth --out set                                  # one of each kind\n"
+               "mimicx synth --out set --kinds walk,jump --clips 20     # two kinds, ten of each");
   synth::SynthSetConfig& set = a->set;
   const Option out = command.path("--out", a->out, "folder to write to");
   command.number("--clips", set.clips, kFromOne,
-                 "number of motions, the kinds in turn; default: one of each kind");
+                 "number of motions, cycling through the kinds; default: one of each kind");
   command.some_of("--kinds", set.kinds, selections(),
-                  "kinds to make, separated by commas; all: every one that is exact; floor: sketches that go "
-                  "down to the floor, to be planned; default: the first fourteen, those of data/synthetic");
+                  "kinds to make, separated by commas; all: every exact kind; floor: sketches that go "
+                  "down to the floor, to be planned; default: the fourteen kinds of data/synthetic");
   command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
-                 "what estimates it for noisy/; none: exact; mixed: each clip by one of these, half of them "
+                 "noise model of noisy/; none: exact; mixed: each clip with one of these, half of them "
                  "without keypoints");
   command.one_of("--camera", set.camera, {"calibrated", "perturbed", "wild"}, "how well its camera is known");
   command.choice("--keypoints", set.keypoints,
@@ -122,14 +123,14 @@ void declare_synth(CommandLine& line) {
                   {"coco133", motion::KeypointSet::kCoco133}},
                  "which points are detected");
   command.number("--seed", set.seed, kFromZero,
-                 "seed of the first motion of every kind; 101 and up: training split");
+                 "seed of the first motion of every kind; 101 and above: training split");
   command
       .path("--data-set", a->data_set,
             "write the project's own small set, test/ and train/, to this folder instead")
       .excludes(out);
   add_force(command, a->force);
   command.flag("--report", a->report,
-               "print the forces and torques that each motion of the set demands; --out may be left out");
+               "print the forces and torques that each motion of the set demands; --out is then optional");
   command.action([a] { return synth(*a); });
 }
 

@@ -18,7 +18,7 @@ struct TeachArguments {
 int teach(TeachArguments a) {
   apply_settings(a.settings, a.config);
   if (a.config.planning.run.inputs.empty() && a.config.plans.empty())
-    throw UsageError("teach: motions to plan are expected, or --plans");
+    throw UsageError("teach: expected motions to plan, or --plans");
   return with_context(false, [&](const record::RunContext& context) {
     run::RunConfig& run = a.config.planning.run;
     if (!run.inputs.empty()) {
@@ -36,12 +36,11 @@ void declare_teach(CommandLine& line) {
   Command command =
       line.add("teach", "Teach option policies by plans: one for every cluster of motions",
                "mimicx teach DIR --out out/options                  # plan all of it, then teach\n"
-               "mimicx teach --plans out/run --out out/options      # by plans that are there");
+               "mimicx teach --plans out/run --out out/options      # by existing plans");
   run::RunConfig& run = a->config.planning.run;
   command.optional_files("FILE", run.inputs, "motions and folders of them, to plan first");
   command.texts("--plans", a->config.plans, "DIR", "folder of a run of `mimicx plan --gains`; repeatable");
-  command.path("--out", a->config.out, "folder of the options; the same command continues what is there")
-      .required();
+  command.path("--out", a->config.out, "folder of the options; the same command continues it").required();
   command.number("--clusters", a->config.clusters.clusters, kFromOne, "number of options");
   add_read_arguments(command, run.read);
   add_fit_arguments(command, run);

@@ -13,8 +13,8 @@
 namespace mimicx::audit {
 namespace {
 
-constexpr double kAir = 0.02;        ///< a body whose lowest contact point is higher stands on nothing, m
-constexpr double kPosesRate = 30.0;  ///< accelerations of poses are looked at on this scale, frames/s
+constexpr double kAir = 0.02;        ///< a body whose lowest contact point is higher is in the air, m
+constexpr double kPosesRate = 30.0;  ///< to which poses are resampled for their accelerations, frames/s
 
 /// World poses and velocities of all bodies.
 struct Kinematics {
@@ -58,7 +58,7 @@ Vector6d momentum_of(const Character& c, const Kinematics& k, const Vector3d& po
   return h;
 }
 
-/// (n; f) about `from` as it reads about `to`.
+/// A wrench (n; f) about `from`, moved to `to`.
 Vector6d shifted(Vector6d wrench, const Vector3d& from, const Vector3d& to) {
   const Vector3d force = wrench.tail<3>();
   wrench.head<3>() += (from - to).cross(force);
@@ -81,7 +81,7 @@ double travel_share(const Kinematics& before, const Kinematics& after, const Vec
   return beyond.norm() / (0.5 / (rate * rate) * acceleration);
 }
 
-/// What the floor's forces look like between two poses.
+/// Push, pull, friction and air contact of the floor's forces between two poses, into the row.
 void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& ground,
                   const BodyPoses& before, const BodyPoses& after, AuditRow& row) {
   for (int i = 0; i < kBodies; ++i) {
@@ -94,7 +94,7 @@ void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& 
   }
 }
 
-/// Torques against their bounds and against what is required, and their power.
+/// Torques compared with their bounds and with the required ones, and their power, into the row.
 /// @param speed  of the joints, child's frame, rad/s
 void judge_joints(const Character& c, const rl::tracking::ActingForces& forces,
                   const PerBody<Vector3d>& required, const PerBody<Vector3d>& speed, AuditRow& row) {
@@ -102,7 +102,7 @@ void judge_joints(const Character& c, const rl::tracking::ActingForces& forces,
   by_controller.fill(Vector3d::Zero());
   for (std::size_t i = 1; i < kBodies; ++i) {
     const int body = static_cast<int>(i);
-    const auto along = [&](const Vector3d& v) {  // the part that a joint can feel
+    const auto along = [&](const Vector3d& v) {  // of a hinge only the part about its axis
       return is_hinge(body) ? Vector3d(v.dot(hinge_axis(body)) * hinge_axis(body)) : v;
     };
     const Vector3d torque = along(forces.joint_torque[i]), range = along(forces.range_torque[i]);
@@ -129,7 +129,7 @@ Vector3d ground_force(const rl::tracking::ActingForces& forces) {
   return sum;
 }
 
-/// The state between two, and the mean acceleration.
+/// The state between two frames, and the mean acceleration.
 physics::MotionState between(const motion::ReferenceFrame& a, const motion::ReferenceFrame& b, double rate,
                              double share) {
   physics::MotionState s;
@@ -144,8 +144,8 @@ physics::MotionState between(const motion::ReferenceFrame& a, const motion::Refe
   return s;
 }
 
-/// Γ(q, v): the wrench about `point` that bodies need which move at constant coordinates of velocity.
-/// @param pose, velocity  what of them is q, and what is v
+/// Γ(q, v): the wrench about `point` that bodies need to move with constant velocity coordinates.
+/// @param pose, velocity  the states that give q and v
 Vector6d velocity_products(const Character& c, const physics::MotionState& pose,
                            const physics::MotionState& velocity, const Vector3d& point) {
   physics::MotionState s = pose;

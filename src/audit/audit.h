@@ -1,16 +1,17 @@
 /// `mimicx audit`: do the forces in a file explain the motion in it?                docs/physics.md §9
 ///
-/// Inverse dynamics says what a motion needs (physics/inverse_dynamics.h, other equations than those that
-/// simulated it), the file says what acted. The difference at the root is the *unexplained root wrench*: what
-/// a hand from outside would have to push with. There are three kinds of evidence:
-///  - physics steps (`substeps/NAME.npz`): everything is known at every step; as recorded in float32, and
-///    replayed in double precision, which must explain itself to rounding;
+/// Inverse dynamics gives the forces that a motion requires (physics/inverse_dynamics.h, with other equations
+/// than those that simulated it); the file has the forces that acted. The difference at the root is the
+/// *unexplained root wrench*: an external wrench that would have to act on the body. There are three kinds of
+/// evidence:
+///  - physics steps (`substeps/NAME.npz`): everything is known at every step, as recorded in float32, and
+///    replayed in double precision. The replay must be explained to rounding;
 ///  - frames (`motions/NAME.npz`): momentum at the frames against the mean forces between them, (10);
-///  - poses alone (any other motion): what is left after the best ground reaction that is physically possible
-///    (audit/feasibility.h), at every point of the body within 1 cm of the floor.
+///  - poses alone (any other motion): the rest after the best possible ground reaction (audit/feasibility.h)
+///    at every point of the body within 1 cm of the floor.
 ///
-/// What it does not do: it never simulates anything new, and it says nothing about how close a motion is to
-/// the input (metrics do).
+/// What it does not do: it simulates nothing new, and does not compare the motion with its input (metrics
+/// do).
 #pragma once
 
 #include <vector>
@@ -22,7 +23,7 @@
 
 namespace mimicx::audit {
 
-/// A simulated motion's frames with what acted between them; quaternions unit.
+/// The frames of a simulated motion and the forces between them; unit quaternions.
 struct SimulatedFrames {
   Character character;
   double fps = 30.0;
@@ -34,7 +35,7 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
 /// As recorded, and replayed in double precision.
 Audit audit_steps(const SubstepMotion& motion);
 Audit audit_replayed_steps(const SubstepMotion& motion);
-/// The floor's best case, at 30 fps. A foreign body model is looked at on the standard body.
+/// With the best possible ground reaction, at 30 fps. Other body models are replaced by the standard body.
 Audit audit_poses(const motion::Clip& clip);
 
 }  // namespace mimicx::audit

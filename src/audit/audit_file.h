@@ -1,4 +1,5 @@
-/// Files for `mimicx audit`: what each holds decides the evidence; text and JSON of the results.
+/// Files for `mimicx audit`: the contents of a file decide the kind of evidence. Also text and JSON of the
+/// results.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +13,16 @@ namespace mimicx::audit {
 
 /// Physics steps: as recorded and replayed. A motion with forces: its frames. Any other: its poses alone.
 /// Motions of every format that `convert` reads.
-/// @param poses_alone  look at nothing but the poses, whatever a motion holds besides
+/// @param poses_alone  use only the poses, also of a motion with forces
 /// @param read         of motions without forces
-/// @throws DataError naming file and member, also where a motion has torques but not all that belongs to them
+/// @throws DataError naming file and member, also if a motion has torques but not all other forces
 std::vector<Audit> audit_file(const std::filesystem::path& path, bool poses_alone,
                               const import::ReadConfig& read = {});
 /// The same from bytes in memory. @param path  for messages
 std::vector<Audit> audit_bytes(const std::string& bytes, const std::filesystem::path& path, bool poses_alone,
                                const import::ReadConfig& read = {});
 
-/// A motion that has its forces beside it.
+/// The frames of a motion whose file has its forces.
 /// @param npz  the archive that the clip was read from
 /// @throws DataError naming file and member
 SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz);
@@ -33,7 +34,7 @@ struct AuditedFile {
 
 /// "physics steps", "replayed in double", "frames", "poses alone".
 std::string evidence_name(Evidence evidence);
-/// Two lines that head the table; a line per audit, and one more per failure.
+/// The table's heading, two lines; then a line per audit, and one more per failure.
 std::string audit_table_head();
 std::string format_audit(const std::string& path, const Audit& audit);
 /// {"files": [{file, audits: [{evidence, passed, failures, weight_N, rate, summary, rows: {…}}]}]}

@@ -1,4 +1,4 @@
-/// What an audit finds: the kind of evidence, a row of numbers per step or frame, and why it fails.
+/// The result of an audit: the kind of evidence, a row of numbers per step or frame, and why it fails.
 #pragma once
 
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace mimicx::audit {
 
-/// Over and under the floor within which a pose's points touch it, m.
+/// A point of a pose at most this far above or below the floor touches it, m.
 inline constexpr double kFloorReach = 0.01;
 
 enum class Evidence { kSteps, kReplayedSteps, kFrames, kPosesAlone };
 
-/// One physics step, or the interval that ends at a frame. Zero where the evidence has no such number.
+/// One physics step, or the interval that ends at a frame. Zero for numbers that this evidence lacks.
 struct AuditRow {
-  int index = 0;                       ///< of the step, or of the frame that ends the interval
-  Vector6d root = Vector6d::Zero();    ///< unexplained: moment about the centre of mass, N·m; force, N
-  double torque_gap = 0.0;             ///< largest |required − exported| torque of a joint, N·m
-  double torque_share = 0.0;           ///< largest PD torque of a joint, 1 = its bound
-  double normal = 0.0;                 ///< floor's push on all bodies, N
-  double pull = 0.0;                   ///< the part of it that pulls down, N
-  double beyond_cone = 0.0;            ///< horizontal force beyond μ times the push, N
-  double in_air = 0.0;                 ///< the floor's force on bodies more than 2 cm above it, N
-  double power = 0.0;                  ///< of all joint torques, W
-  double travel = 0.0;                 ///< of the centre of mass beyond its velocities, in parts of (12)
-  double lowest = 0.0;                 ///< contact point over the floor, m
-  double replay_gap = 0.0;             ///< of the floor's whole force, recorded against replayed, N
-  double positive = 0.0, total = 0.0;  ///< power of the joints that drive; sum of all sizes, W
+  int index = 0;                     ///< of the step, or of the frame that ends the interval
+  Vector6d root = Vector6d::Zero();  ///< unexplained: moment about the centre of mass, N·m; force, N
+  double torque_gap = 0.0;           ///< largest |required − exported| torque of a joint, N·m
+  double torque_share = 0.0;         ///< largest PD torque of a joint, 1 = its bound
+  double normal = 0.0;               ///< floor's normal force on all bodies, N
+  double pull = 0.0;                 ///< downward part of the floor's force, N
+  double beyond_cone = 0.0;          ///< horizontal force beyond μ times the push, N
+  double in_air = 0.0;               ///< the floor's force on bodies more than 2 cm above it, N
+  double power = 0.0;                ///< of all joint torques, W
+  double travel = 0.0;      ///< of the centre of mass beyond its velocities, in parts of the bound (12)
+  double lowest = 0.0;      ///< contact point over the floor, m
+  double replay_gap = 0.0;  ///< of the floor's whole force, recorded against replayed, N
+  double positive = 0.0, total = 0.0;  ///< sum of positive joint powers; sum of their magnitudes, W
 };
 
 struct Audit {

@@ -9,8 +9,8 @@
 namespace mimicx::audit {
 namespace {
 
-/// The most that an audit lets pass; forces in parts of the weight, moments in metres (N·m per N of weight).
-/// The gap between required and exported joint torques has the limits of the root's moment.
+/// Limits of an audit; forces in parts of the weight, moments in metres (N·m per N of weight). They also
+/// apply to the gap between required and exported joint torques.
 struct Limits {
   double mean_force, mean_moment, max_force, max_moment;
 };
@@ -37,13 +37,13 @@ struct Extreme {
   int where = 0;
   void add(double value, int index) {
     sum += value;
-    if (std::isnan(largest) || value <= largest) return;  // NaN is the largest of all
+    if (std::isnan(largest) || value <= largest) return;  // NaN counts as the largest
     largest = value;
     where = index;
   }
 };
 
-/// How the poses stand on the floor.
+/// Distance of the poses from the floor.
 NamedValues floor_summary(const Audit& audit) {
   double untouched = 0.0, low = HUGE_VAL, high = -HUGE_VAL;
   for (const AuditRow& row : audit.rows) {
@@ -97,7 +97,7 @@ std::string percent(double share) {
   return text;
 }
 
-/// How a motion that fails by its poses stands on the floor, in words.
+/// The distance from the floor of a motion whose poses fail, in words.
 std::string where_it_stands(const NamedValues& values) {
   char text[160];
   std::snprintf(text, sizeof text,

@@ -1,4 +1,4 @@
-/// The rows of an audit in a few numbers, and the limits that they must keep. docs/physics.md §9
+/// Summary of the rows of an audit, and its limits. docs/physics.md §9
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace mimicx::audit {
 
-/// Why an audit fails, a line each: more unexplained than its evidence allows, exported torques that are not
-/// the required ones, torques over their bounds, floor forces that no floor gives, velocities that do not fit
-/// the positions. Limits: docs/physics.md §9.
+/// The reasons for which an audit fails, a line each: a larger unexplained wrench than this evidence allows,
+/// exported torques that differ from the required ones, torques over their bounds, impossible floor forces,
+/// velocities that do not match the positions. Limits: docs/physics.md §9.
 std::vector<std::string> failures_of(const Audit& audit);
 
 /// Means, largest values, counts, work, by name; units are in the names.

@@ -44,7 +44,7 @@ PerBody<Vector3d> joint_moments(const PerBody<BodyLoad>& loads, const BodyPoses&
   return moment;
 }
 
-void take_off(const Push& push, const BodyPoses& poses, PerBody<Vector3d>& moments) {
+void subtract_push(const Push& push, const BodyPoses& poses, PerBody<Vector3d>& moments) {
   for (int b = push.body;; b = kParents[b]) {
     moments[b] -= (push.p - poses.p_WB[b]).cross(push.force);
     if (b == kPelvis) return;

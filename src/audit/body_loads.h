@@ -1,9 +1,9 @@
-/// Newton and Euler for every body of a motion, by differences of its frames.
+/// Newton–Euler for every body of a motion, by finite differences of its frames.
 ///
-/// The load of a body is what has to push it so that it moves as it does: force at its centre of mass and
-/// moment about it, gravity taken off. Accelerations are second differences of the frames, changes of angular
-/// momentum are those of its means over the intervals before and after a frame. Both are exactly the mean of
-/// the true ones, weighted by a triangle from the frame before to the frame after.
+/// The load of a body is the force at its centre of mass and the moment about it that its motion requires
+/// beside gravity. Accelerations are second differences of the frames; changes of angular momentum are
+/// differences of its means over the intervals before and after a frame. Both equal the true ones averaged
+/// with triangular weights from the frame before to the frame after.
 #pragma once
 
 #include "character/character.h"
@@ -20,24 +20,23 @@ struct BodyLoad {
 /// Loads at frame t, world axes. @param t  1 … frames − 2
 PerBody<BodyLoad> body_loads(const Character& character, const PerFrame<BodyPoses>& poses, int t, double fps);
 
-/// Moment about `center` and force that the body as a whole needs.
+/// Moment about `center` and force that the whole body needs.
 Vector6d wrench_of(const PerBody<BodyLoad>& loads, const Vector3d& center);
 
-/// Moment about each joint, N·m, world axes, that a body and those beyond it need from their parent where
-/// nothing but the joint pushes them; entry 0: about the pelvis joint, from outside.
+/// Moment about each joint, N·m, world axes, that a body and its descendants need from their parent if no
+/// external force acts on them; entry 0: about the pelvis joint, external.
 PerBody<Vector3d> joint_moments(const PerBody<BodyLoad>& loads, const BodyPoses& poses);
 
-/// What pushes a body from outside, at a point of the world.
+/// An external force on a body at a point, world axes.
 struct Push {
   int body;
   Vector3d p;      ///< m
   Vector3d force;  ///< N
 };
-/// Takes what a push does off the moments that the joints have to give.
-void take_off(const Push& push, const BodyPoses& poses, PerBody<Vector3d>& moments);
+/// Subtracts a push's contribution from the moments that the joints must supply.
+void subtract_push(const Push& push, const BodyPoses& poses, PerBody<Vector3d>& moments);
 
-/// How near torques come to what the joints can give: the size of each joint's torque in parts of its bound;
-/// of a hinge the part about its axis. Entry 0 is 0.
+/// The size of each joint's torque in parts of its bound; of a hinge the part about its axis. Entry 0 is 0.
 /// @param torque  child's frame, N·m
 PerBody<double> torque_shares(const Character& c, const PerBody<Vector3d>& torque);
 

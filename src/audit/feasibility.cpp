@@ -31,12 +31,12 @@ FrameDemand demand_of(const Character& c, const PerFrame<BodyPoses>& poses, int 
   const PerBody<BodyLoad> loads = body_loads(c, poses, t, fps);
   const Vector3d center = center_of_mass(c, poses[t]);
   List<Push> touches = touching_points(c, poses[t], touching);
-  const Vector6d left = share_out(kFloor, center, wrench_of(loads, center), touches);
+  const Vector6d left = fit_cone_forces(kFloor, center, wrench_of(loads, center), touches);
   FrameDemand demand;
   demand.residual_moment = left.head<3>();
   demand.residual_force = left.tail<3>();
   demand.torque = joint_moments(loads, poses[t]);
-  for (const Push& touch : touches) take_off(touch, poses[t], demand.torque);
+  for (const Push& touch : touches) subtract_push(touch, poses[t], demand.torque);
   demand.torque[kPelvis].setZero();  // no joint: what is left there is the residual
   return demand;
 }

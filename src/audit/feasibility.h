@@ -1,15 +1,15 @@
-/// What a motion demands of a body: inverse dynamics of a clip, frame by frame.
+/// Inverse dynamics of a clip, frame by frame: residual root wrench and joint torques.
 ///
-/// Newton and Euler over the character's masses and inertias (audit/body_loads.h), accelerations
-/// from second differences of the frames. Where a foot touches the floor (or, where asked for, any body),
-/// contact forces inside friction cones (μ = 1, four edges) at its points take over what they can of the
-/// force and moment that the whole body needs (audit/friction_cones.h), moments about the centre of
-/// mass. What is left is the root residual: a hand that would have to hold the body. Joint torques follow
-/// from the motion of the bodies beyond a joint and the contact forces on them. Nothing is smoothed: for
-/// exact motions. Real ones are judged by audit/pose_needs.h.
+/// Newton–Euler over the character's masses and inertias (audit/body_loads.h), with accelerations from second
+/// differences of the frames. Where a foot (or, on request, any body) touches the floor, contact forces
+/// inside friction cones (μ = 1, four edges) supply as much as they can of the force and moment that the
+/// whole body needs (audit/friction_cones.h), moments about the centre of mass. The rest is the root
+/// residual: an external wrench that would have to act on the body. Joint torques follow from the motion of
+/// the bodies beyond a joint and the contact forces on them. Nothing is smoothed, so this is for exact
+/// motions; audit/pose_needs.h judges real ones.
 ///
 /// What it does not do: no armature of the joints, no contacts with anything but the floor; while both feet
-/// stand the split of the load between them is that of the smallest forces, not that of a person.
+/// stand, the load is split so that the forces are smallest, which need not be how a person splits it.
 #pragma once
 
 #include <cmath>
@@ -27,9 +27,9 @@ struct FrameDemand {
 
 /// Which points may touch the floor.
 struct Touching {
-  double height = 0.004;    ///< up to which a point over the floor touches, m
-  double depth = HUGE_VAL;  ///< down to which a point in the floor does, m
-  bool whole_body = false;  ///< every contact point of the character, not the feet's alone
+  double height = 0.004;    ///< a point up to this far above the floor touches it, m
+  double depth = HUGE_VAL;  ///< a point up to this far below the floor touches it, m
+  bool whole_body = false;  ///< every contact point of the character, not only those of the feet
 };
 
 /// Demands of the frames 1 … n − 2 of an exact motion on the character of its β.

@@ -7,7 +7,8 @@
 
 namespace mimicx::audit {
 
-Vector6d share_out(const Floor& floor, const Vector3d& center, const Vector6d& wanted, List<Push>& pushes) {
+Vector6d fit_cone_forces(const Floor& floor, const Vector3d& center, const Vector6d& wanted,
+                         List<Push>& pushes) {
   if (pushes.empty()) return wanted;
   List<Vector3d> edges;
   for (int k = 0; k < floor.edges; ++k) {

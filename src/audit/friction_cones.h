@@ -1,4 +1,4 @@
-/// The best that a floor can do: pushes inside friction cones that come nearest to what a body needs.
+/// Floor forces inside friction cones that come nearest to a wanted wrench.
 #pragma once
 
 #include "audit/body_loads.h"
@@ -8,14 +8,16 @@
 namespace mimicx::audit {
 
 struct Floor {
-  double friction = 1.0;       ///< μ
-  int edges = 8;               ///< of the pyramid inside of the round cone
-  double small_forces = 1e-6;  ///< weight of the squared forces beside the squared rest: makes them unique
+  double friction = 1.0;  ///< μ
+  int edges = 8;          ///< of the pyramid inscribed in the round cone
+  double small_forces =
+      1e-6;  ///< weight of the squared forces relative to the squared rest: makes them unique
 };
 
-/// Gives the pushes the forces that come nearest to `wanted` = (moment about `center`, N·m; force, N), a N·m
-/// counting as much as a N.
-/// @return what is left of it
-Vector6d share_out(const Floor& floor, const Vector3d& center, const Vector6d& wanted, List<Push>& pushes);
+/// Sets the forces of the pushes so that they come nearest to `wanted` = (moment about `center`, N·m; force,
+/// N). 1 N·m counts as much as 1 N.
+/// @return the rest of `wanted`
+Vector6d fit_cone_forces(const Floor& floor, const Vector3d& center, const Vector6d& wanted,
+                         List<Push>& pushes);
 
 }  // namespace mimicx::audit

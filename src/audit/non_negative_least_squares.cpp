@@ -10,8 +10,8 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kMostSteps = 200;  ///< seen: under 20; the bound holds even where rounding would go in circles
-constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which rounding is all that is left
+constexpr int kMostSteps = 200;     ///< observed: under 20; bounds the loop even if rounding causes a cycle
+constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which only rounding is left
 
 /// Slope of φ along d at r + part · d. `at` = Aᵀr, `change` = Aᵀd.
 double slope_at(double part, const Vector6d& r, const Vector6d& d, const Vector6d& b,
@@ -19,8 +19,8 @@ double slope_at(double part, const Vector6d& r, const Vector6d& d, const Vector6
   return (r + part * d - b).dot(d) + (at + part * change).cwiseMax(0.0).dot(change) / small;
 }
 
-/// Where φ is smallest on the way from r to r + d, as a part of it: where its slope, which is linear between
-/// two planes and never falls, is 0.
+/// The part in [0, 1] at which φ is smallest on the line from r to r + d: its slope, piecewise linear and
+/// nondecreasing, is 0 there.
 double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d& b, const Eigen::VectorXd& at,
                            const Eigen::VectorXd& change, double small) {
   const auto slope = [&](double part) { return slope_at(part, r, d, b, at, change, small); };
@@ -43,7 +43,7 @@ double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d&
 Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b, double small) {
   Vector6d r = b;
   Eigen::VectorXd at = A.transpose() * r;
-  int settled = 0;  // whole steps inside one piece: the second takes away what the first one rounded
+  int settled = 0;  // full steps inside one piece: the second corrects the rounding of the first
   for (int step = 0; step < kMostSteps && settled < 2; ++step) {
     const Vector6d slope = r - b + A * at.cwiseMax(0.0) / small;
     if (slope.norm() <= kNoSlope * b.norm()) break;

@@ -1,16 +1,16 @@
-/// Non-negative least squares for wrenches: the best that pushes can do.
+/// Non-negative least squares for wrenches.
 ///
-/// What forces x ≥ 0 along the columns of A come closest to a wrench b of six numbers? With a small weight ε
-/// on the forces themselves the answer is unique:
+/// Finds the forces x ≥ 0 along the columns of A that come closest to a wrench b of six numbers. A small
+/// weight ε on the forces makes them unique:
 ///     minimise ½‖A x − b‖² + ½ε‖x‖²  over x ≥ 0.
-/// Its conditions (Karush, Kuhn, Tucker) say x = max(0, Aᵀr)/ε with r = b − A x. So only r has to be found,
-/// six numbers however many columns there are: it is where
+/// Its conditions (Karush, Kuhn, Tucker) say x = max(0, Aᵀr)/ε with r = b − A x. So only the six numbers of r
+/// have to be found, for any number of columns. They minimise
 ///     φ(r) = ½‖r‖² − bᵀr + ‖max(0, Aᵀr)‖²/2ε
-/// is smallest. φ is strictly convex and quadratic between the planes aᵢᵀr = 0; Newton's steps with an exact
-/// line search over these pieces end at its minimum after finitely many (D. P. Bertsekas, "Nonlinear
-/// Programming" (2016), §3.4 for the duality; the pieces as in O. L. Mangasarian, "A finite Newton method for
-/// classification", Optim. Methods Softw. 17 (2002)). Lawson and Hanson's active sets find the same x, one
-/// column after the other.
+/// φ is strictly convex and quadratic between the planes aᵢᵀr = 0; Newton steps with an exact line search
+/// over these pieces reach its minimum in finitely many steps (D. P. Bertsekas, "Nonlinear Programming"
+/// (2016), §3.4 for the duality; the pieces as in O. L. Mangasarian, "A finite Newton method for
+/// classification", Optim. Methods Softw. 17 (2002)). Lawson and Hanson's active-set method finds the same x,
+/// one column after the other.
 #pragma once
 
 #include "core/so3.h"

@@ -12,10 +12,10 @@
 namespace mimicx::audit {
 namespace {
 
-constexpr double kFloorShare = 0.05;  ///< of the frames may have their lowest point under the floor
+constexpr double kFloorShare = 0.05;  ///< share of frames whose lowest point may be under the floor
 constexpr int kBatch = 64;            ///< files between two reports
 
-/// How far a motion has to go up to stand on z = 0.
+/// The upward shift that puts a motion onto z = 0, m.
 double shift_to_floor(const Character& c, const PerFrame<BodyPoses>& poses) {
   std::vector<double> lowest;
   for (const BodyPoses& frame : poses) lowest.push_back(lowest_contact(c, frame));
@@ -36,7 +36,7 @@ std::string field(const std::string& text) {
   return quoted + '"';
 }
 
-/// Six digits say all that poses can.
+/// Six digits: poses are not more accurate.
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);

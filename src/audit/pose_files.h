@@ -1,10 +1,10 @@
 /// `mimicx audit --poses`: the feasibility of whole data sets, a row per motion and, where asked for, per
 /// frame.
 ///
-/// Motions of our own layout stand where they stand. The floor of any other file is known to a few
-/// centimetres at best, its body often not at all: it is moved up or down as a whole until the 5th percentile
-/// of its lowest point is at z = 0, unless the user says where its floor is (`ReadConfig::floor`). The shift
-/// is in the table.
+/// Motions of our own layout are not moved. In any other file the floor is known to a few centimetres at
+/// best, and the body often not at all: the whole motion is shifted up or down until the 5th percentile of
+/// its lowest point is at z = 0, unless the user gives the floor (`ReadConfig::floor`). The shift is in the
+/// table.
 #pragma once
 
 #include <functional>
@@ -25,24 +25,24 @@ struct PoseFilesConfig {
 
 struct PoseFile {
   std::string path;
-  std::string failure;       ///< why it was left out, one line; empty: it was not
-  double floor_shift = 0.0;  ///< by which it was moved up, m
+  std::string failure;       ///< why it was skipped, one line; empty: it was judged
+  double floor_shift = 0.0;  ///< upward shift, m
   PoseVerdict verdict;
-  PoseNeeds needs;  ///< without frames unless they were asked for
+  PoseNeeds needs;  ///< without frames unless requested
 };
 
-/// @return a file that cannot be judged is one with a failure
+/// @return with a failure if the file cannot be judged
 PoseFile judge_poses(const std::string& path, const PoseFilesConfig& config);
-/// All files in parallel; `judged` gets them in their order, whatever the threads.
+/// Judges all files in parallel; `judged` gets the results in the order of `paths` for any number of threads.
 void judge_poses(const std::vector<std::string>& paths, const PoseFilesConfig& config,
                  const std::function<void(const PoseFile&)>& judged);
 
-/// Lines that head the table, and a motion's.
+/// The table's heading, and the line of a motion.
 std::string pose_table_head();
 std::string format_poses(const PoseFile& file);
 
-/// The first line of the CSV and a motion's: the verdict's values, longest stretch and joints in words. A
-/// failed file has no numbers, and its reason in the last column.
+/// The heading of the CSV, and the row of a motion: the verdict's values, its longest stretch and joints in
+/// words. A failed file has no numbers, and the reason in the last column.
 std::string poses_csv_head();
 std::string poses_csv_row(const PoseFile& file);
 /// The same for frames, a line each.

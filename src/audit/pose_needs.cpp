@@ -12,7 +12,7 @@
 namespace mimicx::audit {
 namespace {
 
-/// What the frames need by themselves, before they are smoothed.
+/// The need of one frame before smoothing.
 struct RawNeed {
   Vector6d wrench = Vector6d::Zero();  ///< moment about the centre of mass, N·m; force, N
   PerBody<Vector3d> moment;            ///< of the joints, child's frame, N·m, without the floor
@@ -65,7 +65,7 @@ int touching_frame(const PerFrame<FramePoints>& points, int i, int t, int m, dou
   return -1;
 }
 
-/// The points that may push at frame t, where they are then.
+/// The points that may push at frame t, with their positions.
 List<Push> possible_pushes(const Character& c, const PerFrame<FramePoints>& points, int t, int m,
                            double reach) {
   List<Push> pushes;
@@ -80,7 +80,7 @@ List<Push> possible_pushes(const Character& c, const PerFrame<FramePoints>& poin
 
 PoseNeed need_at(const Character& c, const BodyPoses& poses, const RawNeed& wanted, double friction,
                  const Vector3d& center, List<Push> pushes) {
-  const Vector6d left = share_out({.friction = friction}, center, wanted.wrench, pushes);
+  const Vector6d left = fit_cone_forces({.friction = friction}, center, wanted.wrench, pushes);
   PoseNeed need;
   need.moment = left.head<3>();
   need.force = left.tail<3>();
@@ -89,7 +89,7 @@ PoseNeed need_at(const Character& c, const BodyPoses& poses, const RawNeed& want
   from_floor.fill(Vector3d::Zero());
   for (const Push& push : pushes) {
     need.floor += push.force.z();
-    take_off(push, poses, from_floor);
+    subtract_push(push, poses, from_floor);
   }
   PerBody<Vector3d> moment = wanted.moment;
   for (int b = 0; b < kBodies; ++b) moment[b] += poses.q_WB[b].conjugate() * from_floor[b];

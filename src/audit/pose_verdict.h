@@ -1,9 +1,9 @@
-/// The needs of a motion in a few numbers and in words.
+/// The needs of a motion (pose_needs.h) as summary values and in words.
 ///
-/// A frame is infeasible where more than 5 % of the weight, or 5 cm times the weight as a moment, would have
-/// to come from outside (`kTooMuch`). What is wrong with it is named after the largest of the four: force up,
-/// down, sideways, and moment per metre. A frame that needs nothing is infeasible all the same where a
-/// contact point is deeper than 5 cm in the floor (`kTooDeep`): the floor that carries it there is none.
+/// A frame is infeasible if it needs an external force of more than 5 % of the weight, or an external moment
+/// of more than 5 cm times the weight (`kTooMuch`). The fault is named after the largest of four: force up,
+/// force down, force sideways, and moment per metre. A frame that needs nothing is also infeasible if a
+/// contact point is more than 5 cm under the floor (`kTooDeep`).
 #pragma once
 
 #include <string>
@@ -21,20 +21,20 @@ inline constexpr double kTooDeep = 0.05;  ///< m
 
 enum class Wrong {
   kNothing,
-  kHovers,    ///< needs a force up: it does not fall, and nothing touches that could carry it
+  kHovers,    ///< needs a force up: it does not fall, and no contact can carry it
   kPulled,    ///< needs a force down: it falls faster than free fall, or stops rising sooner
-  kDrifts,    ///< needs a force sideways, nothing touches
-  kTurns,     ///< needs a moment, nothing touches
-  kSlips,     ///< needs a force sideways beyond the floor's friction
-  kTipsOver,  ///< needs a moment: what must push lies outside of where it touches
-  kSunk       ///< needs nothing, but is deep in the floor
+  kDrifts,    ///< needs a force sideways, without contact
+  kTurns,     ///< needs a moment, without contact
+  kSlips,     ///< needs more force sideways than friction can give
+  kTipsOver,  ///< needs a moment: the needed centre of pressure is outside the contacts
+  kSunk       ///< needs nothing, but is deep under the floor
 };
 inline constexpr int kWrongs = 8;
 /// "feasible", "hovers", "pulled", "drifts", "turns", "slips", "tips", "sunk".
 std::string_view name_of(Wrong wrong);
 Wrong wrong_with(const PoseNeed& need, double weight);
 
-/// Frames in a row that are infeasible.
+/// Consecutive infeasible frames.
 struct Stretch {
   int first = 0, last = 0;
   Wrong wrong = Wrong::kNothing;     ///< in most of them
@@ -43,7 +43,7 @@ struct Stretch {
   int frames() const { return last - first + 1; }
 };
 std::vector<Stretch> infeasible_stretches(const PoseNeeds& needs);
-/// "frames 61-78: the body hovers; 310 N would have to hold it". No commas, so that it can stand in a CSV.
+/// "frames 61-78: the body hovers; 310 N would have to hold it". Has no commas, for CSV files.
 std::string in_words(const Stretch& stretch);
 
 struct PoseVerdict {

@@ -1,7 +1,7 @@
-/// `substeps/NAME.npz`: every physics step of a simulated motion, for an exact audit and for replay.
+/// `substeps/NAME.npz`: every physics step of a simulated motion, for an exact audit and for a replay.
 ///
-/// The file holds all that determines the simulation: shape, every simulation setting, the state before each
-/// step and after the last one, and what the PD controllers aimed at; and what acted in each step. Numbers
+/// The file holds everything that determines the simulation (shape, all simulation settings, the state before
+/// each step and after the last one, the targets of the PD controllers) and the forces of each step. Numbers
 /// are the simulator's own (float32), so that a replay starts from the same bits.
 #pragma once
 
@@ -20,13 +20,13 @@ struct SubstepMotion {
 };
 
 void write_substeps(const std::filesystem::path& path, const SubstepMotion& motion);
-/// Whether an archive is such a file.
+/// Whether an archive has physics steps.
 bool holds_substeps(const Npz& npz);
 /// @throws DataError naming file and member
 SubstepMotion read_substeps(const Npz& npz);
 
-/// The motion as double precision makes it: each step solved anew from the recorded state before it, towards
-/// the recorded target. `next` are the states after the steps; forces are those of the solve.
+/// The motion replayed in double precision: each step starts from the recorded state before it and has the
+/// recorded target. `next` are the states after the steps.
 struct Replay {
   std::vector<rl::tracking::Substep> steps;
   std::vector<motion::ReferenceFrame> next;

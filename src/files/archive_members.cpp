@@ -21,7 +21,7 @@ void append_joints(const PerBody<Vector3d>& row, std::vector<double>& values) {
   }
 }
 
-/// Entry 0 is left as it is.
+/// Entry 0 is not changed.
 void take_joints(const double* values, PerBody<Vector3d>& row) {
   for (int body = 1; body < kBodies; ++body) {
     Vector3d& v = row[body];
@@ -38,7 +38,7 @@ void take_joints(const double* values, PerBody<Vector3d>& row) {
 constexpr std::size_t kPositionNumbers = 3 + 4 * kBodies;
 constexpr std::size_t kVelocityNumbers = 3 + 3 * kBodies;
 
-/// Calls visit(number) for every one of a state's positions, and for every one of its velocities.
+/// Calls visit(number) for every number of a state's positions, or of its velocities.
 template <class StateType, class Visit>
 void for_each_position(StateType& x, const Visit& visit) {
   for (auto* p : {&x.p_root.x, &x.p_root.y, &x.p_root.z}) visit(*p);
@@ -162,7 +162,7 @@ physics::SimulationConfig read_simulation(const Npz& npz) {
   for_each_simulation_setting(simulation,
                               [&](const std::string& name, auto& field) { read_into(npz, name, field); });
   try {
-    physics::make_model<double>(make_character(), simulation);  // the simulator is the judge
+    physics::make_model<double>(make_character(), simulation);  // checks the values
   } catch (const std::invalid_argument& error) {
     throw DataError(npz.path, "", "the settings of a simulation", error.what());
   }

@@ -35,8 +35,8 @@ NpyArray velocities_member(const std::vector<motion::ReferenceFrame>& frames, Pr
 NpyArray numbers_member(std::vector<std::size_t> shape, const std::vector<double>& values,
                         Precision precision);
 
-/// Read them back; a hinge's number becomes a vector along its axis.
-/// @throws DataError naming file and member unless it is there with `rows` rows of finite numbers
+/// The inverse of the functions above; a hinge's number becomes a vector along its axis.
+/// @throws DataError naming file and member unless it has `rows` rows of finite numbers
 VectorRows read_joints(const Npz& npz, const std::string& key, std::size_t rows);
 WrenchRows read_wrenches(const Npz& npz, const std::string& key, std::size_t rows);
 /// Fills v_root and omega of the frames.
@@ -45,18 +45,19 @@ void read_velocities(const Npz& npz, const std::string& key, std::vector<motion:
 std::vector<double> read_numbers(const Npz& npz, const std::string& key, std::size_t rows,
                                  std::size_t columns);
 
-/// PREFIXq (rows, 91): place of the pelvis, then quaternions w x y z of the pelvis in the world and of the
+/// PREFIXq (rows, 91): position of the pelvis, then quaternions w x y z of the pelvis in the world and of the
 /// joints relative to their parents. PREFIXv (rows, 69): their velocities.
 void add_states(const std::string& prefix, const std::vector<physics::State<double>>& states,
                 Precision precision, Npz& npz);
-/// @throws DataError naming file and member that is not there, or not of its shape
+/// @throws DataError naming file and member that is missing or of another shape
 std::vector<physics::State<double>> read_states(const Npz& npz, const std::string& prefix);
 
-/// Rows of a member, whatever its shape.
+/// Number of rows of a member of any shape.
 std::size_t rows_of(const Npz& npz, const std::string& name);
 /// A member of one number. @throws DataError as above
 double read_number(const Npz& npz, const std::string& name);
-/// The same into a field, whole where the field is. @throws DataError also where it does not hold the number
+/// The same into a field, as a whole number for integer fields. @throws DataError also if the number does not
+/// fit
 template <class T>
 void read_into(const Npz& npz, const std::string& name, T& field) {
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
@@ -68,7 +69,7 @@ void read_into(const Npz& npz, const std::string& name, T& field) {
     field = static_cast<T>(read_number(npz, name));
   }
 }
-/// The numbers of a simulation (simulation_settings.h). @throws DataError also for those that none can have
+/// The numbers of a simulation (simulation_settings.h). @throws DataError also for impossible values
 physics::SimulationConfig read_simulation(const Npz& npz);
 /// A member of one text. @throws DataError as above
 std::string read_text(const Npz& npz, const std::string& name);

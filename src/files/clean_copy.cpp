@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kOfTheBody = {
     "joints", "velocities", "joint_torques", "range_torques", "ground_wrenches", "self_contact_wrenches"};
 
-/// Puts a copy on one body. @return which, in words
+/// Chooses the body of a copy. @return a message that says which
 std::string settle_body(const motion::Clip& original, motion::Clip& clean) {
   if (original.body_model == clean.body_model && original.rest_joints == clean.rest_joints)
     return "on the simulated body";

@@ -1,12 +1,12 @@
-/// A simulated motion for the tools its input came from: the input's format, body and, if wanted, frame rate.
+/// A simulated motion in its input's format, on its input's body and, if wanted, at its input's frame rate.
 ///
-/// One body per file. Where the input's body is the simulated one, or a body of ours that the keypoint fit
-/// gave another shape, it is the simulated one, and joints, velocities and forces belong to it. Else the file
-/// names the body as the input did (body model and β), with the pelvis where the simulation had it, and
-/// members that belong to the simulated body stay out. At 30 fps a copy holds all other members of the
-/// simulated motion that its format has a place for. At the input's rate it has the input's frames, rotations
-/// by slerp; torques, wrenches and rewards are means over intervals of the simulation and stay out, and what
-/// the input held beside the body (hands, face, eyes) comes along untouched.
+/// A file has one body. If the input's body model is ours, that is the simulated body, also where the
+/// keypoint fit changed its shape; joints, velocities and forces are kept. Otherwise the file has the input's
+/// body (model and β) with the pelvis at its simulated place, and members that belong to the simulated body
+/// are left out. At 30 fps a copy keeps all other members of the simulated motion that its format can hold.
+/// At the input's rate it has the input's frames, with rotations by slerp. Torques, wrenches and rewards,
+/// which are means over simulated intervals, are then left out; hands, face and eyes of the input are copied
+/// unchanged.
 #pragma once
 
 #include <filesystem>
@@ -16,14 +16,14 @@
 
 namespace mimicx::files {
 
-/// Suffix of the copy: the input's own where motions are written so, else .npz.
+/// Suffix of the copy: the input's if that format can be written, else .npz.
 std::string clean_suffix(const std::filesystem::path& input);
 
-/// A motion at another rate with exactly the frames of `like`; the last frame is held where it ends sooner.
+/// A motion resampled to exactly the frames of `like`; if it ends sooner, its last frame is repeated.
 motion::Clip at_rate_of(const motion::Clip& motion, const motion::Clip& like);
 
 /// @param motion  file of the simulated motion @param input  the file it was made from, read with `read`
-/// @return whose body it is, in words
+/// @return a message that says which body the copy has
 std::string write_clean_copy(const std::filesystem::path& motion, const std::filesystem::path& input,
                              const import::ReadConfig& read, bool input_rate,
                              const std::filesystem::path& copy);

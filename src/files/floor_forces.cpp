@@ -3,7 +3,7 @@
 namespace mimicx::files {
 namespace {
 
-/// Where the floor is under a carrier: below the middle of its foot, or the pelvis.
+/// The point of the floor under a carrier: below the middle of its foot, or below the pelvis.
 Vector3d under(Carrier carrier, const PerBody<Vector3d>& joints) {
   Vector3d p = carrier == kOnTheRest     ? joints[kPelvis]
                : carrier == kOnRightFoot ? Vector3d(0.5 * (joints[kRightAnkle] + joints[kRightFoot]))

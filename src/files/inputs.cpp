@@ -12,7 +12,7 @@
 namespace mimicx::files {
 namespace {
 
-constexpr std::size_t kNamesSaid = 8;  ///< of what is left out of a folder
+constexpr std::size_t kNamesSaid = 8;  ///< of the skipped files of a folder
 
 std::filesystem::path whole_path(const std::filesystem::path& path) {
   std::error_code error;
@@ -20,7 +20,7 @@ std::filesystem::path whole_path(const std::filesystem::path& path) {
   return error ? path : found;
 }
 
-/// Beside AMASS's motions stand files of the same suffix that hold a body shape alone.
+/// AMASS has files of the same suffix beside its motions that hold only a body shape.
 bool is_shape_file(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   return stem == "shape" || stem.ends_with("_stagei");
@@ -30,7 +30,7 @@ bool is_input(const std::filesystem::path& path) {
   return import::is_motion_file(path) && path.stem().extension() != ".clean" && !is_shape_file(path);
 }
 
-/// What a folder stands for.
+/// The motion files of a folder and its subfolders.
 class Folder {
  public:
   Folder(const std::filesystem::path& root, const std::filesystem::path& out)
@@ -42,10 +42,10 @@ class Folder {
   }
   const std::vector<MotionInput>& files() const { return files_; }
 
-  /// "in: left out: notes.txt, walk.clean.npz (no motions, or made by an earlier run)"
+  /// "in: skipped: notes.txt, walk.clean.npz (no motions, or made by an earlier run)"
   void tell_skipped(std::ostream& messages) const {
     if (skipped_.empty()) return;
-    messages << root_.string() << ": left out: ";
+    messages << root_.string() << ": skipped: ";
     for (std::size_t i = 0; i < std::min(kNamesSaid, skipped_.size()); ++i)
       messages << (i > 0 ? ", " : "") << skipped_[i];
     if (skipped_.size() > kNamesSaid) messages << " and " << skipped_.size() - kNamesSaid << " more";
@@ -54,7 +54,7 @@ class Folder {
 
  private:
   void look_into(const std::filesystem::path& folder) {
-    if (!seen_.insert(whole_path(folder)).second) return;  // links may lead back
+    if (!seen_.insert(whole_path(folder)).second) return;  // links may be circular
     std::error_code error;
     std::filesystem::directory_iterator at(folder, error);
     if (error) skipped_.push_back(inside(folder));
@@ -101,7 +101,7 @@ std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
     std::error_code error;
     const bool is_folder = std::filesystem::is_directory(input, error);
     if (is_folder) std::filesystem::directory_iterator(input, error);
-    if (!is_folder || error) {  // what cannot be looked into stands for itself: reading it says why
+    if (!is_folder || error) {  // an unreadable folder is listed itself: reading it reports the error
       files.push_back(itself);
       continue;
     }
@@ -109,7 +109,7 @@ std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
     if (messages != nullptr) folder.tell_skipped(*messages);
     if (folder.files().empty() && inputs.size() == 1)
       throw DataError(input, "", "motion files in this folder",
-                      record::holds_run(input) ? "a run, whose motions are in motions/" : "none");
+                      record::holds_run(input) ? "a run: its motions are in motions/" : "none");
     if (folder.files().empty()) files.push_back(itself);
     files.insert(files.end(), folder.files().begin(), folder.files().end());
   }

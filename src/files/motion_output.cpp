@@ -12,7 +12,7 @@
 namespace mimicx::files {
 namespace {
 
-constexpr Precision kPrecision = Precision::kFloat64;  // as every member of a motion
+constexpr Precision kPrecision = Precision::kFloat64;  // as all members of a motion
 
 using Members = std::vector<std::pair<std::string, NpyArray>>;
 
@@ -36,7 +36,7 @@ NpyArray reward_factors_member(const std::vector<rl::tracking::Reward>& rewards)
   return NpyArray::from_double({rewards.size(), rl::tracking::kRewardTerms}, values.data());
 }
 
-/// Members of the input at the frames that were simulated.
+/// Members of the input at the simulated frames.
 motion::Passthrough members_for(const motion::Clip& input, double fps, std::size_t frames) {
   const motion::Clip resampled = motion::resampled(input, fps);
   return motion::first_frames(resampled.passthrough, resampled.rotations.size(),

@@ -11,13 +11,13 @@
 namespace mimicx::files {
 
 /// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards
-/// and their factors; members of the input that the program does not use come along at its frames
+/// and their factors; members of the input that the program does not use are copied, resampled to its frames
 /// (motion/passthrough.h).
 void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
                      const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
-/// The poses of an input as they were read, in our world, at its own frame rate: what a report shows beside
-/// the result. Without keypoints and what passes through.
+/// The poses of an input as they were read, in our world, at its own frame rate, for the report. Without
+/// passed-through members.
 void write_input(const std::filesystem::path& path, const motion::Clip& input);
 
 /// The prepared reference of an input.

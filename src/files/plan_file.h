@@ -1,9 +1,9 @@
-/// plans/NAME.npz: a plan, with all that is needed to repeat it except the body. gains/NAME.npz: the feedback
-/// around the plan.                                                                   docs/formats.md
+/// plans/NAME.npz: a plan, with everything but the body that is needed to repeat it. gains/NAME.npz: feedback
+/// gains around the plan.                                                                   docs/formats.md
 ///
 /// States and residuals are the simulator's own numbers (float32); the residuals are applied to the reference
-/// (float64). A system that is made of this file and of the body of references/NAME.npz rolls the residuals
-/// out to the same states, byte for byte.
+/// (float64). With the body of references/NAME.npz, a roll-out of these residuals gives the same states, byte
+/// for byte.
 #pragma once
 
 #include <filesystem>
@@ -24,14 +24,14 @@ struct StoredPlan {
 };
 
 void write_plan(const std::filesystem::path& path, const StoredPlan& stored);
-/// @throws DataError naming file and member that is not there, or not of its shape
+/// @throws DataError naming file and member that is missing or of another shape
 StoredPlan read_plan(const std::filesystem::path& path);
 StoredPlan plan_from(const Npz& npz);
 
-/// The feedback around a plan.
+/// The feedback gains around a plan.
 struct StoredGains {
   std::vector<Eigen::MatrixXf> gains;  ///< [frames − 1] K_t [55][177] (control/gains.h)
-  Eigen::MatrixXf curvature;           ///< [55][55] mean over the frames of Q_uu, what a wrong control costs
+  Eigen::MatrixXf curvature;           ///< [55][55] mean over the frames of Q_uu, the cost of a control error
 };
 
 void write_gains(const std::filesystem::path& path, const StoredGains& stored);

@@ -1,8 +1,8 @@
 /// policies/NAME.npz: a policy that follows one motion, with everything that is needed to run it.
 ///                                                                                       docs/formats.md
 ///
-/// The file is itself a motion file: it holds the motion that the policy follows, with its body. Beside that
-/// stand the exact states of that motion, the simulation that it acts in, and the networks.
+/// The file is also a motion file: it holds the motion that the policy follows, with its body. It adds the
+/// exact states of that motion, the settings of the simulation, and the networks.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +16,15 @@
 namespace mimicx::files {
 
 struct StoredPolicy {
-  motion::Reference motion;              ///< that it follows: name, rate, body
+  motion::Reference motion;              ///< that the policy follows: name, rate, body
   List<physics::State<double>> states;   ///< [frames] of that motion, in the simulator's numbers
-  physics::SimulationConfig simulation;  ///< in which it acts
+  physics::SimulationConfig simulation;  ///< in which the policy acts
   rl::Agent agent;
 };
 
-/// @param input  whose body the motion is on
+/// @param input  the motion whose body is written
 void write_policy(const std::filesystem::path& path, const motion::Clip& input, const StoredPolicy& stored);
-/// @throws DataError naming file and member that is not there, or not of its shape
+/// @throws DataError naming file and member that is missing or of another shape
 StoredPolicy read_policy(const std::filesystem::path& path);
 StoredPolicy policy_from(const Npz& npz);
 

@@ -18,11 +18,11 @@ struct RecordedForces {
   PerFrame<PerBody<Vector3d>> torque;  ///< [frames] from the joint on the body, its own frame, N·m; 0 unused
 };
 
-/// What stands in the members of the file that the clip was read from; none where there are no forces.
-/// @throws DataError naming clip and member where only some of it is there, or not of its shape
+/// The forces among the members of the file that the clip was read from; none if it has no forces.
+/// @throws DataError naming clip and member if a member is missing or of another shape
 std::optional<RecordedForces> recorded_forces(const motion::Clip& clip);
 
-/// Length of an arrow that shows a force.
+/// Length of an arrow per force that it shows.
 inline constexpr double kMetresPerNewton = 0.001;
 
 /// The middle of interval i (between frames i and i + 1), s.

@@ -5,7 +5,7 @@
 
 namespace mimicx::judge {
 
-/// What the choice looks at.
+/// The numbers that decide the choice.
 struct Candidate {
   bool success = false;  ///< docs/metrics.md
   int frames = 0;        ///< that were simulated

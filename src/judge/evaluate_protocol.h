@@ -1,9 +1,8 @@
 /// `mimicx evaluate --protocol`: the tables of published protocols (motion/published_protocols.h), file by
 /// file.
 ///
-/// Pairs are files of the same name. A truth without a motion, or with one that cannot be compared, has no
-/// values; protocols with a success rate count it as no success, because a method that leaves the hard
-/// motions out would otherwise look better.
+/// Pairs are files of the same name. A truth without a comparable motion has no values. Protocols with a
+/// success rate count it as a failure, because otherwise a method that omits hard motions would look better.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace mimicx::judge {
 
 struct ProtocolRow {
   std::string name;
-  std::string reason;  ///< why it has no values, one line; empty: it has
+  std::string reason;  ///< why it has no values, one line; empty: it has values
   int frames = 0;
   std::vector<motion::MetricValue> values;  ///< per column
 };
@@ -28,15 +27,15 @@ struct ProtocolTable {
   std::vector<ProtocolRow> rows;  ///< a row per truth or motion, by name
 };
 
-/// @throws DataError for a path that is not there, and where `motions` holds none
+/// @throws DataError for a missing path, and if `motions` holds no motion
 ProtocolTable evaluate_protocol(motion::Protocol protocol, const std::filesystem::path& truth,
                                 const std::filesystem::path& motions, const import::ReadConfig& read = {});
 
-/// Over the samples of all rows that have values. @param succeeded  only of those that are a success
+/// Over the samples of all rows that have values. @param succeeded  only rows that are a success
 std::vector<motion::MetricValue> pooled_row(const ProtocolTable& table, bool succeeded = false);
 
-/// A line per motion and the pooled ones; of several tables the pooled lines alone. Definitions and sources
-/// below.
+/// A line per motion and the pooled lines; for several tables only the pooled lines. Definitions and sources
+/// follow.
 std::string format_protocol(const std::vector<ProtocolTable>& tables);
 /// {"protocol", "columns": [{name, unit, definition, source}], "folders": [{folder, pooled, succeeded,
 /// motions}]}

@@ -8,7 +8,7 @@
 namespace mimicx::judge {
 namespace {
 
-/// Of a stretch of help.
+/// Summary of the help over a stretch of frames.
 struct Total {
   double mean = 0.0, largest = 0.0, mean_moment = 0.0, largest_moment = 0.0;  ///< N, N·m
   int worst = 0;                                                              ///< frame of the largest force

@@ -1,8 +1,8 @@
-/// What a reference asks for that no body has: for the manifest, for feasibility/NAME.npz, and in words.
+/// The external force that a reference would need: for the manifest, for feasibility/NAME.npz, and in words.
 ///
-/// The poses alone say which force would have to come from outside (audit/pose_needs.h). Where a
-/// plan was lost, its soft stage says the same with contacts that are simulated: what was left of the help on
-/// the pelvis, which has a price.
+/// The poses alone give an external force (audit/pose_needs.h). If a plan failed, its relaxed stage gives
+/// another one, with simulated contacts: the assistive force on the pelvis that remained although it has a
+/// cost.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@
 
 namespace mimicx::judge {
 
-/// Without frames where the reference has fewer than 3.
+/// Without frames if the reference has fewer than 3.
 audit::PoseNeeds needs_of(const motion::Reference& reference);
 
-/// Frames that the soft stage reached, mean and largest force, acceleration and moment of its help, and the
-/// frame of the largest force. None without help. @param help  moment and force, N·m, N
+/// Frames that the relaxed stage reached, mean and largest force, acceleration and moment of its help, and
+/// the frame of the largest force. Empty without help. @param help  moment and force, N·m, N
 NamedValues help_values(const PerFrame<Vector6d>& help, double mass);
 
 /// "with help the body passes frames 0-21: at most 310 N (4.4 m/s2) at frame 5 and 90 N (1.3 m/s2) on average
-/// push the pelvis, at most 120 N m turn it". Empty where there was no help between these frames.
+/// push the pelvis, at most 120 N m turn it". Empty if there was no help in these frames.
 std::string help_in_words(const PerFrame<Vector6d>& help, double mass, int first, int last);
 
 record::FrameFeasibility frame_feasibility(const audit::PoseNeeds& needs, const PerFrame<Vector6d>& help);

@@ -19,11 +19,11 @@ struct Scores {
   std::string reason;  ///< why it is no success
 };
 
-/// A simulated motion against the reference it was asked to follow. Success as docs/metrics.md defines it.
+/// A simulated motion against the reference that it follows. Success as docs/metrics.md defines it.
 Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
-/// The input as it came (free joints, its own height) against what preparation made of it; NaN where the
-/// frames do not correspond because the input was resampled.
+/// The unprepared input (free joints, its own height) against the prepared reference; NaN if the frames do
+/// not correspond because the input was resampled.
 NamedValues score_input(const motion::Clip& input, const motion::Reference& reference);
 
 }  // namespace mimicx::judge

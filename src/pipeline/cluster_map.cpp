@@ -22,7 +22,7 @@ Scaled scaled(const options::MotionFeatures& features) {
   return Eigen::Map<const Scaled>(values.data());
 }
 
-/// Features that say the same of all joints, in words: what there is more or less of.
+/// Groups of features of one kind, with words for what there is more or less of.
 struct FeatureKind {
   int first, count;
   const char* words;
@@ -32,9 +32,9 @@ constexpr FeatureKind kKinds[] = {{options::kRootHeight, 1, "height of the hips"
                                   {options::kPlanarVelocity, kBodies, "speed across the floor"},
                                   {options::kVerticalVelocity, kBodies, "speed up and down"},
                                   {options::kAcceleration, kBodies, "acceleration"}};
-constexpr double kWorthSaying = 0.1;  ///< of a direction's squared length
+constexpr double kWorthSaying = 0.1;  ///< smaller parts of a direction's squared length get no words
 
-/// "more speed across the floor, less height of the hips": the largest part first.
+/// "more speed across the floor, less height of the hips", the largest part first.
 std::string words_of(const Eigen::VectorXd& direction) {
   std::vector<std::pair<double, std::string>> parts;
   for (const FeatureKind& kind : kKinds) {
@@ -50,10 +50,10 @@ std::string words_of(const Eigen::VectorXd& direction) {
   return text;
 }
 
-constexpr double kMapSteps = 1e4;  ///< more than a map shows
+constexpr double kMapSteps = 1e4;  ///< per unit of the map's numbers: more precise than visible
 
-/// Puts a motion of the run on the map, by its prepared reference, as options are chosen by it. One that is
-/// gone or too short is left out.
+/// Puts a motion of the run on the map, by its prepared reference, which also decides the nearest cluster. A
+/// missing or too short one is left out.
 void add_clip(const record::RunFolder& folder, const record::SequenceEntry& entry, int row,
               const options::Clusters& clusters, ClusterMap& map) {
   const std::filesystem::path file = folder.reference(entry.name);
@@ -86,7 +86,7 @@ std::string draw_map(const record::RunFolder& folder, const record::Manifest& ma
   return "";
 }
 
-/// So that the report has its map also where the options are gone.
+/// Copies the clusters into the folder, so that the report does not depend on the options' files.
 void keep_clusters(const std::vector<std::filesystem::path>& files, const record::RunFolder& folder,
                    std::ostream& messages) {
   if (files.empty() || std::filesystem::exists(folder.clusters())) return;
@@ -123,7 +123,7 @@ ClusterMap map_of(const options::Clusters& clusters) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   for (int k = 0; k < 2; ++k) {
     Eigen::VectorXd direction = solver.eigenvectors().col(options::kFeatures - 1 - k);
-    if (direction.sum() < 0.0) direction *= -1.0;  // a direction has no sign of its own
+    if (direction.sum() < 0.0) direction *= -1.0;  // the sign of a principal direction is arbitrary
     const double all = covariance.trace(), own = solver.eigenvalues()[options::kFeatures - 1 - k];
     map.axes[static_cast<std::size_t>(k)] = {direction, all > 0.0 ? own / all : 0.0, words_of(direction)};
   }

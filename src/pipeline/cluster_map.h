@@ -1,10 +1,9 @@
-/// A map of motions by what they are like: the two principal components of the features of the motions that
-/// options were trained on, with these motions, their clusters, and the clips of a run.
+/// A map of motions for the report: the training motions of the options, their clusters and the clips of a
+/// run, by the first two principal components of the training motions' features.
 ///
-/// A point is a motion; near means alike. Distances are those of the clusters
-/// (pipeline::options::scaled_features) as far as two directions can show them: the directions are those in
-/// which the training motions differ most (I. T. Jolliffe, "Principal Component Analysis", 2002, ch. 1), and
-/// what a motion has across them is not seen.
+/// A point is a motion, and similar motions are near each other. Distances are those of clustering
+/// (pipeline::options::scaled_features), projected onto the two directions in which the training motions
+/// differ most (I. T. Jolliffe, "Principal Component Analysis", 2002, ch. 1).
 #pragma once
 
 #include <array>
@@ -22,7 +21,7 @@ struct MapAxis {
   Eigen::VectorXd
       direction;       ///< unit, [kFeatures] of scaled features; the larger part of its entries is positive
   double share = 0.0;  ///< of the motions' variance
-  std::string words;   ///< what a motion has more of, farther along: "more speed across the floor"
+  std::string words;   ///< what increases along the axis: "more speed across the floor"
 };
 
 struct MapPoint {
@@ -49,13 +48,13 @@ ClusterMap map_of(const options::Clusters& clusters);
 /// cluster, row].
 std::string map_json(const ClusterMap& map);
 
-/// The map of a run, from the clusters that its folder keeps; empty without any.
+/// The map of a run, from the clusters in its folder; empty if it has none.
 std::string draw_kept_map(const record::RunFolder& folder, const record::Manifest& manifest,
                           std::vector<std::pair<std::string, std::string>>& facts);
-/// The same among other clusters. @param files  clusters.json of sets of options
+/// The same with other clusters. @param files  clusters.json of sets of options
 report::MapDrawing map_among(std::vector<std::filesystem::path> files);
-/// For the runs that begin from options: their clusters are kept in the folder, and drawn from there.
-/// @param files  of all sets; empty: the folder keeps what it has
+/// For runs that begin from options: copies their clusters into the folder, and draws the map from there.
+/// @param files  of all sets; empty: the folder's clusters are not changed
 run::MotionMap run_map(std::vector<std::filesystem::path> files);
 
 }  // namespace mimicx::pipeline

@@ -6,8 +6,8 @@
 namespace mimicx::pipeline {
 namespace {
 
-/// What a training goes on from: no checkpoint of another input, and none of other options or of another
-/// arrangement of them, which a search that was told to stop may have left.
+/// Identifies the start of a training: input, options and arrangement. A checkpoint with another start, which
+/// a stopped search may have left, is not continued.
 std::string start_of_training(const run::SequenceJob& job, const options::OptionSet& set,
                               const List<int>& arrangement) {
   std::string text = set.checksum;
@@ -15,7 +15,7 @@ std::string start_of_training(const run::SequenceJob& job, const options::Option
   return job.input_checksum + ' ' + record::checksum(text);
 }
 
-/// How the options were found, for the manifest.
+/// Notes for the manifest on the choice of the options.
 std::vector<std::string> notes_of(const ChosenSet& chosen, int frames, int sets, bool timed_out) {
   std::vector<std::string> notes;
   const auto one_set = [&](int set) {

@@ -1,8 +1,9 @@
-/// Which of several sets of options a motion is given to.                                docs/method.md §8
+/// Which of several sets of options is used for a motion.                                docs/method.md §8
 ///
-/// Options that were trained apart may see their reference differently (options/option.h), so those of two
-/// sets do not meet in one arrangement. Sets are tried in their order until the arrangement of one follows
-/// the whole motion by itself; where none does, the best of them is taken (choice.h), of equals the first.
+/// Options of different trainings may observe their reference differently (options/option.h), so one
+/// arrangement has options of one set only. Sets are tried in their order until the arrangement of one
+/// follows the whole motion without fine-tuning. If none does, the best is taken (choice.h), of equals the
+/// first.
 #pragma once
 
 #include "pipeline/options/arrangement.h"
@@ -10,16 +11,15 @@
 namespace mimicx::pipeline {
 
 struct ChosenSet {
-  int set = 0;            ///< its number
-  bool success = false;   ///< its arrangement follows the whole motion; not looked at where there is one set
-  int tried = 0;          ///< sets whose search was begun
-  int last_searched = 0;  ///< frames that the last of these came to; less than it has: told to stop
+  int set = 0;            ///< its index
+  bool success = false;   ///< its arrangement follows the whole motion; not computed for a single set
+  int tried = 0;          ///< sets whose search began
+  int last_searched = 0;  ///< frames that the last search reached; fewer than the motion has: it was stopped
   options::ArrangedClip arranged;
 };
 
 /// @param clip  of the reference, as `options::arrange` takes it
-/// @param should_stop  as there; a search that is stopped is the last, and is not taken unless it is the
-/// first
+/// @param should_stop  as there; a stopped search is the last one, and is taken only if it is the first
 /// @throws std::invalid_argument as `options::arrange`, and without a set
 ChosenSet choose_set(const motion::Reference& reference,
                      const std::shared_ptr<const rl::tracking::TrackingClip>& clip,

@@ -14,7 +14,7 @@ std::string short_text(const record::Json& json) {
   return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
 }
 
-/// What a file holds; null where it is no JSON.
+/// The JSON of a file; null if it is no JSON.
 record::Json json_or_null(const std::filesystem::path& path) {
   try {
     return record::Json::parse(read_file(path));
@@ -60,7 +60,7 @@ bool let_budget_grow(const record::RunFolder& folder, record::Json& record) {
     if (!earlier.elements().empty()) record["earlier_samples"] = earlier;
     return before < now;
   } catch (const record::JsonError&) {
-    return false;  // no such run: `finished_outcome` says what it is
+    return false;  // another run: `finished_outcome` names the difference
   }
 }
 

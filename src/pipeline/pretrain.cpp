@@ -40,7 +40,7 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
       run::PreparedMotion motion = run::prepare_motion(
           files[i], config.read, config.fit ? run::Correction::kKeypoints : run::Correction::kPoses);
       run::tell_decisions(files[i], motion.input, context.messages);
-      // Names tell motions apart inside the set; the same file name in two folders is two motions.
+      // Names identify motions in the set; files of the same name in two folders get different names.
       const std::string name = record::unique_name(inputs[i].name, taken);
       motions.features.push_back({name, options::motion_features(motion.reference)});
       taken.insert(name);
@@ -74,14 +74,14 @@ record::Json settings_json(const PretrainConfig& config) {
   return settings;
 }
 
-/// What the results depend on; a folder holds one run of one such record.
+/// Everything that the results depend on; a folder holds one run with one such record.
 record::Json pretraining_record(const PretrainConfig& config, const std::vector<std::string>& files) {
   record::Json inputs = record::Json::array();
   for (const std::string& file : files) {
     std::string checksum;
     try {
       checksum = record::file_checksum(file);
-    } catch (const DataError&) {  // told when the motion is read
+    } catch (const DataError&) {  // reported when the motion is read
     }
     inputs.push_back({{"input", record::to_utf8(file)}, {"checksum", checksum}});
   }
@@ -109,7 +109,7 @@ nn::AutoEncoder make_encoder(const std::vector<std::shared_ptr<const rl::trackin
   return nn::train_autoencoder(samples, config, seed, &stats, progress);
 }
 
-/// What every option gets of the run's budgets, the earlier ones first. [option][budget]
+/// The samples of every option after each of the run's budgets. [option][budget], ascending
 /// @param motions  of every option
 std::vector<std::vector<std::int64_t>> budgets_of_options(const record::Json& record,
                                                           const std::vector<int>& motions) {
@@ -123,7 +123,7 @@ std::vector<std::vector<std::int64_t>> budgets_of_options(const record::Json& re
   return shares;
 }
 
-/// An option after its training, and what the manifest says of it.
+/// A trained option and its entry in the manifest.
 struct OptionTraining {
   options::TrainedOption trained;
   record::Json record;
@@ -131,7 +131,7 @@ struct OptionTraining {
 };
 
 /// Encoder and policy of one cluster.
-/// @param budgets  samples of the option, ascending: each is spent before the next
+/// @param budgets  samples of the option, ascending; each is spent before the next
 OptionTraining train_option(const PretrainConfig& config, const record::RunContext& context,
                             const options::Clusters& clusters, int index,
                             const std::vector<std::int64_t>& budgets, const Motions& motions) {
@@ -150,7 +150,8 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
   nn::AutoEncoderStats losses;
   if (config.use_encoder) {
     nn::AutoEncoderConfig encoder = config.encoder;
-    encoder.steps = encoder_steps(encoder, budgets.front());  // frozen: a policy goes on with what it knows
+    encoder.steps =
+        encoder_steps(encoder, budgets.front());  // frozen, so that a continued policy keeps its encoder
     context.progress.start(name + ", encoder", 0.0, encoder.steps, "steps");
     option.encoder = make_encoder(clips, encoder, training.seed, losses,
                                   [&](int steps) { context.progress.update(steps, ""); });
@@ -191,7 +192,7 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
 
 NamedValues settings_of(const PretrainConfig& config) {
   NamedValues values;
-  const record::Json settings = settings_json(config);  // items() looks into it
+  const record::Json settings = settings_json(config);  // items() refers to it
   for (const auto& [name, value] : settings.items())
     values.emplace_back(name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
   return values;

@@ -1,7 +1,7 @@
-/// `mimicx pretrain`: a folder of motions in, a set of options out.
+/// `mimicx pretrain`: trains a set of options from a folder of motions.
 ///
 /// Read → fit → prepare → features → clusters; then, cluster by cluster, the denoising encoder and the
-/// policy, trained by PPO on all of the cluster's motions. Clips that cannot be read are named and left out.
+/// policy, trained by PPO on all of the cluster's motions. Unreadable clips are named and skipped.
 ///
 ///     DIR/options.npz              the set
 ///     DIR/clusters.json            which motion is in which cluster
@@ -9,11 +9,11 @@
 ///     DIR/checkpoints/optionK.npz  the complete state of the training
 ///     DIR/manifest.json            inputs, settings, samples and losses
 ///
-/// The same command continues an interrupted run; its files end up the same bytes as those of a run that was
-/// never interrupted. With more samples it goes on with what is there, encoders and all; the manifest then
-/// names the earlier budgets. They are spent one after the other, so the bytes depend on all budgets, and on
-/// nothing else: of one that was begun with the larger budget they differ (it explores longer).
-/// What it never does: open any ground truth.
+/// The same command continues an interrupted run; its files end up the same bytes as those of an
+/// uninterrupted run. With more samples it continues the trained options and encoders, and the manifest names
+/// the earlier budgets. The budgets are spent one after the other, so the bytes depend on all budgets and on
+/// nothing else. A run that begins with the larger budget gives other bytes, because it explores longer. It
+/// never opens any ground truth.
 #pragma once
 
 #include "import/motion_file.h"
@@ -31,22 +31,22 @@ struct PretrainConfig {
   TrainingConfig training;  ///< its samples are of all options together
   options::ClusterConfig clusters;
   nn::AutoEncoderConfig encoder;
-  bool use_encoder = true;  ///< false: policies see the reference itself (an ablation)
-  bool fit = false;         ///< move motions onto their keypoints first, where they have any
+  bool use_encoder = true;  ///< false: policies observe the reference itself (an ablation)
+  bool fit = false;         ///< first fit motions to their keypoints, if they have any
   import::ReadConfig read;
-  bool force = false;  ///< overwrite files that no run made
+  bool force = false;  ///< overwrite files of other programs
   int threads = 1;
 };
 
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const PretrainConfig& config);
 
-/// Steps of an option's encoder: those of the settings, fewer where its policy gets under ten times as many
-/// samples, and at least 100.
+/// Training steps of an option's encoder: those of the settings, but at most a tenth of its policy's samples,
+/// and at least 100.
 int encoder_steps(const nn::AutoEncoderConfig& config, std::int64_t samples);
 
-/// Samples of every option: in proportion to the square root of the number of its motions, since what a
-/// policy learns on one motion helps it on the next. @param motions  of every option, ≥ 1
+/// Samples of every option, proportional to the square root of the number of its motions: what a policy
+/// learns on one motion helps it on the next. @param motions  of every option, ≥ 1
 std::vector<std::int64_t> share_samples(std::int64_t samples, const std::vector<int>& motions);
 
 record::RunOutcome pretrain(const PretrainConfig& config, const record::RunContext& context);

@@ -1,5 +1,4 @@
-/// The middle of a run by training: policies learn to follow one motion, and their mean actions are rolled
-/// out over the whole of it.
+/// Trains policies to follow one motion, and rolls their mean actions out over the whole motion.
 #pragma once
 
 #include <memory>
@@ -10,7 +9,7 @@
 
 namespace mimicx::pipeline {
 
-/// The result is interrupted where the training was.
+/// The result is interrupted if the training was.
 /// @param agents  to start from, one per option of the clip's arrangement
 run::SimulatedSequence train_sequence(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                                       const std::vector<rl::Agent>& agents, const TrainingConfig& config,

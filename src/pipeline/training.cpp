@@ -25,17 +25,18 @@ constexpr const char* kBestPrefix = "best.";
 constexpr const char* kBestScoreKey = "best_score";
 constexpr const char* kBestAgeKey = "best_age";
 constexpr const char* kEndingKey = "ending";
-constexpr double kBetter = 0.99;  ///< a score under this share of the best one starts the stall anew
+constexpr double kBetter = 0.99;  ///< a score below this share of the best one resets the stall count
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Clips = List<std::shared_ptr<const rl::tracking::TrackingClip>>;
 
 /// The agents whose mean actions followed the clips best so far. The roll-out decides, not the last
-/// iteration: exploration noise hides how good a mean action is, and late updates may unlearn a hard moment.
+/// iteration: rewards under exploration noise do not show how good a mean action is, and late updates may
+/// unlearn a hard part.
 struct Best {
   std::vector<rl::Agent> agents;
   double score = std::numeric_limits<double>::infinity();
-  int age = 0;  ///< roll-outs since the score last became markedly better
+  int age = 0;  ///< roll-outs since the last marked improvement
 };
 
 /// Roll-outs of the mean actions over all clips.
@@ -45,7 +46,8 @@ struct MeanRollout {
   double position_error = 0.0;  ///< m, mean over clips
 };
 
-/// Mean position error, m; a body that strayed beyond the limit of success (docs/metrics.md) outweighs it.
+/// Mean position error, m; for a body farther than the limit of success (docs/metrics.md) its distance is
+/// added.
 double score_of(const rl::tracking::TrackingRollout& rollout) {
   constexpr double kFarthest = 3.0;
   if (rollout.broken) return kFarthest;
@@ -71,7 +73,7 @@ MeanRollout evaluate(const Clips& clips, const rl::tracking::TrackingConfig& con
   return mean;
 }
 
-/// Keeps the agents where they are the best so far, and counts how long none has been markedly better.
+/// Keeps the agents if they are the best so far, and counts roll-outs without marked improvement.
 void consider(Best& best, const Trainer& trainer, double score) {
   best.age = stall_age(best.age, score, best.score);
   if (score < best.score) {
@@ -87,7 +89,7 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
   write_file_atomically(path, record::format_csv(table));
 }
 
-/// Writes the log first: a checkpoint never stands beside a log that lacks its rows.
+/// Writes the log first, so that it always has all rows of the checkpoint.
 void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& environment,
           const TrainingConfig& config, const TrainingFiles& files, const Best& best, record::Ending ending,
           const record::Table& log) {
@@ -105,9 +107,8 @@ void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& envir
   write_npz(files.checkpoint, archive);
 }
 
-/// Continues from the checkpoint, if there is one of this input, and drops the rows of the log that are
-/// newer.
-/// @return how that training had ended; kNone where it goes on
+/// Continues from the checkpoint, if there is one of this input, and drops newer rows of the log.
+/// @return how that training ended; kNone if it continues
 record::Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, record::Table& log) {
   if (!std::filesystem::exists(files.checkpoint)) return record::Ending::kNone;
   const Npz archive = read_npz(files.checkpoint);
@@ -174,12 +175,12 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   const double started = record::steady_seconds();
   double saved = started;
   TrainingResult result;
-  if (std::isinf(best.score))  // the agents to start from compete, too, once
+  if (std::isinf(best.score))  // the initial agents are candidates, too
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
   if (config.samples == 0) ending = record::Ending::kBudget;
   if (ending == record::Ending::kBudget && trainer.samples() < config.samples)
-    ending = record::Ending::kNone;  // there is more budget than the checkpoint had
-  // A checkpoint of more samples than these is of a later budget, on its way (pretrain.h): nothing to add.
+    ending = record::Ending::kNone;  // this budget is larger than the checkpoint's
+  // A checkpoint of more samples belongs to a later, larger budget (pretrain.h): nothing to train here.
   while (ending == record::Ending::kNone && trainer.samples() < config.samples) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
     if (stats.samples >= config.samples) ending = record::Ending::kBudget;

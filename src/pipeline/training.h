@@ -2,9 +2,9 @@
 ///
 /// One policy on one clip (imitation), one on many clips (an option's pre-training), or several options on
 /// one clip under its arrangement (joint fine-tuning) are the same loop. `train` runs PPO until the samples
-/// are spent, writes the complete state of the training to a checkpoint now and then, and takes a training up
-/// again where its checkpoint left it: interrupted or not, the bytes of the agent and of the log are the
-/// same. It reads and writes only the files it is given.
+/// are spent, writes checkpoints with the complete state of the training, and continues from an existing
+/// checkpoint. With or without interruptions, the bytes of agent and log are the same. It reads and writes
+/// only the files that it is given.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +28,16 @@ struct TrainingFiles {
   std::filesystem::path checkpoint;  ///< complete state
   std::filesystem::path log;         ///< a row per iteration
   std::filesystem::path falls;       ///< share of the visits that end in a fall, over the clip's frames
-  /// Identifies the input; a checkpoint of another input is not taken up.
+  /// Identifies the input; a checkpoint of another input is not continued.
   std::string input_checksum;
 };
 
 struct TrainingControl {
   int threads = 1;
-  double limit_seconds = 0.0;         ///< safety stop; 0: none
+  double limit_seconds = 0.0;         ///< time limit; 0: none
   double checkpoint_seconds = 20.0;   ///< between checkpoints
   std::function<bool()> should_stop;  ///< asked after every iteration
-  /// Called before the first iteration (with what a checkpoint brought) and after every one.
+  /// Called before the first iteration, with the samples of the checkpoint, and after every one.
   std::function<void(std::int64_t samples, const std::string& detail)> progress;
 };
 
@@ -49,21 +49,21 @@ struct TrainingResult {
   double seconds = 0.0;      ///< of this call
 };
 
-/// @param clips   of one state size; options act in each as its arrangement says
-/// @param agents  what to start from, one per option of the arrangements
+/// @param clips   all of one state size; in each, its arrangement decides which option acts
+/// @param agents  initial agents, one per option of the arrangements
 TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::TrackingClip>>& clips,
                      std::vector<rl::Agent> agents, const TrainingConfig& config, const TrainingFiles& files,
                      const TrainingControl& control);
 
-/// A callback for TrainingControl::progress that shows a training of so many samples under this label.
+/// A callback for TrainingControl::progress that shows the training under this label.
 std::function<void(std::int64_t, const std::string&)> progress_of_training(record::Progress& progress,
                                                                            const std::string& label,
                                                                            std::int64_t samples);
 
-/// The number of roll-outs in a row that followed the motion to its end and were not markedly better than the
-/// best one before. A roll-out that falls starts the count anew: learning has not settled.
+/// The number of consecutive roll-outs that followed the motion to its end without a marked improvement. A
+/// roll-out that falls resets the count: learning has not settled.
 /// @param age, best_score  the number and the best score before the roll-out
-/// @param score  of the roll-out, m; over 0.5 where it did not follow the motion
+/// @param score  of the roll-out, m; over 0.5 if it did not follow the motion
 int stall_age(int age, double score, double best_score);
 
 /// The seed, and the share of the budget during which σ falls, as the learner takes them.

@@ -1,8 +1,7 @@
-/// Everything that the result of a training depends on, and its numbers by name.
+/// Everything that the result of a training depends on; its numbers have names.
 ///
-/// Nothing but the task itself has a default here: what people run are the columns of configurations.h. The
-/// task (reward, simulation, starts) is one for all; its values stand beside their meaning in rl/tracking and
-/// physics.
+/// Only the task has defaults here; those of trainings are the columns of configurations.h. The task (reward,
+/// simulation, starts) is the same for all trainings; its values are documented in rl/tracking and physics.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +15,16 @@
 namespace mimicx::pipeline {
 
 struct TrainingConfig {
-  std::int64_t samples = 0;     ///< budget: character steps
+  std::int64_t samples = 0;     ///< budget: in character steps
   std::uint64_t seed = 0;       ///< the one root of every random number
-  int characters = 0;           ///< simulated side by side
-  int group_size = 0;           ///< characters that one worker carries through a roll-out
+  int characters = 0;           ///< simulated in parallel
+  int group_size = 0;           ///< characters that one worker simulates in a roll-out
   std::vector<int> hidden;      ///< widths of the hidden layers of actor and critic
   double sigma_share = 0.0;     ///< share of the budget during which σ falls
-  int evaluate_iterations = 0;  ///< every so many iterations the mean actions are rolled out
-  double stop_reward = 0.0;     ///< a roll-out of this mean reward ends the training; 0: none does
-  /// The training ends after this many roll-outs in a row that follow the motion to its end without being
-  /// better than the best one before; 0: it does not end so.
+  int evaluate_iterations = 0;  ///< iterations between two roll-outs of the mean actions
+  double stop_reward = 0.0;     ///< mean reward of a roll-out that ends the training; 0: never
+  /// The training ends after so many consecutive roll-outs that follow the motion to its end without
+  /// improvement; 0: never.
   int stall_evaluations = 0;
   rl::PpoConfig ppo{};
   rl::tracking::TrackingConfig tracking;

@@ -7,18 +7,18 @@
 
 namespace mimicx::pipeline {
 
-/// What is known after one iteration.
+/// The numbers of one iteration.
 struct TrainingLogRow {
   rl::IterationStats iteration;
   rl::tracking::TrackingStatistics tracking;
   double sharpness = 1.0;
-  double rollout_reward = 0.0;          ///< of the mean actions; NaN where they were not rolled out
+  double rollout_reward = 0.0;          ///< of the mean actions; NaN if they were not rolled out
   double rollout_position_error = 0.0;  ///< m; NaN likewise
 };
 
-/// The columns and no row.
+/// The columns without rows.
 record::Table empty_training_log();
-/// Adds a row. @param log  as `empty_training_log` began it
+/// Adds a row. @param log  begun by `empty_training_log`
 void append(record::Table& log, const TrainingLogRow& row);
 
 }  // namespace mimicx::pipeline

@@ -11,7 +11,7 @@ struct PlanMotionsConfig {
   PlanningConfig planning;
 };
 
-/// What people run (configurations.h).
+/// The defaults (configurations.h).
 PlanMotionsConfig plan_configuration();
 
 /// The settings, as the manifest lists them.

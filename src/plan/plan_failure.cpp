@@ -9,9 +9,9 @@
 namespace mimicx::plan {
 namespace {
 
-/// Frames before the loss in which its cause is looked for: what topples a body takes most of a second.
+/// Frames before the failure that are searched for its cause: toppling takes most of a second.
 constexpr int kFramesBefore = 30;
-/// Frames behind it that count among those which took help: a body that only just passes falls there.
+/// Frames after the failure whose help is also counted: a body that only just passes falls there.
 constexpr int kFramesAfter = 15;
 
 template <class... Args>
@@ -21,7 +21,7 @@ std::string print(const char* format, Args... args) {
   return text;
 }
 
-/// What the reference asks for in frames first … last that no body can do.
+/// The infeasible stretches of the reference in frames first … last, in words.
 std::string needs_in_words(const audit::PoseNeeds& needs, int first, int last) {
   std::string text;
   for (const audit::Stretch& stretch : audit::infeasible_stretches(needs))

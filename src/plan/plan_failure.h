@@ -1,4 +1,4 @@
-/// Why a plan was lost, in words that a person can act on.
+/// Why a plan failed, in words for the user.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace mimicx::plan {
 
-/// "the plan is lost at frame 132 (4.40 s): the left foot is 0.41 m from its reference; …", then what the
-/// reference asks for within a second before that no body can do (audit/pose_verdict.h), and how
-/// much help it took to pass (reference_needs.h). Where the poses ask for next to nothing, a body could
-/// follow, and it is the search that failed: the sentence says so.
+/// "the plan is lost at frame 132 (4.40 s): the left foot is 0.41 m from its reference; …". Then the
+/// infeasible stretches of the reference within the second before (audit/pose_verdict.h), and the assistive
+/// force that was needed to pass them (reference_needs.h). If the reference is feasible there, only the
+/// search failed, and the message says so.
 std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& needs,
                           const PerFrame<Vector6d>& help);
 

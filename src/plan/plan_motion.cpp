@@ -15,7 +15,7 @@
 namespace mimicx::plan {
 namespace {
 
-/// The plan that an earlier run finished for this very input; none where the file is not that.
+/// The finished plan of an earlier run for the same input; none if the file is another one.
 std::optional<files::StoredPlan> finished_plan(const run::SequenceJob& job) {
   const std::filesystem::path file = job.folder.plan(job.name);
   if (!std::filesystem::exists(file)) return {};
@@ -23,7 +23,7 @@ std::optional<files::StoredPlan> finished_plan(const run::SequenceJob& job) {
     files::StoredPlan stored = files::read_plan(file);
     if (stored.plan.ending != control::Ending::kStopped && stored.input_checksum == job.input_checksum)
       return stored;
-  } catch (const DataError&) {  // a damaged one is made anew
+  } catch (const DataError&) {  // a damaged plan is made again
   }
   return {};
 }
@@ -47,7 +47,7 @@ files::StoredPlan make(const motion::Reference& reference, const physics::Simula
   return stored;
 }
 
-/// The feedback gains of a plan that was followed, where they are wanted; those of another plan go.
+/// Writes the feedback gains of a successful plan, on request, and removes those of an older plan.
 void leave_gains(const motion::Reference& reference, const control::PlanConfig& config,
                  const files::StoredPlan& stored, run::JobWatch& watch) {
   const std::filesystem::path file = watch.job.folder.gains(watch.job.name);
@@ -59,7 +59,7 @@ void leave_gains(const motion::Reference& reference, const control::PlanConfig& 
   files::StoredGains feedback;
   feedback.gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan), {},
                                            watch.control(), &curvature);
-  if (feedback.gains.empty()) return;  // it was told to stop
+  if (feedback.gains.empty()) return;  // stopped
   feedback.curvature = Eigen::MatrixXf::Zero(kDofs, kDofs);
   for (const Eigen::MatrixXf& Q : curvature) feedback.curvature += Q / static_cast<float>(curvature.size());
   make_folder(file.parent_path());

@@ -1,10 +1,10 @@
-/// The middle of a run by planning: optimal control finds residuals on the simulator's own derivatives
-/// (control/plan.h), and these are rolled out over the whole of the motion, byte for byte what was planned.
+/// Plans one motion: optimal control on the simulator's derivatives finds residuals (control/plan.h), and
+/// their roll-out over the whole motion repeats the plan byte for byte.
 ///
-/// The plan is left in plans/NAME.npz (plan_file.h). One that was finished for the same input is taken up
-/// again; one that was interrupted starts anew. Where they are wanted, the feedback gains of a plan that was
-/// followed are left in gains/NAME.npz. Where a plan is lost the residuals behind its end are zero:
-/// the body goes on, and falls.
+/// The plan is written to plans/NAME.npz (plan_file.h). A finished plan of the same input is reused; an
+/// interrupted one starts again. On request, the feedback gains of a successful plan are written to
+/// gains/NAME.npz. If a plan fails, the residuals after its end are zero, and the body falls in the rest of
+/// the roll-out.
 #pragma once
 
 #include "control/cost.h"
@@ -13,21 +13,25 @@
 
 namespace mimicx::plan {
 
-/// The result is interrupted where the job's context stopped the plan.
-/// @param planned  where not null: the plan itself
+/// The result is interrupted if the job's context stopped the plan.
+/// @param planned  if not null, gets the plan itself
 run::SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                      const run::SequenceJob& job, control::Plan* planned = nullptr);
 
-inline constexpr float kBridged = 0.1f;
+inline constexpr float kBridged = 0.1f;  ///< largest certainty of frames that preparation bridged
 
-/// Certainty of every body, [frames] × [kBodies], in (0, 1]:
+/// Certainty of every body, [frames] × [kBodies], in (0, 1], a factor on its weight in the plan's cost:
 ///
 ///     c = min(1, (a₀/a)⁴)
 ///
+/// An estimator that confuses left and right for a few frames lets a foot jump away and back. No body can do
+/// that, and a plan that follows it falls. Such a limb is recognised by its acceleration, and the rest of the
+/// body then decides where it is. The reference itself, and the metrics against it, do not change.
+///
 /// a is the largest acceleration in the frame and its two neighbours, m/s², by second differences of the
 /// reference: of an arm's or leg's joints relative to the shoulder or hip, and of the trunk's joints. All
-/// bodies of a limb have one certainty, because a foot is where it is by the rotations of hip and knee.
-/// Frames that preparation had to bridge (Reference::flagged) have at most `kBridged`.
+/// bodies of a limb have the same certainty, because the rotations of hip and knee place the foot. Frames
+/// that preparation bridged (Reference::flagged) have at most `kBridged`.
 /// @param plausible  a₀, m/s²; 0: everything is certain, the list is empty
 List<control::Certainty> certainty_of(const motion::Reference& reference, double plausible);
 

@@ -1,4 +1,4 @@
-/// How motions are planned, with every number by its name: for manifests and `--set`.
+/// Settings of planning; every number has a name, for manifests and `--set`.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace mimicx::plan {
 
-/// How a motion is planned whose reference may be wrong here and there. The certainty is filled in from the
-/// reference (plan_motion.h).
+/// Settings for a reference that may have errors. Its certainty is computed from the reference
+/// (plan_motion.h).
 struct MotionPlanConfig : control::PlanConfig {
-  double plausible_acceleration = 300.0;  ///< a₀ of the certainty, m/s²; 0: the reference is always right
+  double plausible_acceleration =
+      300.0;  ///< a₀ of the certainty, m/s²; 0: the reference is certain everywhere
 };
 
-/// Everything that the plan of a motion depends on.
+/// Everything that a plan depends on.
 struct PlanningConfig {
   MotionPlanConfig plan;
   physics::SimulationConfig simulation;
 };
 
-/// The numbers of the plan by name, all of them beginning with "plan_". The factors of single bodies are not
-/// among them.
+/// The numbers of the plan by name; all begin with "plan_". Factors of single bodies are not included.
 NamedValues plan_settings(const MotionPlanConfig& plan);
 /// Those, and the numbers of the simulation.
 NamedValues planning_settings(const PlanningConfig& config);

@@ -34,7 +34,7 @@ plan::PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
 
-/// A plan that was followed teaches a policy; the better of the two roll-outs stays.
+/// A complete plan teaches a policy; the better of the two roll-outs is kept.
 run::SimulatedSequence teach_after(const AdaptConfig& config, const motion::Reference& reference,
                                    const control::Plan& plan, const judge::Candidate& planned,
                                    run::SimulatedSequence made, const run::SequenceJob& job) {
@@ -96,7 +96,7 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   return kept;
 }
 
-/// Files of the sets' clusters; none where one is missing, since the others' numbers would mean nothing.
+/// Files of the sets' clusters; none if one is missing, because the numbering counts all of them.
 std::vector<std::filesystem::path> clusters_of(const pipeline::options::OptionSets& sets) {
   std::vector<std::filesystem::path> files;
   for (const auto& set : sets) files.push_back(set->clusters);

@@ -1,12 +1,11 @@
-/// `mimicx adapt`: cleans each motion, by a plan, by policies, or by policies where the plan fails.
+/// `mimicx adapt`: cleans each motion, by a plan, by trained policies, or by policies if the plan fails.
 ///
-/// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion.
-/// *Paper*: trained options, of the first set that follows, are arranged over the motion, and those that act
-/// are fine-tuned jointly; minutes.
+/// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion. *Paper*: trained
+/// options are arranged over the motion, and those that act are fine-tuned jointly (fine_tune.h); minutes.
 ///                                                                     docs/method.md §8, §9
-/// *Auto*: the plan, and where a policy is asked for, one that it teaches (teach_sequence.h); where the
-/// plan's roll-out is no success the paper's method with its whole budget. The better of the roll-outs is
-/// written (choice.h), and the manifest says which.
+/// *Auto*: the plan and, on request, a policy that it teaches (teach_motion.h); if the plan's roll-out is no
+/// success, the paper's method with its whole budget. The better roll-out is written (choice.h), and the
+/// manifest says which.
 #pragma once
 
 #include <filesystem>
@@ -27,23 +26,22 @@ struct AdaptConfig {
   run::RunConfig run;
   plan::MotionPlanConfig plan;  ///< simulated as `training` says
   teaching::TeachingConfig teaching;
-  pipeline::TrainingConfig training;  ///< of the fine-tuning; the networks are the options' own
+  pipeline::TrainingConfig training;  ///< of the fine-tuning; the networks are those of the options
   pipeline::options::ArrangementConfig arrangement;
-  pipeline::options::OptionSets
-      options;  ///< to start from (option_set_choice.h); not looked at by the plan alone
+  pipeline::options::OptionSets options;  ///< to start from (option_set_choice.h); not used by the plan alone
 };
 
 /// The settings, as the manifest lists them.
 NamedValues settings_of(const AdaptConfig& config);
 
-/// Changes a setting of the plan, of teaching, of the arrangement, or of the training, by its name.
-/// @throws std::invalid_argument as those of planning.h and training_config.h
+/// Changes a setting of the plan, of teaching, of the arrangement, or of the training.
+/// @throws std::invalid_argument as those of plan_settings.h and training_config.h
 void apply_setting(AdaptConfig& config, const std::string& name, double value);
 /// @throws std::invalid_argument naming a setting that the method cannot have
 void check(const AdaptConfig& config);
 
-/// @throws std::invalid_argument as `run_sequences`, and without options or with an arrangement that cannot
-/// be where the method may need them
+/// @throws std::invalid_argument as `run_sequences`, and for missing options or an impossible arrangement if
+/// the method may need them
 record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context);
 
 }  // namespace mimicx::program

@@ -22,9 +22,9 @@ struct Row {
   Array<double, 4> values;
 };
 
-// What each setting means stands beside its member in training_config.h and rl/ppo_config.h. Where the values
-// come from: docs/method.md §12 and docs/experiments.md. PPO for tracking takes many small iterations with a
-// generous KL, and a discount that looks 0.4 s ahead: what a pose error costs shows at once.
+// training_config.h and rl/ppo_config.h document each setting. The values come from docs/method.md §12 and
+// docs/experiments.md. PPO for tracking takes many small iterations with a large KL, and a discount that
+// looks 0.4 s ahead, because a pose error costs reward at once.
 // clang-format off
 constexpr Array<Row, 43> kTable = {{{
   //                      imitate    adapt      small      paper

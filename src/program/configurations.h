@@ -1,17 +1,17 @@
-/// The configurations that people run, as the columns of one table. `mimicx config` prints it.
+/// The default configurations, as the columns of one table. `mimicx config` prints it.
 ///
 ///     plan            optimal control, without any training (plan.h)                    docs/control.md
 ///     imitate         one policy per motion, trained from scratch
-///     adapt           the plan, and where it fails trained options, fine-tuned jointly   docs/method.md §9
+///     adapt           the plan, and if it fails trained options, fine-tuned jointly   docs/method.md §9
 ///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
 ///     pretrain paper  the same with the paper's networks
 ///     teach           options taught by plans                                           docs/teaching.md §5
 ///     fit             the keypoint fit, which all of them begin with          docs/method.md, "Keypoint fit"
 ///
-/// This is the only place where a training, an arrangement or a clustering has defaults. Not in it: the task
-/// (reward, starts, simulation), the encoder, the plan and the fit, which have one value for all, beside
-/// their meaning (rl/tracking/tracking_config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h,
-/// control/plan.h, fit/fit_config.h). The printed table has them, too.
+/// This is the only place with defaults of a training, an arrangement or a clustering. The task (reward,
+/// starts, simulation), the encoder, the plan and the fit have one default for all configurations, which is
+/// in their headers (rl/tracking/tracking_config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h,
+/// control/plan.h, fit/fit_config.h). The printed table includes them.
 #pragma once
 
 #include <string>
@@ -35,14 +35,14 @@ pipeline::PretrainConfig pretrain_configuration(const std::string& preset);
 inline constexpr Array<const char*, 7> kConfigurationNames = {
     "plan", "imitate", "adapt", "pretrain small", "pretrain paper", "teach", "fit"};
 
-/// A setting by the name that manifests record, in every configuration; NaN where one has no such setting.
+/// A setting by its name in manifests, with its value in every configuration; NaN if one has no such setting.
 struct ConfigurationRow {
   std::string name;
   Array<double, 7> values;  ///< in the order of kConfigurationNames
 };
 std::vector<ConfigurationRow> configuration_rows();
 
-/// A line per setting, columns aligned; "-" where there is none.
+/// A line per setting, columns aligned; "-" for NaN.
 std::string format_configurations();
 /// {"plan": {name: value, …}, …}, the settings in the order of the table.
 std::string configurations_json();

@@ -1,8 +1,9 @@
-/// One process per folder: while one writes to it, another is refused in one line.
+/// One process per folder: while one writes to it, any other is refused with an error of one line.
 ///
-/// The system lets go of the lock when the process ends, however it ends. A folder's own lock leaves nothing
-/// behind, but over a network file system it holds on one machine alone; the lock of a file in the folder
-/// holds as far as that file system's flock does. The parts of a run (shard.h) share the lock of the whole.
+/// The operating system releases the lock when the process ends, also after a crash. Locking the folder
+/// itself leaves no file behind, but on a network file system it holds on one machine only; a lock of a file
+/// in the folder holds wherever the file system's flock does. The shards of a run (shard.h) share the lock of
+/// the whole run.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +11,13 @@
 
 namespace mimicx::record {
 
-enum class Hold { kAlone, kShared };  ///< shared: with all others that share it
+enum class Hold { kAlone, kShared };  ///< shared: several holders at once
 
 class FolderLock {
  public:
-  /// Makes the folder where it is not there.
-  /// @param file  a file in it that has the lock, made where it is not there; empty: the folder itself
-  /// @throws OutputRefused where another process holds the lock, DataError where folder or file cannot be
-  /// made
+  /// Creates the folder if it is missing.
+  /// @param file  the file in it to lock, created if missing; empty: the folder itself
+  /// @throws OutputRefused if another process holds the lock, DataError if folder or file cannot be created
   explicit FolderLock(const std::filesystem::path& folder, Hold hold = Hold::kAlone,
                       const std::string& file = {});
   FolderLock(const FolderLock&) = delete;

@@ -1,9 +1,8 @@
-/// `journal.jsonl`: what a run did since its manifest was written, a line per motion.
+/// `journal.jsonl`: the motions that a run finished since it wrote its manifest, one per line.
 ///
-/// The manifest of 10,000 motions is 60 MB; writing all of it after every motion would cost more than the
-/// motions. While a run goes on it appends; at its end the manifest has everything, and the journal is gone.
-/// A process that was killed leaves it, and the same command takes it up: a last line that was cut off is not
-/// believed.
+/// The manifest of 10,000 motions is 60 MB; writing it after every motion would take longer than the motions.
+/// A run therefore appends to the journal; at its end it writes the manifest and removes the journal. After a
+/// process was killed, the same command reads the journal. An incomplete last line is ignored.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +16,12 @@ namespace mimicx::record {
 
 class Journal {
  public:
-  /// Of a file that the first `append` begins anew.
+  /// The first `append` truncates the file.
   explicit Journal(const std::filesystem::path& path) : path_(path) {}
 
-  /// @throws DataError where it cannot be written
+  /// @throws DataError if it cannot be written
   void append(const SequenceEntry& entry, const Timing& timing);
-  /// The manifest has it all: removes the file.
+  /// Removes the file: the manifest has everything.
   void clear();
 
  private:
@@ -30,9 +29,9 @@ class Journal {
   std::ofstream out_;
 };
 
-/// Puts the entries and times of a journal into those that were written before it. No file, no entries.
+/// Merges the entries and times of a journal into the older ones. A missing file has no entries.
 void replay_journal(const std::filesystem::path& path, Manifest& manifest, std::vector<Timing>& timings);
-/// The same from its text. @param path  for messages @throws DataError for a whole line that is no entry
+/// The same from its text. @param path  for messages @throws DataError for a complete line that is no entry
 void replay_lines(const std::string& text, const std::filesystem::path& path, Manifest& manifest,
                   std::vector<Timing>& timings);
 

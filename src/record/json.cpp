@@ -6,9 +6,9 @@
 namespace mimicx::record {
 namespace {
 
-constexpr std::size_t kMaxDepth = 256;  ///< of brackets that are read
+constexpr std::size_t kMaxDepth = 256;  ///< of nested brackets
 
-/// Puts together what nlohmann's parser finds.
+/// Builds a value from the events of nlohmann's parser.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
   Json take() { return std::move(root_); }
@@ -19,7 +19,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool number_unsigned(std::uint64_t value) override { return put(value); }
   bool number_float(double value, const std::string&) override { return put(value); }
   bool string(std::string& value) override { return put(std::move(value)); }
-  bool binary(nlohmann::json::binary_t&) override { return false; }  // JSON has none
+  bool binary(nlohmann::json::binary_t&) override { return false; }  // not in JSON text
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool start_array(std::size_t) override { return open(Json::array()); }
   bool end_object() override { return close(); }
@@ -64,7 +64,7 @@ std::string written(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Messages say what was found: they stand behind "expected the manifest of a run, found".
+/// A message completes the sentence "expected the manifest of a run, found …".
 [[noreturn]] void refuse(const std::string& found) { throw JsonError(found); }
 
 }  // namespace
@@ -105,7 +105,7 @@ Json& Json::operator[](const std::string& name) {
   if (is_null()) value_ = std::vector<Member>();
   if (const Json* there = find(name)) return const_cast<Json&>(*there);
   auto* members = std::get_if<std::vector<Member>>(&value_);
-  if (members == nullptr) refuse("what is no object");
+  if (members == nullptr) refuse("a value that is no object");
   return members->emplace_back(name, Json()).second;
 }
 
@@ -121,24 +121,24 @@ Json Json::value(const std::string& name, const Json& otherwise) const {
 }
 
 const std::vector<Json::Member>& Json::items() const {
-  if (!is_object()) refuse("what is no object");
+  if (!is_object()) refuse("a value that is no object");
   return std::get<std::vector<Member>>(value_);
 }
 
 const std::vector<Json>& Json::elements() const {
-  if (!std::holds_alternative<std::vector<Json>>(value_)) refuse("what is no array");
+  if (!std::holds_alternative<std::vector<Json>>(value_)) refuse("a value that is no array");
   return std::get<std::vector<Json>>(value_);
 }
 
 void Json::push_back(Json element) {
   if (is_null()) value_ = std::vector<Json>();
   auto* elements = std::get_if<std::vector<Json>>(&value_);
-  if (elements == nullptr) refuse("what is no array");
+  if (elements == nullptr) refuse("a value that is no array");
   elements->push_back(std::move(element));
 }
 
 bool Json::boolean() const {
-  if (!is_boolean()) refuse("what is neither true nor false");
+  if (!is_boolean()) refuse("a value that is neither true nor false");
   return std::get<bool>(value_);
 }
 
@@ -146,13 +146,13 @@ double Json::number() const {
   if (const auto* value = std::get_if<double>(&value_)) return *value;
   if (const auto* value = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*value);
   if (const auto* value = std::get_if<std::uint64_t>(&value_)) return static_cast<double>(*value);
-  refuse("what is no number");
+  refuse("a value that is no number");
 }
 
 std::int64_t Json::whole() const {
   if (const auto* value = std::get_if<std::int64_t>(&value_)) return *value;
   if (const auto* value = std::get_if<std::uint64_t>(&value_)) return static_cast<std::int64_t>(*value);
-  refuse("what is no whole number");
+  refuse("a value that is no whole number");
 }
 
 std::uint64_t Json::natural() const {
@@ -163,7 +163,7 @@ std::uint64_t Json::natural() const {
 }
 
 const std::string& Json::text() const {
-  if (!std::holds_alternative<std::string>(value_)) refuse("what is no text");
+  if (!std::holds_alternative<std::string>(value_)) refuse("a value that is no text");
   return std::get<std::string>(value_);
 }
 

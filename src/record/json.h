@@ -5,8 +5,8 @@
 ///     write(json.dump(1));
 ///     const int frames = Json::parse(text).at("frames");
 ///
-/// A list in braces is an object where all its elements are pairs that begin with a text, else an array.
-/// Text and numbers are written and parsed by nlohmann's library, which json.cpp alone reads: it takes ten
+/// A list in braces is an object where all its elements are pairs that begin with a text, else an array. Text
+/// and numbers are written and parsed by nlohmann's library. Only json.cpp includes it, because it takes ten
 /// seconds to compile. Bytes that are no UTF-8 are replaced.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace mimicx::record {
 
-/// A text that is no JSON, or JSON that is not what was asked for.
+/// A text that is no JSON, or a value that is missing or of another type.
 struct JsonError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -68,20 +68,20 @@ class Json {
   bool is_object() const { return std::holds_alternative<std::vector<Member>>(value_); }
   bool contains(const std::string& name) const { return find(name) != nullptr; }
 
-  /// The member; a new null where there is none. Null becomes an object.
+  /// The member; if it is missing, a null is added. A null value becomes an object.
   Json& operator[](const std::string& name);
   Json& operator[](const char* name) { return (*this)[std::string(name)]; }
-  /// @throws JsonError where there is none
+  /// @throws JsonError if it is missing
   const Json& at(const std::string& name) const;
-  /// The member, or `otherwise` where there is none.
+  /// The member, or `otherwise` if it is missing.
   Json value(const std::string& name, const Json& otherwise) const;
-  /// @throws JsonError for what is no object, or no array
+  /// @throws JsonError if this is no object, or no array
   const std::vector<Member>& items() const;
   const std::vector<Json>& elements() const;
-  /// Null becomes an array.
+  /// A null value becomes an array.
   void push_back(Json element);
 
-  /// @throws JsonError for a value of another kind
+  /// @throws JsonError for a value of another type
   template <class T>
   T get() const {
     if constexpr (std::is_same_v<T, bool>)
@@ -100,7 +100,7 @@ class Json {
   template <class T>
   requires(std::is_arithmetic_v<T> && !std::is_same_v<T, char>) operator T() const { return get<T>(); }
 
-  /// Whether both are written alike.
+  /// Whether both have the same text.
   friend bool operator==(const Json& a, const Json& b) { return a.dump() == b.dump(); }
 
  private:
@@ -112,7 +112,7 @@ class Json {
   std::int64_t whole() const;
   std::uint64_t natural() const;
   const std::string& text() const;
-  /// A vector, or an array of as many.
+  /// A vector, or an array of that many elements.
   template <class T>
   T list() const {
     T values{};
@@ -130,10 +130,10 @@ class Json {
       value_;
 };
 
-/// JSON has no NaN and no infinity: null.
+/// The number; null for NaN and infinities, which JSON does not have.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// A document for users: {"made_by": "mimicx", members…}, which is how outputs.h knows it again.
+/// A document for users: {"made_by": "mimicx", members…}. outputs.h recognises our files by this opening.
 std::string document(const Json& members);
 
 }  // namespace mimicx::record

@@ -12,7 +12,7 @@
 namespace mimicx::record {
 namespace {
 
-constexpr std::size_t kDifferencesSaid = 4;  ///< between the settings of two runs
+constexpr std::size_t kDifferencesSaid = 4;  ///< that a message names
 
 /// Every setting by its name, as text.
 std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
@@ -108,7 +108,8 @@ std::string format_manifest(const Manifest& manifest) {
   const Json json = {{"run", run_json(manifest)}, {"sequences", Json::array()}};
   std::string text = json.dump(1);
   if (manifest.sequences.empty()) return text + "\n";
-  text.resize(text.rfind(']'));  // entry by entry: the tree of 10,000 takes more memory than all else
+  text.resize(
+      text.rfind(']'));  // entry by entry: the JSON tree of 10,000 entries would take most of the memory
   for (const SequenceEntry& e : manifest.sequences) {
     text += &e == &manifest.sequences.front() ? "\n  " : ",\n  ";
     for (const char c : to_json(e).dump(1)) {

@@ -41,7 +41,7 @@ Outputs::Outputs(const std::vector<std::string>& inputs, bool force) : force_(fo
   for (const std::string& input : inputs) {
     std::error_code error;
     const std::filesystem::path path = std::filesystem::canonical(input, error);
-    if (!error) inputs_.insert(path);  // one that is not there cannot be overwritten
+    if (!error) inputs_.insert(path);  // a missing input cannot be overwritten
   }
 }
 
@@ -49,8 +49,7 @@ void Outputs::claim(const std::filesystem::path& path, std::string_view opening,
   if (path.empty()) return;
   claim_new(path);
   if (force_ || !is_there(path) || is_own_file(path, opening, at)) return;
-  throw OutputRefused(path.string() +
-                      " is there and is no such file of this program's: --force overwrites it");
+  throw OutputRefused(path.string() + " exists and was not written by this program: --force overwrites it");
 }
 
 void Outputs::claim_own(const std::filesystem::path& path) { claim_new(path); }
@@ -63,7 +62,7 @@ void Outputs::claim_new(const std::filesystem::path& path) {
   if (inputs_.contains(std::filesystem::canonical(path, error)))
     throw OutputRefused(path.string() + " is an input: it would be overwritten");
   if (!std::filesystem::is_regular_file(path, error))
-    throw OutputRefused(path.string() + " is no file that could be written");
+    throw OutputRefused(path.string() + " is no regular file");
 }
 
 }  // namespace mimicx::record

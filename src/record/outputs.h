@@ -1,11 +1,11 @@
-/// The door through which every command opens what it writes.
+/// Checks every file that a command wants to write, so that no other file is lost.
 ///
-/// No command overwrites an input, whatever it is told. No command overwrites a file that a call of the same
-/// command did not make, unless it is told to. Files of ours are known by what they hold, not by a list that
-/// could be lost: an .npz is byte for byte what this program makes of its members (core/npz/npz.h; NumPy's
-/// own archives differ), every other kind begins with its own opening.
+/// No command overwrites an input, not even with --force. Without --force no command overwrites a file that
+/// this program did not write. Our files are recognised by their contents, not by a list: an .npz must have
+/// exactly the bytes that this program writes for its members (core/npz/npz.h; NumPy's archives differ),
+/// every other kind begins with its own opening.
 ///
-/// What it does not do: no writing (core/file.h), no lock against a second process.
+/// What it does not do: it writes nothing (core/file.h) and locks nothing (folder_lock.h).
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace mimicx::record {
 
-/// What was asked for would overwrite something: wrong usage.
+/// A requested output would overwrite something: wrong usage.
 struct OutputRefused : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
@@ -25,21 +25,21 @@ struct OutputRefused : std::invalid_argument {
 /// How the JSON documents for users begin (json.h, `document`).
 inline constexpr std::string_view kJsonOpening = "{\n \"made_by\": \"mimicx\"";
 
-/// Whether a file is one that this program wrote.
-/// @param opening  how such a file begins; empty: it is an archive
-/// @param at       the byte at which the opening stands, where lengths come before it
+/// Whether this program wrote the file.
+/// @param opening  first bytes of such a file; empty: it is an .npz
+/// @param at       byte offset of the opening, where lengths come before it
 bool is_own_file(const std::filesystem::path& path, std::string_view opening, std::size_t at = 0);
 
 class Outputs {
  public:
-  /// @param inputs  every file that the command reads @param force  overwrite what others made
+  /// @param inputs  every file that the command reads @param force  also overwrite files of other programs
   Outputs(const std::vector<std::string>& inputs, bool force);
 
-  /// Claims a file to write. Empty paths stand for none and are claimed without a word.
-  /// @throws OutputRefused where it is an input, claimed already, no regular file, or, unless forced, one
-  /// that is not ours
+  /// Claims a file to write. Empty paths are ignored.
+  /// @throws OutputRefused if it is an input, claimed already, no regular file, or, unless forced, not our
+  /// file
   void claim(const std::filesystem::path& path, std::string_view opening = {}, std::size_t at = 0);
-  /// The same of a file in a folder that is known to be ours: what is there may be replaced.
+  /// The same for a file in a run's folder: an existing file may be replaced, whatever it holds.
   void claim_own(const std::filesystem::path& path);
 
  private:

@@ -1,7 +1,7 @@
-/// How far a long job is, for the person who waits: done, rate and time left.
+/// Progress of a long job for the terminal: work done, rate and time left.
 ///
-/// On a terminal one live line, redrawn a few times a second; otherwise a plain line every ten seconds, so
-/// that a log stays readable. It writes to no result, so it cannot change the bytes of a run.
+/// On a terminal one live line, redrawn five times a second; otherwise a plain line every ten seconds, so
+/// that a log stays readable. Results do not depend on it.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,16 @@ namespace mimicx::record {
 class Progress {
  public:
   /// @param live  redraw one line (a terminal) instead of writing plain lines
-  /// @param now   seconds of a clock that never goes back
+  /// @param now   seconds of a monotonic clock
   Progress(std::ostream& out, bool live, std::function<double()> now);
 
-  /// Starts a job of `total` units of which `done` were there already.
+  /// Starts a job of `total` units, `done` of which an earlier run has done.
   void start(const std::string& label, double done, double total, const std::string& unit = "samples");
-  /// @param detail  what else is worth seeing, for example the mean reward
+  /// @param detail  further text, for example the mean reward
   void update(double done, const std::string& detail);
-  /// From now on nothing is shown but what `finish` says.
+  /// From now on only the line of `finish` is shown.
   void silence() { silent_ = true; }
-  /// Ends the job with a line of its own.
+  /// Ends the job and prints a line.
   void finish(const std::string& line);
 
  private:
@@ -36,9 +36,9 @@ class Progress {
   double next_ = 0.0;  ///< time of the next line
 };
 
-inline constexpr double kProgressSeconds = 2.0;  ///< after which a job says how far it is
+inline constexpr double kProgressSeconds = 2.0;  ///< s, after which a job shows its progress
 
-/// Seconds of the steady clock.
+/// std::chrono::steady_clock, s.
 double steady_seconds();
 /// Whether standard error is a terminal.
 bool stderr_is_terminal();

@@ -1,4 +1,4 @@
-/// The world around a run: where it tells how far it is, and when it is asked to stop.
+/// What a run gets from its caller: where to print progress and messages, and when to stop.
 #pragma once
 
 #include <functional>

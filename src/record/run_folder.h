@@ -1,24 +1,24 @@
-/// Where the files of a run stand, and how its inputs are named and told apart.
+/// Paths of the files of a run, unique names of its inputs, and checksums.
 ///
-///     DIR/manifest.json          what was done with every input
-///     DIR/journal.jsonl          the same of what was done since, while the run goes on (journal.h)
-///     DIR/timing.json            wall-clock times, outside every promise of equal bytes
-///     DIR/report.html            the run to look at
-///     DIR/report/NAME.js         its motions, where they are too many for one file
-///     DIR/clusters.json          the clusters of the options that it began from, for the report
+///     DIR/manifest.json          settings, and the result of every input
+///     DIR/journal.jsonl          results since the manifest was written, while the run works (journal.h)
+///     DIR/timing.json            wall-clock times, the only file that is not deterministic
+///     DIR/report.html            the report
+///     DIR/report/NAME.js         data of a motion for the report, where there are too many for one file
+///     DIR/clusters.json          clusters of the trained options, for the report
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/inputs/NAME.npz        the inputs as they were read, in our world
-///     DIR/references/NAME.npz    prepared references, what the characters were asked to follow
-///     DIR/feasibility/NAME.npz   what these ask for that no body has, frame by frame
-///     DIR/substeps/NAME.npz      every physics step of the result, where asked for
-///     DIR/fits/NAME.npz          inputs on their keypoints, where they have any
-///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, where that is not our own
+///     DIR/references/NAME.npz    prepared references, which the characters follow
+///     DIR/feasibility/NAME.npz   the external force that these would need, frame by frame
+///     DIR/substeps/NAME.npz      every physics step of the result, on request
+///     DIR/fits/NAME.npz          inputs fitted to their keypoints, where they have any
+///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, if not our own
 ///     DIR/plans/NAME.npz         the plan that the motion was simulated from, where there was one
-///     DIR/gains/NAME.npz         feedback gains around it, where asked for
-///     DIR/policies/NAME.npz      a policy that the plan has taught to follow it, where there is one
+///     DIR/gains/NAME.npz         feedback gains around the plan, on request
+///     DIR/policies/NAME.npz      a policy taught by the plan, on request
 ///     DIR/training/NAME.csv      a row per iteration
-///     DIR/training/NAME.falls.csv  falls over the clip's own time
+///     DIR/training/NAME.falls.csv  falls per frame of the clip
 ///     DIR/checkpoints/NAME.npz   the complete state of the training
 ///     DIR/shards/                of a run in parts (shard.h): what its parts agreed on, and a folder per
 ///     part
@@ -40,7 +40,7 @@ namespace mimicx::record {
 
 struct RunFolder {
   std::filesystem::path root;
-  std::filesystem::path records = {};  ///< of a part of the run: where manifest, journal and times stand
+  std::filesystem::path records = {};  ///< of a shard: the folder of its manifest, journal and times
 
   std::filesystem::path manifest() const { return record_root() / "manifest.json"; }
   std::filesystem::path journal() const { return record_root() / "journal.jsonl"; }
@@ -75,8 +75,7 @@ struct RunFolder {
     return root / "checkpoints" / (name + ".npz");
   }
 
-  /// Every file that a sequence may have, but its part of the report and the clean copy, which has its
-  /// input's suffix.
+  /// Every file of a sequence but its part of the report and its clean copy, whose suffix is the input's.
   std::vector<std::filesystem::path> files_of(const std::string& name) const {
     return {root / motion_name(name, true),
             root / motion_name(name, false),
@@ -101,25 +100,25 @@ struct RunFolder {
   bool is_part() const { return !records.empty(); }
   const std::filesystem::path& record_root() const { return is_part() ? records : root; }
 
-  /// Makes the folders that every run fills; the others are made by those who fill them.
-  /// @throws DataError when they cannot be made
+  /// Creates the folders that every run fills. The other folders are created with their first file.
+  /// @throws DataError when they cannot be created
   void create() const;
 };
 
-/// Whether a folder is that of a run, of whatever command, whole or in parts.
+/// Whether a folder is that of a run of any command, whole or in shards.
 bool holds_run(const std::filesystem::path& folder);
 
-/// A name inside the folder, numbered from the second of the same name on ("walk", "walk-2").
-/// @param taken  names given before
+/// A unique name: the second one of the same name gets a number ("walk", "walk-2").
+/// @param taken  names in use
 std::string unique_name(const std::string& wanted, const std::set<std::string>& taken);
 
-/// 64-bit FNV-1a: the same number for the same bytes on every machine. Not cryptographic.
+/// 64-bit FNV-1a, the same on every machine. Not cryptographic.
 std::uint64_t fnv1a(std::string_view bytes);
 
 /// `fnv1a` in 16 hexadecimal digits.
 std::string checksum(std::string_view bytes);
 
-/// That of a file's bytes: tells an input that changed.
+/// `checksum` of a file's bytes: detects a changed input.
 /// @throws DataError when the file cannot be read.
 std::string file_checksum(const std::filesystem::path& path);
 

@@ -13,16 +13,16 @@
 
 namespace mimicx::record {
 
-/// Names in the folder of a run, and what `file_checksum` says of the files.
+/// Names of files in the folder of a run, with their checksums (`file_checksum`).
 using FileChecksums = std::vector<std::pair<std::string, std::string>>;
 
 /// How the work on a motion ended.
 enum class Ending {
-  kNone,          ///< there was none: the input could not be used
+  kNone,          ///< the input could not be used
   kBudget,        ///< all samples were spent
   kThreshold,     ///< a roll-out was good enough
-  kStall,         ///< roll-outs no longer became better
-  kLimitSeconds,  ///< the safety stop: the results depend on the machine's speed
+  kStall,         ///< roll-outs stopped improving
+  kLimitSeconds,  ///< the time limit: the results depend on the machine's speed
   kFollowed,      ///< a plan that reaches the motion's end
   kLost,          ///< a plan that does not
 };
@@ -32,7 +32,7 @@ struct SequenceEntry {
   std::string input;           ///< as given on the command line
   std::string input_checksum;  ///< of the input's bytes; empty when it could not be read
   std::string output;          ///< relative to the folder; empty when there is none
-  FileChecksums files;         ///< what the sequence left, to tell whether it is still there
+  FileChecksums files;         ///< that the sequence left, to detect missing and changed ones
   bool ok = false;
   std::string reason;  ///< why it failed
   std::string method;  ///< what made the motion: imitate, plan, policy or paper
@@ -44,23 +44,23 @@ struct SequenceEntry {
   /// Mean reward per frame of the mean-action roll-out, before and after training.
   double reward_before = std::numeric_limits<double>::quiet_NaN();
   double reward_after = std::numeric_limits<double>::quiet_NaN();
-  /// Which option acts from which frame on: {first frame, option}; empty for a training from scratch.
+  /// {first frame, option} of every stretch of one option; empty for a training from scratch.
   std::vector<std::array<int, 2>> arrangement;
-  NamedValues plan;            ///< what planning it took; empty where nothing was planned
-  NamedValues policy;          ///< what the policy took that the plan taught, and how it does alone; or empty
+  NamedValues plan;            ///< how it was planned; empty where nothing was planned
+  NamedValues policy;          ///< how the plan taught a policy, and how well that acts unaided; or empty
   NamedValues fit;             ///< what the keypoint fit did; empty without one
-  NamedValues input_metrics;   ///< of the input as it came, against the prepared reference
+  NamedValues input_metrics;   ///< of the unprepared input, against the prepared reference
   NamedValues metrics;         ///< of the simulated motion, against the prepared reference
   NamedValues metrics_before;  ///< of the simulated motion before training
   bool ok_before = false;      ///< whether the motion was a success before training
-  NamedValues audit;           ///< of the simulated motion: what its forces leave unexplained (audit.h)
+  NamedValues audit;           ///< of the simulated motion: forces that remain unexplained (audit.h)
   NamedValues preparation;     ///< what preparation did to the input
   /// What the prepared reference needs from outside (audit/pose_verdict.h); empty under 3 frames.
   NamedValues feasibility;
   std::vector<std::string> decisions;  ///< what reading the input decided
   std::vector<std::string> notes;
 
-  /// Whether the same command may keep this result instead of doing it again.
+  /// Whether the same command keeps this result instead of repeating the work.
   bool finished() const { return !output.empty() && ending != Ending::kLimitSeconds; }
 };
 

@@ -22,8 +22,8 @@ std::optional<int> whole_number(const char* text) {
   return text == nullptr ? std::nullopt : whole_number(std::string_view(text));
 }
 
-/// FNV-1a changes few bits of the order with the last character, by which names of one pattern differ: so its
-/// bits are mixed. Source: Appleby, MurmurHash3, fmix64.
+/// FNV-1a with its bits mixed: alone it changes few high bits with the last character, in which names of a
+/// pattern differ. Source of the mixing: Appleby, MurmurHash3, fmix64.
 std::uint64_t hash_of(std::string_view name) {
   std::uint64_t hash = fnv1a(name);
   for (const std::uint64_t factor : {0xff51afd7ed558ccdu, 0xc4ceb9fe1a85ec53u})

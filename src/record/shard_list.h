@@ -1,9 +1,9 @@
-/// `shards/run.json`: what the parts of a run agree on: into how many, of which settings, and all inputs with
+/// `shards/run.json`: what the shards of a run agree on: their number, the settings, and all inputs with
 /// their names.
 ///
-/// Whichever part starts first writes it, once: the file is linked into place, which only one can do, on a
-/// shared file system, too. Every other part compares. The budget apart, which may grow from command to
-/// command: `mimicx merge` sees whether all parts had the same.
+/// The shard that starts first writes it: the file is hard-linked into place, which only one process can do,
+/// also on a shared file system. Every other shard compares its own list. The budget is not compared, because
+/// it may grow from command to command; `mimicx merge` checks that all shards had the same.
 #pragma once
 
 #include <string>
@@ -26,21 +26,21 @@ struct ShardList {
   std::vector<ListedInput> inputs;
 };
 
-/// Where it stands.
+/// The path of the list.
 std::filesystem::path shard_list_path(const std::filesystem::path& root);
 
-/// @throws DataError where there is none
+/// @throws DataError if it is missing
 ShardList read_shard_list(const std::filesystem::path& root);
 /// The same from its text. @param path  for messages
 ShardList parse_shard_list(const std::string& text, const std::filesystem::path& path);
 std::string format_shard_list(const ShardList& list);
 
-/// @throws std::invalid_argument saying in what the folder's list, which is there, differs from `mine`
+/// @throws std::invalid_argument naming the difference between the folder's existing list and `mine`
 void compare(const ShardList& mine, const std::filesystem::path& root);
 
-/// The list of the folder is `mine`: written now, or there already.
-/// @param part  the folder as the part has it; nobody else writes to its records
-/// @throws std::invalid_argument as `compare`, DataError where it cannot be written
+/// Makes `mine` the list of the folder: writes it, or compares it with the existing one.
+/// @param part  the shard's folder; no other process writes to its records
+/// @throws std::invalid_argument as `compare`, DataError if it cannot be written
 void agree_on(const ShardList& mine, const RunFolder& part);
 
 /// The inputs of every shard, in the list's order.

@@ -1,8 +1,8 @@
 /// A table of numbers with named columns: the training log in memory and as CSV.
 ///
-/// Numbers are written with the fewest digits that read back as the same bits, independent of the locale,
-/// so a log that was read back and written again is the same bytes. A value that is not finite is written
-/// as an empty field. Quoting is not needed: column names contain neither commas nor line breaks.
+/// Numbers are written with the fewest digits that read back as the same bits, independent of the locale, so
+/// a log that was read back and written again is the same bytes. A value that is not finite is written as an
+/// empty field. Nothing is quoted: column names contain neither commas nor line breaks.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct Table {
   std::size_t column(const std::string& name) const;
 };
 
-/// Fewest digits that round-trip; empty for NaN and infinities.
+/// The fewest digits that read back as the same number; empty for NaN and infinities.
 std::string format_number(double value);
 
 std::string format_csv(const Table& table);

@@ -1,5 +1,5 @@
-/// `timing.json`: how long every motion took. Wall-clock times differ from run to run, so they stand apart
-/// from the files that are promised to be the same bytes.
+/// `timing.json`: how long every motion took. Wall-clock times differ from run to run, so they are kept out
+/// of the files that are deterministic.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ Json to_json(const Timing& timing);
 Timing timing_of(const Json& json);
 
 std::string format_timing(const std::vector<Timing>& timings, const std::vector<SequenceEntry>& sequences);
-/// Empty when there is no such file or it is unreadable: times are a convenience.
+/// Empty when the file is missing or unreadable: times are a convenience.
 std::vector<Timing> read_timing(const std::filesystem::path& path);
 std::vector<Timing> parse_timing(const std::string& text);
 

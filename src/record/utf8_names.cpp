@@ -5,7 +5,7 @@ namespace {
 
 unsigned byte_at(const std::string& s, std::size_t i) { return static_cast<unsigned char>(s[i]); }
 
-/// Length of the well-formed sequence that starts at i; 0: there is none. Unicode 15, table 3-7.
+/// Length of the well-formed sequence that starts at i; 0: it is not well-formed. Unicode 15, table 3-7.
 std::size_t sequence_length(const std::string& s, std::size_t i) {
   const unsigned first = byte_at(s, i);
   if (first < 0x80) return 1;
@@ -32,7 +32,7 @@ std::string to_utf8(const std::string& name) {
   std::string out;
   for (std::size_t i = 0; i < name.size();) {
     const std::size_t length = sequence_length(name, i);
-    // A code point that stands for a byte is spelled byte by byte itself, so that all names differ.
+    // A name that holds such a code point is escaped byte by byte, so that different names stay different.
     if (length > 0 && escaped_byte(name, i) < 0) {
       out.append(name, i, length);
       i += length;

@@ -1,4 +1,4 @@
-/// Numbers as text that a page decodes in a line: base64 digits, the highest first.
+/// Numbers as base64 digits, the highest first: short text that the page decodes.
 ///
 /// A number n of d digits is written as n + 2^(6d − 1): two digits reach ±2048, three ±131072.
 #pragma once
@@ -8,15 +8,14 @@
 
 namespace mimicx::report {
 
-/// Where a curve has no value: a gap in the chart.
+/// A missing value of a curve: a gap in the chart.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 class Digits {
  public:
-  /// The nearest whole number; what is too large is the largest there is.
+  /// Adds the nearest whole number, clamped to the range of the digits.
   void put(double value, int digits);
-  /// A number that is never negative, as it is: one digit reaches 63, two 4095. What is larger is the
-  /// largest.
+  /// Adds a number that is never negative, without the offset, clamped: one digit reaches 63, two 4095.
   void put_count(double value, int digits);
   const std::string& text() const { return text_; }
 
@@ -24,7 +23,7 @@ class Digits {
   std::string text_;
 };
 
-/// To so many steps per unit (10000: four decimals): shorter in a page, and nobody sees the rest.
+/// The value rounded to `per_unit` steps per unit (10000: four decimals), for a shorter page.
 double rounded(double value, double per_unit);
 
 }  // namespace mimicx::report

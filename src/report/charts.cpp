@@ -9,7 +9,7 @@
 namespace mimicx::report {
 namespace {
 
-constexpr double kLeastLoad = 0.02;  ///< of the weight, from which on a foot counts as loaded
+constexpr double kLeastLoad = 0.02;  ///< of the weight; a foot with at least this load is in contact
 
 /// A line per motion.
 ReportChart over_motions(const ChartSources& sources, const Words& words,
@@ -144,7 +144,7 @@ std::vector<ReportChart> training_charts(const record::Table& log) {
   };
   const std::vector<double> samples = column(log.column("samples"));
   std::vector<ReportChart> charts;
-  std::string last;  // parts of one chart stand side by side
+  std::string last;  // columns of one chart are adjacent
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k] == "iteration" || columns[k] == "samples") continue;
     const std::size_t colon = columns[k].find(':');
@@ -192,7 +192,7 @@ std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotio
       stands.push_back(ground.empty()
                            ? touches(cleaned.samples.surface[t], foot)
                            : ground[static_cast<std::size_t>(t)][foot].force.z() > kLeastLoad * weight);
-    // The forces of frame 0 are those of no interval.
+    // Frame 0 ends no interval, so it has no forces.
     if (stands.size() > 1 && !ground.empty()) stands[0] = stands[1];
     bars.push_back({foot == 0 ? "left foot" : "right foot",
                     ground.empty()

@@ -1,4 +1,4 @@
-/// The plots and the bars of a clip: which lines, over what, in which words.
+/// The plots and the timeline bars of a clip.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace mimicx::report {
 
-/// What there is to draw; null and empty where a run has none.
+/// The data to draw; null or empty where a run has none.
 struct ChartSources {
   std::vector<std::pair<Who, const MeasuredMotion*>> motions;  ///< at one frame rate
   const audit::Audit* audit_of_input = nullptr;                ///< by its poses alone
@@ -33,8 +33,9 @@ std::vector<ReportChart> training_charts(const record::Table& log);
 /// Share of the visits of a frame in training that ended in a fall. @param falls  training/NAME.falls.csv
 ReportChart falls_chart(const record::Table& falls, double fps);
 
-/// Where the input sinks, floats, slides and shakes; where the feet of the cleaned motion are pushed by the
-/// floor, or without recorded forces touch it. @param input  null: no flaws
+/// Frames in which the input sinks, floats, slides and shakes, and in which the feet of the cleaned motion
+/// are in contact: pushed by the floor, or, without recorded forces, touching it. @param input  null: no
+/// flaws
 std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotion& cleaned,
                                 const std::vector<files::FloorArrows>& ground, double weight);
 

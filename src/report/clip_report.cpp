@@ -24,7 +24,7 @@ constexpr const char* kPhysics = "on the floor, and by itself";
 constexpr const char* kReference = "against the prepared reference";
 constexpr const char* kTruth = "against the truth";
 constexpr const char* kTruthKey = "truth:";  ///< before the names of the metrics in that group
-/// Mean force that nothing explains; of an input, by its poses alone.
+/// Mean unexplained force; of an input, by its poses alone.
 constexpr const char* kRootForce = "root_force_mean_N";
 
 bool needs_other(const motion::MetricDefinition& d) {
@@ -63,7 +63,7 @@ motion::MotionSamples head_of(motion::MotionSamples samples, int frames) {
   return samples;
 }
 
-/// A motion of the player with what is measured on it.
+/// A motion of the player with its curves.
 struct Seen {
   ReportMotion motion;
   MeasuredMotion measured;
@@ -77,7 +77,7 @@ Seen seen(Who who, const motion::Clip& clip, double fps) {
   return s;
 }
 
-/// Everything that the folder has of a clip.
+/// Everything that the folder holds of a clip.
 struct ClipFiles {
   std::optional<motion::Clip> input;  ///< runs of older versions have none
   motion::Clip cleaned;
@@ -128,7 +128,7 @@ void compare_with_truth(const ClipFiles& files, const std::vector<ReportMetric>&
   }
 }
 
-/// What no force explains, of the input by its poses and of the cleaned motion by its recorded forces.
+/// Unexplained forces: of the input by its poses, of the cleaned motion by its recorded forces.
 struct Audits {
   std::optional<audit::Audit> input, cleaned;
 };
@@ -150,8 +150,7 @@ double mean_force(const audit::Audit& audit) {
   return audit.rows.empty() ? kNoValue : sum / static_cast<double>(audit.rows.size());
 }
 
-/// A bar is full where half the weight, or half the weight on an arm of a metre, would have to come from
-/// outside.
+/// A bar is full where the external force is half the weight, or the moment half the weight times a metre.
 constexpr double kFullBar = 0.5;
 
 ReportNeeds report_needs(const PerFrame<Vector6d>& wrenches, double mass) {
@@ -185,7 +184,7 @@ void add_ground(const ClipFiles& files, ReportClip& clip) {
   clip.weight = kGravity * cleaned.character.total_mass();
 }
 
-/// Torques of the controllers, without what the joints' ranges do.
+/// Torques of the controllers alone, without those of the joint limits.
 void add_torques(const ClipFiles& files, ReportClip& clip) {
   if (!files.members.has("joint_torques") || !files.members.has("range_torques")) return;
   const ReportMotion& cleaned = files.find(Who::kCleaned)->motion;
@@ -197,7 +196,7 @@ void add_torques(const ClipFiles& files, ReportClip& clip) {
   }
 }
 
-/// The camera as the input has it, where the clip was cleaned with another one.
+/// The input's camera, if the clip was cleaned with another one.
 std::optional<PlacedCamera> told_camera(const ClipFiles& files, const PlacedCamera& placed, double fps) {
   if (!files.input || !files.input->keypoints) return std::nullopt;
   const motion::Keypoints told = *motion::resampled(*files.input, fps).keypoints;
@@ -224,7 +223,7 @@ void add_camera(const ClipFiles& files, ReportClip& clip) {
   clip.charts.push_back(chart);
 }
 
-/// Which option acts where.
+/// The option of every stretch of frames.
 std::vector<ReportStretch> stretches_of(const record::SequenceEntry& entry) {
   std::vector<ReportStretch> stretches;
   for (const auto& [frame, option] : entry.arrangement) {
@@ -234,7 +233,7 @@ std::vector<ReportStretch> stretches_of(const record::SequenceEntry& entry) {
   return stretches;
 }
 
-/// Whether policies were trained for the motion, be it that a plan was written in the end.
+/// Whether policies were trained for the motion, even if the plan was written in the end.
 bool was_trained(const record::SequenceEntry& entry) { return entry.method != "plan" || entry.samples > 0; }
 
 void add_motions(const record::RunFolder& folder, const record::SequenceEntry& entry,
@@ -291,7 +290,7 @@ std::vector<ReportMetric> report_metrics(bool truth) {
   for (const motion::MetricDefinition& d : motion::metric_definitions())
     if (!have(d.name)) metrics.push_back({d.name, words_of_metric(d.name), kReference});
   metrics.push_back({"max_distance_mm", words_of_metric("max_distance_mm"), kReference});
-  for (ReportMetric& m : metrics)  // the run's own metrics have the prepared reference for a truth
+  for (ReportMetric& m : metrics)  // the run's own metrics take the prepared reference as the truth
     if (m.group != kTruth)
       for (std::size_t at = 0; (at = m.words.meaning.find("truth", at)) != std::string::npos;)
         m.words.meaning.replace(at, 5, "prepared reference");

@@ -1,4 +1,4 @@
-/// What the report says of one clip, from the files of a run's folder alone.
+/// The report's data of one clip, from the files of a run's folder alone.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace mimicx::report {
 
-/// The metrics that the table has a column of. @param truth  also those against a truth
+/// The metrics of the table's columns. @param truth  also those against a truth
 std::vector<ReportMetric> report_metrics(bool truth);
 
-/// As far as the manifest knows it.
+/// The row with the values that the manifest has.
 ReportRow report_row(const record::SequenceEntry& entry, const std::vector<ReportMetric>& metrics);
 
 struct ReportedClip {
@@ -21,7 +21,7 @@ struct ReportedClip {
   ReportClip clip;
 };
 
-/// The clip with its motions; where there is no output, or its files cannot be read, without them and with
+/// The clip with its motions; if there is no output, or its files cannot be read, without motions and with
 /// the reason.
 /// @param metrics  of the row's values
 /// @param truth    file of its truth; empty: none

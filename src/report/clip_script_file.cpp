@@ -15,14 +15,14 @@ namespace {
 
 using record::Json;
 
-/// Of what the row and the clip are made of.
+/// A checksum of everything that the row and the clip depend on.
 std::string made_of(const record::SequenceEntry& entry, const std::vector<ReportMetric>& metrics) {
   std::string all = std::string(MIMICX_VERSION) + '\n' + record::to_json(entry).dump();
   for (const ReportMetric& metric : metrics) all += '\n' + metric.key;
   return record::checksum(all);
 }
 
-/// Whether the call has its end.
+/// Whether the file is complete: the call is closed.
 bool is_whole(std::ifstream& file) {
   const std::string expected = "});\n";
   std::string end(expected.size(), ' ');
@@ -40,7 +40,7 @@ std::string values_in_line(const ReportRow& row) {
   return values.dump();
 }
 
-/// @throws JsonError for a line that is none of these
+/// @throws JsonError for any other line
 void take_values(const std::string& line, ReportRow& row) {
   const Json values = Json::parse(line);
   if (values.elements().size() != row.values.size())
@@ -56,7 +56,7 @@ void take_values(const std::string& line, ReportRow& row) {
 
 }  // namespace
 
-ReportRow write_clip_beside(const record::RunFolder& folder, const record::SequenceEntry& entry,
+ReportRow write_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,
                             const std::vector<ReportMetric>& metrics, const std::filesystem::path& truth) {
   ReportedClip made = report_clip(folder, entry, metrics, truth);
   ReportBodies bodies;
@@ -71,7 +71,7 @@ ReportRow write_clip_beside(const record::RunFolder& folder, const record::Seque
   return made.row;
 }
 
-std::optional<ReportRow> kept_clip_beside(const record::RunFolder& folder, const record::SequenceEntry& entry,
+std::optional<ReportRow> kept_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,
                                           const std::vector<ReportMetric>& metrics) {
   std::ifstream file(folder.report_clip(entry.name), std::ios::binary);
   const std::string expected = "// " + made_of(entry, metrics) + ' ';

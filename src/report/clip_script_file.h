@@ -1,13 +1,13 @@
-/// DIR/report/NAME.js: a clip that stands beside the page.
+/// DIR/report/NAME.js: the data of a clip in a file beside the page.
 ///
-/// The first line says what it was made of: a checksum of what the manifest has of the clip, which has those
-/// of its files, and the values of the clip's row, some of which are found in the motions.
+/// The first line has a checksum of the clip's manifest entry, which includes the checksums of its files, and
+/// the values of the clip's row, some of which are computed from the motions.
 ///
 ///     // 0123456789abcdef [[317.2,null,141.0],…]
 ///     mimicx_clip("NAME", DATA, BODIES);
 ///
-/// So the file can be made when its motion is done, by whoever did it, and the report of ten thousand motions
-/// reads none of them.
+/// So each file can be written when its motion is done, by the process that did it, and a report of ten
+/// thousand motions need not read any of them.
 #pragma once
 
 #include <filesystem>
@@ -20,13 +20,13 @@
 
 namespace mimicx::report {
 
-/// Makes the file. @param truth  of the clip; empty: none @return the clip's row
-ReportRow write_clip_beside(const record::RunFolder& folder, const record::SequenceEntry& entry,
+/// Writes the file. @param truth  of the clip; empty: none @return the clip's row
+ReportRow write_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,
                             const std::vector<ReportMetric>& metrics,
                             const std::filesystem::path& truth = {});
 
-/// The row of a file that is there and was made of the same results, without a truth. Else none.
-std::optional<ReportRow> kept_clip_beside(const record::RunFolder& folder, const record::SequenceEntry& entry,
+/// The row of an existing file, if it was made from the same results and without a truth. Else none.
+std::optional<ReportRow> kept_clip_script(const record::RunFolder& folder, const record::SequenceEntry& entry,
                                           const std::vector<ReportMetric>& metrics);
 
 }  // namespace mimicx::report

@@ -15,8 +15,8 @@ constexpr double kShake = 2.0;  ///< m/s²
 
 using Points = std::vector<Vector3d>;
 
-/// Mean horizontal way of the points first … last − 1 that touch the floor in both frames of `floor`, mm; NaN
-/// of none.
+/// Mean horizontal displacement of the points first … last − 1 that touch the floor in both frames of
+/// `floor`, mm; NaN if none does.
 double way(const Points& now, const Points& next, const Points& floor_now, const Points& floor_next,
            std::size_t first, std::size_t last) {
   double sum = 0.0;
@@ -29,7 +29,7 @@ double way(const Points& now, const Points& next, const Points& floor_now, const
   return count == 0 ? kNoValue : kMm * sum / count;
 }
 
-/// The larger way of the two feet while those of the cleaned motion stand.
+/// The larger displacement of the two feet while those of the cleaned motion stand.
 double foot_way(const motion::MotionSamples& input, const motion::MotionSamples& cleaned, int t) {
   double most = 0.0;
   for (const std::size_t first : {std::size_t{0}, std::size_t{kFootPoints / 2}}) {

@@ -1,8 +1,8 @@
-/// What the report draws of a motion over its frames, and where an input breaks the physics that the cleaned
-/// motion keeps.
+/// Curves of a motion over its frames, and the frames in which an input is physically implausible where the
+/// cleaned motion is not.
 ///
-/// Everything is in the terms of docs/metrics.md: the surface points, the 5 mm within which a point touches
-/// the floor z = 0, differences of frames. A frame without a value is NaN.
+/// Surface points, the 5 mm within which a point touches the floor z = 0, and differences of frames are those
+/// of docs/metrics.md. A frame without a value is NaN.
 #pragma once
 
 #include <string>
@@ -28,24 +28,24 @@ struct MeasuredMotion {
 };
 MeasuredMotion measured(motion::MotionSamples samples);
 
-/// Mean distance of the joints of two motions, as many frames as both have, mm.
+/// Mean distance of the joints of two motions over their common frames, mm.
 std::vector<double> joint_distances(const motion::MotionSamples& a, const motion::MotionSamples& b);
 
-/// Frames `first` to `last`, both among them.
+/// Frames `first` to `last`, both included.
 struct Span {
   int first, last;
 };
 /// The stretches of true frames.
 std::vector<Span> spans_of(const std::vector<bool>& frames);
 
-/// Where an input sinks, floats, slides and shakes. Whether a body should have stood is what the cleaned
-/// motion says, so no jump is called floating.
+/// Frames in which an input sinks, floats, slides and shakes. The cleaned motion decides whether the body
+/// should stand, so a jump is not called floating.
 struct Flaws {
   std::vector<bool> sinks;   ///< lowest point deeper than 5 mm
-  std::vector<bool> floats;  ///< lowest point above 5 mm where the cleaned one touches the floor
+  std::vector<bool> floats;  ///< lowest point above 5 mm while the cleaned motion touches the floor
   std::vector<bool>
-      slides;  ///< a foot's points move 5 mm or more to the next frame where the cleaned ones stand
-  std::vector<bool> shakes;  ///< the joints' mean acceleration is 2 m/s² or more above that of the cleaned
+      slides;  ///< a foot's points move 5 mm or more to the next frame while the cleaned ones stand
+  std::vector<bool> shakes;  ///< the joints' mean acceleration is 2 m/s² or more above the cleaned one's
 };
 /// @param input, cleaned  at one frame rate; frames behind the end of either have no flaw
 Flaws flaws_of(const MeasuredMotion& input, const MeasuredMotion& cleaned);

@@ -1,7 +1,7 @@
-/// Motions as the page takes them: texts of digits (base64_digits.h), frame by frame.
+/// Motions as the page's base64 digits (base64_digits.h), frame by frame.
 ///
-/// World z up. Lengths are whole millimetres, 3 digits where they are far from everything (131 m), 2 digits
-/// within 2 m of the pelvis; the page adds the pelvis up.
+/// World z up. Lengths are whole millimetres: 3 digits for world positions (±131 m), 2 digits for positions
+/// within 2 m of the pelvis, to which the page adds the pelvis.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@
 
 namespace mimicx::report {
 
-/// [frame]: place of the pelvis (3 of 3 digits), then the rotation vectors of all bodies in the world,
-/// [body][3] numbers of 2 digits, π/2048 rad. Joints follow from these and the bones: nothing adds up along a
-/// limb but the rounding of its bones' directions, 0.3 mm per bone of 0.4 m.
+/// [frame]: position of the pelvis (3 of 3 digits), then the rotation vectors of all bodies in the world,
+/// [body][3] numbers of 2 digits, π/2048 rad. The page computes joints from these and the bones. The rounding
+/// of a bone's direction moves its end by 0.3 mm for a bone of 0.4 m.
 std::string encode_poses(const std::vector<BodyPoses>& poses);
 
 /// [frame][3] of 3 digits.

@@ -17,7 +17,7 @@ std::string_view name_of(Who who) {
   return kNames[static_cast<int>(who)];
 }
 
-/// As many digits as are looked at.
+/// Steps per unit of the numbers in the page.
 record::Json rounded_number(double value, double digits) {
   if (!std::isfinite(value)) return nullptr;
   if (value == 0.0) return 0.0;

@@ -1,12 +1,11 @@
-/// `report.html`: what a run did, to look at. A page that needs no network: a table of all clips, and for
-/// each of them a player of input, reference and cleaned motion, a timeline, plots and numbers in words.
+/// `report.html`: the report of a run, a page that needs no network: a table of all clips, and for each clip
+/// a player of input, reference and cleaned motion, a timeline, plots and explained numbers.
 ///
-/// The page itself (HTML, CSS, JavaScript) stands in src/report/page and is embedded at build time.
-/// The clips' data are embedded in it, or stand in files beside it that the page loads when they are looked
-/// at (a page opened from a disk may load scripts, and nothing else; so these are scripts). Motions are
-/// rotations of bodies (motion_encoding.h), 141 bytes a frame; bones, shapes and skins stand there once per
-/// body (bodies.h). The page poses and draws them, and computes nothing else: numbers arrive as they are to
-/// be shown.
+/// The page itself (HTML, CSS, JavaScript) is in src/report/page and embedded at build time. The clips' data
+/// are embedded in it, or are in files beside it that the page loads when a clip is opened. These files are
+/// scripts, because a page opened from a disk may load nothing else. Motions are rotations of bodies
+/// (motion_encoding.h), 141 bytes per frame; bones, shapes and skins are stored once per body
+/// (report_bodies.h). The page poses and draws them and computes no other numbers.
 #pragma once
 
 #include <array>
@@ -34,8 +33,8 @@ struct ReportMotion {
   Who who = Who::kCleaned;
   Character character;
   std::vector<BodyPoses> poses;
-  std::vector<Polygon> support;  ///< [frame] what it stands on; may be empty
-  std::string body = {};         ///< its key in the page (bodies.h)
+  std::vector<Polygon> support;  ///< [frame] its support polygon; may be empty
+  std::string body = {};         ///< its key in the page (report_bodies.h)
 };
 
 struct ReportLine {
@@ -48,7 +47,7 @@ struct ReportLine {
 struct ReportChart {
   Words words;
   std::vector<ReportLine> lines;
-  double step = 0.0;           ///< s between values, the first at `start`; 0: they stand at `x`
+  double step = 0.0;           ///< s between values, the first at `start`; 0: values are at `x`
   double start = 0.0;          ///< s
   std::vector<double> x = {};  ///< samples of a training
 };
@@ -56,54 +55,54 @@ struct ReportChart {
 /// A row of the timeline.
 struct ReportBars {
   std::string name, meaning;
-  bool flaw = false;  ///< of the input; else a contact
+  bool flaw = false;  ///< whether it is a flaw of the input; else a contact
   std::vector<Span> spans;
 };
 
-/// What the reference asks for that no body has, a value per frame.
+/// The external wrench that the reference would need, a value per frame.
 struct ReportNeeds {
   std::vector<double> force, acceleration, moment;  ///< N, m/s², N·m
   std::vector<double> bar;                          ///< height of its bar in the band, in [0, 1]
 };
 
-/// Frames in which one option acts, `first` to `last`.
+/// Frames `first` to `last`, in which one option acts.
 struct ReportStretch {
   int first = 0, last = 0, option = 0;
 };
 
-/// A number in words.
+/// A number with its words.
 struct ReportFact {
   std::string group;
   Words words;
   double value = 0.0;
 };
 
-/// What is known of a clip when it is looked at.
+/// Everything that the page shows of a clip.
 struct ReportClip {
   double fps = 30.0;
   std::vector<ReportMotion> motions;
   std::vector<files::FloorArrows> ground;  ///< of the cleaned motion, per frame; may be empty
   double weight = 0.0;                     ///< of its body, N
   std::vector<PerBody<double>> torques;    ///< of its joints, 1 = the bound; per frame, may be empty
-  std::optional<ReportCamera> camera;      ///< that saw it, where one did
-  std::vector<ReportStretch> options;      ///< that made it; empty without any
+  std::optional<ReportCamera> camera;      ///< that filmed it, if known
+  std::vector<ReportStretch> options;      ///< that acted; empty without options
   std::vector<ReportBars> bars;
-  ReportNeeds needs;               ///< from outside, by the poses; may be empty
-  std::vector<std::string> wrong;  ///< with each of these frames, in a word
-  ReportNeeds help;                ///< left in a plan's soft stage; may be empty, and shorter than the motion
+  ReportNeeds needs;               ///< external forces by the poses; may be empty
+  std::vector<std::string> wrong;  ///< the fault of each of these frames, in a word
+  ReportNeeds help;                ///< of a plan's relaxed stage; may be empty, and shorter than the motion
   std::vector<ReportChart> charts, training;
   std::vector<ReportFact> facts;
   std::vector<std::string> notes;  ///< one line each
 };
 
-/// A row of the metrics, the same ones for all clips.
+/// A metric, the same ones for all clips.
 struct ReportMetric {
   std::string key;  ///< as in docs/metrics.md and the manifest
   Words words;
-  std::string group;  ///< by what it is measured
+  std::string group;  ///< what it is measured against
 };
 
-/// A line of the table of all clips.
+/// A row of the table of all clips.
 struct ReportRow {
   std::string name;
   bool ok = false;
@@ -118,10 +117,10 @@ struct ReportRow {
 };
 
 struct Report {
-  std::vector<std::pair<std::string, std::string>> run;  ///< what the run was, in words
+  std::vector<std::pair<std::string, std::string>> run;  ///< facts about the run
   std::vector<ReportMetric> metrics;
   std::vector<ReportRow> rows;
-  std::string skin;  ///< what all skins have in common (ReportBodies::skin_json); empty: nothing to show
+  std::string skin;  ///< what all skins share (skin_json); empty: nothing to show
   std::string map;   ///< of the motions and the clusters of the options (map_json); empty: none
   std::map<std::string, std::string> bodies;  ///< of the clips in the page, by key, as JSON
 };
@@ -130,11 +129,11 @@ struct Report {
 std::string row_json(const ReportRow& row);
 /// A clip's data as JSON.
 std::string clip_json(const ReportClip& clip);
-/// What the page loads of a clip beside it: `mimicx_clip("NAME", DATA, {"KEY": BODY, …});`
-/// @param bodies  as JSON, those of its motions
+/// The file of a clip beside the page: `mimicx_clip("NAME", DATA, {"KEY": BODY, …});`
+/// @param bodies  of its motions, as JSON
 std::string clip_script(const std::string& name, const std::string& json,
                         const std::map<std::string, std::string>& bodies);
-/// The page. @param clips  [row] what `clip_json` says of those that are embedded; else empty
+/// The page. @param clips  [row] `clip_json` of embedded clips; else empty
 std::string format_report(const Report& report, const std::vector<std::string>& clips);
 
 }  // namespace mimicx::report

@@ -1,8 +1,7 @@
-/// The bodies that a page shows: bones, collision shapes and a skin, each body once however many motions have
-/// it.
+/// The bodies of a page: bones, collision shapes and a skin, once per body for any number of motions.
 ///
-/// All skins are one mannequin (skin/mannequin.h) that is moved onto every body (skin/tailored.h): the page
-/// has its triangles and weights once, and of a body the vertices alone.
+/// All skins are one mannequin (skin/mannequin.h), fitted to every body (skin/tailored.h): the page has its
+/// triangles and weights once, and the vertices of each body.
 #pragma once
 
 #include <map>
@@ -12,12 +11,12 @@
 
 namespace mimicx::report {
 
-/// Triangles of the mannequin in a page: at the size of a page more show nothing.
+/// Triangles of the mannequin in a page; more are not visible at its size.
 inline constexpr int kReportTriangles = 4000;
 
 class ReportBodies {
  public:
-  /// Its key: a hash of bones and shapes, so that equal bodies have the same one in whatever file they stand.
+  /// Adds a body. @return its key, a hash of bones and shapes: equal bodies have the same key in all files
   std::string take(const Character& character);
 
   /// By key, as JSON: `offsets` [22][3] of the joints from their parents, m; `shapes`, capsules (body,
@@ -29,8 +28,8 @@ class ReportBodies {
   std::map<std::string, std::string> texts_;
 };
 
-/// What all bodies have in common, as JSON: `parents` and `names` [22]; `triangles`, counts of 2 digits;
-/// `joints` and `weights`, [vertex][4] counts of 1 digit, weights in parts of 63.
+/// What all bodies share, as JSON: `parents` and `names` [22]; `triangles`, counts of 2 digits; `joints` and
+/// `weights`, [vertex][4] counts of 1 digit, weights in parts of 63.
 std::string skin_json();
 
 }  // namespace mimicx::report

@@ -72,8 +72,8 @@ void write_report(const record::RunFolder& folder, const record::Manifest& manif
     const auto truth = options.truth.find(entry.name);
     const std::filesystem::path known = truth == options.truth.end() ? "" : truth->second;
     if (beside && has_motion(entry)) {
-      const auto kept = options.keep ? kept_clip_beside(folder, entry, report.metrics) : std::nullopt;
-      report.rows.push_back(kept ? *kept : write_clip_beside(folder, entry, report.metrics, known));
+      const auto kept = options.keep ? kept_clip_script(folder, entry, report.metrics) : std::nullopt;
+      report.rows.push_back(kept ? *kept : write_clip_script(folder, entry, report.metrics, known));
       clips.emplace_back();
       continue;
     }

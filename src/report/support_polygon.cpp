@@ -7,7 +7,7 @@
 namespace mimicx::report {
 namespace {
 
-/// Whether the way from a over b to c turns left.
+/// Whether the path a, b, c turns left.
 bool turns_left(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const Eigen::Vector2d there = b - a, on = c - a;
   return there.x() * on.y() - there.y() * on.x() > 0.0;

@@ -9,11 +9,11 @@
 namespace mimicx::report {
 namespace {
 
-constexpr double kCameraSteps = 1e8;      ///< of what is written of the camera: more than anybody sees
+constexpr double kCameraSteps = 1e8;      ///< per unit of the camera's numbers: more precise than visible
 constexpr double kTenths = 10.0;          ///< of a pixel
 constexpr double kFullConfidence = 63.0;  ///< the largest digit
 
-/// The point at the joint of the nearest body further up that has one; −1: none.
+/// The point at the joint of the nearest ancestor body that has one; −1: none.
 int next_up(const std::vector<SeenPoint>& points, std::size_t k) {
   const bool at_joint = points[k].p_B.isZero();
   for (int body = at_joint ? kParents[points[k].body] : points[k].body; body >= 0; body = kParents[body])

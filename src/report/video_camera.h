@@ -1,4 +1,4 @@
-/// What the camera of a clip saw: the detections that are points of the body, and the camera itself.
+/// The camera of a clip, and the detections that are points of the body.
 #pragma once
 
 #include <array>
@@ -22,25 +22,26 @@ struct PlacedCamera {
 };
 
 struct ReportCamera {
-  PlacedCamera placed;               ///< as the clip was cleaned with it
-  std::optional<PlacedCamera> told;  ///< as the input was told, where that is another: the input's own view
+  PlacedCamera placed;               ///< with which the clip was cleaned
+  std::optional<PlacedCamera> told;  ///< of the input, if different: the input's own view
   std::vector<SeenPoint> points;     ///< [K]
-  std::vector<std::array<int, 2>> bones;  ///< lines between points, child and the next one up the body
-  PerFrame<std::vector<Vector3d>> uvc;    ///< [frames][K] px and confidence
+  std::vector<std::array<int, 2>>
+      bones;                            ///< lines between points: a point and the next one towards the pelvis
+  PerFrame<std::vector<Vector3d>> uvc;  ///< [frames][K] px and confidence
 };
 
-/// Of keypoints that are on no body (face, fingers) none are taken. Empty: no camera, or no such point.
+/// Keypoints that are on no body (face, fingers) are left out. Empty: no camera, or no point.
 std::optional<ReportCamera> camera_of(const motion::Clip& clip);
 
-/// Mean distance of the points of a motion from where they were seen, each counting by its confidence, px per
-/// frame. NaN where nothing was seen, or a point is behind the camera.
-/// @param from  where the motion is looked at from
+/// Distance of a motion's points from their detections in the picture, a mean weighted by confidence, px per
+/// frame. NaN without detections, or if a point is behind the camera.
+/// @param from  the camera that sees the motion
 std::vector<double> distances_from_seen(const ReportCamera& camera, const PlacedCamera& from,
                                         const std::vector<BodyPoses>& poses);
 
 /// `fx`, `fy`, `cx`, `cy`, `skew`, px; `extrinsics`, [1 or frames][12], rows of (R t); `told`, the same of
-/// the input's, where it has its own; `points`, [K][4]: body, place; `bones`; `seen`, digits: [frame][K] u
-/// and v of 3 digits, tenths of a pixel, and a count of 1 digit, confidence in parts of 63.
+/// the input's camera, if different; `points`, [K][4]: body, place; `bones`; `seen`, digits: [frame][K] u and
+/// v in tenths of a pixel, 3 digits each, and confidence in parts of 63, a count of 1 digit.
 std::string camera_json(const ReportCamera& camera);
 
 }  // namespace mimicx::report

@@ -1,4 +1,4 @@
-/// The files of a finished sequence, and whether they are still what was written.
+/// Checksums of the files of a finished sequence, to detect missing and damaged ones.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace mimicx::run {
 
-/// Checksums of the files that a sequence has now, by their names in the folder. Checkpoints are left out:
-/// nobody needs them when the motion is done; so are physics steps and gains, which may be asked for later.
+/// Checksums of a sequence's present files, by their names in the folder. Not of checkpoints, which a
+/// finished motion no longer needs, nor of physics steps and gains, which a later command may add.
 record::FileChecksums checksums_of(const record::RunFolder& folder, const record::SequenceEntry& entry);
 
-/// The files of the entry that are gone, cut off or changed, by their names in the folder.
+/// Names in the folder of the entry's files that are missing, truncated or changed.
 std::vector<std::string> damaged_files(const record::RunFolder& folder, const record::SequenceEntry& entry);
 
 }  // namespace mimicx::run

@@ -15,7 +15,7 @@
 namespace mimicx::run {
 namespace {
 
-/// What a part has recorded; empty records where it never began.
+/// The records of a shard; empty if it never began.
 struct ShardRecords {
   bool begun = false;
   record::Manifest manifest;
@@ -29,7 +29,7 @@ ShardRecords records_of(const record::RunFolder& part) {
   return records;
 }
 
-/// Settings of the first part that has any; the others have the same.
+/// Settings of the first shard that has any; all others must have the same.
 class Settings {
  public:
   void meet(const record::RunFolder& part, const record::Manifest& manifest) {
@@ -39,9 +39,9 @@ class Settings {
       manifest_.sequences.clear();
     }
     if (const auto differences = manifest_.differences(manifest); !differences.empty())
-      throw std::invalid_argument(part_.string() + " is of other settings than " + part.records.string() +
+      throw std::invalid_argument(part_.string() + " has other settings than " + part.records.string() +
                                   " (" + record::in_words(differences) +
-                                  "): do the older one again, with the settings of the newer");
+                                  "): repeat the older one with the settings of the newer");
   }
   const record::Manifest& manifest() const { return manifest_; }
 
@@ -50,7 +50,7 @@ class Settings {
   record::Manifest manifest_;
 };
 
-/// Puts the entries of a part into the whole. Motions that are gone count as not done.
+/// Adds the entries of a shard to the whole. Entries whose motion file is missing count as not done.
 void gather(const record::RunFolder& part, int shard, const std::vector<record::ListedInput>& share,
             ShardRecords records, GatheredShards& all) {
   std::map<std::string, record::SequenceEntry> done;
@@ -88,7 +88,8 @@ void order_timings(const record::Manifest& manifest, std::vector<record::Timing>
                    [&](const auto& a, const auto& b) { return place[a.name] < place[b.name]; });
 }
 
-/// Of a run that was merged before and then went on with more inputs: what it has beyond the parts.
+/// Keeps the entries that are in no shard: of a run that was merged before and then continued with more
+/// inputs.
 void keep_others(const record::RunFolder& folder, GatheredShards& gathered) {
   record::Manifest& manifest = gathered.manifest;
   if (!std::filesystem::exists(folder.manifest())) return;
@@ -108,7 +109,7 @@ void keep_others(const record::RunFolder& folder, GatheredShards& gathered) {
 
 RunLocks lock_shards(const std::filesystem::path& out) {
   const record::ShardList list = record::read_shard_list(out);
-  for (int i = 0; i < list.count; ++i) {  // so that what is said names the part
+  for (int i = 0; i < list.count; ++i) {  // so that an error names the shard
     const std::filesystem::path records = record::shard_folder(out, {i, list.count}).records;
     if (std::filesystem::exists(records)) {
       const record::FolderLock part(records, record::Hold::kAlone, "lock");

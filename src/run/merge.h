@@ -1,11 +1,12 @@
-/// `mimicx merge`: one run of the parts that several machines did.
+/// `mimicx merge`: joins the shards of a run that several machines did.
 ///
-/// The parts have left every motion where the whole run has it, and records of their own (record/shard.h).
-/// Manifest, times and report are made of these: the same bytes as those of the run on one machine, the times
-/// apart, whatever the number of parts. Nothing is written while anything is missing.
+/// The shards have written every motion to its place in the whole run, and their own records
+/// (record/shard.h). Manifest, times and report are made from these records. Except for the times they are
+/// the same bytes as those of a run on one machine, for any number of shards. Nothing is written while a
+/// motion is missing.
 ///
-/// What it does not do: it reads no motion but those that the report shows, so a file that was damaged since
-/// is found by the command of the run, not here.
+/// What it does not do: it reads only the motions that the report shows. Damaged files are found by repeating
+/// the command of the run.
 #pragma once
 
 #include <filesystem>
@@ -24,33 +25,33 @@ struct MissingInput {
   record::ListedInput input;
 };
 
-/// What the parts of a run have done so far.
+/// What the shards of a run have done so far.
 struct GatheredShards {
   record::ShardList list;
-  record::Manifest manifest;  ///< everything that is done, in the order of the inputs
+  record::Manifest manifest;  ///< all finished inputs, in the order of the inputs
   std::vector<record::Timing> timings;
-  std::vector<MissingInput> missing;  ///< neither done nor recorded as failed, or its motion is gone
+  std::vector<MissingInput> missing;  ///< neither done nor recorded as failed, or its motion file is missing
 };
 
-/// Keeps all parts from working while it lives. @param out  the folder of the run
-/// @throws DataError where it holds no shards, OutputRefused naming the part that is at work
+/// Locks all shards; while the locks live, no shard can work. @param out  the folder of the run
+/// @throws DataError if it holds no shards, OutputRefused naming a shard that is running
 RunLocks lock_shards(const std::filesystem::path& out);
 
-/// Reads all records. The folder is locked.
-/// @throws DataError for records that are none, std::invalid_argument for parts of different settings
+/// Reads all records. The folder must be locked.
+/// @throws DataError for invalid records, std::invalid_argument for shards of different settings
 GatheredShards gather_shards(const std::filesystem::path& out);
 
-/// Writes manifest, times and report. Nothing is missing, and the folder is locked.
-/// @throws std::invalid_argument where the folder holds another run, or something would be overwritten that
-/// no run made, unless `force`
+/// Writes manifest, times and report. Nothing may be missing, and the folder must be locked.
+/// @throws std::invalid_argument if the folder holds another run, or, unless `force`, if a file of another
+/// program would be overwritten
 /// @param map  of the report; may be empty
 void write_merged(const std::filesystem::path& out, GatheredShards gathered, bool force,
                   const report::MapDrawing& map);
 
-/// The shards that have something missing, as Slurm's --array takes them: "3,5-7". Empty where nothing is.
+/// The shards with missing motions, in the format of Slurm's --array: "3,5-7". Empty if nothing is missing.
 std::string missing_array(const GatheredShards& gathered);
 
-/// For programs: the numbers, and all that is missing.
+/// The counts and everything that is missing, as JSON.
 std::string merge_json(const GatheredShards& gathered);
 
 }  // namespace mimicx::run

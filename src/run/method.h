@@ -1,5 +1,5 @@
-/// A method of simulating motions, as a run uses it: what the method is handed for one motion
-/// (`SequenceJob`), and what it hands back (`SimulatedSequence`).
+/// A method of simulating motions (`Method`), its input for one motion (`SequenceJob`), and its result
+/// (`SimulatedSequence`).
 #pragma once
 
 #include <array>
@@ -24,26 +24,26 @@ namespace mimicx::run {
 /// One motion of a run, for the method that simulates it.
 struct SequenceJob {
   std::string name;            ///< key of the sequence's files in the folder
-  std::string input_checksum;  ///< a checkpoint of another input is not taken up
+  std::string input_checksum;  ///< a checkpoint of another input is not continued
   record::RunFolder folder;
   bool substeps = false;  ///< record every physics step of the result
-  bool gains = false;     ///< leave the feedback gains of a plan
+  bool gains = false;     ///< write the feedback gains of a plan
   int threads = 1;
-  double limit_seconds = 0.0;     ///< safety stop; 0: none
+  double limit_seconds = 0.0;     ///< time limit; 0: none
   const audit::PoseNeeds& needs;  ///< of the reference; without frames under 3
   const record::RunContext& context;
 };
 
-/// The job with what is left of its seconds after so many.
+/// The job with its time limit reduced by the seconds that were spent.
 SequenceJob after_seconds(const SequenceJob& job, double seconds);
 
-/// Tells a plan or a training of one motion when to stop, and remembers why it did.
-/// Must stay where it is while a control of it is in use.
+/// Decides when planning or training of one motion stops, and records why. Must outlive every control that it
+/// returned, at the same address.
 struct JobWatch {
   const SequenceJob& job;
   double started = record::steady_seconds();
   bool interrupted = false;  ///< the context asked to stop
-  bool timed_out = false;    ///< the job's seconds were over
+  bool timed_out = false;    ///< the job's seconds ran out
 
   control::PlanControl control() {
     control::PlanControl control;
@@ -57,31 +57,31 @@ struct JobWatch {
   }
 };
 
-/// What a method made of one motion.
+/// The result of a method for one motion.
 struct SimulatedSequence {
-  bool interrupted = false;  ///< the job's context asked to stop: only the seconds below are filled
-  std::string method;        ///< what made the result: imitate, plan or paper
+  bool interrupted = false;  ///< the job's context requested a stop: only the seconds below are set
+  std::string method;        ///< that made the result: imitate, plan or paper
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
   record::Ending ending = record::Ending::kNone;
   std::int64_t samples = 0;
   std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none
   rl::tracking::TrackingRollout after;                  ///< the result
   std::vector<std::array<int, 2>> arrangement = {};     ///< {first frame, option of all sets}; else empty
-  NamedValues plan = {};                                ///< what planning it took
-  NamedValues policy = {};                         ///< how the policy does that the plan has taught; or none
-  std::optional<files::StoredPolicy> taught = {};  ///< that policy, to be written
+  NamedValues plan = {};                                ///< how it was planned
+  NamedValues policy = {};  ///< how well the policy acts that the plan taught; or empty
+  std::optional<files::StoredPolicy> taught = {};  ///< that policy, for the run to write
   std::vector<rl::Agent> agents = {};              ///< of a training
-  PerFrame<Vector6d> help = {};         ///< moment and force that a plan's soft stage was left with; or none
-  std::string reason = {};              ///< why it is no success, or may be none, where the method knows
+  PerFrame<Vector6d> help = {};  ///< remaining assistive moment and force of a plan's relaxed stage; or empty
+  std::string reason = {};       ///< why it is no success, or may be none, if the method knows
   std::vector<std::string> notes = {};  ///< for the manifest
 };
 
-/// A way of making the humanoid follow a motion, with everything that its results depend on.
+/// A way to make the humanoid follow a motion, with everything that its results depend on.
 struct Method {
   std::string name;  ///< imitate, plan, paper or auto
   std::uint64_t seed = 0;
   std::int64_t samples = 0;              ///< budget per motion
-  NamedValues settings;                  ///< as the manifest lists them, those of the RunConfig among them
+  NamedValues settings;                  ///< as the manifest lists them, including those of the RunConfig
   std::string options;                   ///< checksums of the trained options; empty without
   physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
   std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;

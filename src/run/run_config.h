@@ -15,35 +15,35 @@
 
 namespace mimicx::run {
 
-/// The map of the motions in a run's report, made by whoever knows the options (pipeline/cluster_map.h).
+/// The map of the motions in a run's report. Methods with options provide it (pipeline/cluster_map.h).
 struct MotionMap {
-  /// Keeps what the map is drawn from in the folder, before any work.
+  /// Copies the map's data into the folder, before any work.
   std::function<void(const record::RunFolder&, std::ostream& messages)> keep = {};
   report::MapDrawing draw = {};
 };
 
-/// The settings that every run has, whatever its method.
+/// The settings that every run has, for any method.
 struct RunConfig {
-  std::vector<std::string> inputs;  ///< as given; recorded as such
-  /// What inputs shall be called in the folder ("CMU/01/walk"); others go by their file names.
+  std::vector<std::string> inputs;  ///< as given, and recorded so
+  /// Names of inputs in the folder ("CMU/01/walk"); other inputs have their file names.
   std::map<std::string, std::string> names = {};
   std::filesystem::path out;
   import::ReadConfig read;
   bool input_rate = false;  ///< clean copies at the input's frame rate instead of 30 fps
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
-  bool force = false;       ///< overwrite files that no run made
+  bool force = false;       ///< overwrite files of other programs
   std::vector<std::string> protect;  ///< inputs of the same command that belong to other runs
-  bool substeps = false;  ///< also write every physics step of the result; finished motions get theirs too
-  bool gains = false;     ///< also write the feedback gains of plans; finished ones get theirs, too
-  bool fit = false;    ///< move inputs onto their keypoints first, where they have any; without it Eq. 3 is 1
-  bool as_is = false;  ///< correct nothing (Correction::kNone), whatever `fit` says
-  /// The part of the inputs that is done here; with it, what the parts agree on and its own records stand in
-  /// OUT/shards, all else where the whole run has it (record/shard.h). Empty: all of them.
+  bool substeps = false;  ///< also write every physics step of the result; also of finished motions
+  bool gains = false;     ///< also write the feedback gains of plans, also of finished ones
+  bool fit = false;       ///< first fit inputs to their keypoints, if they have any; without it Eq. 3 is 1
+  bool as_is = false;     ///< correct nothing (Correction::kNone), regardless of `fit`
+  /// The shard of the inputs that is done here; empty: all inputs. A shard's records, and the list that all
+  /// shards agree on, are in OUT/shards; all else is where the whole run has it (record/shard.h).
   std::optional<record::Shard> shard = {};
-  bool quiet = false;  ///< tell only what went wrong
+  bool quiet = false;  ///< print only failures
   int threads = 1;
   MotionMap map = {};  ///< empty: the report has none
-  int jobs = 1;        ///< motions done side by side, each by its share of the threads; 0: as many as threads
+  int jobs = 1;        ///< motions in parallel, each with its share of the threads; 0: as many as threads
   double limit_seconds = 0.0;  ///< safety stop per sequence; 0: none
 };
 

@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::size_t kFailuresNamed = 5;
 
-/// A fault that a person sees, and the metric that measures it.
+/// A visible fault, and the metric that measures it.
 struct Fault {
   const char* name;
   const char* metric;
   const char* unit;
   double scale;  ///< from the metric's unit to that one
   int decimals;
-  double visible;  ///< less, in that unit, is not worth a word
+  double visible;  ///< smaller values, in that unit, are not mentioned
 };
 
 constexpr std::array<Fault, 4> kFaults = {{{"sliding", "FS_gt", "mm a frame", 1.0, 1, 0.05},
@@ -34,7 +34,7 @@ std::string format(const char* how, double number) {
   return text;
 }
 
-/// "sliding 1.7 -> 0.2 mm a frame"; empty where there is nothing to say.
+/// "sliding 1.7 -> 0.2 mm a frame"; empty if neither value is visible.
 std::string change(const Fault& fault, double before, double after) {
   before *= fault.scale;
   after *= fault.scale;
@@ -50,7 +50,7 @@ std::string change(const Fault& fault, double before, double after) {
   return text;
 }
 
-/// Of the successes among entries. Empty where none has the metric.
+/// A metric of the successful entries. Empty if none has it.
 std::vector<double> successes(const std::vector<record::SequenceEntry>& entries,
                               const NamedValues record::SequenceEntry::*values, const std::string& metric) {
   std::vector<double> out;
@@ -79,21 +79,21 @@ std::string failures(const std::vector<record::SequenceEntry>& entries) {
   return line;
 }
 
-/// What ended the work, and what to do about that.
+/// What ended the work, and how to continue.
 std::string ended_by(const record::SequenceEntry& entry) {
   const std::string budget = entry.method == "imitate" ? "--samples" : "--budget-samples";
   switch (entry.ending) {
     case record::Ending::kBudget:
-      return "the training ended with its budget: with a larger " + budget + " than " +
-             std::to_string(entry.samples) + " the same command goes on from here";
+      return "the training spent its budget: with a larger " + budget + " than " +
+             std::to_string(entry.samples) + " the same command continues it";
     case record::Ending::kLimitSeconds:
-      return "the time limit ended it: with a larger --limit-seconds the same command goes on";
+      return "the time limit ended it: with a larger --limit-seconds the same command continues";
     case record::Ending::kStall:
-      return "the training no longer became better: another --seed begins it anew, in another folder";
+      return "the training stopped improving: another --seed starts a new one, in another folder";
     case record::Ending::kLost:
-      if (entry.samples == 0) return "no policy was trained: mimicx adapt does so where a plan is lost";
-      return "neither a plan nor policies could follow: a larger --budget-samples than " +
-             std::to_string(entry.samples) + " goes on with the policies";
+      if (entry.samples == 0) return "no policy was trained: mimicx adapt trains policies where a plan fails";
+      return "neither a plan nor policies could follow: with a larger --budget-samples than " +
+             std::to_string(entry.samples) + " the same command continues the training";
     default:
       return "";
   }
@@ -145,8 +145,8 @@ std::vector<std::string> what_next(const record::SequenceEntry& entry, const rec
     if (name == "infeasible_share") infeasible = value;
   if (const std::string ended = ended_by(entry); !ended.empty()) lines.push_back(ended);
   if (infeasible > 0.0)
-    lines.push_back("no body can do all of it: mimicx audit --poses '" + entry.input +
-                    "' --frames-csv frames.csv says which frames; leave these out, or correct them");
+    lines.push_back("the reference is not feasible for any body: mimicx audit --poses '" + entry.input +
+                    "' --frames-csv frames.csv lists the frames; remove or correct them");
   return lines;
 }
 

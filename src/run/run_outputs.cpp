@@ -60,12 +60,12 @@ void claim_run(const record::RunFolder& folder, const std::map<std::string, std:
                bool continued, record::Outputs& outputs) {
   const auto claim = [&](const std::filesystem::path& path) {
     std::error_code none;
-    if (std::filesystem::is_directory(path, none)) return;  // its sequence fails, and says why
+    if (std::filesystem::is_directory(path, none)) return;  // its sequence will fail with the reason
     continued ? outputs.claim_own(path) : outputs.claim(path);
   };
   for (const std::filesystem::path& path : {folder.manifest(), folder.journal(), folder.timing()})
     claim(path);
-  if (!folder.is_part()) claim(folder.report());  // a part has none
+  if (!folder.is_part()) claim(folder.report());  // a shard has no report
   for (const auto& [input, name] : names) {
     for (const std::filesystem::path& path : folder.files_of(name)) claim(path);
     claim(folder.report_clip(name));

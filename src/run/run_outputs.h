@@ -1,4 +1,4 @@
-/// What a run will write, known and claimed before any work (record/outputs.h).
+/// The files that a run will write, claimed before any work (record/outputs.h).
 #pragma once
 
 #include <filesystem>
@@ -16,21 +16,21 @@ namespace mimicx::run {
 std::filesystem::path copy_beside(const std::filesystem::path& input);
 
 /// Claims the clean copies beside all inputs of a command.
-/// @throws OutputRefused where one is an input, a file of somebody else's, or that of two inputs
+/// @throws OutputRefused if a copy is an input, a file of another program, or the copy of two inputs
 void claim_copies_beside(const std::vector<std::string>& inputs, bool force);
 
-/// The inputs as the manifest spells them, where it has them in another spelling.
+/// The inputs, spelled as in the manifest if it has them in another spelling.
 std::vector<std::string> as_recorded(const std::vector<std::string>& inputs,
                                      const record::Manifest& manifest);
 
-/// Names of the inputs inside the folder: those of the manifest, else new ones in order.
-/// @param wanted  what inputs shall be called; others by their file names
+/// Names of the inputs in the folder: those of the manifest, else new ones in order.
+/// @param wanted  names of inputs; others have their file names
 std::map<std::string, std::string> sequence_names(const std::vector<std::string>& inputs,
                                                   const std::map<std::string, std::string>& wanted,
                                                   const record::Manifest& manifest);
 
-/// Claims everything that a run writes into its folder. In a folder that holds a run already, every file of
-/// its is ours.
+/// Claims everything that a run writes into its folder. If the folder already holds a run, all its files are
+/// ours.
 /// @throws OutputRefused as Outputs does
 void claim_run(const record::RunFolder& folder, const std::map<std::string, std::string>& names,
                bool continued, record::Outputs& outputs);

@@ -23,14 +23,14 @@ record::Manifest manifest_of(const RunConfig& config, const Method& method) {
   return manifest;
 }
 
-/// The folder's own manifest where it is one of this run's settings; a new one where there is none.
+/// The folder's manifest, which must have this run's settings; a new one if it has none.
 record::Manifest open_manifest(const RunConfig& config, const Method& method,
                                const record::RunFolder& folder) {
   record::Manifest manifest = manifest_of(config, method);
   if (!std::filesystem::exists(folder.manifest())) return manifest;
   record::Manifest there = record::read_manifest(folder.manifest());
   if (there.samples > 0 && there.samples < manifest.samples && manifest.differences(there, true).empty())
-    there.samples = manifest.samples;  // the trainings go on
+    there.samples = manifest.samples;  // a larger budget continues the trainings
   if (const auto differences = manifest.differences(there); !differences.empty())
     throw std::invalid_argument(folder.root.string() + " holds a run of other settings (" +
                                 record::in_words(differences) + "): give another folder, or remove it first");
@@ -59,7 +59,7 @@ void check_folder(const RunConfig& config, const std::optional<record::ShardList
                                 " holds a run that is not in shards: give another folder");
   if (!list && parts && !whole)
     throw std::invalid_argument(config.out.string() + " holds shards of a run: `mimicx merge " +
-                                config.out.string() + "` puts them together");
+                                config.out.string() + "` joins them");
 }
 
 RunLocks::RunLocks(const record::RunFolder& folder) {

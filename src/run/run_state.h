@@ -1,7 +1,7 @@
-/// What a run knows while it goes on, and how that comes out of its folder and into it again.
+/// The state of a running run, and its storage in the folder.
 ///
-/// The folder is that of a whole run, or of one of its parts: then the records are the part's own, and the
-/// inputs and their names are picked from those of the whole (record/shard_list.h).
+/// The folder is that of a whole run or of one of its shards. A shard has its own records, and picks its
+/// inputs and their names from those of the whole (record/shard_list.h).
 #pragma once
 
 #include <map>
@@ -33,36 +33,35 @@ struct RunState {
   record::Journal journal{folder.journal()};
 };
 
-/// What the parts of a run must agree on; empty where the run is whole.
+/// What the shards of a run must agree on; empty for a whole run.
 /// @throws std::invalid_argument when an input is given twice
 std::optional<record::ShardList> shard_list_of(const RunConfig& config, const Method& method);
 
-/// Before anything is written: a folder of a whole run takes no parts, one of parts no whole run before they
-/// are merged, and parts are those of one run.
-/// @throws std::invalid_argument saying what the folder holds
+/// Checks the folder before anything is written: a whole run cannot become shards, shards must be merged
+/// before a whole run, and all shards must be those of one run.
+/// @throws std::invalid_argument naming what the folder holds
 void check_folder(const RunConfig& config, const std::optional<record::ShardList>& list);
 
-/// While it lives, no other process writes to the same records. Parts work beside each other; a whole run,
-/// and the merging of parts, is alone.
+/// While it lives, no other process writes to the same records. Shards may run at the same time; a whole run,
+/// and merging, exclude all others.
 class RunLocks {
  public:
-  /// @throws OutputRefused where another process is at work
+  /// @throws OutputRefused if another process is running
   explicit RunLocks(const record::RunFolder& folder);
 
  private:
   std::vector<std::unique_ptr<record::FolderLock>> locks_;
 };
 
-/// The run as its folder knows it, or a new one.
-/// @throws std::invalid_argument where the folder holds a run of other settings
+/// The run stored in the folder, or a new one.
+/// @throws std::invalid_argument if the folder holds a run of other settings
 RunState open_run(const RunConfig& config, const Method& method, const record::RunContext& context,
                   const record::RunFolder& folder, const std::optional<record::ShardList>& list);
 
-/// Everything that is known, in manifest and times instead of the journal, in the inputs' order, whichever
-/// was done first.
+/// Writes manifest and times in the order of the inputs, and clears the journal.
 void write_records(RunState& run);
 
-/// The times of a sequence, new ones where there are none.
+/// The times of a sequence; adds them if there are none.
 record::Timing& timing_of(RunState& run, const std::string& name);
 
 }  // namespace mimicx::run

@@ -13,7 +13,7 @@
 namespace mimicx::run {
 namespace {
 
-/// Whether the recorded forces explain the motion, into the entry.
+/// Writes into the entry whether the recorded forces explain the motion.
 void audit_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
                     const rl::tracking::TrackingRollout& rollout, record::SequenceEntry& entry) {
   audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};

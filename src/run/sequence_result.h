@@ -1,4 +1,4 @@
-/// What became of one motion of a run: judged, recorded in its entry, and written.
+/// The result of one motion of a run: judged, recorded in its entry, and written.
 #pragma once
 
 #include "audit/pose_needs.h"
@@ -9,20 +9,20 @@
 
 namespace mimicx::run {
 
-/// A prepared motion and what its reference asks for that no body has.
+/// A prepared motion with the external wrench that its reference would need.
 struct JudgedMotion : PreparedMotion {
   audit::PoseNeeds needs;
 };
 
-/// What the reference asks for that no body can do, into the entry.
+/// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
 
-/// Scores and audit of what the method made, into the entry.
+/// Writes scores and audit of the method's result into the entry.
 void judge_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry);
 
-/// Fit, reference and its feasibility, simulated motion, the policy that it was taught and, where wanted, its
-/// physics steps. The entry gets their names and checksums.
+/// Writes fit, reference, feasibility, simulated motion, taught policy and, on request, physics steps. The
+/// entry gets their names and checksums.
 void write_sequence(const record::RunFolder& folder, bool substeps,
                     const physics::SimulationConfig& simulation, const JudgedMotion& motion,
                     const SimulatedSequence& made, record::SequenceEntry& entry);

@@ -32,12 +32,12 @@
 namespace mimicx::run {
 namespace {
 
-/// Between reports while a run goes on: s, and in parts of the time that the last one took. A report reads
-/// all motions; so it costs a hundredth of the time, however many there are.
+/// Time between two reports of a running run: at least so many seconds, and so many times as long as the last
+/// report took. A report reads all motions; this way it takes at most a hundredth of the time.
 constexpr double kReportSeconds = 30.0, kReportShare = 100.0;
 
-/// One motion at work: the run, and what is this motion's own. Several work side by side; then `run` is only
-/// read, but for what `publish` changes under its lock.
+/// The work on one motion: the run, and this motion's own context and threads. With several in parallel,
+/// `run` is only read; `publish` changes it under a lock.
 struct Worker {
   const RunState& run;
   record::RunContext context;
@@ -49,18 +49,19 @@ Correction correction_of(const RunConfig& config) {
   return config.fit ? Correction::kKeypoints : Correction::kPoses;
 }
 
-/// Makes input, fit and reference of a finished sequence again where they are damaged; of other files it says
-/// so.
+/// Remakes damaged input, fit and reference files of a finished sequence; reports other damaged files.
 void restore_files(const Worker& worker, const record::SequenceEntry& entry,
                    const std::vector<std::string>& damaged) {
   const RunState& run = worker.run;
-  std::optional<PreparedMotion> motion;  // made once, where a file needs it
+  std::optional<PreparedMotion> motion;  // prepared once, if a file needs it
   for (const std::string& name : damaged) {
     const std::filesystem::path file = run.folder.root / name;
     const bool input = file == run.folder.input(entry.name), fit = file == run.folder.fit(entry.name),
                again = input || fit || file == run.folder.reference(entry.name);
     worker.context.messages << entry.name << ": " << name << " is gone or damaged"
-                            << (again ? ": made again\n" : ", and is not made again\n");
+                            << (again ? ": made again
+" : ", and is not made again
+");
     if (!again) continue;
     if (!motion)
       motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads);
@@ -74,14 +75,14 @@ void restore_files(const Worker& worker, const record::SequenceEntry& entry,
   }
 }
 
-/// Whether a training ended because its budget did, and there is more of it now.
+/// Whether a training spent its budget and now has a larger one.
 bool goes_on(const RunState& run, const record::SequenceEntry& there) {
   return there.samples > 0 && there.samples < run.method.samples &&
          (there.ending == record::Ending::kBudget || !there.ok);
 }
 
-/// Fills what is known of an input before any work. @param there  its earlier result, or null
-/// @return false where that still stands
+/// Fills in what is known before any work on an input. @param there  its earlier result, or null
+/// @return false if that result is kept
 bool begin_entry(const Worker& worker, const std::string& input, const record::SequenceEntry* there,
                  record::SequenceEntry& entry) {
   const RunState& run = worker.run;
@@ -106,8 +107,8 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
   return false;
 }
 
-/// Reads, fits and prepares the input, and prints what was decided before any training begins: a user who
-/// sees a wrong axis there can stop the run.
+/// Reads, fits and prepares the input, and prints the decisions before any training: a user who sees a wrong
+/// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
   const RunState& run = worker.run;
   JudgedMotion motion{prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads),
@@ -128,12 +129,12 @@ JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry
   return motion;
 }
 
-/// What became of a motion.
+/// The outcome of the work on a motion.
 struct Done {
   record::SequenceEntry entry;
-  std::size_t told = 0;      ///< notes of the entry that were said already
-  bool kept = false;         ///< the earlier result stands
-  bool interrupted = false;  ///< nothing to record but the time
+  std::size_t told = 0;      ///< notes of the entry that were printed already
+  bool kept = false;         ///< the earlier result is kept
+  bool interrupted = false;  ///< only the time is recorded
   record::Timing timing;     ///< of this time
 };
 
@@ -158,12 +159,12 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
     judge_sequence(motion.reference, run.method.simulation, made, entry);
     write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, entry);
     if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
-      report::write_clip_beside(run.folder, entry, report::report_metrics(false));
+      report::write_clip_script(run.folder, entry, report::report_metrics(false));
   }
   done.timing.seconds = record::steady_seconds() - started;
 }
 
-/// All the work on one input, whatever goes wrong with it. @param there  its earlier result, or null
+/// All the work on one input; an error becomes its reason. @param there  its earlier result, or null
 Done work_on(const Worker& worker, const std::string& input, const record::SequenceEntry* there) {
   Done done;
   try {
@@ -186,8 +187,8 @@ void add_timing(RunState& run, const std::string& name, const record::Timing& no
   timing.threads = threads;
 }
 
-/// Writes a success in its input's own format, where the clean set does not have that format already. Where
-/// the sequence failed, a copy of that name from an earlier run is removed.
+/// Writes a success in its input's format, unless the clean set already has it. For a failed sequence,
+/// removes an earlier copy.
 void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
   const std::filesystem::path input(entry.input);
   const std::string suffix = files::clean_suffix(input);
@@ -204,8 +205,8 @@ void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
     run.context.messages << "  clean motion: " << copy.string() << ", " << body << '\n';
 }
 
-/// Does `copy_clean` and tells what went wrong. The motion itself is written already; the same command tries
-/// the copy again. @return whether nothing went wrong
+/// Calls `copy_clean` and prints its error. The motion itself is written already; the same command tries the
+/// copy again. @return whether it succeeded
 bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
   try {
     copy_clean(run, entry);
@@ -216,8 +217,8 @@ bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
   }
 }
 
-/// The motions of a run, one after the other or several side by side. What a motion comes to does not depend
-/// on which; what is said of it is said when it is done, all at once, where several are at work.
+/// Does the motions of a run, one after the other or several in parallel, with the same results. In parallel,
+/// the messages of a motion are printed together when it is done.
 class ParallelRun {
  public:
   ParallelRun(RunState& run, int jobs) : run_(run), jobs_(jobs) {
@@ -225,7 +226,7 @@ class ParallelRun {
       run_.context.progress.start("motions", 0.0, static_cast<double>(run_.inputs.size()), "motions");
   }
 
-  /// Works on input `i`, unless the run was asked to stop.
+  /// Works on input `i`, unless a stop was requested.
   void on(int i) {
     const std::string& input = run_.inputs[static_cast<std::size_t>(i)];
     std::optional<record::SequenceEntry> there;
@@ -251,7 +252,7 @@ class ParallelRun {
     publish(input, done, worker);
   }
 
-  /// Writes what is known, once, when all work has ended.
+  /// Writes records and report after all work has ended.
   record::RunOutcome outcome() {
     if (stopped_) {
       run_.manifest.sequences.empty() ? write_records(run_) : report();
@@ -305,7 +306,7 @@ class ParallelRun {
     if (jobs_ > 1) run_.context.progress.update(++finished_, "");
   }
 
-  /// @param told  notes that were told before
+  /// @param told  number of notes that were printed before
   void tell(const record::SequenceEntry& entry, std::size_t told) {
     if (run_.config.quiet && entry.ok) return;
     run_.context.progress.finish(result_line(entry));

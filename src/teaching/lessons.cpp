@@ -65,8 +65,8 @@ LaneActions reflected(const rl::tracking::MirrorMap& map, const LaneActions& act
   return out;
 }
 
-/// Largest distance of a lane's body from that of the teacher in lane 0, m; infinite where the simulation
-/// went wrong.
+/// Largest distance of a lane's body from that of the teacher in lane 0, m; infinite if the simulation
+/// failed.
 double distance_from_teacher(const TrackingPack& pack, int lane) {
   double worst = pack.worst_distance(lane);
   if (!std::isfinite(worst)) return worst;

@@ -1,8 +1,8 @@
-/// The plans in the folder of a run of `mimicx plan --gains` (or `adapt`), as teachers.
+/// Reads the plans of a run of `mimicx plan --gains` (or `adapt`) as teachers.
 ///
-/// Such a teacher acts on the reference that was planned for, with all its errors, since that is what whoever
-/// follows unknown motions gets to see; what it shows is what a body can do with it. Or it acts on the
-/// planned motion itself: what whoever comes behind a planner gets to see.
+/// Such a teacher acts on the plan's reference with all its errors, because a policy for unknown motions will
+/// observe such references; the teacher shows what a body can do. Or it acts on the planned motion itself,
+/// for policies that follow a planner.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace mimicx::teaching {
 struct PlannedMotion {
   record::RunFolder run;
   std::string name;       ///< in that folder
-  std::string input;      ///< that it was planned for
+  std::string input;      ///< that was planned
   std::string checksum;   ///< of the plan's file, as the run recorded it
   bool followed = false;  ///< to the end
 };
@@ -24,17 +24,17 @@ struct PlannedMotion {
 /// Motions of a run that were planned, in the order of its manifest.
 /// @throws DataError for a folder that is no run
 std::vector<PlannedMotion> planned_motions(const record::RunFolder& run);
-/// Those whose plan was followed to the end and that have gains.
+/// Those with a complete plan and gains.
 std::vector<PlannedMotion> followed_plans(const record::RunFolder& run);
 
-/// What whoever learns from a plan, or is tried by it, follows.
+/// The motion that a policy follows when a plan teaches or tests it.
 enum class Followed { kReference, kPlan };
 
-/// What was planned for, or what came of it.
+/// The reference of the plan, or the planned motion.
 motion::Reference reference_of(const PlannedMotion& motion, Followed followed = Followed::kReference);
 
-/// @throws DataError naming file and member that is not there, not of its shape, or not the task's
-/// simulation
+/// @throws DataError naming file and member that is missing, of another shape, or of another simulation than
+/// the task's
 Teacher read_teacher(const PlannedMotion& motion, const rl::tracking::TrackingConfig& task,
                      Followed followed = Followed::kReference);
 

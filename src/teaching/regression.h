@@ -2,9 +2,9 @@
 ///
 ///     L = ½ · mean (μ(s) − u)ᵀ W_t (μ(s) − u)
 ///
-/// μ is the actor's mean action, u the teacher's, W_t what a wrong control costs at that frame
-/// (Teacher::importance): an error that the motion forgives counts little. Same bytes for any number of
-/// threads: a minibatch is cut into slots, which are added in their order.
+/// μ is the actor's mean action, u the teacher's action, W_t the cost of a control error at that frame
+/// (Teacher::importance), so that harmless errors count little. The bytes do not depend on the number of
+/// threads: a minibatch is cut into slots, whose gradients are added in order.
 #pragma once
 
 #include <span>
@@ -17,11 +17,11 @@ namespace mimicx::teaching {
 
 struct RegressionConfig {
   int minibatch = 256;         ///< rows
-  int slots = 2;               ///< parts of it whose gradients are taken side by side
-  double gradient_norm = 5.0;  ///< limit of the gradient
+  int slots = 2;               ///< parts of a minibatch whose gradients are computed in parallel
+  double gradient_norm = 5.0;  ///< limit of the gradient's norm
 };
 
-/// Buffers of one slot; nothing in them outlives a step.
+/// Buffers of one slot; their contents are valid for one step.
 struct RegressionSlot {
   nn::Tape<float> tape;
   nn::Matrix<float> states, normalised, actions, pull;  ///< [rows × dim]

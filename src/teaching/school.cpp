@@ -16,10 +16,10 @@ namespace {
 
 enum SchoolStream : std::uint64_t { kVisitOrder = 0x5c00, kLessonRows };
 
-/// Where β stands in the state (rl/tracking/state.h), but for policies with an encoder.
+/// Index of β in the state (rl/tracking/state.h) of policies without an encoder.
 constexpr int kShapeBegin = rl::tracking::kPoseFeatures;
 
-/// A teacher by its number, and in which world it is visited.
+/// Index of a teacher, and whether its mirror image is used.
 struct Visit {
   int teacher = 0;
   Side side = Side::kAsIs;
@@ -56,7 +56,7 @@ Eigen::MatrixXf mirrored(const Eigen::MatrixXf& weights) {
   return image;
 }
 
-/// What a round has to teach: its lessons, and what a wrong action costs in each.
+/// The lessons of a round, and the cost of an action error in each.
 struct Material {
   Lessons lessons;
   List<Eigen::MatrixXf> importance;  ///< [pack]
@@ -88,14 +88,14 @@ Material gather_material(const Teachers& teachers, int count, const rl::tracking
   return material;
 }
 
-/// β as if it varied without bound: behind the normaliser it is zero, and no weight on it counts.
+/// Gives β a huge variance: the normaliser maps it to zero, so that no weight on it has an effect.
 void hide_shape(rl::Agent& agent) {
   constexpr double kBoundless = 1e60;
   agent.observations.moments.squares.segment(kShapeBegin, kBetas).setConstant(kBoundless);
   nn::refresh(agent.observations);
 }
 
-/// Loshchilov and Hutter, "Decoupled weight decay regularization", ICLR 2019. Biases are let alone.
+/// Loshchilov and Hutter, "Decoupled weight decay regularization", ICLR 2019. Biases do not decay.
 void decay(nn::Mlp<float>& network, double share) {
   for (nn::Matrix<float>* parameter : nn::parameters(network))
     if (parameter->rows() > 1) *parameter *= static_cast<float>(1.0 - share);

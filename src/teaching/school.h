@@ -1,11 +1,12 @@
-/// One policy for many motions: rounds of lessons in motions that come in turn, and regression onto them.
+/// Teaches one policy many motions: each round records lessons in some of the motions and regresses onto
+/// them.
 ///
-/// Unlike the student of one plan (student.h), a pupil keeps no lessons from round to round: what a thousand
-/// motions have to say does not fit into memory, and the next round brings it up to date. A round visits as
-/// many motions as it has packs, in an order that is shuffled anew whenever all have been visited.
+/// Unlike the student of one plan (student.h), a pupil keeps no lessons from round to round, because those of
+/// a thousand motions do not fit into memory. A round visits as many motions as it has packs; the order is
+/// shuffled again whenever all have been visited.
 ///
-/// Everything that a pupil's future depends on is in `Pupil`: a training that was interrupted after a round
-/// goes on with the same bytes.
+/// `Pupil` has everything that later rounds depend on: a training that was interrupted after a round
+/// continues with the same bytes.
 #pragma once
 
 #include <functional>
@@ -20,18 +21,18 @@ namespace mimicx::teaching {
 
 struct SchoolConfig {
   std::vector<int> hidden = {128, 128};  ///< widths of the hidden layers
-  int rounds = 150;                      ///< in all; the step size depends on how many are left
+  int rounds = 150;                      ///< total; the step size depends on how many are left
   int packs = 64;                        ///< motions of a round; a pack of characters goes through each
-  double passes = 4;                     ///< how often the lessons of a round are gone over
-  double step_size = 1e-3;               ///< Adam's at first; falls with the square of what is left
+  double passes = 4;                     ///< passes over the lessons of a round
+  double step_size = 1e-3;  ///< Adam's first step size; falls with the square of the remaining share
   double last_step_size = 2e-5;
-  double decay = 0.0;        ///< every step takes so many of its sizes off the weights (AdamW)
-  bool weigh = true;         ///< errors count by Teacher::importance; otherwise all alike
-  bool mirror = true;        ///< every other time a motion is visited, in its mirror image
-  bool follow_plan = false;  ///< the pupil sees the planned motions instead of what was planned for
-  bool see_shape = false;    ///< whether the pupil sees β; it can tell motions apart by it
+  double decay = 0.0;        ///< weight decay (AdamW), times the step size
+  bool weigh = true;         ///< weigh errors by Teacher::importance; otherwise all equally
+  bool mirror = true;        ///< every other visit of a motion uses its mirror image
+  bool follow_plan = false;  ///< the pupil observes the planned motions instead of their references
+  bool see_shape = false;    ///< whether the pupil observes β, which could identify a motion
   std::uint64_t seed = 1;
-  /// Calmer than those of one plan: what holds a body here has to hold it in motions that no plan has seen.
+  /// Less disturbed than those of one plan: the policy must also hold the body in motions without a plan.
   LessonConfig lessons{.action_noise = 0.03, .push = 0.08, .off_path = 0.25};
   RegressionConfig regression{.minibatch = 512};
 };
@@ -47,7 +48,7 @@ struct Pupil {
 struct SchoolRound {
   int round = 0;
   int lessons = 0;
-  double put_back = 0.0;  ///< bodies that left the path, per thousand lessons
+  double put_back = 0.0;  ///< resets per thousand lessons
   double loss = 0.0;      ///< mean over the round's steps
 };
 
@@ -57,7 +58,7 @@ using Teachers = std::function<Teacher(int)>;
 Pupil new_pupil(const SchoolConfig& config, int state_size = rl::tracking::kStateSize);
 
 /// The next round. @param count  of teachers
-/// @return none where it was told to stop; then the pupil is as before
+/// @return none if it was stopped; then the pupil is unchanged
 std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,
                                        const rl::tracking::TrackingConfig& task, const SchoolConfig& config,
                                        const control::PlanControl& control, Pupil& pupil);

@@ -10,7 +10,7 @@
 namespace mimicx::teaching {
 namespace {
 
-constexpr double kCheckpointSeconds = 60.0;  ///< at least so long between two checkpoints
+constexpr double kCheckpointSeconds = 60.0;  ///< least time between two checkpoints, s
 
 /// Calls add(name, field, least, most) for every number of the school.
 template <class Config, class Add>
@@ -36,7 +36,7 @@ void for_each_school_setting(Config& school, const Add& add) {
   add("school_gradient_norm", school.regression.gradient_norm, 1e-9, 1e9);
 }
 
-/// A teaching as its checkpoint has it, or a new one; and its log so far.
+/// A pupil from its checkpoint, or a new one, and the log so far.
 struct Progress {
   Pupil pupil;
   record::Table log{{"round", "lessons", "put_back", "loss"}, {}};

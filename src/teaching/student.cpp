@@ -24,8 +24,8 @@ void add(const Lessons& fresh, int state_size, int most, Lessons& all) {
   all.weighed_by.erase(all.weighed_by.begin(), all.weighed_by.begin() + extra);
 }
 
-/// The student that came closest to the motion by itself; one that fell came less close than any that did
-/// not.
+/// The student with the smallest distance from the motion in an unaided roll-out; students that fall rank
+/// last.
 struct Best {
   rl::Agent agent;
   double distance = std::numeric_limits<double>::infinity();
@@ -44,9 +44,9 @@ struct Best {
   static constexpr double kFar = 100.0;
 };
 
-/// Somebody who has learned nothing yet.
+/// A student with its optimiser.
 struct Student {
-  /// @param times  as wide as the first one, and with as many more steps
+  /// @param times  factor on width and steps
   Student(const Teacher& teacher, const StudentConfig& config, int times)
       : agent(beginner(teacher.clip->state_size(), {times * config.hidden, times * config.hidden},
                        config.seed)),
@@ -59,8 +59,8 @@ struct Student {
   int steps;  ///< of a round
 };
 
-/// The regression of one round. @param of_stage  the round's number in its stage
-/// @return the mean loss; none where it was told to stop
+/// The regression of one round. @param of_stage  index of the round in its stage
+/// @return the mean loss; none if it was stopped
 std::optional<double> study(const Lessons& lessons, const Teacher& teacher, const StudentConfig& config,
                             int of_stage, const control::PlanControl& control, Random& random,
                             RegressionScratch& scratch, Student& student) {

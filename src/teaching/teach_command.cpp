@@ -27,7 +27,7 @@ record::RunOutcome plan_inputs(const TeachConfig& config, const record::RunConte
   return plan::plan_motions(planning, context);
 }
 
-/// All that there is to learn from: those of earlier runs, then those of this one.
+/// All plans to learn from: those of earlier runs, then those of this one.
 std::vector<PlannedMotion> motions_of(const TeachConfig& config) {
   std::vector<PlannedMotion> motions;
   std::vector<std::filesystem::path> folders(config.plans.begin(), config.plans.end());
@@ -55,7 +55,7 @@ record::Json teaching_record(const TeachConfig& config, const std::vector<Planne
           {"inputs", inputs}};
 }
 
-/// The motions' names in the set, one for each, whatever folder they come from.
+/// Unique names of the motions in the set.
 std::vector<std::string> names_of(const std::vector<PlannedMotion>& motions) {
   std::set<std::string> taken;
   std::vector<std::string> names;
@@ -64,7 +64,7 @@ std::vector<std::string> names_of(const std::vector<PlannedMotion>& motions) {
   return names;
 }
 
-/// So many visits to each of so many motions. A round has no motion twice.
+/// Sets packs and rounds so that every motion gets its visits. A round visits no motion twice.
 SchoolConfig school_for(const TeachConfig& config, int motions) {
   SchoolConfig school = config.school;
   school.packs = std::min(school.packs, motions);
@@ -72,7 +72,7 @@ SchoolConfig school_for(const TeachConfig& config, int motions) {
   return school;
 }
 
-/// Calls add(name, field, least, most) for what the schooling of an option does not know.
+/// Calls add(name, field, least, most) for the settings beside those of `SchoolConfig`.
 template <class Config, class Add>
 void for_each_cluster_setting(Config& config, const Add& add) {
   add("school_visits", config.visits, 1, 1e5);

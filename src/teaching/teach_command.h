@@ -2,18 +2,17 @@
 ///
 /// Read → fit → prepare → plan, with feedback (a run of `mimicx plan --gains` in DIR/plans) → features →
 /// clusters; then, cluster by cluster, one policy is taught by all plans of the cluster (teaching/school.h).
-/// Motions whose plan is lost teach nothing; they are named.
+/// Motions without a complete plan are named and skipped.
 ///
 ///     DIR/options.npz              the set, as `mimicx pretrain` leaves it
 ///     DIR/clusters.json            which motion is in which cluster
-///     DIR/plans/                   the run that planned them; absent where all were planned before
+///     DIR/plans/                   the run that planned them; absent if all were planned before
 ///     DIR/training/optionK.csv     a row per round
 ///     DIR/checkpoints/optionK.npz  the complete state of the teaching
 ///     DIR/manifest.json            inputs, settings, lessons
 ///
-/// The same command continues an interrupted run; its files end up the same bytes as those of a run that was
-/// never interrupted, whatever the number of threads.
-/// What it never does: open any ground truth.
+/// The same command continues an interrupted run; its files end up the same bytes as those of an
+/// uninterrupted run, for any number of threads. It never opens any ground truth.
 #pragma once
 
 #include "pipeline/options/clusters.h"
@@ -24,10 +23,10 @@ namespace mimicx::teaching {
 
 struct TeachConfig {
   std::vector<std::string> plans;  ///< folders of runs of `mimicx plan --gains`
-  /// Motions to plan here; `run.out` is set to DIR/plans. Its threads and jobs are those of all of it.
+  /// Motions to plan here; `run.out` is set to DIR/plans. Its threads and jobs also apply to teaching.
   plan::PlanMotionsConfig planning;
   std::filesystem::path out;
-  int visits = 16;  ///< of every motion, in all: of them come the rounds of an option's school
+  int visits = 16;  ///< visits of every motion in total; they determine the rounds of each option
   SchoolConfig school;
   pipeline::options::ClusterConfig clusters{.clusters = 1};
 };

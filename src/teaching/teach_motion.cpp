@@ -9,7 +9,7 @@
 namespace mimicx::teaching {
 namespace {
 
-/// Goes on by PPO with what the student knows. Its steps begin small: the critic knows nothing yet.
+/// Continues the student's training with PPO. Its first steps are small, because the critic is untrained.
 run::SimulatedSequence polish(const Teacher& teacher, const rl::Agent& student, const TeachingConfig& config,
                               pipeline::TrainingConfig training, const run::SequenceJob& job) {
   training.samples = config.polish_samples;
@@ -20,7 +20,7 @@ run::SimulatedSequence polish(const Teacher& teacher, const rl::Agent& student, 
   return pipeline::train_sequence(teacher.clip, {student}, training, job);
 }
 
-/// How well the agent does alone on the motion that it was taught, and under pushes, into the values.
+/// Writes into the values how well the agent follows its motion unaided and under pushes.
 void try_out(const Teacher& teacher, const TeachingConfig& config, const rl::tracking::TrackingConfig& task,
              const rl::Agent& agent, const judge::Scores& scores, TaughtPolicy& taught) {
   control::PushTest pushes = config.teacher.pushes;
@@ -86,7 +86,7 @@ TaughtPolicy teach_sequence(const motion::Reference& reference, const control::P
   control.progress = [&](int done, int) { job.context.progress.update(done, ""); };
   int rows = 0, rounds = 0;
   StudentConfig lessons = config.student;
-  lessons.seed = training.seed;  // one seed for all that is learned in a run
+  lessons.seed = training.seed;  // one seed for all training in a run
   auto student = teach(*teacher, task, lessons, control, [&](const RoundStats& stats, const rl::Agent&) {
     rows = stats.taken;
     rounds = stats.round + 1;

@@ -1,8 +1,8 @@
-/// The policy of a motion that was planned: taught by the plan (teaching/student.h), polished by PPO where it
-/// does not follow the motion alone, and tried out.
+/// Teaches a policy by the plan of a motion (teaching/student.h), continues with PPO if it does not follow
+/// the motion unaided, and evaluates it.
 ///
-/// What the policy follows is the planned motion, which a body can do. It is left in policies/NAME.npz
-/// (policy_file.h), whether or not its roll-out is what the run writes.
+/// The policy follows the planned motion, which is physically feasible. It is written to policies/NAME.npz
+/// (policy_file.h), also if the run writes the plan's roll-out.
 #pragma once
 
 #include <optional>
@@ -16,23 +16,23 @@
 namespace mimicx::teaching {
 
 struct TaughtPolicy {
-  bool interrupted = false;  ///< the job's context asked to stop: nothing below is filled
-  bool timed_out = false;    ///< the job's seconds were over: there is a note, and nothing else
-  std::optional<files::StoredPolicy> policy;  ///< none where the plan could not teach
-  NamedValues values;                         ///< for the manifest: what it took, and how well it does alone
-  rl::tracking::TrackingRollout alone;        ///< its roll-out, with rewards against the prepared reference
-  std::int64_t samples = 0;                   ///< of PPO
+  bool interrupted = false;                   ///< the job's context requested a stop: nothing below is set
+  bool timed_out = false;                     ///< the job's seconds ran out: only the note is set
+  std::optional<files::StoredPolicy> policy;  ///< none if the plan gave no teacher
+  NamedValues values;                   ///< for the manifest: how it was taught, and how well it acts unaided
+  rl::tracking::TrackingRollout alone;  ///< its roll-out, with rewards against the prepared reference
+  std::int64_t samples = 0;             ///< of PPO
   double seconds = 0.0;
-  std::string note;  ///< why there is none, or why it is no success
+  std::string note;  ///< why there is no policy, or why it is no success
 };
 
-/// @param reference  what was planned for  @param plan  followed to the end
-/// @param training  of the polish; its task is that of the policy
+/// @param reference  of the plan @param plan  complete
+/// @param training  of the PPO stage; its task is that of the policy
 TaughtPolicy teach_sequence(const motion::Reference& reference, const control::Plan& plan,
                             const TeachingConfig& config, const control::CostWeights& weights,
                             const pipeline::TrainingConfig& training, const run::SequenceJob& job);
 
-/// A roll-out as seen from another reference of as many frames: rewards and distances are taken anew.
+/// The roll-out with rewards and distances recomputed against another reference of as many frames.
 rl::tracking::TrackingRollout seen_from(const motion::Reference& reference,
                                         const rl::tracking::TrackingConfig& task,
                                         rl::tracking::TrackingRollout rollout);

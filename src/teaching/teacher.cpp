@@ -26,7 +26,7 @@ void scale_to_one(List<Eigen::MatrixXf>& matrices) {
   for (Eigen::MatrixXf& m : matrices) m *= static_cast<float>(count / sum);
 }
 
-/// Fills in the feedback and how well it holds. @return false where it was told to stop
+/// Sets the feedback gains and tests them with pushes. @return false if it was stopped
 bool take_feedback(const control::System& system, const control::Cost& cost, const TeacherConfig& config,
                    const control::GainConfig& gains, const control::PlanControl& control, Teacher& teacher) {
   teacher.gains = control::feedback_gains(system, cost, teacher.motion, gains, control, &teacher.importance);

@@ -1,4 +1,4 @@
-/// How a policy is taught a planned motion, with every number by its name: for manifests and `--set`.
+/// Settings of teaching a policy by a plan; every number has a name, for manifests and `--set`.
 #pragma once
 
 #include <string>
@@ -9,20 +9,19 @@
 namespace mimicx::teaching {
 
 struct TeachingConfig {
-  bool teach = false;  ///< whether a plan that is followed teaches a policy: `adapt --policy`
+  bool teach = false;  ///< whether a complete plan teaches a policy: `adapt --policy`
   TeacherConfig teacher;
   StudentConfig student;
-  /// Where the student alone does not follow the motion, PPO goes on with it, at most so many samples and
-  /// until it does; 0: no PPO.
+  /// Samples of PPO, at most, if the student does not follow the motion unaided; 0: no PPO.
   std::int64_t polish_samples = 400000;
-  /// PPO's mean reward, on the planned motion, at which it is done.
+  /// PPO ends at this mean reward on the planned motion.
   double polish_reward = 0.6;
 };
 
-/// The numbers by name, all of them beginning with "teach_" or "polish_".
+/// The numbers by name; all begin with "teach_" or "polish_".
 NamedValues teaching_settings(const TeachingConfig& config);
 
-/// Changes one of them. @return whether there is one of that name
+/// Changes one of them. @return whether the name exists
 /// @throws std::invalid_argument for a fraction where a whole number is expected
 bool change_setting(TeachingConfig& config, const std::string& name, double value);
 

@@ -46,7 +46,7 @@ TEST_F(FindMotions, SkipsAndListsOtherFilesAndRunOutputs) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].name, "a");
   EXPECT_EQ(messages.str(), path("in") +
-                                ": left out: a.clean.npz, a.mimicx/, fitted/, out/, sub/manifest.json, "
+                                ": skipped: a.clean.npz, a.mimicx/, fitted/, out/, sub/manifest.json, "
                                 "sub/neutral_stagei.npz, sub/notes.md, sub/shape.npz (no motions, or made by "
                                 "an earlier run)\n");
 }
@@ -86,7 +86,7 @@ TEST_F(FindMotions, RejectsFoldersWithoutMotionsAndPointsIntoRuns) {
   };
   EXPECT_EQ(complaint("in"), path("in") + ": expected motion files in this folder, found none");
   EXPECT_EQ(complaint("run"), path("run") +
-                                  ": expected motion files in this folder, found a run, whose motions are in "
+                                  ": expected motion files in this folder, found a run: its motions are in "
                                   "motions/");
 }
 

@@ -36,13 +36,13 @@ TEST_F(Cli, HelpFitsATerminalWithoutLibraryWording) {
 }
 
 TEST_F(Cli, SuggestsACorrectionForAMistypedWord) {
-  EXPECT_TRUE(says(mimicx("adpt a.npz --out b"), "there is no command adpt: did you mean adapt?"));
+  EXPECT_TRUE(says(mimicx("adpt a.npz --out b"), "unknown command adpt: did you mean adapt?"));
   EXPECT_TRUE(says(mimicx("evalaute"), "did you mean evaluate?"));
   EXPECT_TRUE(says(mimicx("imitate a.npz --sampels 3"), "no option --sampels: did you mean --samples?"));
   EXPECT_TRUE(says(mimicx("plan a.npz --no-fitt"), "did you mean --no-fit?"));
   EXPECT_TRUE(says(mimicx("synth --kinds wvae --out b"), "found wvae"));
   const Call nothing = mimicx("frobnicate");
-  EXPECT_TRUE(says(nothing, "there is no command frobnicate") && !says(nothing, "mean")) << nothing.text;
+  EXPECT_TRUE(says(nothing, "unknown command frobnicate") && !says(nothing, "mean")) << nothing.text;
 }
 
 TEST_F(Cli, AcceptsThousandsAndMillionsSuffixes) {
@@ -66,7 +66,7 @@ TEST_F(Cli, BadValueErrorIsOneLineWithTheExpectedValue) {
            {"adapt a --switch-penalty 1", "--switch-penalty: expected a number up to 0, found 1"},
            {"adapt a --method dance", "--method: expected auto, plan, paper, found dance"},
            {"info a --up w", "--up: expected x, y, z, -x, -y, -z, found w"},
-           {"info a --smplx none.npz", "--smplx: expected a file that is there, found none.npz"},
+           {"info a --smplx none.npz", "--smplx: expected an existing file, found none.npz"},
            {"info a --floor inf", "--floor: expected a number, found inf"},
            {"export-mjcf a.xml --betas 1,,6", "--betas: expected a number from -5 to 5, found 6"},
            {"export-mjcf a.xml --betas 1 --motion b", "--betas excludes --motion"},
@@ -79,10 +79,10 @@ TEST_F(Cli, BadValueErrorIsOneLineWithTheExpectedValue) {
            {"cluster a --out b.npz", "--out: expected a file that ends in .json, found b.npz"},
            {"cluster a --out b --clusters 0", "--clusters: expected a whole number from 1 on, found 0"},
            {"info", "FILE is required"},
-           {"info a b", "one thing too many: b"},
+           {"info a b", "unexpected argument: b"},
            {"info a --scale", "--scale: expected a value, found nothing"},
            {"plan a --out b --out c", "--out is given twice"},
-           {"--frob", "there is no option --frob"},
+           {"--frob", "unknown option --frob"},
            {"", "expected a command"}}) {
     const Call call = mimicx(arguments);
     EXPECT_EQ(call.status, 2) << arguments << '\n' << call.text;

@@ -38,7 +38,7 @@ TEST_F(Cli, FailurePrintsItsMotionAndTheNextStep) {
   EXPECT_TRUE(says(call, "the body hovers")) << "what it asks for\n" << call.text;
   EXPECT_TRUE(says(call, "rejected motion: " + path("run/rejected/a.npz"))) << call.text;
   EXPECT_TRUE(says(call, "in " + path("run/report.html"))) << call.text;
-  EXPECT_TRUE(says(call, "mimicx adapt does so where a plan is lost")) << call.text;
+  EXPECT_TRUE(says(call, "mimicx adapt trains policies where a plan fails")) << call.text;
   EXPECT_TRUE(says(call, "mimicx audit --poses '" + path("a.npz") + "'")) << call.text;
 }
 
@@ -63,8 +63,7 @@ TEST_F(Cli, ReportsASpentBudgetAndALargerOneContinues) {
       "imitate " + path("a.npz") + " --floor 0 --as-is" + kSmall + " --out " + path("run") + " --samples ";
   const Call first = mimicx(command + "512");
   ASSERT_EQ(first.status, 1) << first.text;
-  EXPECT_TRUE(says(first, "the training ended with its budget: with a larger --samples than 512"))
-      << first.text;
+  EXPECT_TRUE(says(first, "the training spent its budget: with a larger --samples than 512")) << first.text;
   const std::string before = read_file(path("run/training/a.csv"));
   const Call more = mimicx(command + "1024");
   EXPECT_EQ(more.status, 1) << more.text;

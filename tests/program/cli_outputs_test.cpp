@@ -132,7 +132,7 @@ TEST_F(CliOutputs, ListsSkippedFiles) {
         "fit " + path("in") + " --out " + path("f"), "corrupt " + path("in") + " --out " + path("c"),
         "imitate " + path("in") + " --samples 1 --out " + path("i")}) {
     const Call call = mimicx(command);
-    EXPECT_TRUE(says(call, path("in") + ": left out: notes.md, w.clean.npz (no motions")) << call.text;
+    EXPECT_TRUE(says(call, path("in") + ": skipped: notes.md, w.clean.npz (no motions")) << call.text;
   }
 }
 

@@ -60,9 +60,9 @@ TEST_F(CliPolicy, NamesWhatIsMissingInOneLine) {
   const std::pair<std::string, std::string> cases[] = {
       {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: there is more/walk, walk"},
       {path("options/walk") + " --out " + path("x.h"), "it has options, which follow many motions"},
-      {path("plain/walk") + " --out " + path("x.h"), "its motions were given none"},
+      {path("plain/walk") + " --out " + path("x.h"), "it has no policies"},
       {path("empty/walk") + " --out " + path("x.h"), "it is no folder of `mimicx adapt --out`"},
-      {path("none/walk") + " --out " + path("x.h"), "none is no folder: name a policy as RUN/NAME"},
+      {path("none/walk") + " --out " + path("x.h"), "none is no folder: expected a policy as RUN/NAME"},
       {path("run/walk") + " --out " + path("x.hpp"), "x.hpp: expected a file that ends in .h, .onnx or .npz"},
       {path("run/walk"), "--out is required"},
       {path("run/policies/walk.npz") + " --out " + path("run/policies/walk.npz"), "is an input"}};

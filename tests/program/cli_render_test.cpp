@@ -51,7 +51,7 @@ TEST_F(CliRender, ImpossibleRequestIsOneLineAndWritesNothing) {
       {a + " --kind animation --at 0.1" + png, 2, "--at: an animation shows all moments"},
       {a + " --from 0.5 --to 0.2" + png, 2, "0.50 s is not in the motion"},
       {a + " --labels x,y" + png, 2, "--labels: expected one for each of the 1 motions, found 2"},
-      {a + " --arrows" + png, 1, "a.npz: expected a motion with forces, found none: mimicx plan makes"},
+      {a + " --arrows" + png, 1, "a.npz: expected a motion with forces, found none: mimicx plan writes"},
       {path("none.npz") + png, 1, "none.npz"},
       {a + " --out " + a, 2, "are written as .png"}};
   for (const auto& [arguments, status, words] : calls) {

@@ -128,9 +128,9 @@ TEST_F(CliShards, RejectOtherCountsInputsAndSettingsInOneLine) {
            {shard("parts", 1, 2, "--set plan_horizon=7"), "(plan_horizon is "},
            {"plan " + path("in/b.bvh") + " --floor 0 --as-is --shard 1/2 --out " + path("parts"),
             "motion 1 of 4 is " + path("in/1/a.npz") + " there, " + path("in/b.bvh") + " here"},
-           {plan("parts"), "`mimicx merge " + path("parts") + "` puts them together"},
+           {plan("parts"), "`mimicx merge " + path("parts") + "` joins them"},
            {plan("parts", "--shard 2"), "--shard: expected I/N with I from 0 to N - 1, found 2"},
-           {"plan " + path("in/b.bvh") + " --shard 0/2", "--shard: goes with --out"}}) {
+           {"plan " + path("in/b.bvh") + " --shard 0/2", "--shard: needs --out"}}) {
     const Call call = mimicx(line);
     EXPECT_EQ(call.status, 2) << line;
     EXPECT_TRUE(says(call, said)) << call.text;

@@ -100,7 +100,7 @@ TEST(Json, ErrorsSayWhatWasFound) {
     }
   };
   EXPECT_EQ(found("{}", [](const Json& j) { j.at("run"); }), "no member run");
-  EXPECT_EQ(found("3", [](const Json& j) { j.items(); }), "what is no object");
+  EXPECT_EQ(found("3", [](const Json& j) { j.items(); }), "a value that is no object");
   EXPECT_EQ(found("-3", [](const Json& j) { j.get<std::uint64_t>(); }), "a negative number");
 }
 

@@ -31,7 +31,7 @@ void write_exchange(const std::filesystem::path& path, const motion::Clip& clip,
   const std::optional<RecordedForces> forces = lost ? std::nullopt : recorded_forces(clip);
   if (!forces && (suffix == ".mot" || suffix == ".sto" || (suffix == ".glb" && config.arrows)))
     throw DataError(source, "", "a motion with forces",
-                    lost ? config.forces_lost : "none in it: mimicx plan makes a motion that has them");
+                    lost ? config.forces_lost : "none: mimicx plan writes motions with forces");
   if (forces && clip.frames() < 2)
     throw DataError(source, "", "at least 2 frames", std::to_string(clip.frames()));
   if (suffix == ".mot") return write_file_atomically(path, format_mot(clip, *forces));

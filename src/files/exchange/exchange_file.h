@@ -1,6 +1,7 @@
-/// Files for other programs, chosen by the suffix: .glb (gltf.h), .mot and .sto (opensim.h), .csv (csv.h).
+/// Files for other programs; the suffix chooses the format: .glb (gltf.h), .mot and .sto (opensim.h), .csv
+/// (csv.h).
 ///
-/// These are written only: what reads motions (import) does not know them.
+/// These formats are only written; src/import does not read them.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +18,7 @@ enum class Skin { kMannequin, kShapes };
 struct ExchangeConfig {
   Skin skin = Skin::kMannequin;  ///< of a .glb
   bool arrows = false;           ///< the forces of the floor in a .glb
-  /// Why forces that the file may hold are not those of the clip; empty: they are.
+  /// Why the file's forces do not belong to the clip, for example after resampling; empty: they do.
   std::string forces_lost;
 };
 
@@ -25,7 +26,7 @@ bool is_exchanged(const std::filesystem::path& path);
 /// ".glb, .mot, .sto or .csv"
 std::string exchanged_suffixes();
 
-/// How the files of a suffix begin that are written here, and at which byte.
+/// The first bytes of the files of a suffix, and their offset.
 struct Opening {
   std::string_view text;
   std::size_t at = 0;
@@ -33,7 +34,7 @@ struct Opening {
 Opening exchange_opening(const std::filesystem::path& path);
 
 /// @param source  the file that the clip was read from, for messages
-/// @throws DataError where forces are asked for and there are none
+/// @throws DataError if the format needs forces and the clip has none
 void write_exchange(const std::filesystem::path& path, const motion::Clip& clip, const std::string& source,
                     const ExchangeConfig& config);
 

@@ -13,25 +13,25 @@
 
 namespace mimicx::files {
 
-/// What an array of a buffer is for; the numbers of glTF.
+/// The use of an array in a buffer, by glTF's numbers.
 enum class BufferUse { kAnimation = 0, kVertices = 34962, kIndices = 34963 };
 
 class Glb {
  public:
-  /// Its JSON begins with this, at byte kJsonAt of the file.
+  /// The first characters of the JSON, at byte kJsonAt of the file.
   static constexpr std::string_view kJsonOpening = R"({"asset":{"version":"2.0","generator":"mimicx")";
   static constexpr std::size_t kJsonAt = 20;
 
   Glb();
 
   /// @param type        "SCALAR", "VEC3", "VEC4", "MAT4"
-  /// @param with_range  least and largest value, as positions and times must have them
-  /// @return the number of the accessor
+  /// @param with_range  also store the least and largest value, which positions and times need
+  /// @return the index of the accessor
   int add(const std::vector<float>& values, const std::string& type, BufferUse use, bool with_range = false);
   int add(const std::vector<std::uint8_t>& values, const std::string& type, BufferUse use);
   int add(const std::vector<std::uint32_t>& values, const std::string& type, BufferUse use);
 
-  /// Appends to a list at the top of the JSON. @return its place there
+  /// Appends to a list of the top-level JSON object. @return its index there
   int append(const std::string& list, record::Json element);
 
   record::Json json;

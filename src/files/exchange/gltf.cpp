@@ -19,7 +19,7 @@ Quaterniond to_y_up() { return exp_map(Vector3d(-0.5 * std::numbers::pi, 0, 0));
 void add_floats(const Vector3d& v, std::vector<float>& values) {
   for (const double x : v) values.push_back(static_cast<float>(x));
 }
-/// x, y, z, w, as glTF has it. @param before  the key before, which is brought to the nearer sign
+/// Adds x, y, z, w, with the sign nearer to the previous key. @param before  that key; becomes this one
 void add_floats(Quaterniond q, Quaterniond& before, std::vector<float>& values) {
   if (q.dot(before) < 0.0) q.coeffs() *= -1.0;
   before = q;
@@ -31,7 +31,7 @@ Json triple(const Vector3d& v) {
   return std::vector<Json>{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-/// Weights in single precision that sum to 1 as near as that can be.
+/// Weights in single precision whose sum is 1 up to rounding.
 Array<float, skin::kInfluences> rounded(const Array<double, skin::kInfluences>& weights) {
   Array<float, skin::kInfluences> out;
   float rest = 1.0F;

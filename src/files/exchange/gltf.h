@@ -1,12 +1,12 @@
-/// A motion as glTF 2.0, with a skin: what Blender, game engines, web viewers and slides open.
+/// A skinned motion as glTF 2.0, for Blender, game engines and web viewers.
 ///
 /// y up, metres; (x, y, z) of our world is glTF's (x, z, −y). Joints are nodes of the names in `kBodyNames`;
-/// at rest they stand in the T-pose on the floor, in which the skin is bound. One animation, a key per frame:
-/// rotations of all joints as quaternions that never take the long way round, and the place of the pelvis.
+/// the bind pose is the T-pose on the floor. There is one animation with a key per frame: rotations of all
+/// joints as quaternions, each with the sign nearer to the key before, and the position of the pelvis.
 ///
-/// With arrows, a node per foot, and one for the rest of the body where that touches the floor, is an arrow
-/// from the centre of pressure along the force of the floor, a millimetre per newton. Its keys stand in the
-/// middle between the frames, where the recorded means are true; without a force it has no size.
+/// With arrows, there is a node per foot, and one for the rest of the body where that touches the floor: an
+/// arrow from the centre of pressure along the floor's force, 1 mm per newton. Its keys are midway between
+/// the frames, because the recorded forces are means over these intervals. Without a force its scale is zero.
 #pragma once
 
 #include <string>

@@ -1,15 +1,15 @@
 /// Storage files for OpenSim: the forces of the floor (.mot) and the moments in the joints (.sto).
 ///
-/// OpenSim's ground: y up, metres, newtons; (x, y, z) of our world is its (x, z, −y). A row stands for the
-/// middle of an interval between two frames, over which the numbers are means.
+/// OpenSim's ground: y up, metres, newtons; (x, y, z) of our world is its (x, z, −y). A row holds means over
+/// the interval between two frames, at the time of its middle.
 ///
 /// The .mot has, for the right foot, the left foot and, where anything else touches the floor, the rest of
-/// the body (`r`, `l`, `o`): ground_force_r_vx vy vz, ground_force_r_px py pz, ground_torque_r_x y z. In
-/// OpenSim's external loads they are known by ground_force_r_v, ground_force_r_p and ground_torque_r_,
+/// the body (`r`, `l`, `o`): ground_force_r_vx vy vz, ground_force_r_px py pz, ground_torque_r_x y z.
+/// OpenSim's external loads refer to them as ground_force_r_v, ground_force_r_p and ground_torque_r_,
 /// expressed in ground.
 ///
 /// The .sto has a column per degree of freedom: NAME_flexion_moment of knees and elbows, NAME_moment_x y z of
-/// every other joint, on the segment beyond the joint, along its own axes as OpenSim has them at rest: x
+/// every other joint, on the segment beyond the joint, along its own axes, which for OpenSim at rest are x
 /// forward, y up, z to the right.
 ///
 /// Format: OpenSim, "Storage (.sto) Files" and "Motion (.mot) Files" of its User's Guide.
@@ -22,7 +22,7 @@
 
 namespace mimicx::files {
 
-/// How every file of ours begins.
+/// The first bytes of every file that is written here.
 inline constexpr std::string_view kMotOpening = "mimicx ground reaction\nversion=1\n",
                                   kStoOpening = "mimicx joint moments\nversion=1\n";
 

@@ -12,14 +12,14 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-/// The numbers that occur, ascending, each once.
+/// The distinct numbers, ascending.
 std::vector<int> distinct(std::vector<int> numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 
-/// The option of every frame t that acts towards frame t + 1, where its reward is found. [frames − 1]
+/// The option that acts in frame t, towards frame t + 1, at which its reward is taken. [frames − 1]
 struct Choice {
   List<int> options;
   std::vector<int> breaks;
@@ -96,7 +96,7 @@ ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& cl
   arranged.searched = choice.searched;
   arranged.breaks = std::move(choice.breaks);
   arranged.options = std::move(choice.options);
-  // Nothing is left to do in the last frame: it keeps the option of the frame before.
+  // No option acts in the last frame: it keeps the option of the frame before.
   arranged.options.push_back(arranged.options.back());
 
   arranged.kept = distinct(arranged.options);

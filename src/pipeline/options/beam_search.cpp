@@ -11,14 +11,15 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-constexpr int kWider = 2;        ///< every retry keeps 2^kWider times as many states
-constexpr int kBack = 3;         ///< beams by which the first retry goes back, and every other one farther
-constexpr int kRemembered = 32;  ///< beams that can be gone back to
+constexpr int kWider = 2;  ///< every retry keeps 2^kWider times as many states
+constexpr int kBack =
+    3;  ///< beams by which the first retry goes back; every further one goes back so many more
+constexpr int kRemembered = 32;  ///< beams that are kept for going back
 
-/// One way to where the search has come, and the character that has gone it.
+/// A path of the search, and its character.
 struct Path {
   List<int> options;        ///< [frames] the option that acts towards the next frame
-  std::vector<int> breaks;  ///< as `Found`
+  std::vector<int> breaks;  ///< as in `Found`
   double value = 0.0;       ///< R of Eq. 4 so far
   bool fell = false;
   int character = 0;
@@ -26,14 +27,14 @@ struct Path {
 
 bool better(const Path& a, const Path& b) { return a.fell != b.fell ? b.fell : a.value > b.value; }
 
-/// The paths that go on from a frame, the best first, and their characters.
+/// The kept paths at a frame, the best first, and their characters.
 struct Beam {
   int frame = 0;
   List<Path> paths;
   Characters characters;
 };
 
-/// Every path of the beam, continued by every option for so many frames.
+/// Every path of the beam, continued by every option for `frames` frames.
 List<Path> continued(const List<Path>& beam, int options, int frames, double switch_penalty) {
   List<Path> paths;
   for (const Path& from : beam)
@@ -46,8 +47,8 @@ List<Path> continued(const List<Path>& beam, int options, int frames, double swi
   return paths;
 }
 
-/// Lets every path act by its last option. What comes after a fall earns nothing.
-/// @return false where it was told to stop on the way
+/// Lets the last option of every path act. After a fall the reward is 0.
+/// @return false if it was stopped
 bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanAction& policy, int frames,
          const std::function<bool()>& should_stop) {
   List<int> options;
@@ -63,7 +64,7 @@ bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanActi
   return true;
 }
 
-/// A character of its own for every path, in the state of the one that it had.
+/// Gives every path its own character, a copy of the one that it shares.
 Characters characters_of(List<Path>& paths, const Characters& from,
                          const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                          const rl::tracking::TrackingConfig& tracking) {
@@ -75,7 +76,7 @@ Characters characters_of(List<Path>& paths, const Characters& from,
   return characters;
 }
 
-/// All continuations of a beam, the best first. @return none where it was told to stop on the way
+/// All continuations of a beam, the best first. @return none if it was stopped
 std::optional<Beam> expand(const Beam& beam, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                            const rl::tracking::TrackingConfig& tracking,
                            const rl::tracking::MeanAction& policy, int options, int stretch,
@@ -88,7 +89,7 @@ std::optional<Beam> expand(const Beam& beam, const std::shared_ptr<const rl::tra
   return Beam{beam.frame + frames, std::move(paths), std::move(characters)};
 }
 
-/// Keeps the best paths that stand, and of the characters theirs.
+/// Keeps the best paths that stand, with their characters.
 void prune(Beam& beam, std::int64_t width, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
            const rl::tracking::TrackingConfig& tracking) {
   List<Path>& paths = beam.paths;
@@ -97,7 +98,7 @@ void prune(Beam& beam, std::int64_t width, const std::shared_ptr<const rl::track
   beam.characters = characters_of(paths, beam.characters, clip, tracking);
 }
 
-/// Of paths that all have fallen the best goes on, put onto the reference.
+/// Where all paths have fallen, restarts the best one from the reference.
 void restart(Beam& beam) {
   beam.paths.resize(1);
   Path& path = beam.paths.front();
@@ -119,10 +120,10 @@ Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& 
         "penalty of at most 0");
   const rl::tracking::MeanAction policy = mean_action_of(options);
   const int last = clip->size() - 1;
-  std::vector<Beam> trail;  // where the search came through; it goes on from the last
+  std::vector<Beam> trail;  // the beams so far; the search continues from the last
   trail.push_back({0, List<Path>(1), Characters(clip, tracking, 1)});
-  int retry = 0;    // the attempt that is under way; 0: none has been needed
-  int to_pass = 0;  // the farthest frame at which every path fell since then
+  int retry = 0;    // number of the current retry; 0: none
+  int to_pass = 0;  // the farthest frame at which every path fell during the retries
   while (trail.back().frame < last) {
     const std::int64_t width = std::int64_t{config.width} << (kWider * retry);
     const int stretch = retry > 0 ? std::max(1, config.stretch / 2) : config.stretch;

@@ -9,7 +9,7 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-/// What the features of the joints say of the body, as root mean squares.
+/// Root-mean-square speeds and accelerations of the body, from its features.
 struct Impression {
   double hips = 0;     ///< height of the pelvis, m
   double travel = 0;   ///< horizontal speed of the pelvis, m/s
@@ -48,11 +48,11 @@ std::string join(const std::vector<std::string>& words) {
   return out;
 }
 
-/// A quality in which one cluster may exceed all others.
+/// A quality in which a cluster may exceed all others.
 struct Superlative {
   const char* words;
   double Impression::*value;
-  double least;  ///< a smaller value is never called so, even if the others are smaller still
+  double least;  ///< a smaller value is not mentioned, even if it is the largest
 };
 constexpr std::array<Superlative, 6> kSuperlatives = {{
     {"the fastest", &Impression::travel, 0.5},

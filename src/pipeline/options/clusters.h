@@ -1,13 +1,13 @@
-/// Motions sorted into clusters of similar ones, and the file that says so.               docs/method.md §6
+/// Clusters of similar motions, and their file.               docs/method.md §6
 ///
 /// Motions are points of R⁶⁸ (pipeline/options/features.h); the clusters are the leaves of hierarchical
-/// k-means (kmeans.h). One option policy is trained per cluster. Numbers run from 0, the calmer branch of
-/// every split first, and do not depend on the order of the input.
+/// k-means (kmeans.h). One option policy is trained per cluster. Clusters are numbered from 0, the calmer
+/// branch of every split first, independent of the order of the input.
 ///
 /// The file is JSON: {"settings", "units", "tree", "clusters"}; distances and diameters are in the features'
-/// units, centres in SI units under the features' names,
-/// features of the members in SI units, in the order of "units". It is refused by a program with other
-/// features or units, because its distances would mean something else there.
+/// units, centres in SI units under the features' names, features of the members in SI units, in the order of
+/// "units". A program with other features or units rejects the file, because its distances would have another
+/// meaning.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +27,13 @@ struct NamedFeatures {
 };
 
 struct ClusterConfig {
-  double radius = 0.0;          ///< l_max: no two members of a cluster are farther apart
-  std::optional<int> clusters;  ///< how many to make instead; `radius` then follows from it
+  double radius = 0.0;          ///< l_max: largest distance between two members of a cluster
+  std::optional<int> clusters;  ///< number of clusters to make instead; `radius` then follows from it
   std::uint64_t seed = 0;
 };
 
 struct MotionCluster {
-  std::string description;           ///< what its motions are like, in words
+  std::string description;           ///< of its motions, in words
   std::vector<std::string> members;  ///< names, sorted
   List<MotionFeatures> features;     ///< of the members, SI units; empty from files of older programs
   MotionFeatures centre{};           ///< mean of their features, SI units
@@ -42,13 +42,13 @@ struct MotionCluster {
 
 struct ClusterBranch {
   int parent = -1;   ///< -1: the root
-  int cluster = -1;  ///< number of the cluster it is; -1 where it is split further
+  int cluster = -1;  ///< index of its cluster; -1 if it is split further
   int motions = 0;
   double diameter = 0.0;
 };
 
 struct Clusters {
-  ClusterConfig settings;           ///< `radius` as it was in the end
+  ClusterConfig settings;           ///< with the final `radius`
   std::vector<ClusterBranch> tree;  ///< depth first; [0] is the root, and every other one without a parent
   List<MotionCluster> clusters;     ///< by number
 };
@@ -57,23 +57,23 @@ struct Clusters {
 ///         motions, and for a radius below 0
 Clusters cluster_motions(List<NamedFeatures> motions, const ClusterConfig& settings);
 
-/// All of them, numbered on from part to part and described among each other, each part with its own root.
-/// `settings` are of no clustering then: the largest radius, and the number of all.
+/// Joins several sets of clusters: numbered consecutively, described relative to all, each part with its own
+/// root. `settings` then has the largest radius and the total number of clusters.
 /// @throws std::invalid_argument without parts
 Clusters joined(const std::vector<Clusters>& parts);
 
-/// Number of the cluster whose centre is nearest; of equally near ones the first.
+/// Index of the cluster with the nearest centre; of equally near ones the first.
 int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
 
 /// The tree with its members, indented, for people.
 std::string format_cluster_tree(const Clusters& clusters);
 
 std::string format_clusters(const Clusters& clusters);
-/// Writes a temporary file and renames it: a reader sees the old file or the new one.
+/// Writes a temporary file and renames it, so that a reader sees the old file or the new one.
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters);
 /// @throws DataError for a file that holds no clusters, or clusters of other features or units
 Clusters read_clusters(const std::filesystem::path& path);
-/// Of several files, joined; of one, as it is.
+/// Several files, joined; one file, unchanged.
 Clusters read_clusters(const std::vector<std::filesystem::path>& paths);
 /// The same from its text. @param path  for messages
 Clusters parse_clusters(const std::string& text, const std::filesystem::path& path);

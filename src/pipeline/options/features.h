@@ -1,4 +1,5 @@
-/// What kind of motion a clip is, in 68 numbers: how high the root is, how it turns, how the joints move.
+/// Motion features of a clip, 68 numbers: height and turning of the root, speeds and accelerations of the
+/// joints.
 ///                                                                              Eq. 1; docs/method.md §6
 ///
 /// Source: Eq. 1 of the paper, after Onuma et al. 2008 and Won et al. 2020. Every entry but the first is the
@@ -10,16 +11,16 @@
 ///     vertical_velocity.JOINT  m²/s²     squared vertical velocity (the print drops its formula)
 ///     acceleration.JOINT       m²/s⁴     squared acceleration
 ///
-/// Velocities are those of the world seen along the root's heading, so locomotion shows. Turning the axes
-/// about the vertical changes neither a horizontal length, nor a vertical one, nor the length of an
-/// acceleration, and only lengths enter: the rotation need not be carried out.
+/// Velocities are world velocities in the root's heading frame, so locomotion counts. Turning the axes about
+/// the vertical changes neither a horizontal length, nor a vertical one, nor the length of an acceleration,
+/// and only lengths enter: the rotation need not be carried out.
 ///
 /// Smoothing: values and derivatives at a frame are those of the parabola that fits the frames within
 /// 0.133 s of it best in the least-squares sense (Savitzky and Golay 1964; 9 frames at 30 fps; at the ends
 /// the nearest 9). Exact for constant velocity and for free fall, to the first and last frame; white noise of
 /// 5 mm in a coordinate leaves 0.5 m/s² of its acceleration instead of the 11 m/s² of plain differences.
 ///
-/// What it does not do: it does not know where the motion is, where it looks, or in what order things happen.
+/// What it does not do: the features do not depend on the place, heading or order of a motion's parts.
 #pragma once
 
 #include "motion/reference.h"
@@ -45,9 +46,9 @@ const Array<std::string, kFeatures>& feature_names();
 /// @throws DataError for fewer than 3 frames
 MotionFeatures motion_features(const motion::Reference& reference);
 
-/// Length of each feature's axis: distances between motions are Euclidean in features / units. Constants,
-/// not taken from the data: a distance means the same in every set of motions, and a new clip can be
-/// compared with clusters made before.
+/// Length of each feature's axis: distances between motions are Euclidean in features / units. Constants, not
+/// computed from the data: a distance means the same in every set of motions, and a new clip can be compared
+/// with existing clusters.
 const MotionFeatures& feature_units();
 
 /// features / units, entry by entry.

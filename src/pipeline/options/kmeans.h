@@ -1,19 +1,18 @@
-/// Hierarchical k-means: clusters that are no wider than asked for.                     docs/method.md §6
+/// Hierarchical k-means: clusters with a bounded diameter.                     docs/method.md §6
 ///
 /// A cluster whose diameter (the largest distance between two of its members, which the paper calls its
-/// radius) exceeds the bound l_max is split by k-means with k = 2, and its parts again, until none does.
-/// k-means is Lloyd's iteration from k-means++ centres (Arthur and Vassilvitskii 2007), the best of a few
-/// starts.
+/// radius) exceeds the bound l_max is split recursively by k-means with k = 2, until none does. k-means is
+/// Lloyd's iteration from k-means++ centres (Arthur and Vassilvitskii 2007), the best of a few starts.
 ///
-/// How a node is split depends on its members and the seed alone, never on l_max. So there is one complete
-/// tree, down to single points, and a bound cuts it: a smaller l_max only ever splits further, and the l_max
-/// that gives C clusters can be read off the diameters.
+/// The split of a node depends only on its members and the seed, not on l_max. So there is one complete tree,
+/// down to single points, and l_max cuts it: a smaller l_max only splits further, and the l_max for C
+/// clusters follows from the diameters.
 ///
-/// The order of the points is irrelevant to the result: work is done in lexicographic order of the points,
-/// and random numbers are drawn for places in that order. Equal points always share a cluster.
+/// The result does not depend on the order of the points: they are processed in lexicographic order, and
+/// random numbers are drawn for positions in that order. Equal points always share a cluster.
 ///
-/// What it does not do: it keeps no names and knows no features (clusters.h); all pairs of members are
-/// compared, so it is made for thousands of points, not for millions.
+/// What it does not do: it keeps no names and knows no features (clusters.h). All pairs of members are
+/// compared, so it suits thousands of points, not millions.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,15 +56,15 @@ struct ClusterNode {
 /// clusters 0, 1, ….
 using ClusterTree = List<ClusterNode>;
 
-/// The complete tree: every leaf holds equal points only. @throws std::invalid_argument without points
+/// The complete tree: every leaf holds only equal points. @throws std::invalid_argument without points
 ClusterTree complete_tree(const Points& points, std::uint64_t seed);
 
 /// The top of a tree: nodes wider than `radius` keep their children, the others become leaves.
 /// @throws std::invalid_argument for a negative radius
 ClusterTree cut_tree(const ClusterTree& tree, double radius);
 
-/// The largest l_max that gives at least `clusters` clusters: exactly as many, unless nodes of equal diameter
-/// can only be split together.
+/// The largest l_max that gives at least `clusters` clusters; more only if nodes of equal diameter are split
+/// together.
 /// @param tree  complete
 /// @throws std::invalid_argument when there are fewer distinct points, or for less than 1 cluster
 double radius_for_clusters(const ClusterTree& tree, int clusters);

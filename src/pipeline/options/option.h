@@ -1,4 +1,4 @@
-/// An option: one policy for one kind of motion, with the encoder through which it sees its reference.
+/// An option: a policy for one kind of motion, with the encoder of its reference.
 ///                                                                          docs/method.md §7
 /// Options are trained per cluster, stored together, chosen per frame and fine-tuned jointly. All options of
 /// a set have one state size.
@@ -14,18 +14,17 @@ namespace mimicx::pipeline::options {
 
 struct Option {
   rl::Agent agent;
-  std::optional<nn::AutoEncoder> encoder;  ///< none: the policy sees the reference itself
+  std::optional<nn::AutoEncoder> encoder;  ///< none: the policy observes the reference itself
 };
 
-/// Pose features of a clip's frames in their own heading frames: what encoders are trained on and applied to.
-/// [frames + 1 × 186]
+/// Pose features of a clip's frames in their own heading frames: the inputs of encoders. [frames + 1 × 186]
 nn::Matrix<float> encoder_inputs(const rl::tracking::TrackingClip& clip);
 
 /// z and D(z) of every frame.
 rl::tracking::EncodedReference encode_reference(const nn::AutoEncoder& encoder,
                                                 const rl::tracking::TrackingClip& clip);
 
-/// The clip as these options see it; the clip itself where they have no encoders.
+/// The clip with the reference encoded for these options; the clip itself if they have no encoders.
 /// @throws std::invalid_argument when some options have an encoder and others have none
 std::shared_ptr<const rl::tracking::TrackingClip> encoded_for(
     const std::shared_ptr<const rl::tracking::TrackingClip>& clip, const std::vector<const Option*>& options);

@@ -10,22 +10,22 @@
 
 namespace mimicx::pipeline::options {
 
-/// Characters 0 … count − 1, kLanes to a pack. What one does depends on no other.
+/// Characters 0 … count − 1, kLanes to a pack. Characters do not influence each other.
 class Characters {
  public:
-  /// All stand on frame 0 of the clip.
+  /// All start in the reference's state at frame 0.
   Characters(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
              const rl::tracking::TrackingConfig& config, int count);
 
-  /// One frame of all: each acts by the mean action of its option. @param options  [count]
+  /// Advances all by one frame, each with the mean action of its option. @param options  [count]
   void advance(const rl::tracking::MeanAction& policy, const List<int>& options);
-  /// Of the frame reached: the reward of Eq. 2, 0 where `fell`.
+  /// The reward of Eq. 2 at the frame reached; 0 if `fell`.
   double reward(int c) const;
-  /// A body is farther than `terminate_distance` from its reference, or the simulation went wrong.
+  /// Whether a body is farther than `terminate_distance` from its reference, or the simulation failed.
   bool fell(int c) const;
-  /// Puts character c into the state of another one, of these or of others on the same clip.
+  /// Puts character c into the state of a character of `from`, which is on the same clip.
   void copy(int c, const Characters& from, int other);
-  /// Puts character c on the reference.
+  /// Puts character c into the reference's state.
   void reset(int c, int frame);
 
  private:
@@ -36,7 +36,7 @@ class Characters {
 
   double terminate_distance_;
   List<Pack> packs_;
-  std::vector<float> state_;  ///< [state_size] of the character that is to act
+  std::vector<float> state_;  ///< [state_size] of the character that acts next
   std::unique_ptr<physics::Data<Pack::P>> scratch_;
 };
 

@@ -42,7 +42,7 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::Track
 OptionRewards charge_rescues(const SideBySide& rolled, int frames) {
   OptionRewards charged = rolled.rewards;
   if (frames == 0) return charged;
-  List<int> to_rescue(charged.empty() ? 0 : charged.front().size(), frames);  // k, as far as it matters
+  List<int> to_rescue(charged.empty() ? 0 : charged.front().size(), frames);  // k, at most `frames`
   for (int t = charged.count() - 1; t >= 0; --t)
     for (int c = 0; c < to_rescue.count(); ++c) {
       to_rescue[c] = rolled.rescued[t][c] ? 0 : std::min(to_rescue[c] + 1, frames);

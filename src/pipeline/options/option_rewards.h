@@ -1,12 +1,12 @@
-/// C characters on one clip, one per option: the rewards from which the selector chooses.
+/// The rewards for the selector: C characters on one clip, one per option.
 ///                                                                          docs/method.md §8
 ///
-/// All act at once, each by the mean action of its option. Where a character's reward falls under σ, or it
-/// has fallen, it is *rescued*: it takes over the state of the best character at that moment; where all of
-/// them have, all restart from the reference at that frame and the break is recorded.
+/// All act in parallel, each with the mean action of its option. A character that has fallen, or whose reward
+/// is below σ, is *rescued*: it takes over the state of the best character at that frame. If all need a
+/// rescue, all restart from the reference at that frame, and the break is recorded.
 ///
-/// A rescue is no merit of the option that needed it. `charge_rescues` takes its reward, and lets those of
-/// the N frames before it fade away:
+/// The option did not earn the state after a rescue. `charge_rescues` therefore sets the reward at the rescue
+/// to 0 and fades out the rewards of the N frames before:
 ///
 ///     r'[t][c] = r[t][c] · min(1, k / N)
 ///

@@ -12,7 +12,7 @@ constexpr const char* kCount = "options.count";
 
 std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
-/// @throws DataError where actor and state or action do not fit
+/// @throws DataError if the actor's sizes are not those of state and action
 void check_shape(const Npz& archive, const std::string& prefix, const Option& option) {
   const int state =
       option.encoder ? rl::tracking::kEncodedRest + option.encoder->code_size() : rl::tracking::kStateSize;

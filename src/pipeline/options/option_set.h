@@ -19,7 +19,7 @@ namespace mimicx::pipeline::options {
 
 struct TrainedOption {
   Option option;
-  std::string description;  ///< what its motions are like
+  std::string description;  ///< of its motions, in words
   MotionFeatures centre{};  ///< of its cluster
   int motions = 0;          ///< number of motions it was trained on
   std::int64_t samples = 0;
@@ -27,11 +27,11 @@ struct TrainedOption {
 
 struct OptionSet {
   List<TrainedOption> options;
-  std::string checksum;            ///< of the file; empty where it was not read from one
-  std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty: there is none
+  std::string checksum;            ///< of the file; empty if it was not read from one
+  std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty if missing
 };
 
-/// Sets in the order in which they are tried. Their options are numbered on from set to set.
+/// Sets in the order in which they are tried. Their options are numbered consecutively over all sets.
 using OptionSets = List<std::shared_ptr<const OptionSet>>;
 /// Number of a set's first option.
 int first_option(const OptionSets& sets, int set);

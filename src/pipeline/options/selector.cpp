@@ -7,7 +7,7 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-/// Refuses what has no optimum: rows of different lengths, values that are not finite, a premium on
+/// Rejects inputs without an optimum: rows of different lengths, values that are not finite, a reward for
 /// switching.
 void require_usable(const OptionRewards& reward, double switch_penalty) {
   if (!(switch_penalty <= 0.0) || !std::isfinite(switch_penalty))

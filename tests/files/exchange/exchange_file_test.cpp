@@ -41,7 +41,7 @@ TEST(ExchangeFile, MissingForcesErrorSaysHowToGetThem) {
   TemporaryFolder folder;
   const motion::Clip clip = turning_clip(5);
   const std::string says =
-      "in.npz: expected a motion with forces, found none in it: mimicx plan makes a motion that has them";
+      "in.npz: expected a motion with forces, found none: mimicx plan writes motions with forces";
   EXPECT_EQ(complaint(folder.path / "a.mot", clip, {}), says);
   EXPECT_EQ(complaint(folder.path / "a.sto", clip, {}), says);
   ExchangeConfig arrows;
