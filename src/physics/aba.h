@@ -6,12 +6,11 @@
 ///    translation and a ball joint's S is [1; 0];
 ///  - D carries an extra diagonal δ (armature and the implicit part of PD and range torques), and for a ball
 ///    joint this simplifies  Ia = IA − U D⁻¹ Uᵀ  to  [δ − δ²D⁻¹, δ D⁻¹ B; ·, C − Bᵀ D⁻¹ B];
-///  - IA and pA start from the rigid body plus its floor contacts;
-///  - a step solves several times, with other contacts and torque bounds each time: branches in which nothing
-///    changed keep their IA and pA, which would come out the same bit by bit.
+///  - IA and pA start from the rigid body plus its floor contacts.
+///
+/// `articulated_body_algorithm` is the table as the book has it. `solve`, behind it, is the same with a
+/// shortcut for the several solves of a step: bodies whose IA and pA would come out as before keep them.
 #pragma once
-
-#include <cassert>
 
 #include "physics/contact.h"
 #include "physics/joints.h"
@@ -19,30 +18,23 @@
 
 namespace mimicx::physics {
 
-/// What changed in a body changes every body between it and the root.
+/// IA, pA of body i before its children and contacts: those of the rigid body.   RBDA table 7.1, pass 1
 template <class T>
-void carry_changes_to_root(Data<T>& d) {
-  for (int i = kBodies - 1; i > 0; --i)
-    if (d.changed[i]) d.changed[kParents[i]] = true;
+void initialise_body(const Model<RealOf<T>>& model, int i, Data<T>& d) {
+  const T zero(0.0), m(model.mass[i]);
+  const Vec3<T> h = m * d.com[i];
+  d.IA[i].A = d.I_o[i];
+  d.IA[i].B = {{{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}};  // h×
+  d.IA[i].C = {m, zero, zero, m, zero, m};
+  d.pA[i] = d.bias[i];
 }
 
-/// IA, pA of the changed bodies: rigid body and floor contact.                   RBDA eqs. 7.21, 7.22
+/// Adds the floor contacts to IA, pA of their bodies.                            docs/physics.md §4, (9)
 template <class T>
-[[gnu::flatten]] void aba_initialise(const Model<RealOf<T>>& model, Data<T>& d) {
-  const T zero(0.0);
-  for (int i = 0; i < kBodies; ++i) {
-    if (!d.changed[i]) continue;
-    const T m(model.mass[i]);
-    const Vec3<T> h = m * d.com[i];
-    d.IA[i].A = d.I_o[i];
-    d.IA[i].B = {{{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}};  // h×
-    d.IA[i].C = {m, zero, zero, m, zero, m};
-    d.pA[i] = d.bias[i];
-  }
+void add_floor_contacts(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
     const GroundContact<T>& contact = d.ground[k];
     const int i = model.contacts[contact.index].body;
-    assert(d.changed[i]);
     add_ground(contact, d.IA[i], d.pA[i]);
   }
 }
@@ -81,7 +73,7 @@ Sym3<T> schur(const Sym3<T>& C, const Mat3<T>& B, const Mat3<T>& M) {
                      dot(B.c[1], M.c[1]), dot(B.c[1], M.c[2]), dot(B.c[2], M.c[2])};
 }
 
-/// Ia, pa of a body behind a ball joint.           RBDA eqs. 7.23, 7.24; their form: docs/physics.md §2, (3)
+/// Ia, pa of a body with a ball joint.           RBDA eqs. 7.23, 7.24; their form: docs/physics.md §2, (3)
 template <class T>
 void ball_joint_inertia(int i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   const Inertia<T>& IA = d.IA[i];
@@ -104,7 +96,7 @@ void ball_joint_inertia(int i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   pa.f = d.pA[i].f + transpose_times(Ia.B, d.c_w[i]) + Ia.C * d.c_v[i] + transpose_times(IA.B, y);
 }
 
-/// Ia, pa of a body behind a hinge, S = [axis; 0]: the book's rank-one update.     RBDA eqs. 7.23, 7.24
+/// Ia, pa of a body with a hinge, S = [axis; 0]: the book's rank-one update.     RBDA eqs. 7.23, 7.24
 template <class T>
 void hinge_inertia(const Vec3<T>& axis, int i, Data<T>& d, Inertia<T>& Ia, Wrench<T>& pa) {
   const Inertia<T>& IA = d.IA[i];
@@ -122,20 +114,17 @@ void hinge_inertia(const Vec3<T>& axis, int i, Data<T>& d, Inertia<T>& Ia, Wrenc
   pa.f = d.pA[i].f + transpose_times(Ia.B, d.c_w[i]) + Ia.C * d.c_v[i] + u * f;
 }
 
-/// Pass 2, tip to root.                                                          RBDA table 7.1
+/// D, u of joint i, and its Ia, pa added to the parent's IA, pA.                 RBDA table 7.1, pass 2
 template <class T>
-[[gnu::flatten]] void aba_inertia_pass(const Model<RealOf<T>>& model, Data<T>& d) {
-  for (int i = kBodies - 1; i > 0; --i) {
-    const int lambda = kParents[i];
-    if (!d.changed[lambda]) continue;
-    Inertia<T> Ia;
-    Wrench<T> pa;
-    if (is_hinge(i))
-      hinge_inertia(d.R_WB[i] * spread<T>(model.axis[i]), i, d, Ia, pa);
-    else
-      ball_joint_inertia(i, d, Ia, pa);
-    add_to_parent(Ia, pa, d.r[i], d.IA[lambda], d.pA[lambda]);
-  }
+void add_branch_to_parent(const Model<RealOf<T>>& model, int i, Data<T>& d) {
+  const int lambda = kParents[i];
+  Inertia<T> Ia;
+  Wrench<T> pa;
+  if (is_hinge(i))
+    hinge_inertia(d.R_WB[i] * spread<T>(model.axis[i]), i, d, Ia, pa);
+  else
+    ball_joint_inertia(i, d, Ia, pa);
+  add_to_parent(Ia, pa, d.r[i], d.IA[lambda], d.pA[lambda]);
 }
 
 /// Acceleration of the free pelvis: IA a = −pA by the Schur complement of C.   RBDA eq. 9.13, floating base
@@ -176,16 +165,51 @@ template <class T>
   }
 }
 
-/// Accelerations under the joint torques and contacts as they are linearised now; nothing to do where they
-/// are those of the solve before.
+/// The algorithm: accelerations under the joint torques and contacts as they are linearised now, after
+/// `compute_kinematics` and `compute_rigid_bodies` (the rest of pass 1).         RBDA table 7.1
+template <class T>
+[[gnu::flatten]] void articulated_body_algorithm(const Model<RealOf<T>>& model, Data<T>& d) {
+  for (int i = 0; i < kBodies; ++i) initialise_body(model, i, d);
+  add_floor_contacts(model, d);
+  for (int i = kBodies - 1; i > 0; --i) add_branch_to_parent(model, i, d);
+  aba_acceleration_pass(model, d);
+}
+
+// The shortcut. IA and pA of a body depend on its own contacts and on the bodies and joints that it carries,
+// and on nothing else (docs/physics.md §2, "Solving again"). Where none of these was linearised anew since
+// the solve before, the body keeps IA and pA.
+
+/// A body whose branch has an outdated body is outdated itself.
+template <class T>
+void carry_outdated_to_root(Data<T>& d) {
+  for (int i = kBodies - 1; i > 0; --i)
+    if (d.outdated[i]) d.outdated[kParents[i]] = true;
+}
+
+/// `initialise_body` and `add_floor_contacts` of the outdated bodies; every body with a contact is one.
+template <class T>
+[[gnu::flatten]] void initialise_outdated(const Model<RealOf<T>>& model, Data<T>& d) {
+  for (int i = 0; i < kBodies; ++i)
+    if (d.outdated[i]) initialise_body(model, i, d);
+  add_floor_contacts(model, d);
+}
+
+/// Pass 2 into the outdated bodies.
+template <class T>
+[[gnu::flatten]] void outdated_inertia_pass(const Model<RealOf<T>>& model, Data<T>& d) {
+  for (int i = kBodies - 1; i > 0; --i)
+    if (d.outdated[kParents[i]]) add_branch_to_parent(model, i, d);
+}
+
+/// The accelerations of `articulated_body_algorithm`, bit by bit. Does nothing if no body is outdated.
 template <class T>
 void solve(const Model<RealOf<T>>& model, Data<T>& d) {
-  carry_changes_to_root(d);
-  if (!d.changed[kPelvis]) return;
-  aba_initialise(model, d);
-  aba_inertia_pass(model, d);
+  carry_outdated_to_root(d);
+  if (!d.outdated[kPelvis]) return;
+  initialise_outdated(model, d);
+  outdated_inertia_pass(model, d);
   aba_acceleration_pass(model, d);
-  d.changed.fill(false);
+  d.outdated.fill(false);
 }
 
 }  // namespace mimicx::physics

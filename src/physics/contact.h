@@ -3,13 +3,13 @@
 /// Floor (docs/physics.md §4, (7)). A point at depth s, with velocity v, pushes with
 ///     f_n = k s − (c + k dt) v_z       while that is positive,
 ///     f_t = −c_t v_t,   c_t = μ f_n / √(|v_t|² + v_s²)                (regularised Coulomb friction),
-/// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt),
-/// J = [−arm×, 1]. The solver therefore adds Jᵀ W J to the body's inertia and −Jᵀ(f − W ω×(ω×arm)) to its
-/// bias. f_n, c_t and who touches come from the start of the step in the first pass and from the end of the
-/// step, as the previous pass predicts it, in the next ones.
+/// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt), J =
+/// [−arm×, 1]. The solver therefore adds Jᵀ W J to the body's inertia and −Jᵀ(f − W ω×(ω×arm)) to its bias.
+/// The first pass takes f_n, c_t and the set of active contacts at the start of the step. Each later pass
+/// takes them at the end of the step, as the previous pass predicts it.
 ///
-/// Self contact is a penalty force between capsules, equal and opposite in one point and therefore without
-/// effect on the momentum of the whole; it is explicit, and soft enough for that (model.h).
+/// Self contact is a penalty force between capsules, equal and opposite at one common point, so that it does
+/// not change the momentum of the whole body. It is explicit, with a stiffness low enough for that (model.h).
 #pragma once
 
 #include "physics/data.h"
@@ -56,12 +56,13 @@ template <class T>
   }
 }
 
-/// Adds a contact to the articulated inertia and bias of its body.                  docs/physics.md §4, (9)
+/// Adds a contact to the articulated inertia and bias of its body:                  docs/physics.md §4, (9)
+///     IA += Jᵀ W J,   pA −= Jᵀ (f − W ω×(ω×arm)),   J = [−arm×, 1],   W = diag(W_t, W_t, W_n);
+/// in the blocks of IA = [A B; Bᵀ C], with a = arm:   A += a× W (a×)ᵀ,   B += a× W,   C += W.
 template <class T>
 void add_ground(const GroundContact<T>& c, Inertia<T>& IA, Wrench<T>& pA) {
   const Vec3<T>& a = c.arm;
   const T wx = c.W_t * a.x, wy = c.W_t * a.y, wz = c.W_t * a.z, nx = c.W_n * a.x, ny = c.W_n * a.y;
-  // A += a× W (a×)ᵀ, B += a× W, C += W for W = diag(W_t, W_t, W_n)
   IA.A.xx += fma(wz, a.z, ny * a.y);
   IA.A.yy += fma(wz, a.z, nx * a.x);
   IA.A.zz += fma(wx, a.x, wy * a.y);
@@ -90,8 +91,8 @@ Vec3<T> point_acceleration(const Model<RealOf<T>>& model, const GroundContact<T>
   return d.a_v[i] + cross(d.a_w[i], c.arm) + c.centripetal;
 }
 
-/// Between two solves: the coefficients at the velocities that the last one predicts, in the lanes that are
-/// to be solved again.
+/// Between two solves: takes the coefficients at the velocities that the previous solve predicts, in the
+/// given lanes.
 template <class T>
 [[gnu::flatten]] void relinearise_ground(const Model<RealOf<T>>& model, const MaskOf<T>& lanes, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
@@ -102,11 +103,11 @@ template <class T>
     c.f = select<T>(lanes, renewed.f, c.f);
     c.W_t = select(lanes, renewed.W_t, c.W_t);
     c.W_n = select(lanes, renewed.W_n, c.W_n);
-    d.changed[model.contacts[c.index].body] = true;
+    d.outdated[model.contacts[c.index].body] = true;
   }
 }
 
-/// After the last pass: the forces that acted.
+/// After the last solve: the forces that acted.
 template <class T>
 [[gnu::flatten]] void find_applied_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   for (int k = 0; k < d.ground_count; ++k) {
@@ -132,7 +133,7 @@ void closest_on_segments(const Vec3<T>& p, const Vec3<T>& u, const Vec3<T>& q, c
   t = clamped;
 }
 
-/// Penalty forces between capsules, added to the bias of both bodies and kept for export.
+/// Adds penalty forces between capsules to the bias of both bodies, and keeps them for export.
 template <class T>
 [[gnu::flatten]] void add_self_contact(const Model<RealOf<T>>& model, Data<T>& d) {
   const T k(model.config.self_stiffness), damping(model.config.self_damping), zero(0.0);

@@ -18,14 +18,14 @@ struct State {
   PerBody<Vec3<T>> omega;  ///< [0] pelvis; joints relative to the parent; in the body's own frame, rad/s
 };
 
-/// What the PD controllers aim at during one physics step.
+/// Target of the PD controllers during one physics step.
 template <class T>
 struct Target {
   PerBody<Quat<T>> q;      ///< joint rotations relative to the parent; entry 0 unused
   PerBody<Vec3<T>> omega;  ///< feed-forward of the joint velocity, child's frame, rad/s
 };
 
-/// One point on the floor during one step. Names as in docs/physics.md §4.
+/// A contact point in contact with the floor during one step. Names as in docs/physics.md §4.
 template <class T>
 struct GroundContact {
   int index;            ///< in Model::contacts
@@ -43,8 +43,8 @@ struct Wrench {
   Vec3<T> n, f;  ///< moment about the body's joint centre, N·m; force, N
 };
 
-/// What a step works with, none of which outlives it: kinematics, forces and articulated inertias of every
-/// body, in world axes at its joint centre.
+/// Scratch of one step: kinematics, forces and articulated inertias of every body, in world axes about its
+/// joint centre.
 template <class T>
 struct Data {
   // kinematics
@@ -76,19 +76,19 @@ struct Data {
   PerBody<Vec3<T>> a_w, a_v;  ///< body accelerations: angular; of the joint centre (classical)
   PerBody<Vec3<T>> qdd;       ///< joint accelerations R·ω̇ in world axes; entry 0: the root's angular one
 
-  /// Bodies whose IA, pA the next solve forms anew, because a contact of the body, or a contact or joint
-  /// torque of the branch it carries, was linearised anew in some lane. The others keep theirs.
-  PerBody<bool> changed;
+  /// Bodies whose IA, pA the next solve must compute again: in some lane a contact of the body, or a contact
+  /// or joint torque of the branch it carries, was linearised anew.
+  PerBody<bool> outdated;
 
   Array<GroundContact<T>, kMaxContacts> ground;
   int ground_count = 0;  ///< points that touch in at least one lane
 };
 
-/// What really acted during an interval, for export and audit: sums over the physics steps.
+/// Torques and forces that acted during an interval, for export and audit: sums over the physics steps.
 template <class T>
 struct Applied {
   PerBody<Vec3<T>> joint_torque;       ///< child's frame, N·m (PD and range; without armature)
-  PerBody<Vec3<T>> range_torque;       ///< the part of it that came from the anatomical range
+  PerBody<Vec3<T>> range_torque;       ///< the part from the anatomical range
   PerBody<Wrench<T>> ground, self;     ///< about the body's joint centre, world axes
   Array<T, kMaxContacts> point_force;  ///< normal force per Model::contacts entry, N
   int steps = 0;

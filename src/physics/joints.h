@@ -3,10 +3,10 @@
 /// A spring–damper evaluated at the end of the step is, to first order in dt,
 ///     τ = kp·φ − (kd + dt·kp)·ω + kd·ω*  −  δ·q̈,      δ = dt·kd + dt²·kp,      φ = log(q⁻¹ q*),
 /// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3, (5)
-/// A joint outside its range gets the same form with the range's own stiffness, pushing back along the
-/// gradient of the range ellipsoid; how far it gives, docs/physics.md §3, (6). The bound holds for the torque
-/// of the PD controller, strictly: joints that exceed it after the last pass are made constant too and the
-/// step is solved again. The range is the bone's, not the muscle's, and has no bound.
+/// The torque of an anatomical range has the same form with the range's own stiffness, and pushes back along
+/// the gradient of the range ellipsoid; its deflection is docs/physics.md §3, (6). The torque of the PD
+/// controller never exceeds its bound: joints that exceed it after the last pass are saturated, too, and the
+/// step is solved again. The torque of the range comes from bones and ligaments and has no bound.
 #pragma once
 
 #include "physics/data.h"
@@ -52,7 +52,7 @@ template <class T>
   }
 }
 
-/// Torque of the PD controller that acted in the last solve, world axes.
+/// Torque of the PD controller in the last solve, world axes, N·m.
 template <class T>
 Vec3<T> applied_pd_torque(const Data<T>& d, int i) {
   return add_scaled(d.tau[i], select(d.saturated[i], T(0.0), -d.delta_pd[i]), d.qdd[i]);
@@ -72,8 +72,8 @@ void use_pd_law(const Model<RealOf<T>>& model, Data<T>& d) {
   }
 }
 
-/// Before a later pass: where the law, with the accelerations of the pass before, exceeds the bound, the
-/// torque becomes a constant of the bound's size along the law; elsewhere it is the implicit law. This is the
+/// Before a later pass: if the law, with the accelerations of the previous pass, exceeds the bound, the
+/// torque becomes a constant of the bound's size along the law; otherwise it is the implicit law. This is the
 /// active-set form of Newton's method for τ = clamp(law − δ·q̈).
 template <class T>
 [[gnu::flatten]] void apply_torque_bounds(const Model<RealOf<T>>& model, Data<T>& d) {
@@ -82,8 +82,8 @@ template <class T>
     const Vec3<T> law = add_scaled(d.tau_pd[i], -d.delta_pd[i], d.qdd[i]);
     const T size = norm(law);  // of a hinge both vectors lie along its axis
     const MaskOf<T> over = size > limit;
-    const MaskOf<T> constant = over | d.saturated[i];  // now or before: its parent is formed anew
-    if (any(constant)) d.changed[kParents[i]] = true;
+    const MaskOf<T> constant = over | d.saturated[i];  // now or before: IA of its parent changes
+    if (any(constant)) d.outdated[kParents[i]] = true;
     d.saturated[i] = over;
     const T scale = limit / max(size, limit);
     d.tau[i] = select<T>(d.saturated[i], scale * law, d.tau_pd[i]);
@@ -91,10 +91,10 @@ template <class T>
   }
 }
 
-/// After the last pass: saturates the joints that exceed their bound only now, and leaves every other joint
-/// and lane as it is, so that solving again repeats an unaffected lane bit by bit.
-/// @return mask of the lanes that must be solved again; each call that returns one saturates at least one
-///         more joint of it, so that a lane needs at most 21 repetitions
+/// After the last pass: saturates the joints that exceed their bound now, and changes no other joint or lane,
+/// so that solving again gives the same bits in an unaffected lane.
+/// @return mask of the lanes that must be solved again; each call saturates at least one more joint of such a
+///         lane, so that a lane needs at most 21 repetitions
 template <class T>
 [[gnu::flatten]] MaskOf<T> saturate_exceeding(const Model<RealOf<T>>& model, Data<T>& d) {
   MaskOf<T> again = T(0.0) > T(1.0);
@@ -105,7 +105,7 @@ template <class T>
     const MaskOf<T> over = (size_2 > limit * limit) & !d.saturated[i];
     if (!any(over)) continue;
     again = again | over;
-    d.changed[kParents[i]] = true;
+    d.outdated[kParents[i]] = true;
     d.saturated[i] = d.saturated[i] | over;
     const T scale = limit / sqrt(max(size_2, limit * limit));
     d.tau[i] = select<T>(over, scale * torque, d.tau[i]);

@@ -29,8 +29,7 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, cons
     d.tau_range[i] = zero3<T>();
     d.delta[i] = T(model.armature[i]);
   }
-  d.changed.fill(true);
-  solve(model, d);
+  articulated_body_algorithm(model, d);
 }
 
 template <class T>
@@ -47,7 +46,7 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
   detect_ground(model, d);
   compute_joint_torques(model, state, target, d);
   use_pd_law(model, d);
-  d.changed.fill(true);
+  d.outdated.fill(true);
   solve(model, d);
   const MaskOf<T> all = T(1.0) > T(0.0);
   for (int pass = 1; pass < model.config.passes; ++pass) {

@@ -13,7 +13,7 @@ struct StepParts {
   /// The forces on the bodies that do not come from contacts and joints are summed in d.bias.
   template <class T>
   void after_rigid_bodies(Data<T>&) {}
-  /// d.changed has the bodies that the next solve forms anew.
+  /// d.outdated has the bodies whose IA and pA the next solve computes again.
   template <class T>
   void before_solve(Data<T>&) {}
 };
@@ -21,13 +21,13 @@ struct StepParts {
 /// `solve` of aba.h.
 template <class T, class Parts>
 void solve_once_in_parts(const Model<RealOf<T>>& model, Data<T>& d, Parts& parts) {
-  carry_changes_to_root(d);
+  carry_outdated_to_root(d);
   parts.before_solve(d);
-  if (d.changed[kPelvis]) {
-    aba_initialise(model, d);
-    aba_inertia_pass(model, d);
+  if (d.outdated[kPelvis]) {
+    initialise_outdated(model, d);
+    outdated_inertia_pass(model, d);
     aba_acceleration_pass(model, d);
-    d.changed.fill(false);
+    d.outdated.fill(false);
   }
 }
 
@@ -43,7 +43,7 @@ void solve_in_parts(const Model<RealOf<T>>& model, const Target<T>& target, cons
   detect_ground(model, d);
   compute_joint_torques(model, state, target, d);
   use_pd_law(model, d);
-  d.changed.fill(true);
+  d.outdated.fill(true);
   solve_once_in_parts(model, d, parts);
   const MaskOf<T> all = T(1.0) > T(0.0);
   for (int pass = 1; pass < model.config.passes; ++pass) {

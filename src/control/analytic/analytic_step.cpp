@@ -99,7 +99,7 @@ struct Solves {
 
   /// Solves, and tabulates that unless nothing has changed since the solve before.
   void solve_and_tabulate() {
-    const bool anew = std::find(d.changed.begin(), d.changed.end(), true) != d.changed.end();
+    const bool anew = std::find(d.outdated.begin(), d.outdated.end(), true) != d.outdated.end();
     if (!anew) return;
     const bool first = out.solve_count == 0;
     before = {d.a_w, d.a_v};
@@ -128,7 +128,7 @@ struct Solves {
     out.solve_count = 0;
     next().saturated.clear();
     velocities_at_start(d, linearised);
-    d.changed.fill(true);
+    d.outdated.fill(true);
     solve_and_tabulate();
     PerBody<bool> kept{};
     for (int pass = 1; pass < model.config.passes; ++pass) {
