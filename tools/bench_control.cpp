@@ -12,7 +12,7 @@
 #include <numbers>
 #include <string>
 
-#include "control/ilqr.h"
+#include "control/receding_horizon.h"
 #include "core/elementary.h"
 #ifdef MIMICX_HAVE_MUJOCO
 #include "oracles/mujoco_character.h"
@@ -51,20 +51,14 @@ struct Problem {
   control::System system;
   control::Cost cost;
   control::Trajectory plan;
-  List<control::FrameModel> models;
-  control::Sweep sweep;
+  control::IterationState iterations;
 
   explicit Problem(bool soft) : system(make(soft)), cost(control::make_cost(system, {})) {
     plan.x.assign(kFrames + 1, physics::lane_of(physics::in_all_lanes<control::P>(system.at(0)), 0));
     plan.u.resize(kFrames);
-    const auto scratch = std::make_unique<physics::Data<control::P>>();
-    const control::Fan fan = control::roll_out(system, cost, plan, {}, control::step_lengths(),
-                                               physics::in_all_lanes<control::P>(plan.x[0]), *scratch);
-    control::take_lane(fan, 0, plan);
-    double regularisation = 0.0;
-    for (int i = 0; i < 3; ++i)
-      control::improve(system, cost, 1, true, 0.2, models, sweep, regularisation, plan);
-    control::build_models(system, cost, plan, 1, models);
+    control::replay_controls(system, cost, plan);
+    for (int i = 0; i < 3; ++i) control::improve({system, cost}, 0.2, 1, iterations, plan);
+    control::build_models({system, cost}, plan, 1, iterations.models);
   }
   static control::System make(bool soft) {
     std::vector<physics::State<double>> reference;
@@ -150,15 +144,15 @@ void register_all(Problem& hard, Problem& soft) {
     });
   });
   add("sweep", [&](benchmark::State& s) {
-    for (auto _ : s) control::sweep_back(hard.system, hard.cost, hard.plan, hard.models, 0.0, hard.sweep);
+    control::IterationState& state = hard.iterations;
+    for (auto _ : s)
+      control::sweep_back({hard.system, hard.cost, {}}, hard.plan, state.models, 0.0, state.sweep);
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
   add("line search", [&](benchmark::State& s) {
-    const auto scratch = std::make_unique<physics::Data<control::P>>();
-    const auto x0 = physics::in_all_lanes<control::P>(hard.plan.x[0]);
     for (auto _ : s)
-      benchmark::DoNotOptimize(control::roll_out(hard.system, hard.cost, hard.plan, hard.sweep.laws,
-                                                 control::step_lengths(), x0, *scratch));
+      benchmark::DoNotOptimize(control::roll_out(hard.system, hard.cost, hard.plan,
+                                                 hard.iterations.sweep.laws, control::step_lengths()));
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
 #ifdef MIMICX_HAVE_MUJOCO

@@ -50,7 +50,7 @@ struct Regulator {
     RiccatiScratch<double> scratch;
     for (int k = 0; k < sweeps; ++k) {
       StageCost cost{Eigen::Vector3d(dt, 0.0, 0.25 * dt).asDiagonal(), Eigen::Vector3d::Zero()};
-      riccati_step(F, {}, 0, 0.0, cost, value, law, scratch);
+      riccati_step({F, {}, 0}, 0.0, cost, value, law, scratch);
       V.push_back(value.V);
     }
     K = law.K.cast<double>();
@@ -115,7 +115,7 @@ Trajectory with_gaps(const System& system, int begin, int frames) {
 /// The roll-out of controls of zero from the reference's first state.
 Trajectory rolled_out(const System& system, const Cost& cost, int begin, int frames) {
   Trajectory window = with_gaps(system, begin, frames);
-  roll_plain(system, cost, window);
+  replay_controls(system, cost, window);
   return window;
 }
 
@@ -129,16 +129,12 @@ struct Course {
 Course improve_often(const System& system, const Cost& cost, Trajectory window, int iterations) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Course course{{window.cost}, {kNone}, {kNone}};
-  List<FrameModel> models;
-  Sweep sweep;
-  double regularisation = 0.0;
-  bool fresh = true;
+  IterationState state;
   for (int k = 0; k < iterations; ++k) {
     const double before = window.cost;
-    const Iteration done = improve(system, cost, kThreads, fresh, 0.2, models, sweep, regularisation, window);
-    fresh = done.decrease >= 0.0;
+    const Iteration done = improve({system, cost}, 0.2, kThreads, state, window);
     course.cost.push_back(window.cost);
-    course.promised.push_back(before - sweep.decrease);
+    course.promised.push_back(before - state.sweep.decrease);
     course.alpha.push_back(static_cast<double>(done.alpha));
   }
   return course;

@@ -10,17 +10,21 @@
 namespace mimicx::control {
 namespace {
 
-/// A pack of characters around one point: state, targets and help of every lane.
+/// A pack of characters around one point: state, targets and help of every lane, and how far the state is to
+/// be moved.
 struct Bundle {
   State<P> x;
   Target<P> from, to;
   Wrench<P> help;
+  Tangent<P> delta;
 
   Bundle(const System& system, const FramePoint& point)
       : x(in_all_lanes<P>(point.x)),
         from(target_of(system, point.frame, point.before)),
         to(target_of(system, point.frame + 1, point.u)),
-        help(help_of(system, point.u)) {}
+        help(help_of(system, point.u)) {
+    delta.fill(P(0.0));
+  }
 };
 
 /// The target at a frame with every residual moved in every lane. In the packs' own arithmetic, which differs
@@ -103,12 +107,11 @@ FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, co
           move[k].set(lane, static_cast<float>(step) * signs(first + lane, k));
       }
       Bundle bundle = *base;
-      Tangent<P> delta;
-      std::copy_n(move.begin(), kTangent, delta.begin());
+      std::copy_n(move.begin(), kTangent, bundle.delta.begin());
       move_target(system, point.frame, point.before, move.data() + kTangent, bundle.from);
       move_target(system, point.frame + 1, point.u, move.data() + kMemory, bundle.to);
       if (system.soft) move_help(system, point.u, move.data() + kMemory + kDofs, bundle.help);
-      retract(bundle.x, delta);
+      retract(bundle.x, bundle.delta);
       advance(system, bundle.from, bundle.to, bundle.help, bundle.x, *scratch);
       sides[side] = bundle.x;
     }

@@ -1,7 +1,6 @@
 #include "control/gains.h"
 
 #include <algorithm>
-#include <memory>
 #include <numbers>
 
 #include "core/elementary.h"
@@ -31,27 +30,24 @@ List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, con
   const int n = motion.size();
   List<Eigen::MatrixXf> gains(n);
   if (curvature) *curvature = List<Eigen::MatrixXf>(n);
+  const ControlProblem problem{system, soft, config.smoothing};
   List<FrameModel> models;
-  StageCost stage;
-  RiccatiScratch<float> scratch;
+  SweepState sweep;
   Feedback law;
-  ValueFunction value;
   for (int last = n; last > 0; last -= config.block) {
     if (control.should_stop && control.should_stop()) return {};
     const int first = std::max(0, last - config.block);
     const Trajectory block = piece(motion, first, last);
-    const auto sweep = [&](int k) {
+    build_models(problem, block, control.threads, models, [&](int k) {
       const int t = first + k;
-      if (t == n - 1) value = last_value(models.back().cost);
-      const SweepResult step =
-          sweep_frame(system, soft, motion, t, models[k], 0.0, value, law, stage, scratch);
+      if (t == n - 1) sweep.value = last_value(models.back().cost);
+      const SweepResult step = sweep_frame(problem, motion, t, models[k], sweep, law);
       if (curvature) {
-        const Eigen::MatrixXd Quu = stage.H.bottomRightCorner(system.controls(), system.controls());
+        const Eigen::MatrixXd Quu = sweep.stage.H.bottomRightCorner(system.controls(), system.controls());
         (*curvature)[t] = Eigen::MatrixXd(Quu.selfadjointView<Eigen::Lower>()).cast<float>();
       }
       gains[t] = step.positive ? law.K : Eigen::MatrixXf::Zero(system.controls(), kMemory);
-    };
-    build_models(system, soft, block, control.threads, models, sweep, config.smoothing);
+    });
   }
   return gains;
 }
@@ -60,7 +56,6 @@ PushResult test_pushes(const System& system, const Cost& cost, const Trajectory&
                        const List<Eigen::MatrixXf>& gains, const PushTest& test) {
   List<Feedback> laws;
   for (const Eigen::MatrixXf& K : gains) laws.push_back({K, Eigen::VectorXf::Zero(K.rows())});
-  const auto scratch = std::make_unique<Data<P>>();
   PushResult result;
   for (int done = 0; done < test.trials; done += kLanes) {
     List<Random> random;
@@ -77,7 +72,7 @@ PushResult test_pushes(const System& system, const Cost& cost, const Trajectory&
         set_lane(x.v_root, lane, Vector3d(physics::lane_of(x.v_root, lane) + push));
       }
     };
-    const Fan fan = roll_out(system, cost, motion, laws, {}, in_all_lanes<P>(motion.x[0]), *scratch, config);
+    const Fan fan = roll_out(system, cost, motion, laws, {}, config);
     for (int lane = 0; lane < std::min(kLanes, test.trials - done); ++lane) {
       const int kept = fan.frames_kept[lane];
       result.followed += kept == motion.size() ? 1 : 0;

@@ -12,10 +12,10 @@ namespace mimicx::control {
 namespace {
 
 /// The part of a frame's cost that is quadratic in (x, w, u).
-void stage_cost(const System& system, const Cost& cost, const Trajectory& trajectory, int t,
+void stage_cost(const ControlProblem& problem, const Trajectory& trajectory, int t,
                 const StateQuadratic& state, StageCost& out) {
-  const CostWeights& weights = cost.weights;
-  const int controls = system.controls(), u = kMemory, w = kTangent;
+  const CostWeights& weights = problem.cost.weights;
+  const int controls = problem.system.controls(), u = kMemory, w = kTangent;
   out.H.resize(kMemory + controls, kMemory + controls);
   out.H.triangularView<Eigen::Lower>().setZero();
   out.g.setZero(kMemory + controls);
@@ -43,9 +43,10 @@ void stage_cost(const System& system, const Cost& cost, const Trajectory& trajec
 
 }  // namespace
 
-void build_models(const System& system, const Cost& cost, const Trajectory& trajectory, int threads,
-                  List<FrameModel>& models, const std::function<void(int t)>& sweep,
-                  const std::optional<DifferenceSteps>& smoothing) {
+void build_models(const ControlProblem& problem, const Trajectory& trajectory, int threads,
+                  List<FrameModel>& models, const std::function<void(int t)>& sweep) {
+  const System& system = problem.system;
+  const Cost& cost = problem.cost;
   const int n = trajectory.size();
   models.resize(n + 1);
   const auto build_cost = [&](int t) {
@@ -58,9 +59,8 @@ void build_models(const System& system, const Cost& cost, const Trajectory& traj
     const int t = n - 1 - k;
     if (!scratch[worker]) scratch[worker] = std::make_unique<LinearisationScratch>();
     build_cost(t);
-    const FramePoint point = trajectory.point(t);
-    models[t].F = smoothing ? linearise_smoothed(system, point, *smoothing)
-                            : linearise(system, point, *scratch[worker]);
+    models[t].F = problem.smoothing ? linearise_smoothed(system, trajectory.point(t), *problem.smoothing)
+                                    : linearise(system, trajectory.point(t), *scratch[worker]);
   };
   parallel_chain(n, threads, build, [&](int k) {
     if (sweep) sweep(n - 1 - k);
@@ -75,41 +75,36 @@ ValueFunction last_value(const StateQuadratic& last) {
   return value;
 }
 
-SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory& trajectory, int t,
-                        const FrameModel& model, double regularisation, ValueFunction& value, Feedback& law,
-                        StageCost& stage, RiccatiScratch<float>& scratch) {
+SweepResult sweep_frame(const ControlProblem& problem, const Trajectory& trajectory, int t,
+                        const FrameModel& model, SweepState& state, Feedback& law) {
   const Eigen::VectorXd none;
-  stage_cost(system, cost, trajectory, t, model.cost, stage);
+  stage_cost(problem, trajectory, t, model.cost, state.stage);
   const Eigen::VectorXd& gap = trajectory.gaps.empty() ? none : trajectory.gaps[t + 1];
-  return riccati_step(model.F, gap, kDofs, regularisation, stage, value, law, scratch);
+  return riccati_step({model.F, gap, kDofs}, state.regularisation, state.stage, state.value, law,
+                      state.scratch);
 }
 
 namespace {
 
-/// A sweep under way, from the last frame to the first.
-struct Backwards {
-  const System& system;
-  const Cost& cost;
+/// A sweep in progress, from the last frame to the first.
+struct BackwardSweep {
+  const ControlProblem& problem;
   const Trajectory& trajectory;
   const List<FrameModel>& models;
-  double regularisation;
   Sweep& out;
-  ValueFunction value = {};
-  StageCost stage = {};
-  RiccatiScratch<float> scratch = {};
+  SweepState state;
 
-  /// Frame t, after t + 1. Where Q_uu is not positive, the sweep ends: nothing is done for the frames before.
+  /// Sweeps frame t, after t + 1. Once Q_uu was not positive definite, does nothing for earlier frames.
   void frame(int t) {
     const int n = trajectory.size();
     if (t == n - 1) {
       out.laws.resize(n);
       out.positive = true;
       out.decrease = 0;
-      value = last_value(models[n].cost);
+      state.value = last_value(models[n].cost);
     }
     if (!out.positive) return;
-    const SweepResult step = sweep_frame(system, cost, trajectory, t, models[t], regularisation, value,
-                                         out.laws[t], stage, scratch);
+    const SweepResult step = sweep_frame(problem, trajectory, t, models[t], state, out.laws[t]);
     out.positive = step.positive;
     if (step.positive) out.decrease += step.decrease;
   }
@@ -117,9 +112,9 @@ struct Backwards {
 
 }  // namespace
 
-void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const List<FrameModel>& models, double regularisation, Sweep& out) {
-  Backwards sweep{system, cost, trajectory, models, regularisation, out};
+void sweep_back(const ControlProblem& problem, const Trajectory& trajectory, const List<FrameModel>& models,
+                double regularisation, Sweep& out) {
+  BackwardSweep sweep{problem, trajectory, models, out, {regularisation}};
   for (int t = trajectory.size() - 1; t >= 0; --t) sweep.frame(t);
 }
 
@@ -133,7 +128,7 @@ Array<float, kLanes> step_lengths() {
 
 namespace {
 
-/// Takes the lane that follows longest, and of those that follow to the end the cheapest.
+/// Takes the lane that follows the reference for most frames; of several, the one of least cost.
 void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, int& lane) {
   const int n = trajectory.size();
   lane = 0;
@@ -155,40 +150,39 @@ void close_gaps(const System& system, const Fan& fan, Trajectory& trajectory, in
 
 }  // namespace
 
-Iteration improve(const System& system, const Cost& cost, int threads, bool fresh, double trusted,
-                  List<FrameModel>& models, Sweep& sweep, double& regularisation, Trajectory& trajectory) {
-  if (fresh) {
-    Backwards backwards{system, cost, trajectory, models, regularisation, sweep};
-    build_models(system, cost, trajectory, threads, models, [&](int t) { backwards.frame(t); });
+Iteration improve(const ControlProblem& problem, double trusted, int threads, IterationState& state,
+                  Trajectory& trajectory) {
+  Sweep& sweep = state.sweep;
+  double& regularisation = state.regularisation;
+  if (state.models_current) {
+    sweep_back(problem, trajectory, state.models, regularisation, sweep);
   } else {
-    sweep_back(system, cost, trajectory, models, regularisation, sweep);
+    BackwardSweep backwards{problem, trajectory, state.models, sweep, {regularisation}};
+    build_models(problem, trajectory, threads, state.models, [&](int t) { backwards.frame(t); });
+    state.models_current = true;
   }
-  const auto harder = [&] { regularisation = std::max(8.0 * regularisation, 0.05); };
   Iteration result;
-  if (!sweep.positive) {
-    harder();
+  const auto failed = [&] {
+    regularisation = std::max(8.0 * regularisation, 0.05);
     return result;
-  }
+  };
+  if (!sweep.positive) return failed();
   const Array<float, kLanes> alpha = step_lengths();
-  const auto scratch = std::make_unique<Data<P>>();
   RollConfig config;
   config.lost = trusted;
-  const Fan fan = roll_out(system, cost, trajectory, sweep.laws, alpha, in_all_lanes<P>(trajectory.x[0]),
-                           *scratch, config);
+  const Fan fan = roll_out(problem.system, problem.cost, trajectory, sweep.laws, alpha, config);
   int lane = 0;
   if (!trajectory.gaps.empty()) {
-    close_gaps(system, fan, trajectory, lane);
+    close_gaps(problem.system, fan, trajectory, lane);
     result.decrease = 1.0;
   } else {
     lane = static_cast<int>(std::min_element(fan.cost.begin(), fan.cost.end()) - fan.cost.begin());
     const double now = fan.cost[lane];
-    if (!(now < trajectory.cost)) {
-      harder();
-      return result;
-    }
+    if (!(now < trajectory.cost)) return failed();
     result.decrease = (trajectory.cost - now) / std::max(trajectory.cost, 1e-9);
     take_lane(fan, lane, trajectory);
   }
+  state.models_current = false;
   result.alpha = alpha[lane];
   if (result.alpha > 0.95f) regularisation *= 0.3;
   if (result.alpha < 0.35f) regularisation = std::max(2.0 * regularisation, 0.01);

@@ -1,7 +1,7 @@
 /// One iteration of iLQR: linearise along a trajectory, sweep backwards, search along the step length.
 ///
-/// Source: Tassa, Erez, Todorov (2012), §II. Deviations: Gauss–Newton (the dynamics' second derivatives are
-/// left out), step lengths tried all at once in the lanes of a pack, and the regularisation is proximal in
+/// Source: Tassa, Erez, Todorov (2012), §II. Deviations: Gauss–Newton (no second derivatives of the
+/// dynamics); all step lengths are tried at once, in the lanes of a pack; the regularisation is proximal in
 /// the controls.
 #pragma once
 
@@ -12,53 +12,75 @@
 
 namespace mimicx::control {
 
-/// What the sweep needs of one frame.
+/// What every iteration on a trajectory has in common. Refers to its parts.
+struct ControlProblem {
+  const System& system;
+  const Cost& cost;
+  std::optional<DifferenceSteps> smoothing =
+      {};  ///< derivatives smoothed over these steps (differences.h); none: exact
+};
+
+/// The linear-quadratic model of one frame.
 struct FrameModel {
   FrameMatrix F;        ///< of the step that starts here
   StateQuadratic cost;  ///< of the state here
 };
 
-/// Models of frames first … n of a trajectory: F of all but the last, costs of all. Frames in parallel, same
+/// Models of all frames 0 … n of a trajectory: F of all but the last, costs of all. Frames in parallel, same
 /// bytes for any number of threads.
-/// @param sweep  called with t = n − 1, …, 0, one after the other, as soon as the models of t and of the
-///               frames behind it are there: it runs beside the models of the frames before; may be empty
-/// @param smoothing  none: the derivatives of the nominal motion; else those of differences.h
-void build_models(const System& system, const Cost& cost, const Trajectory& trajectory, int threads,
-                  List<FrameModel>& models, const std::function<void(int t)>& sweep = {},
-                  const std::optional<DifferenceSteps>& smoothing = {});
+/// @param sweep  called with t = n − 1, …, 0, one after the other, as soon as the models of t and of all
+/// later
+///               frames are there: it runs beside the models of earlier frames; may be empty
+void build_models(const ControlProblem& problem, const Trajectory& trajectory, int threads,
+                  List<FrameModel>& models, const std::function<void(int t)>& sweep = {});
 
+/// The result of a backward sweep.
 struct Sweep {
   List<Feedback> laws;    ///< [n]
   bool positive = false;  ///< Q_uu was positive definite everywhere
   double decrease = 0;    ///< promised for a full step
 };
 
+/// What a backward sweep carries from frame to frame.
+struct SweepState {
+  double regularisation = 0;  ///< proximal weight on changes of the controls
+  ValueFunction value = {};   ///< of the frame swept last; at the start `last_value`
+  StageCost stage = {};       ///< Q of the frame swept last
+  RiccatiScratch<float> scratch = {};
+};
+
 /// The value of a trajectory's last state.
 ValueFunction last_value(const StateQuadratic& last);
 
-/// One frame backwards: the law at frame t of the trajectory. @param value  of frame t + 1 in, of frame t out
-SweepResult sweep_frame(const System& system, const Cost& cost, const Trajectory& trajectory, int t,
-                        const FrameModel& model, double regularisation, ValueFunction& value, Feedback& law,
-                        StageCost& stage, RiccatiScratch<float>& scratch);
+/// One frame backwards: the law at frame t of the trajectory. @param state  after frame t + 1
+SweepResult sweep_frame(const ControlProblem& problem, const Trajectory& trajectory, int t,
+                        const FrameModel& model, SweepState& state, Feedback& law);
 
-/// @param regularisation  proximal weight on changes of the controls
-void sweep_back(const System& system, const Cost& cost, const Trajectory& trajectory,
-                const List<FrameModel>& models, double regularisation, Sweep& out);
+/// All frames backwards. @param regularisation  proximal weight on changes of the controls
+void sweep_back(const ControlProblem& problem, const Trajectory& trajectory, const List<FrameModel>& models,
+                double regularisation, Sweep& out);
 
 /// Step lengths in the lanes, the full one first.
 Array<float, kLanes> step_lengths();
+
+/// What one iteration on a trajectory passes on to the next.
+struct IterationState {
+  List<FrameModel> models;
+  bool models_current =
+      false;  ///< `models` are those of the trajectory as it is: no iteration changed it since
+  Sweep sweep;
+  double regularisation = 0;  ///< adapted: less after a full step, more after a short step or none
+};
 
 struct Iteration {
   double decrease = -1;  ///< relative to the cost before; < 0: none was found; of a trajectory with gaps: 1
   float alpha = 0;       ///< the step length taken
 };
 
-/// Improves a trajectory. Of a roll-out the cost never rises. Of one with gaps, as many frames from the start
-/// as stay within `trusted` metres of the reference become a roll-out, the frames behind them keep their
-/// states; when all do, the gaps are gone.
-/// @param fresh  build the models anew; false: those of the call before are still right
-/// @param regularisation  adapted: less after a full step, more after a short or no one
-Iteration improve(const System& system, const Cost& cost, int threads, bool fresh, double trusted,
-                  List<FrameModel>& models, Sweep& sweep, double& regularisation, Trajectory& trajectory);
+/// Improves a trajectory. The cost of a roll-out never rises. Of a trajectory with gaps, as many frames from
+/// the start as stay within `trusted` metres of the reference become a roll-out, and later frames keep their
+/// states; when all frames stay within, no gap is left.
+Iteration improve(const ControlProblem& problem, double trusted, int threads, IterationState& state,
+                  Trajectory& trajectory);
 
 }  // namespace mimicx::control

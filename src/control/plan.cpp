@@ -21,7 +21,7 @@ struct Attempt {
     HorizonConfig horizon = config.horizon;
     horizon.backtracks = std::min(horizon.backtracks, backtracks);
     HorizonResult found =
-        follow_in_windows(system, cost, horizon, control, std::move(start), system.frames() - 1, guess);
+        follow_in_windows({system, cost}, horizon, control, std::move(start), system.frames() - 1, guess);
     plan.iterations += found.iterations;
     plan.linearised += found.linearised;
     plan.backtracks += found.backtracks;
@@ -142,7 +142,7 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
     plan.loss = loss;
   }
   plan.ending = found.ending;
-  roll_plain(system, cost, found.motion);  // its cost and distances from the reference
+  replay_controls(system, cost, found.motion);  // its cost and distances from the reference
   fill(system, found.motion, plan);
   return plan;
 }

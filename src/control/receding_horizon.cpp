@@ -3,28 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "control/shooting.h"
 
 namespace mimicx::control {
 namespace {
 
-/// Frames that a window is longer than usual: what is tried at one place, in this order.
+/// Frames added to the usual length of a window, in the order in which they are tried at one place.
 constexpr Array<int, 3> kLonger = {0, 12, -5};
 
 /// What stays the same from window to window.
 struct Task {
-  const System& system;
-  const Cost& cost;
+  const ControlProblem& problem;
   const HorizonConfig& config;
   int threads;
 };
 
 struct Window {
   Trajectory plan;
-  List<FrameModel> models;
-  Sweep sweep;
+  IterationState iterations;
 };
 
 /// The window of `n` frames after the motion's last state: the rest of the window before, then the guess,
@@ -45,10 +42,10 @@ Trajectory first_guess(const Task& task, const Trajectory& motion, const Traject
       window.x.push_back(guess.x[frame + 1]);
     } else {
       window.u.push_back(window.u.empty() ? Control{} : window.u.back());
-      window.x.push_back(as_floats(task.cost.goal[frame + 1]));
+      window.x.push_back(as_floats(task.problem.cost.goal[frame + 1]));
     }
   }
-  window.gaps = find_gaps(task.system, window);
+  window.gaps = find_gaps(task.problem.system, window);
   window.cost = window.worst = std::numeric_limits<double>::infinity();
   return window;
 }
@@ -75,23 +72,23 @@ bool is_good(const HorizonConfig& o, const Trajectory& plan, int done, bool firs
   return done >= (per_frame <= o.hard_cost ? o.iterations : o.hard_iterations);
 }
 
-/// Improves the window by some iterations, and cuts off what does not fit together after them.
+/// Improves the window by some iterations, and cuts off the frames from the first gap that is left.
 void solve_window(const Task& task, bool first, Window& window, HorizonResult& result) {
   Trajectory& plan = window.plan;
-  double regularisation = 0.0;
-  bool fresh = true;
+  IterationState& state = window.iterations;
+  state.regularisation = 0.0;
+  state.models_current = false;
   for (int i = 0; !is_good(task.config, plan, i, first); ++i) {
-    const Iteration done = improve(task.system, task.cost, task.threads, fresh, task.config.trusted,
-                                   window.models, window.sweep, regularisation, plan);
+    if (!state.models_current) result.linearised += plan.size();
+    const Iteration done = improve(task.problem, task.config.trusted, task.threads, state, plan);
     ++result.iterations;
-    if (fresh) result.linearised += plan.size();
-    fresh = done.decrease >= 0.0;
-    if (fresh && done.decrease < task.config.stop) break;
-    if (!fresh && regularisation > 1e4) break;
+    const bool improved = done.decrease >= 0.0;
+    if (improved && done.decrease < task.config.stop) break;
+    if (!improved && state.regularisation > 1e4) break;
   }
   if (plan.gaps.empty()) return;
   shorten(plan, frames_without_gap(plan));
-  roll_plain(task.system, task.cost, plan);
+  replay_controls(task.problem.system, task.problem.cost, plan);
 }
 
 /// Notes where a window was lost: at the first frame that is too far, or behind its end where it was cut.
@@ -101,10 +98,10 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
   while (t < plan.size() && distance <= task.config.lost) {
     ++t;
     const int frame = plan.begin + t;
-    const BodyPoses poses = poses_of(task.system, plan.x[t]);
+    const BodyPoses poses = poses_of(task.problem.system, plan.x[t]);
     distance = 0.0;
     for (std::size_t i = 0; i < kBodies; ++i) {
-      const double off = (poses.p_WB[i] - task.cost.p_WB[frame][i]).norm();
+      const double off = (poses.p_WB[i] - task.problem.cost.p_WB[frame][i]).norm();
       if (off <= distance) continue;
       distance = off;
       body = static_cast<int>(i);
@@ -143,20 +140,18 @@ struct Search {
 
 }  // namespace
 
-void roll_plain(const System& system, const Cost& cost, Trajectory& motion) {
-  const auto scratch = std::make_unique<Data<P>>();
-  const Fan fan = roll_out(system, cost, motion, {}, step_lengths(), in_all_lanes<P>(motion.x[0]), *scratch);
-  take_lane(fan, 0, motion);
+void replay_controls(const System& system, const Cost& cost, Trajectory& motion) {
+  take_lane(roll_out(system, cost, motion, {}, step_lengths()), 0, motion);
 }
 
-HorizonResult follow_in_windows(const System& system, const Cost& cost, const HorizonConfig& config,
+HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConfig& config,
                                 const PlanControl& control, Trajectory start, int end,
                                 const Trajectory& guess) {
-  const Task task{system, cost, config, control.threads};
+  const Task task{problem, config, control.threads};
   HorizonResult result;
   result.motion = std::move(start);
   Trajectory& motion = result.motion;
-  const int earliest = motion.size();  // what was given is not taken back
+  const int earliest = motion.size();  // backtracking stops there: the given frames stay
   Search search;
   search.longest = motion;
   Window window;
@@ -185,7 +180,7 @@ HorizonResult follow_in_windows(const System& system, const Cost& cost, const Ho
       motion.u.push_back(window.plan.u[k]);
       motion.x.push_back(window.plan.x[k + 1]);
     }
-    if (control.progress) control.progress(begin + taken, system.frames());
+    if (control.progress) control.progress(begin + taken, problem.system.frames());
   }
   return result;
 }

@@ -48,11 +48,12 @@ struct HorizonResult {
 /// @param start  at least one state; its controls are the history
 /// @param guess  a motion from frame 0 to begin with, as far as it goes; behind its end, and without one, a
 ///               frame begins with the controls before it and with the goal's state
-HorizonResult follow_in_windows(const System& system, const Cost& cost, const HorizonConfig& config,
+HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConfig& config,
                                 const PlanControl& control, Trajectory start, int end,
                                 const Trajectory& guess = {});
 
-/// Rolls a motion out from its first state under its controls as they are: its states, cost and distance.
-void roll_plain(const System& system, const Cost& cost, Trajectory& motion);
+/// Simulates a motion's controls from its first state, without feedback; replaces its states, cost and
+/// distance.
+void replay_controls(const System& system, const Cost& cost, Trajectory& motion);
 
 }  // namespace mimicx::control

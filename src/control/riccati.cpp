@@ -7,7 +7,7 @@
 namespace mimicx::control {
 namespace {
 
-/// Adds the lower triangle of `term` to that of `sum`, column by column: Eigen's own goes entry by entry.
+/// Adds the lower triangle of `term` to that of `sum`, column by column: Eigen's own sum goes entry by entry.
 template <class Real>
 void add_lower(const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& term, Eigen::MatrixXd& sum) {
   const auto n = term.cols();
@@ -15,7 +15,7 @@ void add_lower(const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& term, 
     sum.col(j).tail(n - j) += term.col(j).tail(n - j).template cast<double>();
 }
 
-/// Copies the lower triangle onto the upper one, square by square: whole columns would miss the cache.
+/// Copies the lower triangle onto the upper one in squares of 16: whole columns would miss the cache.
 void mirror(Eigen::MatrixXd& V) {
   constexpr Eigen::Index kSquare = 16;
   const auto n = V.cols();
@@ -30,7 +30,7 @@ void mirror(Eigen::MatrixXd& V) {
   }
 }
 
-/// F as it is, or in the scalar of the products.
+/// F in the scalar of the products; no copy if it is in that scalar already.
 template <class Real>
 const auto& in_scalar(const DynamicsRef& F, RiccatiScratch<Real>& s) {
   if constexpr (std::is_same_v<Real, float>)
@@ -39,16 +39,17 @@ const auto& in_scalar(const DynamicsRef& F, RiccatiScratch<Real>& s) {
     return s.F = F.cast<Real>();
 }
 
-/// Adds the value of where (z, u) leads to, ½ (x', w')ᵀ V (x', w') + …, to the cost of the frame.
+/// Adds the value of the next state, ½ (x', w')ᵀ V (x', w') + …, to the cost of the frame.
 template <class Real>
-void add_value_of_next(const ValueFunction& next, const DynamicsRef& dynamics, const Eigen::VectorXd& gap,
-                       int memory, StageCost& Q, RiccatiScratch<Real>& s) {
-  const auto& F = in_scalar<Real>(dynamics, s);
+void add_value_of_next(const ValueFunction& next, const LinearDynamics& dynamics, StageCost& Q,
+                       RiccatiScratch<Real>& s) {
+  const auto& F = in_scalar<Real>(dynamics.F, s);
+  const int memory = dynamics.memory;
   const auto state = F.rows(), z = state + memory, all = F.cols();
   Eigen::VectorXd v = next.v;
-  if (gap.size() > 0) v.noalias() += next.V.leftCols(state) * gap;
+  if (dynamics.gap.size() > 0) v.noalias() += next.V.leftCols(state) * dynamics.gap;
   for (Eigen::Index row = 0; row < state; ++row)
-    Q.g.noalias() += v[row] * dynamics.row(row).transpose().template cast<double>();
+    Q.g.noalias() += v[row] * dynamics.F.row(row).transpose().template cast<double>();
   s.V = next.V.leftCols(state).template cast<Real>();
   s.VF.noalias() = s.V * F;  // rows of x' and of w'
   s.FVF.resize(all, all);
@@ -67,11 +68,11 @@ void add_value_of_next(const ValueFunction& next, const DynamicsRef& dynamics, c
 }  // namespace
 
 template <class Real>
-SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int memory, double regularisation,
-                         StageCost& cost, ValueFunction& value, Feedback& law, RiccatiScratch<Real>& s) {
+SweepResult riccati_step(const LinearDynamics& dynamics, double regularisation, StageCost& cost,
+                         ValueFunction& value, Feedback& law, RiccatiScratch<Real>& s) {
   using Matrix = typename RiccatiScratch<Real>::Matrix;
-  const auto z = F.rows() + memory, controls = F.cols() - z;
-  add_value_of_next(value, F, gap, memory, cost, s);
+  const auto z = dynamics.F.rows() + dynamics.memory, controls = dynamics.F.cols() - z;
+  add_value_of_next(value, dynamics, cost, s);
   cost.H.diagonal().tail(controls).array() += regularisation;
   const Eigen::LLT<Eigen::MatrixXd> root(cost.H.bottomRightCorner(controls, controls));
   SweepResult result;
@@ -100,9 +101,9 @@ SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int m
   return result;
 }
 
-template SweepResult riccati_step(const DynamicsRef&, const Eigen::VectorXd&, int, double, StageCost&,
-                                  ValueFunction&, Feedback&, RiccatiScratch<float>&);
-template SweepResult riccati_step(const DynamicsRef&, const Eigen::VectorXd&, int, double, StageCost&,
-                                  ValueFunction&, Feedback&, RiccatiScratch<double>&);
+template SweepResult riccati_step(const LinearDynamics&, double, StageCost&, ValueFunction&, Feedback&,
+                                  RiccatiScratch<float>&);
+template SweepResult riccati_step(const LinearDynamics&, double, StageCost&, ValueFunction&, Feedback&,
+                                  RiccatiScratch<double>&);
 
 }  // namespace mimicx::control

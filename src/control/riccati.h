@@ -25,7 +25,7 @@ struct ValueFunction {
   Eigen::VectorXd v;
 };
 
-/// ½ (z, u)ᵀ H (z, u) + gᵀ (z, u); only the lower triangle of H is looked at.
+/// ½ (z, u)ᵀ H (z, u) + gᵀ (z, u); only the lower triangle of H is read.
 struct StageCost {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
@@ -37,30 +37,35 @@ struct Feedback {
   Eigen::VectorXf k;  ///< [controls]
 };
 
-/// What a step leaves behind besides the law.
+/// What a step returns beside the law.
 struct SweepResult {
   bool positive = false;  ///< Q_uu is positive definite; without it nothing else is valid
   double decrease = 0;    ///< of the cost that k promises: −q_uᵀk − ½ kᵀQ_uu k
 };
 
-/// F of a frame, as the derivatives come.
+/// F of a frame, in the layout of the derivatives.
 using DynamicsRef = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-/// What lives through a sweep; its contents do not matter.
+/// x' = F (x, w, u) + gap, w' = the first `memory` entries of u. Refers to its matrices.
+struct LinearDynamics {
+  DynamicsRef F;               ///< [state][state + memory + controls]
+  const Eigen::VectorXd& gap;  ///< [state], or empty: none
+  int memory = 0;              ///< entries of w
+};
+
+/// Buffers of a sweep; their contents do not matter.
 template <class Real>
 struct RiccatiScratch {
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   Matrix F, V, VF, FVF, root_inverse, Y, YtY, K;
 };
 
-/// @param F  [state][state + memory + controls]
-/// @param gap  [state], or empty: none
-/// @param memory  entries of w, the first ones of u
+/// One frame backwards.
 /// @param regularisation  added to the diagonal of Q_uu: the price of moving u away from where it is
 /// @param cost  of this frame; destroyed: becomes Q
 /// @param value  of the next state in, of this one out
 template <class Real>
-SweepResult riccati_step(const DynamicsRef& F, const Eigen::VectorXd& gap, int memory, double regularisation,
-                         StageCost& cost, ValueFunction& value, Feedback& law, RiccatiScratch<Real>& scratch);
+SweepResult riccati_step(const LinearDynamics& dynamics, double regularisation, StageCost& cost,
+                         ValueFunction& value, Feedback& law, RiccatiScratch<Real>& scratch);
 
 }  // namespace mimicx::control

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace mimicx::control {
 namespace {
@@ -44,13 +45,13 @@ LaneMemory memory_difference(const State<P>& x, const LaneControls& before, cons
 }
 
 Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
-             std::span<const Feedback> laws, const Array<float, kLanes>& alpha, const State<P>& x0,
-             Data<P>& scratch, const RollConfig& config) {
+             std::span<const Feedback> laws, const Array<float, kLanes>& alpha, const RollConfig& config) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Fan fan;
   const int n = nominal.size();
   fan.frames_kept.fill(n);
-  State<P> x = x0;
+  const auto scratch = std::make_unique<Data<P>>();
+  State<P> x = in_all_lanes<P>(nominal.x[0]);
   Target<P> from = target_of(system, nominal.begin, nominal.before), to{};
   Wrench<P> help = help_of(system, Control{});
   LaneControls before;
@@ -70,8 +71,8 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
         set_help(
             system, [&](int e) { return u(kDofs + e, lane); }, lane, help);
     }
-    const MaskOf<P> wrong = advance(system, from, to, help, x, scratch);
-    const LaneCost now = state_cost(system, cost, frame + 1, x, scratch);
+    const MaskOf<P> wrong = advance(system, from, to, help, x, *scratch);
+    const LaneCost now = state_cost(system, cost, frame + 1, x, *scratch);
     const double weight = t + 1 == n ? cost.last_weight(frame + 1) : 1.0;
     for (int lane = 0; lane < kLanes; ++lane) {
       const double value = weight * static_cast<double>(now.cost[lane]);

@@ -13,9 +13,9 @@ namespace mimicx::control {
 /// A piece of a motion: states of the frames begin … begin + n and the n controls between them.
 struct Trajectory {
   int begin = 0;
-  List<State<double>> x;       ///< [n + 1] in the simulator's numbers (floats)
+  List<State<double>> x;       ///< [n + 1] values that the simulator's floats can hold
   List<Control> u;             ///< [n]
-  Control before{};            ///< the control before u[0]; only its residuals count
+  Control before{};            ///< the control before u[0]; only its residuals matter
   List<Eigen::VectorXd> gaps;  ///< [n + 1], or empty for a roll-out (shooting.h)
   double cost = 0;             ///< of the states 1 … n and the controls
   double worst = 0;            ///< distance of any body from the reference in these frames, m
@@ -31,7 +31,8 @@ using LaneControls = Eigen::Matrix<float, kMaxControls, kLanes, Eigen::RowMajor>
 /// z − z̄ of all lanes.
 using LaneMemory = Eigen::Matrix<float, kMemory, kLanes, Eigen::RowMajor>;
 
-/// z − z̄ of every lane; far away a law is meaningless anyway, and infinities must not spread.
+/// z − z̄ of every lane, entries clamped to ± 10: a law means nothing that far away, and infinities must not
+/// spread.
 LaneMemory memory_difference(const State<P>& x, const LaneControls& before, const State<double>& nominal_x,
                              const Control& nominal_before);
 
@@ -39,8 +40,8 @@ LaneMemory memory_difference(const State<P>& x, const LaneControls& before, cons
 struct Fan {
   List<State<P>> x;                  ///< [n + 1]
   List<LaneControls> u;              ///< [n]
-  Array<double, kLanes> cost{};      ///< infinite where the simulation went wrong
-  Array<double, kLanes> worst{};     ///< m; infinite likewise
+  Array<double, kLanes> cost{};      ///< infinite if the simulation went wrong
+  Array<double, kLanes> worst{};     ///< largest distance of a body, m; infinite likewise
   Array<int, kLanes> frames_kept{};  ///< frames before a body is farther than `lost` from its reference
 };
 
@@ -52,14 +53,14 @@ struct RollConfig {
   Disturbance disturbance;
 };
 
-/// Rolls a trajectory out again from x0, lane by lane under its own share α of the new controls:
+/// Rolls a trajectory out again from its first state, every lane under its own share α of the new controls:
 ///     u = ū + α k + K (z − z̄)                                                  docs/control.md §3, (4)
 /// @param laws  [n] or empty: u = ū
 Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
-             std::span<const Feedback> laws, const Array<float, kLanes>& alpha, const State<P>& x0,
-             Data<P>& scratch, const RollConfig& config = {});
+             std::span<const Feedback> laws, const Array<float, kLanes>& alpha,
+             const RollConfig& config = {});
 
-/// One lane of a fan in place of the trajectory's states and controls.
+/// Replaces the trajectory's states and controls by those of one lane of a fan.
 void take_lane(const Fan& fan, int lane, Trajectory& trajectory);
 
 }  // namespace mimicx::control

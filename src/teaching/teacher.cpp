@@ -70,8 +70,8 @@ std::optional<Teacher> make_teacher(const motion::Reference& reference, const co
   control::Trajectory start;
   start.x = {control::as_floats(system.at(0))};
   control::HorizonResult found =
-      control::follow_in_windows(system, cost, config.horizon, control, std::move(start), system.frames() - 1,
-                                 on_own_states(reference, plan));
+      control::follow_in_windows({system, cost}, config.horizon, control, std::move(start),
+                                 system.frames() - 1, on_own_states(reference, plan));
   if (found.ending != control::Ending::kFollowed) return {};
   Teacher teacher;
   teacher.clip = rl::tracking::make_tracking_clip(planned, task);

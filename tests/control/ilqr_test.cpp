@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <memory>
 
 #include "control/fixtures.h"
 
@@ -22,25 +21,23 @@ struct WalkingProblem {
     roll();
   }
   /// Rolls out from the first state.
-  void roll() {
-    const auto scratch = std::make_unique<Data<P>>();
-    const Fan fan = roll_out(system, cost, plan, {}, step_lengths(), in_all_lanes<P>(plan.x[0]), *scratch);
-    take_lane(fan, 0, plan);
+  void roll() { take_lane(roll_out(system, cost, plan, {}, step_lengths()), 0, plan); }
+  /// One iteration.
+  Iteration improve(IterationState& state, int threads = 2) {
+    return control::improve({system, cost}, 0.2, threads, state, plan);
   }
 };
 
 TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
   WalkingProblem p;
-  List<FrameModel> models;
-  Sweep sweep;
-  double regularisation = 0.0, last = p.plan.cost;
+  IterationState state;
+  double last = p.plan.cost;
   const double first = last;
-  bool fresh = true;
   for (int i = 0; i < 5; ++i) {
-    const Iteration done = improve(p.system, p.cost, 2, fresh, 0.2, models, sweep, regularisation, p.plan);
+    const Iteration done = p.improve(state);
     EXPECT_LE(p.plan.cost, last);
-    fresh = done.decrease >= 0.0;
-    EXPECT_EQ(fresh, p.plan.cost < last);
+    EXPECT_EQ(done.decrease >= 0.0, p.plan.cost < last);
+    EXPECT_EQ(state.models_current, p.plan.cost == last);
     last = p.plan.cost;
     const Trajectory kept = p.plan;
     p.roll();
@@ -54,11 +51,8 @@ TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
 TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
   WalkingProblem one, two;
   for (auto [p, threads] : {std::pair{&one, 1}, std::pair{&two, 2}}) {
-    List<FrameModel> models;
-    Sweep sweep;
-    double regularisation = 0.0;
-    for (int i = 0; i < 2; ++i)
-      improve(p->system, p->cost, threads, true, 0.2, models, sweep, regularisation, p->plan);
+    IterationState state;
+    for (int i = 0; i < 2; ++i) p->improve(state, threads);
   }
   EXPECT_EQ(one.plan.cost, two.plan.cost);
   EXPECT_EQ(one.plan.u, two.plan.u);
@@ -68,13 +62,13 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
 TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
   WalkingProblem p;
   List<FrameModel> after, beside;
-  build_models(p.system, p.cost, p.plan, 1, after);
+  build_models({p.system, p.cost}, p.plan, 1, after);
   const auto same = [&](int t) {
     EXPECT_EQ(beside[t].F, after[t].F);
     EXPECT_EQ(beside[t].cost.gradient, after[t].cost.gradient);
   };
   int next = p.plan.size() - 1;
-  build_models(p.system, p.cost, p.plan, 2, beside, [&](int t) {
+  build_models({p.system, p.cost}, p.plan, 2, beside, [&](int t) {
     EXPECT_EQ(t, next--);
     if (t + 1 == p.plan.size()) {
       EXPECT_EQ(beside[t + 1].cost.gradient, after[t + 1].cost.gradient);
@@ -87,20 +81,17 @@ TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
 // The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
 TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
   WalkingProblem p;
-  List<FrameModel> models;
-  Sweep sweep;
-  double regularisation = 0.0;
-  for (int i = 0; i < 3; ++i) improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  IterationState state;
+  for (int i = 0; i < 3; ++i) p.improve(state);
   const double before = p.plan.cost;
   // A small step along the law: the cost falls by α (2 − α) of the promised decrease.
   for (Control& u : p.plan.u) u[static_cast<std::size_t>(first_dof(kLeftShoulder))] += 0.01f;
   p.roll();
   const double raised = p.plan.cost;
   ASSERT_GT(raised, before);
-  build_models(p.system, p.cost, p.plan, 2, models);
-  sweep_back(p.system, p.cost, p.plan, models, 0.0, sweep);
-  improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
-  EXPECT_NEAR(raised - p.plan.cost, sweep.decrease, 0.2 * sweep.decrease);
+  state.models_current = false;
+  p.improve(state);
+  EXPECT_NEAR(raised - p.plan.cost, state.sweep.decrease, 0.2 * state.sweep.decrease);
 }
 
 }  // namespace

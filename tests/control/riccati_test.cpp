@@ -36,7 +36,7 @@ Eigen::MatrixXd sweep(const Regulator& r, int steps, Eigen::MatrixXd& gain) {
     StageCost cost{Eigen::MatrixXd::Zero(n + m, n + m), Eigen::VectorXd::Zero(n + m)};
     cost.H.topLeftCorner(n, n) = r.Q;
     cost.H.bottomRightCorner(m, m) = r.R;
-    EXPECT_TRUE(riccati_step(F, {}, 0, 0.0, cost, value, law, scratch).positive);
+    EXPECT_TRUE(riccati_step({F, {}, 0}, 0.0, cost, value, law, scratch).positive);
   }
   gain = law.K.cast<double>();
   return value.V;
@@ -253,7 +253,7 @@ TEST(Riccati, MemoryAndGapsAreThoseOfTheWholeProblem) {
   Feedback law[2];
   RiccatiScratch<double> scratch;
   for (int t = 1; t >= 0; --t)
-    ASSERT_TRUE(riccati_step(F[t], gap[t], w, 0.0, stage[t], value, law[t], scratch).positive);
+    ASSERT_TRUE(riccati_step({F[t], gap[t], w}, 0.0, stage[t], value, law[t], scratch).positive);
   const Eigen::VectorXd u0 = law[0].k.cast<double>();
   Eigen::VectorXd first(n + w + m), z1(n + w);
   first << Eigen::VectorXd::Zero(n + w), u0;
@@ -270,7 +270,7 @@ TEST(Riccati, SaysWhereThereIsNoMinimum) {
   ValueFunction value{Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Zero(1)};
   Feedback law;
   RiccatiScratch<double> scratch;
-  EXPECT_FALSE(riccati_step(F, {}, 0, 0.0, cost, value, law, scratch).positive);
+  EXPECT_FALSE(riccati_step({F, {}, 0}, 0.0, cost, value, law, scratch).positive);
 }
 
 }  // namespace

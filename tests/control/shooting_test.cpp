@@ -25,9 +25,7 @@ struct ShootingProblem {
 
 TEST(Shooting, ARollOutHasNoGaps) {
   ShootingProblem p;
-  const auto scratch = std::make_unique<Data<P>>();
-  take_lane(roll_out(p.system, p.cost, p.plan, {}, step_lengths(), in_all_lanes<P>(p.plan.x[0]), *scratch), 0,
-            p.plan);
+  take_lane(roll_out(p.system, p.cost, p.plan, {}, step_lengths()), 0, p.plan);
   EXPECT_TRUE(p.plan.gaps.empty());
   for (const Eigen::VectorXd& gap : find_gaps(p.system, p.plan)) EXPECT_TRUE(gap.isZero(0.0));
 }
@@ -53,15 +51,13 @@ TEST(Shooting, GapsAreWhatIsMissingToTheNextState) {
 // guess falls.
 TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
   ShootingProblem p;
-  List<FrameModel> models;
-  Sweep sweep;
-  double regularisation = 0.0;
-  improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  IterationState state;
+  improve({p.system, p.cost}, 0.2, 2, state, p.plan);
   EXPECT_TRUE(p.plan.gaps.empty());
   EXPECT_LT(p.plan.worst, 0.02);
   const double closed = p.plan.cost;
   EXPECT_TRUE(std::isfinite(closed));
-  improve(p.system, p.cost, 2, true, 0.2, models, sweep, regularisation, p.plan);
+  improve({p.system, p.cost}, 0.2, 2, state, p.plan);
   EXPECT_LE(p.plan.cost, closed);
 }
 
@@ -69,10 +65,8 @@ TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
 TEST(Shooting, FramesBehindTheTrustedOnesKeepTheirStates) {
   ShootingProblem p;
   const Trajectory before = p.plan;
-  List<FrameModel> models;
-  Sweep sweep;
-  double regularisation = 0.0;
-  improve(p.system, p.cost, 2, true, 1e-9, models, sweep, regularisation, p.plan);
+  IterationState state;
+  improve({p.system, p.cost}, 1e-9, 2, state, p.plan);
   ASSERT_EQ(p.plan.gaps.size(), 21u);
   EXPECT_EQ(to_eigen(p.plan.x[10].p_root), to_eigen(before.x[10].p_root));
   EXPECT_EQ(p.plan.u, before.u);
