@@ -65,7 +65,7 @@ render::Image draw_page(const List<PosedMotion>& motions, const Page& page, cons
     render::paste(draw_cell(motions, cell, alone ? threads : 1), cell.x, cell.y, image);
   });
   for (const Note& note : page.notes)
-    render::draw_text_within(note.text, note.x, note.y, note.height, note.width, kInk, image);
+    render::draw_text_within(note.text, {note.x, note.y, note.height}, note.width, kInk, image);
   return image;
 }
 

@@ -53,9 +53,10 @@ double text_width(const std::string& text, double height) {
   return height * width / kCapitalHeight;
 }
 
-void draw_text(const std::string& text, double x, double y, double height, const Colour& ink, Image& image) {
-  const double unit = height / kCapitalHeight;
-  Ink strokes(0.5 * kPen * height, image);
+void draw_text(const std::string& text, const TextPlace& place, const Colour& ink, Image& image) {
+  const double unit = place.height / kCapitalHeight, y = place.y;
+  double x = place.x;
+  Ink strokes(0.5 * kPen * place.height, image);
   for (const char c : text) {
     const std::string_view all = glyph(c);
     const auto point = [&](std::size_t at) {
@@ -75,12 +76,12 @@ void draw_text(const std::string& text, double x, double y, double height, const
   strokes.put(ink, image);
 }
 
-void draw_text_within(const std::string& text, double x, double y, double height, double width,
-                      const Colour& ink, Image& image) {
+void draw_text_within(const std::string& text, const TextPlace& place, double width, const Colour& ink,
+                      Image& image) {
   std::string shown = text;
-  for (std::size_t cut = 1; text_width(shown, height) > width && cut <= text.size(); ++cut)
+  for (std::size_t cut = 1; text_width(shown, place.height) > width && cut <= text.size(); ++cut)
     shown = "..." + text.substr(cut);
-  draw_text(shown, x, y, height, ink, image);
+  draw_text(shown, place, ink, image);
 }
 
 }  // namespace mimicx::render

@@ -10,13 +10,18 @@ namespace mimicx::render {
 /// Width of a line of text, pixels. @param height  of capital letters, pixels
 double text_width(const std::string& text, double height);
 
-/// Draws a line of text. What reaches over the edge of the image is cut off.
-/// @param x, y  the left end of the baseline, pixels
-void draw_text(const std::string& text, double x, double y, double height, const Colour& ink, Image& image);
+/// Where a line of text stands, pixels.
+struct TextPlace {
+  double x, y;    ///< the left end of the baseline
+  double height;  ///< of capital letters
+};
 
-/// Draws it, cutting off as much of its beginning as is needed to fit `width`; dots stand for what is gone.
-/// (The end of a file's name says more than its folder.)
-void draw_text_within(const std::string& text, double x, double y, double height, double width,
-                      const Colour& ink, Image& image);
+/// Draws a line of text. Parts beyond the edge of the image are cut off.
+void draw_text(const std::string& text, const TextPlace& place, const Colour& ink, Image& image);
+
+/// Draws a line of at most `width` pixels: dots replace as much of the beginning as does not fit. (The end of
+/// a file's name says more than its folder.)
+void draw_text_within(const std::string& text, const TextPlace& place, double width, const Colour& ink,
+                      Image& image);
 
 }  // namespace mimicx::render

@@ -40,7 +40,7 @@ TEST(Text, EveryPrintableCharacterHasAGlyphOfItsOwnOfWholeStrokes) {
 
 TEST(Text, StandsOnItsBaselineAsHighAndAsWideAsAsked) {
   Image image(300, 60, kPaper);
-  draw_text("HEL", 20, 40, 24, Colour::Zero(), image);
+  draw_text("HEL", {20, 40, 24}, Colour::Zero(), image);
   const Eigen::AlignedBox2i box = inked(image);  // strokes reach half their width farther
   EXPECT_NEAR(box.min().x(), 20, 3);
   EXPECT_NEAR(box.min().y(), 16, 3);
@@ -51,10 +51,10 @@ TEST(Text, StandsOnItsBaselineAsHighAndAsWideAsAsked) {
 
 TEST(Text, WhatIsTooLongLosesItsBeginning) {
   Image within(200, 40, kPaper), end(200, 40, kPaper);
-  draw_text_within("a/very/long/name/of/a/folder/walk.npz", 5, 30, 12, 150, Colour::Zero(), within);
+  draw_text_within("a/very/long/name/of/a/folder/walk.npz", {5, 30, 12}, 150, Colour::Zero(), within);
   EXPECT_LE(inked(within).max().x(), 156);
   EXPECT_GT(inked(within).max().x(), 130) << "no more is cut off than need be";
-  draw_text_within("walk.npz", 5, 30, 12, 150, Colour::Zero(), end);
+  draw_text_within("walk.npz", {5, 30, 12}, 150, Colour::Zero(), end);
   const int shift = inked(within).max().x() - inked(end).max().x();
   int same = 0;
   for (int y = 0; y < 40; ++y)
@@ -64,8 +64,8 @@ TEST(Text, WhatIsTooLongLosesItsBeginning) {
 
 TEST(Text, ReachesOverTheEdgeWithoutHarm) {
   Image image(20, 10, kPaper);
-  draw_text("Mimicx gyj", -30, 4, 40, Colour::Zero(), image);
-  draw_text("far away", 500, 500, 10, Colour::Zero(), image);
+  draw_text("Mimicx gyj", {-30, 4, 40}, Colour::Zero(), image);
+  draw_text("far away", {500, 500, 10}, Colour::Zero(), image);
   EXPECT_FALSE(inked(image).isEmpty());
 }
 
