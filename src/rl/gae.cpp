@@ -2,8 +2,9 @@
 
 namespace mimicx::rl {
 
-void estimate_advantages(const AdvantageInput& in, double gamma, double lambda,
+void estimate_advantages(const AdvantageInput& in, const Discount& discount,
                          Eigen::Ref<nn::Matrix<float>> advantages) {
+  const auto [gamma, lambda] = discount;
   const Eigen::Index steps = in.rewards.rows(), characters = in.rewards.cols();
   for (Eigen::Index i = 0; i < characters; ++i) {
     double next_advantage = 0.0, next_value = in.last_values(0, i);

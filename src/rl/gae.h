@@ -29,8 +29,14 @@ struct AdvantageInput {
   Eigen::Ref<const nn::Matrix<float>> final_values;  ///< [H][G] V(final observation); read where truncated
 };
 
+/// How far ahead a reward counts.
+struct Discount {
+  double gamma;   ///< γ, per step
+  double lambda;  ///< λ of the estimator
+};
+
 /// Writes the advantages [H][G]; advantages + values are the targets of the critic (λ-returns).
-void estimate_advantages(const AdvantageInput& in, double gamma, double lambda,
+void estimate_advantages(const AdvantageInput& in, const Discount& discount,
                          Eigen::Ref<nn::Matrix<float>> advantages);
 
 }  // namespace mimicx::rl

@@ -160,23 +160,21 @@ void clear(const nn::Mlp<float>& mlp, Gradients& gradients) {
   }
 }
 
-/// Gradients of one minibatch, every slot by itself; afterwards the sums of all slots, in order.
-LossSums take_gradients(const Learner& learner, const PpoConfig& config, const RolloutBuffer& buffer,
-                        std::span<const int> rows, const AdvantageScale& advantages, double sigma,
-                        int threads, UpdateScratch& scratch) {
-  const Agent& agent = learner.agent;
+/// Gradients of one minibatch, slot by slot. @return the losses summed over the slots, in their order
+LossSums take_gradients(const Agent& agent, const PpoConfig& config, const LearningRows& batch,
+                        const AdvantageScale& advantages, int threads, UpdateScratch& scratch) {
   parallel_for(config.gradient_slots, threads, [&](int index) {
     GradientSlot& slot = scratch.slots[index];
     slot.sums = {};
     clear(agent.actor, slot.actor_gradient);
     clear(agent.critic, slot.critic_gradient);
-    const auto mine = part(rows, static_cast<std::size_t>(index), scratch.slots.size());
+    const auto mine = part(batch.rows, static_cast<std::size_t>(index), scratch.slots.size());
     const auto pass_rows = static_cast<std::size_t>(config.pass_rows);
     const std::size_t passes = (mine.size() + pass_rows - 1) / pass_rows;
     for (std::size_t pass = 0; pass < passes; ++pass) {
-      gather(buffer, part(mine, pass, passes), advantages, agent.returns, slot);
-      actor_pass(agent, config, sigma, rows.size(), slot);
-      critic_pass(agent, rows.size(), slot);
+      gather(batch.buffer, part(mine, pass, passes), advantages, agent.returns, slot);
+      actor_pass(agent, config, batch.sigma, batch.rows.size(), slot);
+      critic_pass(agent, batch.rows.size(), slot);
     }
   });
   LossSums total;
@@ -250,8 +248,9 @@ Learner make_learner(const PpoConfig& config, Agent agent) {
   return learner;
 }
 
-void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buffer, std::span<const int> rows,
-            double sigma, const ShuffleKey& key, int threads, UpdateScratch& scratch, IterationStats& stats) {
+void update(Learner& learner, const PpoConfig& config, const LearningRows& data, const ShuffleKey& key,
+            int threads, UpdateScratch& scratch, IterationStats& stats) {
+  const auto& [buffer, rows, sigma] = data;
   if (rows.empty()) return;
   stats.learned = true;
   stats.step_size = learner.step_size;
@@ -267,10 +266,9 @@ void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buff
                               static_cast<std::uint64_t>(epoch)}));
     double epoch_kl = 0.0;
     for (std::size_t k = 0; k < minibatches; ++k) {
-      const auto batch = part(scratch.order, k, minibatches);
-      const double count = static_cast<double>(batch.size());
-      const LossSums sums =
-          take_gradients(learner, config, buffer, batch, advantages, sigma, threads, scratch);
+      const LearningRows batch{buffer, part(scratch.order, k, minibatches), sigma};
+      const double count = static_cast<double>(batch.rows.size());
+      const LossSums sums = take_gradients(learner.agent, config, batch, advantages, threads, scratch);
       const double kl = sums.kl / count;
       stopped = kl > config.kl_stop * config.kl_target;
       stats.kl = kl;

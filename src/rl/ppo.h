@@ -70,16 +70,22 @@ struct UpdateScratch {
   explicit UpdateScratch(const PpoConfig& config) : slots(config.gradient_slots) {}
 };
 
+/// The rows of a roll-out that an agent learns from. Refers to its parts.
+struct LearningRows {
+  const RolloutBuffer& buffer;  ///< with its advantages
+  std::span<const int> rows;    ///< in [0, buffer.rows())
+  double sigma;                 ///< σ under which they were collected
+};
+
 /// Which random numbers shuffle the rows, together with iteration and epoch.
 struct ShuffleKey {
   std::uint64_t seed;     ///< of the training
   std::uint64_t learner;  ///< number of the learner among those of the iteration
 };
 
-/// All epochs over the given rows of the buffer (their advantages are there already); adapts the step size.
-/// @param sigma  under which the rows were collected
-void update(Learner& learner, const PpoConfig& config, const RolloutBuffer& buffer, std::span<const int> rows,
-            double sigma, const ShuffleKey& key, int threads, UpdateScratch& scratch, IterationStats& stats);
+/// All epochs over the given rows; adapts the step size.
+void update(Learner& learner, const PpoConfig& config, const LearningRows& data, const ShuffleKey& key,
+            int threads, UpdateScratch& scratch, IterationStats& stats);
 
 /// Reward, episode length, explained variance and saturation of a roll-out.
 void describe_rollout(const RolloutBuffer& buffer, IterationStats& stats);

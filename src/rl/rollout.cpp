@@ -111,13 +111,13 @@ void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRo
   rollout.final_values.row(t) = scratch.values.transpose();
 }
 
-void finish_rollout(const Agents& agents, double gamma, double lambda, CollectScratch& scratch,
+void finish_rollout(const Agents& agents, const Discount& discount, CollectScratch& scratch,
                     GroupRollout& rollout) {
   value_all(agents, scratch.actors, scratch.raw, scratch);
   rollout.last_values = scratch.values.transpose();
   estimate_advantages({rollout.rewards, rollout.values, rollout.last_values, rollout.terminated,
                        rollout.truncated, rollout.final_values},
-                      gamma, lambda, rollout.advantages);
+                      discount, rollout.advantages);
 }
 
 }  // namespace mimicx::rl

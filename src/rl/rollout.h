@@ -83,13 +83,21 @@ void record_decision(const Agents& agents, double sigma, int t, Random& random, 
 /// Reads scratch.result: reward, flags, values of truncated characters' final observations, episode lengths.
 void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRollout& rollout);
 /// Reads scratch.raw and scratch.actors after the last step: bootstrap values and advantages.
-void finish_rollout(const Agents& agents, double gamma, double lambda, CollectScratch& scratch,
+void finish_rollout(const Agents& agents, const Discount& discount, CollectScratch& scratch,
                     GroupRollout& rollout);
+
+/// What all groups of a roll-out have in common.
+struct CollectSettings {
+  Agents agents;
+  double sigma;  ///< σ of the actions' noise
+  Discount discount;
+};
 
 /// One group over the whole horizon. @param random  keyed by iteration and group
 template <Environment World>
-void collect_group(World& environment, int group, const Agents& agents, double sigma, double gamma,
-                   double lambda, Random random, CollectScratch& scratch, GroupRollout& rollout) {
+void collect_group(World& environment, int group, const CollectSettings& settings, Random random,
+                   CollectScratch& scratch, GroupRollout& rollout) {
+  const Agents& agents = settings.agents;
   const auto observe = [&] {
     environment.observe(group, scratch.raw);
     for (int i = 0; i < scratch.actors.count(); ++i) scratch.actors[i] = environment.actor(group, i);
@@ -98,12 +106,12 @@ void collect_group(World& environment, int group, const Agents& agents, double s
   const int horizon = static_cast<int>(rollout.rewards.rows());
   for (int t = 0; t < horizon; ++t) {
     observe();
-    record_decision(agents, sigma, t, random, scratch, rollout);
+    record_decision(agents, settings.sigma, t, random, scratch, rollout);
     environment.step(group, scratch.actions, scratch.result);
     record_result(agents, t, scratch, rollout);
   }
   observe();
-  finish_rollout(agents, gamma, lambda, scratch, rollout);
+  finish_rollout(agents, settings.discount, scratch, rollout);
 }
 
 }  // namespace mimicx::rl

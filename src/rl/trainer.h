@@ -65,7 +65,7 @@ class PpoTrainer {
       // The first roll-out only measures the observations. Their scale is not known before, and later
       // learning uses the scale with which the agents acted.
       if (learner.agent.observations.moments.count > 0)
-        update(learner, config_, buffer_, rows_[k], stats.sigma, {course_.seed, k}, threads, update_,
+        update(learner, config_, {buffer_, rows_[k], stats.sigma}, {course_.seed, k}, threads, update_,
                parts[k]);
       learner.samples += static_cast<std::int64_t>(rows_[k].size());
       ++learner.iteration;
@@ -119,13 +119,12 @@ class PpoTrainer {
 
  private:
   void collect(double sigma, int threads) {
-    Agents agents;
-    for (const Learner& learner : learners_) agents.push_back(&learner.agent);
+    CollectSettings settings{{}, sigma, {config_.gamma, config_.lambda}};
+    for (const Learner& learner : learners_) settings.agents.push_back(&learner.agent);
     parallel_for(buffer_.groups.count(), threads, [&](int group) {
       const Random random(course_.seed, {kActionNoise, static_cast<std::uint64_t>(iteration_),
                                          static_cast<std::uint64_t>(group)});
-      collect_group(environment_, group, agents, sigma, config_.gamma, config_.lambda, random,
-                    collect_[group], buffer_.groups[group]);
+      collect_group(environment_, group, settings, random, collect_[group], buffer_.groups[group]);
     });
   }
 

@@ -41,7 +41,7 @@ Arrays random_arrays(int steps, int characters, std::uint64_t seed) {
 
 nn::Matrix<float> advantages(const Arrays& a, double gamma, double lambda) {
   nn::Matrix<float> result(a.rewards.rows(), a.rewards.cols());
-  estimate_advantages(a.input(), gamma, lambda, result);
+  estimate_advantages(a.input(), {gamma, lambda}, result);
   return result;
 }
 

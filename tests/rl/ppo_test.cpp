@@ -30,7 +30,7 @@ RolloutBuffer random_rollout(const Agent& agent, std::uint64_t seed) {
       }
       record_result({&agent}, t, scratch, group);
     }
-    finish_rollout({&agent}, 0.97, 0.95, scratch, group);
+    finish_rollout({&agent}, {0.97, 0.95}, scratch, group);
   }
   return buffer;
 }
@@ -48,12 +48,12 @@ TEST(Ppo, UpdateReadsOnlyTheRowsItIsGiven) {
   UpdateScratch scratch(config);
   IterationStats stats;
   Learner a = make_learner(config, small_agent()), b = a;
-  update(a, config, buffer, mine, 0.3, kShuffles, 1, scratch, stats);
+  update(a, config, {buffer, mine, 0.3}, kShuffles, 1, scratch, stats);
   GroupRollout& second = buffer.groups[1];  // rows 200 … 399
   second.observations.bottomRows(150).setConstant(1e6F);
   second.actions.bottomRows(150).setConstant(-1e6F);
   second.advantages.bottomRows(7).setConstant(1e6F);
-  update(b, config, buffer, mine, 0.3, kShuffles, 1, scratch, stats);
+  update(b, config, {buffer, mine, 0.3}, kShuffles, 1, scratch, stats);
   Npz first_state, second_state;
   save(first_state, "", a);
   save(second_state, "", b);
@@ -75,7 +75,7 @@ TEST(Ppo, SlotsAndPassesChangeTheGradientByRoundingOnly) {
       UpdateScratch scratch(config);
       IterationStats stats;
       Learner learner = make_learner(config, small_agent());
-      update(learner, config, buffer, rows, 0.3, kShuffles, 1, scratch, stats);
+      update(learner, config, {buffer, rows, 0.3}, kShuffles, 1, scratch, stats);
       EXPECT_EQ(stats.minibatches, 1);
       norms.push_back(stats.actor_gradient);
       norms.push_back(stats.critic_gradient);
@@ -91,7 +91,7 @@ TEST(Ppo, FirstMinibatchSeesNoDifferenceFromTheOldPolicy) {
   UpdateScratch scratch(config);
   IterationStats stats;
   Learner learner = make_learner(config, small_agent());
-  update(learner, config, buffer, rows_from(0, 400), 0.3, kShuffles, 1, scratch, stats);
+  update(learner, config, {buffer, rows_from(0, 400), 0.3}, kShuffles, 1, scratch, stats);
   EXPECT_LT(stats.kl, 1e-9);
   EXPECT_EQ(stats.clip_fraction, 0.0);
   EXPECT_NEAR(stats.policy_loss, 0.0, 1e-5);  // normalised advantages sum to nothing
@@ -108,9 +108,9 @@ TEST(Ppo, ReportedKlIsThatOfThePolicyBeforeTheLastStep) {
   UpdateScratch scratch(config);
   IterationStats two_steps, one_step;
   Learner after_two = make_learner(config, small_agent()), after_one = after_two;
-  update(after_two, config, buffer, rows_from(0, 400), sigma, kShuffles, 1, scratch, two_steps);
+  update(after_two, config, {buffer, rows_from(0, 400), sigma}, kShuffles, 1, scratch, two_steps);
   config.epochs = 1;
-  update(after_one, config, buffer, rows_from(0, 400), sigma, kShuffles, 1, scratch, one_step);
+  update(after_one, config, {buffer, rows_from(0, 400), sigma}, kShuffles, 1, scratch, one_step);
   double kl = 0.0;
   nn::Workspace<float> workspace;
   nn::Matrix<float> means;
@@ -131,7 +131,7 @@ TEST(Ppo, StopsAnIterationThatRunsAway) {
   IterationStats stats;
   Learner learner = make_learner(config, small_agent());
   learner.step_size = 0.05;
-  update(learner, config, buffer, rows_from(0, 400), 0.3, kShuffles, 1, scratch, stats);
+  update(learner, config, {buffer, rows_from(0, 400), 0.3}, kShuffles, 1, scratch, stats);
   EXPECT_LT(stats.minibatches, 8);
   EXPECT_GT(stats.kl, config.kl_stop * config.kl_target);
 }

@@ -22,7 +22,7 @@ TEST(Rollout, BootstrapsTruncatedEpisodesFromTheirOwnFinalObservation) {
   scratch.result.final_observations.setConstant(0.7F);
   record_result({&agent}, 0, scratch, group);
   scratch.raw.setConstant(-0.4F);
-  finish_rollout({&agent}, 0.9, 0.95, scratch, group);
+  finish_rollout({&agent}, {0.9, 0.95}, scratch, group);
 
   nn::Workspace<float> workspace;
   const auto value = [&](float x) {
