@@ -230,8 +230,7 @@ double velocity_after(const System& system, State<double> x) {
   const auto data = std::make_unique<Data<double>>();
   Target<double> target{};
   target.q = x.q;
-  advance_interval<double>(system.exact_model, target, target, system.substeps, x, *data, nullptr, {},
-                           nullptr);
+  advance_interval<double>(system.exact_model, {target, target, system.substeps}, x, *data);
   return x.v_root.z;
 }
 

@@ -41,8 +41,8 @@ Wrench<P> help_of(const System& system, const Control& u) {
 
 MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to, const Wrench<P>& help,
                   State<P>& x, Data<P>& scratch) {
-  return advance_interval<P>(system.model, from, to, system.substeps, x, scratch, nullptr, {},
-                             system.soft ? &help : nullptr);
+  return advance_interval<P>(system.model, {from, to, system.substeps, system.soft ? &help : nullptr}, x,
+                             scratch);
 }
 
 }  // namespace mimicx::control

@@ -16,10 +16,10 @@ Quat<T> interpolate(const Quat<T>& a, const Quat<T>& b, T s) {
 }  // namespace
 
 template <class T>
-MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from, const Target<T>& to,
-                           int substeps, State<T>& state, Data<T>& d, Applied<T>* applied,
-                           const SubstepWatcher<T>& watch, const Wrench<T>* help) {
+MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const IntervalInput<T>& input, State<T>& state,
+                           Data<T>& d, Applied<T>* applied, const SubstepWatcher<T>& watch) {
   using Real = RealOf<T>;
+  const auto& [from, to, substeps, help] = input;
   Target<T> target{};
   State<T> before;
   MaskOf<T> wrong = T(0.0) > T(1.0);
@@ -36,10 +36,9 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const Target<T>& from,
   return wrong;
 }
 
-#define MIMICX_INSTANTIATE(T)                                                                              \
-  template MaskOf<T> advance_interval<T>(const Model<RealOf<T>>&, const Target<T>&, const Target<T>&, int, \
-                                         State<T>&, Data<T>&, Applied<T>*, const SubstepWatcher<T>&,       \
-                                         const Wrench<T>*);
+#define MIMICX_INSTANTIATE(T)                                                                         \
+  template MaskOf<T> advance_interval<T>(const Model<RealOf<T>>&, const IntervalInput<T>&, State<T>&, \
+                                         Data<T>&, Applied<T>*, const SubstepWatcher<T>&);
 
 #ifdef MIMICX_OTHER_WIDTHS  // tests/physics/other_widths.cpp
 #if MIMICX_LANES != 8

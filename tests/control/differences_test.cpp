@@ -42,9 +42,9 @@ State<double> frame_in_double(const System& system, const Model<double>& model, 
   State<double> x = point.x;
   retract(x, delta);
   const auto data = std::make_unique<Data<double>>();
-  advance_interval<double>(model, target(point.frame, point.before, kTangent),
-                           target(point.frame + 1, point.u, kMemory), system.substeps, x, *data, nullptr, {},
-                           system.soft ? &wrench : nullptr);
+  const Target<double> from = target(point.frame, point.before, kTangent),
+                       to = target(point.frame + 1, point.u, kMemory);
+  advance_interval<double>(model, {from, to, system.substeps, system.soft ? &wrench : nullptr}, x, *data);
   return x;
 }
 

@@ -54,7 +54,7 @@ TEST(ControlInterval, IsItsStepsTowardsTargetsInBetween) {
   std::vector<Target<double>> seen;
   const int substeps = 8;
   EXPECT_FALSE(advance_interval<double>(
-      s->model, s->from, s->to, substeps, s->state, s->data, nullptr,
+      s->model, {s->from, s->to, substeps}, s->state, s->data, nullptr,
       [&](const auto&, const Target<double>& target, const auto&, const auto&) { seen.push_back(target); }));
   ASSERT_EQ(seen.size(), 8u);
   for (int k = 1; k <= substeps; ++k) {
@@ -79,9 +79,9 @@ TEST(ControlInterval, WatchersAndRecordsChangeNoBit) {
   const auto a = std::make_unique<Interval<P>>(3), b = std::make_unique<Interval<P>>(3);
   const auto applied = std::make_unique<Applied<P>>();
   clear(*applied);
-  advance_interval<P>(a->model, a->from, a->to, 8, a->state, a->data);
+  advance_interval<P>(a->model, {a->from, a->to, 8}, a->state, a->data);
   int steps = 0;
-  advance_interval<P>(b->model, b->from, b->to, 8, b->state, b->data, applied.get(),
+  advance_interval<P>(b->model, {b->from, b->to, 8}, b->state, b->data, applied.get(),
                       [&](const auto&, const auto&, const auto&, const auto&) { ++steps; });
   EXPECT_EQ(std::memcmp(&a->state, &b->state, sizeof a->state), 0);
   EXPECT_EQ(steps, 8);
@@ -99,7 +99,7 @@ TEST(ControlInterval, ALaneThatGoesWrongInTheMiddleIsReported) {
   s->from = s->to = in_all_lanes<P>(aim);
   s->state.v_root.z.set(2, -99.9f);  // just under max_speed: too fast once it has fallen a little
   EXPECT_FALSE(any(step(s->model, s->to, s->state, s->data)));
-  const auto wrong = advance_interval<P>(s->model, s->from, s->to, 8, s->state, s->data);
+  const auto wrong = advance_interval<P>(s->model, {s->from, s->to, 8}, s->state, s->data);
   EXPECT_FALSE(ScalarTraits<P>::lane(wrong, 0));
   EXPECT_TRUE(ScalarTraits<P>::lane(wrong, 2));
 }
@@ -113,7 +113,7 @@ TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
   const Vector3d before = to_eigen(s->state.p_root);
   // The moment about the pelvis of a centre of mass that hangs before it turns the body, so only for a
   // moment.
-  advance_interval<double>(s->model, s->target, s->target, 8, s->state, s->data, nullptr, {}, &help);
+  advance_interval<double>(s->model, {s->target, s->target, 8, &help}, s->state, s->data);
   EXPECT_LT((to_eigen(s->state.p_root) - before).norm(), 5e-4);  // a free fall: 6e-3
   EXPECT_LT(std::abs(s->state.v_root.z), 0.02);                  // a free fall: 0.33
 }

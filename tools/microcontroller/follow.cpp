@@ -144,7 +144,7 @@ int main() {
     world->to = to_simulator(policy::follow(t, body));
     thinking.end();
     moving.begin();
-    const auto wrong = physics::advance_interval<T>(world->model, world->from, world->to, substeps,
+    const auto wrong = physics::advance_interval<T>(world->model, {world->from, world->to, substeps},
                                                     world->state, world->scratch);
     moving.end();
     if (physics::any(wrong)) {

@@ -81,11 +81,11 @@ void turn_features(const float* in, const Eigen::Vector2d& from, const Eigen::Ve
   put_turned(kFirstEffector, static_cast<int>(kEndEffectors.size()));
 }
 
-void encoded_state(const float* code, int code_size, const std::array<float, kPoseFeatures>& decoded,
+void encoded_state(std::span<const float> code, const std::array<float, kPoseFeatures>& decoded,
                    const Pose& reference, const std::array<double, kBetas>& betas, const Pose& simulated,
                    float* out) {
   const Eigen::Vector2d heading = heading_direction(simulated.frame.q[0]);
-  float* shape = std::copy(code, code + code_size, out);
+  float* shape = std::copy(code.begin(), code.end(), out);
   float* of_simulated = shape + kBetas;
   float* difference = of_simulated + kPoseFeatures;
   float* offset = difference + kPoseFeatures;

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "motion/reference.h"
 
@@ -38,7 +39,7 @@ Eigen::Vector2d heading_direction(const Quaterniond& q_WB);
 /// x^a (6D per spherical joint, angle per hinge) and ẋ^a (3 or 1), bodies in order.
 std::array<float, kJointFeatures> joint_features(const motion::ReferenceFrame& frame);
 
-/// How many entries of an encoded state are not its code.
+/// Entries of an encoded state beside its code.
 inline constexpr int kEncodedRest = kStateSize - kPoseFeatures;
 
 /// Everything else of P in the frame of heading (cos, sin), with the joint features put in their place.
@@ -52,9 +53,9 @@ void own_pose_features(const Pose& pose, float* out);
 /// Pose features in the frame `from` → in the frame `to`; both are headings (cos, sin). in and out [186]
 void turn_features(const float* in, const Eigen::Vector2d& from, const Eigen::Vector2d& to, float* out);
 
-/// s_t with an encoder. @param code, code_size  z  @param decoded  D(z), in the reference's own heading frame
-/// @param out  [code_size + 384]
-void encoded_state(const float* code, int code_size, const std::array<float, kPoseFeatures>& decoded,
+/// s_t with an encoder. @param code  z  @param decoded  D(z), in the reference's own heading frame
+/// @param out  [code size + kEncodedRest]
+void encoded_state(std::span<const float> code, const std::array<float, kPoseFeatures>& decoded,
                    const Pose& reference, const std::array<double, kBetas>& betas, const Pose& simulated,
                    float* out);
 

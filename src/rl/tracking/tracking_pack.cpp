@@ -84,8 +84,9 @@ void TrackingPack::observe(int lane, int option, float* out) const {
   const auto& betas = clip_->reference.character.betas;
   if (!clip_->encoded.empty()) {
     const EncodedReference& encoded = clip_->encoded[option];
-    const float* code = encoded.codes.data() + next * encoded.code_size;
-    encoded_state(code, encoded.code_size, encoded.decoded[next], clip_->poses[next], betas, pose(lane), out);
+    const auto size = static_cast<std::size_t>(encoded.code_size);
+    const std::span<const float> code(encoded.codes.data() + next * encoded.code_size, size);
+    encoded_state(code, encoded.decoded[next], clip_->poses[next], betas, pose(lane), out);
     return;
   }
   tracking_state(clip_->poses[next], clip_->joints[next], betas, pose(lane), out);
@@ -108,7 +109,7 @@ void TrackingPack::advance(physics::Data<P>& scratch, physics::Applied<P>* appli
                            const SubstepWatcher& watch) {
   const int substeps = static_cast<int>(std::lround(config_.simulation.rate / clip_->reference.fps));
   const physics::MaskOf<P> wrong =
-      physics::advance_interval(clip_->model, from_, to_, substeps, state_, scratch, applied, watch);
+      physics::advance_interval(clip_->model, {from_, to_, substeps}, state_, scratch, applied, watch);
   for (int lane = 0; lane < physics::kLanes; ++lane)
     if (wrong[lane] != 0) broken_[lane] = true;
   saturated_.fill(0);

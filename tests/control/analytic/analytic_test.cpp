@@ -219,7 +219,7 @@ TEST(AnalyticDerivative, ItsNominalMotionIsThatOfTheSimulator) {
     }
     State<double> x = frame.start;
     Data<double> data;
-    advance_interval<double>(model, from, to, frame.substeps, x, data, nullptr, {}, &frame.help);
+    advance_interval<double>(model, {from, to, frame.substeps, &frame.help}, x, data);
     const Tangent<double> apart = difference(Derived(model, frame).derivative.end, x);
     for (double a : apart) EXPECT_LT(std::abs(a), 1e-9);
   }

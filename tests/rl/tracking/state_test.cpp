@@ -143,7 +143,7 @@ TEST(EncodedState, WithAPerfectDecoderItIsTheRawStateWithACodeForThePose) {
   const float code[] = {1.0F, 2.0F, 3.0F};
   std::array<float, kEncodedRest + 4> state{};
   state.back() = -7.0F;
-  encoded_state(code, 3, decoded, reference, {0.5}, simulated, state.data());
+  encoded_state(code, decoded, reference, {0.5}, simulated, state.data());
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(state[k], code[k]);
   for (std::size_t k = 0; k < kEncodedRest; ++k) EXPECT_NEAR(state[3 + k], raw[kPoseFeatures + k], 2e-5) << k;
   EXPECT_EQ(state.back(), -7.0F) << "wrote past its end";
