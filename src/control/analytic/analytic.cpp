@@ -32,8 +32,8 @@ End end_of(const Target<double>& reference, const Array<double, kDofs>& residual
 /// The target at the share s of the way, and how it turns with the residuals of the two ends. Interpolated
 /// linearly and normalised, q* = (α q_a + β q_b) / l; a turn ε of q_a, seen from q*, gives q* the turn
 /// (α/l) (c ε + n × ε), where (c, n) = q*⁻¹ q_a.
-Target<double> target_at(const End& from, const End& to, double s, TargetDerivative& turns) {
-  Target<double> target;
+StepTarget target_at(const End& from, const End& to, double s) {
+  StepTarget out;
   for (int i = 1; i < kBodies; ++i) {
     const Quaterniond a = to_eigen(from.target.q[i]), b = to_eigen(to.target.q[i]);
     const double share_a = 1.0 - s, share_b = a.dot(b) < 0.0 ? -s : s;
@@ -45,12 +45,12 @@ Target<double> target_at(const End& from, const End& to, double s, TargetDerivat
       const Quaterniond x = q.conjugate() * end;
       return (share / length) * (x.w() * Matrix3d::Identity() + skew(x.vec()));
     };
-    turns.from[i] = turn(a, share_a) * from.turns[i];
-    turns.to[i] = turn(b, share_b) * to.turns[i];
-    target.q[i] = from_eigen(q);
-    target.omega[i] = add_scaled(from.target.omega[i], s, to.target.omega[i] - from.target.omega[i]);
+    out.from[i] = turn(a, share_a) * from.turns[i];
+    out.to[i] = turn(b, share_b) * to.turns[i];
+    out.target.q[i] = from_eigen(q);
+    out.target.omega[i] = add_scaled(from.target.omega[i], s, to.target.omega[i] - from.target.omega[i]);
   }
-  return target;
+  return out;
 }
 
 /// The nominal motion, and the tables of its steps.
@@ -58,14 +58,13 @@ template <class Real>
 void roll_out_substeps(const Model<double>& model, const ControlFrame& frame, Data<double>& data,
                        List<SubstepTable<Real>>& tables, State<double>& state, bool& wrong) {
   const End from = end_of(frame.from, frame.from_residual), to = end_of(frame.to, frame.to_residual);
-  TargetDerivative turns;
   state = frame.start;
   wrong = false;
   tables.resize(frame.substeps);
   for (int k = 1; k <= frame.substeps; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(frame.substeps);
-    const Target<double> target = target_at(from, to, share, turns);
-    if (tabulate_step(model, target, turns, frame.help, state, data, tables[k - 1])) wrong = true;
+    if (tabulate_step(model, target_at(from, to, share), frame.help, state, data, tables[k - 1]))
+      wrong = true;
   }
 }
 
@@ -79,7 +78,7 @@ void clear(AdjointData<T>& d) {
   d.to.fill(T(0.0));
 }
 
-/// The coordinate of the end that row `row` of the derivative is about, in one lane.
+/// Starts row `row` of the derivative, that of one coordinate of the end, in one lane.
 template <class T>
 void seed(int row, int lane, StateAdjoint<T>& x) {
   const auto half = [&](int k, Vec3<T>& root, PerBody<Vec3<T>>& joints) {

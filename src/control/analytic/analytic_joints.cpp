@@ -30,8 +30,8 @@ Matrix3d range_stiffness(const Model<double>& model, const Quat<double>& q, int 
 }  // namespace
 
 template <class Real>
-void tabulate_joints(const Model<double>& model, const State<double>& state, const Target<double>& target,
-                     const TargetDerivative& turns, const Data<double>& d, SubstepTable<Real>& out) {
+void tabulate_joints(const Model<double>& model, const State<double>& state, const StepTarget& target,
+                     const Data<double>& d, SubstepTable<Real>& out) {
   PerBody<bool> bounded{};
   for (int k = 0; k < out.solve_count; ++k)
     for (const SaturatedTable<Real>& joint : out.solve(k).saturated) bounded[joint.body] = true;
@@ -39,7 +39,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
   const double dt = model.dt, range_damping = dt * model.config.limit_stiffness + model.config.limit_damping;
   for (int i = 1; i < kBodies; ++i) {
     const Matrix3d R = to_eigen(d.R_WB[i]);
-    const Vector3d phi = log_map(to_eigen(conjugate(state.q[i]) * target.q[i]));
+    const Vector3d phi = log_map(to_eigen(conjugate(state.q[i]) * target.target.q[i]));
     // docs/control_derivatives.md §3, (6)
     const Matrix3d to_phi = model.kp[i] * R * inverse_right_jacobian(phi);  // torque by a turn of the target
     const Matrix3d law = -model.kp[i] * R * inverse_right_jacobian(phi).transpose();
@@ -49,7 +49,7 @@ void tabulate_joints(const Model<double>& model, const State<double>& state, con
     const double range_gain = outside ? range_damping : 0.0;
     put(out.body[i].stiffness, Matrix3d(law + range));
     out.body[i].damping = static_cast<Real>(damping + range_gain);
-    const Matrix3d from = to_phi * turns.from[i], to = to_phi * turns.to[i];
+    const Matrix3d from = to_phi * target.from[i], to = to_phi * target.to[i];
     const int dof = first_dof(i);
     if (is_hinge(i)) {
       put(out.drive_from[dof], Vector3d(from * to_eigen(model.axis[i])));
@@ -97,8 +97,8 @@ void tabulate_integration(const Model<double>& model, const State<double>& state
 }
 
 #define MIMICX_INSTANTIATE(Real)                                                                    \
-  template void tabulate_joints(const Model<double>&, const State<double>&, const Target<double>&,  \
-                                const TargetDerivative&, const Data<double>&, SubstepTable<Real>&); \
+  template void tabulate_joints(const Model<double>&, const State<double>&, const StepTarget&,      \
+                                const Data<double>&, SubstepTable<Real>&);                          \
   template void tabulate_saturated(const Model<double>&, const Data<double>&, const PerBody<bool>&, \
                                    List<SaturatedTable<Real>>&);                                    \
   template void tabulate_integration(const Model<double>&, const State<double>&, SubstepTable<Real>&);

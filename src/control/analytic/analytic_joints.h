@@ -5,14 +5,14 @@
 
 namespace mimicx::control {
 
-/// Torques of PD and range by rotation, velocity and target of every joint, and, for the joints that are at
-/// their bound in some solve of `out`, apart.
+/// Derivatives of the torques of PD and range by rotation, velocity and target of every joint; of joints that
+/// are at their bound in some solve of `out`, PD and range apart.
 template <class Real>
-void tabulate_joints(const Model<double>& model, const State<double>& state, const Target<double>& target,
-                     const TargetDerivative& turns, const Data<double>& d, SubstepTable<Real>& out);
+void tabulate_joints(const Model<double>& model, const State<double>& state, const StepTarget& target,
+                     const Data<double>& d, SubstepTable<Real>& out);
 
-/// The joints that are at their bound in the solve to come. Those in `kept` keep the torque they have, the
-/// others have just been given one along the law at the accelerations in `d`.
+/// The joints that are at their bound in the next solve. Those in `kept` keep their torque, the others have
+/// a new torque along the law at the accelerations in `d`.
 template <class Real>
 void tabulate_saturated(const Model<double>& model, const Data<double>& d, const PerBody<bool>& kept,
                         List<SaturatedTable<Real>>& out);

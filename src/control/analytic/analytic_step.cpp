@@ -75,7 +75,7 @@ void mark(int body, PerBody<bool>& marked) {
   for (int i = body; i >= 0; i = kParents[i]) marked[i] = true;
 }
 
-/// The bodies whose place matters to a contact.
+/// Marks the bodies whose place matters to a contact.
 template <class Real>
 void mark_placed(SubstepTable<Real>& out) {
   PerBody<bool> placed{};
@@ -152,9 +152,8 @@ struct Solves {
 }  // namespace
 
 template <class Real>
-bool tabulate_step(const Model<double>& model, const Target<double>& target, const TargetDerivative& turns,
-                   const Wrench<double>& help, State<double>& state, Data<double>& d,
-                   SubstepTable<Real>& out) {
+bool tabulate_step(const Model<double>& model, const StepTarget& target, const Wrench<double>& help,
+                   State<double>& state, Data<double>& d, SubstepTable<Real>& out) {
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
   d.self_wrench.fill({zero3<double>(), zero3<double>()});
@@ -162,7 +161,7 @@ bool tabulate_step(const Model<double>& model, const Target<double>& target, con
   d.bias[0].n -= help.n;
   d.bias[0].f -= help.f;
   detect_ground(model, d);
-  compute_joint_torques(model, state, target, d);
+  compute_joint_torques(model, state, target.target, d);
   use_pd_law(model, d);
 
   out.dt = static_cast<Real>(model.dt);
@@ -173,15 +172,15 @@ bool tabulate_step(const Model<double>& model, const Target<double>& target, con
   Solves<Real> solves{model, d, out, {}, {}};
   solves.run();
   mark_placed(out);
-  tabulate_joints(model, state, target, turns, d, out);
+  tabulate_joints(model, state, target, d, out);
   integrate(model, d, state);
   tabulate_integration(model, state, out);
   return gone_wrong(model, state);
 }
 
-template bool tabulate_step(const Model<double>&, const Target<double>&, const TargetDerivative&,
-                            const Wrench<double>&, State<double>&, Data<double>&, SubstepTable<float>&);
-template bool tabulate_step(const Model<double>&, const Target<double>&, const TargetDerivative&,
-                            const Wrench<double>&, State<double>&, Data<double>&, SubstepTable<double>&);
+template bool tabulate_step(const Model<double>&, const StepTarget&, const Wrench<double>&, State<double>&,
+                            Data<double>&, SubstepTable<float>&);
+template bool tabulate_step(const Model<double>&, const StepTarget&, const Wrench<double>&, State<double>&,
+                            Data<double>&, SubstepTable<double>&);
 
 }  // namespace mimicx::control

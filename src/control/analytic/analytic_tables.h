@@ -1,9 +1,8 @@
-/// What the derivative of one physics step needs to know of the step itself: numbers of the nominal motion,
-/// the same for every row.
+/// Numbers of one nominal physics step from which its derivative is computed, the same for every row.
 ///                                                                             docs/control_derivatives.md §3
 ///
 /// Vectors and matrices are in world-parallel axes about the body's own joint centre, as in physics/data.h,
-/// unless a comment names a body frame. D is the change that an observer sees who turns with the body
+/// unless a comment names a body frame. D is the change as seen by an observer who turns with the body
 /// (docs/control_derivatives.md §2, (2)). Accelerations a count against free fall, a − g. Everything is
 /// computed in double (analytic_step.h) and kept as Real, the scalar of the rows' lanes.
 #pragma once
@@ -30,7 +29,7 @@ struct BodyTable {
   Real damping;               ///< torque of PD and range by −R δω
   Mat3<Real> turn;            ///< rotation after the step by the one before, body frames
   Mat3<Real> turn_by_omega;   ///< … and by the velocity after the step, s
-  bool placed;                ///< the place of the body matters: it, or a body that it carries, has a contact
+  bool placed;                ///< it, or a body that it carries, has a contact: its place matters
 };
 
 /// A joint that is at its torque bound in some solve of the step: the range's part of its torque, which has
@@ -87,7 +86,7 @@ struct SolveTable {
   Mat3<Real> root_M;                  ///< C⁻¹ Bᵀ
   List<FloorTable<Real>> floor;
   List<SaturatedTable<Real>> saturated;
-  PerBody<bool> wanted;  ///< bodies whose accelerations the next solve or the step asks for
+  PerBody<bool> wanted;  ///< bodies whose accelerations the next solve or the step uses
 };
 
 /// One physics step.
@@ -105,9 +104,10 @@ struct SubstepTable {
   const SolveTable<Real>& solve(int k) const { return solves[k]; }
 };
 
-/// How a target of one step turns, in the child's frame, with the residual rotations of the frame's old and
-/// new target: q*·exp(ε), ε = from · dw + to · du. Entry 0 unused.
-struct TargetDerivative {
+/// The PD target of one step, and how its rotations turn with the residuals of the frame's old and new
+/// target: q*·exp(ε), ε = from · dw + to · du, child's frame. Entries 0 unused.
+struct StepTarget {
+  Target<double> target;
   PerBody<Matrix3d> from, to;
 };
 
