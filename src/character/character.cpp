@@ -71,7 +71,7 @@ const Vector3d& gain_of(const ShapeComponent& c, int body) {
   }
 }
 
-/// Scales derived from β that the shapes need beside the joint offsets.
+/// Scales of the shapes that follow from β, beside the joint offsets.
 struct Scales {
   double size = 1, girth = 1, foot = 1, hand = 1, head = 1;
 };
@@ -94,67 +94,70 @@ double ankle_height(const Character& c, int side) {
   return kSoleBelowBall - c.joint_offset[ball].y();
 }
 
-Capsule capsule_of(const Character& c, const Scales& s, int body) {
-  const double x = is_right(body) ? -1.0 : 1.0;
-  const auto offset = [&](int b) { return c.joint_offset[b]; };
-  const auto bone = [&](int child, double from, double to, double radius) {
-    return Capsule{body, from * offset(child), to * offset(child), radius * s.girth};
-  };
-  const auto across = [&](double half, double y, double z, double radius) {
-    return Capsule{body, s.size * Vector3d(-half, y, z), s.size * Vector3d(half, y, z), radius * s.girth};
-  };
-  switch (body) {
-    // Buttocks and shoulder blades reach farther back than the loins: on them a body lies on its back.
-    case kPelvis:
-      return across(0.062, -0.02, -0.018, 0.105);
-    case kSpine1:
-      return across(0.050, 0.04, 0.022, 0.105);
-    case kSpine2:
-      return across(0.055, 0.02, 0.012, 0.105);
-    case kSpine3:
-      return across(0.070, 0.09, -0.015, 0.110);
-    case kNeck:
-      return bone(kHead, 0.0, 1.0, 0.050);
-    case kHead:
-      return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
-    case kLeftHip:
-    case kRightHip: {
-      // Heavy thighs flatten against each other; rigid ones stop short of the middle instead, because a
-      // pair that overlaps at rest would never stop pushing.
-      Capsule thigh = bone(body == kLeftHip ? kLeftKnee : kRightKnee, 0.20, 0.95, 0.064);
-      thigh.radius = std::min(thigh.radius, std::abs(offset(body).x() + thigh.a_B.x()) - 0.001);
-      return thigh;
-    }
-    case kLeftKnee:
-      return bone(kLeftAnkle, 0.05, 0.92, 0.046);
-    case kRightKnee:
-      return bone(kRightAnkle, 0.05, 0.92, 0.046);
-    case kLeftAnkle:
-    case kRightAnkle: {
-      const double radius = 0.034 * s.size, y = radius - ankle_height(c, x > 0 ? 1 : -1);
-      const Vector3d ball = offset(x > 0 ? kLeftFoot : kRightFoot);
-      return {body, {0.0, y, -0.022 * s.foot}, {ball.x(), y, ball.z() - 0.014 * s.foot}, radius};
-    }
-    case kLeftFoot:
-    case kRightFoot: {
-      const double radius = 0.020 * s.size, y = radius - kSoleBelowBall;
-      return {body, {0.0, y, 0.012 * s.foot}, {0.0, y, 0.052 * s.foot}, radius};
-    }
-    case kLeftCollar:
-      return bone(kLeftShoulder, 0.15, 0.85, 0.052);
-    case kRightCollar:
-      return bone(kRightShoulder, 0.15, 0.85, 0.052);
-    case kLeftShoulder:
-      return bone(kLeftElbow, 0.10, 0.95, 0.045);
-    case kRightShoulder:
-      return bone(kRightElbow, 0.10, 0.95, 0.045);
-    case kLeftElbow:
-      return bone(kLeftWrist, 0.05, 0.95, 0.036);
-    case kRightElbow:
-      return bone(kRightWrist, 0.05, 0.95, 0.036);
-    default:  // hands
-      return {body, {0.03 * x * s.hand, -0.004, 0.0}, {0.14 * x * s.hand, -0.010, 0.004}, 0.030 * s.hand};
+/// A capsule across the trunk, symmetric to the middle. Buttocks and shoulder blades reach farther back than
+/// the loins: on them a body lies on its back.
+struct TrunkCapsule {
+  int body;
+  double half_width, y, z, radius;  ///< m
+};
+constexpr TrunkCapsule kTrunkCapsules[] = {
+    {kPelvis, 0.062, -0.02, -0.018, 0.105},
+    {kSpine1, 0.050, 0.04, 0.022, 0.105},
+    {kSpine2, 0.055, 0.02, 0.012, 0.105},
+    {kSpine3, 0.070, 0.09, -0.015, 0.110},
+};
+
+/// A capsule along a bone of the middle or the left side.
+struct BoneCapsule {
+  int body, child;  ///< the bone leads from the joint of `body` to that of `child`
+  double from, to;  ///< ends of the capsule's axis, shares of the bone
+  double radius;    ///< m
+};
+constexpr BoneCapsule kBoneCapsules[] = {
+    {kNeck, kHead, 0.0, 1.0, 0.050},
+    {kLeftHip, kLeftKnee, 0.20, 0.95, 0.064},
+    {kLeftKnee, kLeftAnkle, 0.05, 0.92, 0.046},
+    {kLeftCollar, kLeftShoulder, 0.15, 0.85, 0.052},
+    {kLeftShoulder, kLeftElbow, 0.10, 0.95, 0.045},
+    {kLeftElbow, kLeftWrist, 0.05, 0.95, 0.036},
+};
+
+/// Heel to ball, or ball to toe, on the sole.
+Capsule foot_capsule(const Character& c, const Scales& s, int body) {
+  if (body == kLeftFoot || body == kRightFoot) {
+    const double radius = 0.020 * s.size, y = radius - kSoleBelowBall;
+    return {body, {0.0, y, 0.012 * s.foot}, {0.0, y, 0.052 * s.foot}, radius};
   }
+  const bool right = is_right(body);
+  const double radius = 0.034 * s.size, y = radius - ankle_height(c, right ? -1 : 1);
+  const Vector3d ball = c.joint_offset[right ? kRightFoot : kLeftFoot];
+  return {body, {0.0, y, -0.022 * s.foot}, {ball.x(), y, ball.z() - 0.014 * s.foot}, radius};
+}
+
+Capsule hand_capsule(const Scales& s, int body) {
+  const double x = is_right(body) ? -1.0 : 1.0;
+  return {body, {0.03 * x * s.hand, -0.004, 0.0}, {0.14 * x * s.hand, -0.010, 0.004}, 0.030 * s.hand};
+}
+
+Capsule capsule_of(const Character& c, const Scales& s, int body) {
+  for (const TrunkCapsule& row : kTrunkCapsules)
+    if (row.body == body)
+      return {body, s.size * Vector3d(-row.half_width, row.y, row.z),
+              s.size * Vector3d(row.half_width, row.y, row.z), row.radius * s.girth};
+  const int right = is_right(body) ? 1 : 0;  // a body of the right side follows that of the left
+  for (const BoneCapsule& row : kBoneCapsules) {
+    if (row.body + right != body) continue;
+    const Vector3d& bone = c.joint_offset[row.child + right];
+    Capsule capsule{body, row.from * bone, row.to * bone, row.radius * s.girth};
+    // Heavy thighs flatten against each other. Rigid thighs end 1 mm short of the middle instead: a pair that
+    // overlaps at rest would never stop pushing.
+    if (row.body == kLeftHip)
+      capsule.radius = std::min(capsule.radius, std::abs(c.joint_offset[body].x() + capsule.a_B.x()) - 0.001);
+    return capsule;
+  }
+  if (body == kHead)
+    return {body, s.head * Vector3d(0, 0.03, 0.0), s.head * Vector3d(0, 0.105, 0.0), 0.085 * s.head};
+  return body < kNeck ? foot_capsule(c, s, body) : hand_capsule(s, body);
 }
 
 double capsule_volume(const Capsule& c) {
@@ -193,8 +196,8 @@ void add_foot_points(Character& c, const Scales& s, int side) {
   add(ball, {x * 0.030 * s.size, -kSoleBelowBall, 0.062 * s.foot}, 0.0);   // toe, outer
 }
 
-/// The back of a foot, on which it rests when it points backwards: a sphere between ankle and ball, well
-/// above the sole.
+/// The instep, on which a foot that points backwards rests: a sphere between ankle and ball, well above the
+/// sole.
 void add_instep(Character& c, const Scales& s, int side) {
   const Vector3d ball_p = c.joint_offset[side > 0 ? kLeftFoot : kRightFoot];
   const double radius = 0.026 * s.size;
@@ -202,7 +205,7 @@ void add_instep(Character& c, const Scales& s, int side) {
   c.contact_points.push_back({side > 0 ? kLeftAnkle : kRightAnkle, above_sole, radius});
 }
 
-/// Spheres at the ends (and for long segments the middle) of the capsules of every other body.
+/// Spheres on the axes of the capsules of all bodies but the feet.
 void add_body_points(Character& c) {
   const auto add = [&](int body, double along) {
     const Capsule& k = c.capsule[body];
@@ -221,8 +224,8 @@ void add_body_points(Character& c) {
 
 using Offsets = PerBody<Vector3d>;
 
-/// The shape whose bones are nearest: least squares on the offsets, which are affine in β, with the prior
-/// that β is standard normal and that bodies differ by kBoneSigma in what β does not describe.
+/// The shape with the nearest bones: least squares on the offsets, which are affine in β. Prior: β is
+/// standard normal, and offsets deviate from any shape by kBoneSigma.
 std::array<double, kBetas> nearest_betas(const Offsets& offsets) {
   constexpr double kBoneSigma = 0.02;  // m
   const Offsets standard = joint_offsets({});
@@ -247,7 +250,7 @@ std::array<double, kBetas> nearest_betas(const Offsets& offsets) {
   return betas;
 }
 
-/// Everything else that belongs to joints at these offsets. @param betas  for what bones do not tell
+/// The character with joints at these offsets. @param betas  its shape in all that bones do not determine
 Character assemble(const Offsets& offsets, const std::array<double, kBetas>& betas) {
   Character c;
   c.betas = betas;

@@ -1,89 +1,56 @@
 #include "character/standard_body.h"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+
 #include "core/units.h"
 
 namespace mimicx {
 
-Vector3d standard_offset(int body) {
-  switch (body) {
-    case kLeftHip:
-    case kRightHip:
-      return {0.066, -0.088, -0.006};
-    case kSpine1:
-      return {0.0, 0.108, -0.026};
-    case kLeftKnee:
-    case kRightKnee:
-      return {0.040, -0.382, -0.004};
-    case kSpine2:
-      return {0.0, 0.136, 0.001};
-    case kLeftAnkle:
-    case kRightAnkle:
-      return {-0.012, -0.402, -0.040};
-    case kSpine3:
-      return {0.0, 0.054, 0.026};
-    case kLeftFoot:
-    case kRightFoot:
-      return {0.024, -0.056, 0.122};
-    case kNeck:
-      return {0.0, 0.214, -0.042};
-    case kLeftCollar:
-    case kRightCollar:
-      return {0.074, 0.118, -0.034};
-    case kHead:
-      return {0.0, 0.066, 0.050};
-    case kLeftShoulder:
-    case kRightShoulder:
-      return {0.096, 0.034, -0.010};
-    case kLeftElbow:
-    case kRightElbow:
-      return {0.258, -0.014, -0.026};
-    case kLeftWrist:
-    case kRightWrist:
-      return {0.250, 0.008, -0.001};
-    default:
-      return Vector3d::Zero();
-  }
+namespace {
+
+/// A body of the middle or the left side, and its joint.
+struct StandardBody {
+  int body;
+  std::array<double, 3> offset;  ///< from the parent's joint, m
+  double mass_share;
+  double kp, torque_limit, armature;  ///< N·m/rad, N·m, kg·m²
+  std::array<double, 3> centre_deg,
+      half_range_deg;  ///< of the anatomical range; a hinge has three equal entries
+};
+
+constexpr StandardBody kStandardBodies[] = {
+    {kPelvis, {0.0, 0.0, 0.0}, 0.118, 0, 0, 0, {}, {}},  // no joint
+    {kSpine1, {0.0, 0.108, -0.026}, 0.082, 1000, 250, 0.02, {10, 0, 0}, {50, 45, 45}},
+    {kSpine2, {0.0, 0.136, 0.001}, 0.082, 1000, 250, 0.02, {10, 0, 0}, {50, 45, 45}},
+    {kSpine3, {0.0, 0.054, 0.026}, 0.112, 1000, 250, 0.02, {10, 0, 0}, {50, 45, 45}},
+    {kNeck, {0.0, 0.214, -0.042}, 0.012, 150, 50, 0.01, {0, 0, 0}, {55, 65, 50}},
+    {kHead, {0.0, 0.066, 0.050}, 0.056, 100, 40, 0.01, {0, 0, 0}, {55, 65, 50}},
+    {kLeftHip, {0.066, -0.088, -0.006}, 0.1446, 500, 250, 0.02, {-45, 0, 10}, {95, 75, 75}},
+    {kLeftKnee, {0.040, -0.382, -0.004}, 0.0457, 500, 220, 0.02, {75, 75, 75}, {82, 82, 82}},
+    {kLeftAnkle, {-0.012, -0.402, -0.040}, 0.0113, 400, 160, 0.02, {12, 0, 0}, {62, 60, 50}},
+    {kLeftFoot, {0.024, -0.056, 0.122}, 0.0022, 100, 40, 0.01, {-15, 0, 0}, {65, 30, 30}},
+    {kLeftCollar, {0.074, 0.118, -0.034}, 0.0204, 500, 130, 0.02, {0, 0, 5}, {45, 45, 45}},
+    {kLeftShoulder, {0.096, 0.034, -0.010}, 0.0263, 400, 120, 0.02, {0, -25, -10}, {130, 125, 130}},
+    {kLeftElbow, {0.258, -0.014, -0.026}, 0.0150, 300, 80, 0.02, {77, 77, 77}, {85, 85, 85}},
+    {kLeftWrist, {0.250, 0.008, -0.001}, 0.0035, 80, 20, 0.01, {0, 0, 0}, {140, 90, 95}},
+};
+
+/// The row of a body; of the right side that of its mirror image.
+const StandardBody& standard_row(int body) {
+  const int left = is_right(body) ? body - 1 : body;
+  return *std::find_if(std::begin(kStandardBodies), std::end(kStandardBodies),
+                       [&](const StandardBody& row) { return row.body == left; });
 }
 
-double mass_share(int body) {
-  switch (body) {
-    case kPelvis:
-      return 0.118;
-    case kSpine1:
-      return 0.082;
-    case kSpine2:
-      return 0.082;
-    case kSpine3:
-      return 0.112;
-    case kNeck:
-      return 0.012;
-    case kHead:
-      return 0.056;
-    case kLeftHip:
-    case kRightHip:
-      return 0.1446;
-    case kLeftKnee:
-    case kRightKnee:
-      return 0.0457;
-    case kLeftAnkle:
-    case kRightAnkle:
-      return 0.0113;
-    case kLeftFoot:
-    case kRightFoot:
-      return 0.0022;
-    case kLeftCollar:
-    case kRightCollar:
-      return 0.0204;
-    case kLeftShoulder:
-    case kRightShoulder:
-      return 0.0263;
-    case kLeftElbow:
-    case kRightElbow:
-      return 0.0150;
-    default:
-      return 0.0035;
-  }
-}
+Vector3d vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+Vector3d standard_offset(int body) { return vector_of(standard_row(body).offset); }
+
+double mass_share(int body) { return standard_row(body).mass_share; }
 
 std::vector<std::array<int, 2>> make_self_pairs() {
   std::vector<std::array<int, 2>> pairs;
@@ -111,79 +78,12 @@ std::vector<std::array<int, 2>> make_self_pairs() {
 }
 
 JointParameters standard_joint(int body) {
-  JointParameters j;
-  j.armature = 0.02;
-  const auto pd = [&](double kp, double limit) {
-    j.kp = kp;
-    j.kd = 0.1 * kp;
-    j.torque_limit = limit;
-  };
-  const auto range = [&](Vector3d centre_deg, Vector3d half_deg) {
-    j.centre = kDegree * centre_deg;
-    j.half_range = kDegree * half_deg;
-  };
-  const double x = is_right(body) ? -1.0 : 1.0;  // mirror: rotations about y and z change sign
-  switch (body) {
-    case kLeftHip:
-    case kRightHip:
-      pd(500, 250);
-      range({-45, 0, 10 * x}, {95, 75, 75});
-      break;
-    case kLeftKnee:
-    case kRightKnee:
-      pd(500, 220);
-      range({75, 75, 75}, {82, 82, 82});
-      break;
-    case kLeftAnkle:
-    case kRightAnkle:
-      pd(400, 160);
-      range({12, 0, 0}, {62, 60, 50});
-      break;
-    case kLeftFoot:
-    case kRightFoot:
-      pd(100, 40);
-      range({-15, 0, 0}, {65, 30, 30});
-      break;
-    case kSpine1:
-    case kSpine2:
-    case kSpine3:
-      pd(1000, 250);
-      range({10, 0, 0}, {50, 45, 45});
-      break;
-    case kNeck:
-      pd(150, 50);
-      range({0, 0, 0}, {55, 65, 50});
-      break;
-    case kHead:
-      pd(100, 40);
-      range({0, 0, 0}, {55, 65, 50});
-      break;
-    case kLeftCollar:
-    case kRightCollar:
-      pd(500, 130);
-      range({0, 0, 5 * x}, {45, 45, 45});
-      break;
-    case kLeftShoulder:
-    case kRightShoulder:
-      pd(400, 120);
-      range({0, -25 * x, -10 * x}, {130, 125, 130});
-      break;
-    case kLeftElbow:
-    case kRightElbow:
-      pd(300, 80);
-      range({77, 77, 77}, {85, 85, 85});
-      break;
-    case kLeftWrist:
-    case kRightWrist:
-      pd(80, 20);
-      range({0, 0, 0}, {140, 90, 95});
-      break;
-    default:
-      break;
-  }
-  if (body == kLeftFoot || body == kRightFoot || body >= kLeftWrist || body == kNeck || body == kHead)
-    j.armature = 0.01;
-  return j;
+  const StandardBody& row = standard_row(body);
+  Vector3d centre = vector_of(row.centre_deg);
+  // In the mirror, rotations about y and z change sign. 0 − y instead of −y leaves no negative zero.
+  if (is_right(body) && !is_hinge(body)) centre = {centre.x(), 0.0 - centre.y(), 0.0 - centre.z()};
+  return {row.kp,           0.1 * row.kp,     row.armature,
+          row.torque_limit, kDegree * centre, kDegree * vector_of(row.half_range_deg)};
 }
 
 }  // namespace mimicx

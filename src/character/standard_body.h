@@ -1,4 +1,4 @@
-/// The numbers of the standard body: proportions, masses, joints. What is made of them is in character.cpp.
+/// The numbers of the standard body: proportions, masses, joints. character.cpp makes a character of them.
 #pragma once
 
 #include <array>
@@ -21,12 +21,13 @@ Vector3d standard_offset(int body);
 /// spine's bodies. Shares sum to 1.
 double mass_share(int body);
 
-/// Pairs that meet in human motion: arms with trunk, head and legs; arms with each other; legs with each
-/// other. Neighbours in the tree, and bodies that overlap at rest, are left out.
+/// Pairs of bodies that touch in human motion: arms with trunk, head and legs; arms with each other; legs
+/// with each other. Without neighbours in the tree and bodies that overlap at rest. docs/physics.md §5
 std::vector<std::array<int, 2>> make_self_pairs();
 
-/// Gains of DeepMimic and ASE; torque bounds from peak voluntary and gait moments (docs/physics.md,
-/// "Joints"); ranges from goniometry tables, widened for the soft tissue of a T-pose rig.
+/// Controller, bound and range of a body's joint; the pelvis has none. Gains of DeepMimic and ASE; torque
+/// bounds from peak voluntary and gait moments (docs/physics.md, "Joints"); ranges from goniometry tables,
+/// widened for the soft tissue of a T-pose rig.
 JointParameters standard_joint(int body);
 
 }  // namespace mimicx
