@@ -7,7 +7,7 @@
 namespace mimicx {
 namespace {
 
-TEST(BodyWords, AreTheNamesWithoutTheirSpelling) {
+TEST(BodyWords, SpellBodyNamesWithSpaces) {
   EXPECT_EQ(body_in_words(kLeftFoot), "left foot");
   EXPECT_EQ(body_in_words(kPelvis), "pelvis");
   for (int b = 0; b < kBodies; ++b)

@@ -113,7 +113,7 @@ TEST(Character, JointPositionsAreAffineInBeta) {
   }
 }
 
-TEST(Character, EveryBetaChangesTheShapeAndLargeOnesAreRefused) {
+TEST(Character, EveryBetaChangesTheShapeAndLargeBetasAreRejected) {
   const Character standard = make_character();
   for (std::size_t k = 0; k < kBetas; ++k) {
     Betas betas{};
@@ -197,7 +197,7 @@ double nearest_hand(const Character& c, const BodyPoses& rest, double height) {
   return nearest;
 }
 
-TEST(Character, SelfPairsLeaveNoHoleInTheTrunkForAHand) {
+TEST(Character, SelfPairsLeaveNoGapInTheTrunkForAHand) {
   Random random(1, {8});
   for (int n = 0; n < 100; ++n) {
     const Character c = make_character(random_betas(random, 2.0));
@@ -236,7 +236,7 @@ TEST(Character, InertiaIsThatOfASolidCapsule) {
   }
 }
 
-TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
+TEST(Character, SolePointsComeFirstAndLieInOnePlane) {
   Random random(1, {6});
   for (int n = 0; n < 10; ++n) {
     const Character c = make_character(random_betas(random, 3.0));
@@ -254,7 +254,7 @@ TEST(Character, FeetTouchTheFloorInOnePlaneFirstInTheList) {
   }
 }
 
-TEST(Character, NoPointOfASphereIsLowerThanItsLowestPosition) {
+TEST(Character, LowestPositionBoundsEveryPointOfTheSphere) {
   Random random(1, {10});
   const Character c = make_character();
   PerBody<Quaterniond> q;
@@ -276,7 +276,7 @@ TEST(Character, NoPointOfASphereIsLowerThanItsLowestPosition) {
   EXPECT_GE(as_low, 1);
 }
 
-TEST(Character, BallOfTheFootStandsOnTheFloorBesideLevelToesHoweverHighTheHeel) {
+TEST(Character, BallOfTheFootStaysOnTheFloorAtEveryHeelHeight) {
   Random random(1, {9});
   for (int n = 0; n < 10; ++n) {
     const Character c = make_character(random_betas(random, 3.0));
@@ -302,7 +302,7 @@ RestJoints rest_joints(const Character& c) {
   return joints;
 }
 
-TEST(CharacterOfJoints, HasTheBonesItWasGivenAndTheNearestShape) {
+TEST(CharacterOfJoints, HasTheGivenBonesAndTheNearestShape) {
   const std::array<double, kBetas> betas = {1.5, 0, -1, 0.5, 1, -0.5, 0.3, 1, 0, 0.4};
   const Character shaped = make_character(betas), made = make_character_of_joints(rest_joints(shaped));
   for (int i = 0; i < kBodies; ++i) EXPECT_LT((made.joint_offset[i] - shaped.joint_offset[i]).norm(), 1e-14);
@@ -315,7 +315,7 @@ TEST(CharacterOfJoints, HasTheBonesItWasGivenAndTheNearestShape) {
   EXPECT_NEAR(same.total_mass(), standard.total_mass(), 1e-9);
 }
 
-TEST(CharacterOfJoints, RefusesBonesThatNoHumanHas) {
+TEST(CharacterOfJoints, RejectsBonesOfImpossibleLength) {
   for (const double factor : {0.1, 4.0, std::numeric_limits<double>::quiet_NaN()}) {
     RestJoints joints = rest_joints(make_character());
     joints[kLeftKnee] = joints[kLeftHip] + factor * (joints[kLeftKnee] - joints[kLeftHip]);
@@ -344,7 +344,7 @@ TEST(ForwardKinematics, EqualsTheProductOfHomogeneousMatrices) {
   }
 }
 
-TEST(RestPelvis, KnowsTheModelsAndRefusesOthers) {
+TEST(RestPelvis, KnowsTheModelsAndRejectsOthers) {
   EXPECT_LT((mimicx::rest_pelvis("smpl") - Vector3d(-0.002, -0.223, 0.028)).norm(), 1e-12);
   EXPECT_EQ(mimicx::rest_pelvis("mimicx"), mimicx::rest_pelvis("smplx"));
   EXPECT_THROW(mimicx::rest_pelvis("ghum"), std::invalid_argument);

@@ -35,7 +35,7 @@ struct WalkingScene {
   }
 };
 
-TEST(Cost, GradientIsThatOfDifferences) {
+TEST(Cost, GradientMatchesDifferences) {
   const WalkingScene s;
   const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
   for (int k = 0; k < kTangent; ++k) {
@@ -46,7 +46,7 @@ TEST(Cost, GradientIsThatOfDifferences) {
 }
 
 // Where the error is zero, Gauss–Newton's Hessian is the Hessian.
-TEST(Cost, HessianAtTheReferenceIsThatOfDifferences) {
+TEST(Cost, HessianAtTheReferenceMatchesDifferences) {
   WalkingScene s;
   s.x = s.system.at(5);
   const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
@@ -66,7 +66,7 @@ TEST(Cost, HessianAtTheReferenceIsThatOfDifferences) {
   }
 }
 
-TEST(Cost, LanesMeanTheSameAsDoubles) {
+TEST(Cost, LanesAgreeWithDouble) {
   const WalkingScene s;
   const auto scratch = std::make_unique<Data<P>>();
   const LaneCost lanes = state_cost(s.system, s.cost, 5, in_all_lanes<P>(s.x), *scratch);
@@ -83,7 +83,7 @@ TEST(Cost, LanesMeanTheSameAsDoubles) {
   EXPECT_NEAR(static_cast<double>(lanes.worst[0]), worst, 1e-4 * worst);
 }
 
-TEST(Cost, UncertainBodiesWeighLessAndTheirNeighboursDoNot) {
+TEST(Cost, UncertaintyReducesTheWeightOfItsBodyAlone) {
   const WalkingScene s;
   const int certain = 1, doubtful = 0;  // frame 5: (5 + 1) % 3 = 0, (5 + 0) % 3 = 2
   EXPECT_EQ(s.cost.position_weight(5, certain), 0.0);
@@ -92,7 +92,7 @@ TEST(Cost, UncertainBodiesWeighLessAndTheirNeighboursDoNot) {
   EXPECT_EQ(s.cost.tangent_weight(5, kRootRotation), s.cost.weights.root_rotation);
 }
 
-TEST(Cost, ChangesOfControlsCostAndHelpOnlyInASoftSystem) {
+TEST(Cost, AssistiveForcesCostOnlyInASoftSystem) {
   WalkingScene s;
   Control u{}, before{};
   u[3] = 0.5f;
@@ -105,7 +105,7 @@ TEST(Cost, ChangesOfControlsCostAndHelpOnlyInASoftSystem) {
   EXPECT_NEAR(control_cost(s.system, s.cost, u, before), hard + 4.0 * w.help, 1e-6);
 }
 
-TEST(Cost, RefusesWeightsThatHaveNoMinimum) {
+TEST(Cost, RejectsWeightsWithoutAMinimum) {
   const System system = system_of(synthetic_reference("stand", 501, 4));
   CostWeights weights;
   weights.residual = 0.0;

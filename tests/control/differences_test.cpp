@@ -87,7 +87,7 @@ struct SquattingScene {
   }
 };
 
-TEST(Differences, AreThoseOfThePointWhereNothingSwitches) {
+TEST(Differences, SmoothedAgreeWithDoubleInTheAir) {
   const SquattingScene s(0.5);
   const FrameMatrix F = linearise_smoothed(s.system, s.point, {});
   const Eigen::MatrixXd exact = in_double(s.system, s.reference.character, s.point);
@@ -97,7 +97,7 @@ TEST(Differences, AreThoseOfThePointWhereNothingSwitches) {
   EXPECT_LT(median_error(F, exact, kMemory, kMemory + kMaxControls), 0.02);
 }
 
-TEST(Differences, AHardSystemHasNoColumnsOfHelp) {
+TEST(Differences, HardSystemsHaveNoColumnsForAssistiveForces) {
   SquattingScene s(0.0);
   const FrameMatrix soft = linearise_smoothed(s.system, s.point, {});
   s.system.soft = false;

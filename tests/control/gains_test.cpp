@@ -15,7 +15,7 @@ struct Walk {
   Trajectory motion = trajectory_of(make_plan(system, {}, {.threads = 2}));
 };
 
-TEST(Gains, HoldAWalkUnderPushesThatFellTheBarePlan) {
+TEST(Gains, KeepAWalkUprightUnderPushesThatToppleThePlan) {
   const Walk walk;
   const auto gains = feedback_gains(walk.system, walk.cost, walk.motion, {}, {.threads = 2});
   ASSERT_EQ(gains.size(), 89u);
@@ -28,7 +28,7 @@ TEST(Gains, HoldAWalkUnderPushesThatFellTheBarePlan) {
 }
 
 // The gains that planning itself uses answer to a contact as it is at the very point of the plan.
-TEST(Gains, SoftenedOnesHoldMoreThanStiffOnes) {
+TEST(Gains, SoftenedGainsWithstandMoreThanStiffGains) {
   const Walk walk;
   GainConfig stiff;
   stiff.smoothing = {};
@@ -50,7 +50,7 @@ TEST(Gains, WithoutPushesThePlanIsFollowed) {
   EXPECT_EQ(still.followed, 16);
 }
 
-TEST(Gains, NeitherBlocksNorThreadsChangeThem) {
+TEST(Gains, DoNotDependOnBlocksOrThreads) {
   Walk walk;
   walk.motion.x.resize(41);
   walk.motion.u.resize(40);
@@ -62,7 +62,7 @@ TEST(Gains, NeitherBlocksNorThreadsChangeThem) {
   for (std::size_t t = 0; t < whole.size(); ++t) EXPECT_EQ(whole[t], blocks[t]) << t;
 }
 
-TEST(Gains, NoneWhereTheyAreToldToStop) {
+TEST(Gains, AreEmptyAfterAStop) {
   const Walk walk;
   EXPECT_TRUE(
       feedback_gains(walk.system, walk.cost, walk.motion, {}, {.should_stop = [] { return true; }}).empty());

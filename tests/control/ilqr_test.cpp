@@ -28,7 +28,7 @@ struct WalkingProblem {
   }
 };
 
-TEST(Ilqr, TheCostOfAWindowNeverRisesAndIsThatOfItsRollOut) {
+TEST(Ilqr, CostNeverRisesAndEqualsThatOfTheRollOut) {
   WalkingProblem p;
   IterationState state;
   double last = p.plan.cost;
@@ -59,7 +59,7 @@ TEST(Ilqr, OneAndTwoThreadsGiveTheSameBytes) {
   EXPECT_EQ(std::memcmp(one.plan.x.data(), two.plan.x.data(), one.plan.x.size() * sizeof one.plan.x[0]), 0);
 }
 
-TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
+TEST(Ilqr, ConcurrentSweepSeesTheModelsOfItsFrameAndAllLaterFrames) {
   WalkingProblem p;
   List<FrameModel> after, beside;
   build_models({p.system, p.cost}, p.plan, 1, after);
@@ -79,7 +79,7 @@ TEST(Ilqr, ASweepBesideTheModelsFindsThoseOfItsFrameAndOfAllBehind) {
 }
 
 // The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
-TEST(Ilqr, TheSweepPromisesWhatAFullStepGives) {
+TEST(Ilqr, PredictedDecreaseMatchesAFullStep) {
   WalkingProblem p;
   IterationState state;
   for (int i = 0; i < 3; ++i) p.improve(state);

@@ -34,7 +34,7 @@ rl::tracking::TrackingRollout replay(const motion::Reference& reference, const P
 
 class Followed : public testing::TestWithParam<const char*> {};
 
-TEST_P(Followed, WithinTwoMillimetresAndReplayedByTheSimulatorToTheByte) {
+TEST_P(Followed, WithinTwoMillimetresAndReplayedByteForByte) {
   const motion::Reference reference = synthetic_reference(GetParam(), 501, 75);
   const Plan plan = make_plan(system_of(reference), {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kFollowed);
@@ -74,7 +74,7 @@ System balloon() {
   return system;
 }
 
-TEST(Plan, AReferenceThatNoBodyCanFollowIsReportedAndNotFought) {
+TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
   const System system = balloon();
   const Plan plan = make_plan(system, {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kLost);
@@ -112,7 +112,7 @@ System lifted() {
 
 /// Help ten thousand times as dear at once loses the motion that cheap help had followed; the rest is what
 /// steps of its root come to.
-TEST(Plan, AStageOfHelpThatIsLostIsReachedByShorterSteps) {
+TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   PlanConfig config;
   config.stiffening = 1e2;
   const Plan by_root = make_plan(lifted(), config, {.threads = 2});
@@ -128,7 +128,7 @@ TEST(Plan, AStageOfHelpThatIsLostIsReachedByShorterSteps) {
 }
 
 // The helped plan follows it, and its help is the one of physics: the acceleration of the reference.
-TEST(Plan, ASoftPlanFollowsWhatNoBodyCan) {
+TEST(Plan, SoftPlanFollowsAnInfeasibleReference) {
   System system = balloon();
   system.soft = true;
   const Plan plan = make_plan(system, {}, {.threads = 2});
@@ -139,7 +139,7 @@ TEST(Plan, ASoftPlanFollowsWhatNoBodyCan) {
   EXPECT_LT(std::abs(static_cast<double>(plan.help[5][2])), 1.0);
 }
 
-TEST(Plan, StopsWhereItIsToldTo) {
+TEST(Plan, StopsOnRequest) {
   const System system = system_of(synthetic_reference("stand", 501, 60));
   int windows = 0, settled = 0;
   const Plan plan = make_plan(system, {},

@@ -94,7 +94,7 @@ TEST(Riccati, ScalarIntegratorsValueIsTheGoldenRatio) {
 }
 
 // The numbers of docs/control.md §1, "By hand".
-TEST(Riccati, DoubleIntegratorIsTheOneWorkedByHand) {
+TEST(Riccati, DoubleIntegratorMatchesTheHandCalculation) {
   const Regulator d = double_integrator(1.0, 0.25);
   const auto expect_near = [](const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double within) {
     EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), within) << actual << "\nand not\n" << expected;
@@ -170,7 +170,7 @@ TEST(Riccati, DoubleIntegratorSolvesTheAlgebraicEquation) {
 }
 
 // e^(−t) (cos t + sin t), which the frames of 1/64 s follow; it costs 1 and is lowest, −e^(−π), at t = π.
-TEST(Riccati, DoubleIntegratorMovesAsTheClosedFormDoes) {
+TEST(Riccati, DoubleIntegratorFollowsTheClosedForm) {
   const double dt = 1.0 / 64.0;
   const Regulator d = double_integrator(dt, 0.25);
   Eigen::MatrixXd K;
@@ -192,7 +192,7 @@ TEST(Riccati, DoubleIntegratorMovesAsTheClosedFormDoes) {
 }
 
 // A pendulum held upright: unstable without control, stable with the sweep's.
-TEST(Riccati, InvertedPendulumSolvesTheAlgebraicEquationAndStands) {
+TEST(Riccati, InvertedPendulumSolvesTheAlgebraicEquationAndIsStable) {
   const double dt = 1.0 / 32.0, gravity = 8.0;
   Regulator p;
   p.A = (Eigen::Matrix2d() << 1, dt, gravity * dt, 1).finished();
@@ -208,7 +208,7 @@ TEST(Riccati, InvertedPendulumSolvesTheAlgebraicEquationAndStands) {
 }
 
 // A problem of two steps with memory and a gap, against one solve of its normal equations.
-TEST(Riccati, MemoryAndGapsAreThoseOfTheWholeProblem) {
+TEST(Riccati, MemoryAndGapsMatchTheNormalEquations) {
   constexpr int n = 3, w = 2, m = 3;
   srand(5);
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> F[2];
@@ -263,7 +263,7 @@ TEST(Riccati, MemoryAndGapsAreThoseOfTheWholeProblem) {
   EXPECT_LT((u1 - expected.tail(m)).norm(), 1e-5 * expected.norm());
 }
 
-TEST(Riccati, SaysWhereThereIsNoMinimum) {
+TEST(Riccati, ReportsAMissingMinimum) {
   const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> F = Eigen::MatrixXf::Zero(1, 2);
   StageCost cost{Eigen::MatrixXd::Identity(2, 2), Eigen::VectorXd::Zero(2)};
   cost.H(1, 1) = -1.0;

@@ -23,14 +23,14 @@ struct ShootingProblem {
   }
 };
 
-TEST(Shooting, ARollOutHasNoGaps) {
+TEST(Shooting, RollOutHasNoGaps) {
   ShootingProblem p;
   take_lane(roll_out(p.system, p.cost, p.plan, {}, step_lengths()), 0, p.plan);
   EXPECT_TRUE(p.plan.gaps.empty());
   for (const Eigen::VectorXd& gap : find_gaps(p.system, p.plan)) EXPECT_TRUE(gap.isZero(0.0));
 }
 
-TEST(Shooting, GapsAreWhatIsMissingToTheNextState) {
+TEST(Shooting, GapLeadsFromThePlannedToTheSimulatedState) {
   const ShootingProblem p;
   const auto scratch = std::make_unique<Data<P>>();
   for (int t : {0, 7, 19}) {
@@ -62,7 +62,7 @@ TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
 }
 
 // With no trust at all nothing is closed, and the states stay where they were.
-TEST(Shooting, FramesBehindTheTrustedOnesKeepTheirStates) {
+TEST(Shooting, FramesAfterTheTrustedOnesKeepTheirStates) {
   ShootingProblem p;
   const Trajectory before = p.plan;
   IterationState state;

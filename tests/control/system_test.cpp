@@ -13,7 +13,7 @@
 namespace mimicx::control {
 namespace {
 
-TEST(System, RefusesTooFewFramesAndRatesThatDoNotFit) {
+TEST(System, RejectsTooFewFramesAndMismatchedRates) {
   const Character character = make_character();
   const State<double> x = simulator_state(synthetic_reference("stand", 501, 2).frames[0]);
   EXPECT_THROW(make_system(character, {}, {x}, 30.0), std::invalid_argument);
@@ -22,7 +22,7 @@ TEST(System, RefusesTooFewFramesAndRatesThatDoNotFit) {
 }
 
 // Some frames under random controls, once here and once as actions.
-TEST(System, ControlsHaveTheBytesOfTheTrackingTasksActions) {
+TEST(System, ControlsGiveTheBytesOfTheTrackingTasksActions) {
   const motion::Reference walk = synthetic_reference("walk", 501, 20);
   const System system = system_of(walk);
   rl::tracking::TrackingConfig config;
@@ -50,7 +50,7 @@ TEST(System, ControlsHaveTheBytesOfTheTrackingTasksActions) {
   }
 }
 
-TEST(System, AStateInFloatsHasTheRoundingOfEveryNumber) {
+TEST(System, AsFloatsRoundsEveryNumber) {
   const State<double> x = system_of(synthetic_reference("walk", 501, 3)).at(1);
   const State<double> rounded = as_floats(x);
   const auto expect_rounded = [](double found, double exact) {
@@ -73,7 +73,7 @@ TEST(System, AStateInFloatsHasTheRoundingOfEveryNumber) {
   }
 }
 
-TEST(System, HelpAcceleratesThePelvisAndIsIgnoredInAHardSystem) {
+TEST(System, AssistiveForceAcceleratesThePelvisOnlyInASoftSystem) {
   System system = system_of(synthetic_reference("stand", 501, 5));
   const auto scratch = std::make_unique<Data<P>>();
   const auto after = [&](float push) {

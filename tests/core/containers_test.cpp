@@ -7,7 +7,7 @@ namespace {
 
 enum Colour : int { kRed, kGreen };
 
-TEST(Containers, SubscriptsOfEveryIntegerTypeAndEnumeratorMeanTheSameElement) {
+TEST(Containers, EveryIntegerTypeAndEnumeratorIsASubscript) {
   Array<double, 3> array = {1.0, 2.0, 3.0};
   List<double> list = {1.0, 2.0, 3.0};
   array[kGreen] = list[kGreen] = 7.0;
@@ -16,7 +16,7 @@ TEST(Containers, SubscriptsOfEveryIntegerTypeAndEnumeratorMeanTheSameElement) {
   EXPECT_EQ(array[kRed], 1.0);
 }
 
-TEST(Containers, AreTheStandardContainersToWhoeverTakesThose) {
+TEST(Containers, ConvertToStandardContainers) {
   const auto first_of = [](const std::vector<int>& v) { return v.front(); };
   const auto last_of = [](const std::array<int, 2>& a) { return a.back(); };
   EXPECT_EQ(first_of(List<int>(3, 5)), 5);
@@ -24,7 +24,7 @@ TEST(Containers, AreTheStandardContainersToWhoeverTakesThose) {
   EXPECT_EQ((List<int>(std::vector<int>{1, 2, 3}).count()), 3);
 }
 
-TEST(Containers, FlagsCanBeSetThroughASubscript) {
+TEST(Containers, ListsOfFlagsAreWritableBySubscript) {
   List<bool> flags(4, false);
   flags[2] = true;
   EXPECT_EQ(flags, (std::vector<bool>{false, false, true, false}));

@@ -9,7 +9,7 @@
 namespace mimicx {
 namespace {
 
-TEST(WriteFile, SaysWhatIsInTheWayAndLeavesNothingBehind) {
+TEST(WriteFile, ErrorStatesTheReasonAndLeavesNoFile) {
   const auto why = [](const fs::path& path) -> std::string {
     try {
       write_file_atomically(path, "content");
@@ -26,7 +26,7 @@ TEST(WriteFile, SaysWhatIsInTheWayAndLeavesNothingBehind) {
   EXPECT_EQ(why(nowhere), nowhere.string() + ": expected a writable file, found No such file or directory");
 }
 
-TEST(ReadFile, SaysWhatIsInTheWay) {
+TEST(ReadFile, ErrorStatesTheReason) {
   const auto why = [](const fs::path& path, std::uintmax_t most = kMaxFileBytes) -> std::string {
     try {
       return read_file(path, most);

@@ -10,7 +10,7 @@
 namespace mimicx {
 namespace {
 
-TEST(NumberText, WhatIsWrittenReadsBackAsTheSameNumber) {
+TEST(NumberText, RoundTripKeepsTheNumber) {
   Random random(1, {});
   for (int k = 0; k < 100000; ++k) {
     const double value = std::ldexp(random.uniform(-1.0, 1.0), static_cast<int>(random.uniform(-60.0, 60.0)));
@@ -20,7 +20,7 @@ TEST(NumberText, WhatIsWrittenReadsBackAsTheSameNumber) {
   EXPECT_EQ(text_of(-3.0), "-3");
 }
 
-TEST(NumberText, ReadsWhatIsANumberAndNothingElse) {
+TEST(NumberText, AcceptsNumbersOnly) {
   EXPECT_EQ(number_from("-1.5e3"), -1500.0);
   EXPECT_EQ(number_from(".5"), 0.5);
   EXPECT_EQ(number_from("inf"), std::numeric_limits<double>::infinity());

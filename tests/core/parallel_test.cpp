@@ -21,7 +21,7 @@ TEST(ParallelFor, CallsEveryChunkOnceForAnyNumberOfThreads) {
   parallel_for(0, 2, [](int) { FAIL() << "there is no chunk"; });
 }
 
-TEST(ParallelFor, RethrowsTheErrorOfTheLowestChunkAfterAllHaveEnded) {
+TEST(ParallelFor, RethrowsTheErrorOfTheLowestChunkAfterAllChunks) {
   for (const int threads : {1, 2}) {
     std::atomic<int> ended = 0;
     try {
@@ -37,7 +37,7 @@ TEST(ParallelFor, RethrowsTheErrorOfTheLowestChunkAfterAllHaveEnded) {
   }
 }
 
-TEST(ParallelChain, EveryLinkFollowsItsItemAndTheLinkBefore) {
+TEST(ParallelChain, LinkRunsAfterItsItemAndThePreviousLink) {
   for (const int threads : {0, 1, 2, 5}) {
     std::vector<std::atomic<int>> items(50);
     int links = 0;  // no atomic: one link at a time
@@ -59,7 +59,7 @@ TEST(ParallelChain, EveryLinkFollowsItsItemAndTheLinkBefore) {
 }
 
 /// The last item waits for a link that can only run on the other thread.
-TEST(ParallelChain, RunsLinksBesideTheItemsBehind) {
+TEST(ParallelChain, RunsLinksConcurrentlyWithLaterItems) {
   std::atomic<bool> linked = false;
   parallel_chain(
       3, 2,
@@ -72,7 +72,7 @@ TEST(ParallelChain, RunsLinksBesideTheItemsBehind) {
   EXPECT_TRUE(linked);
 }
 
-TEST(ParallelChain, AnErrorLeavesAfterAllItemsAndEndsTheChain) {
+TEST(ParallelChain, RethrowsAfterAllItemsAndStopsTheLinks) {
   for (const int threads : {1, 2}) {
     std::atomic<int> ended = 0;
     int links = 0;

@@ -55,7 +55,7 @@ TEST(So3, LogTakesTheShorterWay) {
   for (int n = 0; n < 200; ++n) EXPECT_LE(log_map(random_rotation(random)).norm(), kPi + 1e-12);
 }
 
-TEST(So3, SixNumbersAreTheFirstTwoColumns) {
+TEST(So3, Rotation6dIsTheFirstTwoColumns) {
   Random random(1, {4});
   const Quaterniond q = random_rotation(random);
   const Vector6d six = rotation_6d(q);
@@ -63,7 +63,7 @@ TEST(So3, SixNumbersAreTheFirstTwoColumns) {
   EXPECT_LT((six.tail<3>() - q * Vector3d::UnitY()).norm(), 1e-14);
 }
 
-TEST(So3, TwistTurnsAboutTheAxisAndTheSwingDoesNot) {
+TEST(So3, TwistIsAboutTheAxisAndSwingAcrossIt) {
   Random random(1, {5});
   for (int n = 0; n < 100; ++n) {
     const Quaterniond q = random_rotation(random);
@@ -75,7 +75,7 @@ TEST(So3, TwistTurnsAboutTheAxisAndTheSwingDoesNot) {
   }
 }
 
-TEST(So3, TheAngleBetweenIsThatOfTheRotationBetween) {
+TEST(So3, AngleBetweenMatchesRotationBetween) {
   Random random(1, {6});
   for (int n = 0; n < 100; ++n) {
     const Vector3d a = random_vector(random), b = random_vector(random);

@@ -29,7 +29,7 @@ TEST(FuzzDriver, EqualArgumentsFeedEqualInputs) {
   EXPECT_GT(std::set<std::string>(first.begin(), first.end()).size(), 250u);
 }
 
-TEST(FuzzDriver, AnInputIsHadAgainByItsNumber) {
+TEST(FuzzDriver, ReproducesAnInputByItsNumber) {
   fed.clear();
   ASSERT_EQ(run_fuzz({"--runs", "1", "--from", "41"}, kSeeds, remember), 0);
   EXPECT_EQ(fed.back(), mutated_input(kSeeds, 1, 41));
@@ -43,11 +43,11 @@ TEST(FuzzDriver, SeedsAndFilesAreFedUnchanged) {
   EXPECT_EQ(fed, (std::vector<std::string>{"as it is", kSeeds[0], kSeeds[1]}));
 }
 
-TEST(FuzzDriver, ATargetThatThrowsFails) {
+TEST(FuzzDriver, ReportsATargetThatThrows) {
   EXPECT_EQ(run_fuzz({"--runs", "20000"}, kSeeds, refuse_braces), 1);
 }
 
-TEST(FuzzDriver, WrongArgumentsAreRefused) {
+TEST(FuzzDriver, RejectsWrongArguments) {
   EXPECT_EQ(run_fuzz({"--runs", "many"}, kSeeds, survive), 2);
   EXPECT_EQ(run_fuzz({"--runs"}, kSeeds, survive), 2);
   EXPECT_EQ(run_fuzz({"/no/such/file"}, kSeeds, survive), 2);

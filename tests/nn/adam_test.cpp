@@ -73,7 +73,7 @@ TEST(Adam, MinimisesAnIllConditionedConvexFunction) {
   EXPECT_LT((x.array() - optimum).abs().maxCoeff(), 1e-4);
 }
 
-TEST(Adam, RefusesGradientsOfAnotherShape) {
+TEST(Adam, RejectsGradientsOfAnotherShape) {
   Matrix<float> x = Matrix<float>::Zero(2, 2);
   const std::vector<Matrix<float>*> parameters = {&x};
   auto adam = make_adam<float>(parameters);

@@ -41,7 +41,7 @@ AutoEncoderConfig small() {
 
 double rms(const Matrix<float>& m) { return std::sqrt(m.squaredNorm() / static_cast<float>(m.size())); }
 
-TEST(AutoEncoder, RemovesTheNoiseThatTheSamplesDoNotShare) {
+TEST(AutoEncoder, RemovesNoiseThatSamplesDoNotShare) {
   AutoEncoderStats stats;
   const AutoEncoder coder = train_autoencoder(plane_points(500, 1), small(), 3, &stats);
   EXPECT_LT(stats.last_loss, 0.3 * stats.first_loss);
@@ -65,7 +65,7 @@ TEST(AutoEncoder, RemovesTheNoiseThatTheSamplesDoNotShare) {
   EXPECT_LT(across(decoded - clean), 0.05 * across(noisy - clean));
 }
 
-TEST(AutoEncoder, IsTheSameBitsAgainAndOthersFromAnotherSeed) {
+TEST(AutoEncoder, BitsDependOnTheSeedAlone) {
   const Matrix<float> samples = plane_points(100, 5);
   AutoEncoderConfig config = small();
   config.steps = 50;
@@ -75,7 +75,7 @@ TEST(AutoEncoder, IsTheSameBitsAgainAndOthersFromAnotherSeed) {
   EXPECT_FALSE(a.encoder.weights[0] == c.encoder.weights[0]);
 }
 
-TEST(AutoEncoder, ComesBackFromAnArchiveToTheBit) {
+TEST(AutoEncoder, ArchiveRoundTripKeepsEveryBit) {
   AutoEncoderConfig config = small();
   config.steps = 20;
   const Matrix<float> samples = plane_points(50, 6);

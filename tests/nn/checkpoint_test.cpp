@@ -70,7 +70,7 @@ TYPED_TEST(Checkpoint, RestoresEverythingBitForBitThroughAFile) {
   EXPECT_EQ(normaliser2.factor, normaliser.factor);
 }
 
-TEST(CheckpointErrors, NameTheMemberThatIsWrong) {
+TEST(CheckpointErrors, NameTheDamagedMember) {
   Random random(32);
   Npz archive;
   archive.path = "some.npz";

@@ -9,13 +9,13 @@ namespace mimicx::nn {
 namespace {
 
 // This program links the networks alone: what fixes the blocking must not depend on what else is linked.
-TEST(Gemm, BlockingIsFixedAndNotTakenFromTheProcessorsCaches) {
+TEST(Gemm, BlockingDoesNotDependOnTheProcessorsCaches) {
   EXPECT_EQ(Eigen::l1CacheSize(), 32 * 1024);
   EXPECT_EQ(Eigen::l2CacheSize(), 512 * 1024);
   EXPECT_EQ(Eigen::l3CacheSize(), 8 * 1024 * 1024);
 }
 
-TEST(Gemm, IsTheSumOfProductsForEveryTransposition) {
+TEST(Gemm, EqualsTheSumOfProductsForEveryTransposition) {
   Random random(5);
   const Matrix<double> a = random_matrix(7, 5, random), b = random_matrix(5, 9, random);
   const Matrix<double> bias = random_matrix(1, 9, random);

@@ -165,7 +165,7 @@ TEST(Mlp, InitialWeightsHaveTheStatedDeviations) {
   EXPECT_TRUE(mlp.biases[0].isZero(0));
 }
 
-TEST(Mlp, RefusesImpossibleSizes) {
+TEST(Mlp, RejectsImpossibleSizes) {
   Random random(29);
   EXPECT_THROW(make_mlp<float>({3}, 1.0f, random), std::invalid_argument);
   EXPECT_THROW(make_mlp<float>({3, 0, 2}, 1.0f, random), std::invalid_argument);

@@ -53,7 +53,7 @@ TEST(Normaliser, OutputsHaveZeroMeanAndUnitDeviation) {
   EXPECT_TRUE(y.col(3).isZero(0));
 }
 
-TEST(Normaliser, ClipsAndIsInvertedByDenormaliseInside) {
+TEST(Normaliser, ClipsAndDenormaliseInvertsItInsideTheLimit) {
   const auto x = samples(500, 3);
   auto normaliser = make_normaliser<float>(4, 2.0f);
   const std::vector<Moments> batches = {moments_of(x)};
@@ -69,7 +69,7 @@ TEST(Normaliser, ClipsAndIsInvertedByDenormaliseInside) {
     }
 }
 
-TEST(Normaliser, KnowingNothingItIsTheIdentity) {
+TEST(Normaliser, IsTheIdentityWithoutSamples) {
   const auto normaliser = make_normaliser<double>(2);
   const Matrix<double> x = (Matrix<double>(1, 2) << 3.5, -12.0).finished();
   Matrix<double> y;

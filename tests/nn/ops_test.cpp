@@ -86,7 +86,7 @@ TEST(Ops, ProductsOfAllTransposesEqualTripleLoops) {
     }
 }
 
-TEST(Ops, ATieOfTheMinimumGivesItsGradientToTheFirst) {
+TEST(Ops, MinimumPassesTheGradientOfATieToTheFirst) {
   const Inputs inputs = {Matrix<double>::Constant(1, 1, 2.0), Matrix<double>::Constant(1, 1, 2.0)};
   const auto g = tape_gradient([](T& t, X x) { return minimum(t, x[0], x[1]); }, inputs);
   EXPECT_EQ(g[0](0, 0), 1.0);
@@ -100,7 +100,7 @@ TEST(Ops, ClampPassesTheGradientAtItsBoundsAndStopsItBeyond) {
   EXPECT_EQ(g[0], (Matrix<double>(1, 4) << 1, 0, 1, 0).finished());
 }
 
-TEST(Tape, GradientOfSomethingUnrelatedIsZero) {
+TEST(Tape, GradientOfAnUnrelatedNodeIsZero) {
   Tape<double> tape;
   const Var x = tape.constant(2, 3, 1.0), y = tape.constant(4, 1, 1.0);
   const std::array wrt = {x, y};
@@ -119,7 +119,7 @@ TEST(Tape, GradientOfAnIntermediateValueStopsThere) {
   EXPECT_DOUBLE_EQ(tape.scalar(g[1]), 4.0 * 27.0);  // d(x⁴)/dx = 4x³
 }
 
-TEST(Tape, ComputesNoGradientThatNobodyAskedFor) {
+TEST(Tape, ComputesOnlyTheRequestedGradients) {
   const auto nodes_of_gradient = [](bool with_input) {
     Tape<double> tape;
     const Var x = tape.constant(5, 4, 1.0), w = tape.constant(4, 3, 1.0), b = tape.constant(1, 3, 0.0);
@@ -135,7 +135,7 @@ TEST(Tape, ComputesNoGradientThatNobodyAskedFor) {
   EXPECT_EQ(nodes_of_gradient(true), 6);
 }
 
-TEST(Tape, GathersNothingForConstants) {
+TEST(Tape, AccumulatesNothingForConstants) {
   Tape<double> tape;
   const Var x = tape.constant(2, 2, 1.0), c = tape.constant(2, 2, 3.0);
   const Var loss = sum(tape, add(tape, add(tape, x, c), c));

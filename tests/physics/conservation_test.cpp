@@ -137,7 +137,7 @@ Momentum drift(const Character& c, const Snapshot& s) {
 
 // From the states alone, with nothing of the solve but the contact forces it recorded: what the new
 // velocities change in the momentum, and what moving on changes in it, are the impulses of weight and floor.
-TEST(Step, StatesChangeTheirMomentumByTheImpulsesOfWeightAndFloorInEveryStep) {
+TEST(Step, MomentumOfTheStatesChangesByTheImpulsesOfWeightAndFloor) {
   double hardest = 0;
   for (std::uint64_t trial = 0; trial < 6; ++trial) {
     Random random(34, {trial});

@@ -92,7 +92,7 @@ SceneReport run(Scene scene, double rate, int passes) {
 /// portable build, of four lanes, one character of these scenes does: there it is left out.
 bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || passes < 3; }
 
-TEST(GroundContact, NothingBlowsUpAtAnyRateInStandFallDropAndThrow) {
+TEST(GroundContact, StandFallDropAndThrowAreStableAtEveryRate) {
   for (Scene scene : {Scene::kStand, Scene::kFall, Scene::kDrop, Scene::kThrow})
     for (double rate : {120.0, 240.0, 480.0})
       for (int passes : {1, 2, 3}) {
@@ -130,7 +130,7 @@ int runaways(Scene scene, double rate, int passes, int characters) {
   return gone;
 }
 
-TEST(GroundContact, NobodyOfHundredsWhoFallAreDroppedOrThrownRunsAway) {
+TEST(GroundContact, HundredsOfFallsDropsAndThrowsStayFinite) {
   for (Scene scene : {Scene::kFall, Scene::kDrop, Scene::kThrow})
     for (double rate : {120.0, 240.0})
       for (int passes : {1, 2, 3}) {

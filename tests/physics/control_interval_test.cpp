@@ -37,7 +37,7 @@ struct Interval {
   }
 };
 
-TEST(Lanes, AStateReadAndSetAgainKeepsItsBits) {
+TEST(Lanes, RoundTripKeepsTheBitsOfAState) {
   const auto s = std::make_unique<Interval<P>>(1);
   State<P> copy{};
   for (int lane = 0; lane < kLanes; ++lane) set_lane(copy, lane, lane_of(s->state, lane));
@@ -48,7 +48,7 @@ TEST(Lanes, AStateReadAndSetAgainKeepsItsBits) {
   EXPECT_EQ(std::memcmp(&spread, &one_by_one, sizeof spread), 0);
 }
 
-TEST(ControlInterval, IsItsStepsTowardsTargetsInBetween) {
+TEST(ControlInterval, EqualsItsStepsTowardsInterpolatedTargets) {
   const auto s = std::make_unique<Interval<double>>(2);
   State<double> by_hand = s->state;
   std::vector<Target<double>> seen;
@@ -75,7 +75,7 @@ TEST(ControlInterval, IsItsStepsTowardsTargetsInBetween) {
     EXPECT_LT(to_eigen(by_hand.q[i]).angularDistance(to_eigen(s->state.q[i])), 1e-4) << kBodyNames[i];
 }
 
-TEST(ControlInterval, WatchersAndRecordsChangeNoBit) {
+TEST(ControlInterval, WatchingAndRecordingChangeNoBit) {
   const auto a = std::make_unique<Interval<P>>(3), b = std::make_unique<Interval<P>>(3);
   const auto applied = std::make_unique<Applied<P>>();
   clear(*applied);
@@ -88,7 +88,7 @@ TEST(ControlInterval, WatchersAndRecordsChangeNoBit) {
   EXPECT_EQ(applied->steps, 8);
 }
 
-TEST(ControlInterval, ALaneThatGoesWrongInTheMiddleIsReported) {
+TEST(ControlInterval, ReportsALaneThatFailsDuringTheInterval) {
   const auto s = std::make_unique<Interval<P>>(4);
   State<double> resting = lane_of(s->state, 0);
   Target<double> aim{};
@@ -104,7 +104,7 @@ TEST(ControlInterval, ALaneThatGoesWrongInTheMiddleIsReported) {
   EXPECT_TRUE(ScalarTraits<P>::lane(wrong, 2));
 }
 
-TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
+TEST(ControlInterval, AssistiveForceEqualToTheWeightMakesTheBodyFloat) {
   const Character character = make_character();
   Snapshot snapshot = standing(stiffened(character));
   snapshot.p_root.z() += 0.5;
@@ -118,7 +118,7 @@ TEST(ControlInterval, HelpThatEqualsTheWeightMakesAStandingBodyFloat) {
   EXPECT_LT(std::abs(s->state.v_root.z), 0.02);                  // a free fall: 0.33
 }
 
-TEST(PdTarget, ActionsAreClampedAndWhatIsNoNumberIsZero) {
+TEST(PdTarget, ClampsActionsAndTreatsNonFiniteEntriesAsZero) {
   std::array<float, kDofs> action{};
   const int hip = first_dof(kLeftHip), knee = first_dof(kLeftKnee);
   action[hip] = 9.0f;

@@ -68,7 +68,7 @@ TEST(Aba, AgreesWithTheLiteralDenseAlgorithm) {
 
 // The oracle must not merely repeat a shared mistake: its inertia matrix is that of the kinetic energy of
 // points, found by differences of positions alone.
-TEST(BookOracle, KineticEnergyIsThatOfTheBodiesMovedByDifferences) {
+TEST(BookOracle, MassMatrixMatchesKineticEnergyByDifferences) {
   Random random(8);
   const Character character = make_character(random_betas(random));
   const Snapshot s = random_snapshot(random, 2.5, 3.0, 1.0);

@@ -133,7 +133,7 @@ TEST(Kinematics, PointVelocitiesAreTheJacobianOfDifferencesTimesTheRates) {
 }
 
 // Virtual work: without motion and gravity, the joints must hold −Jᵀf against a force f on a point.
-TEST(InverseDynamics, AForceOnAPointIsHeldByTheTransposedJacobianOfDifferences) {
+TEST(InverseDynamics, PointForceNeedsTheTransposedJacobian) {
   Random random(63);
   const Character c = make_character(random_betas(random));
   Snapshot s = random_snapshot(random, 2.5, 0.0, 1.0);
@@ -152,7 +152,7 @@ TEST(InverseDynamics, AForceOnAPointIsHeldByTheTransposedJacobianOfDifferences) 
 }
 
 /// Standing still, the root lacks the weight that no wrench carries, about the pelvis.
-TEST(InverseDynamics, OfRestIsTheWeightAtTheCentreOfMass) {
+TEST(InverseDynamics, AtRestIsTheWeightAtTheCentreOfMass) {
   const Character c = make_character();
   const Snapshot s = standing(c);
   const MotionState m = at_rest(s);

@@ -134,7 +134,7 @@ void thrash(const Character& character, double rate, int passes, Check&& check) 
   }
 }
 
-TEST(TorqueBound, IsNeverExceededHoweverTheCharacterThrashes) {
+TEST(TorqueBound, IsNeverExceededUnderRandomTargets) {
   using P = Pack<kLanes>;
   for (double rate : {120.0, 240.0, 480.0})
     for (int passes : {1, 2, 3}) {

@@ -106,7 +106,7 @@ TEST(Mjcf, OpensWithoutWarningsForEveryShape) {
   mju_user_warning = nullptr;
 }
 
-TEST(Mjcf, TheFileSaysWhereEveryJointStandsInMujocosCoordinates) {
+TEST(Mjcf, CommentListsEveryJointsPlaceInMujocosCoordinates) {
   const Character character = make_character();
   const std::string text = to_mjcf(character, {});
   test::MujocoCharacter mujoco(character, {});
@@ -120,7 +120,7 @@ TEST(Mjcf, TheFileSaysWhereEveryJointStandsInMujocosCoordinates) {
   }
 }
 
-TEST(Mjcf, JointCentresAreThoseOfForwardKinematics) {
+TEST(Mjcf, JointCentresMatchForwardKinematics) {
   for (std::uint64_t n = 0; n < 20; ++n) {
     MujocoTrial t(n);
     mj_kinematics(&t.mujoco->model(), &t.mujoco->data());
@@ -176,7 +176,7 @@ TEST(Mujoco, MomentumAgreesWithTheSumOverTheBodies) {
 
 // The certificate by the second engine: at every step of a violent second MuJoCo, too, finds nothing
 // unexplained at the root, and in the joints the torques that acted.
-TEST(Mujoco, FindsEveryStepOfAViolentRollOutExplained) {
+TEST(Mujoco, ExplainsEveryStepOfAViolentRollOut) {
   for (std::uint64_t n = 0; n < 3; ++n) {
     Random random(55, {n});
     const Character character = make_character(random_betas(random));

@@ -54,7 +54,7 @@ bool is_finite(const Simulation<P>& s, int lane) {
   return std::isfinite(sum);
 }
 
-TEST(Robustness, AMillionStepsOfAnythingAreFiniteInEveryLaneThatIsNotFlagged) {
+TEST(Robustness, UnflaggedLanesStayFiniteOverAMillionRandomSteps) {
   constexpr int kSteps = 1'000'000 / kLanes + 1;
   Random random(81);
   long flagged = 0, shapes = 0;
@@ -104,7 +104,7 @@ std::array<float, 6 + 7 * kBodies> bits_of(const State<P>& state, int lane) {
 
 // One lane lives beside neighbours of every kind, NaN, infinite and run away among them, and keeps the bits
 // it has beside copies of itself.
-TEST(Robustness, WhateverGoesWrongInOtherLanesALaneKeepsItsBits) {
+TEST(Robustness, LaneKeepsItsBitsBesideFailingLanes) {
   const Character character = make_character();
   long flagged = 0;
   for (std::uint64_t trial = 0; trial < 24; ++trial) {
@@ -136,7 +136,7 @@ TEST(Robustness, WhateverGoesWrongInOtherLanesALaneKeepsItsBits) {
   EXPECT_GT(flagged, 1000);
 }
 
-TEST(Robustness, NumbersThatAreNoneAreFlaggedInTheSameStepWhereverTheyStand) {
+TEST(Robustness, FlagsNaNInTheSameStepAnywhereInStateOrTarget) {
   const Character character = make_character();
   Random random(83);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -154,7 +154,7 @@ TEST(Robustness, NumbersThatAreNoneAreFlaggedInTheSameStepWhereverTheyStand) {
     }
 }
 
-TEST(Robustness, AJointThatTurnsByHalfACircleWithinAStepHasRunAway) {
+TEST(Robustness, FlagsAHalfTurnOfAJointWithinAStep) {
   const Character c = make_character();
   for (const double rate : {30.0, 120.0}) {  // where that is slower than max_joint_speed
     SimulationConfig o;

@@ -45,7 +45,7 @@ SoleMotion stand(const Character& c, const Snapshot& pose, double rate, int sole
   return motion;
 }
 
-TEST(Standing, BothSolesStayWithinAMillimetreOfTheFloorAndDoNotCreep) {
+TEST(Standing, SolesStayWithinAMillimetreOfTheFloorAndDoNotCreep) {
   const Character c = stiffened(make_character());
   Snapshot pose = standing(c);
   balance(c, {kLeftFoot, kRightFoot}, pose);
@@ -57,7 +57,7 @@ TEST(Standing, BothSolesStayWithinAMillimetreOfTheFloorAndDoNotCreep) {
   }
 }
 
-TEST(Standing, TheSoleUnderTheWholeWeightStaysWithinAMillimetreOfTheFloor) {
+TEST(Standing, SingleSoleStaysWithinAMillimetreOfTheFloor) {
   const Character c = stiffened(make_character());
   Snapshot pose = standing(c);
   pose.q[kRightHip] = exp_map(Vector3d(-0.9, 0, 0));
@@ -71,7 +71,7 @@ TEST(Standing, TheSoleUnderTheWholeWeightStaysWithinAMillimetreOfTheFloor) {
   }
 }
 
-TEST(Lying, RestingBodyCarriesItsWeightAndSinksLittle) {
+TEST(Lying, FloorCarriesTheWeightWithLittleSinking) {
   const Character c = make_character();
   Snapshot pose = standing(c);
   pose.q[0] = exp_map(Vector3d(0, 0, 0));  // face up: z of the body is forward
@@ -113,7 +113,7 @@ std::vector<int> carriers(RestPose pose) {
   return {};
 }
 
-TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
+TEST(Rest, TheRightBodiesCarryEveryPoseUnderItsCentreOfMass) {
   for (RestPose pose : kRestPoses)
     for (double rate : {240.0, 480.0})
       for (int passes : {2, 3}) {
@@ -134,7 +134,7 @@ TEST(Rest, EveryPoseIsCarriedByItsBodiesWithItsWeightUnderItsCentreOfMass) {
       }
 }
 
-TEST(Rest, NoPoseSinksInCreepsOrJitters) {
+TEST(Rest, NoPoseSinksCreepsOrJitters) {
   for (RestPose pose : kRestPoses)
     for (double rate : {240.0, 480.0})
       for (int passes : {1, 2, 3}) {
@@ -148,7 +148,7 @@ TEST(Rest, NoPoseSinksInCreepsOrJitters) {
       }
 }
 
-TEST(Rest, OnTheToeBallsTheHeelsCarryNothing) {
+TEST(Rest, HeelsCarryNothingOnTheToeBalls) {
   EXPECT_EQ(rest(RestPose::kToeBalls, 240, 2).heel_share, 0.0);
   EXPECT_GT(rest(RestPose::kBothSoles, 240, 2).heel_share, 0.1);
 }

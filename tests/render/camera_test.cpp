@@ -20,7 +20,7 @@ TEST(Camera, ProjectsAsComputedByHand) {
   EXPECT_TRUE(camera.projected(p_C).isApprox(Eigen::Vector2d(160 + 40, 120 - 20), 1e-12));
 }
 
-TEST(Camera, LooksFromWhereTheAzimuthSaysAndDown) {
+TEST(Camera, StandsAtTheAzimuthAndLooksDown) {
   const Matrix3d R_CW = axes_of({0.3, 0.2});
   EXPECT_TRUE((R_CW * R_CW.transpose()).isIdentity(1e-12));
   EXPECT_NEAR(R_CW.determinant(), 1.0, 1e-12);
@@ -30,7 +30,7 @@ TEST(Camera, LooksFromWhereTheAzimuthSaysAndDown) {
   EXPECT_EQ(right.z(), 0.0) << "the horizon is level";
 }
 
-TEST(Camera, ARayLeadsBackToWhereItCameFrom) {
+TEST(Camera, RayThroughAProjectedPointHitsThePoint) {
   Random random(3);
   const Camera camera = framing({{0, 0, 0}, {1, 2, 3}}, {1.0, 0.4}, {300, 200, 10, 10});
   for (int k = 0; k < 50; ++k) {
@@ -41,7 +41,7 @@ TEST(Camera, ARayLeadsBackToWhereItCameFrom) {
   }
 }
 
-TEST(Camera, FramingTouchesTheCanvasAndNothingIsOutside) {
+TEST(Camera, FramingFitsAllPointsTightlyIntoTheCanvas) {
   Random random(4);
   for (int trial = 0; trial < 40; ++trial) {
     List<Vector3d> points;
@@ -58,7 +58,7 @@ TEST(Camera, FramingTouchesTheCanvasAndNothingIsOutside) {
   }
 }
 
-TEST(Camera, FramingWithoutRoomIsRefused) {
+TEST(Camera, FramingRejectsACanvasWithoutRoom) {
   EXPECT_THROW(framing({{0, 0, 0}}, {}, {20, 20, 10, 0}), std::invalid_argument);
   EXPECT_THROW(framing({}, {}, {20, 20, 0, 0}), std::invalid_argument);
 }

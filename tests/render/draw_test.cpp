@@ -59,7 +59,7 @@ int first_met(const List<Solid>& solids, const Vector3d& eye, const Vector3d& ra
   return met;
 }
 
-TEST(Draw, ShowsWhatARayMeetsFirst) {
+TEST(Draw, ShowsTheSolidThatTheRayHitsFirst) {
   const List<Solid> solids = scattered(12);
   const Camera camera = framing(all_vertices(solids), {0.7, 0.3}, {kWidth, kHeight, 4, 4});
   const Image image = draw(solids, camera, kWidth, kHeight, 1);
@@ -79,7 +79,7 @@ TEST(Draw, ShowsWhatARayMeetsFirst) {
   EXPECT_GT(of_solids, kWidth * kHeight / 8);
 }
 
-TEST(Draw, ABoxSeenFromTheFrontIsAsLargeAsTheLawOfPerspectiveSays) {
+TEST(Draw, BoxHasTheSizeOfItsPerspectiveProjection) {
   Camera camera;
   camera.R_CW = axes_of({0.0, 0.0});
   camera.p_WC = {5, 0, 1};
@@ -104,7 +104,7 @@ TEST(Draw, EdgesAreSmoothed) {
   EXPECT_NEAR(red_light(35), inside + (outside - inside) / 3.0F, 0.01F) << "one sample in three is outside";
 }
 
-TEST(Draw, TheFloorHidesWhatIsBelowIt) {
+TEST(Draw, FloorHidesSolidsBelowIt) {
   const Camera camera = framing({{-1, -1, -0.5}, {1, 1, 1}}, {0.2, 0.5}, {kWidth, kHeight, 0, 0});
   const Image empty = draw({}, camera, kWidth, kHeight, 1);
   const Image sunk =
@@ -120,7 +120,7 @@ TEST(Draw, TheFloorHidesWhatIsBelowIt) {
   EXPECT_GT(painted(standing), 100);
 }
 
-TEST(Draw, ASignIsSeenThroughThingsAndThrowsNoShadow) {
+TEST(Draw, SignsAreVisibleThroughSolidsAndThrowNoShadow) {
   const Camera camera = framing({{-1, -1, 0}, {1, 1, 1}}, {0.2, 0.5}, {kWidth, kHeight, 0, 0});
   const Solid thing = box({-0.5, -0.5, 0.0}, {0.5, 0.5, 0.8}, kPaints[1]);
   Solid sign = box({-0.2, -0.2, 0.2}, {0.2, 0.2, 0.6}, kPaints[0]);
@@ -139,7 +139,7 @@ TEST(Draw, ASignIsSeenThroughThingsAndThrowsNoShadow) {
   EXPECT_LT(other, red / 4) << "its rim alone";
 }
 
-TEST(Draw, IsTheSamePictureForAnyNumberOfThreads) {
+TEST(Draw, PixelsDoNotDependOnTheNumberOfThreads) {
   const List<Solid> solids = scattered(6);
   const Camera camera = framing(all_vertices(solids), {0.7, 0.3}, {kWidth, kHeight, 4, 4});
   const Image one = draw(solids, camera, kWidth, kHeight, 1);

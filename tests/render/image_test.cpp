@@ -5,7 +5,7 @@
 namespace mimicx::render {
 namespace {
 
-TEST(Image, EveryValueOfAPixelSurvivesBecomingLight) {
+TEST(Image, PixelValuesRoundTripThroughLight) {
   for (int v = 0; v < 256; ++v) {
     const Pixel pixel{static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(255 - v), 7};
     EXPECT_EQ(shown(light_of(pixel)), pixel) << v;
@@ -13,7 +13,7 @@ TEST(Image, EveryValueOfAPixelSurvivesBecomingLight) {
   EXPECT_EQ(shown({-1.0F, 0.25F, 9.0F}), (Pixel{0, 128, 255}));
 }
 
-TEST(Image, APartIsPastedWhereItBelongs) {
+TEST(Image, PastePutsThePartAtItsPlace) {
   Image image(5, 4, {1, 1, 1});
   paste(Image(2, 3, {9, 9, 9}), 3, 1, image);
   for (int y = 0; y < 4; ++y)

@@ -84,7 +84,7 @@ TEST(Raster, TrianglesThatShareEdgesCoverEverySampleOnce) {
       ASSERT_EQ(counts[y * kGridWidth + x], x >= x0 && x < x1 && y >= y0 && y < y1 ? 1 : 0) << x << ' ' << y;
 }
 
-TEST(Raster, ATriangleThatIsTurnedAwayOrReachesFarBeyondTheGridDoesNoHarm) {
+TEST(Raster, HandlesBackFacingAndHugeTriangles) {
   EXPECT_EQ(counts_of({{on_grid({5, 5}), on_grid({5, 20}), on_grid({20, 5})}}),
             List<int>(kGridWidth * kGridHeight, 0));
   EXPECT_EQ(counts_of({{on_grid({-1e9, -1e9}), on_grid({1e9, -1e9}), on_grid({0, 1e9})}}),

@@ -10,7 +10,7 @@ namespace {
 
 const Colour kGrey(0.5F, 0.5F, 0.5F);
 
-TEST(FloorShadow, OfAPlateUnderAPointOfLightIsThePlateMovedAlongTheLight) {
+TEST(FloorShadow, ShadowOfAPlateIsThePlateShiftedAlongTheLight) {
   const Solid plate = box({-0.2, -0.1, 0.999}, {0.2, 0.1, 1.0}, kGrey);
   const FloorShadow shadow({plate}, {Vector3d(0.6, 0, 0.8)},
                            0.01);  // moved by 0.6 / 0.8 of its height along -x
@@ -44,7 +44,7 @@ TEST(FloorShadow, SoftensInProportionToHeight) {
   EXPECT_NEAR(softness(1.5), 0.206, 0.03);
 }
 
-TEST(FloorShadow, IsLightWhereThereIsNothingAndRefusesMoreLightThanItsMasksHold) {
+TEST(FloorShadow, IsFullyLitWithoutSolidsAndRejectsTooManyLightPoints) {
   EXPECT_EQ(FloorShadow({}, sky_light(), 0.03).light_at(0, 0), 1.0F);
   EXPECT_EQ(FloorShadow({box({-1, -1, -2}, {1, 1, -1}, kGrey)}, {Vector3d::UnitZ()}, 0.03).light_at(50, 50),
             1.0F);
@@ -66,7 +66,7 @@ TEST(FloorShadow, DirectionsAreUnitAndUpward) {
   }
 }
 
-TEST(LampShadow, APlateDarkensWhatIsUnderItAndNotItself) {
+TEST(LampShadow, PlateShadowsTheTableAndNotItself) {
   const Solid table = box({-1, -1, 0}, {1, 1, 0.1}, kGrey),
               plate = box({-0.2, -0.2, 0.6}, {0.2, 0.2, 0.65}, kGrey);
   const LampShadow shadow({table, plate}, Vector3d(0.6, 0, 0.8));

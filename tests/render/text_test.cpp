@@ -19,7 +19,7 @@ Eigen::AlignedBox2i inked(const Image& image) {
   return box;
 }
 
-TEST(Text, EveryPrintableCharacterHasAGlyphOfItsOwnOfWholeStrokes) {
+TEST(Text, EveryPrintableCharacterHasItsOwnValidGlyph) {
   std::set<std::string_view> seen;
   for (char c = ' '; c <= '~'; ++c) {
     const std::string_view strokes = glyph(c);
@@ -38,7 +38,7 @@ TEST(Text, EveryPrintableCharacterHasAGlyphOfItsOwnOfWholeStrokes) {
   EXPECT_EQ(glyph('\xc3'), glyph('?'));
 }
 
-TEST(Text, StandsOnItsBaselineAsHighAndAsWideAsAsked) {
+TEST(Text, HasTheGivenBaselineHeightAndWidth) {
   Image image(300, 60, kPaper);
   draw_text("HEL", {20, 40, 24}, Colour::Zero(), image);
   const Eigen::AlignedBox2i box = inked(image);  // strokes reach half their width farther
@@ -49,7 +49,7 @@ TEST(Text, StandsOnItsBaselineAsHighAndAsWideAsAsked) {
   EXPECT_EQ(text_width("HEL", 24), 4 * (advance('H') + advance('E') + advance('L')));
 }
 
-TEST(Text, WhatIsTooLongLosesItsBeginning) {
+TEST(Text, LongTextLosesItsBeginning) {
   Image within(200, 40, kPaper), end(200, 40, kPaper);
   draw_text_within("a/very/long/name/of/a/folder/walk.npz", {5, 30, 12}, 150, Colour::Zero(), within);
   EXPECT_LE(inked(within).max().x(), 156);
@@ -62,7 +62,7 @@ TEST(Text, WhatIsTooLongLosesItsBeginning) {
   EXPECT_GT(same, 40 * (inked(end).max().x() - 20) * 8 / 10) << "its end is what is left";
 }
 
-TEST(Text, ReachesOverTheEdgeWithoutHarm) {
+TEST(Text, ClipsAtTheEdgesOfTheImage) {
   Image image(20, 10, kPaper);
   draw_text("Mimicx gyj", {-30, 4, 40}, Colour::Zero(), image);
   draw_text("far away", {500, 500, 10}, Colour::Zero(), image);

@@ -32,7 +32,7 @@ struct SilentRestarts : Toy {
 };
 static_assert(!Environment<SilentRestarts>, "characters that are put elsewhere must be named");
 
-TEST(Environment, OfOneAgentHasItActForEveryCharacter) {
+TEST(Environment, SingleAgentActsForEveryCharacter) {
   const Toy world(2, 3, 1);
   EXPECT_EQ(world.agents(), 1);
   for (int group = 0; group < 2; ++group)

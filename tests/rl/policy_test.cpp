@@ -89,7 +89,7 @@ TEST(Policy, ConstantAndZeroReturnsHaveAFiniteScale) {
   EXPECT_DOUBLE_EQ(zero.deviation(), 1.0);
 }
 
-TEST(Policy, SavedAgentIsTheSameAgent) {
+TEST(Policy, ArchiveRoundTripKeepsTheAgent) {
   Agent agent = agent_of_six();
   follow_returns(agent.returns, 3.0, 11.0, 0.1);
   const std::vector<nn::Moments> seen = {nn::moments_of(random_observations(40, 6, 8))};
@@ -107,7 +107,7 @@ TEST(Policy, SavedAgentIsTheSameAgent) {
   EXPECT_THROW(load_agent(archive, "b."), DataError);
 }
 
-TEST(Policy, TextForTheScaleOfReturnsIsRefused) {
+TEST(Policy, RejectsTextForTheScaleOfReturns) {
   Npz archive;
   save(archive, "a.", agent_of_six());
   archive.set("a.returns.scale", NpyArray::scalar_text("1.0"));

@@ -122,7 +122,7 @@ TEST(Ppo, ReportedKlIsThatOfThePolicyBeforeTheLastStep) {
   EXPECT_NEAR(two_steps.kl / kl, 1.0, 1e-3);
 }
 
-TEST(Ppo, StopsAnIterationThatRunsAway) {
+TEST(Ppo, StopsAnIterationOfLargeKl) {
   PpoConfig config = small_config();
   config.minibatch = 100;
   config.step_size = 0.05;
@@ -148,7 +148,7 @@ TEST(StepSize, MovesByTheFactorOutsideTheBandAndStaysInItsBounds) {
   EXPECT_DOUBLE_EQ(adapted_step_size(config, config.step_max, 0.0), config.step_max);
 }
 
-TEST(Sigma, FallsLinearlyAndStays) {
+TEST(Sigma, FallsLinearlyAndThenStaysConstant) {
   const PpoConfig config = ppo_for_tests();
   EXPECT_DOUBLE_EQ(exploration_sigma(config, 1000, 0), 0.07);
   EXPECT_DOUBLE_EQ(exploration_sigma(config, 1000, 500), 0.055);

@@ -33,7 +33,7 @@ TEST(Trainer, IsBitIdenticalForOneAndTwoThreads) {
   expect_same_bytes(state_of(first), state_of(second));
 }
 
-TEST(Trainer, ResumingGivesTheBytesOfNeverHavingStopped) {
+TEST(Trainer, ResumedTrainingGivesTheBytesOfAnUninterruptedOne) {
   toy::ToyEnvironment<toy::DoubleIntegrator> whole_world(4, 16, 2), first_world(4, 16, 2),
       second_world(4, 16, 99);
   Trainer whole(small_config(), kCourse, {small_agent()}, whole_world);
@@ -57,14 +57,14 @@ TEST(Trainer, ResumingGivesTheBytesOfNeverHavingStopped) {
   expect_same_bytes(state_of(whole), state_of(resumed));
 }
 
-TEST(Trainer, LoadRefusesAnotherNumberOfCharacters) {
+TEST(Trainer, LoadRejectsAnotherNumberOfCharacters) {
   toy::ToyEnvironment<toy::DoubleIntegrator> small(2, 8, 1), large(3, 8, 1);
   Trainer a(small_config(), kCourse, {small_agent()}, small),
       b(small_config(), kCourse, {small_agent()}, large);
   EXPECT_THROW(b.load(state_of(a), "t."), DataError);
 }
 
-TEST(Trainer, RefusesAnotherNumberOfAgentsThanAct) {
+TEST(Trainer, RejectsAWrongNumberOfAgents) {
   toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1);
   EXPECT_THROW(Trainer(small_config(), kCourse, {}, world), std::invalid_argument);
   EXPECT_THROW(Trainer(small_config(), kCourse, {small_agent(), small_agent()}, world),
@@ -86,7 +86,7 @@ Npz damaged(const Npz& whole, const std::string& key, bool emptied) {
   return archive;
 }
 
-TEST(Trainer, ACheckpointThatLacksAnythingIsADataError) {
+TEST(Trainer, RejectsIncompleteCheckpoints) {
   toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1);
   Trainer trainer(small_config(), kCourse, {small_agent()}, world);
   for (int k = 0; k < 2; ++k) trainer.iterate(1);
@@ -119,7 +119,7 @@ struct ThreeSteps : toy::ToyEnvironment<toy::DoubleIntegrator> {
   }
 };
 
-TEST(Trainer, EpisodesThatTheEnvironmentCutsShortDoNotLengthenTheNextOnes) {
+TEST(Trainer, EpisodesEndedByTheEnvironmentRestartTheirAge) {
   ThreeSteps world(1, 8, 1);
   PpoConfig config = small_config();
   config.horizon = 4;
@@ -145,7 +145,7 @@ TEST(Trainer, NoiseNeverRepeatsBetweenGroupsIterationsAndSeeds) {
     EXPECT_GT((m - first).cwiseAbs().minCoeff(), 0.0F);
 }
 
-TEST(Trainer, RollOutLeavesTheScaleOfItsObservationsBehind) {
+TEST(Trainer, NormaliserAbsorbsTheObservationsAfterTheRollOut) {
   toy::ToyEnvironment<toy::DoubleIntegrator> world(2, 8, 1);
   Trainer trainer(small_config(), kCourse, {small_agent()}, world);
   for (int k = 0; k < 3; ++k) trainer.iterate(2);

@@ -57,7 +57,7 @@ const Mesh& standard_mesh() {
   return mesh;
 }
 
-TEST(Mannequin, IsOneClosedSmoothBodyOfTheVolumeOfTheShapesWhateverTheBuild) {
+TEST(Mannequin, IsOneClosedSmoothSurfaceOfTheShapesVolumeForEveryBuild) {
   std::vector<Character> characters;
   for (const auto& betas : kBuilds) characters.push_back(make_character(betas));
   characters.push_back(odd_character());
@@ -76,7 +76,7 @@ TEST(Mannequin, IsOneClosedSmoothBodyOfTheVolumeOfTheShapesWhateverTheBuild) {
   }
 }
 
-TEST(Mannequin, ThinnedOutItIsStillClosed) {
+TEST(Mannequin, StaysClosedWithFewTriangles) {
   const Mesh mesh = mannequin(make_character(), 2500);
   EXPECT_LE(mesh.triangles.count(), 2500);
   const Topology topology = topology_of(mesh);
@@ -101,7 +101,7 @@ TEST(Mannequin, StaysNearTheShapesAndOnTheSole) {
   EXPECT_NEAR(lowest, sole, 0.003);
 }
 
-TEST(Mannequin, TrianglesFaceAsTheirNormalsDoAndAreNoNeedles) {
+TEST(Mannequin, TrianglesAgreeWithNormalsAndAreNoNeedles) {
   const Mesh& mesh = standard_mesh();
   int needles = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -116,7 +116,7 @@ TEST(Mannequin, TrianglesFaceAsTheirNormalsDoAndAreNoNeedles) {
   EXPECT_LT(needles, mesh.triangles.count() / 200);
 }
 
-TEST(Mannequin, LimbsFollowTheirOwnBonesAlone) {
+TEST(Mannequin, LimbsFollowTheirOwnBonesOnly) {
   const Mesh& mesh = standard_mesh();
   PerBody<int> heaviest{};
   for (int v = 0; v < mesh.vertices.count(); ++v) {
@@ -153,7 +153,7 @@ TEST(Mannequin, BendingAKneeBendsTheSkinWithoutTearing) {
   EXPECT_NEAR(enclosed_volume(skin, mesh.triangles) / before, 1.0, 0.02);
 }
 
-TEST(Mannequin, RigidMotionOfTheBodyIsThatOfTheSkin) {
+TEST(Mannequin, RigidMotionMovesTheSkinRigidly) {
   const Character c = make_character();
   const Mesh& mesh = standard_mesh();
   PerBody<Quaterniond> q;
@@ -165,7 +165,7 @@ TEST(Mannequin, RigidMotionOfTheBodyIsThatOfTheSkin) {
     EXPECT_LT((skin[v] - (p_root + q[kPelvis] * mesh.vertices[v])).norm(), 1e-12);
 }
 
-TEST(Mannequin, IsTheSameEveryTime) {
+TEST(Mannequin, IsDeterministic) {
   const Mesh &a = standard_mesh(), b = mannequin(make_character());
   EXPECT_TRUE(a.vertices == b.vertices && a.normals == b.normals && a.triangles == b.triangles &&
               a.joints == b.joints && a.weights == b.weights);

@@ -36,7 +36,7 @@ TEST(CollisionShapes, VerticesLieOnTheCapsuleOfTheirBody) {
   }
 }
 
-TEST(CollisionShapes, VolumeIsThatOfTheCapsulesButForFlatFacets) {
+TEST(CollisionShapes, VolumeMatchesTheCapsulesUpToFacets) {
   const Character c = make_character();
   double volume = 0.0;
   for (const Capsule& k : c.capsule)

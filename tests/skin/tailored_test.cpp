@@ -15,20 +15,20 @@ const Mesh& coarse_mesh() {
   return mesh;
 }
 
-TEST(Tailored, OnACoarseLatticeTheMannequinIsStillOneClosedBody) {
+TEST(Tailored, MannequinOnACoarseLatticeIsOneClosedBody) {
   const Topology topology = topology_of(coarse_mesh());
   EXPECT_TRUE(topology.closed && topology.fans);
   EXPECT_EQ(topology.euler, std::vector<int>{2});
 }
 
-TEST(Tailored, OnItsOwnBodyItStaysWhereItIs) {
+TEST(Tailored, IsTheIdentityOnItsOwnBody) {
   const Mesh& mesh = coarse_mesh();
   const Mesh same = tailored(mesh, make_character(), make_character());
   for (int v = 0; v < mesh.vertices.count(); ++v)
     EXPECT_LT((same.vertices[v] - mesh.vertices[v]).norm(), 0.002) << v;
 }
 
-TEST(Tailored, LiesOnTheSurfaceOfTheOtherBodyWithTrianglesThatFaceOutward) {
+TEST(Tailored, LiesOnTheOtherBodysSurfaceWithOutwardTriangles) {
   const Character standard = make_character();
   for (const std::array<double, kBetas>& betas :
        {std::array<double, kBetas>{0, 4}, {0.4, 1.7, 2.0, -2.8, 2.0, 1.9, -0.8, -1.6, -1.9, 0.2}}) {

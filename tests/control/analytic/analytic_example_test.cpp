@@ -21,7 +21,7 @@ Eigen::VectorXd residuals_for(const Model<double>& model, const ControlFrame& fr
   return B.transpose() * (B * B.transpose()).ldlt().solve(wish);
 }
 
-TEST(AnalyticExample, TheResidualsFoundGiveThePelvisTheVelocityAskedFor) {
+TEST(AnalyticExample, SolvedResidualsGiveThePelvisTheDesiredVelocity) {
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
   Snapshot s = standing(character);

@@ -110,7 +110,7 @@ TEST(AnalyticDerivative, IsExactInTheAir) {
   }
 }
 
-TEST(AnalyticDerivative, IsExactWhereTheFloorPushes) {
+TEST(AnalyticDerivative, IsExactUnderFloorContact) {
   Random random(2);
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
@@ -121,7 +121,7 @@ TEST(AnalyticDerivative, IsExactWhereTheFloorPushes) {
   }
 }
 
-TEST(AnalyticDerivative, IsExactWhenAStepLands) {
+TEST(AnalyticDerivative, IsExactDuringALanding) {
   Random random(3);
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
@@ -176,7 +176,7 @@ TEST(AnalyticDerivative, IsExactInSelfContact) {
   EXPECT_EQ(frames, 4);
 }
 
-TEST(AnalyticDerivative, IsExactUnderHelp) {
+TEST(AnalyticDerivative, IsExactUnderAssistiveForces) {
   Random random(17);
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
@@ -202,7 +202,7 @@ TEST(AnalyticDerivative, IsExactForOtherShapesRatesAndPasses) {
 
 // ------------------------------------------------------------------------------------------------------------
 
-TEST(AnalyticDerivative, ItsNominalMotionIsThatOfTheSimulator) {
+TEST(AnalyticDerivative, NominalMotionMatchesTheSimulator) {
   Random random(9);
   const Model<double> model = make_model<double>(make_character());
   for (int trial = 0; trial < 4; ++trial) {
@@ -225,7 +225,7 @@ TEST(AnalyticDerivative, ItsNominalMotionIsThatOfTheSimulator) {
   }
 }
 
-TEST(AnalyticDerivative, InLanesItAgreesWithTheOneInDouble) {
+TEST(AnalyticDerivative, FloatLanesAgreeWithDouble) {
   Random random(10);
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
@@ -242,7 +242,7 @@ TEST(AnalyticDerivative, InLanesItAgreesWithTheOneInDouble) {
   }
 }
 
-TEST(AnalyticDerivative, WhatTheScratchHeldBeforeDoesNotMatter) {
+TEST(AnalyticDerivative, ResultIgnoresTheOldContentOfTheScratch) {
   Random random(11);
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
@@ -261,7 +261,7 @@ TEST(AnalyticDerivative, WhatTheScratchHeldBeforeDoesNotMatter) {
   EXPECT_TRUE(again.F == fresh.F.leftCols<kFrameColumns>());
 }
 
-TEST(AnalyticDerivative, AMotionThatRunsAwayIsFlaggedAndAFrameWithoutStepsRefused) {
+TEST(AnalyticDerivative, FlagsRunawayMotionsAndRejectsFramesWithoutSteps) {
   Random random(12);
   const Model<double> model = make_model<double>(make_character());
   ControlFrame frame = frame_of(random_snapshot(random, 0.5, 1.0, 3.0), random, 0.0);

@@ -43,7 +43,7 @@ Bytes some_data(std::uint64_t seed, std::size_t size, double kinds, double copie
   return data;
 }
 
-TEST(Inflate, GivesBackWhatZlibPacked) {
+TEST(Inflate, UnpacksWhatZlibPacked) {
   std::uint64_t seed = 0;
   for (const std::size_t size : {0, 1, 2, 255, 5000, 200000})
     for (const double kinds : {1.0, 3.0, 60.0, 256.0})
@@ -57,20 +57,20 @@ TEST(Inflate, GivesBackWhatZlibPacked) {
           }
 }
 
-TEST(Inflate, AnotherSizeThanToldIsDamage) {
+TEST(Inflate, RejectsAnotherSizeThanDeclared) {
   const Bytes data = some_data(1, 1000, 20.0, 0.1), all = packed(data, 6, Z_DEFAULT_STRATEGY);
   EXPECT_FALSE(inflate(all, 999).has_value());
   EXPECT_FALSE(inflate(all, 1001).has_value());
 }
 
-TEST(Inflate, WhatEndsTooEarlyIsDamage) {
+TEST(Inflate, RejectsTruncatedData) {
   const Bytes all = packed(some_data(2, 1000, 20.0, 0.1), 6, Z_DEFAULT_STRATEGY);
   for (std::size_t n = 0; n < all.size(); ++n)
     EXPECT_FALSE(inflate(std::span(all).first(n), 1000).has_value()) << n;
 }
 
 /// Damage is found or gives other bytes, as zlib has it; never more bytes than were asked for.
-TEST(Inflate, SaysOfDamagedDataWhatZlibSays) {
+TEST(Inflate, AgreesWithZlibOnDamagedData) {
   const Bytes data = some_data(3, 600, 20.0, 0.2);
   for (const int strategy : {Z_DEFAULT_STRATEGY, Z_FIXED}) {
     const Bytes all = packed(data, 6, strategy);

@@ -106,7 +106,7 @@ TEST(Npy, ObjectRecordAndComplexArraysAreUnsupported) {
       UnsupportedArray);
 }
 
-TEST(Npy, ImpossibleShapesAreRefusedBeforeAnyAllocation) {
+TEST(Npy, RejectsImpossibleShapesBeforeAllocating) {
   for (const char* shape : {"(1000000000000,)", "(4294967296, 4294967296)", "(99999999999999999999999,)",
                             "(1048576, 1048576, 1048576, 1048576)", "(2,)"})
     EXPECT_THROW(parse(npy_bytes(dict("<f8", shape), "12345678")), DataError) << shape;
@@ -121,7 +121,7 @@ TEST(Npy, MatrixRoundTripIsExact) {
   EXPECT_EQ(from_matrix(m).to_double()[7], m(1, 0));  // row-major in the file
 }
 
-TEST(Npy, BytesBehindTheElementsAreSaidNotCut) {
+TEST(Npy, RejectsBytesAfterTheElements) {
   const std::string whole = format_npy(NpyArray::scalar(1.5)), longer = whole + "more";
   const auto parse = [](const std::string& bytes) {
     return parse_npy(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), "a.npy", "");
@@ -135,7 +135,7 @@ TEST(Npy, BytesBehindTheElementsAreSaidNotCut) {
   }
 }
 
-TEST(Npy, MutatedHeadersAreReadOrRefusedNeverMore) {
+TEST(Npy, MutatedHeadersAreReadOrRejected) {
   Random random(7, {2});
   int refused = 0;
   const int kMutations = 4000;

@@ -32,7 +32,7 @@ TEST(Npz, RoundTripKeepsEveryTypeShapeAndByte) {
   expect_equal(read_npz(path), example_archive());
 }
 
-TEST(Npz, EqualContentIsEqualBytesAndLeavesNoTemporaryFile) {
+TEST(Npz, EqualContentGivesEqualBytesAndNoTemporaryFile) {
   EXPECT_EQ(format_npz(example_archive()), format_npz(example_archive()));
   const fs::path path = scratch("twice.npz");
   write_npz(path, example_archive());
@@ -40,7 +40,7 @@ TEST(Npz, EqualContentIsEqualBytesAndLeavesNoTemporaryFile) {
   EXPECT_EQ(fs::file_size(path), format_npz(example_archive()).size());
 }
 
-TEST(Npz, BytesBehindTheArchiveAreSaidNotCut) {
+TEST(Npz, RejectsBytesAfterTheArchive) {
   const std::string whole = format_npz(example_archive());
   try {
     parse_npz(whole + "more", "a.npz");
@@ -54,7 +54,7 @@ TEST(Npz, BytesBehindTheArchiveAreSaidNotCut) {
   EXPECT_NO_THROW(parse_npz(commented + "more", "a.npz"));
 }
 
-TEST(Npz, AnArchiveThatUnpacksToAHundredTimesItsSizeIsRefusedBeforeItIsUnpacked) {
+TEST(Npz, RejectsHundredfoldCompressionBeforeUnpacking) {
   // The header of a stored member that claims 300 MB; what it has does not matter.
   std::string bytes = format_npz(example_archive());
   const std::size_t central = bytes.find("PK\x01\x02");
@@ -70,7 +70,7 @@ TEST(Npz, AnArchiveThatUnpacksToAHundredTimesItsSizeIsRefusedBeforeItIsUnpacked)
   }
 }
 
-TEST(Npz, MissingMemberIsNamedWithItsFile) {
+TEST(Npz, ErrorForAMissingMemberNamesFileAndKey) {
   Npz npz = example_archive();
   npz.path = "clip.npz";
   try {
@@ -82,7 +82,7 @@ TEST(Npz, MissingMemberIsNamedWithItsFile) {
   }
 }
 
-TEST(Npz, ASingleNumberOrTextThatIsNoneIsADataError) {
+TEST(Npz, RejectsMembersThatAreNoSingleNumberOrText) {
   Npz npz = example_archive();
   EXPECT_EQ(number_at(npz, "fps"), 29.97);
   EXPECT_EQ(whole_number_at(npz, "count"), 30);
@@ -141,7 +141,7 @@ std::string zip_message(const std::string& bytes) {
   return "";
 }
 
-TEST(Zip, BombsEncryptionAndUnknownMethodsAreRefusedByName) {
+TEST(Zip, RejectsBombsEncryptionAndUnknownMethodsByName) {
   const std::string content(100, 'x');
   EXPECT_NE(zip_message(one_member_zip(content, 200000000, 8)).find("deflate can reach"), std::string::npos);
   EXPECT_NE(zip_message(one_member_zip(content, 100, 0, 1)).find("encrypted"), std::string::npos);
@@ -154,7 +154,7 @@ TEST(Zip, BombsEncryptionAndUnknownMethodsAreRefusedByName) {
   EXPECT_THROW(read_npz(::testing::TempDir()), DataError);
 }
 
-TEST(Zip, EveryTruncationIsRefused) {
+TEST(Zip, RejectsEveryTruncation) {
   const std::string whole = format_npz(example_archive());
   for (std::size_t n = 0; n < whole.size(); ++n)
     EXPECT_THROW(parse_npz(whole.substr(0, n), "cut"), DataError) << n;
@@ -166,7 +166,7 @@ TEST(Zip, ArchiveCommentsAreSkipped) {
   expect_equal(parse_npz(bytes + "a comment", "commented"), example_archive());
 }
 
-TEST(Zip, MutatedArchivesAreReadOrRefusedNeverMore) {
+TEST(Zip, MutatedArchivesAreReadOrRejected) {
   const std::string whole = format_npz(example_archive());
   Random random(7, {1});
   int refused = 0;
@@ -184,7 +184,7 @@ TEST(Zip, MutatedArchivesAreReadOrRefusedNeverMore) {
   EXPECT_GT(refused, kMutations / 2);
 }
 
-TEST(Zip, AllMembersTogetherAreBounded) {
+TEST(Zip, TotalSizeOfAllMembersIsBounded) {
   Npz npz;
   for (int i = 0; i < 10; ++i)
     npz.set(std::string(1, static_cast<char>(0x61 + i)), from_matrix(Eigen::MatrixXd::Zero(10, 10)));
@@ -193,7 +193,7 @@ TEST(Zip, AllMembersTogetherAreBounded) {
   EXPECT_THROW(parse_npz(bytes, "file.npz", 5 * 1000), DataError) << "each is under 1 kB";
 }
 
-TEST(Zip, OnlyTheMembersAskedForAreUnpacked) {
+TEST(Zip, UnpacksOnlyTheRequestedMembers) {
   Npz npz;
   npz.set("large", from_matrix(Eigen::MatrixXd::Zero(1000, 10)));
   npz.set("small", NpyArray::scalar(3.0));
@@ -214,7 +214,7 @@ int run_python(const std::string& script) {
   return std::system((std::string(kPython) + " " + file.string()).c_str());
 }
 
-TEST(NumPy, OpensWhatWeWrite) {
+TEST(NumPy, ReadsOurArchives) {
   if (!have_numpy()) GTEST_SKIP() << "no Python with NumPy here";
   const fs::path path = scratch("ours.npz");
   write_npz(path, example_archive());
@@ -238,7 +238,7 @@ TEST(NumPy, OpensWhatWeWrite) {
       0);
 }
 
-TEST(NumPy, WritesWhatWeReadStoredAndDeflated) {
+TEST(NumPy, WritesArchivesThatWeRead) {
   if (!have_numpy()) GTEST_SKIP() << "no Python with NumPy here";
   for (const std::string save : {"savez", "savez_compressed"}) {
     const fs::path path = scratch(save + ".npz");

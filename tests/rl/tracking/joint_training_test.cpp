@@ -53,7 +53,7 @@ TEST(JointTraining, EveryFrameIsValuedByTheCriticOfTheOptionThatActsThere) {
 
 // A_t is the sum of (γλ)ᵏ δ_{t+k} up to the episode's end; critics that say the same of every state make each
 // δ known.
-TEST(JointTraining, AReturnAcrossASwitchIsBootstrappedWithTheCriticOfTheNextOption) {
+TEST(JointTraining, ReturnsAcrossASwitchUseTheNextOptionsCritic) {
   TrackingEnvironment environment({halved_clip(24)}, {}, 2 * physics::kLanes, physics::kLanes, 5);
   List<Agent> agents(2, agent_that_does(0.0F));
   const double value[] = {3.0, 11.0};
@@ -91,7 +91,7 @@ TEST(JointTraining, AReturnAcrossASwitchIsBootstrappedWithTheCriticOfTheNextOpti
   EXPECT_GT(switches, 0);
 }
 
-TEST(JointTraining, AnOptionLearnsFromItsOwnFramesAlone) {
+TEST(JointTraining, OptionsLearnFromTheirOwnFramesOnly) {
   // Everything belongs to option 1; option 0 is there and never acts.
   auto clip = std::make_shared<TrackingClip>(*make_tracking_clip(swaying_reference(24), {}));
   clip->arrangement.assign(24, 1);

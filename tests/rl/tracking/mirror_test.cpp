@@ -60,7 +60,7 @@ std::vector<float> reflected(const MirrorMap& map, const std::vector<float>& in)
   return out;
 }
 
-TEST(Mirror, TheStateOfMirroredPosesIsTheMirrorImageOfTheState) {
+TEST(Mirror, StateOfMirroredPosesIsTheMirroredState) {
   const Character character = make_character();
   const MirrorMap map = mirror_of_state();
   ASSERT_EQ(map.size(), kStateSize);
@@ -78,7 +78,7 @@ TEST(Mirror, TheStateOfMirroredPosesIsTheMirrorImageOfTheState) {
   }
 }
 
-TEST(Mirror, TwiceIsTheIdentity) {
+TEST(Mirror, AppliedTwiceIsTheIdentity) {
   for (const MirrorMap& map : {mirror_of_state(), mirror_of_action()}) {
     std::vector<float> in(static_cast<std::size_t>(map.size()));
     std::iota(in.begin(), in.end(), 1.0F);

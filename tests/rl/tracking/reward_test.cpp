@@ -67,7 +67,7 @@ motion::Keypoints camera_and_points(const Pose& pose) {
   return k;
 }
 
-TEST(TrackingReward, ProjectionTermIsExactlyOneWithoutKeypointsAndOnThem) {
+TEST(TrackingReward, ProjectionTermIsOneWithoutKeypointsAndWithoutError) {
   const Character character = make_character();
   const Pose pose = pose_of(character, swaying_reference(2).frames[0]);
   EXPECT_EQ(tracking_reward({}, pose, moved(character, pose, 0, {0.1, 0}), nullptr).term[5], 1.0);

@@ -54,7 +54,7 @@ std::vector<double> features_of(const Character& character, const Pose& pose, do
   return p;
 }
 
-TEST(TrackingState, HasTheNumbersOfDocsMethod3InTheirOrder) {
+TEST(TrackingState, AgreesWithAnIndependentAssembly) {
   const Character character = make_character();
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
@@ -76,7 +76,7 @@ TEST(TrackingState, HasTheNumbersOfDocsMethod3InTheirOrder) {
   }
 }
 
-TEST(TrackingState, IgnoresWhereBothLookAndStand) {
+TEST(TrackingState, IsInvariantToHeadingAndPlaceOfBothPoses) {
   const Character character = make_character();
   Random random(4);
   for (int trial = 0; trial < 50; ++trial) {
@@ -91,7 +91,7 @@ TEST(TrackingState, IgnoresWhereBothLookAndStand) {
   }
 }
 
-TEST(TrackingState, SeesATurnOrAShiftOfOneOfThem) {
+TEST(TrackingState, ChangesWithTheHeadingOrPlaceOfOnePose) {
   const Character character = make_character();
   Random random(5);
   const Pose pose = pose_of(character, random_frame(random, 0.3));
@@ -106,7 +106,7 @@ TEST(TrackingState, SeesATurnOrAShiftOfOneOfThem) {
   EXPECT_GT(difference, 0.1) << "root rotation";
 }
 
-TEST(TrackingState, HeadingDirectionIsThatOfTheHeadingAngle) {
+TEST(TrackingState, HeadingDirectionMatchesTheHeadingAngle) {
   Random random(6);
   for (int trial = 0; trial < 100; ++trial) {
     const Quaterniond q = random_frame(random, 0.7).q[0];
@@ -116,7 +116,7 @@ TEST(TrackingState, HeadingDirectionIsThatOfTheHeadingAngle) {
   }
 }
 
-TEST(EncodedState, TurningFeaturesIsSeeingThemFromAnotherHeading) {
+TEST(EncodedState, TurnedFeaturesEqualFeaturesInTheOtherHeading) {
   const Character character = make_character();
   Random random(21);
   for (int trial = 0; trial < 20; ++trial) {
@@ -131,7 +131,7 @@ TEST(EncodedState, TurningFeaturesIsSeeingThemFromAnotherHeading) {
   }
 }
 
-TEST(EncodedState, WithAPerfectDecoderItIsTheRawStateWithACodeForThePose) {
+TEST(EncodedState, EqualsTheRawStateBehindTheCodeForAPerfectDecoder) {
   const Character character = make_character();
   Random random(22);
   const Pose reference = pose_of(character, random_frame(random, 0.3)),

@@ -5,7 +5,7 @@
 namespace mimicx::rl::tracking {
 namespace {
 
-TEST(StartWeights, AreAProbabilityThatFavoursWhatLeadsToFalls) {
+TEST(StartWeights, AreProbabilitiesAndFavourBinsBeforeFalls) {
   const List<double> even = start_weights({0, 0, 0, 0}, 0.4);
   for (double w : even) EXPECT_DOUBLE_EQ(w, 0.25);
   const List<double> weights = start_weights({0, 0, 0, 0.1, 0, 0}, 0.4);

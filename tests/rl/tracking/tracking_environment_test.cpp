@@ -38,7 +38,7 @@ TEST(TrackingEnvironment, IsBitIdenticalForOneAndTwoThreads) {
   EXPECT_EQ(drive(one, 48, 1), drive(two, 48, 2));
 }
 
-TEST(TrackingEnvironment, GoesOnBitIdenticallyAfterSaveAndLoad) {
+TEST(TrackingEnvironment, ContinuesBitIdenticallyAfterSaveAndLoad) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
   TrackingEnvironment first({clip}, config, 2 * physics::kLanes, physics::kLanes, 12),
@@ -51,7 +51,7 @@ TEST(TrackingEnvironment, GoesOnBitIdenticallyAfterSaveAndLoad) {
   EXPECT_EQ(drive(first, 32, 1, 32), drive(second, 32, 1, 32));
 }
 
-TEST(TrackingEnvironment, RefusesTheStateOfOtherClipsOrCharacters) {
+TEST(TrackingEnvironment, RejectsTheStateOfOtherClipsOrCharacters) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
   const auto longer = make_tracking_clip(swaying_reference(120), config);
@@ -67,7 +67,7 @@ TEST(TrackingEnvironment, RefusesTheStateOfOtherClipsOrCharacters) {
   EXPECT_THROW(saved.load(archive, "e."), DataError);
 }
 
-TEST(TrackingEnvironment, RefusesAFrameThatTheClipDoesNotHave) {
+TEST(TrackingEnvironment, RejectsFramesOutsideTheClip) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(90), config);
   TrackingEnvironment environment({clip}, config, physics::kLanes, physics::kLanes, 12);
@@ -110,7 +110,7 @@ TEST(TrackingEnvironment, EndsEpisodesAtFallsAndAtTheClipsEnd) {
 
 // A character whose simulation is flagged, here as run away, ends its episode in the same frame, earns
 // nothing for it and touches nobody else's bits. No distance ends an episode in this test.
-TEST(TrackingEnvironment, ACharacterWhoseSimulationGoesWrongIsTerminatedAlone) {
+TEST(TrackingEnvironment, TerminatesAFailedCharacterAndNoOther) {
   TrackingConfig config;
   config.terminate_distance = 100.0;
   config.simulation.max_speed = 1.0;
@@ -170,7 +170,7 @@ double chi_squared(const List<double>& weights, int bin_frames, int frames,
   return sum;
 }
 
-TEST(TrackingEnvironment, EpisodesStartAllOverTheClipAndMoreOftenWhereTheCharacterFell) {
+TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
   TrackingConfig config;
   config.terminate_distance =
       0.0;  // nobody is exactly on the reference: every step is a fall and a new start
@@ -197,7 +197,7 @@ TEST(TrackingEnvironment, EpisodesStartAllOverTheClipAndMoreOftenWhereTheCharact
   EXPECT_GT(chi_squared(evenly, 10, frames, reached), 10.0 * kUnlikely);
 }
 
-TEST(TrackingEnvironment, LearnsWhereItFalls) {
+TEST(TrackingEnvironment, RecordsWhereCharactersFall) {
   TrackingConfig config;
   config.terminate_distance = 0.02;  // holds for a few steps only, wherever the character starts
   const auto clip = make_tracking_clip(swaying_reference(100), config);
@@ -222,7 +222,7 @@ std::vector<std::vector<double>> episodes_begun(const TrackingEnvironment& envir
   return episodes;
 }
 
-TEST(TrackingEnvironment, NamesTheCharactersThatMoveOnToAnotherClip) {
+TEST(TrackingEnvironment, ReportsTheCharactersThatSwitchClips) {
   TrackingConfig config;
   std::vector<std::shared_ptr<const TrackingClip>> clips;
   for (int k = 0; k < 5; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
@@ -239,7 +239,7 @@ TEST(TrackingEnvironment, NamesTheCharactersThatMoveOnToAnotherClip) {
   EXPECT_EQ(moved, 2U * 4U * physics::kLanes) << "every pack has its turn once in 16 iterations";
 }
 
-TEST(TrackingEnvironment, AStateThatLacksAnythingIsADataError) {
+TEST(TrackingEnvironment, RejectsIncompleteStates) {
   const auto clip = make_tracking_clip(swaying_reference(30), {});
   TrackingEnvironment environment({clip}, {}, physics::kLanes, physics::kLanes, 12);
   Npz whole;
@@ -254,7 +254,7 @@ TEST(TrackingEnvironment, AStateThatLacksAnythingIsADataError) {
   }
 }
 
-TEST(TrackingEnvironment, TextAndPartsOfEpisodesAreNoState) {
+TEST(TrackingEnvironment, RejectsTextAndFractionsInStates) {
   const auto clip = make_tracking_clip(swaying_reference(30), {});
   TrackingEnvironment environment({clip}, {}, physics::kLanes, physics::kLanes, 12);
   Npz whole;
@@ -288,7 +288,7 @@ TEST(TrackingEnvironment, HasAsManyAgentsAsTheArrangementNames) {
   EXPECT_EQ(TrackingEnvironment({clip}, {}, physics::kLanes, physics::kLanes, 5).agents(), 3);
 }
 
-TEST(TrackingEnvironment, EveryClipHasItsTurnWhereThereAreMoreThanPacks) {
+TEST(TrackingEnvironment, PacksTakeTurnsOverMoreClipsThanPacks) {
   TrackingConfig config;
   std::vector<std::shared_ptr<const TrackingClip>> clips;
   for (int k = 0; k < 5; ++k) clips.push_back(make_tracking_clip(swaying_reference(20 + k), config));
@@ -304,7 +304,7 @@ TEST(TrackingEnvironment, EveryClipHasItsTurnWhereThereAreMoreThanPacks) {
   for (int c = 0; c < 5; ++c) EXPECT_GE(visits[c], 16 * physics::kLanes) << "clip " << c;
 }
 
-TEST(TrackingEnvironment, SoftensTheRewardOfAHardMotionAndSharpensItAgain) {
+TEST(TrackingEnvironment, SoftensTheRewardOfAHardMotionAndRestoresIt) {
   TrackingConfig config;
   config.reward_target = 0.999;  // nothing is good enough
   TrackingEnvironment hard({make_tracking_clip(swaying_reference(24), config)}, config, physics::kLanes,

@@ -51,7 +51,7 @@ TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
     EXPECT_LT((a.pose(0).p_WB[i] - r.pose(0).p_WB[i]).norm(), 1e-4) << kBodyNames[i];
 }
 
-TEST(TrackingPack, NumbersThatAreNoneInAnActionCountAsZero) {
+TEST(TrackingPack, TreatsNonFiniteActionEntriesAsZero) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(10), config);
   const std::array<float, kDofs> zero{};
@@ -69,7 +69,7 @@ TEST(TrackingPack, NumbersThatAreNoneInAnActionCountAsZero) {
   for (int i = 0; i < kBodies; ++i) EXPECT_EQ(with.pose(0).p_WB[i], without.pose(0).p_WB[i]);
 }
 
-TEST(TrackingPack, LanesOnDifferentFramesDoNotDisturbEachOther) {
+TEST(TrackingPack, LanesOnDifferentFramesAreIndependent) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(40), config);
   const std::array<float, kDofs> zero{};

@@ -10,7 +10,7 @@
 namespace mimicx::rl::tracking {
 namespace {
 
-TEST(TrackingRollout, FollowsAStandingReferenceAndReportsTheForcesThatCarryIt) {
+TEST(TrackingRollout, FollowsAStandingReferenceAndReportsItsForces) {
   TrackingConfig config;
   const auto clip = make_tracking_clip(swaying_reference(16), config);
   const TrackingRollout rollout = roll_out(
