@@ -1,7 +1,7 @@
 /// The tree of the humanoid: 22 bodies on the SMPL-X body skeleton, their names, parents and joints.
 ///
 /// Body i and the joint that connects it to its parent share the number i. The tree is fixed at compile time;
-/// what depends on the shape is in character.h.
+/// character.h has the quantities that depend on the shape.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ inline constexpr int kBodies = 22;
 inline constexpr int kJoints = 21;  ///< actuated joints: every body but the pelvis
 inline constexpr int kDofs = 55;    ///< actuated degrees of freedom: 17 · 3 + 4 · 1
 
-/// One value per body; the subscript is a `Body` or an int.
+/// One value per body, indexed by `Body` or int.
 template <class T>
 using PerBody = Array<T, kBodies>;
 
@@ -71,13 +71,13 @@ static_assert(first_dof(kBodies - 1) + 3 == kDofs);
 /// End effectors e^p of the state: wrists and balls of the feet.                    docs/method.md §3
 inline constexpr std::array<int, 4> kEndEffectors = {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot};
 
-/// The trunk with head and collars (0), left and right leg (1, 2), left and right arm (3, 4).
+/// Limbs: the trunk with head and collars (0), left and right leg (1, 2), left and right arm (3, 4).
 inline constexpr int kLimbs = 5;
 inline constexpr PerBody<int> kLimbOf = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 0, 0, 0, 3, 4, 3, 4, 3, 4};
-/// The body whose joint a limb hangs on; of the trunk the pelvis.
+/// The first body of each limb; of the trunk the pelvis.
 inline constexpr Array<int, kLimbs> kLimbRoot = {kPelvis, kLeftHip, kRightHip, kLeftShoulder, kRightShoulder};
 
-/// Whether a body is of the right side.
+/// Whether a body is on the right side. It follows its mirror image: left body i, right body i + 1.
 bool is_right(int body);
 
 }  // namespace mimicx

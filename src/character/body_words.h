@@ -1,4 +1,4 @@
-/// Bodies as messages name them. Files, columns and joint maps have `kBodyNames`.
+/// Names of bodies in messages. Files, columns and joint maps use `kBodyNames`.
 #pragma once
 
 #include <string>

@@ -6,8 +6,8 @@
 /// is z up; a standing character has a root rotation of +90° about world x (times a heading).
 /// Units: m, kg, s, rad, N, N·m.
 ///
-/// What it does not do: no mesh, no licensed data. The shape basis below is our own (see `ShapeComponent`
-/// in character.cpp): a β from a file of another body model has no meaning here.
+/// It has no mesh and no licensed data. The shape basis is our own (`ShapeComponent` in character.cpp): a β
+/// from a file of another body model has no meaning here.
 #pragma once
 
 #include <array>
@@ -32,18 +32,18 @@ struct ContactPoint {
 /// Heel, ball and toe, inner and outer, of the left foot, then of the right: the first contact points.
 inline constexpr int kFootPoints = 12;
 
-/// Where a contact point of a foot touches a level floor under the flat foot: the point itself or the lowest
-/// of its sphere, body's frame, m.
+/// The place at which a contact point of a flat foot touches a level floor: the point itself or the lowest
+/// point of its sphere, body's frame, m.
 inline Vector3d sole_point(const ContactPoint& point) { return point.p_B - point.radius * Vector3d::UnitY(); }
 
-/// Collision shape between bodies, and the solid that gives a body its inertia.
+/// Shape of a body for collisions between bodies and for its inertia.
 struct Capsule {
   int body;
   Vector3d a_B, b_B;  ///< ends of the axis in the body's frame, m
   double radius;      ///< m
 };
 
-/// Everything the simulator, the kinematics and the metrics need to know of one body shape.
+/// One body shape: all constants of the simulator, the kinematics and the metrics.
 struct Character {
   std::array<double, kBetas> betas{};
   PerBody<Vector3d> joint_offset;     ///< rest position of joint i in its parent's frame; 0 for the pelvis
@@ -51,7 +51,7 @@ struct Character {
   PerBody<Vector3d> com_B;            ///< centre of mass in the body's frame, m
   PerBody<Matrix3d> inertia_B;        ///< about the centre of mass, body's axes, kg·m²
   PerBody<Capsule> capsule;           ///< one per body, index = body
-  List<ContactPoint> contact_points;  ///< the kFootPoints of the soles first
+  List<ContactPoint> contact_points;  ///< the kFootPoints points of the soles come first
   std::vector<std::array<int, 2>> self_pairs;  ///< pairs of bodies whose capsules collide
   PerBody<JointParameters> joint;              ///< index = body; entry 0 unused
 
@@ -59,7 +59,7 @@ struct Character {
 };
 
 inline constexpr double kMaxBeta = 5.0;
-/// What β_k changes, in words: "leg length".
+/// The name of β_k, such as "leg length".
 std::string_view name_of_beta(int k);
 
 /// Rest offsets of the joints of a shape, `Character::joint_offset`: affine in β.
@@ -72,9 +72,9 @@ Character make_character(const std::array<double, kBetas>& betas = {});
 /// Rest positions of the joints in a body model's frame (y up), m; index = Body.
 using RestJoints = PerBody<Vector3d>;
 
-/// The character of a body whose rest joints are known, but no β of our shape basis. Its bones are exactly as
-/// given. Everything else (radii, masses, contact points) is that of our shape whose bones are nearest, and
-/// `betas` holds the β of that shape.
+/// The character of a body with known rest joints and no β of our shape basis. Its bones are exactly as
+/// given. Radii, masses and contact points are those of our shape with the nearest bones; `betas` is the β of
+/// that shape.
 /// @throws std::invalid_argument for a bone shorter than a third or longer than three times the standard one
 Character make_character_of_joints(const RestJoints& joints);
 

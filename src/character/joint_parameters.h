@@ -1,4 +1,4 @@
-/// What a joint can do: its PD controller, its bounds and its anatomical range.
+/// PD controller, torque bound and anatomical range of a joint.
 #pragma once
 
 #include "core/so3.h"

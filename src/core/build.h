@@ -1,11 +1,11 @@
-/// What this program was built for.
+/// The arithmetic that this program was built with.
 #pragma once
 
 namespace mimicx {
 
-/// Builds of the same arithmetic give the same bits: that of an instruction set, with its fused operations
-/// and its width, or "portable", the same on every machine (docs/porting.md). Runs write it into their
-/// manifests.
+/// Builds of the same arithmetic give the same bits. The name is that of an instruction set, which fixes
+/// fused operations and vector width, or "portable": the same bits on every machine (docs/porting.md). Runs
+/// write it into their manifests.
 #ifdef MIMICX_PORTABLE_ARITHMETIC
 inline constexpr const char* kArithmetic = "portable";
 #else

@@ -1,8 +1,8 @@
-/// Containers whose subscript is an `int`, as bodies, frames and lanes are counted.
+/// Containers with an `int` subscript, because bodies, frames and lanes are counted as int.
 ///
 /// The standard containers take a `std::size_t`, and with -Wconversion every subscript by an `int` needs a
-/// cast that says nothing. These are the standard containers with another subscript, and nothing else: what
-/// takes a std::array or a std::vector takes them.
+/// cast. These classes derive from the standard containers and change the subscript alone: a function of a
+/// std::array or a std::vector takes them.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace mimicx {
 template <class I>
 concept Subscript = std::integral<I> ||(std::is_enum_v<I>&& std::convertible_to<I, int>);
 
-/// std::array of N elements with a subscript that is any Subscript.
+/// std::array of N elements, indexed by any Subscript.
 template <class T, int N>
 struct Array : std::array<T, static_cast<std::size_t>(N)> {
   using Base = std::array<T, static_cast<std::size_t>(N)>;
@@ -28,7 +28,7 @@ struct Array : std::array<T, static_cast<std::size_t>(N)> {
   }
 };
 
-/// std::vector with a subscript that is any Subscript and sizes that may be an `int`.
+/// std::vector, indexed by any Subscript, with sizes that may be an `int`.
 template <class T>
 struct List : std::vector<T> {
   using std::vector<T>::vector;

@@ -206,8 +206,8 @@ constexpr std::array<std::uint32_t, 38> kTwoOverPi = {
     0xef2f118b, 0x5a0a6d1f, 0x6d367ecf, 0x27cb09b7, 0x4f463f66, 0x9e5fea2d, 0x7527bac7, 0xebe5f17b,
     0x3d0739f7, 0x8a5292ea, 0x6bfb5fb1, 0x1f8d5d08, 0x56033046, 0xfc7b6bab};
 
-/// For finite x ≥ 10⁶: x·2/π modulo 4 in whole numbers. With x = m·2ᵉ, digits of 2/π whose product with 2ᵉ is
-/// a multiple of 4 are left out, and those of which only 2⁻¹⁶⁹ would come; no double is nearer than 2⁻⁶² to a
+/// For finite x ≥ 10⁶: x·2/π modulo 4 in integers. With x = m·2ᵉ, digits of 2/π are skipped whose product
+/// with 2ᵉ is a multiple of 4, and those that contribute less than 2⁻¹⁶⁹. No double is closer than 2⁻⁶² to a
 /// multiple of π/2.
 Reduced reduce_large(double x) {
   const std::uint64_t bits = mimicx::bit_cast<std::uint64_t>(x), m = (bits & kMantissa) | (kMantissa + 1);
@@ -290,7 +290,7 @@ double cosine(Pair r) {
   return near + (((1.0 - near) - half) - (square * square * polynomial(kSeries, square) + r.high * r.low));
 }
 
-/// Where sin x = tan x = x, the sign of zero, too.
+/// Whether sin x = tan x = x, including the sign of zero.
 bool is_tiny(double x) { return std::abs(x) < 0x1.0p-27; }
 
 }  // namespace

@@ -1,9 +1,9 @@
-/// Errors the user can act on.
+/// Errors that the user can act on.
 ///
-/// `DataError` is for bad data: a file, a place in it, what was expected and what was found, in one
-/// line. A wrong argument of a function is `std::invalid_argument`, a programmer's slip is `assert`.
+/// `DataError` reports bad data: file, place in it, what was expected and what was found, in one line. A
+/// wrong argument of a function is `std::invalid_argument`, a programming error is an `assert`.
 ///
-/// The rooms that a bare build has (docs/porting.md) say `raise(error)` instead of `throw error`.
+/// Rooms that are part of a bare build (docs/porting.md) call `raise(error)` instead of `throw error`.
 #pragma once
 
 #include <stdexcept>
@@ -30,10 +30,11 @@ template <class Error>
   throw error;
 }
 #else
-/// Told the message of an error in a build without exceptions; must not return. The program defines it.
+/// Called with the message of an error in a build without exceptions. The program defines it; it must not
+/// return.
 [[noreturn]] void stop(const char* message);
 
-/// Stops with its message.
+/// Calls `stop` with its message.
 template <class Error>
 [[noreturn]] void raise(const Error& error) {
   stop(error.what());

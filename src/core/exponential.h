@@ -1,11 +1,11 @@
-/// e^r on a short interval, the part that the scalar functions and the networks' activations share.
+/// e^r on a short interval: the common part of the scalar exponential and the networks' activations.
 ///
-/// Made of + − · and bit shifts only, without fused operations: the compiler may vectorise it at any width
-/// and every element keeps its bits, wherever it stands and whatever the processor.
+/// Uses + − · and bit shifts only, without fused operations: the compiler may vectorise it at any width, and
+/// the bits of an element depend neither on its place nor on the processor.
 ///
 /// Method: x = n·ln 2 + r with |r| ≤ ½ ln 2 (Cody and Waite's two-part ln 2), then the Taylor series of
-/// e^r − 1 (degree 7 for float, 13 for double: truncation below half a unit in the last place). What becomes
-/// of 2ⁿ, and of arguments whose e^x is no normal number, is the caller's.
+/// e^r − 1 (degree 7 for float, 13 for double: truncation below half a unit in the last place). The caller
+/// multiplies by 2ⁿ and handles arguments whose e^x is no normal number.
 #pragma once
 
 #include <array>
@@ -74,7 +74,7 @@ inline ReducedExp<S> reduced_exp(S x) {
   return {mimicx::bit_cast<Bits>(shifted) - mimicx::bit_cast<Bits>(Constants::kRound), r + r * r * tail};
 }
 
-/// 2ⁿ put together from bits. @param n  an exponent of normal numbers
+/// 2ⁿ from its bits. @param n  an exponent of normal numbers
 template <class S>
 inline S power_of_two(typename ExpConstants<S>::Bits n) {
   using Constants = ExpConstants<S>;

@@ -35,7 +35,7 @@ DataError not_writable(const std::filesystem::path& path, const std::error_code&
   return {path.string(), "", "a writable file", error.message()};
 }
 
-/// What the last failed operation says, or an error of its own where it says nothing.
+/// The error of the last failed operation, EIO if it set none.
 std::error_code last_error() { return {errno == 0 ? EIO : errno, std::generic_category()}; }
 
 }  // namespace
@@ -47,7 +47,7 @@ void make_folder(const std::filesystem::path& path) {
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
-  temporary_ += ".mimicx-tmp";  // no file of a user's is called so
+  temporary_ += ".mimicx-tmp";  // a name that no user's file has
   errno = 0;
   out_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!out_) throw not_writable(path_, last_error());

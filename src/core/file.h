@@ -1,4 +1,4 @@
-/// Reading and writing a whole file, with a message that says what is in the way.
+/// Reads and writes whole files; errors state the reason.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace mimicx {
 inline constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 32;
 
 /// The bytes of a regular file.
-/// @throws DataError when there is none, it is a folder or a device, may not be read, or is larger than
-///         `max_bytes` (nothing is read then)
+/// @throws DataError if it does not exist, is a folder or a device, cannot be read, or is larger than
+///         `max_bytes` (nothing is read in that case)
 std::string read_file(const std::filesystem::path& path, std::uintmax_t max_bytes = kMaxFileBytes);
 
-/// Makes a folder and those around it, where they are not there. @throws DataError when it cannot
+/// Creates a folder and its missing parents. @throws DataError if that fails
 void make_folder(const std::filesystem::path& path);
 
-/// A file that grows under a temporary name beside `path` and gets its name when it is whole: a reader sees
-/// the old file or the new one. Without `finish` the temporary file is gone with the object.
+/// A file that is written under a temporary name beside `path` and renamed when it is complete: a reader sees
+/// either the old file or the new one. Without `finish` the destructor removes the temporary file.
 class AtomicFile {
  public:
   /// @throws DataError when `path` cannot be written
@@ -32,7 +32,7 @@ class AtomicFile {
   ~AtomicFile();
 
   void write(std::string_view content);
-  /// @throws DataError when anything could not be written; the temporary file is gone then
+  /// @throws DataError if anything could not be written; the temporary file is removed
   void finish();
 
  private:
@@ -41,7 +41,7 @@ class AtomicFile {
 };
 
 /// Writes text or bytes by an AtomicFile.
-/// @throws DataError when `path` cannot be written; the temporary file is gone then
+/// @throws DataError if `path` cannot be written; the temporary file is removed
 void write_file_atomically(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace mimicx

@@ -1,4 +1,4 @@
-/// Numbers by name, in the order they were put in: settings, metrics, reports of single steps.
+/// Numbers by name, in insertion order: settings, metrics, reports of single steps.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@ namespace mimicx {
 
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
-/// The first value of that name; NaN, which passes no limit, where there is none.
+/// The first value of that name; NaN, which fails every comparison with a limit, if there is none.
 inline double value_of(const NamedValues& values, const std::string& name) {
   for (const auto& [key, value] : values)
     if (key == name) return value;

@@ -23,7 +23,7 @@ std::string text_of(double value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-#else  // a standard library that knows whole numbers alone; its programs never leave the locale "C"
+#else  // std::from_chars of this library has integers only; its programs stay in the locale "C"
 
 std::optional<double> number_from(std::string_view text) {
   const std::string copy(text);

@@ -1,4 +1,4 @@
-/// Numbers as text, in no locale: a point for decimals, whatever the user's language.
+/// Numbers as text, independent of the locale: the decimal separator is always a point.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace mimicx {
 
-/// The double nearest to a decimal number, "inf" or "nan"; none unless the whole text is one, without a sign
-/// "+", space before it, or a hexadecimal form, and also where no double is near.
+/// The double nearest to a decimal number, "inf" or "nan". None unless the whole text is such a number; none
+/// also for a leading "+" or space, a hexadecimal form, and numbers outside the range of a double.
 std::optional<double> number_from(std::string_view text);
 
 /// The fewest digits that read back as the same number.
 std::string text_of(double value);
 
-/// A text with blanks behind it, at least `width` characters.
+/// The text, padded with blanks at its end to at least `width` characters.
 std::string padded(std::string text, std::size_t width);
 
 }  // namespace mimicx

@@ -13,7 +13,7 @@
 namespace mimicx {
 namespace {
 
-// A compiler that does not know OpenMP reads past its pragmas: all work is done by the caller, in order.
+// Without OpenMP the compiler ignores the pragmas: the caller does all work, in order.
 #ifdef _OPENMP
 int this_thread() { return omp_get_thread_num(); }
 int processors() { return omp_get_num_procs(); }
@@ -40,7 +40,7 @@ void parallel_for(int chunks, [[maybe_unused]] int threads, const std::function<
 
 namespace {
 
-/// What the workers of a chain share.
+/// State shared by the workers of a chain.
 class Chain {
  public:
   Chain(int n, const std::function<void(int, int)>& item, const std::function<void(int)>& link)
@@ -71,7 +71,7 @@ class Chain {
   }
 
  private:
-  /// Without the lock.
+  /// Calls f without holding the lock.
   template <class F>
   void call(std::unique_lock<std::mutex>& lock, int i, const F& f) {
     lock.unlock();

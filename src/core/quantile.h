@@ -1,14 +1,13 @@
-/// Values that stand at a place in the order of a list.
+/// Order statistics of a list: ranked values, quantiles, the median.
 ///
-/// What it does not do: it does not interpolate between two values, and it does not sort NaN: the caller
-/// removes NaN first.
+/// It does not interpolate between two values. The caller removes NaN first.
 #pragma once
 
 #include <vector>
 
 namespace mimicx {
 
-/// The value at place `rank` of the list when it is sorted, from the smallest up.
+/// The value at place `rank` of the list in ascending order.
 /// @param rank  0 (the smallest) to size − 1
 double ranked(std::vector<double> values, int rank);
 
@@ -17,7 +16,7 @@ double ranked(std::vector<double> values, int rank);
 /// @param values  at least one
 double quantile(std::vector<double> values, double share);
 
-/// The middle value; of two middle ones the larger. @param values  at least one
+/// The middle value; the larger one of two middle values. @param values  at least one
 double median(std::vector<double> values);
 
 }  // namespace mimicx

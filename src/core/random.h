@@ -1,9 +1,9 @@
 /// Counter-based random streams.
 ///
-/// A stream is keyed by what it is for (seed, purpose, clip, character, epoch …), never by a thread, and
-/// its n-th number depends on the key and on n alone. Generator: Philox4x32-10 (Salmon et al., "Parallel
-/// random numbers: as easy as 1, 2, 3", SC 2011). Normal numbers are our own, because
-/// `std::normal_distribution` differs between standard libraries.
+/// A stream is keyed by its purpose (seed, purpose, clip, character, epoch …), never by a thread, and its
+/// n-th number depends on the key and on n alone. Generator: Philox4x32-10 (Salmon et al., "Parallel random
+/// numbers: as easy as 1, 2, 3", SC 2011). Normal numbers are our own, because `std::normal_distribution`
+/// differs between standard libraries.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace mimicx {
 
-/// One block of Philox4x32-10: 4 words out of a counter of 4 words and a key of 2.
+/// One block of Philox4x32-10: 4 words from a counter of 4 words and a key of 2.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
 class Random {
  public:
   /// @param seed  the run's one root seed
-  /// @param key   what the stream is for; streams of different keys are independent
+  /// @param key   the purpose of the stream; streams of different keys are independent
   explicit Random(std::uint64_t seed, std::initializer_list<std::uint64_t> key = {});
 
   std::uint32_t bits();
@@ -39,7 +39,7 @@ class Random {
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 2> stream_;
   std::uint64_t position_ = 0;               ///< words drawn so far
-  std::uint64_t block_ = ~std::uint64_t{0};  ///< the one that `words_` holds
+  std::uint64_t block_ = ~std::uint64_t{0};  ///< whose words `words_` holds
   std::array<std::uint32_t, 4> words_{};
 };
 

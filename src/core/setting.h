@@ -1,7 +1,7 @@
-/// Settings: fields of a configuration as the numbers that manifests and `--set` know.
+/// Settings: the fields of a configuration as named numbers, as in manifests and `--set`.
 ///
 /// A configuration has one function that visits its fields: it calls add(name, field) or
-/// add(name, field, least, most) for every one. All else that is done with settings follows from it.
+/// add(name, field, least, most) for each. Listing, changing and checking settings use that function.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ double setting_number(T field) {
   return static_cast<double>(field);
 }
 
-/// @throws std::invalid_argument for a fraction where a whole number is expected, and beyond ± 1e9
+/// @throws std::invalid_argument for a fraction in an integer field, and beyond ± 1e9
 template <class T>
 void assign_setting(T& field, double value) {
   if (!(std::abs(value) <= 1e9)) throw std::invalid_argument("at most 1e9 expected");
@@ -29,7 +29,7 @@ void assign_setting(T& field, double value) {
   field = whole;
 }
 
-/// @throws std::invalid_argument naming the setting, where it is no number of that range
+/// @throws std::invalid_argument naming the setting, unless the value is in that range
 inline void require_range(const std::string& name, double value, double least, double most) {
   if (value >= least && value <= most) return;
   char text[120];
@@ -60,7 +60,7 @@ bool change_one(const Visit& visit, const std::string& name, double value) {
   return found;
 }
 
-/// @throws std::invalid_argument naming the first number that is out of its range
+/// @throws std::invalid_argument naming the first number outside its range
 template <class Visit>
 void require_ranges(const Visit& visit) {
   visit([](const std::string& name, const auto& field, double least, double most) {

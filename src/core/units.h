@@ -1,4 +1,4 @@
-/// Everything is kept in m, s, kg and rad; other units are made by these.
+/// The code works in m, s, kg and rad; these constants convert from and to other units.
 #pragma once
 
 #include <numbers>

@@ -12,10 +12,10 @@ constexpr int kNone = -1;  ///< no symbol: the data is damaged
 
 /// Symbols of one alphabet by their canonical codes (RFC 1951, 3.2.2).
 struct Code {
-  std::array<int, kLongest + 1> count{};  ///< symbols whose code has so many bits
+  std::array<int, kLongest + 1> count{};  ///< [bits] symbols with a code of this length
   std::vector<int> symbols;               ///< by length of their code, then by number
 
-  /// @return whether there are no more codes than their lengths have room for
+  /// @return whether these code lengths are possible (not over-subscribed)
   bool set(std::span<const std::uint8_t> lengths) {
     count = {};
     for (const std::uint8_t length : lengths) ++count[length];
@@ -44,7 +44,7 @@ constexpr std::array<std::uint16_t, kDistances> kLeastDistance = {
     193, 257, 385, 513, 769, 1025, 1537, 2049, 3073, 4097, 6145, 8193, 12289, 16385, 24577};
 constexpr std::array<std::uint8_t, kDistances> kDistanceBits = {
     0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13};
-/// In which order the lengths of the length codes are told (RFC 1951, 3.2.7).
+/// Order in which the lengths of the length codes are stored (RFC 1951, 3.2.7).
 constexpr std::array<std::uint8_t, kLengthCodes> kOrder = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                            11, 4,  12, 3, 13, 2, 14, 1, 15};
 
@@ -66,7 +66,7 @@ class Inflater {
   std::vector<std::uint8_t> take() { return std::move(out_); }
 
  private:
-  /// A number of so many bits, the lowest first; kNone behind the end.
+  /// Reads a number of `count` bits, the lowest first; kNone after the end.
   int bits(int count) {
     while (held_ < count) {
       if (at_ == packed_.size()) {
@@ -82,8 +82,8 @@ class Inflater {
     return value;
   }
 
-  /// Reads a code bit by bit: those of a length stand one after the other, behind twice those that are
-  /// shorter.
+  /// Reads a code bit by bit. The codes of one length are consecutive numbers; they start at twice the number
+  /// after the last shorter code.
   int symbol(const Code& code) {
     int value = 0, first = 0, index = 0;
     for (std::size_t length = 1; length <= kLongest; ++length) {
@@ -151,8 +151,8 @@ class Inflater {
       lengths.insert(lengths.end(), static_cast<std::size_t>(times),
                      s == 16 ? lengths.back() : std::uint8_t{0});
     }
-    const std::span<const std::uint8_t> told(lengths);
-    return lengths.size() == all && literals_.set(told.first(first)) && distances_.set(told.subspan(first)) &&
+    const std::span<const std::uint8_t> both(lengths);
+    return lengths.size() == all && literals_.set(both.first(first)) && distances_.set(told.subspan(first)) &&
            block();
   }
 
@@ -184,9 +184,9 @@ class Inflater {
 
   std::span<const std::uint8_t> packed_;
   std::size_t size_, at_ = 0;
-  std::uint32_t hold_ = 0;  ///< bits that were read and not used yet
-  int held_ = 0;            ///< how many
-  bool ended_ = false;      ///< more was asked for than there is
+  std::uint32_t hold_ = 0;  ///< bits read and not used yet
+  int held_ = 0;            ///< number of bits in hold_
+  bool ended_ = false;      ///< a read went beyond the end
   Code literals_, distances_, lengths_;
   std::vector<std::uint8_t> out_;
 };

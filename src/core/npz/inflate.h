@@ -1,5 +1,5 @@
-/// Unpacks the deflate format (P. Deutsch, RFC 1951, 1996): what most archives are packed with. For builds
-/// without zlib, which is several times as fast and gives the same bytes.
+/// Unpacks the deflate format of most archives (P. Deutsch, RFC 1951, 1996), for builds without zlib. zlib
+/// gives the same bytes and is several times as fast.
 ///
 /// What it does not do: no checksums (an archive has its own), no streams.
 #pragma once
@@ -12,9 +12,9 @@
 
 namespace mimicx {
 
-/// @param packed  may have more bytes behind the end of the format, which are not looked at
-/// @param size    bytes that come of it
-/// @return none where the data is damaged, ends too early, or does not come to that size
+/// @param packed  bytes after the end of the deflate stream are ignored
+/// @param size    bytes of the result
+/// @return none if the data is damaged, truncated, or of another size
 std::optional<std::vector<std::uint8_t>> inflate(std::span<const std::uint8_t> packed, std::size_t size);
 
 }  // namespace mimicx

@@ -1,4 +1,4 @@
-/// An array of numbers or texts, as NumPy's files hold them.
+/// An array of numbers or texts, the content of an npy file.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace mimicx {
 
-/// A sound npy array of a kind that is not read: objects, complex numbers, records.
+/// A valid npy array of an unsupported element type: objects, complex numbers, records.
 class UnsupportedArray : public DataError {
   using DataError::DataError;
 };

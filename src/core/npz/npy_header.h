@@ -1,4 +1,4 @@
-/// The header of an npy array, and the element types it can name. What npy.cpp reads first.
+/// The header of an npy array: element type, order and shape.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ struct NpyHeader {
   NpyFileType element;
   bool fortran_order = false;
   std::vector<std::size_t> shape;
-  std::size_t start = 0;  ///< where the elements start, behind magic, version, length and header
+  std::size_t start = 0;  ///< offset of the elements, after magic, version, length and header
 };
 
-/// @throws DataError when it is damaged, UnsupportedArray when its elements are of a kind that is not read.
+/// @throws DataError if it is damaged, UnsupportedArray if its element type is not supported.
 NpyHeader parse_npy_header(const std::uint8_t* data, std::size_t size, const std::string& path,
                            const std::string& place);
 

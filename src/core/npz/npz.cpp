@@ -16,9 +16,9 @@
 namespace mimicx {
 namespace {
 
-constexpr std::size_t kAlwaysUnpacked = std::size_t{1} << 28;  ///< bytes, whatever the archive's own size
-constexpr std::size_t kMostRatio = 100;                        ///< of larger archives
-constexpr std::size_t kMaxDeflateRatio = 1032;                 ///< of the deflate format itself
+constexpr std::size_t kAlwaysUnpacked = std::size_t{1} << 28;  ///< unpacked bytes allowed for any archive
+constexpr std::size_t kMostRatio = 100;         ///< unpacked size over that of the archive, for larger ones
+constexpr std::size_t kMaxDeflateRatio = 1032;  ///< limit of the deflate format itself
 
 /// Bounds-checked little-endian reads from the archive.
 class Bytes {
@@ -115,7 +115,7 @@ std::vector<Entry> read_directory(const Bytes& bytes) {
     entries.push_back(read_entry(bytes, at));
     at = entries.back().next;
     packed += std::min<std::uint64_t>(entries.back().packed, bytes.size() + 1);
-    // Members sharing the same bytes are how small archives unpack to terabytes.
+    // Overlapping members let small archives unpack to terabytes.
     if (packed > bytes.size())
       bytes.fail(entries.back().name, "members within the file", "overlapping members");
   }
@@ -123,7 +123,7 @@ std::vector<Entry> read_directory(const Bytes& bytes) {
 }
 
 #ifdef MIMICX_WITH_ZLIB
-/// None where the data is damaged.
+/// None if the data is damaged.
 std::optional<std::vector<std::uint8_t>> unpacked(const std::uint8_t* packed, const Entry& e) {
   std::vector<std::uint8_t> out(e.unpacked);
   z_stream stream{};
@@ -158,7 +158,7 @@ std::vector<std::uint8_t> read_member(const Bytes& bytes, const Entry& e) {
   if (e.unpacked >= kSaturated32 || e.packed >= kSaturated32)
     bytes.fail(e.name, "a member under 4 GiB", std::to_string(e.unpacked) + " bytes");
   if (bytes.number(e.local, 4) != kLocalHeader) bytes.fail(e.name, "a zip member", "other content (damaged)");
-  // The sizes of the local header may be missing (streamed archives): the directory's count.
+  // The local header may lack the sizes (streamed archives): those of the directory are used.
   const std::uint64_t start =
       e.local + kLocalBytes + bytes.number(e.local + 26, 2) + bytes.number(e.local + 28, 2);
   const std::uint8_t* packed = bytes.block(start, e.packed);
@@ -182,7 +182,7 @@ Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_
   const Bytes bytes(data, path);
   Npz archive;
   archive.path = path;
-  // For all members together: a bomb may have many small ones. No motion shrinks to a hundredth.
+  // Limit for all members together: a bomb may have many small ones. No motion compresses by 100.
   const std::size_t most = std::min(max_bytes, std::max(kAlwaysUnpacked, kMostRatio * data.size()));
   std::size_t left = most;
   for (const Entry& e : read_directory(bytes)) {

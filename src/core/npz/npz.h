@@ -1,9 +1,9 @@
-/// NumPy archives: read what NumPy writes, write what NumPy opens.
+/// NumPy archives: reads npz files as NumPy writes them, and writes npz files that NumPy reads.
 ///
 /// An npz file is a zip of npy members, stored or deflated. Archives are written (npz_archive.h) to a
 /// temporary name and renamed. Deflated members need zlib (absent in the core-only build).
 ///
-/// Format: PKWARE APPNOTE 6.3 (zip); the members are those of npy.h. What it does not do: encrypted or split
+/// Format: PKWARE APPNOTE 6.3 (zip); the members are those of npy.h. Not supported: encrypted or split
 /// archives, archives of 4 GiB and more.
 #pragma once
 
@@ -17,10 +17,10 @@
 
 namespace mimicx {
 
-/// Members whose name does not end in ".npy" are not arrays and are left out.
+/// Reads the arrays of an archive. Members whose name does not end in ".npy" are ignored.
 /// @param keys  which members to read; none: all
-/// @throws DataError for anything that is not a readable archive; never allocates more than
-///         `max_bytes` for its members, whatever their headers say.
+/// @throws DataError for anything that is not a readable archive; never allocates more than `max_bytes` for
+///         its members, whatever their headers declare.
 Npz read_npz(const std::filesystem::path& path, std::size_t max_bytes = kMaxMemberBytes,
              const std::vector<std::string>& keys = {});
 /// The same from bytes in memory. @param path  for messages

@@ -1,7 +1,7 @@
-/// A NumPy archive in memory, and its bytes: what needs no files.
+/// A NumPy archive in memory, and its conversion to bytes.
 ///
-/// Written archives are stored, carry a fixed time stamp and keep the order of their members, so that equal
-/// content means equal bytes.
+/// Archives are written without compression, with a fixed time stamp and their members in order, so that
+/// equal content gives equal bytes.
 ///
 /// Format: PKWARE APPNOTE 6.3 (zip); the members are those of npy.h.
 #pragma once
@@ -15,34 +15,33 @@
 
 namespace mimicx {
 
-/// Members in file order. Members of an unsupported kind (AMASS files carry such) do not make the others
-/// unreadable: they are listed apart, and asking for one says why it is not there.
+/// Members in file order. Members of an unsupported type (AMASS files have some) are listed separately, and
+/// do not make the others unreadable.
 class Npz {
  public:
   bool has(const std::string& key) const;
-  /// @throws DataError naming the archive and the key when it is absent, UnsupportedArray when it is there
-  ///         but of a kind that is not read.
+  /// @throws DataError naming archive and key if it is absent, UnsupportedArray if its type is not supported
   const NpyArray& at(const std::string& key) const;
   /// Adds, or replaces in place.
   void set(const std::string& key, NpyArray array);
   const std::vector<std::pair<std::string, NpyArray>>& members() const { return members_; }
   void set_unsupported(const std::string& key, UnsupportedArray why) { unsupported_.emplace_back(key, why); }
   const std::vector<std::pair<std::string, UnsupportedArray>>& unsupported() const { return unsupported_; }
-  std::string path;  ///< where it came from, for messages
+  std::string path;  ///< of the file, for messages
 
  private:
   std::vector<std::pair<std::string, NpyArray>> members_;
   std::vector<std::pair<std::string, UnsupportedArray>> unsupported_;
 };
 
-/// The only number of a member.
-/// @throws DataError when the member is absent, text, or not exactly one element
+/// The number in a member of one element.
+/// @throws DataError if the member is absent, text, or not exactly one element
 double number_at(const Npz& archive, const std::string& key);
-/// The same for a whole number. @throws DataError where it has a fraction, too, or is beyond 2^53
+/// The same for an integer. @throws DataError also for a fraction and beyond ± 2^53
 std::int64_t whole_number_at(const Npz& archive, const std::string& key);
-/// So many numbers, of a member of any shape. @throws DataError also for another number of them, or text
+/// The `count` numbers of a member of any shape. @throws DataError also for another count, or text
 std::vector<double> numbers_at(const Npz& archive, const std::string& key, std::size_t count);
-/// The only text of a member. @throws DataError when the member is absent or not exactly one text
+/// The text in a member of one element. @throws DataError if it is absent or not exactly one text
 const std::string& text_at(const Npz& archive, const std::string& key);
 
 /// The bytes of the archive.

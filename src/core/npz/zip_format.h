@@ -1,4 +1,4 @@
-/// What reading and writing of zip archives share. Format: PKWARE APPNOTE 6.3.
+/// Constants and the checksum of zip archives. Format: PKWARE APPNOTE 6.3.
 #pragma once
 
 #include <array>
