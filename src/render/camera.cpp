@@ -8,11 +8,10 @@
 namespace mimicx::render {
 namespace {
 
-constexpr double kLeastDistance = 0.5;  ///< of the nearest point, m: one point alone would be at none
+constexpr double kLeastDistance = 0.5;  ///< of the nearest point, m; needed for a single point
 
-/// Along one axis of the picture, the place of the camera from which two points at `tangent` to either side
-/// of the axis are seen at the edges: of x ≤ c + tangent (z − d) and −x ≤ −c + tangent (z − d) for all
-/// points, both with equality for some.
+/// The camera's place along one axis of the picture at which the outermost points lie on the edges: all
+/// points satisfy x ≤ c + tangent (z − d) and −x ≤ −c + tangent (z − d), each with equality for some point.
 struct Wedge {
   double centre, depth;  ///< c, d: across and along the optical axis, m
 };

@@ -1,7 +1,7 @@
-/// A pinhole camera, and where it has to stand to see all that it shall see.
+/// A pinhole camera, and its placement such that all given points are in the picture.
 ///
-/// Camera axes: x to the right of the picture, y down, z away from the camera. The picture is as wide and as
-/// high as the caller says; (0, 0) is its upper left corner, pixels are squares.
+/// Camera axes: x to the right of the picture, y down, z away from the camera. (0, 0) is the upper left
+/// corner of the picture; pixels are squares.
 #pragma once
 
 #include "core/containers.h"
@@ -11,44 +11,44 @@ namespace mimicx::render {
 
 struct Camera {
   Matrix3d R_CW = Matrix3d::Identity();  ///< world → camera
-  Vector3d p_WC = Vector3d::Zero();      ///< where it stands, m
-  double focal = 1.0;                    ///< distance of the picture, in its pixels
-  Eigen::Vector2d centre{0, 0};          ///< where the optical axis meets the picture
+  Vector3d p_WC = Vector3d::Zero();      ///< position, m
+  double focal = 1.0;                    ///< focal length, pixels
+  Eigen::Vector2d centre{0, 0};          ///< principal point, pixels
 
-  /// In the camera's frame, m.
+  /// World → camera frame, m.
   Vector3d seen(const Vector3d& p_W) const { return R_CW * (p_W - p_WC); }
-  /// On the picture. @param p_C  before the camera: z > 0
+  /// Camera frame → pixels. @param p_C  in front of the camera: z > 0
   Eigen::Vector2d projected(const Vector3d& p_C) const { return centre + focal / p_C.z() * p_C.head<2>(); }
-  /// The direction in which a place of the picture is seen, world, z of the camera's frame 1.
+  /// The direction of the ray through a place of the picture, world; its z in the camera's frame is 1.
   Vector3d ray(double u, double v) const {
     return R_CW.transpose() * Vector3d((u - centre.x()) / focal, (v - centre.y()) / focal, 1.0);
   }
 };
 
-/// How a camera looks, wherever it stands.
+/// The viewing direction of a camera.
 struct Look {
-  double azimuth = 0;       ///< the camera stands this way of what it sees, rad from world x
-  double elevation = 0.17;  ///< and so far above the horizon, rad, less than a quarter turn
+  double azimuth = 0;       ///< direction from the scene to the camera, rad from world x
+  double elevation = 0.17;  ///< of the camera above the horizon, rad, less than π/2
 };
 
-/// Axes of a camera that looks so and keeps the vertical upright.
+/// R_CW of a camera of that viewing direction whose vertical is upright.
 Matrix3d axes_of(const Look& look);
 
-/// Width and height of a picture, and what must stay free at its edges, pixels.
+/// Width and height of a picture, and the free margins at its edges, pixels.
 struct Canvas {
   int width = 0, height = 0;
   double beside = 0;  ///< free to the left and to the right
   double above = 0;   ///< free above and below
 };
 
-/// The angle that the longer side of a picture opens.
-inline constexpr double kFieldOfView = 0.5;  // rad: a mild tele lens, as portraits are taken
+/// Field of view of the longer side of a picture, rad: that of a portrait lens.
+inline constexpr double kFieldOfView = 0.5;
 
-/// The nearest camera of that look that has all points inside the canvas, and in the middle of it one way or
-/// the other. @param points  at least one, world, m
+/// The nearest camera of that viewing direction that has all points inside the canvas, centred either
+/// horizontally or vertically. @param points  at least one, world, m
 Camera framing(const List<Vector3d>& points, const Look& look, const Canvas& canvas);
 
-/// Width over height of the points as that look sees them from far away.
+/// Width over height of the points in that viewing direction, seen from far away.
 double aspect_of(const List<Vector3d>& points, const Look& look);
 
 }  // namespace mimicx::render

@@ -11,21 +11,21 @@ namespace mimicx::render {
 namespace {
 
 constexpr int kSide = 3;           ///< samples along a pixel's edge
-constexpr int kBand = 32;          ///< rows of pixels that are drawn together: what a thread takes at once
-constexpr double kNearest = 0.05;  ///< of what is drawn, m from the camera
+constexpr int kBand = 32;          ///< rows of pixels per task of a thread
+constexpr double kNearest = 0.05;  ///< near plane: distance from the camera, m
 
-/// Rows of a camera's picture, sample by sample.
+/// The samples of some rows of a picture.
 struct Samples {
   Samples(int first_row, int w, int h)
       : first(first_row), width(w), height(h), nearness(w * h, 0.0F), light(w * h, background()) {}
-  int first, width, height;  ///< the first row of samples; how many there are
-  List<float> nearness;      ///< 1 / depth, 1/m: what is linear on a picture; 0: nothing there
+  int first, width, height;  ///< first row of samples; size in samples
+  List<float> nearness;      ///< 1 / depth, 1/m, which is linear on a picture; 0: empty
   List<Colour> light;
 };
 
-/// A solid on the camera's picture of samples.
+/// A solid projected onto the samples.
 struct Projected {
-  List<double> nearness;  ///< [V] 1 / depth, 1/m; 0: not before the camera
+  List<double> nearness;  ///< [V] 1 / depth, 1/m; 0: behind the near plane
   List<GridPoint> corners;
 };
 
@@ -46,7 +46,7 @@ Projected projected(const Solid& solid, const Camera& camera) {
   return out;
 }
 
-/// One triangle, sample by sample. @param corner  clockwise on the picture
+/// Draws one triangle. @param corner  clockwise on the picture
 void draw_triangle(const Solid& solid, const Projected& on, const std::array<int, 3>& corner,
                    const Shading& shading, Samples& samples) {
   const int a = corner[0], b = corner[1], c = corner[2];
@@ -75,7 +75,7 @@ void draw_solid(const Solid& solid, const Projected& on, const Shading& shading,
       draw_triangle(solid, on, {a, c, b}, shading, samples);  // the picture's y axis points down
 }
 
-/// The floor where no solid stands before it.
+/// Draws the floor at samples without a solid.
 void draw_floor(const Camera& camera, const Shading& shading, Samples& samples) {
   for (int y = 0; y < samples.height; ++y)
     for (int x = 0; x < samples.width; ++x) {
@@ -88,7 +88,7 @@ void draw_floor(const Camera& camera, const Shading& shading, Samples& samples) 
     }
 }
 
-/// The mean light of every pixel's samples.
+/// Averages the samples of every pixel.
 void develop(const Samples& samples, Image& image) {
   for (int y = 0; y < samples.height / kSide; ++y)
     for (int x = 0; x < image.width; ++x) {

@@ -1,11 +1,11 @@
 /// A picture of solids on a checked floor, by a rasteriser with a depth buffer.
 ///
-/// Nine samples per pixel, 3 × 3, in linear light. One lamp, which stands up and to the side of the camera,
-/// and a bright sky; both throw soft shadows on the floor (floor_shadow.h), and the lamp's on the solids. The
+/// Nine samples per pixel, 3 × 3, in linear light. The light is one lamp, above and beside the camera, and a
+/// bright sky. Both throw soft shadows on the floor (floor_shadow.h), and the lamp also on the solids. The
 /// floor z = 0 has checks of half a metre and hides what is below it.
 ///
-/// Equal scenes give equal pixels, with any number of threads: bands of rows are drawn each by itself. What
-/// it does not do: no transparency, no reflection; a triangle with a corner behind the camera is left out.
+/// Equal scenes give equal pixels with any number of threads: bands of rows are drawn independently. It has
+/// no transparency and no reflection, and skips triangles with a corner behind the camera.
 #pragma once
 
 #include "render/camera.h"

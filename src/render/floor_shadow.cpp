@@ -18,7 +18,7 @@ Eigen::Vector2d on_disc(int k, int n) {
   return std::sqrt((k + 0.5) / n) * Eigen::Vector2d(cos(angle), sin(angle));
 }
 
-/// Where the light from that direction throws a point, in cells.
+/// The projection of a point onto the floor along the light, in cells.
 Eigen::Vector2d thrown(const Vector3d& p, const Vector3d& to_light) {
   return p.head<2>() - std::max(p.z(), 0.0) / to_light.z() * to_light.head<2>();
 }
@@ -36,7 +36,7 @@ List<Vector3d> round_light(const Vector3d& middle, double radius) {
 }
 
 List<Vector3d> sky_light() {
-  constexpr double kReach = 0.9;  // of the unit disc that is the hemisphere seen from above
+  constexpr double kReach = 0.9;  // radius on the unit disc, the hemisphere seen from above
   List<Vector3d> directions;
   for (int k = 0; k < kLightPoints; ++k) {
     const Eigen::Vector2d d = kReach * on_disc(k, kLightPoints);
@@ -64,7 +64,7 @@ FloorShadow::FloorShadow(const List<Solid>& solids, const List<Vector3d>& light,
       corners.reserve(solid.vertices.size());
       for (const Vector3d& p : solid.vertices)
         corners.push_back(on_grid((thrown(p, light[k]) - Eigen::Vector2d(x0_, y0_)) / cell));
-      for (const skin::Triangle& t : solid.triangles)  // of a closed mesh either half throws the whole shadow
+      for (const skin::Triangle& t : solid.triangles)  // the front faces throw the whole shadow
         for_each_sample({corners[t[0]], corners[t[1]], corners[t[2]]}, width_, height_,
                         [&](int x, int y, const Vector3d&) { masks[y * width_ + x] |= 1U << k; });
     }

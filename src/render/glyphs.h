@@ -1,7 +1,7 @@
-/// The alphabet of labels: the printable characters of ASCII as strokes, in the manner of a pen plotter.
+/// A stroke font for labels: the printable characters of ASCII.
 ///
-/// A glyph is written as its strokes, separated by blanks; a stroke as points of two digits, x and y. x grows
-/// to the right from 0; y grows downward: 0 is the height of capitals, 2 that of small letters, 6 the
+/// A glyph is a string of strokes, separated by blanks. A stroke is a list of points, each of two digits: x,
+/// to the right from 0, and y, downward: 0 is the height of capitals, 2 that of small letters, 6 the
 /// baseline, 8 the depth of descenders. A stroke of one point is a dot.
 #pragma once
 
@@ -11,10 +11,10 @@ namespace mimicx::render {
 
 inline constexpr int kCapitalHeight = 6;
 
-/// Strokes of a character; those of '?' for one that is not in the alphabet.
+/// Strokes of a character; those of '?' for a character that the font lacks.
 std::string_view glyph(char c);
 
-/// How far the next character's left edge stands behind this one's, in the units of the glyphs.
+/// Advance width: from a character's left edge to the next character's, in the units of the glyphs.
 int advance(char c);
 
 }  // namespace mimicx::render

@@ -11,16 +11,16 @@ namespace mimicx::render {
 /// Light of the three primaries, linear, 1 is white.
 using Colour = Eigen::Vector3f;
 
-/// What a screen is told: red, green, blue.
+/// A pixel of a screen: red, green, blue.
 struct Pixel {
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const Pixel&) const = default;
 };
 
-/// The square root stands for the screen's gamma of 2.2: it is rounded correctly by every processor, which
-/// powers are not.
+/// The pixel of a colour. The square root approximates the screen's gamma of 2.2, because every processor
+/// rounds it correctly, unlike powers.
 Pixel shown(const Colour& light);
-/// The light of a pixel, so that shown(light_of(p)) == p.
+/// The colour of a pixel: shown(light_of(p)) == p.
 Colour light_of(const Pixel& pixel);
 
 /// Rows from the top, pixels from the left.
@@ -34,7 +34,7 @@ struct Image {
   List<Pixel> pixels;  ///< [height · width]
 };
 
-/// Puts an image onto another one, its upper left corner at (x, y); all of it must lie inside.
+/// Copies an image into another one, its upper left corner at (x, y). It must lie completely inside.
 void paste(const Image& part, int x, int y, Image& onto);
 
 }  // namespace mimicx::render

@@ -9,8 +9,8 @@ namespace mimicx::render {
 namespace {
 
 constexpr double kCell = 0.006;  ///< m
-constexpr double kLift = 0.012;  ///< places are looked up so far over their surface, m: two cells
-constexpr int kReach = 2;        ///< cells to either side that are looked at: edges are 3 cm wide
+constexpr double kLift = 0.012;  ///< offset along the normal before the look-up, m: two cells
+constexpr int kReach = 2;        ///< cells to each side of the filter: edges are 3 cm wide
 
 }  // namespace
 

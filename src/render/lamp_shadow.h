@@ -1,5 +1,5 @@
-/// Which places of the solids themselves the lamp does not reach: a shadow map (L. Williams, "Casting curved
-/// shadows on curved surfaces", SIGGRAPH 1978), looked up at several cells (percentage closer).
+/// The lamp's shadows on the solids: a shadow map (L. Williams, "Casting curved shadows on curved surfaces",
+/// SIGGRAPH 1978), averaged over several cells (percentage-closer filtering).
 #pragma once
 
 #include "render/solid.h"
@@ -8,10 +8,10 @@ namespace mimicx::render {
 
 class LampShadow {
  public:
-  /// @param to_lamp  direction to a lamp that is far away, unit length
+  /// @param to_lamp  direction to the distant lamp, unit length
   LampShadow(const List<Solid>& solids, const Vector3d& to_lamp);
 
-  /// Share of the lamp that reaches a place of a solid, 0 to 1. @param normal  outward, unit length
+  /// Share of the lamp's light that reaches a place of a solid, 0 to 1. @param normal  outward, unit length
   float light_at(const Vector3d& p, const Vector3d& normal) const;
 
  private:

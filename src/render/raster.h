@@ -1,9 +1,9 @@
-/// Which samples of a grid a triangle covers, and where in the triangle they lie.
+/// The samples of a grid that a triangle covers, and their barycentric coordinates.
 ///
-/// Corners are rounded to 1/256 of a sample and everything that decides is whole numbers, so that triangles
-/// with a common edge cover every sample between them exactly once: a sample on an edge belongs to the
-/// triangle below it or to the right of it (the top-left rule: J. Pineda, "A parallel algorithm for polygon
-/// rasterization", SIGGRAPH 1988, for the edge functions).
+/// Corners are rounded to 1/256 of a sample and coverage is decided in integers, so that triangles with a
+/// common edge cover every sample exactly once: a sample on an edge belongs to the triangle below it or to
+/// the right of it (the top-left rule: J. Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH
+/// 1988, for the edge functions).
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,17 @@ struct GridPoint {
 inline constexpr std::int64_t kSubSteps = 256;
 inline constexpr double kGridLimit = 1 << 20;  ///< samples: no corner lies farther from the origin
 
-/// @param p  in samples; beyond kGridLimit it is drawn to the limit
+/// @param p  in samples; clamped to ± kGridLimit
 GridPoint on_grid(const Eigen::Vector2d& p);
 
-/// The corners of a triangle, clockwise as one sees them on a picture whose y axis points down.
+/// The corners of a triangle, clockwise on a picture whose y axis points down.
 using GridTriangle = std::array<GridPoint, 3>;
 
-/// Twice the triangle's area in (1/256 sample)²; negative where it is turned away.
+/// Twice the triangle's area in (1/256 sample)²; negative for a back-facing triangle.
 std::int64_t twice_area(const GridTriangle& t);
 
 /// Calls visit(x, y, w) for every covered sample of a grid of width × height, row by row; w are the weights
-/// of the three corners, summing to 1. Of a triangle that is turned away there is none.
+/// of the three corners and sum to 1. A back-facing triangle covers no sample.
 template <class Visit>
 void for_each_sample(const GridTriangle& t, int width, int height, Visit&& visit) {
   const std::int64_t area = twice_area(t);

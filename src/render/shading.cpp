@@ -6,19 +6,19 @@
 namespace mimicx::render {
 namespace {
 
-constexpr float kLampLight = 0.85F, kSkyLight = 0.62F;  ///< on what faces them, white paper
-constexpr float kEarthLight = 0.22F;                    ///< from the floor, on what looks down
+constexpr float kLampLight = 0.85F, kSkyLight = 0.62F;  ///< on white paper that faces them
+constexpr float kEarthLight = 0.22F;                    ///< from the floor, on surfaces that face down
 constexpr double kLampRadius = 0.10;                    ///< as a share of its distance
 constexpr double kLampCell = 0.01, kSkyCell = 0.03;     ///< of their shadows on the floor, m
 
-/// Up, to the left of the camera and behind it.
+/// Direction to the lamp: up, left of the camera and behind it.
 Vector3d lamp_of(const Camera& camera) {
   const Vector3d right = camera.R_CW.row(0), away = camera.R_CW.row(2);
   const Vector3d level = Vector3d(away.x(), away.y(), 0).normalized();
   return (1.25 * Vector3d::UnitZ() - 0.75 * right - 0.55 * level).normalized();
 }
 
-/// x to the 32nd, by squaring: powers of the library may differ from one to the next.
+/// x³² by squaring: powers differ between libraries.
 float to_the_32nd(float x) {
   for (int k = 0; k < 5; ++k) x *= x;
   return x;

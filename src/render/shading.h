@@ -1,4 +1,4 @@
-/// How light falls on things, and what colour they have.
+/// Lighting: the colour of solids and floor as the camera sees them.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,25 @@ namespace mimicx::render {
 /// Edge of the floor's checks, m.
 inline constexpr double kCheck = 0.5;
 
-/// The light of a scene as its camera sees it.
+/// The lights of a scene and their shadows.
 class Shading {
  public:
-  /// @param things  what throws shadows
+  /// @param things  the solids that throw shadows
   Shading(const List<Solid>& things, const Camera& camera);
 
   /// Light from a place of a solid to the camera. @param normal  unit length
   Colour of_solid(const Vector3d& p, const Vector3d& normal, const Colour& colour) const;
-  /// Light from the floor where the ray from the camera meets it; with growing distance from the camera
-  /// that of the background.
+  /// Light from a place of the floor to the camera; it fades into the background with the distance.
   Colour of_floor(const Vector3d& p, double distance) const;
 
  private:
   Vector3d eye_, to_lamp_;
-  double far_;  ///< where the floor has half faded, m
+  double far_;  ///< distance at which the floor has faded by half, m
   FloorShadow lamp_, sky_;
   LampShadow body_shadow_;
 };
 
-/// Behind everything.
+/// The colour behind the scene.
 Colour background();
 
 }  // namespace mimicx::render

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPen = 0.13;  ///< width of the strokes, of the height of capitals
 
-/// How much of every pixel of a box is inked: strokes of a text cover a pixel once, however many cross it.
+/// Coverage of every pixel by the strokes of a text; overlapping strokes cover a pixel once.
 class Ink {
  public:
   Ink(double radius, const Image& image)

@@ -1,4 +1,4 @@
-/// Short labels in an alphabet of strokes (glyphs.h), drawn with round ends and soft edges.
+/// Short labels in a stroke font (glyphs.h), with round ends and antialiased edges.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace mimicx::render {
 /// Width of a line of text, pixels. @param height  of capital letters, pixels
 double text_width(const std::string& text, double height);
 
-/// Where a line of text stands, pixels.
+/// Place and size of a line of text, pixels.
 struct TextPlace {
   double x, y;    ///< the left end of the baseline
   double height;  ///< of capital letters

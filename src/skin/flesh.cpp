@@ -8,8 +8,8 @@
 namespace mimicx::skin {
 namespace {
 
-constexpr double kWithin = 0.020;     ///< over which the chains of a limb flow into each other, m
-constexpr double kOntoTrunk = 0.045;  ///< over which a limb flows into the trunk, m
+constexpr double kWithin = 0.020;     ///< blending width between chains of a limb, m
+constexpr double kOntoTrunk = 0.045;  ///< blending width between a limb and the trunk, m
 constexpr double kBetweenLegs = 0.02;
 constexpr double kEdgeOfSole = 0.008;
 constexpr double kFar = 1e9;
@@ -19,7 +19,7 @@ double smooth_min(double a, double b, double width) {
   return std::min(a, b) - 0.25 * h * h * width;
 }
 
-/// @param body  the only one whose part counts; -1: all
+/// @param body  only the part of this body counts; -1: all
 double distance_to_chain(const Chain& chain, const Vector3d& p, int body = -1) {
   auto first = chain.bodies.begin(), last = chain.bodies.end();
   if (body >= 0) {
@@ -56,20 +56,20 @@ double Flesh::distance(const Vector3d& p) const {
   Array<double, kLimbs> limb;
   limb.fill(kFar);
   for (const Chain& chain : chains_) {
-    // What is so far away cannot change anything. (The trunk comes first.)
+    // Limbs farther away cannot change the result. (The trunk comes first.)
     const double reach = std::min(limb[chain.limb], limb[0]) + kOntoTrunk;
     if (reach < kFar && chain.box.exteriorDistance(p) > reach) continue;
     limb[chain.limb] = smooth_min(limb[chain.limb], distance_to_chain(chain, p), kWithin);
   }
   for (int l = 0; l < kLimbs; ++l) limb[l] = -smooth_min(-limb[l], p.y() - sole_[l], kEdgeOfSole);
   const double with_arms = smooth_min(smooth_min(limb[0], limb[3], kOntoTrunk), limb[4], kOntoTrunk);
-  // Each leg for itself: they must not grow together.
+  // Each leg separately: the legs must not merge.
   return smooth_min(smooth_min(with_arms, limb[1], kOntoTrunk), smooth_min(with_arms, limb[2], kOntoTrunk),
                     kBetweenLegs);
 }
 
 Vector3d Flesh::normal(const Vector3d& p) const {
-  constexpr double kStep = 1e-3;  // m; wide enough to see no knot
+  constexpr double kStep = 1e-3;  // m; wide enough to smooth over the knots
   Vector3d gradient;
   for (int i = 0; i < 3; ++i) {
     const Vector3d step = kStep * Vector3d::Unit(i);

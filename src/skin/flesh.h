@@ -3,12 +3,12 @@
 /// Every body of the character gets tapered shapes whose lengths and radii follow from its own capsules and
 /// joints, so the mannequin has the proportions, the girth and the soles of the body that is simulated.
 /// Strings of such shapes (a leg from hip to ankle, the trunk from pelvis to chest) swell and taper along a
-/// spline. Strings flow into each other by a smooth minimum: those of a limb, and limbs into the trunk, but
-/// never one limb into another. (Smooth minimum: I. Quilez, "Smooth minimum", the quadratic one.)
+/// spline. A smooth minimum blends the strings of a limb, and each limb with the trunk, but never two limbs.
+/// (I. Quilez, "Smooth minimum", the quadratic one.)
 ///
 /// Soles are flat: a foot is cut off at the height at which the character stands.
 ///
-/// Distances are near enough for finding the surface, not exact: shapes are tapered and squeezed.
+/// Distances are accurate enough to find the surface, not exact: shapes are tapered and squeezed.
 #pragma once
 
 #include <vector>
@@ -23,14 +23,14 @@ class Flesh {
 
   /// Signed distance to the surface, bind pose, m.
   double distance(const Vector3d& p) const;
-  /// Outward unit normal of the surface of that distance through p.
+  /// Outward unit normal at p of the level surface of the distance through p.
   Vector3d normal(const Vector3d& p) const;
-  /// The nearest point of the surface, by Newton's steps along the normal.
+  /// The nearest point of the surface, by Newton's method along the normal.
   Vector3d on_surface(Vector3d p) const;
   /// Distance to the shapes of one body alone.
   double distance_to(int body, const Vector3d& p) const;
 
-  /// A box that holds all of it.
+  /// A box that contains the mannequin.
   Eigen::AlignedBox3d bounds() const;
 
  private:

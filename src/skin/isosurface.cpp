@@ -36,7 +36,7 @@ class Lattice {
   }
 
  private:
-  /// Blocks that are farther from the surface than they are large are not looked at point by point.
+  /// Skips the points of blocks that are farther from the surface than their size.
   void sample(const std::function<double(const Vector3d&)>& distance, bool centre) {
     constexpr int kBlock = 6;
     const int more = centre ? 0 : 1;
@@ -73,7 +73,7 @@ class Marching {
   void cut(const Array<int, 4>& n) {
     int inside = 0;
     for (int i = 0; i < 4; ++i) inside |= (lattice_.value(n[i]) < 0.0 ? 1 : 0) << i;
-    // Even permutations that put the corner, or both corners, of the lesser side first.
+    // Even permutations that put the corners of the smaller side first.
     constexpr Array<Array<int, 4>, 4> kFirst = {
         {{{{0, 1, 2, 3}}, {{1, 0, 3, 2}}, {{2, 3, 0, 1}}, {{3, 2, 1, 0}}}}};
     for (int i = 0; i < 4; ++i) {
@@ -96,8 +96,8 @@ class Marching {
  private:
   void triangle(int a, int b, int c) { surface.triangles.push_back({a, b, c}); }
 
-  /// The triangle that cuts off the first corner. Vertices are numbered as they are met, so the order is
-  /// written out: that of a call's arguments differs between compilers.
+  /// The triangle that cuts off the first corner. Vertices are numbered in order of creation, hence separate
+  /// statements: the evaluation order of a call's arguments differs between compilers.
   void tip(const Array<int, 4>& n, const Array<int, 4>& k, int i, int j, int l) {
     const int c = at(n, k, 0, l), b = at(n, k, 0, j), a = at(n, k, 0, i);
     triangle(a, b, c);
@@ -105,8 +105,8 @@ class Marching {
 
   int at(const Array<int, 4>& n, const Array<int, 4>& k, int i, int j) { return vertex(n[k[i]], n[k[j]]); }
 
-  /// Where the edge between two nodes is cut. Never right beside a node: no needles, and the vertices are
-  /// put onto the surface afterwards.
+  /// The vertex at which the edge between two nodes is cut. Never close to a node, which would give needles;
+  /// the vertices are moved onto the surface afterwards.
   int vertex(int a, int b) {
     if (a > b) std::swap(a, b);
     const auto key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
@@ -134,7 +134,7 @@ Surface isosurface(const std::function<double(const Vector3d&)>& distance, const
     for (c[1] = 0; c[1] < lattice.cubes(1); ++c[1])
       for (c[0] = 0; c[0] < lattice.cubes(0); ++c[0])
         for (int axis = 0; axis < 3; ++axis) {
-          if (c[axis] == 0) continue;  // the face towards the cube before, around which four tetrahedra stand
+          if (c[axis] == 0) continue;  // the face to the previous cube, with four tetrahedra around it
           const int u = (axis + 1) % 3, v = (axis + 2) % 3;
           Array<int, 3> before = c;
           --before[axis];

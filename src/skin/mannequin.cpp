@@ -11,9 +11,9 @@
 namespace mimicx::skin {
 namespace {
 
-constexpr double kReach = 0.012;  ///< how far away a body pulls at a vertex, m
-constexpr double kApart = 0.03;   ///< by how much nearer a leg must be to count in full, m
-constexpr double kLeast = 0.01;   ///< lighter weights are left out
+constexpr double kReach = 0.012;  ///< length over which a body's weight falls off, m
+constexpr double kApart = 0.03;   ///< distance by which a leg must be nearer to have full weight, m
+constexpr double kLeast = 0.01;   ///< smaller weights are dropped
 
 double smooth_step(double u) {
   u = std::clamp(u, 0.0, 1.0);
@@ -31,7 +31,7 @@ PerBody<double> pull_of_bodies(const Flesh& flesh, const Vector3d& p) {
   }
   for (int b = 0; b < kBodies; ++b) {
     const int l = kLimbOf[b];
-    double nearest_other = 1e9;  // the trunk is a neighbour of all
+    double nearest_other = 1e9;  // the trunk is next to every limb
     for (int other = 1; other < kLimbs; ++other)
       if (other != l) nearest_other = std::min(nearest_other, limb[other]);
     const double alone = l == 0 ? 1.0 : smooth_step((nearest_other - limb[l]) / kApart);
@@ -40,7 +40,7 @@ PerBody<double> pull_of_bodies(const Flesh& flesh, const Vector3d& p) {
   return pull;
 }
 
-/// The heaviest bodies at a vertex, summing to 1.
+/// The bodies of largest weight at a vertex; their weights sum to 1.
 void take_heaviest(const PerBody<double>& pull, Array<int, kInfluences>& joints,
                    Array<double, kInfluences>& weights) {
   PerBody<int> order;

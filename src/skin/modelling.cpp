@@ -8,7 +8,7 @@
 namespace mimicx::skin {
 namespace {
 
-/// Knots between which a spline runs, and the body of each stretch between two.
+/// Knots of a spline, and the body of each stretch between two knots.
 struct Profile {
   std::vector<Knot> knots;
   std::vector<int> bodies;
@@ -41,7 +41,7 @@ Profile smooth(const Profile& profile) {
   return fine;
 }
 
-constexpr double kGapOfLegs = 0.010;  ///< of either leg from the middle, m
+constexpr double kGapOfLegs = 0.010;  ///< distance of each leg from the middle plane, m
 
 class Modelling {
  public:
@@ -73,7 +73,7 @@ class Modelling {
   }
   double radius(int body) const { return c_.capsule[body].radius; }
 
-  /// The capsules of the trunk lie across it; a spline makes one body of them.
+  /// One spline through the capsules of the trunk, which lie across it.
   void trunk() {
     constexpr Array<int, 4> kUpward = {kPelvis, kSpine1, kSpine2, kSpine3};
     constexpr Array<double, 4> kGirth = {0.99, 0.96, 0.97, 1.02};  // a waist
@@ -85,7 +85,7 @@ class Modelling {
       profile.bodies.push_back(k.body);
     }
     profile = smooth(profile);
-    for (std::size_t i = 0; i < profile.bodies.size(); ++i)  // bodies part at the height of the joints
+    for (std::size_t i = 0; i < profile.bodies.size(); ++i)  // bodies meet at the height of the joints
       for (const int body : kUpward)
         if (body == kPelvis || profile.knots[i].p.y() > joint_[body].y()) profile.bodies[i] = body;
     add(profile, {1.0, 1.0, 0.94});  // less deep than round
@@ -93,7 +93,7 @@ class Modelling {
 
   void neck_and_head() {
     const Vector3d up = c_.joint_offset[kHead], neck = joint_[kNeck];
-    const Capsule& chest = c_.capsule[kSpine3];  // in thin long bodies it does not reach up to the neck
+    const Capsule& chest = c_.capsule[kSpine3];  // does not reach the neck in thin, long bodies
     add(kSpine3, {joint_[kSpine3] + 0.5 * (chest.a_B + chest.b_B), 0.55 * chest.radius},
         {neck - 0.2 * up, 1.1 * radius(kNeck)});
     add(kNeck, {neck - Vector3d(0, 0.4 * up.norm(), 0), 1.06 * radius(kNeck)},
@@ -111,12 +111,12 @@ class Modelling {
     const Capsule& k = c_.capsule[collar];
     const Vector3d at = joint_[collar], neck = joint_[kNeck] - at, out = c_.joint_offset[arm];
     add(collar, {at + k.a_B, 0.9 * k.radius}, {at + k.b_B, 0.95 * k.radius});
-    // From the neck down to the shoulder, and what is between that and the collar bone.
+    // From the neck down to the shoulder, and from there to the collar bone.
     add(collar, {at + 0.95 * neck, 0.78 * k.radius}, {at + 0.8 * out, 0.75 * k.radius});
     add(collar, {at + 0.45 * neck, 0.85 * k.radius}, {at + 0.45 * out, 0.85 * k.radius});
   }
 
-  /// A knot on the way from a body's joint to the next one, beside it by `shift` radii.
+  /// A knot on the bone from a body's joint to the next one, shifted by `shift` radii.
   Knot on_bone(int body, int child, double along, double thickness,
                const Vector3d& shift = Vector3d::Zero()) const {
     return {joint_[body] + along * c_.joint_offset[child] + radius(body) * shift, thickness * radius(body)};
@@ -130,13 +130,13 @@ class Modelling {
                  on_bone(thigh, shin, 0.36, 1.06, {0.05 * outward, 0, 0.06}), on_bone(thigh, shin, 1.0, 0.80),
                  on_bone(shin, ankle, 0.28, 1.16, {0, 0, -0.2}), on_bone(shin, ankle, 0.95, 0.74)},
                 {thigh, thigh, shin, shin}});
-    for (Knot& k : profile.knots)  // legs that touch at rest would grow together
+    for (Knot& k : profile.knots)  // legs that touch at rest would merge
       k.radius = std::clamp(outward * k.p.x() - kGapOfLegs, 0.5 * k.radius, k.radius);
     add(profile);
     foot(ankle);
   }
 
-  /// The capsules of the foot stand on the sole; here they are sunk into it, where the foot is cut off.
+  /// The foot: its capsules are lowered through the sole, where the foot is cut off.
   void foot(int ankle) {
     const int ball = ankle + 3;
     const Capsule &k = c_.capsule[ankle], &toe = c_.capsule[ball];

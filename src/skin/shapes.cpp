@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kAround = 20, kRings = 6;  ///< points of a circle; steps from the equator to a pole
 
-/// A closed capsule whose vertices lie on the true one; of length 0 a ball.
+/// Adds a closed capsule with vertices on the exact surface; of length 0 a ball.
 void add_capsule(int body, const Vector3d& a, const Vector3d& b, double radius, Mesh& mesh) {
   const bool is_ball = (b - a).norm() < 1e-9;
   const Vector3d along = is_ball ? Vector3d(Vector3d::UnitY()) : Vector3d((b - a).normalized());

@@ -1,7 +1,7 @@
-/// The shapes that the simulator collides with, as a mesh: what touches, exactly where.
+/// The collision shapes of the simulator as a mesh: it shows exactly what touches where.
 ///
-/// The capsules of all bodies, and the balls that the feet and insteps have beside them, each in one piece
-/// that follows its own body. (Heels and tips of the toes touch the floor in points, which have no surface.)
+/// The capsules of all bodies, and the balls of feet and insteps. Each is one piece that follows its own
+/// body. (Heels and tips of the toes touch the floor in points, which have no surface.)
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace mimicx::skin {
 
-/// Capsules in their bodies' frames; a ball is one of no length.
+/// Capsules in their bodies' frames; a ball is a capsule of length 0.
 std::vector<Capsule> collision_capsules(const Character& character);
 
 Mesh collision_shapes(const Character& character);

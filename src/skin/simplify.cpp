@@ -7,9 +7,9 @@
 namespace mimicx::skin {
 namespace {
 
-constexpr double kCurvature = 6.0;  ///< how much longer a right angle between the normals makes an edge
+constexpr double kCurvature = 6.0;  ///< weight of the turn of the normal in the length of an edge
 
-/// (cost, version, u, v): the edge as it was in that version of its ends.
+/// (cost, version, u, v): outdated once the version of the ends has changed.
 using Candidate = std::tuple<double, int, int, int>;
 
 class Collapsing {
@@ -57,7 +57,7 @@ class Collapsing {
   }
 
  private:
-  /// In rising order.
+  /// In ascending order.
   std::vector<int> neighbours(int v) const {
     std::vector<int> found;
     for (const int f : around_[v])
@@ -82,12 +82,12 @@ class Collapsing {
     std::set_intersection(of_u.begin(), of_u.end(), of_v.begin(), of_v.end(), std::back_inserter(common));
     if (common.size() != 2 || of_u.size() + of_v.size() > 14) return false;
     for (const int w : common)
-      if (around_[w].size() <= 3) return false;  // it would be left with two triangles
+      if (around_[w].size() <= 3) return false;  // two triangles would remain around w
     const Vector3d p = meeting_point(u, v), normal = (normals_[u] + normals_[v]).normalized();
     return keeps_facing(u, v, p, normal) && keeps_facing(v, u, p, normal);
   }
 
-  /// Whether the triangles around `moved` that do not go with `other` still face outward, and are no needles.
+  /// Whether the triangles around `moved` that stay after the contraction face outward and are no needles.
   bool keeps_facing(int moved, int other, const Vector3d& p, const Vector3d& normal) const {
     for (const int f : around_[moved]) {
       const Triangle& t = triangles_[f];
@@ -125,9 +125,9 @@ class Collapsing {
   }
 
   List<Vector3d> p_, normals_;
-  List<Triangle> triangles_;       ///< -1: gone
-  List<std::vector<int>> around_;  ///< triangles around a vertex; none: it is gone
-  List<int> version_;              ///< grows whenever the vertex moves
+  List<Triangle> triangles_;       ///< -1: removed
+  List<std::vector<int>> around_;  ///< triangles around a vertex; empty: removed
+  List<int> version_;              ///< increases when the vertex moves
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
 };
 
@@ -145,7 +145,7 @@ void even_out(Surface& surface, const Flesh& flesh, int rounds) {
     List<Vector3d> sum(p.count(), Vector3d::Zero());
     List<int> count(p.count(), 0);
     for (const Triangle& t : surface.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {  // every edge is met twice, once from each side
+      for (std::size_t k = 0; k < 3; ++k) {  // every edge occurs twice, once in each direction
         sum[t[k]] += p[t[(k + 1) % 3]];
         ++count[t[k]];
       }

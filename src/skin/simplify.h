@@ -1,9 +1,10 @@
-/// Fewer triangles: edges are drawn together, the least important first, and what is left is evened out.
+/// Reduces the triangles of a surface: contracts edges, the least important first, then evens out the
+/// vertices.
 ///
-/// An edge matters by its length and by how much the surface turns along it, so that flat parts get large
-/// triangles and round ones small ones. The mesh stays closed and a manifold: only edges whose ends have
-/// exactly two neighbours in common go (the link condition: Dey, Edelsbrunner, Guha, Nekhayev, "Topology
-/// preserving edge contraction", 1999), and none that turn a triangle over.
+/// The importance of an edge grows with its length and with the turn of the normal along it, so that flat
+/// parts get large triangles and round parts small ones. The mesh stays a closed manifold: an edge is
+/// contracted only if its ends have exactly two neighbours in common (the link condition: Dey, Edelsbrunner,
+/// Guha, Nekhayev, "Topology preserving edge contraction", 1999) and no triangle turns over.
 #pragma once
 
 #include "skin/flesh.h"
@@ -11,7 +12,7 @@
 
 namespace mimicx::skin {
 
-/// @param triangles  as many are left, or more where no further edge may go
+/// @param triangles  of the result; more are left if no further edge may be contracted
 Surface simplified(const Surface& surface, const Flesh& flesh, int triangles);
 
 /// Moves vertices towards the middle of their neighbours along the surface, and back onto it.

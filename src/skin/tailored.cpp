@@ -5,7 +5,7 @@
 namespace mimicx::skin {
 namespace {
 
-/// Around the capsule of every body, bind pose, m.
+/// The box around the capsule of every body, bind pose, m.
 PerBody<Eigen::AlignedBox3d> boxes_of(const Character& character) {
   const PerBody<Vector3d> joint = bind_joints(character);
   PerBody<Eigen::AlignedBox3d> boxes;
