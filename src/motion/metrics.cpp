@@ -115,7 +115,7 @@ void judge_physics(const MotionSamples& motion, Metrics& m) {
   m.gp_max = gp_max.times(kMm);
   m.floating = floating.times(kMm);
   m.self_pen = self_pen.times(kMm);
-  m.jitter = jitter.times(pow(motion.fps, 3) / 10.0);
+  m.jitter = jitter.times(pow(motion.fps, 3) / 10.0);  // jerk, m/s³, in the published unit of 10 m/s³
 }
 
 void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& truth, Metrics& m) {
