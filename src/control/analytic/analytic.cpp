@@ -12,7 +12,7 @@
 namespace mimicx::control {
 namespace {
 
-/// The PD target at one end of a frame, and how it turns with its residuals: the right Jacobians of exp.
+/// The PD target at one end of a frame, and its derivative by its residuals: the right Jacobians of exp.
 struct End {
   Target<double> target;
   PerBody<Matrix3d> turns;
@@ -29,9 +29,9 @@ End end_of(const Target<double>& reference, const Array<double, kDofs>& residual
   return end;
 }
 
-/// The target at the share s of the way, and how it turns with the residuals of the two ends. Interpolated
-/// linearly and normalised, q* = (α q_a + β q_b) / l; a turn ε of q_a, seen from q*, gives q* the turn
-/// (α/l) (c ε + n × ε), where (c, n) = q*⁻¹ q_a.
+/// The target at the share s of the interval, and its derivative by the residuals of both ends. Linear
+/// interpolation, normalised: q* = (α q_a + β q_b) / l. A turn ε of q_a turns q* by (α/l) (c ε + n × ε),
+/// where (c, n) = q*⁻¹ q_a.
 StepTarget target_at(const End& from, const End& to, double s) {
   StepTarget out;
   for (int i = 1; i < kBodies; ++i) {
@@ -143,7 +143,7 @@ void differentiate_frame(const Model<double>& model, const ControlFrame& frame, 
     clear(d);
     for (int lane = 0; lane < lanes; ++lane) seed(first + lane, lane, d.state);
     for (auto table = scratch.substeps.rbegin(); table != scratch.substeps.rend(); ++table)
-      retrace_step(*table, d);
+      step_adjoint(*table, d);
     write_block(d, first, lanes, out);
   }
 }

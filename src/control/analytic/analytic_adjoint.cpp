@@ -45,7 +45,7 @@ Vec3<T> add_transpose_times(const Vec3<T>& c, const Mat3<T>& m, const Vec3<T>& v
 /// The end of the step: q' = q exp(dt ω'), ω' = ω + dt dω/dt, and the root. docs/control_derivatives.md §3,
 /// (8)
 template <class T>
-[[gnu::flatten]] void retrace_integration(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+[[gnu::flatten]] void integration_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   const T dt(table.dt);
   StateAdjoint<T>& x = d.state;
   const SolveTable<RealOf<T>>& last = table.solve(table.solve_count - 1);
@@ -65,8 +65,8 @@ template <class T>
   d.theta[0] = cross(wide<T>(last.body[0].a), by_a);
 }
 
-/// Tip to root: with the parent at rest a body turns at z and hands its parent the rest of the forces.
-/// Only bodies that carry a force or a torque are looked at.
+/// Tip to root: the acceleration of each joint for a parent at rest, and the remaining forces, passed to the
+/// parent. Skips bodies without a force or torque in their branch.
 template <class T>
 [[gnu::flatten]] void bias_pass(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
                                 AdjointData<T>& d) {
@@ -97,7 +97,7 @@ template <class T>
   d.force[0].n -= d.qdd[0];
 }
 
-/// Adds what a solve says to what later ones have said; the last one, kAdd = false, is the first to speak.
+/// Adds the result of a solve to that of later solves; kAdd = false, for the last solve, overwrites.
 template <bool kAdd, class T>
 void collect(const Vec3<T>& value, Vec3<T>& sum) {
   if constexpr (kAdd)
@@ -106,12 +106,12 @@ void collect(const Vec3<T>& value, Vec3<T>& sum) {
     sum = value;
 }
 
-/// Root to tip: accelerations and transmitted forces, and what they say of joint torques and of the turns of
-/// joints.                                                        docs/control_derivatives.md §4, (9) and
-/// (10)
+/// Root to tip: accelerations and transmitted forces, and from them the derivatives by joint torques and by
+/// the turns of joints. docs/control_derivatives.md §4, (9) and (10)
 template <bool kAdd, class T>
-[[gnu::flatten]] void answer_pass(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
-                                  PerBody<Vec3<T>>& alphas, PerBody<Vec3<T>>& as, AdjointData<T>& d) {
+[[gnu::flatten]] void acceleration_pass(const SubstepTable<RealOf<T>>& table,
+                                        const SolveTable<RealOf<T>>& solve, PerBody<Vec3<T>>& alphas,
+                                        PerBody<Vec3<T>>& as, AdjointData<T>& d) {
   const Mat3<T> M = wide<T>(solve.root_M);
   const Vec3<T> right = add_transpose_times(-d.force[0].n, M, d.force[0].f);
   alphas[0] = wide<T>(solve.root_A_inv) * right;
@@ -154,12 +154,12 @@ template <bool kAdd, class T>
     }
 }
 
-/// The torque of joints that are at their bound in some solve belongs to the range and to either the law or
-/// the constant in its place. That one follows the law and the acceleration of the solve before the one that
-/// set it, which is asked in its turn.
-/// @param alphas  answer of the solve; null: it has not been asked
+/// Joints that are at their bound in some solve: their torque is the range's plus either the law or a
+/// constant in its place. The constant depends on the law and on the acceleration of the solve before it was
+/// set, whose derivative is accumulated for that solve.
+/// @param alphas  result of the transposed solve; null if it was not needed
 template <class T>
-void retrace_bounds(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
+void bounds_adjoint(const SubstepTable<RealOf<T>>& table, const SolveTable<RealOf<T>>& solve,
                     const PerBody<Vec3<T>>* alphas, AdjointData<T>& d) {
   for (const LawTable<RealOf<T>>& law : table.law) {
     const int i = law.body;
@@ -181,10 +181,10 @@ void retrace_bounds(const SubstepTable<RealOf<T>>& table, const SolveTable<RealO
   }
 }
 
-/// Floor contacts of one body: its place and velocity, and its acceleration in the solve before, which is
-/// asked in its turn.
+/// Floor contacts of one body: derivatives by its place and velocity, and by its acceleration in the previous
+/// solve, accumulated for that solve.
 template <class T>
-[[gnu::flatten]] void retrace_floor(const FloorTable<RealOf<T>>& floor, const Vec3<T>& alpha,
+[[gnu::flatten]] void floor_adjoint(const FloorTable<RealOf<T>>& floor, const Vec3<T>& alpha,
                                     const Vec3<T>& a, AdjointData<T>& d) {
   constexpr int kInputs = FloorTable<RealOf<T>>::kInputs;
   const int i = floor.body;
@@ -204,7 +204,7 @@ template <class T>
 
 /// The solves, last to first.
 template <class T>
-void retrace_solves(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+void solves_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   const Vec3<T> zero = zero3<T>();
   for (const LawTable<RealOf<T>>& law : table.law)
     d.law[law.body] = d.range[law.body] = d.held[law.body] = zero;
@@ -212,26 +212,26 @@ void retrace_solves(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (int k = last; k >= 0; --k) {
     const SolveTable<RealOf<T>>& solve = table.solve(k);
     PerBody<Vec3<T>>&alphas = k == last ? d.sum_alpha : d.alpha, &as = k == last ? d.sum_a : d.a;
-    const bool asked = solve.wanted[0];
-    if (asked) {
+    const bool needed = solve.wanted[0];
+    if (needed) {
       bias_pass(table, solve, d);
       if (k == last)
-        answer_pass<false>(table, solve, alphas, as, d);
+        acceleration_pass<false>(table, solve, alphas, as, d);
       else
-        answer_pass<true>(table, solve, alphas, as, d);
+        acceleration_pass<true>(table, solve, alphas, as, d);
     }
     if (k > 0)
       for (int i = 0; i < kBodies; ++i) d.qdd[i] = d.force[i].n = d.force[i].f = zero;
-    retrace_bounds(table, solve, asked ? &alphas : nullptr, d);
-    if (!asked) continue;
+    bounds_adjoint(table, solve, needed ? &alphas : nullptr, d);
+    if (!needed) continue;
     for (const FloorTable<RealOf<T>>& floor : solve.floor)
-      retrace_floor(floor, alphas[floor.body], as[floor.body], d);
+      floor_adjoint(floor, alphas[floor.body], as[floor.body], d);
   }
 }
 
-/// Self contact: places and velocities of two bodies by the forces on them.
+/// Self contact: derivatives by places and velocities of two bodies from those by their forces.
 template <class T>
-[[gnu::flatten]] void retrace_self_contact(const SelfPairTable<RealOf<T>>& pair, AdjointData<T>& d) {
+[[gnu::flatten]] void self_contact_adjoint(const SelfPairTable<RealOf<T>>& pair, AdjointData<T>& d) {
   const int body[2] = {pair.i, pair.j};
   for (int side = 0; side < 2; ++side) {
     const int to = body[side];
@@ -254,7 +254,7 @@ template <class T>
 /// Positions, velocities, velocity products and joint torques, tip to root: docs/control_derivatives.md §3,
 /// (4), transposed.
 template <class T>
-[[gnu::flatten]] void retrace_kinematics(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+[[gnu::flatten]] void kinematics_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (int i = kBodies - 1; i >= 0; --i) {
     const BodyTable<RealOf<T>>& b = table.body[i];
     const Mat3<T> R = wide<T>(b.R);
@@ -285,9 +285,9 @@ template <class T>
   }
 }
 
-/// The root's place, and the help on it, which does not turn with it.
+/// The root's place, and the assistive wrench, which does not turn with the root.
 template <class T>
-void retrace_root(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+void root_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   const BodyTable<RealOf<T>>& root = table.body[0];
   const Vec3<T> n = d.sum_alpha[0], f = d.sum_a[0];
   const Vec3<T> theta = add_cross(add_cross(d.theta[0], n, wide<T>(table.help_n)), f, wide<T>(table.help_f));
@@ -300,9 +300,9 @@ void retrace_root(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   d.help.f += f;
 }
 
-/// What joint torques say of the residuals of the targets.
+/// Derivatives by the residuals of the targets, from those by joint torques.
 template <class T>
-void retrace_targets(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+void targets_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (int i = 1; i < kBodies; ++i) {
     const Vec3<T> torque = d.torque[i];
     const int first = first_dof(i), count = is_hinge(i) ? 1 : 3;
@@ -316,12 +316,12 @@ void retrace_targets(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   }
 }
 
-/// Joints that are at their bound in some solve: only the law's part of the torque follows the targets.
+/// Joints that are at their bound in some solve: only the law's part of the torque depends on the targets.
 template <class T>
-void retrace_laws(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+void laws_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   for (const LawTable<RealOf<T>>& law : table.law) {
     const int i = law.body;
-    d.torque[i] = d.law[i];  // for which the table of the body has law and range together
+    d.torque[i] = d.law[i];  // the table of the body has law and range combined
     const Vec3<T> range = d.range[i] - d.law[i];
     const Vec3<T> spin = T(-law.range_damping) * range;
     d.state.spin[i] = add_transpose_times(d.state.spin[i], wide<T>(table.body[i].R), spin);
@@ -332,17 +332,17 @@ void retrace_laws(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
 }  // namespace
 
 template <class T>
-void retrace_step(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
-  retrace_integration(table, d);
-  retrace_solves(table, d);
-  for (const SelfPairTable<RealOf<T>>& pair : table.pairs) retrace_self_contact(pair, d);
-  retrace_laws(table, d);
-  retrace_kinematics(table, d);
-  retrace_root(table, d);
-  retrace_targets(table, d);
+void step_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
+  integration_adjoint(table, d);
+  solves_adjoint(table, d);
+  for (const SelfPairTable<RealOf<T>>& pair : table.pairs) self_contact_adjoint(pair, d);
+  laws_adjoint(table, d);
+  kinematics_adjoint(table, d);
+  root_adjoint(table, d);
+  targets_adjoint(table, d);
 }
 
-template void retrace_step<double>(const SubstepTable<double>&, AdjointData<double>&);
-template void retrace_step<Pack<kLanes>>(const SubstepTable<float>&, AdjointData<Pack<kLanes>>&);
+template void step_adjoint<double>(const SubstepTable<double>&, AdjointData<double>&);
+template void step_adjoint<Pack<kLanes>>(const SubstepTable<float>&, AdjointData<Pack<kLanes>>&);
 
 }  // namespace mimicx::control
