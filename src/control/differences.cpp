@@ -10,8 +10,8 @@
 namespace mimicx::control {
 namespace {
 
-/// A pack of characters around one point: state, targets and help of every lane, and how far the state is to
-/// be moved.
+/// A pack of characters around one point: state, targets and assistive wrench of every lane, and the change
+/// of the state that is still to be applied.
 struct Bundle {
   State<P> x;
   Target<P> from, to;
@@ -27,7 +27,7 @@ struct Bundle {
   }
 };
 
-/// The target at a frame with every residual moved in every lane. In the packs' own arithmetic, which differs
+/// The target at a frame with every residual moved in every lane, in the packs' arithmetic, which differs
 /// from `set_target` by rounding.
 void move_target(const System& system, int frame, const Control& u, const P* moves, Target<P>& out) {
   const auto entry = [&](int dof) { return P(u[dof]) + moves[dof]; };
@@ -51,7 +51,7 @@ void move_help(const System& system, const Control& u, const P* moves, Wrench<P>
         system, [&](int e) { return u[kDofs + e] + moves[e][lane]; }, lane, out);
 }
 
-/// Half the difference of two packs, as rows of lanes; zero where it is no number.
+/// Half the difference of two packs, lanes as columns; non-finite entries become zero.
 void half_difference(const State<P>& plus, const State<P>& minus, int lanes, int column,
                      Eigen::Ref<Eigen::Matrix<float, kTangent, Eigen::Dynamic, Eigen::RowMajor>> out) {
   const Tangent<P> d = difference(plus, minus);

@@ -2,13 +2,13 @@
 ///
 ///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, help)
 ///
-/// F has 122 rows and 122 + 55 + 55 columns, and 6 more for the help of a soft system.
+/// F has 122 rows and 122 + 55 + 55 columns, and 6 more for the assistive forces of a soft system.
 ///
 /// All coordinates move at once, along ± the rows of a Hadamard matrix; F is the least-squares fit, which for
 /// orthogonal rows is a product. It averages F over a neighbourhood in which contacts open and close, which
-/// the derivative at a point cannot show; the sizes of the steps say how far it smooths. Random signs per
-/// column (a fixed stream per frame) keep the same coordinates from always moving together; what is even in
-/// the perturbation cancels between + and −.
+/// the derivative at a point cannot show; the step sizes set the width of the smoothing. Random signs per
+/// column (a fixed stream per frame) decorrelate the coordinates; terms even in the perturbation cancel
+/// between + and −.
 /// Sources: antithetic pairs as in Salimans et al., "Evolution Strategies" (2017), §2.1; why smoothing:
 /// Suh et al., "Do Differentiable Simulators Give Better Policy Gradients?" (2022); the fit and its
 /// steps: docs/control.md §4, (6).
@@ -19,9 +19,9 @@
 
 namespace mimicx::control {
 
-inline constexpr int kMemory = kTangent + kDofs;  ///< z = (x, residual before): what the future depends on
+inline constexpr int kMemory = kTangent + kDofs;  ///< entries of z = (x, previous residual)
 
-/// How far the coordinates of each kind are moved.
+/// Step sizes of each kind of coordinate.
 struct DifferenceSteps {
   double position = 1.5e-3;  ///< m
   double rotation = 3e-3;    ///< rad
@@ -36,7 +36,7 @@ struct DifferenceSteps {
   DifferenceSteps scaled(double factor) const;
 };
 
-/// Where a frame is linearised.
+/// The point at which a frame is linearised.
 struct FramePoint {
   int frame;        ///< t
   State<double> x;  ///< x_t
@@ -44,7 +44,7 @@ struct FramePoint {
   Control u;        ///< u_t
 };
 
-/// F [122 × kMemory + system.controls()]: columns of x, of the residuals before, of the controls.
+/// F [122 × kMemory + system.controls()]: columns of x, of the previous residuals, of the controls.
 using FrameMatrix = Eigen::Matrix<float, kTangent, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// @return F; the ends of frames that go wrong in the simulator count as zero

@@ -19,7 +19,7 @@ void stage_cost(const ControlProblem& problem, const Trajectory& trajectory, int
   out.H.resize(kMemory + controls, kMemory + controls);
   out.H.triangularView<Eigen::Lower>().setZero();
   out.g.setZero(kMemory + controls);
-  if (t > 0) {  // the first state is given
+  if (t > 0) {  // the first state is fixed
     out.g.head(kTangent) = state.gradient;
     out.H.topLeftCorner(kPositions, kPositions) = state.position_hessian;
     out.H.diagonal().segment(kPositions, kPositions) = state.velocity_hessian;

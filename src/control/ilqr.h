@@ -29,8 +29,7 @@ struct FrameModel {
 /// Models of all frames 0 … n of a trajectory: F of all but the last, costs of all. Frames in parallel, same
 /// bytes for any number of threads.
 /// @param sweep  called with t = n − 1, …, 0, one after the other, as soon as the models of t and of all
-/// later
-///               frames are there: it runs beside the models of earlier frames; may be empty
+///               later frames are there: it runs beside the models of earlier frames; may be empty
 void build_models(const ControlProblem& problem, const Trajectory& trajectory, int threads,
                   List<FrameModel>& models, const std::function<void(int t)>& sweep = {});
 
@@ -66,8 +65,7 @@ Array<float, kLanes> step_lengths();
 /// What one iteration on a trajectory passes on to the next.
 struct IterationState {
   List<FrameModel> models;
-  bool models_current =
-      false;  ///< `models` are those of the trajectory as it is: no iteration changed it since
+  bool models_current = false;  ///< `models` are those of the trajectory as it is now
   Sweep sweep;
   double regularisation = 0;  ///< adapted: less after a full step, more after a short step or none
 };

@@ -32,7 +32,7 @@ FrameMatrix linearise(const System& system, const FramePoint& point, Linearisati
   frame.substeps = system.substeps;
   differentiate_frame(system.exact_model, frame, system.soft, scratch.frame, scratch.derivative);
   FrameMatrix F = std::move(scratch.derivative.F);
-  if (system.soft) {  // there the moment comes first, and both are forces instead of accelerations
+  if (system.soft) {  // F has moment before force there, and no accelerations
     const Eigen::Matrix<float, kTangent, kHelp> help = F.rightCols<kHelp>();
     F.middleCols<3>(kFrameColumns) = static_cast<float>(system.mass) * help.rightCols<3>();
     F.rightCols<3>() = static_cast<float>(inertia) * help.leftCols<3>();

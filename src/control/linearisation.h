@@ -7,7 +7,7 @@
 
 namespace mimicx::control {
 
-/// What one worker needs; large, to be kept from frame to frame. Its contents do not matter.
+/// Buffers of one worker; large, reuse them from frame to frame. Their contents do not matter.
 struct LinearisationScratch {
   FrameScratch<P> frame;
   FrameDerivative<P> derivative;

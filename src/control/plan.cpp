@@ -7,14 +7,14 @@
 namespace mimicx::control {
 namespace {
 
-/// Planning a whole reference once.
+/// One attempt to plan the whole reference.
 struct Attempt {
   const System& system;
   const PlanConfig& config;
   const PlanControl& control;
-  Plan& plan;  ///< counts what it took
+  Plan& plan;  ///< accumulates the counts
 
-  /// @param backtracks  at most so many, where the configuration allows more
+  /// @param backtracks  limit, beside that of the configuration
   HorizonResult run(const Cost& cost, int backtracks, const Trajectory& guess = {}) const {
     Trajectory start;
     start.x = {as_floats(system.at(0))};
@@ -29,8 +29,7 @@ struct Attempt {
   }
 };
 
-/// Of two tries, the second of which was made because the first was lost: the second where it was followed or
-/// stopped, else the longer.
+/// Of a failed attempt and its repetition: the repetition if it did not fail, otherwise the longer one.
 HorizonResult better_of(HorizonResult lost, HorizonResult again) {
   return again.ending != Ending::kLost || again.motion.size() > lost.motion.size() ? again : lost;
 }
@@ -41,7 +40,7 @@ List<Array<float, kHelp>> help_in(const Trajectory& motion) {
   return help;
 }
 
-/// @param price  factor on the price of help
+/// The cost with assistive forces weighted by the factor `price`.
 Cost with_price(const Cost& cost, double price) {
   Cost out = cost;
   out.weights.help *= price;
@@ -49,13 +48,13 @@ Cost with_price(const Cost& cost, double price) {
   return out;
 }
 
-/// A plan with help, and the factor on the price of help that it took.
+/// A plan with assistive forces, and the factor on their weight.
 struct SoftPlan {
   HorizonResult found;
   double price;
 };
 
-/// Plans with help, at its price and, where that is too high to stay with the reference, at a hundredth.
+/// Plans with assistive forces at their weight; if that fails, at a hundredth of it.
 SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
   constexpr double kCheap = 0.01;
   HorizonResult found = attempt.run(cost, 1);
@@ -63,10 +62,10 @@ SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
   return {attempt.run(with_price(cost, kCheap), 3), kCheap};
 }
 
-/// Makes help dearer from stage to stage until next to none is left. Each stage begins with the motion of the
-/// one before and follows that instead of the reference: so the motion moves away from the reference no
-/// faster than the body needs. Where a stage is lost, the step was too long: it and those after it make help
-/// dearer by the root of the factor. A stage that is lost by the shortest step is the last.
+/// Raises the weight of assistive forces from stage to stage until almost none are left. Each stage starts
+/// from the motion of the previous stage and follows it instead of the reference, so that the motion leaves
+/// the reference only as far as the body needs. If a stage fails, the factor becomes its square root. The
+/// stages end when the smallest factor fails.
 Trajectory stiffen(const Attempt& soft, const Cost& cost, Trajectory motion, double price) {
   constexpr double kDear = 4.0;
   double factor = soft.config.stiffening;
@@ -85,8 +84,8 @@ Trajectory stiffen(const Attempt& soft, const Cost& cost, Trajectory motion, dou
   return motion;
 }
 
-/// Follows from farther away: nearly the same motion, but distances and changes of the controls cost little
-/// beside the rest. A body that has to stay close to what it cannot do falls; one that may leave it does not.
+/// Follows with low weights on distances and changes of controls. A body that must stay close to an
+/// infeasible reference falls; one that may deviate from it does not.
 HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   constexpr double kGentle = 1.0 / 32;
   Cost gentle = cost;
@@ -96,8 +95,8 @@ HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   return attempt.run(gentle, attempt.config.horizon.backtracks);
 }
 
-/// By way of help: a soft plan, stiffened, then a hard one towards it. @return what the hard one came to, or
-/// the first state alone where the soft one did not come to the end
+/// Plans in stages with assistive forces, then a hard plan that follows the last stage. @return the hard
+/// plan, or the first state alone if the first stage did not reach the end
 HorizonResult plan_soft_to_hard(const Attempt& hard, const Cost& cost) {
   System soft_system = hard.system;
   soft_system.soft = true;
@@ -142,7 +141,7 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
     plan.loss = loss;
   }
   plan.ending = found.ending;
-  replay_controls(system, cost, found.motion);  // its cost and distances from the reference
+  replay_controls(system, cost, found.motion);  // cost and distances with respect to the reference
   fill(system, found.motion, plan);
   return plan;
 }

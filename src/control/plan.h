@@ -1,4 +1,4 @@
-/// The front door: from a reference to a motion that the simulator carries out, with its controls.
+/// Plans a motion: from a reference to a motion that the simulator performs, with its controls.
 ///
 ///     System system = make_system(character, simulation, reference, fps);
 ///     Plan plan = make_plan(system, {}, {.threads = 2});
@@ -7,12 +7,13 @@
 /// the same reference) gives `plan.states`, byte for byte. Budgets count iterations, never seconds, and the
 /// result does not depend on the number of threads.
 ///
-/// A reference that is lost goes from soft to hard: a plan with help (system.h) follows it; help gets dearer
-/// from stage to stage, each stage following the one before, and so draws the motion to what the body can do
-/// by itself (a stage that is lost is tried by a shorter step); the last plan follows that and has no help.
-/// What it comes to is a true simulation. If that is lost, too, the reference is planned once more from
-/// farther away: distances cost less beside the rest. A soft system is planned with help alone; its result is
-/// no simulation.
+/// If planning fails, assistive forces on the pelvis are added (soft system, system.h) and removed in stages:
+///  1. a plan with assistive forces follows the reference;
+///  2. each further stage raises the cost of these forces and follows the previous stage, so that the motion
+///     approaches what the body can do unaided; a stage that fails is tried again with a smaller increase;
+///  3. the last plan follows the last stage and has no assistive forces: it is a plain simulation.
+/// If that fails, too, the reference is planned once more with lower weights on distances. For a soft system
+/// step 1 is the result, which is no plain simulation.
 #pragma once
 
 #include <optional>
@@ -25,29 +26,29 @@ struct PlanConfig {
   CostWeights weights;
   List<Certainty> certainty;  ///< [frames], or empty
   HorizonConfig horizon;
-  bool soft_to_hard = true;  ///< where the reference is lost, plan again by way of help
-  double stiffening = 8.0;   ///< factor on the price of help from stage to stage, at first
+  bool soft_to_hard = true;  ///< if planning fails, plan again with assistive forces
+  double stiffening = 8.0;   ///< factor on the cost of assistive forces per stage, initially
 };
 
-/// Where a reference was lost.
+/// The failure of a plan.
 struct Loss {
   int frame = -1;       ///< first frame that no window reached
-  int body = -1;        ///< the body that was farthest from its reference in the longest try
-  double distance = 0;  ///< of it, m
+  int body = -1;        ///< body with the largest distance from its goal in that window
+  double distance = 0;  ///< its distance, m
 };
 
 struct Plan {
-  List<State<double>> states;           ///< [frames planned], from frame 0; all of them unless it was lost
+  List<State<double>> states;           ///< [frames planned], from frame 0; all frames unless it failed
   List<Array<float, kDofs>> residuals;  ///< [frames planned − 1]
-  List<Array<float, kHelp>> help;       ///< [frames planned − 1] of a soft system, else empty
-  /// Help that was left in the soft stage of a hard plan, [frames that it reached − 1]: what somebody outside
-  /// of the body would have to do. Empty where no soft stage was needed.
+  List<Array<float, kHelp>> help;       ///< [frames planned − 1] of a soft system, otherwise empty
+  /// Assistive accelerations of the first stage of a hard plan, [frames that it reached − 1]: the external
+  /// forces that the reference would need. Empty if no stage was needed.
   List<Array<float, kHelp>> soft_help;
   Ending ending = Ending::kFollowed;
   std::optional<Loss> loss;
-  bool by_way_of_help = false;  ///< followed only after a plan with help had shown how
-  double cost = 0;              ///< of the frames planned
-  double worst_distance = 0;    ///< of any body in them, m
+  bool by_way_of_help = false;  ///< followed after stages with assistive forces
+  double cost = 0;              ///< of the planned frames
+  double worst_distance = 0;    ///< largest distance of a body, m
   int iterations = 0;           ///< over all windows
   int linearised = 0;           ///< frames, over all iterations
   int backtracks = 0;
@@ -56,7 +57,7 @@ struct Plan {
 /// @throws std::invalid_argument as make_cost does
 Plan make_plan(const System& system, const PlanConfig& config, const PlanControl& control = {});
 
-/// Moments and forces on the pelvis that numbers of help stand for, N·m, N, world axes. @param mass  kg
+/// Assistive moments and forces on the pelvis, N·m, N, world axes. @param help  accelerations @param mass  kg
 List<Vector6d> wrenches_of(const List<Array<float, kHelp>>& help, double mass);
 
 /// The plan as a trajectory, for feedback_gains and test_pushes.

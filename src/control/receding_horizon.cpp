@@ -24,8 +24,8 @@ struct Window {
   IterationState iterations;
 };
 
-/// The window of `n` frames after the motion's last state: the rest of the window before, then the guess,
-/// then the goal, with gaps.
+/// The initial window of `n` frames after the motion's last state: the rest of the previous window, then the
+/// guess, then the goal, with gaps.
 Trajectory first_guess(const Task& task, const Trajectory& motion, const Trajectory& last, int n,
                        const Trajectory& guess) {
   Trajectory window;
@@ -56,7 +56,7 @@ void shorten(Trajectory& motion, int size) {
   motion.x.resize(size + 1);
 }
 
-/// Frames from the start that are a roll-out.
+/// Number of frames before the first gap.
 int frames_without_gap(const Trajectory& window) {
   int t = 0;
   while (t < window.size() && window.gaps[t + 1].isZero(0.0)) ++t;
@@ -65,7 +65,7 @@ int frames_without_gap(const Trajectory& window) {
 
 /// Whether a window needs no iteration after `done` ones.
 bool is_good(const HorizonConfig& o, const Trajectory& plan, int done, bool first) {
-  const double per_frame = plan.cost / plan.size();  // infinite as long as there are gaps
+  const double per_frame = plan.cost / plan.size();  // infinite while there are gaps
   if (done == 0) return false;
   if (first) return done >= o.hard_iterations;
   if (per_frame <= o.easy_cost) return true;
@@ -91,7 +91,8 @@ void solve_window(const Task& task, bool first, Window& window, HorizonResult& r
   replay_controls(task.problem.system, task.problem.cost, plan);
 }
 
-/// Notes where a window was lost: at the first frame that is too far, or behind its end where it was cut.
+/// Records the failure of a window: its first frame with a body too far off, or the frame after its end if it
+/// was cut.
 void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) {
   int t = 0, body = 0;
   double distance = 0.0;
@@ -114,13 +115,13 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
   result.lost_distance = distance;
 }
 
-/// Where the search stands in the list of lengths.
+/// State of the search over window lengths.
 struct Search {
-  int variant = 0;     ///< in kLonger
-  int until = 0;       ///< frame to which it is used
-  Trajectory longest;  ///< motion so far
+  int variant = 0;     ///< index into kLonger
+  int until = 0;       ///< frame up to which it is used
+  Trajectory longest;  ///< longest motion so far
 
-  /// Goes on after a loss in the window at `begin`. @return false when nothing is left to try
+  /// Goes back after a failure of the window at `begin`. @return false if nothing is left to try
   bool next(const HorizonConfig& config, int begin, int earliest, int frames, HorizonResult& result) {
     Trajectory& motion = result.motion;
     const bool exhausted = (begin <= until && variant + 1 >= static_cast<int>(kLonger.size())) ||

@@ -1,18 +1,19 @@
-/// The linear-quadratic regulator, backwards in time: from the value of the next state to the best control
-/// and the value of this one.
+/// One backward step of the linear-quadratic regulator: from the value function of the next state to the
+/// optimal control law and the value function of this state.
 ///
-/// Here the state remembers part of the control before (differences.h): z = (x, w) with
+/// The state includes part of the previous control (differences.h): z = (x, w) with
 ///     x' = F (x, w, u) + gap,      w' = the first entries of u,
 /// and the cost of a frame is ½ (z, u)ᵀ H (z, u) + gᵀ (z, u). With the value of the next state
 /// ½ z'ᵀ V z' + vᵀ z', the sum of both is a quadratic function Q of (z, u), least at
 ///     u = k + K z,      K = −Q_uu⁻¹ Q_uz,      k = −Q_uu⁻¹ q_u,
-/// and V ← Q_zz − Q_zu Q_uu⁻¹ Q_uz is the value of this one. Without memory (`memory` 0) this is the
-/// textbook's regulator (docs/control.md §1, (2)). Source: Tassa, Erez, Todorov, "Synthesis and Stabilization
+/// and V ← Q_zz − Q_zu Q_uu⁻¹ Q_uz is the value of this frame. With `memory` 0 this is the textbook regulator
+/// (docs/control.md §1, (2)). Source: Tassa, Erez, Todorov, "Synthesis and Stabilization
 /// of Complex Behaviors through Online Trajectory Optimization" (2012), eqs. (5), (6); gaps: Mastalli et al.,
 /// "Crocoddyl" (2020), §IV-B.
 ///
-/// Nearly all time goes into products of matrices. Their scalar is `Real`; gradients, Q_uu and its root are
-/// always in double. Planning takes float, which halves the time and plans as well (docs/control.md).
+/// Matrix products take nearly all of the time. Their scalar is `Real`; gradients, Q_uu and its Cholesky
+/// factor are always in double. Planning uses float, which halves the time at equal quality
+/// (docs/control.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +41,7 @@ struct Feedback {
 /// What a step returns beside the law.
 struct SweepResult {
   bool positive = false;  ///< Q_uu is positive definite; without it nothing else is valid
-  double decrease = 0;    ///< of the cost that k promises: −q_uᵀk − ½ kᵀQ_uu k
+  double decrease = 0;    ///< decrease of the cost predicted for k: −q_uᵀk − ½ kᵀQ_uu k
 };
 
 /// F of a frame, in the layout of the derivatives.
@@ -61,9 +62,9 @@ struct RiccatiScratch {
 };
 
 /// One frame backwards.
-/// @param regularisation  added to the diagonal of Q_uu: the price of moving u away from where it is
-/// @param cost  of this frame; destroyed: becomes Q
-/// @param value  of the next state in, of this one out
+/// @param regularisation  added to the diagonal of Q_uu: weight on changes of u
+/// @param cost  in: of this frame; out: Q
+/// @param value  in: of the next state; out: of this state
 template <class Real>
 SweepResult riccati_step(const LinearDynamics& dynamics, double regularisation, StageCost& cost,
                          ValueFunction& value, Feedback& law, RiccatiScratch<Real>& scratch);

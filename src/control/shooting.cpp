@@ -30,7 +30,7 @@ List<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajecto
     for (int lane = 0; lane < std::min(kLanes, n - first); ++lane) {
       Eigen::VectorXd& gap = gaps[first + lane + 1];
       for (int k = 0; k < kTangent; ++k) gap[k] = static_cast<double>(d[k][lane]);
-      // Of equal states ⊖ leaves the rounding of a quaternion product.
+      // ⊖ of equal states is the rounding of a quaternion product.
       if (!gap.allFinite() || gap.cwiseAbs().maxCoeff() < 1e-6) gap.setZero();
     }
   }

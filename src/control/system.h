@@ -1,13 +1,14 @@
-/// The controlled system: the simulator, a reference to follow, and what a control means.
+/// The controlled system: the simulator, a reference, and the meaning of a control.
 ///
-/// Time goes in control frames (1/30 s). The state x_t belongs to frame t; the control u_t acts from frame t
-/// to t + 1: 55 residual rotations on the reference's joint rotations of frame t + 1, exactly the actions of
-/// rl::tracking::TrackingPack in residual mode, so that a plan can be replayed as actions, byte for byte.
-/// During the interval the PD target moves from the old target to the new one, so the next state depends on
-/// the control before, too:
+/// Time is counted in control frames (1/30 s). The state x_t belongs to frame t; the control u_t acts from
+/// frame t to t + 1. It is 55 residual rotations on the reference's joint rotations of frame t + 1, exactly
+/// the actions of rl::tracking::TrackingPack in residual mode: a plan can be replayed as actions, byte for
+/// byte. During the interval the PD target moves from the old target to the new one, so the next state
+/// depends on the previous control, too:
 ///     x_{t+1} = f_t(x_t, u_{t−1}, u_t).
-/// Soft systems have six more controls: accelerations of help on the pelvis (step.h, `help`), by which a
-/// plan follows what no body can; they are penalised (cost.h), and a hard plan has exactly none.
+/// A *soft* system has six more controls: assistive forces on the pelvis (`help` of physics/step.h), given as
+/// accelerations. With them a plan can follow a motion that no body can perform; cost.h penalises them. A
+/// *hard* system, and so its plan, has none.
 #pragma once
 
 #include "core/containers.h"
@@ -21,14 +22,14 @@ using namespace physics;  // states, targets and lanes are the simulator's
 
 using P = Pack<kLanes>;
 
-inline constexpr int kHelp = 6;                     ///< help: acceleration (m/s²), angular one (rad/s²)
+inline constexpr int kHelp = 6;  ///< assistive acceleration (m/s²), angular acceleration (rad/s²)
 inline constexpr int kMaxControls = kDofs + kHelp;  ///< of a soft system; a hard one has kDofs
 
-/// Radius of gyration that turns the help's angular acceleration into a moment, m: about that of a body.
+/// Radius of gyration that converts the assistive angular acceleration to a moment, m: about that of a body.
 inline constexpr double kHelpRadius = 0.3;
 
 /// u_t: rotation vectors (angles for hinges) on the reference's joints, rad, in the order of first_dof; then
-/// the help in world axes, linear and angular, zero in a hard system.
+/// the assistive accelerations in world axes, linear and angular, zero in a hard system.
 using Control = Array<float, kMaxControls>;
 
 struct System {
@@ -39,7 +40,7 @@ struct System {
   int substeps = 8;                   ///< physics steps per frame
   double max_residual = 2.5;          ///< residuals beyond are clamped, rad
   bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity
-  bool soft = false;                  ///< whether there is help
+  bool soft = false;                  ///< has assistive forces
   List<State<double>> reference;      ///< [frames]
 
   int frames() const { return static_cast<int>(reference.size()); }
@@ -51,7 +52,7 @@ struct System {
 System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
                    double fps);
 
-/// A state in the numbers that the simulator can hold.
+/// The state, rounded to the simulator's floats.
 State<double> as_floats(const State<double>& x);
 
 /// The PD targets of all joints at frame t under residuals, in one lane.
@@ -66,11 +67,11 @@ void set_target(const System& system, int frame, const Entry& entry, int lane, T
     set_lane(out.omega[body], lane, system.velocity_feed_forward ? omega : Vector3d::Zero());
   }
 }
-/// Those in all lanes.
+/// The same in all lanes.
 Target<P> target_of(const System& system, int frame, const Control& u);
 
-/// The wrench on the pelvis that six numbers of help stand for: f = m a, n = m r² α, in one lane.
-/// @param entry  maps 0 … 5 to the number
+/// The assistive wrench on the pelvis, in one lane: f = m a, n = m r² α, r = kHelpRadius.
+/// @param entry  maps 0 … 5 to an entry of (a, α)
 template <class Entry>
 void set_help(const System& system, const Entry& entry, int lane, Wrench<P>& out) {
   const double m = system.mass, moment = m * kHelpRadius * kHelpRadius;
@@ -78,10 +79,11 @@ void set_help(const System& system, const Entry& entry, int lane, Wrench<P>& out
   set_lane(out.f, lane, Vector3d(m * Vector3d(number(0), number(1), number(2))));
   set_lane(out.n, lane, Vector3d(moment * Vector3d(number(3), number(4), number(5))));
 }
+/// The same in all lanes.
 Wrench<P> help_of(const System& system, const Control& u);
 
-/// One control frame, in every lane. @param help  not looked at in a hard system
-/// @return mask of the lanes that went wrong
+/// Simulates one control frame, in every lane. @param help  ignored in a hard system
+/// @return mask of the failed lanes
 MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to, const Wrench<P>& help,
                   State<P>& x, Data<P>& scratch);
 

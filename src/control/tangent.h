@@ -1,8 +1,8 @@
-/// The state manifold and its tangent space: what "a small change of a state" means in numbers.
+/// The state manifold and its tangent space: small changes of a state as vectors.
 ///
-/// A state holds rotations, so two states have no difference component by component. Instead
-/// x ⊖ y ∈ R¹²² is the change that leads from y to x and y ⊕ δ applies one, with (y ⊕ δ) ⊖ y = δ. Rotations
-/// change on the right, q ↦ q·exp(δ), that is in the body's own frame, as angular velocities are measured.
+/// A state contains rotations, so states have no componentwise difference. Instead x ⊖ y ∈ R¹²² is the change
+/// that leads from y to x, and y ⊕ δ applies a change: (y ⊕ δ) ⊖ y = δ. Rotations change on the right,
+/// q ↦ q·exp(δ), in the body's own frame, like angular velocities.
 /// Order of the 122 coordinates:
 ///     0 …   2  root position, world, m
 ///     3 …   5  root rotation, body's frame, rad
@@ -37,10 +37,10 @@ struct Dof {
   int body;
   Vector3d axis;  ///< of the rotation, child's frame
 };
-/// All of them in the order of first_dof.
+/// All actuated degrees of freedom, in the order of first_dof.
 const Array<Dof, kDofs>& dofs();
 
-/// a ⊖ b, lane by lane. Rotations differ by the shorter way.
+/// a ⊖ b, lane by lane, along the shorter rotations.
 template <class T>
 Tangent<T> difference(const State<T>& a, const State<T>& b);
 

@@ -3,10 +3,10 @@
 /// Floor (docs/physics.md §4, (7)). A point at depth s, with velocity v, pushes with
 ///     f_n = k s − (c + k dt) v_z       while that is positive,
 ///     f_t = −c_t v_t,   c_t = μ f_n / √(|v_t|² + v_s²)                (regularised Coulomb friction),
-/// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt), J =
-/// [−arm×, 1]. The solver therefore adds Jᵀ W J to the body's inertia and −Jᵀ(f − W ω×(ω×arm)) to its bias.
-/// The first pass takes f_n, c_t and the set of active contacts at the start of the step. Each later pass
-/// takes them at the end of the step, as the previous pass predicts it.
+/// taken at the end of the step:  f_applied = f − W (J a + ω×(ω×arm)),  W = dt·diag(c_t, c_t, c + k dt),
+/// J = [−arm×, 1]. The solver therefore adds Jᵀ W J to the body's inertia and −Jᵀ(f − W ω×(ω×arm)) to its
+/// bias. The first pass takes f_n, c_t and the set of active contacts at the start of the step. Each later
+/// pass takes them at the end of the step, as the previous pass predicts it.
 ///
 /// Self contact is a penalty force between capsules, equal and opposite at one common point, so that it does
 /// not change the momentum of the whole body. It is explicit, with a stiffness low enough for that (model.h).

@@ -21,9 +21,9 @@ template <class T>
   }
 }
 
-/// Lanes whose state is not finite or has run away: the pelvis is faster than `max_speed` or 100 km off, or a
-/// joint turns faster than `max_joint_speed` or by half a turn within a step, where `exp_map` ends.
-/// Comparisons with NaN are false, hence the negation.
+/// Mask of lanes whose state is not finite or has run away: the pelvis is faster than `max_speed` or more
+/// than 100 km from the origin, or a joint turns faster than `max_joint_speed` or by half a turn within a
+/// step, the limit of `exp_map`. Comparisons with NaN are false, hence the negation.
 template <class T>
 MaskOf<T> gone_wrong(const Model<RealOf<T>>& model, const State<T>& s) {
   const T limit(model.config.max_speed * model.config.max_speed);

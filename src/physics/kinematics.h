@@ -4,8 +4,8 @@
 /// using classical accelerations of the joint centre the joint's velocity-product term is
 ///     c = (ω_λ × ω_J ;  ω_λ × (ω_λ × r)),          derived in docs/physics.md §2, (2).
 ///
-/// The passes are marked `flatten`: every call inside them is inlined. Left to itself GCC calls the larger
-/// operators of spatial.h, through memory, which costs a third of the speed in double.
+/// The passes are marked `flatten`: every call inside them is inlined. Without it GCC calls the larger
+/// operators of spatial.h as functions, through memory, which costs a third of the speed in double.
 #pragma once
 
 #include "physics/data.h"

@@ -1,7 +1,7 @@
-/// One lane of a pack in and out: vectors, quaternions, whole states and targets.
+/// Reads and writes one lane of a pack: vectors, quaternions, whole states and targets.
 ///
-/// The other side is always in double (Eigen's types, or State<double> and Target<double>), which holds every
-/// float exactly: a lane that is read and set again keeps its bits. With T = double there is one lane, 0.
+/// The values outside of packs are double (Eigen's types, or State<double> and Target<double>), which holds
+/// every float exactly: reading and writing a lane keeps its bits. With T = double there is one lane, 0.
 #pragma once
 
 #include "physics/data.h"
@@ -77,7 +77,7 @@ Target<double> lane_of(const Target<T>& target, int lane) {
   return out;
 }
 
-/// The same value in every lane.
+/// Sets every lane to the same value.
 template <class T>
 void set_all_lanes(Vec3<T>& out, const Vec3<double>& v) {
   out = {T(v.x), T(v.y), T(v.z)};
@@ -99,7 +99,7 @@ Target<T> in_all_lanes(const Target<double>& target) {
   return out;
 }
 
-/// Lane `from` of one state or target into lane `to` of another one.
+/// Copies lane `from` of a state or target into lane `to` of another one.
 template <class Whole>
 void copy_lane(Whole& out, int to, const Whole& in, int from) {
   for_each_member(out, in, [&](auto& a, const auto& b) { set_lane(a, to, lane_of(b, from)); });

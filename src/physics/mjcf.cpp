@@ -28,7 +28,7 @@ void write_joint(const Character& c, int body, const MjcfConfig& what, std::ostr
   out << "/>\n";
 }
 
-/// Collides with nothing and weighs nothing: the inertia is written out.
+/// A geometry without collisions and mass: the inertia is written explicitly.
 void write_shape(const Capsule& k, std::ostream& out) {
   out << "<geom type=\"capsule\" size=\"" << k.radius << "\" fromto=\"" << numbers(k.a_B) << ' '
       << numbers(k.b_B) << "\" contype=\"0\" conaffinity=\"0\" rgba=\"0.7 0.65 0.6 1\"/>\n";
@@ -44,7 +44,7 @@ void write_body(const Character& c, int body, const MjcfConfig& what, std::ostre
   for (const ContactPoint& point : c.contact_points) {
     if (point.body != body) continue;
     const double radius = std::max(point.radius, 0.005);
-    const Vector3d centre = point.p_B + Vector3d(0, radius - point.radius, 0);  // soles look along −y
+    const Vector3d centre = point.p_B + Vector3d(0, radius - point.radius, 0);  // soles face −y
     out << "<geom type=\"sphere\" size=\"" << radius << "\" pos=\"" << numbers(centre) << "\"/>\n";
   }
   for (int child = body + 1; child < kBodies; ++child)
@@ -58,7 +58,7 @@ void append_subtree(int body, PerBody<int>& order, int& count) {
     if (kParents[child] == body) append_subtree(child, order, count);
 }
 
-/// Where each joint's numbers stand in qpos and qvel.
+/// A comment with the places of each joint in qpos and qvel.
 void write_coordinates(std::ostream& out) {
   out << kMjcfOpening;
   int qpos = 0, qvel = 0;

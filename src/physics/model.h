@@ -31,8 +31,8 @@ struct SimulationConfig {
   double self_damping = 30.0;       ///< N·s/m
   double limit_stiffness = 5000.0;  ///< of joint ranges, N·m/rad
   double limit_damping = 50.0;      ///< N·m·s/rad
-  double max_speed = 100.0;         ///< m/s; a pelvis that is faster has run away
-  double max_joint_speed = 600.0;   ///< rad/s; a joint that turns faster has run away
+  double max_speed = 100.0;         ///< limit of the pelvis' speed, m/s; beyond it the lane has failed
+  double max_joint_speed = 600.0;   ///< limit of a joint's speed, rad/s; beyond it the lane has failed
 };
 
 template <class Real>

@@ -1,17 +1,16 @@
 /// Pack<N>: N floats that behave like one number.
 ///
-/// The passes of the simulator are written once over a scalar type T. With T = double they are there to be
-/// read and checked; with T = Pack<N> every arithmetic operation handles N characters at once, lane i
-/// belonging to character i. Nothing ever moves a value from one lane to another, so what happens in one
-/// lane cannot reach its neighbours.
+/// The passes of the simulator are written once over a scalar type T. T = double serves reading and checking;
+/// with T = Pack<N> every arithmetic operation handles N characters at once, lane i belonging to character i.
+/// No operation moves a value from one lane to another, so lanes cannot influence each other.
 ///
 /// Because lanes may disagree, no branch may depend on a T. Comparisons give a mask, and `select(mask, a, b)`
 /// takes a where the mask is set and b elsewhere. For double the mask is a bool and the same source works.
 /// The one permitted use of a mask in a branch is `any(mask)`, to skip work that would change no lane.
 ///
 /// Rounding: +, −, ·, / and sqrt are IEEE-exact per lane and `fma` is fused wherever the target has it, so
-/// the bits of a lane depend neither on N nor on the position of the lane. They do differ from the double
-/// version: compare those two by tolerance. In portable arithmetic (MIMICX_ARITHMETIC of the build,
+/// the bits of a lane depend neither on N nor on the position of the lane. They differ from those of the
+/// double version: compare the two by tolerance. In portable arithmetic (MIMICX_ARITHMETIC of the build,
 /// docs/porting.md) nothing is fused anywhere and packs have 4 lanes, so that all machines give the same
 /// bits.
 #pragma once
@@ -160,7 +159,7 @@ bool any(Mask mask) {
   return result;
 }
 
-// The same vocabulary for one double.
+// The same functions for one double.
 inline double fma(double a, double b, double c) {
 #if defined(MIMICX_FUSED)
   return __builtin_fma(a, b, c);
@@ -174,7 +173,7 @@ inline double min(double a, double b) { return a < b ? a : b; }
 inline bool any(bool mask) { return mask; }
 using std::sqrt;
 
-/// Lane access and the matching plain real type, for code that fills or reads a T.
+/// Lane access and the scalar type of a lane, for code that fills or reads a T.
 template <class T>
 struct ScalarTraits;
 template <>

@@ -1,7 +1,7 @@
-/// What an action a ∈ R⁵⁵ means to the PD controllers: a rotation per joint, as a rotation vector for ball
-/// joints and an angle about the axis for hinges. docs/method.md §4
+/// The PD target of an action a ∈ R⁵⁵: a rotation per joint, as a rotation vector for ball joints and an
+/// angle about the axis for hinges.                                                 docs/method.md §4
 ///
-/// Learned policies and plans share these lines, so that a plan replayed as actions has the same bytes.
+/// Policies and plans share these functions, so that a plan replayed as actions gives the same bytes.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace mimicx::physics {
 
-/// The joint's part of an action. Entries beyond ± `limit` (rad) are clamped; one that is no number is zero.
+/// The joint's rotation in an action. Entries beyond ± `limit` (rad) are clamped; non-finite entries count as
+/// 0.
 /// @param entry  maps a degree of freedom 0 … 54 to its entry
 template <class Entry>
 Vector3d action_rotation(int body, double limit, const Entry& entry) {

@@ -1,8 +1,8 @@
 /// Vectors, matrices, quaternions and articulated inertias over the simulator's scalar type T.
 ///
 /// Spatial vectors are (angular; linear), always in axes parallel to the world's and about the body's own
-/// joint centre. Between such frames a change of coordinates X is a pure translation, which is what makes
-/// the passes short (docs/physics.md §2). Products that feed a sum are fused explicitly.
+/// joint centre. A change of coordinates X between such frames is a pure translation, which makes the passes
+/// short (docs/physics.md §2). Products that are added are fused explicitly.
 #pragma once
 
 #include "core/elementary.h"
@@ -11,7 +11,7 @@
 
 namespace mimicx::physics {
 
-// Those of core/so3.h stay in reach beside the overloads for lanes below.
+// The overloads for lanes below would hide those of core/so3.h.
 using mimicx::exp_map;
 using mimicx::log_map;
 

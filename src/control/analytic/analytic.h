@@ -1,17 +1,17 @@
 /// Analytic derivatives of a control frame: how the state after it changes with the state before it and with
 /// the PD targets.                                                           docs/control_derivatives.md
 ///
-/// What is differentiated is `step` as it is (semi-implicit Euler; implicit PD, ranges and floor contacts
-/// with every linearisation; torque bounds; self contact), once per physics step of the control interval.
+/// The derivative is that of `step` (semi-implicit Euler; implicit PD, ranges and floor contacts with every
+/// linearisation; torque bounds; self contact), applied for every physics step of the control interval.
 /// Inside a step the recursion of the articulated-body algorithm is differentiated, after J. Carpentier and
 /// N. Mansard, "Analytical Derivatives of Rigid Body Dynamics Algorithms" (RSS 2018), and transposed: rows of
-/// the derivative run backwards through the frame, for it has fewer rows than columns. All of them share the
-/// articulated inertias of the nominal step, so that a row costs two sweeps over the bodies per solve. The
-/// rows are the lanes of T: one with double, kLanes with Pack.
+/// the derivative are propagated backwards through the frame, for it has fewer rows than columns. All rows
+/// share the articulated inertias of the nominal step, so that a row costs two sweeps over the bodies per
+/// solve. The rows are the lanes of T: one with double, kLanes with Pack.
 ///
-/// Who pushes, what is saturated, out of range or in self contact is that of the nominal motion. Where one of
-/// these is about to change the function has a kink, and this is the derivative of one side; of a
-/// neighbourhood there is the smoothed one (differences.h).
+/// Contacts, saturated joints, exceeded ranges and self contacts are those of the nominal motion. At a switch
+/// of one of them the function has a kink, and this is the one-sided derivative; differences.h has a
+/// derivative smoothed over a neighbourhood.
 #pragma once
 
 #include "control/analytic/analytic_adjoint.h"
@@ -21,7 +21,7 @@
 namespace mimicx::control {
 
 /// Columns of a frame's derivative: the state's tangent, the residuals of the old target, those of the new
-/// one; then, where asked for, the help on the pelvis.
+/// one; then, if requested, the assistive wrench on the pelvis.
 inline constexpr int kFrameColumns = kTangent + 2 * kDofs;
 inline constexpr int kFrameColumnsWithHelp = kFrameColumns + 6;
 
@@ -42,10 +42,10 @@ struct FrameDerivative {
   /// d end / d (start, from_residual, to_residual [, help: moment, force]), [122][232 or 238].
   Eigen::Matrix<RealOf<T>, kTangent, Eigen::Dynamic, Eigen::RowMajor> F;
   State<double> end;   ///< of the nominal motion
-  bool wrong = false;  ///< the nominal motion ran away (`step`): F and end are not to be used
+  bool wrong = false;  ///< the nominal motion failed (`step`): F and end must not be used
 };
 
-/// What one worker needs; large, to be kept from frame to frame. Its contents do not matter.
+/// Buffers of one worker; large, reuse them from frame to frame. Their contents do not matter.
 template <class T>
 struct FrameScratch {
   Data<double> data;
@@ -55,7 +55,7 @@ struct FrameScratch {
 
 /// Differentiates one control frame. A row does not depend on the lane it is computed in, nor on its
 /// neighbours.
-/// @param with_help  also by the help
+/// @param with_help  also by the assistive wrench
 /// @throws std::invalid_argument for fewer than one physics step
 template <class T>
 void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_help,

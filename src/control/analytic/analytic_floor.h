@@ -1,16 +1,16 @@
-/// How the forces of floor contacts change, for one solve of a step.     docs/control_derivatives.md §3
+/// Derivatives of the forces of floor contacts in one solve of a step.   docs/control_derivatives.md §3
 #pragma once
 
 #include "control/analytic/analytic_tables.h"
 
 namespace mimicx::control {
 
-/// The velocities at which the contacts in use were linearised last, m/s; index as in Data::ground.
+/// The velocities at which the contacts were last linearised, m/s; index as in Data::ground.
 using ContactVelocities = Array<Vec3<double>, kMaxContacts>;
 
 /// Before the first solve: the velocities at the start of the step.
 void velocities_at_start(const Data<double>& d, ContactVelocities& out);
-/// Before a later solve: those that the accelerations in `d` predict for the end of the step.
+/// Before a later solve: the velocities that the accelerations in `d` predict for the end of the step.
 void predicted_velocities(const Model<double>& model, const Data<double>& d, ContactVelocities& out);
 
 /// Accelerations of the bodies.

@@ -1,4 +1,4 @@
-/// How joint torques change, and how positions follow velocities.        docs/control_derivatives.md §3
+/// Derivatives of joint torques and of the integration of rotations.     docs/control_derivatives.md §3
 #pragma once
 
 #include "control/analytic/analytic_tables.h"
@@ -17,7 +17,7 @@ template <class Real>
 void tabulate_saturated(const Model<double>& model, const Data<double>& d, const PerBody<bool>& kept,
                         List<SaturatedTable<Real>>& out);
 
-/// Rotations after the step. @param state  after the step
+/// Derivatives of the rotations after the step. @param state  after the step
 template <class Real>
 void tabulate_integration(const Model<double>& model, const State<double>& state, SubstepTable<Real>& out);
 

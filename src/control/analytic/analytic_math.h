@@ -1,4 +1,4 @@
-/// Between the simulator's small types and Eigen's, for the tables of the analytic derivatives.
+/// Conversions between the simulator's small types and Eigen's, for the tables of the analytic derivatives.
 #pragma once
 
 #include "control/analytic/rotation_derivatives.h"

@@ -55,7 +55,7 @@ using PairRows = Eigen::Matrix<double, 3, 24>;
 PairRows cross(const Vector3d& a, const PairRows& x) { return skew(a) * x; }
 PairRows cross(const PairRows& x, const Vector3d& a) { return -skew(a) * x; }
 
-/// How one of the two bodies moves.
+/// Motion of one of the two bodies.
 struct Mover {
   PairRows theta = PairRows::Zero(), w = PairRows::Zero(), v = PairRows::Zero(), p = PairRows::Zero();
 
@@ -125,7 +125,7 @@ void tabulate_self_contact(const Model<double>& model, const Data<double>& d,
   if (!model.config.self_contact) return;
   for (const auto& pair : model.self_pairs) {
     const int i = pair[0], j = pair[1];
-    // Bodies on which nothing pushes meet nobody.
+    // Bodies without a self-contact force have no pair.
     const auto touched = [&](int body) {
       const Vec3<double>& f = d.self_wrench[body].f;
       return dot(f, f) > 0.0;

@@ -1,4 +1,4 @@
-/// Which capsules push each other apart in a step, and how.              docs/control_derivatives.md §3
+/// Derivatives of self contact in a step.                              docs/control_derivatives.md §3
 #pragma once
 
 #include "control/analytic/analytic_tables.h"

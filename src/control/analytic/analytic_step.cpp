@@ -97,10 +97,9 @@ struct Solves {
   ContactVelocities linearised;
   Accelerations before;
 
-  /// Solves, and tabulates that unless nothing has changed since the solve before.
+  /// Solves and tabulates the solve, unless no body is outdated since the solve before.
   void solve_and_tabulate() {
-    const bool anew = std::find(d.outdated.begin(), d.outdated.end(), true) != d.outdated.end();
-    if (!anew) return;
+    if (std::find(d.outdated.begin(), d.outdated.end(), true) == d.outdated.end()) return;
     const bool first = out.solve_count == 0;
     before = {d.a_w, d.a_v};
     solve(model, d);
