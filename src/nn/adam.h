@@ -1,10 +1,10 @@
 /// Adam (Kingma & Ba, ICLR 2015, Algorithm 1), and clipping of a gradient by its norm.
 ///
-/// The root is the processor's own, which is exact by IEEE 754. Eigen's would be taken from an approximate
+/// Square roots use the processor's exact instruction (IEEE 754). Eigen's would use an approximate
 /// instruction, whose bits differ between makers of processors.
 ///
-/// Deviation: the powers β₁ᵗ and β₂ᵗ are carried along as products instead of being computed by `pow`,
-/// whose bits differ between libraries.
+/// Deviation: the powers β₁ᵗ and β₂ᵗ are running products instead of calls of `pow`, whose bits differ
+/// between libraries.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Adam {
   std::vector<Matrix<S>> second;  ///< [parameter] running mean v of its square
 };
 
-/// Moments of zero for these parameters.
+/// Adam with zero moments for these parameters.
 template <class S>
 Adam<S> make_adam(std::span<Matrix<S>* const> parameters);
 
@@ -40,7 +40,7 @@ void adam_step(Adam<S>& adam, std::span<Matrix<S>* const> parameters, std::span<
 /// Euclidean norm of all gradients together; summed in double, in order.
 template <class S>
 double gradient_norm(std::span<const Matrix<S>> gradients);
-/// Scales the gradients down to `max_norm` where they exceed it. @return the norm before.
+/// Scales the gradients down to `max_norm` if their norm exceeds it. @return the norm before.
 template <class S>
 double clip_gradient_norm(std::span<Matrix<S>> gradients, double max_norm);
 

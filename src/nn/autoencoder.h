@@ -2,9 +2,9 @@
 ///
 /// Source: Vincent et al., "Extracting and composing robust features with denoising autoencoders", ICML 2008.
 /// Inputs are normalised feature by feature, corrupted by Gaussian noise, encoded and decoded; the loss is
-/// the mean squared error against the uncorrupted, normalised input. The code keeps what the training samples
-/// have in common and drops errors that differ from sample to sample.
-/// Deterministic: the result depends on samples, configuration and seed alone.
+/// the mean squared error against the uncorrupted, normalised input. The code keeps what training samples
+/// have in common and drops errors that differ from sample to sample. Deterministic: the result depends on
+/// samples, configuration and seed only.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct AutoEncoderStats {
 };
 
 /// @param samples   [n, features], n ≥ 1
-/// @param progress  called with the steps done after every hundredth; may be empty
+/// @param progress  called with the number of steps after every hundredth of them; may be empty
 AutoEncoder train_autoencoder(const Matrix<float>& samples, const AutoEncoderConfig& config,
                               std::uint64_t seed, AutoEncoderStats* stats = nullptr,
                               const std::function<void(int steps)>& progress = {});

@@ -29,7 +29,7 @@ NpyArray to_npy(const Matrix<S>& matrix) {
     return NpyArray::from_double(shape, matrix.data());
 }
 
-/// A member of the exact shape and element type.
+/// The elements of a member, whose shape and element type are checked.
 std::vector<double> checked(const Npz& archive, const std::string& key, NpyArray::Type type,
                             const std::vector<std::size_t>& shape) {
   const NpyArray& array = archive.at(key);

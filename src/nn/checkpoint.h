@@ -31,8 +31,8 @@ Adam<S> load_adam(const Npz& archive, const std::string& prefix);
 template <class S>
 Normaliser<S> load_normaliser(const Npz& archive, const std::string& prefix);
 
-/// So many whole numbers, of a member of any shape.
-/// @throws DataError naming archive and key, also for another number of them
+/// The `count` integers of a member of any shape.
+/// @throws DataError naming archive and key, also for another count
 std::vector<std::int64_t> whole_numbers_at(const Npz& archive, const std::string& key, std::size_t count);
 
 }  // namespace mimicx::nn

@@ -1,9 +1,8 @@
 /// Our own exp, the activation elu over arrays, and sums with a defined order.
 ///
 /// The standard library's functions give different bits on different CPUs, and Eigen's differ between the
-/// vectorised body of a row and its tail. These are made of + − · / and bit shifts only, without fused
-/// operations: the compiler may vectorise them at any width and every element keeps its bits, wherever
-/// it stands.
+/// vectorised body of a row and its tail. These use + − · / and bit shifts only, without fused operations:
+/// the compiler may vectorise them at any width, and the bits of an element do not depend on its place.
 ///
 /// The method of the exponential is that of core/exponential.h.
 /// Error against the exact value, in units in the last place: exp 2, expm1 3 (tested).
@@ -54,7 +53,7 @@ inline S expm1_value(S x) {
   return (scale - S(1)) + scale * fraction;
 }
 
-/// x where x > 0, else e^x − 1: the sum of the two sides, one of which is 0.
+/// x for x > 0, otherwise e^x − 1: the sum of both branches, one of which is 0.
 template <class S>
 inline S elu_value(S x) {
   const S negative = x < S(0) ? x : S(0);

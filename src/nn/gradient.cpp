@@ -9,7 +9,7 @@
 namespace mimicx::nn {
 namespace {
 
-/// [node] whether it lies on a path from wrt: it is a member, or one of its inputs lies on such a path.
+/// [node] whether it depends on wrt: it is a member, or one of its inputs depends on wrt.
 template <class S>
 List<bool> dependents(const Tape<S>& tape, Var scalar, std::span<const Var> wrt) {
   List<bool> depends(tape.size(), false);
@@ -23,8 +23,8 @@ List<bool> dependents(const Tape<S>& tape, Var scalar, std::span<const Var> wrt)
   return depends;
 }
 
-/// Hands the node's gathered gradient on to those of its inputs that lead from wrt.
-/// @param adjoint  [node] gradient of the scalar, as far as it has been gathered
+/// Adds the node's contribution to the adjoints of its inputs that depend on wrt.
+/// @param adjoint  [node] gradient of the scalar, accumulated so far
 template <class S>
 void propagate(Tape<S>& tape, Var v, const List<bool>& depends, List<Var>& adjoint) {
   const auto recipe = tape.recipe(v);  // a copy: the rule appends nodes

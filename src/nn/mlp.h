@@ -1,4 +1,4 @@
-/// Multi-layer perceptron: the parameters, a differentiable forward pass and one without a tape.
+/// Multi-layer perceptron: parameters, a differentiable forward pass, and a forward pass without a tape.
 #pragma once
 
 #include <span>
@@ -30,7 +30,8 @@ Mlp<S> make_mlp(const std::vector<int>& sizes, S last_scale, Random& random);
 /// The parameters in their fixed order W_1, b_1, W_2, b_2 …
 template <class S>
 std::vector<Matrix<S>*> parameters(Mlp<S>& mlp);
-/// The same order as places on a tape, by reference: the network must not change during the pass.
+/// The parameters as nodes of a tape, in the same order, by reference: the network must not change during the
+/// pass.
 template <class S>
 std::vector<Var> parameters_on_tape(Tape<S>& tape, const Mlp<S>& mlp);
 

@@ -7,7 +7,7 @@ namespace mimicx::nn {
 
 namespace {
 
-/// Added to the variance: a feature that never moves is shifted to 0 and not blown up.
+/// Added to the variance, so that a constant feature becomes 0 and is not amplified.
 constexpr double kVarianceFloor = 1e-6;
 
 }  // namespace

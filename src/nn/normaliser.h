@@ -1,7 +1,7 @@
 /// Running mean and deviation of features, and the scaling of inputs by them.
 ///
-/// Workers take the moments of their own chunk; the owner merges them in a fixed order. Statistics are
-/// in double: Chan, Golub, LeVeque, "Updating formulae and a pairwise algorithm for computing sample
+/// Workers compute the moments of their chunks; the owner merges them in a fixed order. Statistics are in
+/// double: Chan, Golub, LeVeque, "Updating formulae and a pairwise algorithm for computing sample
 /// variances" (1979), Eq. 2.1.
 #pragma once
 
@@ -18,14 +18,14 @@ struct Moments {
   Eigen::RowVectorXd squares;  ///< [features] Σ (x − mean)²
 };
 
-/// Of no rows yet.
+/// Moments of no rows.
 Moments make_moments(int features);
 
-/// Two passes over the rows of a batch; no rows give a count of 0.
+/// Moments of the rows of a batch, in two passes; count 0 for no rows.
 template <class S>
 Moments moments_of(const Matrix<S>& batch);
 
-/// Moments of both samples together.
+/// Makes `into` the moments of both samples together.
 void merge(Moments& into, const Moments& other);
 
 template <class S>
@@ -38,7 +38,7 @@ struct Normaliser {
   int features() const { return static_cast<int>(moments.mean.size()); }
 };
 
-/// Of no samples yet: the identity apart from the clipping.
+/// A normaliser without samples: the identity apart from clipping.
 template <class S>
 Normaliser<S> make_normaliser(int features, S limit = S(10));
 

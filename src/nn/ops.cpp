@@ -26,7 +26,7 @@ template <class S>
   return tape.value(a).rows() == tape.value(b).rows() && tape.value(a).cols() == tape.value(b).cols();
 }
 
-/// 1 where the condition on the elements of a and b holds, else 0: constant for gradients.
+/// 1 where the condition on the elements of a and b holds, otherwise 0; constant for gradients.
 template <class S, class Condition>
 Var indicator(Tape<S>& tape, Var a, Var b, Condition condition) {
   const Var mask = append_like<S>(tape, {}, a);
@@ -42,8 +42,8 @@ Var indicator(Tape<S>& tape, Var a, Var b, Condition condition) {
 
 // ---- products ----------------------------------------------------------------------------------------
 
-// C = op(A)·op(B), G = dL/dC: dL/dop(A) = G·op(B)ᵀ, dL/dop(B) = op(A)ᵀ·G; where an input was transposed,
-// the transpose of that.
+// C = op(A)·op(B), G = dL/dC: dL/dop(A) = G·op(B)ᵀ, dL/dop(B) = op(A)ᵀ·G; transposed for an input that was
+// transposed.
 template <class S>
 static Gradients matmul_adjoint(Tape<S>& tape, Var node, Var g, const Wanted& wanted) {
   const Recipe<S> recipe = tape.recipe(node);
@@ -75,7 +75,7 @@ template <class S>
 static Var elu_slope_product(Tape<S>& tape, Var g, Var y);
 
 // r = g ⊙ φ'(y), φ' being a function of y = elu(x): dL/dg = G ⊙ φ'(y), dL/dy = G ⊙ g ⊙ dφ'/dy with
-// dφ'/dy = 1 on the bent side (φ' = y + 1), else 0.
+// dφ'/dy = 1 on the negative side (φ' = y + 1), else 0.
 template <class S>
 static Gradients elu_slope_product_adjoint(Tape<S>& tape, Var node, Var outer, const Wanted& wanted) {
   const auto [g, y] = std::array{tape.recipe(node).inputs[0], tape.recipe(node).inputs[1]};
@@ -230,7 +230,7 @@ Var clamp(Tape<S>& tape, Var x, S low, S high) {
 
 // ---- sums and broadcasts -----------------------------------------------------------------------------
 
-/// Adjoint of every sum: the gradient is spread over the shape of the input.
+/// Adjoint of every sum: the gradient, broadcast to the shape of the input.
 template <class S>
 static Gradients sum_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
   const Matrix<S>& x = tape.value(tape.recipe(node).inputs[0]);
@@ -265,7 +265,7 @@ Var row_sum(Tape<S>& tape, Var x) {
   return y;
 }
 
-/// Adjoint of a broadcast: the sum over the directions in which it repeated.
+/// Adjoint of a broadcast: the sum over the dimensions that it repeated.
 template <class S>
 static Gradients broadcast_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
   const Matrix<S>& x = tape.value(tape.recipe(node).inputs[0]);

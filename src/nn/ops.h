@@ -1,7 +1,6 @@
-/// Operations on a tape. Each stands in ops.cpp beside its adjoint rule, which is written in operations.
+/// Operations on a tape. ops.cpp has each beside its adjoint rule, which consists of operations.
 ///
-/// Shapes are [rows, cols]; rows are samples wherever there are samples. S is float or double. A wrong
-/// shape is a programmer's slip and asserted.
+/// Shapes are [rows, cols]; samples are rows. S is float or double. Shapes are asserted.
 #pragma once
 
 #include "nn/tape.h"
@@ -36,7 +35,7 @@ template <class S>
 Var exp(Tape<S>& tape, Var x);
 template <class S>
 Var square(Tape<S>& tape, Var x);
-/// Limited to [low, high]; the gradient passes where low ≤ x ≤ high.
+/// Clamped to [low, high]; the gradient passes for low ≤ x ≤ high.
 template <class S>
 Var clamp(Tape<S>& tape, Var x, S low, S high);
 
@@ -51,7 +50,7 @@ Var column_sum(Tape<S>& tape, Var x);
 /// Over the columns: [n, m] → [n, 1].
 template <class S>
 Var row_sum(Tape<S>& tape, Var x);
-/// Their adjoints: [1, 1], [1, cols] or [rows, 1] → [rows, cols].
+/// The adjoints of the sums: [1, 1], [1, cols] or [rows, 1] → [rows, cols].
 template <class S>
 Var broadcast(Tape<S>& tape, Var x, Eigen::Index rows, Eigen::Index cols);
 

@@ -1,16 +1,17 @@
-/// What the learner asks of an environment: independent groups of characters.
+/// The environment concept of the learner: independent groups of characters.
 ///
-/// A roll-out runs over groups in parallel and over time inside a group without any barrier, so `observe`,
-/// `actor` and `step` of different groups must be safe to call at the same time; everything an environment
-/// shares between groups (failure statistics, curricula) is gathered per group and merged by `end_iteration`,
-/// which runs alone. Large groups (64 characters and more) keep the policy's matrix products efficient.
+/// A roll-out runs groups in parallel, without barriers between time steps, so `observe`, `actor` and `step`
+/// of different groups must be safe to call concurrently. Data shared between groups (failure statistics,
+/// curricula) is collected per group and merged by `end_iteration`, which runs alone. Large groups (64
+/// characters and more) keep the policy's matrix products efficient.
 ///
-/// Several agents may act in one environment: it says how many there are, and which of them acts for a
-/// character now. An environment of a single agent says 1 and 0.
+/// Several agents may act in one environment: `agents` is their number, and `actor` is the agent that acts
+/// for a character now. For a single agent these are 1 and 0.
 ///
-/// Termination is a true end: nothing is earned after it. Truncation is a time limit: the episode would
-/// have gone on, and the learner bootstraps with V of the observation it would have gone on from (Pardo et
-/// al., "Time limits in reinforcement learning", ICML 2018). An ended character is reset inside `step`.
+/// Termination is a true end: no reward follows. Truncation is a time limit: the episode would have
+/// continued, and the learner bootstraps with V of the observation from which it would have continued (Pardo
+/// et al., "Time limits in reinforcement learning", ICML 2018). `step` resets a character whose episode
+/// ended.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,13 +27,13 @@ namespace mimicx::rl {
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-/// What one step of one group returns; rows are characters.
+/// Result of one step of one group; rows are characters.
 struct StepResult {
   Eigen::ArrayXf reward;                 ///< [group_size]
   Flags terminated;                      ///< [group_size]; wins where both flags are set
   Flags truncated;                       ///< [group_size]
-  nn::Matrix<float> final_observations;  ///< [group_size × observation_dim]; a row is read where truncated
-  List<int> final_actors;                ///< [group_size] the agent whose observation that is
+  nn::Matrix<float> final_observations;  ///< [group_size × observation_dim]; read if truncated
+  List<int> final_actors;                ///< [group_size] the agent that would act there
 
   StepResult(int group_size, int observation_dim)
       : reward(Eigen::ArrayXf::Zero(group_size)),
@@ -60,9 +61,9 @@ concept Environment = requires(World environment, const World& constant, int gro
   { constant.actor(group, character) } -> std::convertible_to<int>;  // 0 … agents − 1: who acts now
   constant.observe(group, observations);                             // [group_size × observation_dim]
   environment.step(group, actions, result);  // [group_size × action_dim]; overwrites all of `result`
-  // Alone, after every roll-out; returns the characters that it has put at the start of a new episode.
+  // Runs alone, after every roll-out; returns the characters that it has reset to a new episode.
   { environment.end_iteration() } -> std::convertible_to<std::vector<CharacterPlace>>;
-  constant.save(archive, prefix);  // everything an exact continuation needs
+  constant.save(archive, prefix);  // the complete state, for an exact continuation
   environment.load(constant_archive, prefix);
 };
 

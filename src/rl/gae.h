@@ -8,8 +8,8 @@
 ///                                       V(s_{t+1}) otherwise
 ///     A_t = δ_t + γλ·A_{t+1},      the sum stops at either kind of end.
 ///
-/// Arrays are [H][G], row-major. V(s_{t+1}) may come from another critic than V(s_t): at a switch of
-/// options the return is bootstrapped with the critic of the one that acts next (docs/method.md §9).
+/// Arrays are [H][G], row-major. V(s_{t+1}) may come from another critic than V(s_t): at a switch of options
+/// the return is bootstrapped with the critic of the next option (docs/method.md §9).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,10 +26,10 @@ struct AdvantageInput {
   Eigen::Ref<const nn::Matrix<float>> last_values;   ///< [1][G] V(s_H), the state after the last step
   Eigen::Ref<const FlagMatrix> terminated;           ///< [H][G]; wins where both flags are set
   Eigen::Ref<const FlagMatrix> truncated;            ///< [H][G]
-  Eigen::Ref<const nn::Matrix<float>> final_values;  ///< [H][G] V(final observation); read where truncated
+  Eigen::Ref<const nn::Matrix<float>> final_values;  ///< [H][G] V(final observation); read if truncated
 };
 
-/// How far ahead a reward counts.
+/// Discount factors.
 struct Discount {
   double gamma;   ///< γ, per step
   double lambda;  ///< λ of the estimator

@@ -1,14 +1,14 @@
-/// The agent: a Gaussian policy, its critic and the scales of what goes in and comes out.
+/// The agent: a Gaussian policy, its critic, and the scales of observations and returns.
 ///
 /// π(a|s) = N(μ(s), σ²·1): the mean depends on the state, the covariance is fixed and diagonal
-/// (docs/method.md §7); σ is one number that training lowers on a schedule, so it is an argument and no
-/// parameter. Because σ is the same for the old and the new policy, the normalising constant of the density
-/// cancels in every ratio and is left out: `log_density` is −‖a − μ‖²/2σ².
+/// (docs/method.md §7). Training lowers σ on a schedule, so it is an argument and no parameter. Because σ is
+/// the same for the old and the new policy, the normalising constant of the density cancels in every ratio
+/// and is left out: `log_density` is −‖a − μ‖²/2σ².
 ///
-/// The critic predicts (V − mean)/deviation of recent returns, so that one step size suits every task. When
-/// those two numbers move, V moves with them: returns that grow or shrink as a whole need no relearning. (The
-/// rewriting of the last layer that keeps V instead, van Hasselt et al. 2016, made the critic diverge on a
-/// task whose returns shrink a hundredfold.)
+/// The critic predicts (V − mean)/deviation with mean and deviation of recent returns, so that one step size
+/// suits every task. V changes with these two numbers: returns that grow or shrink as a whole need no
+/// relearning. (Rewriting the last layer so that V is kept, van Hasselt et al. 2016, made the critic diverge
+/// on a task whose returns shrink a hundredfold.)
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace mimicx::rl {
 
-/// What a random stream of this folder is for: the first word of its key.
+/// Purposes of the random streams of this folder: the first word of their keys.
 enum RandomPurpose : std::uint64_t { kActorInit = 0x7201, kCriticInit, kActionNoise, kShuffle };
 
 /// Running scale of the returns.
@@ -30,7 +30,8 @@ struct ReturnScale {
   double square = 1.0;       ///< mean of the squared returns
   std::int64_t batches = 0;  ///< batches seen; 0: the identity
 
-  /// Standard deviation, but never under a tenth of the root mean square: constant returns have a scale too.
+  /// Standard deviation, at least a tenth of the root mean square, so that constant returns have a scale,
+  /// too.
   double deviation() const;
 };
 
@@ -59,7 +60,8 @@ void sample_actions(const nn::Matrix<float>& means, double sigma, Random& random
 /// Scaled predictions [n × 1] → values V, in place.
 void unscale_values(const ReturnScale& scale, nn::Matrix<float>& values);
 
-/// Blends the statistics of a batch of returns in: the first batch wholly, later ones at `rate`.
+/// Updates the scale with a batch of returns: the first batch replaces it, later ones are blended in at
+/// `rate`.
 /// @param mean, square  mean of the returns and of their squares over the batch
 void follow_returns(ReturnScale& scale, double mean, double square, double rate);
 

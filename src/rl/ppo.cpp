@@ -16,8 +16,8 @@ namespace {
 
 using Gradients = std::vector<nn::Matrix<float>>;
 
-/// Mean and deviation of the advantages of an iteration; the loss sees them centred and scaled
-/// (Andrychowicz et al. 2021, choice C67: per batch or minibatch makes no difference).
+/// Mean and scale of the advantages of an iteration; the loss uses them centred and scaled (Andrychowicz et
+/// al. 2021, choice C67: per batch or minibatch makes no difference).
 struct AdvantageScale {
   float mean = 0.0F, factor = 1.0F;
 };
@@ -109,7 +109,7 @@ void measure_policy(const nn::Matrix<float>& means, const nn::Matrix<float>& log
     slot.sums.kl += 0.5 * double{(means.row(k) - slot.old_means.row(k)).squaredNorm()} / (sigma * sigma);
 }
 
-/// Actor's loss of the gathered rows, as their share of a minibatch of `batch_rows`.
+/// Adds the gradient of the actor's loss on the gathered rows, part of a minibatch of `batch_rows`.
 void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::size_t batch_rows,
                 GradientSlot& slot) {
   nn::Tape<float>& tape = slot.actor_tape;
@@ -122,7 +122,7 @@ void actor_pass(const Agent& agent, const PpoConfig& config, double sigma, std::
                                            tape.refer(slot.advantages), static_cast<float>(config.clip));
   nn::Var loss = nn::scale(tape, surrogate, share);
   if (config.penalty_weight > 0.0) {
-    // The rows are shuffled: the first ones are a random sample, and stand for all rows of the pass.
+    // The rows are shuffled, so the first ones are a random sample of all rows of the pass.
     const Eigen::Index n = slot.observations.rows();
     const auto wanted = static_cast<Eigen::Index>(std::lround(config.penalty_fraction * double(n)));
     const Eigen::Index sample = std::clamp<Eigen::Index>(wanted, 1, n);
@@ -199,7 +199,7 @@ double descend(nn::Mlp<float>& mlp, nn::Adam<float>& adam, Gradients GradientSlo
   return norm;
 }
 
-/// Both networks step side by side: they share nothing.
+/// Both networks step in parallel: they share no data.
 void step_networks(Learner& learner, const PpoConfig& config, int threads, UpdateScratch& scratch,
                    IterationStats& stats) {
   double norms[2] = {0.0, 0.0};
@@ -283,7 +283,7 @@ void update(Learner& learner, const PpoConfig& config, const LearningRows& data,
     if (!stopped) stats.kl = epoch_kl / static_cast<double>(minibatches);
   }
   average(stats);
-  // A step does not see the KL that it leads to; the minibatch after it does.
+  // The KL that a step causes is measured by the next minibatch.
   if (stopped || stats.minibatches > 1)
     learner.step_size = adapted_step_size(config, learner.step_size, stats.kl);
 }

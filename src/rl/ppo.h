@@ -1,12 +1,12 @@
 /// Proximal policy optimisation of one agent from a recorded roll-out.
 ///
-/// Source: Schulman et al., "Proximal policy optimization algorithms", 2017, Algorithm 1; the details are
-/// sourced where they stand in ppo.cpp and ppo_config.h. The loop around it (collect → advantages → update)
-/// is trainer.h.
+/// Source: Schulman et al., "Proximal policy optimization algorithms", 2017, Algorithm 1; ppo.cpp and
+/// ppo_config.h cite the sources of details. trainer.h has the loop around it (collect → advantages →
+/// update).
 ///
-/// The learner sees rows of a RolloutBuffer and no environment: several learners can each take their rows of
-/// one roll-out. Same bytes for any number of threads: a minibatch is cut into a fixed number of slots, each
-/// slot sums its own gradients pass by pass, and the slots are added in their order.
+/// The learner reads rows of a RolloutBuffer and knows no environment: several learners can use their own
+/// rows of one roll-out. Same bytes for any number of threads: a minibatch is cut into a fixed number of
+/// slots, each slot sums its gradients pass by pass, and the slots are added in order.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@
 
 namespace mimicx::rl {
 
-/// Everything that training changes. Plain values: copy it to branch off, save it to continue.
+/// The complete state of a training. Plain values: copy it to branch off, save it to continue.
 struct Learner {
   Agent agent;
   nn::Adam<float> actor_adam, critic_adam;
@@ -30,24 +30,24 @@ struct Learner {
 
 Learner make_learner(const PpoConfig& config, Agent agent);
 
-/// What one iteration did. Losses, KL and norms are means over its minibatches unless said otherwise.
+/// Statistics of one iteration. Losses, KL and norms are means over its minibatches unless stated otherwise.
 struct IterationStats {
   std::int64_t iteration = 0;        ///< counted from 0
   std::int64_t samples = 0;          ///< drawn so far, this iteration included
   double mean_reward = 0.0;          ///< per step
-  double mean_episode_length = 0.0;  ///< of the episodes that ended, steps; 0 when none did
+  double mean_episode_length = 0.0;  ///< of the episodes that ended, steps; 0 if none ended
   double explained_variance = 0.0;   ///< 1 − Var(return − V)/Var(return), before the update
   double saturation = 0.0;           ///< share of the mean actions' components beyond ± 3
   double sigma = 0.0;
-  bool learned = false;  ///< false for a first iteration, which only measures the observations
+  bool learned = false;  ///< false for the first iteration, which only measures observations
   int minibatches = 0;   ///< gradient steps taken
   double policy_loss = 0.0, value_loss = 0.0, penalty = 0.0, clip_fraction = 0.0;
   double actor_gradient = 0.0, critic_gradient = 0.0;  ///< norms before clipping
-  double kl = 0.0;  ///< KL(old ‖ new): mean of the last epoch, or that of the minibatch that stopped it
+  double kl = 0.0;         ///< KL(old ‖ new): mean of the last epoch, or of the minibatch that stopped it
   double step_size = 0.0;  ///< the actor's during this iteration
 };
 
-/// Sums over the rows that one slot has seen of the current minibatch.
+/// Sums over the rows of one slot in the current minibatch.
 struct LossSums {
   double policy_loss = 0.0, value_loss = 0.0, penalty = 0.0, clipped = 0.0, kl = 0.0;
 };
@@ -62,7 +62,7 @@ struct GradientSlot {
   LossSums sums;
 };
 
-/// Buffers of `update`; nothing in them outlives a call.
+/// Buffers of `update`; their contents do not matter.
 struct UpdateScratch {
   List<GradientSlot> slots;
   std::vector<int> order;  ///< shuffled rows
@@ -77,10 +77,10 @@ struct LearningRows {
   double sigma;                 ///< σ under which they were collected
 };
 
-/// Which random numbers shuffle the rows, together with iteration and epoch.
+/// Key of the shuffles, together with iteration and epoch.
 struct ShuffleKey {
   std::uint64_t seed;     ///< of the training
-  std::uint64_t learner;  ///< number of the learner among those of the iteration
+  std::uint64_t learner;  ///< index of the learner in the iteration
 };
 
 /// All epochs over the given rows; adapts the step size.
@@ -90,7 +90,7 @@ void update(Learner& learner, const PpoConfig& config, const LearningRows& data,
 /// Reward, episode length, explained variance and saturation of a roll-out.
 void describe_rollout(const RolloutBuffer& buffer, IterationStats& stats);
 
-/// Adam's moments for every parameter of the network, of its shape. @throws DataError where they are others
+/// Adam's moments for every parameter of the network. @throws DataError if they do not fit it
 nn::Adam<float> load_moments(const Npz& archive, const std::string& prefix, nn::Mlp<float>& network);
 
 void save(Npz& archive, const std::string& prefix, const Learner& learner);

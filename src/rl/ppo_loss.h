@@ -19,7 +19,7 @@ template <class S>
 nn::Var surrogate_loss(nn::Tape<S>& tape, nn::Var log_density, nn::Var old_log_density, nn::Var advantages,
                        S clip);
 
-/// σ² · Σ ‖∇_s log π(a|s)‖² [C, Eq. 6], scaled as docs/method.md §7, (1) asks: by its identity for Gaussians
+/// σ² · Σ ‖∇_s log π(a|s)‖² [C, Eq. 6], scaled as in docs/method.md §7, (1): by its identity for Gaussians
 /// the expectation is Σ_i ‖∇μ_i‖² whatever σ is.
 /// @param parameters    of the actor on this tape  @param observations  [n × observation_dim], normalised
 template <class S>

@@ -6,7 +6,7 @@ namespace mimicx::rl {
 
 namespace {
 
-constexpr int kNobody = -1;
+constexpr int kNoAgent = -1;
 
 /// Calls visit(agent index, its raw observations [n × dim]) for every agent with rows; `scratch.rows` are
 /// those rows.
@@ -33,7 +33,7 @@ void value_part(const Agent& agent, const nn::Matrix<float>& raw, CollectScratch
 /// V of every row → scratch.values [G × 1].
 void value_all(const Agents& agents, const List<int>& actors, const nn::Matrix<float>& raw,
                CollectScratch& scratch) {
-  scratch.values.resize(raw.rows(), 1);  // rows of nobody stay as they are
+  scratch.values.resize(raw.rows(), 1);  // rows without an agent keep their values
   for_each_actor(agents, actors, raw, scratch, [&](int agent, const nn::Matrix<float>& part) {
     value_part(*agents[agent], part, scratch);
     scratch.values(scratch.rows, Eigen::all) = scratch.part_values;
@@ -102,10 +102,10 @@ void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRo
     age = 0;
   }
   if (!result.truncated.any()) return;
-  // Only these rows: the bits of a product may depend on which rows stand beside each other.
+  // Only these rows: the bits of a product may depend on the number and place of rows.
   scratch.final_actors = result.final_actors;
   for (Eigen::Index i = 0; i < size; ++i)
-    if (!result.truncated[i]) scratch.final_actors[i] = kNobody;
+    if (!result.truncated[i]) scratch.final_actors[i] = kNoAgent;
   scratch.values.setZero(size, 1);
   value_all(agents, scratch.final_actors, result.final_observations, scratch);
   rollout.final_values.row(t) = scratch.values.transpose();

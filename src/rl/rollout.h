@@ -1,14 +1,14 @@
-/// What one roll-out of H steps leaves behind, one record per group of characters.
+/// The record of a roll-out of H steps, one per group of characters.
 ///
 /// Rows. Character i of a group at step t is row t·G + i of the group's matrices (G = group size), so every
-/// step writes one contiguous block and [H][G] arrays are the same memory as [H·G] columns. A row of the
-/// whole buffer is group·H·G + t·G + i. Observations are kept as the networks saw them (normalised), since
-/// the statistics stay fixed while a roll-out is collected and learned from.
+/// step writes one contiguous block, and [H][G] arrays are the same memory as [H·G] columns. A row of the
+/// whole buffer is group·H·G + t·G + i. Observations are stored normalised, because the statistics stay fixed
+/// while a roll-out is collected and learned from.
 ///
-/// Several agents may share a roll-out: each acts, and values, the rows that name it. The value of an
-/// observation is always that of the agent who acts there, so a return that crosses from one agent's rows
-/// into another's is bootstrapped with the other's critic (docs/method.md §9). The recording functions
-/// know no environment: their caller says which agent acts in which row.
+/// Several agents may share a roll-out: `actors` names the agent of each row, whose policy acts and whose
+/// critic gives the value. A return that crosses from one agent's rows into another's is therefore
+/// bootstrapped with the other's critic (docs/method.md §9). The recording functions know no environment: the
+/// caller passes the agent of each row.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@
 
 namespace mimicx::rl {
 
-/// The agents of a roll-out, referred to.
+/// The agents of a roll-out, by reference.
 using Agents = List<const Agent*>;
 
 struct GroupRollout {
@@ -34,16 +34,16 @@ struct GroupRollout {
   nn::Matrix<float> rewards;         ///< [H][G]
   nn::Matrix<float> values;          ///< [H][G] V(s_t)
   nn::Matrix<float> last_values;     ///< [1][G] V(s_H)
-  nn::Matrix<float> final_values;    ///< [H][G] V(final observation) where truncated
+  nn::Matrix<float> final_values;    ///< [H][G] V(final observation) if truncated
   nn::Matrix<float> advantages;      ///< [H][G]
   FlagMatrix terminated, truncated;  ///< [H][G]
 
-  std::vector<int> actors;  ///< [H·G] who acted
+  std::vector<int> actors;  ///< [H·G] the agent that acted
 
-  List<nn::Moments> moments;        ///< [agent] of the raw observations it saw in this roll-out
-  List<std::int64_t> ages;          ///< [G] steps since the last reset; lives on from roll-out to roll-out
+  List<nn::Moments> moments;        ///< [agent] of its raw observations in this roll-out
+  List<std::int64_t> ages;          ///< [G] steps since the last reset; kept between roll-outs
   std::int64_t ended_episodes = 0;  ///< in this roll-out
-  std::int64_t ended_steps = 0;     ///< lengths of those episodes together
+  std::int64_t ended_steps = 0;     ///< total length of these episodes
 };
 
 struct RolloutBuffer {
@@ -61,7 +61,7 @@ RolloutBuffer make_rollout_buffer(int groups, int group_size, int horizon, int o
 /// Buffers of one group's collection.
 struct CollectScratch {
   nn::Matrix<float> raw;                     ///< [G × observation_dim] as observed
-  List<int> actors;                          ///< [G] who acts
+  List<int> actors;                          ///< [G] the agent that acts
   nn::Matrix<float> means, actions, values;  ///< [G × …]
   StepResult result;
 
@@ -74,26 +74,27 @@ struct CollectScratch {
       : raw(group_size, observation_dim), actors(group_size, 0), result(group_size, observation_dim) {}
 };
 
-/// Forgets the last roll-out but keeps the ages.
+/// Clears the record of the last roll-out but keeps the ages.
 void begin_rollout(GroupRollout& rollout);
 /// Reads scratch.raw and scratch.actors; records observation, value, mean, action and density of step t;
-/// leaves scratch.actions.
+/// writes scratch.actions.
 void record_decision(const Agents& agents, double sigma, int t, Random& random, CollectScratch& scratch,
                      GroupRollout& rollout);
-/// Reads scratch.result: reward, flags, values of truncated characters' final observations, episode lengths.
+/// Reads scratch.result; records rewards, flags, values of truncated characters' final observations and
+/// episode lengths.
 void record_result(const Agents& agents, int t, CollectScratch& scratch, GroupRollout& rollout);
-/// Reads scratch.raw and scratch.actors after the last step: bootstrap values and advantages.
+/// Reads scratch.raw and scratch.actors after the last step; computes bootstrap values and advantages.
 void finish_rollout(const Agents& agents, const Discount& discount, CollectScratch& scratch,
                     GroupRollout& rollout);
 
-/// What all groups of a roll-out have in common.
+/// Settings of all groups of a roll-out.
 struct CollectSettings {
   Agents agents;
   double sigma;  ///< σ of the actions' noise
   Discount discount;
 };
 
-/// One group over the whole horizon. @param random  keyed by iteration and group
+/// Collects one group over the whole horizon. @param random  keyed by iteration and group
 template <Environment World>
 void collect_group(World& environment, int group, const CollectSettings& settings, Random random,
                    CollectScratch& scratch, GroupRollout& rollout) {

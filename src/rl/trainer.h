@@ -1,10 +1,10 @@
 /// The training loop: collect → advantages → update, for one or several agents in one environment.
 ///
-/// Several agents learn jointly (docs/method.md §9): the environment says who acts where, every agent's
-/// critic values its own rows, and every agent learns from its own rows. Random numbers are keyed by what
-/// they are for: the noise of the actions by (seed, purpose, iteration, group). `save` takes the complete
-/// state between two iterations. A trainer of the same configuration, seed and environment that loads it and
-/// goes on gives the same bytes as one that never stopped.
+/// Several agents learn jointly (docs/method.md §9): the environment names the agent that acts for a
+/// character; every agent values, and learns from, its own rows. Random numbers are keyed by their purpose:
+/// the noise of the actions by (seed, purpose, iteration, group). `save` writes the complete state between
+/// two iterations. A trainer of the same configuration, seed and environment that loads it continues with the
+/// same bytes as one that was never interrupted.
 #pragma once
 
 #include <stdexcept>
@@ -17,18 +17,18 @@
 
 namespace mimicx::rl {
 
-/// What may differ between two trainings of one configuration.
+/// Settings that may differ between two trainings of one configuration.
 struct Course {
-  std::uint64_t seed;            ///< of the actions' noise and the shuffles
-  std::int64_t falling_samples;  ///< while these are drawn σ falls
+  std::uint64_t seed;            ///< of action noise and shuffles
+  std::int64_t falling_samples;  ///< samples over which σ falls
 };
 
 template <Environment World>
 class PpoTrainer {
  public:
-  /// @param agents       as many as act in the environment, all of one shape
-  /// @param environment  referred to, must outlive the trainer
-  /// @throws std::invalid_argument for another number of agents
+  /// @param agents       environment.agents() of them, all of one shape
+  /// @param environment  by reference, must outlive the trainer
+  /// @throws std::invalid_argument for a wrong number of agents
   PpoTrainer(const PpoConfig& config, const Course& course, std::vector<Agent> agents, World& environment)
       : config_(config),
         course_(course),
@@ -62,8 +62,8 @@ class PpoTrainer {
     std::vector<IterationStats> parts(learners_.size(), stats);
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       Learner& learner = learners_[k];
-      // The first roll-out only measures the observations. Their scale is not known before, and later
-      // learning uses the scale with which the agents acted.
+      // The first roll-out only measures the observations: learning uses the scale with which the agents
+      // acted, and for the first roll-out that is unknown.
       if (learner.agent.observations.moments.count > 0)
         update(learner, config_, {buffer_, rows_[k], stats.sigma}, {course_.seed, k}, threads, update_,
                parts[k]);
@@ -98,7 +98,7 @@ class PpoTrainer {
     environment_.save(archive, prefix + "environment.");
   }
 
-  /// @throws DataError where the archive does not fit this trainer.
+  /// @throws DataError if the archive does not fit this trainer
   void load(const Npz& archive, const std::string& prefix) {
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       const std::string key = prefix + "learner" + std::to_string(k) + ".";
@@ -136,7 +136,8 @@ class PpoTrainer {
       for (const int actor : group.actors) rows_[actor].push_back(row++);
   }
 
-  /// The roll-out's observations join the statistics only now: acting and learning saw the same scale.
+  /// Adds the roll-out's observations to the statistics, after learning: acting and learning use the same
+  /// scale.
   void absorb_observations() {
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       std::vector<nn::Moments> moments;
@@ -145,7 +146,7 @@ class PpoTrainer {
     }
   }
 
-  /// Of the learners' statistics, weighted by their rows.
+  /// Mean of the learners' statistics, weighted by their rows.
   IterationStats average(const std::vector<IterationStats>& parts) const {
     if (parts.size() == 1) return parts.front();
     IterationStats total = parts.front();

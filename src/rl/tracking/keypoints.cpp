@@ -21,7 +21,7 @@ List<KeypointFrame> match_keypoints(const motion::Keypoints& keypoints) {
       bottom = std::max(bottom, uvc.y());
     }
     frame.box_height = bottom - top;
-    if (!(frame.box_height > 1.0)) frame.detections.clear();  // one point, or a person of no height
+    if (!(frame.box_height > 1.0)) frame.detections.clear();  // a single point, or a person of zero height
   }
   return frames;
 }
@@ -30,7 +30,7 @@ double projection_error(const KeypointFrame& keypoints, const PerBody<Vector3d>&
   double sum = 0.0, weights = 0.0;
   for (const auto& d : keypoints.detections) {
     const Vector3d image = keypoints.projection * p_WB[d.body].homogeneous();
-    if (image.z() < 1e-3) continue;  // behind the camera: no pixel to compare with
+    if (image.z() < 1e-3) continue;  // behind the camera: it has no pixel
     const double off_u = image.x() / image.z() - d.u, off_v = image.y() / image.z() - d.v;
     sum += d.weight * (off_u * off_u + off_v * off_v);
     weights += d.weight;

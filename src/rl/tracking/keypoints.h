@@ -1,4 +1,4 @@
-/// The detected keypoints of a clip, frame by frame, as the reward compares them with the projected bodies.
+/// Detected keypoints of a clip, frame by frame, and their error against projected bodies, for the reward.
 #pragma once
 
 #include "character/bodies.h"
@@ -6,7 +6,7 @@
 
 namespace mimicx::rl::tracking {
 
-/// Detected keypoints of one frame, matched to bodies and ready to compare with a projection.
+/// Detected keypoints of one frame, matched to bodies.
 struct KeypointFrame {
   struct Detection {
     int body;
@@ -17,12 +17,12 @@ struct KeypointFrame {
   double box_height = 0;                   ///< of the detected person, pixels
 };
 
-/// Joins the names of `keypoints` to bodies by name (22 SMPL-X joints or COCO-17; eyes, ears and nose
-/// unused). Empty frames where nothing is detected. An empty vector when there are no keypoints.
+/// Matches keypoints to bodies by name (22 SMPL-X joints or COCO-17; eyes, ears and nose are ignored). A
+/// frame without detections is empty; the list is empty without keypoints.
 List<KeypointFrame> match_keypoints(const motion::Keypoints& keypoints);
 
 /// Error of Eq. 3: mean squared pixel error in units of the box height, weighted by confidence. Detections
-/// whose body is behind the camera do not count; 0 where none counts.
+/// whose body is behind the camera are ignored; 0 if none is left.
 /// @param p_WB  of the simulated character, m
 double projection_error(const KeypointFrame& keypoints, const PerBody<Vector3d>& p_WB);
 

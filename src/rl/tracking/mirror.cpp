@@ -10,25 +10,25 @@ namespace {
 
 using Signs = std::array<float, 3>;
 
-constexpr Signs kPolar = {1, -1, 1};   ///< across y → −y: places and velocities
-constexpr Signs kAxial = {-1, 1, -1};  ///< angular velocities, across the same
+constexpr Signs kPolar = {1, -1, 1};   ///< under y → −y: positions and velocities
+constexpr Signs kAxial = {-1, 1, -1};  ///< under y → −y: angular velocities
 // In body frames the mirror is x → −x.
 constexpr Signs kBodyPolar = {-1, 1, 1};
 constexpr Signs kBodyAxial = {1, -1, -1};
 
-/// The body that a body becomes.
+/// The mirror image of a body.
 int other_side(int body) {
   if (is_right(body)) return body - 1;
   return kBodyNames[body].starts_with("left") ? body + 1 : body;
 }
 
-/// What the angle of the other side's hinge is multiplied by.
+/// Factor on the angle of the other side's hinge.
 float hinge_sign(int body) {
   const Vector3d axis = hinge_axis(other_side(body));
   return Vector3d(axis.x(), -axis.y(), -axis.z()).dot(hinge_axis(body)) > 0.0 ? 1.0F : -1.0F;
 }
 
-/// A map that is written entry by entry.
+/// Writes a map entry by entry.
 class Writer {
  public:
   void one(int from, float sign) {
@@ -44,8 +44,8 @@ class Writer {
   MirrorMap map_;
 };
 
-/// The entries of every body's joint, bodies in order, from the first entry of its other side's.
-/// @param spherical, hinge  how many numbers such a joint has
+/// Maps the entries of every body's joint, bodies in order, from those of the other side's joint.
+/// @param spherical, hinge  numbers per joint of that kind
 template <class Write>
 void for_each_joint(int spherical, int hinge, Write write) {
   PerBody<int> first{};
@@ -66,10 +66,10 @@ void joint_vectors(int begin, Writer& writer) {
   });
 }
 
-/// P of state.h, which begins at an entry of the state.
+/// Maps P of state.h, which begins at an entry of the state.
 void pose(int begin, Writer& writer) {
   writer.one(begin, 1.0F);  // the height
-  // R becomes M R M with the mirrors of world and body: the first column changes its sign besides.
+  // R becomes M R M with the mirrors of world and body: the first column changes its sign, too.
   writer.three(begin + 1, kPolar, -1.0F);
   writer.three(begin + 4, kPolar);
   writer.three(begin + 7, kPolar);

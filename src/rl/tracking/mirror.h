@@ -1,10 +1,10 @@
-/// What a character sees and does, seen in a mirror: left is right.
+/// Mirror images of states and actions: left and right are swapped.
 ///
 /// The bodies are symmetric (x → −x of the body frame swaps left and right, character/standard_body.h), and
-/// so is the simulation. Whoever sees the mirror image of a state s and does the mirror image of an action a
-/// therefore ends in the mirror image of where a leads to from s: every lesson is two.
-/// In the heading frame of the state the mirror is y → −y. Positions and velocities are reflected; rotation
-/// vectors and angular velocities keep the component along the mirror's normal and turn the others about.
+/// so is the simulation. Hence, if action a leads from state s to s', the mirror image of a leads from the
+/// mirror image of s to that of s': every training sample gives two. In the heading frame of the state the
+/// mirror is y → −y. Positions and velocities are reflected; rotation vectors and angular velocities keep the
+/// component along the mirror's normal and negate the others.
 #pragma once
 
 #include "core/containers.h"
@@ -19,12 +19,12 @@ struct MirrorMap {
   int size() const { return from.count(); }
 };
 
-/// Of the state without an encoder (state.h): [570]. A code of an encoder has no mirror image.
+/// Map of the state without an encoder (state.h): [570]. A code of an encoder has no mirror image.
 MirrorMap mirror_of_state();
-/// Of an action, rotation vectors or angles of the joints: [55].
+/// Map of an action, rotation vectors or angles of the joints: [55].
 MirrorMap mirror_of_action();
 
-/// @param in, out  [map.size()]; not the same
+/// Writes the mirror image of `in`. @param in, out  [map.size()]; must not overlap
 void reflect(const MirrorMap& map, const float* in, float* out);
 
 }  // namespace mimicx::rl::tracking

@@ -1,8 +1,8 @@
 /// The reward of the tracking task: Eq. 2 times Eq. 3.                      docs/method.md §5
 ///
-/// Every factor is exp(−w · error) in (0, 1]. Errors are means over joints, so that the weights do not
-/// depend on their number; rotations differ by the geodesic angle; the third velocity term of Eq. 2 is read
-/// as the difference of the joints' angular velocities. Where there are no keypoints Eq. 3 is exactly 1.
+/// Every factor is exp(−w · error) in (0, 1]. Errors are means over joints, so that the weights do not depend
+/// on their number. The difference of rotations is the geodesic angle. The third velocity term of Eq. 2 is
+/// taken as the difference of the joints' angular velocities. Without keypoints Eq. 3 is exactly 1.
 #pragma once
 
 #include <string_view>

@@ -7,7 +7,7 @@
 namespace mimicx::rl::tracking {
 namespace {
 
-/// Writes v turned back by the heading.
+/// Writes v in the heading frame.
 float* put(const Vector3d& v, const Eigen::Vector2d& heading, float* out) {
   out[0] = static_cast<float>(heading.x() * v.x() + heading.y() * v.y());
   out[1] = static_cast<float>(heading.x() * v.y() - heading.y() * v.x());
@@ -67,7 +67,7 @@ void own_pose_features(const Pose& pose, float* out) {
 }
 
 void turn_features(const float* in, const Eigen::Vector2d& from, const Eigen::Vector2d& to, float* out) {
-  // Angle between the frames: out of `from` into the world, out of the world into `to`.
+  // Angle between the frames: from `from` into the world, then into `to`.
   const Eigen::Vector2d turn = {to.dot(from), to.y() * from.x() - to.x() * from.y()};
   const auto put_turned = [&](int first, int vectors) {
     for (int k = first; k < first + 3 * vectors; k += 3)

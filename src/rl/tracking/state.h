@@ -3,16 +3,16 @@
 ///     s_t = { P_{t+1} [186], β [10], P̂_t [186], P_{t+1} − P̂_t [186], root offset [2] }
 ///     P   = { r^h 1, r^a 6, ṙ^p 3, ṙ^a 3, x^a 17·6 + 4·1, ẋ^a 17·3 + 4·1, e^p 4·3 }
 ///
-/// Both poses are expressed in the *simulated* character's heading frame (its yaw taken out, its place
-/// subtracted), so that the state does not depend on where in the world it looks or stands. The root offset
-/// is horizontal: the height is already in P. Angular velocities of joints are in the child's frame.
+/// Both poses are expressed in the *simulated* character's heading frame (its yaw and place are removed), so
+/// that the state does not depend on its heading and place in the world. The root offset is horizontal: the
+/// height is already in P. Angular velocities of joints are in the child's frame.
 ///
-/// An option with an encoder sees instead (docs/method.md §7)
+/// The state of an option with an encoder is (docs/method.md §7)
 ///
 ///     s_t = { z, β [10], P̂_t [186], D(z) − P̂_t [186], root offset [2] },   z = E(P_{t+1})
 ///
-/// with the reference's own heading frame for E and D: codes do not change with the character that follows,
-/// and only D(z) is turned into its frame.
+/// with the reference's own heading frame for E and D: codes do not depend on the simulated character, and
+/// only D(z) is turned into its frame.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct Pose {
   PerBody<Vector3d> p_WB;  ///< m
 };
 
-/// Unit horizontal direction (cos, sin) of a root rotation's heading; as `heading_angle`, without the angle.
+/// Horizontal unit vector (cos, sin) of `heading_angle`, without computing the angle.
 Eigen::Vector2d heading_direction(const Quaterniond& q_WB);
 
 /// x^a (6D per spherical joint, angle per hinge) and ẋ^a (3 or 1), bodies in order.
@@ -42,7 +42,7 @@ std::array<float, kJointFeatures> joint_features(const motion::ReferenceFrame& f
 /// Entries of an encoded state beside its code.
 inline constexpr int kEncodedRest = kStateSize - kPoseFeatures;
 
-/// Everything else of P in the frame of heading (cos, sin), with the joint features put in their place.
+/// P in the frame of heading (cos, sin). @param joints  the joint features, which are copied into it
 /// @param out  [186]
 void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& joints,
                    const Eigen::Vector2d& heading, float* out);
@@ -50,7 +50,7 @@ void pose_features(const Pose& pose, const std::array<float, kJointFeatures>& jo
 /// P in the pose's own heading frame. @param out  [186]
 void own_pose_features(const Pose& pose, float* out);
 
-/// Pose features in the frame `from` → in the frame `to`; both are headings (cos, sin). in and out [186]
+/// Turns pose features from the heading frame `from` into `to`, both (cos, sin). in and out [186]
 void turn_features(const float* in, const Eigen::Vector2d& from, const Eigen::Vector2d& to, float* out);
 
 /// s_t with an encoder. @param code  z  @param decoded  D(z), in the reference's own heading frame

@@ -1,4 +1,4 @@
-/// A reference made ready for the simulator, for the state and for the reward.
+/// A reference, prepared for the simulator, the state and the reward.
 #pragma once
 
 #include <array>
@@ -12,22 +12,22 @@
 
 namespace mimicx::rl::tracking {
 
-/// What an option's encoder makes of a clip's poses.
+/// A clip's poses, encoded and decoded by an option's auto-encoder.
 struct EncodedReference {
   int code_size = 0;                               ///< entries of z
   List<float> codes;                               ///< [frames + 1][code_size] z = E(P)
   List<std::array<float, kPoseFeatures>> decoded;  ///< [frames + 1] D(z), own heading frame
 };
 
-/// A reference made ready for the simulator: immutable, shared by packs and threads.
+/// A prepared reference: immutable, shared by packs and threads.
 struct TrackingClip {
   motion::Reference reference;
   physics::Model<float> model;
-  List<Pose> poses;                                ///< [frames + 1]: the last one repeated, at rest
+  List<Pose> poses;                                ///< [frames + 1]: the last frame is repeated, at rest
   List<std::array<float, kJointFeatures>> joints;  ///< [frames + 1]
   List<KeypointFrame> keypoints;                   ///< [frames], or empty
-  List<EncodedReference> encoded;                  ///< [option], or empty: policies see the reference itself
-  List<int> arrangement;                           ///< [frames] option that acts at a frame; empty: the first
+  List<EncodedReference> encoded;                  ///< [option], or empty: the state has the reference itself
+  List<int> arrangement;                           ///< [frames] option that acts at a frame; empty: option 0
 
   int option_at(int frame) const { return arrangement.empty() ? 0 : arrangement[frame]; }
   /// Length of s_t; the same for every option.
@@ -41,12 +41,12 @@ void require_whole_steps(double physics_rate, double fps);
 std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& reference,
                                                        const TrackingConfig& config);
 
-/// A frame, and all frames, as the simulator's states.
+/// A frame, or all frames, as states of the simulator.
 physics::State<double> simulator_state(const motion::ReferenceFrame& frame);
 List<physics::State<double>> simulator_states(const motion::Reference& reference);
 
-/// What was simulated as a reference of its own: its velocities are the simulator's, not differences.
-/// @param of  name, body and rate
+/// Simulated states as a reference; its velocities are the simulator's, not differences.
+/// @param of  gives name, body and rate
 motion::Reference reference_of_states(const motion::Reference& of,
                                       const List<physics::State<double>>& states);
 

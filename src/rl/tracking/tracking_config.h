@@ -1,4 +1,4 @@
-/// Everything that the tracking task can be told.
+/// The configuration of the tracking task.
 #pragma once
 
 #include "physics/model.h"
@@ -6,7 +6,7 @@
 
 namespace mimicx::rl::tracking {
 
-/// What an action a_t ∈ R⁵⁵ means: a target pose as rotation vectors (angles for hinges).   docs/method.md §4
+/// Meaning of an action a_t ∈ R⁵⁵, a target pose as rotation vectors (angles for hinges).   docs/method.md §4
 enum class ActionMode {
   kAbsolute,  ///< the paper's: the target itself
   kResidual,  ///< a rotation applied on top of the reference pose of frame t+1
@@ -20,10 +20,10 @@ struct TrackingConfig {
   RewardWeights reward;
   physics::SimulationConfig simulation;
   double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m
-  int bin_frames = 10;              ///< starts and failures are counted in bins of this many frames
-  double uniform_starts = 0.4;      ///< share of the starts drawn uniformly; the rest where it fails
-  double reward_target = 0.5;       ///< mean reward under which the learner's reward is softened; 0: never
-  double softest_reward = 0.1;      ///< least exponent of the softened reward
+  int bin_frames = 10;              ///< frames per bin of starts and falls
+  double uniform_starts = 0.4;      ///< share of starts drawn uniformly; the others before falls
+  double reward_target = 0.5;       ///< below this mean reward the learner's reward is softened; 0: never
+  double softest_reward = 0.1;      ///< smallest exponent of the softened reward
 };
 
 }  // namespace mimicx::rl::tracking

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kStartStream = 0x7374617274;  // "start"
 constexpr double kFallRateMemory = 0.8;               // share of the old estimate kept per iteration
-constexpr std::int64_t kClipIterations = 16;          // that a pack stays with a clip
+constexpr std::int64_t kClipIterations = 16;          // iterations before a pack switches its clip
 constexpr double kSharpnessStep = 1.01;               // factor per iteration
 
 int bins_of(const TrackingClip& clip, const TrackingConfig& config) {
@@ -63,7 +63,7 @@ int TrackingEnvironment::agents() const {
   return last + 1;
 }
 
-/// Puts a pack on the clip whose turn it is, every lane at a start of its own.
+/// Switches a pack to the next clip in turn; every lane draws its own start.
 void TrackingEnvironment::follow_next_clip(int g, int p) {
   Group& group = groups_[g];
   group.clips[p] = next_clip_;
@@ -72,7 +72,7 @@ void TrackingEnvironment::follow_next_clip(int g, int p) {
   next_clip_ = (next_clip_ + 1) % clips_.count();
 }
 
-/// Moves every pack whose turn it is to the next clip. @return the characters of these packs
+/// Switches the packs that are due to their next clips. @return the characters of these packs
 std::vector<CharacterPlace> TrackingEnvironment::move_on() {
   std::vector<CharacterPlace> moved;
   const int per_group = groups_.front().packs.count();

@@ -1,17 +1,16 @@
-/// The tracking task as the learner's environment: packs of characters in groups, episodes, starts.
+/// The tracking task as an environment of the learner: groups of packs of characters, episodes, starts.
 ///
-/// Episodes start anywhere on the clip (reference-state initialisation), more often where characters fall.
-/// They end early when a body is farther than `terminate_distance` from its reference (a true end), and at
-/// the end of the clip (a time limit: the learner bootstraps there).                docs/method.md §7
+/// Episodes start anywhere on the clip (reference-state initialisation), more often before places where
+/// characters fall. They terminate when a body is farther than `terminate_distance` from its reference, and
+/// are truncated at the end of the clip (the learner bootstraps there).                docs/method.md §7
 ///
-/// The product of Eq. 2 stays near zero while a motion is hard to follow, and teaches little there. The
-/// learner's reward is therefore the product to a power, that is, all weights times one factor. The power
-/// falls while the mean reward stays under `reward_target` and returns to 1 as the motion is mastered
-/// (docs/method.md §7).
+/// While a motion is hard to follow, the product of Eq. 2 is near zero and almost constant. The learner's
+/// reward is therefore a power of the product, that is, all weights times one factor. The exponent falls
+/// while the mean reward is below `reward_target`, and returns to 1 as the reward rises (docs/method.md §7).
 ///
-/// Every pack of characters follows one clip. Where there are more clips than packs, packs move on to the
-/// next clip in turn, one after the other, so that all clips have their share. Every start is drawn from a
-/// stream keyed by seed, character and episode.
+/// Every pack of characters follows one clip. If there are more clips than packs, packs switch to the next
+/// clip in turn, so that all clips are used equally. Every start is drawn from a stream keyed by seed,
+/// character and episode.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +24,8 @@
 
 namespace mimicx::rl::tracking {
 
-/// @throws std::invalid_argument unless the characters fill whole groups, and a group whole packs of lanes
+/// @throws std::invalid_argument unless `characters` is a multiple of `group_size`, and that a multiple of
+///    kLanes
 void require_whole_groups(int characters, int group_size);
 
 class TrackingEnvironment {
@@ -33,7 +33,7 @@ class TrackingEnvironment {
   /// @param characters  in all; a multiple of group_size
   /// @param group_size  a multiple of kLanes
   /// @param clips       of one state size
-  /// @throws std::invalid_argument for sizes that do not fit, or no clips
+  /// @throws std::invalid_argument as `require_whole_groups`, and without clips
   TrackingEnvironment(std::vector<std::shared_ptr<const TrackingClip>> clips, const TrackingConfig& config,
                       int characters, int group_size, std::uint64_t seed);
 
@@ -41,28 +41,28 @@ class TrackingEnvironment {
   int group_size() const { return group_size_; }
   int observation_dim() const { return clips_.front()->state_size(); }
   int action_dim() const { return kDofs; }
-  /// One more than the largest number that an arrangement names.
+  /// Number of options: one more than the largest index in an arrangement.
   int agents() const;
-  /// The option that acts for a character now: that of its clip's arrangement.
+  /// The option that acts for a character now, by its clip's arrangement.
   int actor(int group, int character) const;
   void observe(int group, Eigen::Ref<nn::Matrix<float>> observations) const;
   void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result);
-  /// @return the characters that have moved on to another clip
+  /// @return the characters that switched to another clip
   std::vector<CharacterPlace> end_iteration();
   void save(Npz& archive, const std::string& prefix) const;
-  /// @throws DataError where the archive is of other clips or numbers of characters
+  /// @throws DataError if the archive is of other clips or numbers of characters
   void load(const Npz& archive, const std::string& prefix);
 
-  /// Of the roll-out that `end_iteration` has just closed.
+  /// Statistics of the roll-out before the last `end_iteration`.
   const TrackingStatistics& statistics() const { return last_; }
-  /// Smoothed share of the visits to a bin that end in a fall. [clip][bin]
+  /// [clip][bin] smoothed share of visits that end in a fall.
   const List<List<double>>& fall_rates() const { return fall_rates_; }
-  /// Power of the product that the learner is given: 1, or less where the motion is hard.
+  /// Exponent of the learner's reward: 1, or less for a hard motion.
   double sharpness() const { return sharpness_; }
 
  private:
   struct Group {
-    List<int> clips;  ///< [pack] which clip it follows
+    List<int> clips;  ///< [pack] index of its clip
     List<TrackingPack> packs;
     List<std::int64_t> episodes;  ///< [group_size] episodes begun
     std::unique_ptr<physics::Data<TrackingPack::P>> scratch;
@@ -80,7 +80,7 @@ class TrackingEnvironment {
   List<Group> groups_;
   List<List<double>> fall_rates_, start_weights_;
   std::int64_t iteration_ = 0;
-  int next_clip_ = 0;  ///< where the next pack moves on to
+  int next_clip_ = 0;  ///< clip of the next pack that switches
   double sharpness_ = 1.0;
   TrackingStatistics last_;
 };

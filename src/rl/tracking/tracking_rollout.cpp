@@ -29,7 +29,7 @@ motion::ReferenceFrame first_lane(const physics::State<P>& state) {
   return frame;
 }
 
-/// Appends every step to `out`. @param scratch  for one step's forces
+/// A watcher that appends every step to `out`. @param scratch  for the forces of one step
 TrackingPack::SubstepWatcher recorder(const physics::Model<float>& model, physics::Applied<P>& scratch,
                                       TrackingRollout& out) {
   return [&](const physics::State<P>& before, const physics::Target<P>& target,
@@ -85,7 +85,7 @@ MeanAction mean_action(const std::vector<Agent>& agents) {
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy, bool substeps) {
   TrackingRollout out;
-  TrackingPack pack(clip, config);  // every lane starts on frame 0; lane 0 is the one that is recorded
+  TrackingPack pack(clip, config);  // every lane starts on frame 0; lane 0 is recorded
   physics::Data<P> scratch;
   physics::Applied<P> applied, of_step;
   const TrackingPack::SubstepWatcher watch =

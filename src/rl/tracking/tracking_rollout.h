@@ -1,4 +1,4 @@
-/// The result of a policy: one deterministic roll-out of a whole clip, with what acted on the character.
+/// One deterministic roll-out of a policy over a whole clip, with the forces that acted on the character.
 #pragma once
 
 #include <functional>
@@ -12,22 +12,22 @@ namespace mimicx::rl::tracking {
 
 /// Mean action of a policy: s_t [state_size of the clip] → a_t [55].
 using MeanAction = std::function<void(int option, const float* state, float* action)>;
-/// That of agents, one per option; they are copied.
+/// The mean actions of agents, one per option; the agents are copied.
 MeanAction mean_action(const std::vector<Agent>& agents);
 
-/// What acted on the character, as the implicit solver applied it.
+/// Torques and forces on the character, as the implicit solver applied them.
 struct ActingForces {
   PerBody<Vector3d> joint_torque;  ///< child's frame, N·m; entry 0 unused
-  PerBody<Vector3d> range_torque;  ///< the part of it that came from the joint's range
+  PerBody<Vector3d> range_torque;  ///< the part from the joint's range
   PerBody<Vector6d> ground;        ///< (moment, force) about the joint centre, world axes
   PerBody<Vector6d> self_contact;  ///< the same
 };
 
-/// Means of what acted on the first character of a pack in the steps that are summed up; zero of none.
+/// Mean torques and forces on the first character of a pack over the summed steps; zero for no steps.
 ActingForces acting_forces(const physics::Applied<TrackingPack::P>& applied);
 
-/// One physics step: the state at its start, in the very numbers of the simulator (quaternions are unit to
-/// float rounding), what the PD controllers aimed at, and what acted.
+/// One physics step: the state at its start with the simulator's own bits (quaternions are unit to float
+/// rounding), the PD target, and the forces that acted.
 struct Substep {
   motion::ReferenceFrame state;
   PerBody<Quaterniond> target_q;   ///< entry 0 unused
@@ -41,16 +41,16 @@ struct TrackingRollout {
   std::vector<Pose> poses;            ///< [frames]
   std::vector<Reward> rewards;        ///< [frames]
   std::vector<ActingForces> forces;   ///< [frames]
-  std::vector<Substep> substeps;      ///< [physics steps], where asked for
-  motion::ReferenceFrame last_state;  ///< after the last of them
+  std::vector<Substep> substeps;      ///< [physics steps], if requested
+  motion::ReferenceFrame last_state;  ///< after the last physics step
   double worst_distance = 0;          ///< of any body from its reference, m
   double mean_reward = 0;             ///< over frames 1 …
   double mean_position_error = 0;     ///< all joints, world, frames 1 …, m
-  bool broken = false;                ///< the simulation went wrong; frames end there
+  bool broken = false;                ///< the simulation failed; frames end there
 };
 
-/// Follows the clip from its first frame to its last under the clip's arrangement, falls included: nothing
-/// is cut short but by a numerical failure.
+/// Follows the clip from its first frame to its last under the clip's arrangement. Falls do not end it, only
+/// a numerical failure does.
 /// @param substeps  also record every physics step; changes nothing else
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy, bool substeps = false);
