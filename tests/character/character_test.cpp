@@ -131,8 +131,8 @@ TEST(Character, EveryBetaChangesTheShapeAndLargeBetasAreRejected) {
   }
 }
 
-/// Smallest gap of all self pairs in the rest pose; with or without that of the thighs, which every shape
-/// ends 1 mm short of the middle.
+/// Smallest gap of all self pairs in the rest pose, with or without the pair of thighs, which end 1 mm short
+/// of the middle in every shape.
 double smallest_gap(const Character& c, bool with_thighs = true) {
   const BodyPoses rest = forward_kinematics(c, Vector3d::Zero(), rest_rotations());
   double smallest = 1e9;
@@ -143,8 +143,7 @@ double smallest_gap(const Character& c, bool with_thighs = true) {
   return smallest;
 }
 
-/// The narrowest gap but the thighs' that can be found from a start in ±3: one β at a time to its worst
-/// value.
+/// The smallest gap, except the thighs', that coordinate descent over β in ±3 finds from a start.
 double narrowest_gap_near(Betas betas) {
   double best = smallest_gap(make_character(betas), false);
   for (bool better = true; better;) {
@@ -167,7 +166,7 @@ double narrowest_gap_near(Betas betas) {
   return best;
 }
 
-// Every corner of β in ±3, shapes between them, and what a search for the narrowest one finds.
+// Every corner of β in ±3, random shapes between them, and the result of a search for the smallest gap.
 TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
   for (unsigned corner = 0; corner < 1U << kBetas; ++corner) {
     Betas betas;
@@ -183,7 +182,7 @@ TEST(Character, SelfPairsAreApartInTheRestPoseForEveryShape) {
   EXPECT_GT(narrowest, 0.0);
 }
 
-/// How near the trunk's middle line the middle of a hand comes from in front at this height, m.
+/// Distance from the trunk's middle line at which a hand in front of it is stopped at this height, m.
 double nearest_hand(const Character& c, const BodyPoses& rest, double height) {
   const double hand = c.capsule[kLeftWrist].radius;
   double nearest = 0.0;
@@ -306,7 +305,7 @@ TEST(CharacterOfJoints, HasTheGivenBonesAndTheNearestShape) {
   const std::array<double, kBetas> betas = {1.5, 0, -1, 0.5, 1, -0.5, 0.3, 1, 0, 0.4};
   const Character shaped = make_character(betas), made = make_character_of_joints(rest_joints(shaped));
   for (int i = 0; i < kBodies; ++i) EXPECT_LT((made.joint_offset[i] - shaped.joint_offset[i]).norm(), 1e-14);
-  // The prior pulls the shape towards the standard one, never past it or away from it.
+  // The prior shrinks the shape towards the standard one, but not beyond it.
   EXPECT_GT(made.betas[0], 0.5 * betas[0]);
   EXPECT_LT(made.betas[0], betas[0]);
   EXPECT_NEAR(made.total_mass(), shaped.total_mass(), 0.06 * shaped.total_mass());

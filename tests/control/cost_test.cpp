@@ -1,4 +1,4 @@
-// The cost: its derivatives, its table, and that lanes and doubles mean the same.
+// The cost: derivatives, weights, and agreement of lanes with double.
 #include "control/cost.h"
 
 #include <gtest/gtest.h>

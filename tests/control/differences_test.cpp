@@ -11,7 +11,7 @@
 namespace mimicx::control {
 namespace {
 
-/// One control frame in double, by its own way from controls to targets.
+/// One control frame in double, with an independent conversion of controls to targets.
 State<double> frame_in_double(const System& system, const Model<double>& model, const FramePoint& point,
                               int column, double step) {
   Tangent<double> delta{};

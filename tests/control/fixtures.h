@@ -1,4 +1,4 @@
-/// References to plan for: synthetic motions, prepared as the pipeline prepares them, and made-up states.
+/// References for planning: synthetic motions, prepared as in the pipeline, and random states.
 #pragma once
 
 #include <string>

@@ -149,7 +149,7 @@ Eigen::MatrixXd central_differences(const Model<double>& model, const ControlFra
     return Eigen::Map<const Eigen::VectorXd>(d.data(), kTangent).eval();
   };
   for (int column = 0; column < F.cols(); ++column) {
-    // The state hardly feels a newton.
+    // Larger steps: a newton hardly changes the state.
     const double e = h * (column < kPositions ? 1.0 : column < kFrameColumns ? 10.0 : 1000.0);
     F.col(column) = (8.0 * apart(column, e) - apart(column, 2.0 * e)) / (12.0 * e);
   }

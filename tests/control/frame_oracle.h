@@ -1,5 +1,5 @@
-/// The oracles of the analytic derivatives: a control frame as the simulator itself runs it, over Dual for
-/// derivatives by the chain rule and over double for differences.
+/// Oracles of the analytic derivatives: the simulator's own control frame, over Dual for derivatives by the
+/// chain rule and over double for differences.
 #pragma once
 
 #include "control/analytic/analytic.h"

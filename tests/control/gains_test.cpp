@@ -1,4 +1,4 @@
-// The feedback of a finished plan: what it holds that the plan alone does not.
+// Feedback gains of a finished plan: robustness that the plan alone does not have.
 #include "control/gains.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Gains, KeepAWalkUprightUnderPushesThatToppleThePlan) {
   EXPECT_LT(open.frames_kept, 89.0);
 }
 
-// The gains that planning itself uses answer to a contact as it is at the very point of the plan.
+// The gains of planning itself use derivatives with the contacts of the planned state.
 TEST(Gains, SoftenedGainsWithstandMoreThanStiffGains) {
   const Walk walk;
   GainConfig stiff;
@@ -41,7 +41,7 @@ TEST(Gains, SoftenedGainsWithstandMoreThanStiffGains) {
   EXPECT_GE(followed({}), followed(stiff) + 3);
 }
 
-// Not to the byte: the laws answer to the rounding of x ⊖ x̄.
+// Not to the byte: the laws respond to the rounding of x ⊖ x̄.
 TEST(Gains, WithoutPushesThePlanIsFollowed) {
   const Walk walk;
   const auto gains = feedback_gains(walk.system, walk.cost, walk.motion, {}, {.threads = 2});

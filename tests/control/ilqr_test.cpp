@@ -1,4 +1,4 @@
-// One window: its cost never rises, and threads change no byte.
+// Iterations on one window: the cost never rises, and threads change no byte.
 #include "control/ilqr.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(Ilqr, ConcurrentSweepSeesTheModelsOfItsFrameAndAllLaterFrames) {
   EXPECT_EQ(next, -1);
 }
 
-// The decrease that the sweep promises is that of the linear-quadratic model: near the optimum, the true one.
+// The predicted decrease is that of the linear-quadratic model; near the optimum it is the true one.
 TEST(Ilqr, PredictedDecreaseMatchesAFullStep) {
   WalkingProblem p;
   IterationState state;

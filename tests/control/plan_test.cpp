@@ -1,4 +1,4 @@
-// Whole plans: followed, replayed, independent of threads, and honest about what no body can do.
+// Whole plans: followed, replayed, independent of threads; infeasible references are reported.
 #include "control/plan.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(Plan, OneAndTwoThreadsGiveTheSameBytes) {
   EXPECT_EQ(std::memcmp(one.states.data(), two.states.data(), one.states.size() * sizeof one.states[0]), 0);
 }
 
-/// Stands, and rises from the floor like a balloon, 2 m/s² from frame 20 on.
+/// A reference that stands and rises into the air from frame 20 on, at 2 m/s².
 System balloon() {
   System system = system_of(synthetic_reference("stand", 501, 60));
   for (std::size_t t = 20; t < 60; ++t) {
@@ -83,7 +83,7 @@ TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
   EXPECT_LT(plan.loss->frame, 45);
   EXPECT_GE(plan.loss->body, 0);
   EXPECT_GT(plan.loss->distance, 0.05);
-  // To hang in the air takes the body's weight; to stand takes nothing.
+  // In the air the assistive force is about the weight; standing needs none.
   const double weight = 9.81 * system.mass;
   const List<Vector6d> help = wrenches_of(plan.soft_help, system.mass);
   ASSERT_EQ(help.size(), 59u);
@@ -96,7 +96,7 @@ TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
   EXPECT_EQ(plan.residuals.size() + 1, plan.states.size());
 }
 
-/// Stands, and is lifted by 0.4 m and put down again within a second: a jump without the crouch before it.
+/// A reference that stands, is lifted by 0.4 m and put down within a second: a jump without a crouch.
 System lifted() {
   constexpr int kFirst = 15, kFrames = 30;
   constexpr double kHeight = 0.4;
@@ -110,8 +110,8 @@ System lifted() {
   return system;
 }
 
-/// Help ten thousand times as dear at once loses the motion that cheap help had followed; the rest is what
-/// steps of its root come to.
+/// The stage with weights ten thousand times as large fails; its repetition continues with the root of this
+/// factor, as if planning had started with it.
 TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   PlanConfig config;
   config.stiffening = 1e2;
@@ -127,7 +127,7 @@ TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   EXPECT_LT(plan.worst_distance, 0.35);
 }
 
-// The helped plan follows it, and its help is the one of physics: the acceleration of the reference.
+// The assistive acceleration is that of the reference plus gravity.
 TEST(Plan, SoftPlanFollowsAnInfeasibleReference) {
   System system = balloon();
   system.soft = true;

@@ -14,7 +14,7 @@ struct Regulator {
   Eigen::MatrixXd A, B, Q, R;
 };
 
-// Products of one type each: long expressions of Eigen's take half a minute to compile.
+// Products with few types: Eigen's long expressions take half a minute to compile.
 Eigen::MatrixXd product_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a * b; }
 Eigen::MatrixXd transposed(const Eigen::MatrixXd& a) { return a.transpose(); }
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a) { return a.inverse(); }
@@ -207,7 +207,7 @@ TEST(Riccati, InvertedPendulumSolvesTheAlgebraicEquationAndIsStable) {
   EXPECT_LT(spectral_radius(p.A + product_of(p.B, K)), 1.0);
 }
 
-// A problem of two steps with memory and a gap, against one solve of its normal equations.
+// A problem of two steps with memory and a gap, against the solution of its normal equations.
 TEST(Riccati, MemoryAndGapsMatchTheNormalEquations) {
   constexpr int n = 3, w = 2, m = 3;
   srand(5);

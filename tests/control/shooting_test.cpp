@@ -47,8 +47,7 @@ TEST(Shooting, GapLeadsFromThePlannedToTheSimulatedState) {
   }
 }
 
-// From the reference's own states and no idea of the controls: one iteration follows where a roll-out of that
-// guess falls.
+// The guess is the reference's states with zero controls: one iteration follows it, a roll-out of it falls.
 TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
   ShootingProblem p;
   IterationState state;
@@ -61,7 +60,7 @@ TEST(Shooting, OneIterationClosesTheGapsOfAFeasibleReference) {
   EXPECT_LE(p.plan.cost, closed);
 }
 
-// With no trust at all nothing is closed, and the states stay where they were.
+// With a trusted distance of almost zero no gap is closed, and the states do not change.
 TEST(Shooting, FramesAfterTheTrustedOnesKeepTheirStates) {
   ShootingProblem p;
   const Trajectory before = p.plan;

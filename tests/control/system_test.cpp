@@ -1,4 +1,4 @@
-// The controlled system: bad arguments, and controls that are the actions of the tracking task.
+// The controlled system: invalid arguments, and agreement of controls with actions of the tracking task.
 #include "control/system.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(System, RejectsTooFewFramesAndMismatchedRates) {
   EXPECT_EQ(make_system(character, {}, {x, x}, 60.0).substeps, 4);
 }
 
-// Some frames under random controls, once here and once as actions.
+// Some frames under random controls, simulated here and as actions of the tracking task.
 TEST(System, ControlsGiveTheBytesOfTheTrackingTasksActions) {
   const motion::Reference walk = synthetic_reference("walk", 501, 20);
   const System system = system_of(walk);
@@ -54,7 +54,7 @@ TEST(System, AsFloatsRoundsEveryNumber) {
   const State<double> x = system_of(synthetic_reference("walk", 501, 3)).at(1);
   const State<double> rounded = as_floats(x);
   const auto expect_rounded = [](double found, double exact) {
-    volatile float to_float = static_cast<float>(exact);  // volatile: no compiler may leave the rounding out
+    volatile float to_float = static_cast<float>(exact);  // volatile: the compiler must not skip the rounding
     EXPECT_EQ(found, static_cast<double>(to_float)) << exact;
   };
   const auto expect_vector = [&](const Vec3<double>& found, const Vec3<double>& exact) {
@@ -86,7 +86,7 @@ TEST(System, AssistiveForceAcceleratesThePelvisOnlyInASoftSystem) {
   };
   EXPECT_EQ(after(0.0f).v_root.x, after(5.0f).v_root.x);
   system.soft = true;
-  // Both feet stand, so the pelvis gains less than a free body would (5 m/s² · 1/30 s).
+  // Both feet are on the floor, so the pelvis gains less than a free body would (5 m/s² · 1/30 s).
   const double gained = after(5.0f).v_root.x - after(0.0f).v_root.x;
   EXPECT_GT(gained, 0.05);
   EXPECT_LT(gained, 0.4);

@@ -1,4 +1,4 @@
-// The state manifold: what ⊖ and ⊕ promise.
+// The state manifold: properties of ⊖ and ⊕.
 #include "control/tangent.h"
 
 #include <gtest/gtest.h>

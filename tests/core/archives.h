@@ -1,4 +1,4 @@
-/// What the tests of files, arrays and archives share.
+/// Fixtures of the tests of files, arrays and archives.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace mimicx {
 
 namespace fs = std::filesystem;
 
-/// A folder per test: tests run side by side.
+/// A folder per test, because tests run in parallel.
 inline fs::path scratch(const std::string& name) {
   const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_core_test" /
                           ::testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -19,7 +19,7 @@ inline fs::path scratch(const std::string& name) {
   return folder / name;
 }
 
-/// One member of every kind.
+/// An archive with one member of every type.
 inline Npz example_archive() {
   Npz npz;
   const double d[6] = {1.5, -2.0, 1e300, 4.0, 5e-324, -0.0};

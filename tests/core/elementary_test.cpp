@@ -18,7 +18,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeast = std::numeric_limits<double>::denorm_min();
 constexpr double kMost = std::numeric_limits<double>::max();
 
-/// Any double: all signs and exponents, denormal, infinite and NaN among them.
+/// Any double: all signs and exponents, including denormal, infinite and NaN.
 double any_double(Random& random) {
   const std::uint64_t high = random.bits();
   return std::bit_cast<double>(high << 32 | random.bits());
@@ -42,7 +42,7 @@ Sampler between(double low, double high) {
 
 /// The largest error of 300,000 arguments, against the long double of the standard library.
 double worst(double (*ours)(double), long double (*exact)(long double), const Sampler& sample) {
-  if (std::numeric_limits<long double>::digits < 64) return 0.0;  // nothing to compare with
+  if (std::numeric_limits<long double>::digits < 64) return 0.0;  // no more precise reference
   Random random(7, {});
   double worst = 0.0;
   for (int i = 0; i < 300'000; ++i) {
@@ -66,7 +66,7 @@ double worst(double (*ours)(double, double), long double (*exact)(long double, l
 TEST(Elementary, ExponentialsAreWithinOneUnit) {
   EXPECT_LT(worst(exp, std::exp, between(-2.0, 2.0)), 1.0);
   EXPECT_LT(worst(exp, std::exp, between(-708.0, 709.7)), 1.0);
-  EXPECT_LT(worst(exp, std::exp, between(-746.0, -708.0)), 1.0);  // results that are no normal numbers
+  EXPECT_LT(worst(exp, std::exp, between(-746.0, -708.0)), 1.0);  // denormal results
   EXPECT_LT(worst(exp, std::exp, any_double), 1.0);
 }
 
@@ -100,7 +100,7 @@ TEST(Elementary, IntegerPowersAreExactWhereTheirFactorsAre) {
   }
   EXPECT_EQ(pow(-3.0, 3), -27.0);
   EXPECT_EQ(pow(0.0, 0), 1.0);
-  EXPECT_EQ(pow(2.0, -1074), 0.0);  // 1/2¹⁰⁷⁴, the divisor of which is infinite
+  EXPECT_EQ(pow(2.0, -1074), 0.0);  // 1/2¹⁰⁷⁴, whose divisor is infinite
   Random random(3, {});
   for (int i = 0; i < 100'000; ++i) {
     const double x = random.uniform(0.0, 10.0);
@@ -126,7 +126,8 @@ TEST(Elementary, TrigonometryIsWithinItsErrorBounds) {
 }
 
 TEST(Elementary, SinesOfTheWorstArgumentsAreExact) {
-  // Next to multiples of π/2, where the reduction cancels most of the digits: of all doubles, and below 10⁶.
+  // The doubles closest to multiples of π/2, of all and below 10⁶: the reduction cancels most of their
+  // digits.
   for (const double x : {6381956970095103.0 * 0x1p+797, 5.319372648326541e+255, 0x1.921fb54442d18p+0, 355.0,
                          710.0, 312689.0, 833719.0, 1e22}) {
     EXPECT_LT(error_of(sin(x), std::sin(static_cast<long double>(x))), 1.0) << x;
@@ -154,7 +155,7 @@ TEST(Elementary, HypotenusesAreWithinTheirErrorBound) {
   EXPECT_EQ(hypot(3.0 * kLeast, 4.0 * kLeast), 5.0 * kLeast);
 }
 
-/// The same number, the sign of zero, too; or both NaN.
+/// Expects the same number, including the sign of zero, or both NaN.
 void expect_same(double ours, double standard, double x, double y) {
   if (std::isnan(standard)) {
     EXPECT_TRUE(std::isnan(ours)) << x << " " << y << ": " << ours;
@@ -203,12 +204,12 @@ TEST(Elementary, SpecialValuesMatchTheStandardLibrary) {
   EXPECT_EQ(cos(0.0), 1.0);
 }
 
-/// What every machine must give: the bits of the results, folded.
+/// A hash of the bits of many results, the same on every machine.
 TEST(Elementary, BitsAreTheSameOnEveryMachine) {
   Random random(11, {});
   std::uint64_t hash = 14695981039346656037u;
   const auto add = [&](double value) {
-    if (std::isnan(value)) value = 0.0;  // which NaN is left open
+    if (std::isnan(value)) value = 0.0;  // the payload of a NaN is unspecified
     hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211u;
   };
   for (int i = 0; i < 100'000; ++i) {

@@ -40,7 +40,7 @@ TEST(ParallelFor, RethrowsTheErrorOfTheLowestChunkAfterAllChunks) {
 TEST(ParallelChain, LinkRunsAfterItsItemAndThePreviousLink) {
   for (const int threads : {0, 1, 2, 5}) {
     std::vector<std::atomic<int>> items(50);
-    int links = 0;  // no atomic: one link at a time
+    int links = 0;  // not atomic: links run one at a time
     parallel_chain(
         50, threads,
         [&](int i, int worker) {

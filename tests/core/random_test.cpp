@@ -46,7 +46,7 @@ double chi_square(const std::vector<int>& counts, double expected) {
   return sum;
 }
 
-// Bounds: mean 63 (or 6), standard deviation √(2·63) (or √12); five of them are never met by chance.
+// Bounds: mean 63 (or 6) plus five standard deviations, √(2·63) (or √12), which never occur by chance.
 TEST(Random, UniformFillsItsBinsEvenly) {
   Random random(11, {1});
   std::vector<int> counts(64);
@@ -64,7 +64,7 @@ TEST(Random, BelowIsUnbiased) {
   std::vector<int> counts(7);
   for (int n = 0; n < 70000; ++n) ++counts[random.below(7)];
   EXPECT_LT(chi_square(counts, 10000.0), 6.0 + 5 * std::sqrt(12.0));
-  // With n = 3·2^30 a plain remainder would draw the lowest third twice as often as the others.
+  // With n = 3·2^30 a plain remainder would draw the lowest third twice as often as the rest.
   int low = 0;
   for (int n = 0; n < 30000; ++n) low += random.below(3u << 30) < (1u << 30);
   EXPECT_NEAR(low, 10000, 5 * std::sqrt(30000 * 2.0 / 9.0));

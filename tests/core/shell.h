@@ -1,4 +1,4 @@
-/// Other programs, called as a shell calls them.
+/// Runs other programs through a shell.
 #pragma once
 
 #include <sys/wait.h>
@@ -13,7 +13,7 @@ struct Call {
   std::string text;  ///< both streams
 };
 
-/// What a shell makes of a line.
+/// Runs a command line in a shell.
 inline Call shell(const std::string& line) {
   FILE* pipe = popen(line.c_str(), "r");
   Call call{-1, {}};

@@ -1,5 +1,5 @@
-// Archives of numbers other than plain motions: body models, options, policies, plans, gains, feasibility,
-// and motions with the forces that `audit` and `convert` look at.
+// Target: archives other than plain motions: body models, options, policies, plans, gains, feasibility, and
+// motions with the forces that `audit` and `convert` read.
 #include "audit/audit_file.h"
 #include "audit/thrown.h"
 #include "core/file.h"
@@ -22,7 +22,7 @@
 namespace mimicx::fuzz {
 namespace {
 
-/// What `write(path)` writes.
+/// The bytes that `write(path)` writes.
 template <class Write>
 Npz written(const Write& write) {
   const TemporaryFolder folder;

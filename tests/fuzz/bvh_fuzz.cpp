@@ -8,7 +8,7 @@
 namespace mimicx::fuzz {
 namespace {
 
-/// A small clip of the 22 bodies: exercises names, calibration and solving, too.
+/// A small clip of the 22 bodies, which also exercises names, calibration and solving.
 motion::Clip small_clip() {
   motion::Clip clip;
   for (int t = 0; t < 3; ++t) {
@@ -33,7 +33,7 @@ std::vector<std::string> seeds() {
       "3 2 1\n";
   std::string foreign = import::format_bvh(small_clip());
   for (std::size_t at = 0; (at = foreign.find("OFFSET 0.0", at)) != std::string::npos; at += 8)
-    foreign.replace(at, 10, "OFFSET 0.1");  // not this program's own skeleton any more
+    foreign.replace(at, 10, "OFFSET 0.1");  // no longer this program's own skeleton
   return {small, import::format_bvh(small_clip()), foreign};
 }
 

@@ -1,4 +1,4 @@
-// Checkpoints: what a training and a teaching go on from.
+// Target: checkpoints of training and teaching.
 #include "fuzz/driver.h"
 #include "fuzz/members.h"
 #include "rl/ppo_fixture.h"

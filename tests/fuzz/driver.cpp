@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSurvived = 0, kFailed = 1, kWrongUsage = 2;
 
-/// @param what  how the input can be had again, for the message when it is not survived
+/// @param what  how to reproduce the input, for the message of a failure
 bool survives(const std::string& bytes, const std::string& what, void (*feed)(const std::string&)) {
   try {
     feed(bytes);

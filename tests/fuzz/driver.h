@@ -8,8 +8,8 @@
 /// or, with clang and -DMIMICX_FUZZ=ON, under libFuzzer. Input k depends on the seed and k alone, so a
 /// failure is repeated by `--from K --runs 1`; FILEs are fed as they are, before the mutated inputs.
 ///
-/// What it does not do: no coverage feedback without libFuzzer, and no limits on time and memory: ctest has
-/// one for time, and a target bounds memory by what it asks of its reader.
+/// It has no coverage feedback without libFuzzer, and no limits on time and memory: ctest limits the time,
+/// and a target bounds memory by the arguments of its reader.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@
 
 namespace mimicx::fuzz {
 
-/// Inputs to start from: small, valid, made by the target itself.
+/// Initial inputs: small, valid, made by the target.
 std::vector<std::string> seeds();
 
-/// Feeds one input to the reader. A `DataError` is the right answer to bad data and must be caught by the
-/// target; anything else that leaves it is a failure.
+/// Feeds one input to the reader. The target catches `DataError`, the correct response to bad data; any other
+/// exception is a failure.
 void feed(const std::string& bytes);
 
-/// What `main` does. @return 0 when every input was survived, 1 when one was not, 2 for a wrong argument
+/// Runs the target. @return 0 if it survived every input, 1 if not, 2 for a wrong argument
 int run_fuzz(const std::vector<std::string>& arguments, const std::vector<std::string>& seeds,
              void (*feed)(const std::string&));
 
 /// The k-th mutated input: one seed after one to eight edits (bytes changed, inserted, removed, repeated; the
-/// end cut off; a piece of another seed; numbers and words that readers tend to trust).
+/// end cut off; a piece of another seed; numbers and words that readers often trust).
 std::string mutated_input(const std::vector<std::string>& seeds, std::uint64_t seed, std::uint64_t k);
 
 }  // namespace mimicx::fuzz

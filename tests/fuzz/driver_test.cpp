@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::string> kSeeds = {"OFFSET 1.5 2 3\n", "{\"Frames\": [[1, 2]]}"};
 
-std::vector<std::string> fed;  ///< what `remember` was given
+std::vector<std::string> fed;  ///< the inputs of `remember`
 void remember(const std::string& bytes) { fed.push_back(bytes); }
 void refuse_braces(const std::string& bytes) {
   if (bytes.find("}}") != std::string::npos) throw std::runtime_error("two braces");

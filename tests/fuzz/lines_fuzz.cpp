@@ -1,4 +1,4 @@
-// Small texts: tables, files of joint names, and what is given on a command line (shards, numbers).
+// Target: small texts: tables, files of joint names, and arguments of a command line (shards, numbers).
 #include <stdexcept>
 
 #include "command_line_numbers.h"

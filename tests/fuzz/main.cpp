@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mimicx::fuzz::feed(std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }
-/// Without a corpus on disk libFuzzer starts from nothing: its mutations are mixed with ours of the seeds.
+/// Without a corpus on disk libFuzzer starts from empty inputs, so its mutations are mixed with ours of the
+/// seeds.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {

@@ -1,7 +1,7 @@
-/// Archives that are damaged member by member, past the checksums that guard a zip.
+/// Archives with one damaged member and valid zip checksums.
 ///
-/// An input is the name of a member, a line break, and the npy file that takes its place; without one the
-/// member is left out. It goes to the readers of all archives that have such a member.
+/// An input is the name of a member, a line break, and the npy file that replaces it; without a file the
+/// member is removed. The input goes to the readers of all archives with such a member.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 namespace mimicx::fuzz {
 
 struct Archive {
-  Npz sound;                 ///< small, and read without complaint
+  Npz sound;                 ///< small and valid
   void (*read)(const Npz&);  ///< its reader; a `DataError` is for `feed_member` to catch
 };
 
-/// @throws DataError where an archive is not sound: there would be little to learn from it
+/// @throws DataError if an archive is not valid: it would be useless as a seed
 inline std::vector<std::string> seeds_of(const std::vector<Archive>& archives) {
   std::vector<std::string> seeds;
   for (const Archive& archive : archives) archive.read(archive.sound);
@@ -26,7 +26,7 @@ inline std::vector<std::string> seeds_of(const std::vector<Archive>& archives) {
   return seeds;
 }
 
-/// The archive with the member in the place of its own, or without it.
+/// The archive with the member replaced or removed.
 inline Npz with_member(const Npz& sound, const std::string& name, const std::string& npy) {
   Npz damaged;
   damaged.path = "fuzz.npz";

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMaxLength = 1 << 16;
 
-/// Words that readers tend to trust: counts, numbers at the edge of their type, structure, bytes outside
+/// Words that readers often trust: counts, numbers at the edge of their type, structure, bytes outside
 /// ASCII.
 constexpr std::array<std::string_view, 20> kWords = {
     "nan",      "inf", "-1", "0", "1e999", "-1e-999", "2147483647", "4294967296", "18446744073709551616",
@@ -50,7 +50,7 @@ void edit(Random& random, const std::vector<std::string>& seeds, std::string& te
       break;
     }
     default:
-      if (random.below(4) == 0) text.resize(at);  // a truncated file; rarer, because little is left to read
+      if (random.below(4) == 0) text.resize(at);  // a truncated file; rare: little remains to be read
       break;
   }
 }

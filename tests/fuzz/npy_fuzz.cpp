@@ -1,4 +1,4 @@
-// Arrays: as a Motion-X file, and as each member of an archive, past the checksums that guard a zip.
+// Target: arrays: as a Motion-X file, and as each member of an archive with valid zip checksums.
 #include "fuzz/driver.h"
 #include "import/motion_file.h"
 #include "import/motionx.h"

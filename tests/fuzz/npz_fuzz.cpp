@@ -1,4 +1,4 @@
-// Archives: zip directory, members, and the motion in them.
+// Target: archives: zip directory, members, and the motion in them.
 #include "fuzz/driver.h"
 #include "import/motion_file.h"
 #include "motion/clip_file.h"

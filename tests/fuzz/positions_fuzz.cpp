@@ -1,4 +1,5 @@
-// Joint positions (T, 22, 3) and HumanML3D's features (T, 263): read, turned into rotations and retargeted.
+// Target: joint positions (T, 22, 3) and HumanML3D's features (T, 263): read, turned into rotations and
+// retargeted.
 #include "core/npz/npy.h"
 #include "fuzz/driver.h"
 #include "import/motion_file.h"

@@ -1,4 +1,5 @@
-// Records of runs: manifest, list of shards, journal, times and clusters; what was read is written again.
+// Target: records of runs: manifest, list of shards, journal, times and clusters; each is read and written
+// again.
 #include <stdexcept>
 
 #include "core/error.h"
@@ -12,7 +13,7 @@
 namespace mimicx::fuzz {
 namespace {
 
-/// What a reader makes of the bytes is written as a text that reads as the same.
+/// Writing what a reader returns gives a text that reads as the same value.
 template <class Read, class Write>
 void round_trip(const std::string& bytes, const Read& read, const Write& write) {
   std::string written;

@@ -42,7 +42,7 @@ TEST(Adam, FollowsTheScalarAlgorithmWithAChangingStepSize) {
     EXPECT_NEAR(i < 6 ? weight.data()[i] : bias.data()[i - 6], theta[i], 1e-13);
 }
 
-// Roots by an approximate instruction and a Newton step would differ between makers of processors.
+// Roots by an approximate instruction and a Newton step differ between makers of processors.
 TEST(Adam, EveryRootIsTheCorrectlyRoundedOne) {
   const Eigen::Index n = 1003;
   Matrix<float> x = Matrix<float>::Zero(1, n);

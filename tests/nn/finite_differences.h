@@ -73,7 +73,8 @@ inline void expect_gradient_matches_differences(const Scalar& f, const Inputs& i
   }
 }
 
-/// The scalar Σ_k Σ c_k ⊙ (∂f/∂x_k)² + c_k ⊙ ∂f/∂x_k: every entry of the gradient counts, differently.
+/// The scalar Σ_k Σ c_k ⊙ (∂f/∂x_k)² + c_k ⊙ ∂f/∂x_k: it depends on every entry of the gradient, with
+/// different weights.
 inline Scalar of_gradient(const Scalar& f) {
   return [f](Tape<double>& tape, std::span<const Var> x) {
     const auto gradients = gradient<double>(tape, f(tape, x), x);

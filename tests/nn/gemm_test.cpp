@@ -8,7 +8,7 @@
 namespace mimicx::nn {
 namespace {
 
-// This program links the networks alone: what fixes the blocking must not depend on what else is linked.
+// This program links the networks only: the fixed blocking must not depend on other linked code.
 TEST(Gemm, BlockingDoesNotDependOnTheProcessorsCaches) {
   EXPECT_EQ(Eigen::l1CacheSize(), 32 * 1024);
   EXPECT_EQ(Eigen::l2CacheSize(), 512 * 1024);

@@ -1,4 +1,4 @@
-/// Networks as the learner uses them: losses, the gradient penalty, roll-out evaluation.
+/// Networks in the learner: losses, the gradient penalty, evaluation in roll-outs.
 #include "nn/mlp.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 namespace mimicx::nn {
 namespace {
 
-/// Features of very different place and size; the last one never moves.
+/// Features of very different mean and deviation; the last one is constant.
 Matrix<float> samples(int rows, std::uint64_t seed) {
   Random random(seed);
   Matrix<float> x(rows, 4);
@@ -48,7 +48,7 @@ TEST(Normaliser, OutputsHaveZeroMeanAndUnitDeviation) {
     EXPECT_NEAR(after.mean(j), 0.0, 1e-4);
     EXPECT_NEAR(after.squares(j) / after.count, 1.0, 1e-4);
   }
-  // A variance of 1e-6 meets the floor of 1e-6: half the unit variance is left.
+  // A variance of 1e-6 plus the floor of 1e-6: the normalised variance is one half.
   EXPECT_NEAR(after.squares(2) / after.count, 0.5, 0.02);
   EXPECT_TRUE(y.col(3).isZero(0));
 }

@@ -1,4 +1,4 @@
-/// Every operation against finite differences, up to third order, and the tape's own promises.
+/// Every operation against finite differences up to third order, and properties of the tape.
 #include "nn/ops.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace mimicx::nn {
 namespace {
 
-/// Turns an operation into a scalar to whose gradient every element contributes differently and curved.
+/// A scalar, nonlinear function of an operation's result, with a different weight for every element.
 Var weighted(Tape<double>& tape, Var y) {
   Random random(5);
   const Var weight = tape.constant(random_matrix(tape.value(y).rows(), tape.value(y).cols(), random));
@@ -130,7 +130,7 @@ TEST(Tape, ComputesOnlyTheRequestedGradients) {
     gradient<double>(tape, loss, wrt);
     return tape.size() - before;
   };
-  // Seed, broadcast of the sum, slope, product for w, column sum for b; the input needs one product more.
+  // Seed, broadcast of the sum, slope, product for w, column sum for b; the input needs one more product.
   EXPECT_EQ(nodes_of_gradient(false), 5);
   EXPECT_EQ(nodes_of_gradient(true), 6);
 }
@@ -142,7 +142,7 @@ TEST(Tape, AccumulatesNothingForConstants) {
   const int before = tape.size();
   const std::array wrt = {x};
   gradient<double>(tape, loss, wrt);
-  EXPECT_EQ(tape.size() - before, 2);  // seed and broadcast; adding up what reaches c would be a third
+  EXPECT_EQ(tape.size() - before, 2);  // seed and broadcast; accumulating the gradient of c would be a third
 }
 
 TEST(Tape, ASecondPassReusesEveryBufferOfTheFirst) {

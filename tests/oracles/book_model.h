@@ -7,7 +7,7 @@
 /// Conventions: spatial vectors are (angular; linear). The pelvis is a six-degree joint with S = 1 in its own
 /// coordinates, so generalised velocities are (ω, v) of the pelvis in the pelvis frame, then ω of each joint
 /// in the child's frame (1 number for a hinge): 6 + 55 = 61 degrees of freedom.
-/// What it does not do: contact, control, limits. External forces come in from outside.
+/// It has no contact, control or limits. External forces are inputs.
 #pragma once
 
 #include <Eigen/Dense>

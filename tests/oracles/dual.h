@@ -1,6 +1,6 @@
-/// A number and its derivative: a third scalar for the simulator, for tests. Run over Dual, the headers of
-/// src/physics differentiate themselves by the chain rule, one direction at a time, exactly to rounding and
-/// on the side of every switch that the number itself takes.
+/// Dual numbers, a third scalar of the simulator for tests. Over Dual, the headers of src/physics compute
+/// their derivative by the chain rule, in one direction, exact to rounding, and on the side of every switch
+/// that the value takes.
 ///     Dual(x, d): x + d ε with ε² = 0.          A. Griewank, A. Walther, "Evaluating Derivatives" (2008),
 ///     ch. 3
 #pragma once

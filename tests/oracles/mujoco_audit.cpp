@@ -146,7 +146,7 @@ double largest_difference(const audit::Audit& audit, const std::vector<audit::Au
     const double scale = std::max(audit.weight, ours.normal);
     for (const double difference : {(ours.root - rows[k].root).norm() / scale,
                                     std::abs(ours.torque_gap - rows[k].torque_gap) / scale}) {
-      if (std::isnan(difference)) return difference;  // no comparison would ever choose it
+      if (std::isnan(difference)) return difference;  // comparisons would skip a NaN
       largest = std::max(largest, difference);
     }
   }

@@ -1,4 +1,4 @@
-/// The certificate by the second engine: the audit's numbers for a file, from MuJoCo's inverse dynamics.
+/// The audit by a second engine: the audit's numbers for a file from MuJoCo's inverse dynamics.
 ///
 /// Rows as in audit/audit.h with `index`, `root` (unexplained wrench about the centre of mass) and
 /// `torque_gap` (required against exported torque); everything else in them is zero. docs/physics.md §9
@@ -8,8 +8,8 @@
 
 namespace mimicx::test {
 
-/// The same motion with its hinges exactly on their axes. In float32 they turn off them by some 1e-6 rad,
-/// which MuJoCo's cannot follow: 1e-6 of the forces would be the difference between the engines.
+/// The same motion with hinges exactly on their axes. In float32 they deviate by some 1e-6 rad, which
+/// MuJoCo's hinges cannot represent; the engines would differ by 1e-6 of the forces.
 audit::SubstepMotion on_hinge_axes(audit::SubstepMotion motion);
 audit::SimulatedFrames on_hinge_axes(audit::SimulatedFrames motion);
 

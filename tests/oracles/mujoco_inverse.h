@@ -1,7 +1,7 @@
 /// Inverse dynamics and momentum by MuJoCo, in the conventions of physics/inverse_dynamics.h.
 ///
-/// The same questions answered by another library's equations (`mj_inverse`, `mj_subtreeVel`): nothing of
-/// src/physics takes part but the text of the exported model. Only compiled where MuJoCo is installed.
+/// Uses another library's equations (`mj_inverse`, `mj_subtreeVel`); the exported model is the only part of
+/// src/physics that it needs. Only compiled where MuJoCo is installed.
 #pragma once
 
 #include "oracles/mujoco_character.h"
@@ -9,8 +9,8 @@
 
 namespace mimicx::test {
 
-/// What mj_inverse says the joints and the root must supply for the motion under these wrenches. Contacts of
-/// MuJoCo's own are switched off: what the floor does stands in the wrenches.
+/// The forces of joints and root that mj_inverse requires for the motion under these wrenches. MuJoCo's
+/// contacts are switched off: the wrenches contain the floor's forces.
 physics::RequiredForces mujoco_inverse_dynamics(MujocoCharacter& mujoco, const physics::MotionState& state,
                                                 const physics::BodyWrenches& wrenches);
 

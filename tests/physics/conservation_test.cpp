@@ -1,4 +1,4 @@
-// What mechanics demands of the whole system, whatever the joints and contacts do.
+// Conservation laws of the whole system, for any joint torques and contacts.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,7 +14,7 @@ struct Momentum {
   Vector3d angular = Vector3d::Zero(), linear = Vector3d::Zero();
 };
 
-/// Bodies in a lane's last solve.
+/// The bodies of one lane in its last solve.
 template <class T>
 struct Bodies {
   const Character& c;
@@ -122,7 +122,8 @@ Momentum momentum(const Character& c, const Snapshot& s) {
   return sum;
 }
 
-/// How fast momentum changes while the velocities' numbers stay: by differences of positions along them.
+/// Rate of change of momentum at constant velocity coordinates: differences of positions along the
+/// velocities.
 Momentum drift(const Character& c, const Snapshot& s) {
   constexpr double h = 1e-5;
   const auto moved = [&](double t) {
@@ -135,8 +136,8 @@ Momentum drift(const Character& c, const Snapshot& s) {
   return {(after.angular - before.angular) / (2 * h), (after.linear - before.linear) / (2 * h)};
 }
 
-// From the states alone, with nothing of the solve but the contact forces it recorded: what the new
-// velocities change in the momentum, and what moving on changes in it, are the impulses of weight and floor.
+// Uses the states and the recorded contact forces, no accelerations of the solver: the change of momentum by
+// the new velocities and by the motion of positions equals the impulses of weight and floor.
 TEST(Step, MomentumOfTheStatesChangesByTheImpulsesOfWeightAndFloor) {
   double hardest = 0;
   for (std::uint64_t trial = 0; trial < 6; ++trial) {
@@ -164,8 +165,8 @@ TEST(Step, MomentumOfTheStatesChangesByTheImpulsesOfWeightAndFloor) {
   EXPECT_GT(hardest, 5000.0) << "no impact";
 }
 
-// Newton–Euler, with the recorded wrenches as external forces, must give back the recorded joint torques
-// and nothing at the pelvis: this ties every exported quantity to the motion, joint by joint.
+// Newton–Euler with the recorded wrenches as external forces must reproduce the recorded joint torques, and
+// zero at the pelvis: this checks every exported quantity against the motion, joint by joint.
 TEST(Step, RneaWithRecordedWrenchesGivesTheRecordedTorques) {
   for (std::uint64_t trial = 0; trial < 6; ++trial) {
     Random random(32, {trial});
@@ -184,7 +185,7 @@ TEST(Step, RneaWithRecordedWrenchesGivesTheRecordedTorques) {
       const Eigen::VectorXd expected = book_torque(s.applied.joint_torque);
       const Eigen::VectorXd tau = test::book_inverse_dynamics(
           book, book_position(before), book_velocity(before), book_acceleration(before, s.data), forces);
-      double scale = 100.0;  // N·m; impacts reach far more
+      double scale = 100.0;  // N·m; impacts are much larger
       for (const Vector6d& f : forces) scale = std::max(scale, f.norm());
       ASSERT_LT((tau - expected).cwiseAbs().maxCoeff(), 1e-9 * scale) << "trial " << trial << " step " << k;
     }

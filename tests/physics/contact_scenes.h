@@ -1,8 +1,8 @@
-/// Violent meetings with the floor, and what the contact law does wrong in them: shared by the tests, which
-/// bound it, and by tools/bench_contact, which prints it.
+/// Violent contacts with the floor, and the errors of the contact law in them. The tests bound these errors,
+/// tools/bench_contact prints them.
 ///
-/// A scene runs for three seconds in every lane of a training pack, self contact on, PD target the pose of
-/// the start. Impulses are summed over all points, lanes and steps.
+/// A scene runs for three seconds in every lane of a training pack, with self contact; the PD target is the
+/// pose of the start. Impulses are summed over all points, lanes and steps.
 #pragma once
 
 #include "physics/test_states.h"
@@ -12,9 +12,9 @@ namespace mimicx::physics {
 enum class Scene { kStand, kFall, kDrop, kThrow };  ///< at rest; pushed over; from 1 m; 3 m/s and 3 rad/s
 inline constexpr const char* kSceneNames[] = {"stand", "fall", "drop", "throw"};
 
-/// What happened in a scene.
+/// Measurements of a scene.
 struct SceneReport {
-  bool wrong = false;       ///< some lane was flagged by `step`
+  bool wrong = false;       ///< `step` flagged a lane
   double energy_ratio = 0;  ///< largest energy of a lane over its first one
   double outside_cone = 0;  ///< impulse of friction beyond μ f_n, share of the normal impulse
   double adhesion = 0;      ///< impulse pulling on the ground, share of the normal impulse

@@ -79,7 +79,7 @@ TEST(GroundContact, LandingBlockFollowsImplicitEulerOfTheDampedSpring) {
   }
 }
 
-/// The same, and a line of what was measured.
+/// Runs a scene and prints its measurements.
 SceneReport run(Scene scene, double rate, int passes) {
   const SceneReport r = run_scene(scene, rate, passes);
   std::printf("  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, ",
@@ -88,8 +88,8 @@ SceneReport run(Scene scene, double rate, int passes) {
   return r;
 }
 
-/// A third pass at 120 Hz may leave the solution that the second had found (docs/physics.md §7). In the
-/// portable build, of four lanes, one character of these scenes does: there it is left out.
+/// A third pass at 120 Hz may diverge from the solution of the second (docs/physics.md §7). In the portable
+/// build with four lanes it does so for one character of these scenes, which is excluded there.
 bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || passes < 3; }
 
 TEST(GroundContact, StandFallDropAndThrowAreStableAtEveryRate) {
@@ -106,7 +106,7 @@ TEST(GroundContact, StandFallDropAndThrowAreStableAtEveryRate) {
       }
 }
 
-/// How many of `characters` run away within 3 s.
+/// Number of `characters` that fail within 3 s.
 int runaways(Scene scene, double rate, int passes, int characters) {
   const Character c = make_character();
   SimulationConfig o;
@@ -141,8 +141,7 @@ TEST(GroundContact, HundredsOfFallsDropsAndThrowsStayFinite) {
 
 // docs/physics.md §7 lists what is measured; the bounds leave room for another compiler's rounding.
 TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
-  constexpr double kOthers =
-      kLanes == 8 ? 1.0 : 1.2;  // a pack of fewer or more characters: others are the worst
+  constexpr double kOthers = kLanes == 8 ? 1.0 : 1.2;  // packs of another size have other worst cases
   struct Bound {
     double rate;
     int passes;

@@ -1,4 +1,4 @@
-// Lanes in and out, and the interval between two PD targets.
+// Access to lanes, and the interval between two PD targets.
 #include "physics/control_interval.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(ControlInterval, EqualsItsStepsTowardsInterpolatedTargets) {
     }
     step(s->model, target, by_hand, s->data);
   }
-  // Nlerp against slerp is all that differs.
+  // The only difference is nlerp against slerp.
   EXPECT_LT((to_eigen(by_hand.p_root) - to_eigen(s->state.p_root)).norm(), 1e-5);
   for (int i = 0; i < kBodies; ++i)
     EXPECT_LT(to_eigen(by_hand.q[i]).angularDistance(to_eigen(s->state.q[i])), 1e-4) << kBodyNames[i];
@@ -111,8 +111,7 @@ TEST(ControlInterval, AssistiveForceEqualToTheWeightMakesTheBodyFloat) {
   const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationConfig{}, snapshot);
   Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * kGravity}};
   const Vector3d before = to_eigen(s->state.p_root);
-  // The moment about the pelvis of a centre of mass that hangs before it turns the body, so only for a
-  // moment.
+  // One interval only: the centre of mass is in front of the pelvis, and its moment turns the body.
   advance_interval<double>(s->model, {s->target, s->target, 8, &help}, s->state, s->data);
   EXPECT_LT((to_eigen(s->state.p_root) - before).norm(), 5e-4);  // a free fall: 6e-3
   EXPECT_LT(std::abs(s->state.v_root.z), 0.02);                  // a free fall: 0.33

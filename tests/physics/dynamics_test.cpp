@@ -12,7 +12,7 @@ double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
-/// A random shape, state and torques, and the simulator's answer to them.
+/// A random shape, state and torques, and the simulator's accelerations.
 struct Trial {
   Character character;
   SimulationConfig config;
@@ -66,8 +66,8 @@ TEST(Aba, AgreesWithTheLiteralDenseAlgorithm) {
   }
 }
 
-// The oracle must not merely repeat a shared mistake: its inertia matrix is that of the kinetic energy of
-// points, found by differences of positions alone.
+// An independent check of the oracle: its inertia matrix gives the kinetic energy of bodies whose velocities
+// are differences of positions.
 TEST(BookOracle, MassMatrixMatchesKineticEnergyByDifferences) {
   Random random(8);
   const Character character = make_character(random_betas(random));

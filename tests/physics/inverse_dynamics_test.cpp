@@ -1,4 +1,4 @@
-// The audit's inverse dynamics against the dense oracle, by hand, and against what the simulator did.
+// The audit's inverse dynamics against the dense oracle, a hand calculation and the simulator.
 #include "physics/inverse_dynamics.h"
 
 #include <gtest/gtest.h>
@@ -10,13 +10,13 @@
 namespace mimicx::physics {
 namespace {
 
-/// In the coordinates of the oracle.
+/// Forces in the coordinates of the oracle.
 Eigen::VectorXd book_forces(const MotionState& m, const RequiredForces& forces) {
   const Quaterniond to_pelvis = m.q[0].conjugate();
   return book_vector(to_pelvis * forces.root.head<3>(), to_pelvis * forces.root.tail<3>(), forces.joint);
 }
 
-/// The snapshot's pose, nothing moves.
+/// The snapshot's pose at rest.
 MotionState at_rest(const Snapshot& s) {
   MotionState m;
   m.p_root = s.p_root;
@@ -90,7 +90,7 @@ TEST(InverseDynamics, ReproducesTheTwoLinkArmWorkedByHand) {
 }
 
 /// The place of a contact point when one degree of freedom (of the 61) has moved by h: finite differences of
-/// forward kinematics, which know nothing of velocities or forces.
+/// forward kinematics, independent of velocities and forces.
 Vector3d moved_point(const Character& c, const Snapshot& s, const ContactPoint& point, int dof, double h) {
   Snapshot m = s;
   if (dof < 3) {
@@ -151,7 +151,7 @@ TEST(InverseDynamics, PointForceNeedsTheTransposedJacobian) {
   }
 }
 
-/// Standing still, the root lacks the weight that no wrench carries, about the pelvis.
+/// At rest without external wrenches the root requires the weight, about the pelvis.
 TEST(InverseDynamics, AtRestIsTheWeightAtTheCentreOfMass) {
   const Character c = make_character();
   const Snapshot s = standing(c);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kKnee = kLeftKnee;
 
-/// The left knee as a lone oscillator: pelvis and thigh too heavy to move, nothing below the shank, no
+/// The left knee as an isolated oscillator: pelvis and thigh too heavy to move, no mass below the shank, no
 /// gravity, no ranges.
 struct KneeOscillator {
   Character character = make_character();
@@ -95,7 +95,7 @@ TEST(ImplicitPd, VelocityFeedForwardTracksARampWithoutLag) {
   const double speed = 1.5;
   double angle = 0.0;
   for (int k = 0; k < 480; ++k) {
-    angle = speed * (k + 1) / 240.0;  // the target is where the joint shall be at the end of the step
+    angle = speed * (k + 1) / 240.0;  // the target is the angle at the end of the step
     set_lane(s.target.q[kKnee], 0, exp_map(angle * hinge_axis(kLeftKnee)));
     set_lane(s.target.omega[kKnee], 0, Vector3d(speed * hinge_axis(kLeftKnee)));
     s.advance();
@@ -104,7 +104,7 @@ TEST(ImplicitPd, VelocityFeedForwardTracksARampWithoutLag) {
   EXPECT_NEAR(knee_angle(s), angle, 1e-6);
 }
 
-/// A pack of characters thrown about with new far-away PD targets 30 times a second.
+/// A pack of characters with new random, distant PD targets 30 times a second.
 template <class Check>
 void thrash(const Character& character, double rate, int passes, Check&& check) {
   using P = Pack<kLanes>;
@@ -158,7 +158,7 @@ TEST(TorqueBound, IsNeverExceededUnderRandomTargets) {
     }
 }
 
-/// The standard body, the largest and the smallest of every component at once, and another one.
+/// The standard body, all β at their maximum, all at their minimum, and a random one.
 std::vector<Character> shapes() {
   Random random(43);
   std::array<double, kBetas> most, least;
@@ -190,7 +190,7 @@ TEST(TorqueBound, HoldsForEveryShapeAtEveryRateAndScalesWithTheMass) {
   }
 }
 
-// The bound would also hold if the controller did nothing: where no bound is near, the solve is the law's.
+// The bound would also hold for a controller without torque. Far from the bound the torque is the law's.
 TEST(TorqueBound, LeavesUnsaturatedJointsToTheImplicitLaw) {
   const Character character = make_character();
   SimulationConfig config;
@@ -214,7 +214,7 @@ Quaterniond range_centre(const JointParameters& j, int body) {
   return exp_map(is_hinge(body) ? Vector3d(j.centre.x() * hinge_axis(body)) : j.centre);
 }
 
-/// How far outside its range ellipsoid a joint is, rad along the way to the centre; 0 inside.
+/// Distance of a joint from its range ellipsoid, rad along the way to the centre; 0 inside.
 double excess(const JointParameters& j, int body, const Quaterniond& q) {
   const Vector3d r = log_map(range_centre(j, body).conjugate() * q);
   const Vector3d inverse = (2.0 * (0.5 * j.half_range.array()).sin()).inverse().matrix();
@@ -232,7 +232,7 @@ struct Excess {
   double largest, held;  ///< while the limb slams into the range; at the end, pressed against it
 };
 
-/// One joint driven from the centre of its range about `axis` with all the torque it has.
+/// Drives one joint from the centre of its range about `axis` with its full torque.
 Excess drive(const Character& character, int body, const Vector3d& axis, double rate = 240.0) {
   SimulationConfig config;
   config.rate = rate;
@@ -256,8 +256,8 @@ Excess drive(const Character& character, int body, const Vector3d& axis, double 
   return result;
 }
 
-/// Every joint driven against its range from all sides for a second; what it then gives is (6) within
-/// `tolerance`, of it, for the free body still swings. @return the deepest slam, rad
+/// Drives every joint against its range from all sides for a second. Its deflection is then (6) within the
+/// relative `tolerance`; the free body still swings. @return the largest transient deflection, rad
 double drive_all(const Character& character, double rate, double tolerance) {
   const SimulationConfig config;
   double largest = 0;
@@ -285,7 +285,8 @@ TEST(JointRange, HoldsAgainstTheFullTorqueOfItsJoint) {
   EXPECT_LT(largest, 0.21);
 }
 
-// Bounds grow with the mass, ranges do not stiffen: what a heavy body's joint gives is more, by (6).
+// Torque bounds grow with the mass, the stiffness of ranges does not: a heavy body's joints deflect more, by
+// (6).
 TEST(JointRange, HoldsForEveryShapeAtEveryRate) {
   const double standard = make_character().total_mass();
   for (const Character& character : shapes())

@@ -95,7 +95,7 @@ TEST(Mjcf, OpensWithoutWarningsForEveryShape) {
     std::array<double, kBetas> betas = random_betas(random);
     if (n < 20)
       for (double& b : betas) b = b < 0.0 ? -3.0 : 3.0;
-    test::MujocoCharacter mujoco(make_character(betas), {});  // throws where MuJoCo has anything to say
+    test::MujocoCharacter mujoco(make_character(betas), {});  // throws on any message of MuJoCo
     mj_forward(&mujoco.model(), &mujoco.data());
     EXPECT_EQ(mujoco.model().nq, 7 + 17 * 4 + 4);
     EXPECT_EQ(mujoco.model().nv, test::kBookDofs);
@@ -174,8 +174,8 @@ TEST(Mujoco, MomentumAgreesWithTheSumOverTheBodies) {
   }
 }
 
-// The certificate by the second engine: at every step of a violent second MuJoCo, too, finds nothing
-// unexplained at the root, and in the joints the torques that acted.
+// Verification by a second engine: at every step of a violent second MuJoCo's inverse dynamics gives zero at
+// the root and the recorded torques in the joints.
 TEST(Mujoco, ExplainsEveryStepOfAViolentRollOut) {
   for (std::uint64_t n = 0; n < 3; ++n) {
     Random random(55, {n});

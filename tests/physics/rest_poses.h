@@ -1,8 +1,8 @@
-/// Poses that a body rests in without moving, and how the floor carries them: shared by the tests, which
-/// bound it, and by tools/bench_contact, which prints it.
+/// Resting poses, and how the floor carries them. The tests bound the measurements, tools/bench_contact
+/// prints them.
 ///
-/// The joints of all but the lying figures are stiffened: what is looked at is the geometry of the contact
-/// points and the law of the floor, not balance, which is the policy's work. Lying needs none.
+/// All figures but the lying ones have stiffened joints: the tests are about contact geometry and the contact
+/// law, not about balance, which a policy provides. Lying needs none.
 #pragma once
 
 #include "physics/test_states.h"
@@ -16,10 +16,10 @@ inline constexpr std::array kRestPoses = {RestPose::kBothSoles, RestPose::kOneSo
 inline constexpr const char* kRestPoseNames[] = {"both soles", "one sole", "toe balls", "kneeling",
                                                  "all fours",  "supine",   "prone"};
 
-/// The pose at rest, its lowest point on the floor, the PD target the pose itself.
+/// The pose at rest with its lowest point on the floor; the PD target is the pose.
 Snapshot rest_pose(RestPose pose, const Character& character);
 
-/// One second, after the figure has had three (lying: eight) to settle.
+/// Measurements over one second, after three (lying: eight) seconds to settle.
 struct RestReport {
   PerBody<double> share{};  ///< of the weight, carried by each body, mean
   double heel_share = 0;    ///< of the weight, carried by the heel points, mean

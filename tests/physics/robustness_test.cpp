@@ -1,4 +1,4 @@
-// A million character-steps of anything: states and targets drawn without regard to what a body can do.
+// A million character steps with random states and targets far outside the range of human motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ namespace {
 
 using P = Pack<kLanes>;
 
-/// Anything: from still to far beyond human speeds, high in the air or deep in the floor, joints beyond their
-/// ranges, targets half a turn away that move at any speed.
+/// A random snapshot: from rest to far beyond human speeds, high in the air or deep in the floor, joints
+/// beyond their ranges, targets up to half a turn away with any velocity.
 Snapshot anything(Random& random) {
   const double speed = std::pow(10.0, random.uniform(-2.0, 1.7));
   Snapshot s = random_snapshot(random, 3.1, speed, random.uniform(-0.5, 2.0));
@@ -36,9 +36,9 @@ void new_target(Random& random, int lane, Simulation<P>& s) {
   }
 }
 
-/// Whether all that a lane consists of and all that acted on it is finite.
+/// Whether a lane's state and all forces on it are finite.
 bool is_finite(const Simulation<P>& s, int lane) {
-  double sum = 0.0;  // NaN and infinity survive sums of sizes
+  double sum = 0.0;  // a sum of magnitudes keeps NaN and infinity
   const auto add = [&](const Vec3<P>& v) { sum += lane_of(v, lane).cwiseAbs().sum(); };
   add(s.state.p_root);
   add(s.state.v_root);
@@ -102,8 +102,8 @@ std::array<float, 6 + 7 * kBodies> bits_of(const State<P>& state, int lane) {
   return bits;
 }
 
-// One lane lives beside neighbours of every kind, NaN, infinite and run away among them, and keeps the bits
-// it has beside copies of itself.
+// One lane beside random neighbours, including NaN, infinite and runaway ones, has the bits that it has
+// beside copies of itself.
 TEST(Robustness, LaneKeepsItsBitsBesideFailingLanes) {
   const Character character = make_character();
   long flagged = 0;
@@ -156,7 +156,7 @@ TEST(Robustness, FlagsNaNInTheSameStepAnywhereInStateOrTarget) {
 
 TEST(Robustness, FlagsAHalfTurnOfAJointWithinAStep) {
   const Character c = make_character();
-  for (const double rate : {30.0, 120.0}) {  // where that is slower than max_joint_speed
+  for (const double rate : {30.0, 120.0}) {  // rates at which this is below max_joint_speed
     SimulationConfig o;
     o.rate = rate;
     Simulation<double> s(c, o, standing(c));

@@ -1,4 +1,4 @@
-// The scalar packs and the small algebra over them.
+// Packs, and vectors and matrices over them.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -17,7 +17,7 @@ std::vector<Vector3d> contact_positions(const Character& c, const Simulation<dou
   return points;
 }
 
-/// What the sole points of the standing feet did between the second and the fourth second, m and m/s.
+/// Motion of the sole points of the standing feet between the second and the fourth second, m and m/s.
 struct SoleMotion {
   double lowest = 1, highest = -1, creep = 0;
 };

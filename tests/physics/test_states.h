@@ -1,5 +1,5 @@
-/// States for the tests: one character in plain doubles, and its way in and out of the simulator's lanes and
-/// of the oracle.
+/// States for the tests: one character in plain doubles, and conversions to and from the simulator's lanes
+/// and the oracle.
 #pragma once
 
 #include <initializer_list>
@@ -26,8 +26,8 @@ Snapshot standing(const Character& character);
 /// Leans the whole body over its ankles until the centre of mass is above the middle of the soles of `feet`
 /// (kLeftFoot, kRightFoot), these soles flat on the floor; PD target = pose.
 void balance(const Character& character, std::initializer_list<int> feet, Snapshot& s);
-/// The same character with joints so stiff that standing needs no policy (with the true gains the ankles are
-/// softer than m g h and a passive stance tips over).
+/// The character with joints stiff enough to stand without a policy (with the true gains the ankles are
+/// softer than m g h, and a passive stance tips over).
 Character stiffened(Character character);
 /// Any orientation, joints up to `angle` rad from the T-pose, speeds of about `speed` m/s and rad/s;
 /// targets another such pose. Pelvis at `height`.
@@ -89,7 +89,7 @@ struct Simulation {
       : Simulation(character, config) {
     for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) set_lane(s, lane, state, target);
   }
-  /// One step, with what acted in it (alone) in `applied`.
+  /// One step; `applied` has its torques and forces alone.
   MaskOf<T> advance() {
     clear(applied);
     return step(model, target, state, data, &applied);

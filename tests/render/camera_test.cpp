@@ -10,7 +10,7 @@ namespace mimicx::render {
 namespace {
 
 TEST(Camera, ProjectsAsComputedByHand) {
-  Camera camera;  // stands 5 m before the origin, looks along y at the horizon
+  Camera camera;  // 5 m in front of the origin, looking horizontally along y
   camera.R_CW = axes_of({-0.5 * std::numbers::pi, 0.0});
   camera.p_WC = {0, -5, 1};
   camera.focal = 200;

@@ -39,7 +39,7 @@ List<Vector3d> all_vertices(const List<Solid>& solids) {
   return points;
 }
 
-/// Möller and Trumbore's test of every triangle: the solid that the ray meets first over the floor, or -1.
+/// The first solid that the ray hits above the floor, or -1: Möller and Trumbore's test of every triangle.
 int first_met(const List<Solid>& solids, const Vector3d& eye, const Vector3d& ray) {
   int met = -1;
   double nearest = 1e300;
@@ -66,7 +66,7 @@ TEST(Draw, ShowsTheSolidThatTheRayHitsFirst) {
   int decided = 0, of_solids = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
-      List<int> met;  // where the pixel and its rim agree, no edge runs through it
+      List<int> met;  // if the pixel and its rim agree, no edge crosses it
       for (int j = 0; j <= 4; ++j)
         for (int i = 0; i <= 4; ++i)
           met.push_back(first_met(solids, camera.p_WC, camera.ray(x + 0.3 * i - 0.1, y + 0.3 * j - 0.1)));

@@ -34,7 +34,7 @@ TEST(Raster, CoversTheSamplesInsideTheTriangleAndNoOthers) {
     const GridTriangle t = random_triangle(random);
     const bool faces_us = twice_area(t) > 0;
     const List<int> counts = counts_of({t});
-    Eigen::Matrix3d corners;  // the sample as a mean of the corners: a linear system, solved anew
+    Eigen::Matrix3d corners;  // the sample as a weighted mean of the corners: a linear system
     for (int k = 0; k < 3; ++k)
       corners.col(k) << static_cast<double>(t[static_cast<std::size_t>(k)].x) / kSubSteps,
           static_cast<double>(t[static_cast<std::size_t>(k)].y) / kSubSteps, 1.0;
@@ -67,7 +67,7 @@ TEST(Raster, WeightsAreThoseOfTheSampleInTheTriangle) {
 }
 
 TEST(Raster, TrianglesThatShareEdgesCoverEverySampleOnce) {
-  // A fan around a sample whose spokes and rim run through samples: every tie there is.
+  // A fan around a sample whose spokes and rim cross samples: every kind of tie.
   const GridPoint middle{20 * kSubSteps + 128, 15 * kSubSteps + 128};
   const int x0 = 8, x1 = 32, y0 = 4, y1 = 26;
   List<GridPoint> rim;  // clockwise on the picture, every sample of the rectangle's edge

@@ -26,7 +26,7 @@ TEST(FloorShadow, ShadowOfAPlateIsThePlateShiftedAlongTheLight) {
     }
 }
 
-/// How wide the edge of a plate's shadow is, m: from 10 to 90 % of the light.
+/// Width of the edge of a plate's shadow, from 10 to 90 % of the light, m.
 double softness(double height) {
   const FloorShadow shadow({box({-1, -1, height}, {0, 1, height + 0.001}, kGrey)},
                            round_light(Vector3d::UnitZ(), 0.1), 0.004);
@@ -73,7 +73,8 @@ TEST(LampShadow, PlateShadowsTheTableAndNotItself) {
   const Vector3d up = Vector3d::UnitZ();
   for (double x = -0.9; x < 0.9; x += 0.017)
     for (double y = -0.9; y < 0.9; y += 0.019) {
-      // The lamp throws the plate's two levels onto the table at 0.1 m: moved by 0.375 and 0.4125 along -x.
+      // The lamp projects the plate's two levels onto the table at 0.1 m: shifted by 0.375 and 0.4125 along
+      // -x.
       const double inside = std::min({x + 0.5625, -0.225 - x, y + 0.2, 0.2 - y}),
                    rim = std::min({x + 0.65, -0.15 - x, y + 0.25, 0.25 - y});
       if (inside > 0.05) {

@@ -41,7 +41,7 @@ TEST(Text, EveryPrintableCharacterHasItsOwnValidGlyph) {
 TEST(Text, HasTheGivenBaselineHeightAndWidth) {
   Image image(300, 60, kPaper);
   draw_text("HEL", {20, 40, 24}, Colour::Zero(), image);
-  const Eigen::AlignedBox2i box = inked(image);  // strokes reach half their width farther
+  const Eigen::AlignedBox2i box = inked(image);  // strokes extend by half their width
   EXPECT_NEAR(box.min().x(), 20, 3);
   EXPECT_NEAR(box.min().y(), 16, 3);
   EXPECT_NEAR(box.max().y(), 40, 3);

@@ -1,4 +1,4 @@
-/// What counts as an environment is decided when compiling, so these tests are assertions of the compiler.
+/// The environment concept is checked at compile time, so most of these tests are static assertions.
 #include "rl/environment.h"
 
 #include <gtest/gtest.h>
@@ -15,22 +15,23 @@ struct WithoutActor : Toy {
   void actor(int, int) const = delete;
   int acter(int, int) const { return 1; }
 };
-static_assert(!Environment<WithoutActor>, "a misspelt actor must not mean that agent 0 does everything");
+static_assert(!Environment<WithoutActor>, "a misspelt actor must not compile");
 
 struct ActorNotConst : Toy {
   int actor(int, int) { return 1; }
 };
-static_assert(!Environment<ActorNotConst>, "nor must one that cannot be asked");
+static_assert(!Environment<ActorNotConst>, "actor must be const");
 
 struct WithoutAgents : Toy {
   void agents() const = delete;
 };
-static_assert(!Environment<WithoutAgents>, "nor may the number of agents be left out");
+static_assert(!Environment<WithoutAgents>, "the number of agents is required");
 
-struct SilentRestarts : Toy {
+struct WithoutResetCharacters : Toy {
   void end_iteration() {}
 };
-static_assert(!Environment<SilentRestarts>, "characters that are put elsewhere must be named");
+static_assert(!Environment<WithoutResetCharacters>,
+              "end_iteration must return the characters that it resets");
 
 TEST(Environment, SingleAgentActsForEveryCharacter) {
   const Toy world(2, 3, 1);

@@ -1,4 +1,4 @@
-/// What the tests of the learner share: configurations (each test changes what it is about), an agent, and
+/// Fixtures of the learner's tests: configurations (each test changes the settings it tests), an agent, and
 /// the comparison of saved states.
 #pragma once
 
@@ -34,7 +34,7 @@ inline PpoConfig ppo_for_tests() {
           .pass_rows = 512};
 }
 
-/// Several passes in a slot, of unequal size, and every term of the loss.
+/// A configuration with several passes of unequal size in a slot, and every term of the loss.
 inline PpoConfig small_config() {
   PpoConfig config = ppo_for_tests();
   config.horizon = 16;

@@ -68,7 +68,7 @@ struct Pendulum {
   }
 };
 
-/// Reward 1 for ever, cut by a time limit every 10 steps that nothing in the observation announces.
+/// Reward 1 forever, with a time limit of 10 steps that the observation does not show.
 struct ConstantReward {
   static constexpr int kState = 2, kObservation = 2, kAction = 1, kLimit = 10;
   using State = std::array<double, kState>;
@@ -86,7 +86,7 @@ struct ConstantReward {
   }
 };
 
-/// Reward 1 per step of a life that truly ends with probability 1/5 at every step.
+/// Reward 1 per step; the episode terminates with probability 1/5 at every step.
 struct MortalReward : ConstantReward {
   static constexpr int kLimit = 1 << 20;
   static constexpr double kDeath = 0.2;
@@ -103,7 +103,7 @@ class ToyEnvironment {
     for (int g = 0; g < groups; ++g) {
       Group group{Random(seed, {static_cast<std::uint64_t>(g)}), {}, {}};
       for (int i = 0; i < group_size; ++i) group.states.push_back(Task::reset(group.random));
-      // Ages are spread so that the limits do not all fall on one step.
+      // Different ages, so that the time limits fall on different steps.
       for (int i = 0; i < group_size; ++i)
         group.ages.push_back(static_cast<int>(group.random.below(static_cast<std::uint32_t>(Task::kLimit))));
       groups_.push_back(std::move(group));

@@ -1,4 +1,4 @@
-/// PPO on tasks whose answer is known. Seeds are fixed, so each of these passes always or never.
+/// PPO on tasks with known solutions. Seeds are fixed, so the results are reproducible.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,7 +68,7 @@ TEST(ToyTasks, LinearPolicyFindsTheRiccatiGain) {
   PpoTrainer<toy::ToyEnvironment<toy::DoubleIntegrator>> trainer(config, kToyCourse, {agent}, world);
   Eigen::RowVector3d law = Eigen::RowVector3d::Zero();
   for (int k = 0; k < 200; ++k) trainer.iterate(kThreads);
-  for (int k = 0; k < 50; ++k) {  // it goes on trembling about the optimum: take the mean
+  for (int k = 0; k < 50; ++k) {  // the law keeps fluctuating about the optimum: take the mean
     trainer.iterate(kThreads);
     law += linear_law(trainer.learner().agent) / 50.0;
   }
@@ -121,7 +121,7 @@ double learned_value(const PpoConfig& config) {
 TEST(ToyTasks, TimeLimitsDoNotBiasTheValue) {
   PpoConfig config = toy_config();
   config.gamma = 0.9;
-  // Ten steps of reward 1 would be worth at most 6.5 to a critic that took the limit for an end.
+  // A critic that treats the time limit as a termination would give at most 6.5 to ten steps of reward 1.
   EXPECT_NEAR(learned_value<toy::ConstantReward>(config), 1.0 / (1.0 - config.gamma), 0.2);
 }
 
@@ -144,7 +144,7 @@ TEST(ToyTasks, StepSizeFindsTheTargetKlFromFarBelowAndAbove) {
     for (int k = 0; k < 40; ++k) trainer.iterate(kThreads);
     double kl = 0.0;
     for (int k = 0; k < 20; ++k) kl += trainer.iterate(kThreads).kl / 20.0;
-    // The step size rests while the KL is within a factor 2 of its target; single iterations scatter.
+    // The step size is constant while the KL is within a factor 2 of its target; single iterations scatter.
     EXPECT_GT(kl, config.kl_target / 3.0) << start;
     EXPECT_LT(kl, config.kl_target * 3.0) << start;
     EXPECT_GT(trainer.learner().step_size, 1e-4);

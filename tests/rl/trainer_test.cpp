@@ -43,9 +43,9 @@ TEST(Trainer, ResumedTrainingGivesTheBytesOfAnUninterruptedOne) {
     first.iterate(2);
   }
   PpoConfig other = small_config();
-  other.step_size *= 7.0;  // the step size comes from the checkpoint
+  other.step_size *= 7.0;  // the checkpoint must override this step size
   Trainer resumed(other, kCourse, {small_agent()}, second_world);
-  // The world's own random numbers are keyed by its seed, which is configuration.
+  // The environment's random numbers are keyed by its seed, which is part of the configuration.
   second_world = toy::ToyEnvironment<toy::DoubleIntegrator>(4, 16, 2);
   resumed.load(state_of(first), "t.");
   for (int k = 0; k < 4; ++k) {
@@ -97,7 +97,7 @@ TEST(Trainer, RejectsIncompleteCheckpoints) {
   trainer.load(whole, "t.");
 }
 
-/// Every episode ends at its third step. Between two roll-outs all characters are put into new episodes.
+/// Every episode ends at its third step. Between two roll-outs all characters are reset to new episodes.
 struct ThreeSteps : toy::ToyEnvironment<toy::DoubleIntegrator> {
   using toy::ToyEnvironment<toy::DoubleIntegrator>::ToyEnvironment;
   std::vector<int> ages = std::vector<int>(8, 0);

@@ -9,7 +9,7 @@
 namespace mimicx::skin {
 namespace {
 
-/// Distance to the capsules as they stand in bind pose, exact outside.
+/// Distance to the capsules in bind pose, exact outside.
 double distance_to_capsules(const Character& c, const PerBody<Vector3d>& joint, const Vector3d& p) {
   double nearest = 1e9;
   for (const Capsule& k : c.capsule) {
@@ -34,7 +34,7 @@ double volume_of_capsules(const Character& c, int draws) {
   return (high - low).prod() * inside / draws;
 }
 
-/// Bodies of many builds; the last lean on every parameter at once.
+/// β of many builds; the last ones change every parameter at once.
 const std::vector<std::array<double, kBetas>> kBuilds = {
     {},
     {0, 4},
@@ -42,7 +42,7 @@ const std::vector<std::array<double, kBetas>> kBuilds = {
     {3, -5, -5, 5, 5, 5, 5, 5, 5, -5},
     {0.4, 1.7, 2.0, -2.8, 4.0, 1.9, -0.8, -1.6, -1.9, 0.2}};
 
-/// A body as a licensed model might have it: no bone of ours, left and right not quite alike.
+/// A body like that of a licensed model: other bones, left and right slightly different.
 Character odd_character() {
   const PerBody<Vector3d> standard = bind_joints(make_character());
   RestJoints joints;
@@ -51,7 +51,7 @@ Character odd_character() {
   return make_character_of_joints(joints);
 }
 
-/// Of the standard body, made once.
+/// The mannequin of the standard body, made once.
 const Mesh& standard_mesh() {
   static const Mesh mesh = mannequin(make_character());
   return mesh;
@@ -111,7 +111,7 @@ TEST(Mannequin, TrianglesAgreeWithNormalsAndAreNoNeedles) {
     const Vector3d mean = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
     EXPECT_GT(cross.normalized().dot(mean.normalized()), 0.5);
     const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
-    needles += cross.norm() < 0.2 * longest ? 1 : 0;  // an equilateral one has 0.87
+    needles += cross.norm() < 0.2 * longest ? 1 : 0;  // an equilateral triangle has 0.87
   }
   EXPECT_LT(needles, mesh.triangles.count() / 200);
 }

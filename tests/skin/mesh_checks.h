@@ -1,4 +1,4 @@
-/// What a mesh must be, counted edge by edge.
+/// Checks of a mesh: topology, and sound values.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 namespace mimicx::skin {
 
 struct Topology {
-  bool closed = true;      ///< every edge is met once in either direction
-  bool fans = true;        ///< the triangles around every vertex make one fan
+  bool closed = true;      ///< every edge occurs once in each direction
+  bool fans = true;        ///< the triangles around every vertex form one fan
   std::vector<int> euler;  ///< V − E + F of every component
 };
 
@@ -59,7 +59,7 @@ inline Topology topology_of(const Mesh& mesh) {
   return found;
 }
 
-/// Every number is there, finite and in its range; weights sum to 1.
+/// Expects arrays of matching size, finite values in range, and weights that sum to 1.
 inline void expect_sound(const Mesh& mesh) {
   ASSERT_EQ(mesh.normals.size(), mesh.vertices.size());
   ASSERT_EQ(mesh.joints.size(), mesh.vertices.size());

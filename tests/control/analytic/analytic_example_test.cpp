@@ -1,4 +1,4 @@
-// The example of docs/control_derivatives.md: what it prints is what the simulator does.
+// The example of docs/control_derivatives.md, checked against the simulator.
 #include <gtest/gtest.h>
 
 #include <memory>

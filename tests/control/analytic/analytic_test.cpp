@@ -1,5 +1,5 @@
 // Analytic derivatives of a control frame: against the chain rule through the simulator's own sources,
-// against differences in double, and as what they are for, a prediction.
+// against differences in double, and as predictions of changed motions.
 #include "control/analytic/analytic.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ ControlFrame on_the_floor(const Character& character, Random& random, double spi
   return frame_of(s, random, 0.05);
 }
 
-/// What happens in a frame: how often in its steps.
+/// Counts of events over the steps of a frame.
 struct Census {
   int pushing_bodies = 0, saturated = 0, outside_range = 0, self_pairs = 0, repeated_solves = 0;
 };
@@ -72,8 +72,8 @@ struct Derived {
   }
 };
 
-/// Largest ‖column of F − column of `oracle`‖ over ‖column‖, positions and velocities apart; columns that
-/// change less than a hundredth of what their kind usually changes count as that.
+/// Largest relative error of a column of F, positions and velocities separately. Small columns are compared
+/// with a hundredth of the usual norm of their kind.
 double worst_error(const Eigen::MatrixXd& F, const Eigen::MatrixXd& oracle) {
   double worst = 0.0;
   for (int half = 0; half < 2; ++half)
@@ -86,7 +86,7 @@ double worst_error(const Eigen::MatrixXd& F, const Eigen::MatrixXd& oracle) {
   return worst;
 }
 
-/// Expects both oracles to agree with the derivative, and prints by how much they do.
+/// Expects both oracles to agree with the derivative, and prints the differences.
 Census expect_exact(const char* name, const Model<double>& model, const ControlFrame& frame,
                     double h = 2e-6) {
   const Derived d(model, frame);
@@ -200,8 +200,6 @@ TEST(AnalyticDerivative, IsExactForOtherShapesRatesAndPasses) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------
-
 TEST(AnalyticDerivative, NominalMotionMatchesTheSimulator) {
   Random random(9);
   const Model<double> model = make_model<double>(make_character());
@@ -271,7 +269,7 @@ TEST(AnalyticDerivative, FlagsRunawayMotionsAndRejectsFramesWithoutSteps) {
   EXPECT_THROW(Derived(model, frame), std::invalid_argument);
 }
 
-// What it predicts is right to first order: halving a change quarters what the prediction misses.
+// Predictions are right to first order: half the change gives a quarter of the error.
 TEST(AnalyticDerivative, PredictsChangesToFirstOrder) {
   Random random(13);
   const Character character = make_character();

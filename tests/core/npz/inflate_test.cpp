@@ -1,4 +1,4 @@
-// zlib packs, and is the oracle.
+// zlib packs the data and is the oracle.
 #include "core/npz/inflate.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Bytes packed(const Bytes& data, int level, int strategy) {
   return out;
 }
 
-/// Bytes of `kinds` different values, every so often a piece of what was before.
+/// Bytes of `kinds` different values; a share `copies` of the data repeats earlier pieces.
 Bytes some_data(std::uint64_t seed, std::size_t size, double kinds, double copies) {
   Random random(seed, {});
   Bytes data;
@@ -69,7 +69,7 @@ TEST(Inflate, RejectsTruncatedData) {
     EXPECT_FALSE(inflate(std::span(all).first(n), 1000).has_value()) << n;
 }
 
-/// Damage is found or gives other bytes, as zlib has it; never more bytes than were asked for.
+/// Damage is detected or gives other bytes, as in zlib; never more bytes than declared.
 TEST(Inflate, AgreesWithZlibOnDamagedData) {
   const Bytes data = some_data(3, 600, 20.0, 0.2);
   for (const int strategy : {Z_DEFAULT_STRATEGY, Z_FIXED}) {

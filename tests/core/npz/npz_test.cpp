@@ -50,12 +50,12 @@ TEST(Npz, RejectsBytesAfterTheArchive) {
                  "a.npz: expected the end of the archive behind its directory, found 4 bytes more");
   }
   std::string commented = whole;
-  commented[whole.size() - 2] = 4;  // a comment of the archive's own
+  commented[whole.size() - 2] = 4;  // the length of the archive's comment
   EXPECT_NO_THROW(parse_npz(commented + "more", "a.npz"));
 }
 
 TEST(Npz, RejectsHundredfoldCompressionBeforeUnpacking) {
-  // The header of a stored member that claims 300 MB; what it has does not matter.
+  // The header of a stored member declares 300 MB, whatever its content.
   std::string bytes = format_npz(example_archive());
   const std::size_t central = bytes.find("PK\x01\x02");
   ASSERT_NE(central, std::string::npos);
@@ -107,7 +107,7 @@ TEST(Npz, SetReplacesInPlace) {
   EXPECT_EQ(npz.at("poses").to_double(), std::vector<double>{3.0});
 }
 
-/// A zip of one member made by hand, with the fields a bad archive may lie about.
+/// A zip of one member, with the header fields that a bad archive may set wrongly.
 std::string one_member_zip(const std::string& content, std::uint32_t declared, std::uint16_t method,
                            std::uint16_t flags = 0, int copies = 1) {
   std::string out;

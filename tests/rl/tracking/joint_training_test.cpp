@@ -1,4 +1,4 @@
-/// Several options that learn on one clip, each where the arrangement has it act.
+/// Several options that learn on one clip, each at the frames that the arrangement gives it.
 #include <gtest/gtest.h>
 
 #include "rl/ppo_fixture.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr Course kCourse = {.seed = 1, .falling_samples = 2'000'000};
 
-/// One clip whose two halves belong to two options.
+/// A clip with one option in each half.
 std::shared_ptr<const TrackingClip> halved_clip(int frames) {
   auto clip = std::make_shared<TrackingClip>(*make_tracking_clip(swaying_reference(frames), {}));
   for (int t = 0; t < frames; ++t) clip->arrangement.push_back(t < frames / 2 ? 0 : 1);
@@ -36,7 +36,7 @@ TEST(JointTraining, EveryFrameIsValuedByTheCriticOfTheOptionThatActsThere) {
       const int actor = group.actors[row];
       EXPECT_EQ(group.values.data()[row], value[actor]);
       ++rows[actor];
-      // The clip ends in the second option's half: its critic values what would have come.
+      // The clip ends in the second option's half: its critic gives the value of the final observation.
       if (group.truncated.data()[row]) {
         EXPECT_EQ(group.final_values.data()[row], value[1]);
         ++bootstraps[1];
@@ -92,7 +92,7 @@ TEST(JointTraining, ReturnsAcrossASwitchUseTheNextOptionsCritic) {
 }
 
 TEST(JointTraining, OptionsLearnFromTheirOwnFramesOnly) {
-  // Everything belongs to option 1; option 0 is there and never acts.
+  // Option 1 acts at every frame, option 0 never.
   auto clip = std::make_shared<TrackingClip>(*make_tracking_clip(swaying_reference(24), {}));
   clip->arrangement.assign(24, 1);
   TrackingEnvironment environment({clip}, {}, 2 * physics::kLanes, physics::kLanes, 5);

@@ -23,7 +23,7 @@ int counterpart(int body) {
 
 const Eigen::DiagonalMatrix<double, 3> kWorldMirror(1, -1, 1), kBodyMirror(-1, 1, 1);
 
-/// R → M R M′ by matrices, as the geometry says it: an oracle that knows nothing of how states are laid out.
+/// R → M R M′ by matrices: an oracle that is independent of the layout of states.
 Quaterniond mirrored(const Eigen::DiagonalMatrix<double, 3>& after, const Quaterniond& q) {
   return Quaterniond(Matrix3d(after * q.toRotationMatrix() * kBodyMirror));
 }

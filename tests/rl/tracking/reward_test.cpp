@@ -99,7 +99,7 @@ TEST(TrackingReward, KeypointsWithoutConfidenceDoNotCount) {
   EXPECT_NEAR(tracking_reward({}, pose, pose, &frames[0]).term[5], 1.0, 1e-12);
 }
 
-/// What a detector of COCO-17 reports of `points`: its own order, and a face that no body of ours stands for.
+/// `points` as a COCO-17 detector reports them: in its own order, with face keypoints that match no body.
 motion::Keypoints as_coco17(const motion::Keypoints& points) {
   motion::Keypoints coco = points;
   coco.names = motion::keypoint_names(motion::KeypointSet::kCoco17);

@@ -11,7 +11,7 @@
 namespace mimicx::rl::tracking {
 namespace {
 
-/// Steps an environment with fixed actions; returns every reward.
+/// Steps an environment with fixed actions. @return all rewards
 std::vector<float> drive(TrackingEnvironment& environment, int steps, int threads, int first_step = 0) {
   List<StepResult> results(static_cast<std::size_t>(environment.groups()),
                            StepResult(environment.group_size(), environment.observation_dim()));
@@ -108,8 +108,8 @@ TEST(TrackingEnvironment, EndsEpisodesAtFallsAndAtTheClipsEnd) {
   EXPECT_FALSE(result.truncated.any());
 }
 
-// A character whose simulation is flagged, here as run away, ends its episode in the same frame, earns
-// nothing for it and touches nobody else's bits. No distance ends an episode in this test.
+// A character whose simulation is flagged, here as a runaway, terminates in the same frame with reward 0, and
+// changes no bits of others. No distance ends an episode in this test.
 TEST(TrackingEnvironment, TerminatesAFailedCharacterAndNoOther) {
   TrackingConfig config;
   config.terminate_distance = 100.0;
@@ -142,8 +142,8 @@ TEST(TrackingEnvironment, TerminatesAFailedCharacterAndNoOther) {
   }
 }
 
-/// Frames that the characters of an environment, all of which fall at every step, reach with their next step:
-/// one after those they have been set to. By bins.
+/// [bin] counts of the frames that the characters of an environment reach with their next step, one frame
+/// after their start; all of them fall at every step.
 List<std::int64_t> first_frames_reached(TrackingEnvironment& environment) {
   StepResult result(environment.group_size(), kStateSize);
   for (int g = 0; g < environment.groups(); ++g)
@@ -172,8 +172,7 @@ double chi_squared(const List<double>& weights, int bin_frames, int frames,
 
 TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
   TrackingConfig config;
-  config.terminate_distance =
-      0.0;  // nobody is exactly on the reference: every step is a fall and a new start
+  config.terminate_distance = 0.0;  // every step is a fall and a new start
   const int frames = 60;
   const auto clip = make_tracking_clip(swaying_reference(frames), config);
   TrackingEnvironment environment({clip}, config, 2048, 512, 17);
@@ -186,7 +185,7 @@ TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
   environment.save(state, "e.");
   state.set("e.fall_rates0", NpyArray::from_double({6}, rates.data()));
   environment.load(state, "e.");
-  first_frames_reached(environment);  // falls, and starts anew where the falls are said to be
+  first_frames_reached(environment);  // all fall and restart by the given fall rates
   const List<std::int64_t> reached = first_frames_reached(environment);
   // Two fifths start anywhere; the rest in the bin of the falls and the two before it, as 10 : 7 : 4
   // (docs/method.md §9).
@@ -199,7 +198,7 @@ TEST(TrackingEnvironment, EpisodesStartEverywhereAndMoreOftenBeforeFalls) {
 
 TEST(TrackingEnvironment, RecordsWhereCharactersFall) {
   TrackingConfig config;
-  config.terminate_distance = 0.02;  // holds for a few steps only, wherever the character starts
+  config.terminate_distance = 0.02;  // a character stays within it for a few steps only
   const auto clip = make_tracking_clip(swaying_reference(100), config);
   TrackingEnvironment environment({clip}, config, 2 * physics::kLanes, physics::kLanes, 15);
   drive(environment, 32, 1);
@@ -306,7 +305,7 @@ TEST(TrackingEnvironment, PacksTakeTurnsOverMoreClipsThanPacks) {
 
 TEST(TrackingEnvironment, SoftensTheRewardOfAHardMotionAndRestoresIt) {
   TrackingConfig config;
-  config.reward_target = 0.999;  // nothing is good enough
+  config.reward_target = 0.999;  // a target that no reward reaches
   TrackingEnvironment hard({make_tracking_clip(swaying_reference(24), config)}, config, physics::kLanes,
                            physics::kLanes, 5);
   StepResult result(physics::kLanes, kStateSize);
@@ -316,7 +315,7 @@ TEST(TrackingEnvironment, SoftensTheRewardOfAHardMotionAndRestoresIt) {
   }
   EXPECT_NEAR(hard.sharpness(), std::pow(1.01, -20), 1e-12);
   EXPECT_GT(hard.statistics().learned_reward, hard.statistics().reward);
-  config.reward_target = 0.01;  // everything is
+  config.reward_target = 0.01;  // a target that every reward exceeds
   TrackingEnvironment easy({make_tracking_clip(swaying_reference(24), config)}, config, physics::kLanes,
                            physics::kLanes, 5);
   Npz archive;

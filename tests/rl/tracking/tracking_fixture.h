@@ -1,4 +1,4 @@
-/// A made-up reference for the tests of the tracking task: every joint moves, the body turns and travels.
+/// An artificial reference for the tests of the tracking task: every joint moves, the body turns and travels.
 #pragma once
 
 #include <cmath>
@@ -44,7 +44,7 @@ inline Pose moved(const Character& character, const Pose& pose, double angle, co
   return pose_of(character, f);
 }
 
-/// Stands with bent knees and arms down, swaying; `frames` at 30 fps.
+/// A swaying stance with bent knees and arms down; `frames` at 30 fps.
 inline motion::Reference swaying_reference(int frames) {
   motion::Reference reference;
   reference.name = "sway";
@@ -72,7 +72,7 @@ inline motion::Reference swaying_reference(int frames) {
   return reference;
 }
 
-/// An agent whose mean action is `action` in every degree of freedom, whatever it sees.
+/// An agent whose mean action is `action` in every degree of freedom, for every state.
 inline Agent agent_that_does(float action, int state_size = kStateSize) {
   AgentShape shape;
   shape.observation_dim = state_size;

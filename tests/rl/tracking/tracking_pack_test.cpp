@@ -22,7 +22,7 @@ TEST(TrackingPack, ActionHas55EntriesAndZeroResidualAimsAtTheReference) {
 }
 
 TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
-  // With absolute actions that spell out the next reference pose, the motion must be that of zero residuals.
+  // Absolute actions equal to the next reference pose must give the motion of zero residuals.
   TrackingConfig absolute, residual;
   absolute.action_mode = ActionMode::kAbsolute;
   const auto clip = make_tracking_clip(swaying_reference(30), residual);
