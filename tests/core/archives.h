@@ -1,23 +1,12 @@
 /// Fixtures of the tests of files, arrays and archives.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "core/npz/npz.h"
+#include "core/temporary_folder.h"
 
 namespace mimicx {
 
 namespace fs = std::filesystem;
-
-/// A folder per test, because tests run in parallel.
-inline fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "mimicx_core_test" /
-                          ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  fs::create_directories(folder);
-  return folder / name;
-}
 
 /// An archive with one member of every type.
 inline Npz example_archive() {

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "core/npz/npz.h"
+#include "core/temporary_folder.h"
 #include "import/motion_file.h"
 #include "import/small_body_model.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
-#include "motion/scratch.h"
 
 namespace mimicx::import {
 namespace {
@@ -16,14 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::MatrixXd;
-using test::scratch, test::SmallModel, test::kVertices, test::kComponents, test::kFileJoints;
+using test::SmallModel, test::kVertices, test::kComponents, test::kFileJoints;
 
 constexpr std::array<double, kBetas> kSomeBetas = {1.5, -0.5, 0.3, 0, 2, -1, 0.1, 0.2, -0.3, 0.7};
 
 TEST(BodyModel, JointsAreTheRegressorTimesTheShapedVertices) {
   const SmallModel small;
-  write_npz(test::scratch("model.npz"), small.file());
-  const RestJoints joints = read_body_model(test::scratch("model.npz")).joints(kSomeBetas);
+  write_npz(scratch("model.npz"), small.file());
+  const RestJoints joints = read_body_model(scratch("model.npz")).joints(kSomeBetas);
   for (int j = 0; j < kBodies; ++j) EXPECT_LT((joints[j] - small.joint(j, kSomeBetas)).norm(), 1e-12) << j;
 }
 
@@ -32,26 +32,26 @@ TEST(BodyModel, RejectsOtherLayoutsNamingTheMember) {
   const auto refused = [&](const std::string& key, const NpyArray& array) {
     Npz npz = small.file();
     npz.set(key, array);
-    write_npz(test::scratch("bad.npz"), npz);
-    EXPECT_THROW(read_body_model(test::scratch("bad.npz")), DataError) << key;
+    write_npz(scratch("bad.npz"), npz);
+    EXPECT_THROW(read_body_model(scratch("bad.npz")), DataError) << key;
   };
   refused("v_template", from_matrix(MatrixXd::Zero(kVertices, 2)));
   refused("shapedirs", from_matrix(MatrixXd::Zero(kVertices, 3)));
   refused("J_regressor", from_matrix(MatrixXd::Zero(kFileJoints, kVertices + 1)));
   refused("kintree_table", from_matrix(MatrixXd::Zero(2, kFileJoints)));
-  EXPECT_THROW(read_body_model(test::scratch("none.npz")), DataError);
+  EXPECT_THROW(read_body_model(scratch("none.npz")), DataError);
 }
 
 TEST(BodyModel, MotionUsesTheJointsOfItsOwnBody) {
   const SmallModel small;
-  write_npz(test::scratch("model.npz"), small.file());
+  write_npz(scratch("model.npz"), small.file());
   motion::Clip clip = test::random_clip(3, 4, 0.4);
   clip.body_model = "smplx";
   clip.betas = kSomeBetas;
-  motion::write_clip(test::scratch("clip.npz"), clip);
+  motion::write_clip(scratch("clip.npz"), clip);
   ReadConfig config;
-  config.smplx = test::scratch("model.npz");
-  const motion::Clip read = read_motion(test::scratch("clip.npz"), config);
+  config.smplx = scratch("model.npz");
+  const motion::Clip read = read_motion(scratch("clip.npz"), config);
   EXPECT_TRUE(read.warnings.empty()) << "the shape is known now";
   // Forward kinematics by hand, frame 1.
   const auto poses = motion::poses_of(read);
@@ -75,32 +75,32 @@ TEST(BodyModel, MotionUsesTheJointsOfItsOwnBody) {
                 .norm(),
             1e-12);
   // Written and read again without the model, it keeps its body.
-  motion::write_clip(test::scratch("again.npz"), read);
-  const auto again = motion::poses_of(read_motion(test::scratch("again.npz")));
+  motion::write_clip(scratch("again.npz"), read);
+  const auto again = motion::poses_of(read_motion(scratch("again.npz")));
   for (int j = 0; j < kBodies; ++j) EXPECT_EQ(again[1].p_WB[j], poses[1].p_WB[j]);
 }
 
 TEST(BodyModel, TheStandardBodyKeepsThePelvisWhereItIs) {
   motion::Clip clip = test::random_clip(3, 4, 0.4);
   clip.betas[0] = 2.0;
-  motion::write_clip(test::scratch("clip.npz"), clip);
+  motion::write_clip(scratch("clip.npz"), clip);
   ReadConfig config;
   config.standard_body = true;
-  const motion::Clip read = read_motion(test::scratch("clip.npz"), config);
+  const motion::Clip read = read_motion(scratch("clip.npz"), config);
   EXPECT_EQ(read.betas, (std::array<double, kBetas>{}));
   EXPECT_EQ(motion::poses_of(read)[2].p_WB[0], motion::poses_of(clip)[2].p_WB[0]);
 }
 
 TEST(BodyModel, IgnoresBetasOfAnotherModel) {
   const SmallModel small;
-  write_npz(test::scratch("model.npz"), small.file());
+  write_npz(scratch("model.npz"), small.file());
   motion::Clip clip = test::random_clip(3, 4, 0.4);
   clip.body_model = "smplh";
   clip.betas = kSomeBetas;
-  motion::write_clip(test::scratch("clip.npz"), clip);
+  motion::write_clip(scratch("clip.npz"), clip);
   ReadConfig config;
-  config.smplx = test::scratch("model.npz");
-  const motion::Clip read = read_motion(test::scratch("clip.npz"), config);
+  config.smplx = scratch("model.npz");
+  const motion::Clip read = read_motion(scratch("clip.npz"), config);
   EXPECT_FALSE(read.rest_joints);
   EXPECT_EQ(read.warnings.size(), 1u);
 }

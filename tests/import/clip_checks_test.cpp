@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/temporary_folder.h"
 #include "import/motion_file.h"
 #include "import/motionx.h"
 #include "import/world_transform.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
 #include "motion/resample.h"
-#include "motion/scratch.h"
 #include "motion/synthetic_clip.h"
 
 namespace mimicx::import {
@@ -18,8 +18,8 @@ namespace {
 motion::Clip read_as_foreign(motion::Clip clip) {
   clip.body_model = "smplx";
   clip.betas = {};
-  motion::write_clip(test::scratch("clip.npz"), clip);
-  return read_motion(test::scratch("clip.npz"));
+  motion::write_clip(scratch("clip.npz"), clip);
+  return read_motion(scratch("clip.npz"));
 }
 
 bool says(const std::vector<std::string>& lines, const std::string& words) {
@@ -145,8 +145,8 @@ TEST(ClipChecks, MotionXInCentimetresIsNotTakenForAist) {
   clip.betas = {};
   Eigen::MatrixXd values = to_matrix(to_motionx(clip));
   values.middleCols(309, 3) *= 100.0;
-  write_file_atomically(test::scratch("cm.npy"), format_npy(from_matrix(values)));
-  const motion::Clip back = read_motion(test::scratch("cm.npy"));
+  write_file_atomically(scratch("cm.npy"), format_npy(from_matrix(values)));
+  const motion::Clip back = read_motion(scratch("cm.npy"));
   EXPECT_TRUE(says(back.decisions, "centimetres"));
   EXPECT_FALSE(says(back.decisions, "AIST"));
   for (int t = 0; t < clip.frames(); ++t) EXPECT_LT((back.trans[t] - clip.trans[t]).norm(), 1e-9);

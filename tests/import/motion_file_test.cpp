@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/file.h"
+#include "core/temporary_folder.h"
 #include "import/bvh.h"
 #include "import/deepmimic.h"
 #include "import/motionx.h"
@@ -16,14 +17,13 @@
 #include "import/world_transform.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
-#include "motion/scratch.h"
+
 #include "synth/synthesize.h"
 
 namespace mimicx::import {
 namespace {
 
 namespace fs = std::filesystem;
-using test::scratch;
 
 /// A synthetic motion as a file of somebody else: body model smplx, so that nothing in it is believed.
 motion::Clip foreign(const std::string& kind) {
@@ -39,7 +39,7 @@ motion::Clip foreign(const std::string& kind) {
 }
 
 motion::Clip written_and_read(const motion::Clip& clip, const ReadConfig& config = {}) {
-  const fs::path path = test::scratch(clip.name + ".npz");
+  const fs::path path = scratch(clip.name + ".npz");
   motion::write_clip(path, clip);
   return read_motion(path, config);
 }
@@ -257,7 +257,7 @@ TEST(Motionx, UndoesTheAistScale) {
 
 TEST(Motionx, UpOptionNamesAnAxisOfTheFile) {
   const motion::Clip walk = foreign("walk");
-  const fs::path path = test::scratch("walk.npy");
+  const fs::path path = scratch("walk.npy");
   write_motion(path, walk);
   ReadConfig asked;
   asked.up = 'y';
@@ -287,7 +287,7 @@ TEST(Motionx, RejectsOtherShapes) {
 
 TEST(ReadMotion, RecognisesFormatsByContentNotBySuffix) {
   const motion::Clip clip = foreign("walk");
-  const fs::path npz = test::scratch("a.npy"), npy = test::scratch("b.npz");
+  const fs::path npz = scratch("a.npy"), npy = scratch("b.npz");
   write_file_atomically(npz, format_npz(motion::to_npz(clip)));
   write_file_atomically(npy, format_npy(to_motionx(clip)));
   EXPECT_LT(largest_joint_distance(read_motion(npz), clip), 1e-9);
@@ -297,22 +297,21 @@ TEST(ReadMotion, RecognisesFormatsByContentNotBySuffix) {
 TEST(ReadMotion, SuffixesAreCaseInsensitive) {
   const motion::Clip clip = foreign("walk");
   for (const char* name : {"WALK.BVH", "walk.Npz", "walk.NPY"}) {
-    write_motion(test::scratch(name), clip);
-    EXPECT_TRUE(is_motion_file(test::scratch(name))) << name;
-    EXPECT_LT(largest_joint_distance(read_motion(test::scratch(name)), clip), 1e-6) << name;
+    write_motion(scratch(name), clip);
+    EXPECT_TRUE(is_motion_file(scratch(name))) << name;
+    EXPECT_LT(largest_joint_distance(read_motion(scratch(name)), clip), 1e-6) << name;
   }
 }
 
 TEST(ReadMotion, ReportsUnreadableFilesInOneLineNamingTheFile) {
-  const fs::path folder = test::scratch("folder.npz"), empty = test::scratch("empty.npz"),
-                 text = test::scratch("text.npy"), cut = test::scratch("cut.npz"),
-                 locked = test::scratch("locked.npz");
+  const fs::path folder = scratch("folder.npz"), empty = scratch("empty.npz"), text = scratch("text.npy"),
+                 cut = scratch("cut.npz"), locked = scratch("locked.npz");
   fs::create_directories(folder);
   write_file_atomically(empty, "");
   write_file_atomically(text, "once upon a time");
   const std::string whole = format_npz(motion::to_npz(foreign("wave")));
   write_file_atomically(cut, whole.substr(0, whole.size() / 2));
-  for (const fs::path& path : {folder, empty, text, cut, test::scratch("none.npz"), fs::path("/dev/zero")}) {
+  for (const fs::path& path : {folder, empty, text, cut, scratch("none.npz"), fs::path("/dev/zero")}) {
     try {
       read_motion(path);
       ADD_FAILURE() << path;
@@ -342,7 +341,7 @@ TEST(ReadMotion, PrintsHugeNumbersInFewDigits) {
 }
 
 TEST(ReadMotion, DoesNotBlockOnAPipeInAFolder) {
-  const fs::path pipe = test::scratch("pipe.txt");
+  const fs::path pipe = scratch("pipe.txt");
   fs::remove(pipe);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_FALSE(is_motion_file(pipe));
@@ -377,8 +376,8 @@ TEST(SharedMotions, EveryNpzAndNpyRoundTrips) {
           << file.path();
       EXPECT_EQ(clip.fps, 30.0) << file.path();
       for (const char* suffix : {"back.npz", "back.npy", "back.bvh"}) {
-        write_motion(test::scratch(suffix), clip);
-        EXPECT_LT(largest_joint_distance(read_motion(test::scratch(suffix)), clip), 1e-6)
+        write_motion(scratch(suffix), clip);
+        EXPECT_LT(largest_joint_distance(read_motion(scratch(suffix)), clip), 1e-6)
             << file.path() << ' ' << suffix;
       }
       ++files;
@@ -398,8 +397,8 @@ TEST(SharedMotions, EverySkeletonFileRoundTripsInEachFormat) {
       const bool bvh = folder == std::string("bvh");
       EXPECT_EQ(clip.fps, (bvh ? read_bvh(file.path()) : read_deepmimic(file.path())).fps) << file.path();
       for (const char* suffix : {"back.bvh", "back.npz"}) {
-        write_motion(test::scratch(suffix), clip);
-        EXPECT_LT(largest_joint_distance(read_motion(test::scratch(suffix)), clip), 1e-6)
+        write_motion(scratch(suffix), clip);
+        EXPECT_LT(largest_joint_distance(read_motion(scratch(suffix)), clip), 1e-6)
             << file.path() << ' ' << suffix;
       }
       ++files;
@@ -410,9 +409,9 @@ TEST(SharedMotions, EverySkeletonFileRoundTripsInEachFormat) {
 
 TEST(ReadMotion, RecognisesSkeletonsAndAppliesOptionsToThem) {
   const motion::Clip clip = foreign("walk");
-  const fs::path path = test::scratch("walk.npz");  // a BVH by another name
-  write_motion(test::scratch("walk.bvh"), clip);
-  fs::copy_file(test::scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
+  const fs::path path = scratch("walk.npz");  // a BVH by another name
+  write_motion(scratch("walk.bvh"), clip);
+  fs::copy_file(scratch("walk.bvh"), path, fs::copy_options::overwrite_existing);
   EXPECT_LT(largest_joint_distance(read_motion(path), clip), 1e-6);
   ReadConfig asked;
   asked.fps = 25.0;

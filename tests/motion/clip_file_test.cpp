@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/temporary_folder.h"
 #include "motion/full_clip.h"
 #include "motion/keypoint_names.h"
-#include "motion/scratch.h"
 
 namespace mimicx::motion {
 namespace {
@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::clip_with_everything;
 using test::counted;
-using test::scratch;
 
 Npz amass(std::size_t columns = 66) {
   Npz npz;
@@ -28,7 +27,7 @@ Npz amass(std::size_t columns = 66) {
 }
 
 Clip read(const Npz& npz) {
-  const fs::path path = test::scratch("clip.npz");
+  const fs::path path = scratch("clip.npz");
   write_npz(path, npz);
   return read_clip(path);
 }
@@ -64,7 +63,7 @@ const NpyArray* passed_on(const Clip& clip, const std::string& key) {
 
 TEST(ClipFile, RoundTripKeepsEveryBit) {
   const Clip clip = test::clip_with_everything();
-  const fs::path path = test::scratch("round.npz");
+  const fs::path path = scratch("round.npz");
   write_clip(path, clip, {{"reward", NpyArray::scalar(0.5)}});
   const Clip back = read_clip(path);
   EXPECT_EQ(back.name, "round");
@@ -336,7 +335,7 @@ TEST(ClipFile, RejectsUnnamedKeypointsOfUnknownCountInOneLine) {
 TEST(ClipFile, UndetectedKeypointsGetConfidenceZero) {
   Clip clip = test::clip_with_everything();
   clip.keypoints->uvc[2][1].x() = std::numeric_limits<double>::quiet_NaN();
-  const fs::path path = test::scratch("keypoints.npz");
+  const fs::path path = scratch("keypoints.npz");
   write_clip(path, clip);
   EXPECT_EQ(read_clip(path).keypoints->uvc[2][1], Vector3d(0, 0, 0));
 }
