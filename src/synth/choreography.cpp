@@ -62,10 +62,7 @@ void Choreography::raise(int side, const std::vector<Raise>& places, const std::
 PerFrame<PlanFrame> Choreography::finished(const GaitStyle& style) {
   const FeetTracks feet = stepping_feet(request_.character, start_, swings_, settle_);
   PerFrame<PlanFrame> plan = request_.every_frame(stand_);
-  for (int i = 0; i < plan.count(); ++i) {
-    hold_postures(keys_, time_of(i), plan[i]);
-    place_feet(feet, time_of(i), plan[i]);
-  }
+  hold_postures(keys_, feet, plan);
   face_along_feet(plan);
   follow_feet(request_.character, style, leg_length(request_.character), feet, plan);
   return plan;

@@ -199,4 +199,11 @@ double forefoot_length(const Character& c) {
 
 double feet_middle(const Character& c) { return kMidFoot * forefoot_length(c); }
 
+void hold_postures(const std::vector<PostureKey>& keys, const FeetTracks& feet, PerFrame<PlanFrame>& plan) {
+  for (int i = 0; i < plan.count(); ++i) {
+    hold_postures(keys, time_of(i), plan[i]);
+    place_feet(feet, time_of(i), plan[i]);
+  }
+}
+
 }  // namespace mimicx::synth

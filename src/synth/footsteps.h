@@ -70,4 +70,7 @@ double forefoot_length(const Character& character);
 /// Where the load acts in a foot that stands flat, m ahead of the ankle.
 double feet_middle(const Character& character);
 
+/// `hold_postures` in all frames, and `place_feet`.
+void hold_postures(const std::vector<PostureKey>& keys, const FeetTracks& feet, PerFrame<PlanFrame>& plan);
+
 }  // namespace mimicx::synth

@@ -67,53 +67,59 @@ Jacobian point_jacobian(const BodyPoses& poses, int body, const Vector3d& p) {
   return J;
 }
 
-void add_posture(const SynthPose& nominal, const SynthPose& pose, Squares& squares) {
-  for (int k = 0; k < 3; ++k) squares.add(kRootPlace, pose.p_root[k] - nominal.p_root[k], k);
+/// Calls visit(weight, residual, add) for every residual of a pose; add(squares) adds it to a sum of squares.
+template <class Visit>
+void for_each_residual(const Character& c, const PoseTargets& wanted, const SynthPose& pose,
+                       const BodyPoses& poses, const Visit& visit) {
+  const Vector3d place = pose.p_root - wanted.nominal.p_root;
+  visit(kRootPlace, place, [&](Squares& squares) {
+    for (int k = 0; k < 3; ++k) squares.add(kRootPlace, place[k], k);
+  });
   for (int b = 0; b < kBodies; ++b) {
-    const Vector3d off = log_map(nominal.q[b].conjugate() * pose.q[b]);
-    if (turns_about_hinge(b))
-      squares.add(1.0, off.dot(hinge_axis(b)), turn_of(b));
-    else
-      for (int k = 0; k < 3; ++k) squares.add(b == kPelvis ? kPelvisTurn : 1.0, off[k], turn_of(b) + k);
+    const double weight = b == kPelvis ? kPelvisTurn : 1.0;
+    const Vector3d off = log_map(wanted.nominal.q[b].conjugate() * pose.q[b]);
+    visit(weight, off, [&](Squares& squares) {
+      if (turns_about_hinge(b))
+        squares.add(weight, off.dot(hinge_axis(b)), turn_of(b));
+      else
+        for (int k = 0; k < 3; ++k) squares.add(weight, off[k], turn_of(b) + k);
+    });
   }
-}
-
-void add_points(const Character& c, const PoseTargets& wanted, const BodyPoses& poses, Squares& squares) {
   for (int i = 0; i < c.contact_points.count(); ++i) {
     const Vector3d p = lowest_position(c.contact_points[i], poses);
     const auto& target = wanted.point[i];
     if (!target && p.z() >= 0.0) continue;
-    const Jacobian J = point_jacobian(poses, c.contact_points[i].body, p);
     const Vector3d off = target ? Vector3d(p - target->place) : p;
-    for (int k = target && !target->anywhere ? 0 : 2; k < 3; ++k) squares.add(kPoint, off[k], J.row(k));
-  }
-}
-
-void add_balance(const Character& c, const Eigen::Vector2d& wanted, const BodyPoses& poses,
-                 Squares& squares) {
-  Jacobian J = Jacobian::Zero();
-  for (int b = 0; b < kBodies; ++b)
-    J += c.mass[b] / c.total_mass() * point_jacobian(poses, b, poses.p_WB[b] + poses.q_WB[b] * c.com_B[b]);
-  const Vector3d com = center_of_mass(c, poses);
-  for (int k = 0; k < 2; ++k) squares.add(kBalance, com[k] - wanted[k], J.row(k));
-}
-
-/// What Squares linearise.
-double cost(const Character& c, const PoseTargets& wanted, const SynthPose& pose) {
-  const BodyPoses poses = forward_kinematics(c, pose.p_root, pose.q);
-  double sum = square(kRootPlace) * (pose.p_root - wanted.nominal.p_root).squaredNorm();
-  for (int b = 0; b < kBodies; ++b)
-    sum += square(b == kPelvis ? kPelvisTurn : 1.0) *
-           log_map(wanted.nominal.q[b].conjugate() * pose.q[b]).squaredNorm();
-  for (int i = 0; i < c.contact_points.count(); ++i) {
-    const Vector3d p = lowest_position(c.contact_points[i], poses);
-    const auto& target = wanted.point[i];
+    const auto add = [&](Squares& squares, int first) {
+      const Jacobian J = point_jacobian(poses, c.contact_points[i].body, p);
+      for (int k = first; k < 3; ++k) squares.add(kPoint, off[k], J.row(k));
+    };
     if (target && !target->anywhere)
-      sum += square(kPoint) * (p - target->place).squaredNorm();
+      visit(kPoint, off, [&](Squares& squares) { add(squares, 0); });
     else
-      sum += square(kPoint * (target ? p.z() - target->place.z() : std::min(p.z(), 0.0)));
+      visit(kPoint, off.z(), [&](Squares& squares) { add(squares, 2); });
   }
-  return sum + square(kBalance) * (center_of_mass(c, poses).head<2>() - wanted.com).squaredNorm();
+  const Eigen::Vector2d balance = center_of_mass(c, poses).head<2>() - wanted.com;
+  visit(kBalance, balance, [&](Squares& squares) {
+    Jacobian J = Jacobian::Zero();
+    for (int b = 0; b < kBodies; ++b)
+      J += c.mass[b] / c.total_mass() * point_jacobian(poses, b, poses.p_WB[b] + poses.q_WB[b] * c.com_B[b]);
+    for (int k = 0; k < 2; ++k) squares.add(kBalance, balance[k], J.row(k));
+  });
+}
+
+double squared(double weight, double residual) { return square(weight * residual); }
+template <class Residual>
+double squared(double weight, const Residual& residual) {
+  return square(weight) * residual.squaredNorm();
+}
+
+double cost(const Character& c, const PoseTargets& wanted, const SynthPose& pose) {
+  double sum = 0.0;
+  for_each_residual(
+      c, wanted, pose, forward_kinematics(c, pose.p_root, pose.q),
+      [&](double weight, const auto& residual, const auto&) { sum += squared(weight, residual); });
+  return sum;
 }
 
 SynthPose stepped(SynthPose pose, const Row& step) {
@@ -134,9 +140,8 @@ SynthPose nearest_pose(const Character& character, const PoseTargets& wanted, co
   for (int iteration = 0; iteration < kIterations && length > kConverged; ++iteration) {
     const BodyPoses poses = forward_kinematics(character, pose.p_root, pose.q);
     Squares squares;
-    add_posture(wanted.nominal, pose, squares);
-    add_points(character, wanted, poses, squares);
-    add_balance(character, wanted.com, poses, squares);
+    for_each_residual(character, wanted, pose, poses,
+                      [&](double, const auto&, const auto& add) { add(squares); });
     Row step = squares.solution();
     step *= std::min(1.0, kLongestStep / step.cwiseAbs().maxCoeff());
     // Points that come to the floor or leave it make full steps go to and fro.

@@ -140,10 +140,7 @@ PerFrame<PlanFrame> plan_dance(const PlanRequest& request) {
   dance.hold(0.0, stand);
   const FeetTracks feet = stepping_feet(request.character, stance, dance.swings, 0.45);
   PerFrame<PlanFrame> plan = request.every_frame(stand);
-  for (int i = 0; i < plan.count(); ++i) {
-    hold_postures(dance.keys, time_of(i), plan[i]);
-    place_feet(feet, time_of(i), plan[i]);
-  }
+  hold_postures(dance.keys, feet, plan);
   face_along_feet(plan);
   const GaitStyle style = {6.0 * kDegree, 2.0 * kDegree, random.uniform(2.0, 4.0) * kDegree,
                            random.uniform(0.0, 2.0) * kDegree};

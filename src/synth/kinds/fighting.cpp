@@ -119,10 +119,7 @@ PerFrame<PlanFrame> plan_kick(const PlanRequest& request) {
                              {k.land + 0.7, stand}});
   }
   PerFrame<PlanFrame> plan = request.every_frame(stand);
-  for (int i = 0; i < plan.count(); ++i) {
-    hold_postures(keys, time_of(i), plan[i]);
-    place_feet(feet, time_of(i), plan[i]);
-  }
+  hold_postures(keys, feet, plan);
   return plan;
 }
 
@@ -208,10 +205,7 @@ PerFrame<PlanFrame> plan_lunge(const PlanRequest& request) {
   feet.foot[rear].heel_rise = MinJerkTrack(heel_rise);
   feet.foot[rear].pressure = MinJerkTrack(pressure);
   PerFrame<PlanFrame> plan = request.every_frame(stand);
-  for (int i = 0; i < plan.count(); ++i) {
-    hold_postures(keys, time_of(i), plan[i]);
-    place_feet(feet, time_of(i), plan[i]);
-  }
+  hold_postures(keys, feet, plan);
   return plan;
 }
 

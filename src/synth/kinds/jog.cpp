@@ -152,10 +152,7 @@ PerFrame<PlanFrame> plan_jog(const PlanRequest& request) {
                                         {end - 0.6, jogging},
                                         {end + 0.4, stand}};
   PerFrame<PlanFrame> plan = request.every_frame(stand);
-  for (int i = 0; i < plan.count(); ++i) {
-    hold_postures(keys, time_of(i), plan[i]);
-    place_feet(feet, time_of(i), plan[i]);
-  }
+  hold_postures(keys, feet, plan);
   const GaitStyle style = {random.uniform(20.0, 28.0) * kDegree, random.uniform(3.0, 5.0) * kDegree,
                            random.uniform(1.0, 2.0) * kDegree, random.uniform(2.0, 4.0) * kDegree};
   follow_feet(character, style, step, feet, plan);
