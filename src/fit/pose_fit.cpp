@@ -59,11 +59,6 @@ double slip_of(const FitProblem& problem) {
 
 }  // namespace
 
-double stance_slip(const motion::Clip& clip) {
-  motion::require_usable(clip, 1);
-  return slip_of(problem_of(clip, {}));
-}
-
 motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitReport* report) {
   FitReport r;
   if (report) *report = r;

@@ -23,8 +23,4 @@ inline constexpr double kTremor = 0.3;
 /// @throws DataError for values that are not finite
 motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitReport* report);
 
-/// Median step of the foot points that stand, put on the floor first, m per frame at 30 fps; 0 where none
-/// stands.
-double stance_slip(const motion::Clip& clip);
-
 }  // namespace mimicx::fit

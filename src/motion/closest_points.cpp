@@ -25,9 +25,4 @@ SegmentPair closest_points(const Character& character, const BodyPoses& poses, i
   return closest_points(end(a, A.a_B), end(a, A.b_B), end(b, B.a_B), end(b, B.b_B));
 }
 
-double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1) {
-  const SegmentPair near = closest_points(a0, a1, b0, b1);
-  return (near.a - near.b).norm();
-}
-
 }  // namespace mimicx::motion

@@ -15,7 +15,4 @@ SegmentPair closest_points(const Vector3d& a0, const Vector3d& a1, const Vector3
 /// The same of the axes of two bodies' capsules, in the world.
 SegmentPair closest_points(const Character& character, const BodyPoses& poses, int a, int b);
 
-/// Distance of two segments.
-double segment_distance(const Vector3d& a0, const Vector3d& a1, const Vector3d& b0, const Vector3d& b1);
-
 }  // namespace mimicx::motion

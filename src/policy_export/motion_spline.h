@@ -40,6 +40,5 @@ MotionSpline fit_spline(const List<physics::State<double>>& states, double fps, 
 List<physics::State<double>> states_of(const MotionSpline& spline);
 
 physics::State<double> to_physics(const State& state);
-State from_physics(const physics::State<double>& state);
 
 }  // namespace mimicx::policy_export

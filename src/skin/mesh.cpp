@@ -35,10 +35,4 @@ List<Vector3d> vertex_normals(const List<Vector3d>& vertices, const List<Triangl
   return normals;
 }
 
-double enclosed_volume(const List<Vector3d>& vertices, const List<Triangle>& triangles) {
-  double six = 0.0;
-  for (const Triangle& t : triangles) six += vertices[t[0]].dot(vertices[t[1]].cross(vertices[t[2]]));
-  return six / 6.0;
-}
-
 }  // namespace mimicx::skin

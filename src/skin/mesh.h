@@ -35,7 +35,4 @@ List<Vector3d> posed_vertices(const Mesh& mesh, const Character& character, cons
 /// for a vertex whose triangles have no area.
 List<Vector3d> vertex_normals(const List<Vector3d>& vertices, const List<Triangle>& triangles);
 
-/// Volume of a closed mesh, m³; negative if its triangles face inward.
-double enclosed_volume(const List<Vector3d>& vertices, const List<Triangle>& triangles);
-
 }  // namespace mimicx::skin

@@ -97,7 +97,6 @@ TEST(FitPoses, SmoothsATremblingMotion) {
 TEST(FitPoses, CleanMotionStaysByteIdentical) {
   for (const char* kind : {"walk", "jog", "kick", "punch", "jump", "side_step"}) {
     const motion::Clip truth = truth_of(kind);
-    EXPECT_LT(stance_slip(truth), 0.001) << kind;
     EXPECT_TRUE(same_motion(fit_poses(truth, {}, nullptr), truth)) << kind;
   }
 }

@@ -1,5 +1,5 @@
 #include "motion/metrics.h"
-#include "motion/closest_points.h"
+#include "motion/segment_distance.h"
 
 #include <gtest/gtest.h>
 

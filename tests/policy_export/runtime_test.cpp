@@ -21,6 +21,25 @@ struct Largest {
 
 void compare(float a, float b, float& largest) { largest = std::max(largest, std::abs(a - b)); }
 
+/// The simulator's state as the runtime has it.
+State from_physics(const physics::State<double>& state) {
+  State out;
+  const auto put = [](const physics::Vec3<double>& v, float* to) {
+    to[0] = static_cast<float>(v.x);
+    to[1] = static_cast<float>(v.y);
+    to[2] = static_cast<float>(v.z);
+  };
+  put(state.p_root, out.p_root);
+  put(state.v_root, out.v_root);
+  for (int i = 0; i < kBodies; ++i) {
+    const physics::Quat<double>& q = state.q[i];
+    const double values[4] = {q.w, q.x, q.y, q.z};
+    for (int k = 0; k < 4; ++k) out.q[i][k] = static_cast<float>(values[k]);
+    put(state.omega[i], out.omega[i]);
+  }
+  return out;
+}
+
 /// Differences between the program's pack and the runtime over a roll-out, from the first frame that is
 /// simulated.
 Largest differences(const ExportedPolicy& exported) {

@@ -19,6 +19,13 @@ struct Topology {
   std::vector<int> euler;  ///< V − E + F of every component
 };
 
+/// What a closed mesh encloses, m³; negative where its triangles face inward.
+inline double enclosed_volume(const List<Vector3d>& vertices, const List<Triangle>& triangles) {
+  double six = 0.0;
+  for (const Triangle& t : triangles) six += vertices[t[0]].dot(vertices[t[1]].cross(vertices[t[2]]));
+  return six / 6.0;
+}
+
 inline Topology topology_of(const Mesh& mesh) {
   Topology found;
   std::map<std::pair<int, int>, int> directed;

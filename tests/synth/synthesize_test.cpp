@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "motion/closest_points.h"
 #include "motion/metrics.h"
+#include "motion/segment_distance.h"
 #include "synth/kinds.h"
 #include "synth/synth_motions.h"
 #include "synth/whole_body_balance.h"

@@ -272,11 +272,4 @@ double radius_for_clusters(const ClusterTree& tree, int clusters) {
   return whole == diameters.end() ? 0.0 : *whole;
 }
 
-std::vector<int> leaves_of(const ClusterTree& tree) {
-  std::vector<int> leaves;
-  for (std::size_t i = 0; i < tree.size(); ++i)
-    if (tree[i].is_leaf()) leaves.push_back(static_cast<int>(i));
-  return leaves;
-}
-
 }  // namespace mimicx::pipeline::options

@@ -69,7 +69,4 @@ ClusterTree cut_tree(const ClusterTree& tree, double radius);
 /// @throws std::invalid_argument when there are fewer distinct points, or for less than 1 cluster
 double radius_for_clusters(const ClusterTree& tree, int clusters);
 
-/// Indices of the leaves, in order.
-std::vector<int> leaves_of(const ClusterTree& tree);
-
 }  // namespace mimicx::pipeline::options

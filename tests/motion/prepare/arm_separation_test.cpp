@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "motion/closest_points.h"
 #include "motion/prepare/prepare.h"
+#include "motion/segment_distance.h"
 #include "motion/synthetic_clip.h"
 
 namespace mimicx::motion {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "motion/closest_points.h"
+#include "motion/segment_distance.h"
 #include "synth/noise/noise_fixtures.h"
 
 namespace mimicx::synth {
