@@ -118,17 +118,6 @@ rl::tracking::ActingForces to_eigen(const physics::Applied<double>& applied) {
   return forces;
 }
 
-motion::ReferenceFrame to_eigen(const physics::State<double>& state) {
-  motion::ReferenceFrame frame;
-  frame.p_root = physics::to_eigen(state.p_root);
-  frame.v_root = physics::to_eigen(state.v_root);
-  for (std::size_t i = 0; i < kBodies; ++i) {
-    frame.q[i] = physics::to_eigen(state.q[i]);
-    frame.omega[i] = physics::to_eigen(state.omega[i]);
-  }
-  return frame;
-}
-
 }  // namespace
 
 void write_substeps(const std::filesystem::path& path, const SubstepMotion& motion) {
@@ -193,12 +182,12 @@ Replay replay_in_double(const SubstepMotion& motion) {
       target.omega[i] = physics::from_eigen(recorded.target_omega[i]);
     }
     rl::tracking::Substep step = recorded;
-    step.state = to_eigen(state);
+    step.state = rl::tracking::frame_of_state(state);
     physics::clear(applied);
     physics::step(model, target, state, *data, &applied);
     step.forces = to_eigen(applied);
     replay.steps.push_back(step);
-    replay.next.push_back(to_eigen(state));
+    replay.next.push_back(rl::tracking::frame_of_state(state));
   }
   return replay;
 }

@@ -20,24 +20,14 @@ physics::State<double> raised(physics::State<double> x, double up) {
   return x;
 }
 
-motion::ReferenceFrame frame_of(const physics::State<double>& x) {
-  motion::ReferenceFrame frame;
-  frame.p_root = physics::to_eigen(x.p_root);
-  frame.v_root = physics::to_eigen(x.v_root);
-  for (int i = 0; i < kBodies; ++i) {
-    frame.q[i] = physics::to_eigen(x.q[i]);
-    frame.omega[i] = physics::to_eigen(x.omega[i]);
-  }
-  return frame;
-}
-
 /// What the plan followed, in the plan's very numbers.
 motion::Reference reference_of(const Character& character, const files::StoredPlan& plan, double up) {
   motion::Reference reference;
   reference.fps = plan.fps;
   reference.character = character;
   for (const physics::State<double>& x : plan.reference) {
-    const motion::ReferenceFrame& frame = reference.frames.emplace_back(frame_of(raised(x, up)));
+    const motion::ReferenceFrame& frame =
+        reference.frames.emplace_back(rl::tracking::frame_of_state(raised(x, up)));
     reference.poses.push_back(forward_kinematics(character, frame.p_root, frame.q));
     reference.flagged.push_back(false);
   }
@@ -51,7 +41,7 @@ Character limp(Character character) {
 }
 
 double lowest_of(const Character& character, const physics::State<double>& x) {
-  const motion::ReferenceFrame frame = frame_of(x);
+  const motion::ReferenceFrame frame = rl::tracking::frame_of_state(x);
   return lowest_contact(character, forward_kinematics(character, frame.p_root, frame.q));
 }
 

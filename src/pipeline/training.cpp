@@ -25,7 +25,8 @@ constexpr const char* kBestPrefix = "best.";
 constexpr const char* kBestScoreKey = "best_score";
 constexpr const char* kBestAgeKey = "best_age";
 constexpr const char* kEndingKey = "ending";
-constexpr double kBetter = 0.99;  ///< a score below this share of the best one resets the stall count
+constexpr double kBetter = 0.99;   ///< a score below this share of the best one resets the stall count
+constexpr double kFarthest = 3.0;  ///< m; no roll-out scores more
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Clips = List<std::shared_ptr<const rl::tracking::TrackingClip>>;
@@ -46,23 +47,14 @@ struct MeanRollout {
   double position_error = 0.0;  ///< m, mean over clips
 };
 
-/// Mean position error, m; for a body farther than the limit of success (docs/metrics.md) its distance is
-/// added.
-double score_of(const rl::tracking::TrackingRollout& rollout) {
-  constexpr double kFarthest = 3.0;
-  if (rollout.broken) return kFarthest;
-  return std::min(kFarthest,
-                  rollout.mean_position_error +
-                      (rollout.worst_distance > motion::kMaxBodyDistance ? rollout.worst_distance : 0.0));
-}
-
 MeanRollout evaluate(const Clips& clips, const rl::tracking::TrackingConfig& config,
                      const std::vector<rl::Agent>& agents, int threads) {
   List<MeanRollout> each(clips.size());
   parallel_for(clips.count(), threads, [&](int k) {
     const rl::tracking::TrackingRollout rollout =
         rl::tracking::roll_out(clips[k], config, rl::tracking::mean_action(agents));
-    each[k] = {score_of(rollout), rollout.mean_reward, rollout.mean_position_error};
+    each[k] = {std::min(kFarthest, rl::tracking::distance_from_clip(rollout)), rollout.mean_reward,
+               rollout.mean_position_error};
   });
   MeanRollout mean;
   for (const MeanRollout& e : each) {

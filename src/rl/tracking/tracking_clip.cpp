@@ -49,6 +49,17 @@ List<physics::State<double>> simulator_states(const motion::Reference& reference
   return states;
 }
 
+motion::ReferenceFrame frame_of_state(const physics::State<double>& x) {
+  motion::ReferenceFrame frame;
+  frame.p_root = physics::to_eigen(x.p_root);
+  frame.v_root = physics::to_eigen(x.v_root);
+  for (int i = 0; i < kBodies; ++i) {
+    frame.q[i] = physics::to_eigen(x.q[i]);
+    frame.omega[i] = physics::to_eigen(x.omega[i]);
+  }
+  return frame;
+}
+
 motion::Reference reference_of_states(const motion::Reference& of,
                                       const List<physics::State<double>>& states) {
   motion::Reference out;
@@ -56,13 +67,8 @@ motion::Reference reference_of_states(const motion::Reference& of,
   out.fps = of.fps;
   out.character = of.character;
   for (const physics::State<double>& x : states) {
-    motion::ReferenceFrame& frame = out.frames.emplace_back();
-    frame.p_root = physics::to_eigen(x.p_root);
-    frame.v_root = physics::to_eigen(x.v_root);
-    for (int i = 0; i < kBodies; ++i) {
-      frame.q[i] = physics::to_eigen(x.q[i]).normalized();
-      frame.omega[i] = physics::to_eigen(x.omega[i]);
-    }
+    motion::ReferenceFrame& frame = out.frames.emplace_back(frame_of_state(x));
+    for (Quaterniond& q : frame.q) q = q.normalized();
     out.poses.push_back(forward_kinematics(out.character, frame.p_root, frame.q));
     out.flagged.push_back(false);
   }

@@ -41,9 +41,10 @@ void require_whole_steps(double physics_rate, double fps);
 std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& reference,
                                                        const TrackingConfig& config);
 
-/// A frame, or all frames, as states of the simulator.
+/// A frame, or all frames, as states of the simulator; a state as a frame.
 physics::State<double> simulator_state(const motion::ReferenceFrame& frame);
 List<physics::State<double>> simulator_states(const motion::Reference& reference);
+motion::ReferenceFrame frame_of_state(const physics::State<double>& x);
 
 /// Simulated states as a reference; its velocities are the simulator's, not differences.
 /// @param of  gives name, body and rate

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/metrics.h"
 #include "physics/lanes.h"
+#include "rl/tracking/tracking_clip.h"
 
 namespace mimicx::rl::tracking {
 namespace {
@@ -18,17 +20,6 @@ Vector6d first_lane(const physics::Wrench<P>& w, double scale) {
   return out;
 }
 
-motion::ReferenceFrame first_lane(const physics::State<P>& state) {
-  motion::ReferenceFrame frame;
-  frame.p_root = physics::lane_of(state.p_root, 0);
-  frame.v_root = physics::lane_of(state.v_root, 0);
-  for (int i = 0; i < kBodies; ++i) {
-    frame.q[i] = physics::lane_of(state.q[i], 0);
-    frame.omega[i] = physics::lane_of(state.omega[i], 0);
-  }
-  return frame;
-}
-
 /// A watcher that appends every step to `out`. @param scratch  for the forces of one step
 TrackingPack::SubstepWatcher recorder(const physics::Model<float>& model, physics::Applied<P>& scratch,
                                       TrackingRollout& out) {
@@ -36,13 +27,13 @@ TrackingPack::SubstepWatcher recorder(const physics::Model<float>& model, physic
              const physics::Data<P>& solved, const physics::State<P>& after) {
     physics::clear(scratch);
     physics::record_applied(model, solved, scratch);
-    Substep step{first_lane(before), {}, {}, acting_forces(scratch)};
+    Substep step{frame_of_state(physics::lane_of(before, 0)), {}, {}, acting_forces(scratch)};
     for (int i = 0; i < kBodies; ++i) {
       step.target_q[i] = i == 0 ? Quaterniond::Identity() : physics::lane_of(target.q[i], 0);
       step.target_omega[i] = physics::lane_of(target.omega[i], 0);
     }
     out.substeps.push_back(step);
-    out.last_state = first_lane(after);
+    out.last_state = frame_of_state(physics::lane_of(after, 0));
   };
 }
 
@@ -118,6 +109,13 @@ TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const Trackin
   out.mean_reward /= steps;
   out.mean_position_error /= steps;
   return out;
+}
+
+double distance_from_clip(const TrackingRollout& rollout) {
+  constexpr double kBroken = 100.0;
+  if (rollout.broken) return rollout.mean_position_error + kBroken;
+  const bool strayed = rollout.worst_distance > motion::kMaxBodyDistance;
+  return rollout.mean_position_error + (strayed ? rollout.worst_distance : 0.0);
 }
 
 }  // namespace mimicx::rl::tracking

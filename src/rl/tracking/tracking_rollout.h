@@ -55,4 +55,9 @@ struct TrackingRollout {
 TrackingRollout roll_out(std::shared_ptr<const TrackingClip> clip, const TrackingConfig& config,
                          const MeanAction& policy, bool substeps = false);
 
+/// How far a roll-out is from its clip, m; smaller is better. The mean position error; where a body strayed
+/// beyond the limit of success (docs/metrics.md), its largest distance on top, and where the simulation went
+/// wrong, 100 m. So a roll-out that strayed is worse than any that did not.
+double distance_from_clip(const TrackingRollout& rollout);
+
 }  // namespace mimicx::rl::tracking
