@@ -1,5 +1,5 @@
-/// A motion before any reference is made of it: SMPL-style rotations and translations, the body they belong
-/// to, and the 2D keypoints somebody detected.
+/// A motion as read from a file: SMPL rotations and translations, the body they belong to, and detected 2D
+/// keypoints. A reference is made of it later (reference.h).
 ///
 /// The world is z up, in metres; joints stand in the order of `Body`, which is that of the first 22 joints of
 /// every SMPL-family model. Files are read and written by clip_file.h and import/motion_file.h.
@@ -19,7 +19,7 @@
 
 namespace mimicx::motion {
 
-/// 2D detections and the pinhole camera that saw them.
+/// 2D detections and their pinhole camera.
 struct Keypoints {
   std::vector<std::string> names;       ///< [K]
   PerFrame<std::vector<Vector3d>> uvc;  ///< [frames][K] u, v in pixels and confidence in [0, 1]
@@ -38,36 +38,36 @@ struct Clip {
   std::string gender = "neutral";
   std::optional<Keypoints> keypoints;
   std::vector<std::pair<std::string, NpyArray>> passthrough;  ///< members the program does not use
-  std::vector<std::string> warnings;   ///< one line each, e.g. a foreign beta that was set aside
-  std::vector<std::string> decisions;  ///< what reading decided, one line each
-  std::vector<std::string> summary;    ///< of many decisions, in three lines for people; else empty
-  /// Joints of the file's own body where they are known: J(β) of a licensed model. They replace the standard
-  /// body and the mean J0.
+  std::vector<std::string> warnings;   ///< one line each, e.g. foreign betas that are ignored
+  std::vector<std::string> decisions;  ///< what the reader decided, one line each
+  std::vector<std::string> summary;    ///< the decisions in three lines where there are many; else empty
+  /// Joints of the file's own body, J(β) of a licensed model, where they are known. They replace the joints
+  /// of the standard body and the mean J0.
   std::optional<RestJoints> rest_joints;
-  bool on_floor = false;  ///< the user says that the floor is z = 0: the motion is not shifted as a whole
+  bool on_floor = false;  ///< the user gave the floor as z = 0: preparation adds no constant height
 
   int frames() const { return rotations.count(); }
   /// The shape the program may use: `betas` where the body model is ours, else the standard body.
   std::array<double, kBetas> usable_betas() const;
 };
 
-/// The body a clip is played on: its own joints where they are known, else that of its usable betas.
+/// The body of a clip: from its rest joints where they are known, else from its usable betas.
 Character character_of(const Clip& clip);
-/// Where that body has its pelvis at rest: pelvis = trans + rest_pelvis(clip).
+/// Position of that body's pelvis at rest, m: pelvis = trans + rest_pelvis(clip).
 Vector3d rest_pelvis(const Clip& clip);
 
-/// Gives a clip the body of another one: body model, betas, gender, rest joints. Rotations and the place of
-/// the pelvis in the world stay.
+/// Gives a clip the body of another one: body model, betas, gender, rest joints. Rotations and the pelvis'
+/// positions in the world stay the same.
 void put_on_body_of(const Clip& other, Clip& clip);
 
-/// @throws DataError naming clip and frame unless it has at least `frames` of them, a place for each, and
-/// finite numbers alone.
+/// @throws DataError naming clip and frame where the clip has fewer than `frames` frames, translations of
+/// another length, or numbers that are not finite
 void require_usable(const Clip& clip, int frames);
 
 /// Joint rotations as quaternions, [frames][22].
 PerFrame<PerBody<Quaterniond>> joint_rotations(const Clip& clip);
 
-/// World poses of the clip as it stands, every joint spherical, on its body.
+/// World poses of the clip on its body, with every joint spherical: knees and elbows are not yet hinges.
 PerFrame<BodyPoses> poses_of(const Clip& clip);
 
 /// Simulated or prepared motion → clip of body model "mimicx".
@@ -76,7 +76,7 @@ PerFrame<BodyPoses> poses_of(const Clip& clip);
 Clip to_clip(const std::string& name, double fps, const Character& character,
              const PerFrame<Vector3d>& p_root, const PerFrame<PerBody<Quaterniond>>& q);
 
-/// What to say of a shape that was set aside because its body model is not at hand.
+/// The warning that betas are ignored because their body model is not available.
 std::string foreign_betas_warning(const std::string& body_model);
 
 }  // namespace mimicx::motion

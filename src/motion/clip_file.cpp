@@ -13,7 +13,7 @@ namespace {
 constexpr int kPoseColumns = 3 * kBodies;  ///< root and 21 joints
 constexpr double kMaxFps = 2000.0;
 
-/// A member as doubles, with what is needed to complain about it.
+/// A member as doubles, with its place for error messages.
 struct Member {
   const Npz& npz;
   std::string key;
@@ -88,8 +88,8 @@ NpyArray columns_from(const NpyArray& array, std::size_t first) {
   return out;
 }
 
-/// Hands, jaw and eyes, where `poses` has them: they come back in the columns they were in, also where the
-/// file has them as named arrays, too. The order of these columns is nobody's business here.
+/// Keeps columns of `poses` for hands, jaw and eyes. They are written to the same columns again, even if the
+/// file also has them as named arrays. Their order does not matter here.
 void keep_other_columns(const Npz& npz, std::size_t frames, Clip& clip) {
   if (!npz.has("poses")) return;
   const NpyArray& poses = npz.at("poses");
@@ -98,7 +98,7 @@ void keep_other_columns(const Npz& npz, std::size_t frames, Clip& clip) {
     clip.passthrough.emplace_back("poses_rest", columns_from(poses, kPoseColumns));
 }
 
-/// Fills the rotations; returns the body model the layout stands for.
+/// Fills the rotations; returns the body model of the layout.
 std::string read_rotations(const Npz& npz, Clip& clip) {
   const auto vector_at = [](const std::vector<double>& v, std::size_t at) {
     return Vector3d(v[at], v[at + 1], v[at + 2]);
@@ -130,7 +130,7 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
   return columns == 72 ? "smpl" : columns == 156 ? "smplh" : "smplx";
 }
 
-/// "smplx_locked_head" and the like are the model they vary.
+/// Variants such as "smplx_locked_head" count as their base model.
 std::string read_body_model(const Npz& npz, const std::string& from_layout) {
   for (const char* key : {"body_model", "surface_model_type"}) {
     if (!npz.has(key)) continue;
@@ -195,8 +195,8 @@ void check_joint_names(const Npz& npz) {
 const std::vector<std::string> kKeypointMembers = {"keypoints_2d", "keypoint_names", "camera_intrinsics",
                                                    "camera_extrinsics"};
 
-/// The file's names. Where there are none, the number of keypoints decides: 22 are the body's joints, 17
-/// COCO's points. Names that are there but cannot be read (pickled ones) are an error.
+/// The file's names, or without any the names of the set with this number of keypoints. Unreadable names
+/// (pickled ones) are an error.
 std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& points, Clip& clip) {
   const auto& unread = npz.unsupported();
   const bool unreadable = std::any_of(unread.begin(), unread.end(),
@@ -208,7 +208,7 @@ std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& point
   if (!set)
     throw DataError(
         npz.path, "keypoint_names",
-        "the keypoints' names (22 may go without: the body's joints; 17: COCO's; 133: COCO-WholeBody's)",
+        "the keypoints' names (optional for 22: the body's joints; 17: COCO; 133: COCO-WholeBody)",
         "none for " + std::to_string(count) + " keypoints");
   const char* taken_for = *set == KeypointSet::kJoints22 ? "the 22 joints"
                           : *set == KeypointSet::kCoco17 ? "those of COCO"
@@ -218,7 +218,7 @@ std::vector<std::string> read_keypoint_names(const Npz& npz, const Member& point
   return keypoint_names(*set);
 }
 
-/// Where most keypoints are of the face and of fingers, that they weigh nothing.
+/// Adds a decision where most keypoints belong to face and fingers, which are not used.
 void say_what_is_left_aside(const std::vector<std::string>& names, Clip& clip) {
   const auto used = std::count_if(names.begin(), names.end(), [](const std::string& name) {
     return place_of_keypoint(name).has_value();
@@ -271,14 +271,14 @@ void add_keypoints(Npz& npz, const Keypoints& k) {
                                                      values.data()));
 }
 
-/// A member that passed through, or nullptr.
+/// A passed-through member, or nullptr.
 const NpyArray* passed_on(const Clip& clip, const std::string& key) {
   for (const auto& [name, array] : clip.passthrough)
     if (name == key) return &array;
   return nullptr;
 }
 
-/// Columns of two matrices side by side, float64; the first alone where the rows differ.
+/// The columns of two matrices side by side, float64; only the first matrix where their rows differ.
 NpyArray beside(const NpyArray& left, const NpyArray& right) {
   if (right.shape.size() != 2 || right.shape[0] != left.shape[0]) return left;
   Eigen::MatrixXd both(to_matrix(left).rows(), to_matrix(left).cols() + to_matrix(right).cols());
@@ -286,8 +286,8 @@ NpyArray beside(const NpyArray& left, const NpyArray& right) {
   return from_matrix(both);
 }
 
-/// What stands behind the body in `poses`: the input's own columns; where it has named arrays of SMPL-X
-/// alone, these in the model's order: jaw, eyes (at rest where there are none), hands.
+/// The columns of `poses` after those of the body: the input's own columns, or for a file with named arrays
+/// of SMPL-X these in the model's order: jaw, eyes (0 where missing), hands.
 NpyArray other_columns(const Clip& clip) {
   if (const NpyArray* rest = passed_on(clip, "poses_rest")) return *rest;
   constexpr std::pair<const char*, std::size_t> kParts[] = {

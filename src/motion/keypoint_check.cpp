@@ -12,9 +12,9 @@ namespace mimicx::motion {
 namespace {
 
 constexpr double kFarthest = 1e5;     ///< px from the corner of the picture
-constexpr double kNormalised = 2.5;   ///< px: a person is larger, in every picture
-constexpr double kPixelFocal = 10.0;  ///< px: focal lengths over it are in pixels
-constexpr double kPercent = 1.5;      ///< confidences over it are not of 0 to 1
+constexpr double kNormalised = 2.5;   ///< px; every person is larger
+constexpr double kPixelFocal = 10.0;  ///< focal lengths above this are in pixels
+constexpr double kPercent = 1.5;      ///< confidences above this are in percent
 constexpr double kNoRotation = 0.01;  ///< largest deviation of RᵀR and of the scale
 
 std::string number(double value) {
@@ -83,8 +83,7 @@ void tell_none(Keypoints& k, std::vector<std::string>& decisions) {
   bool any = false;
   for_each_detection(k, [&](const Vector3d&) { any = true; });
   if (!any)
-    decisions.emplace_back(
-        "keypoints: none is detected, no confidence is over 0: there is nothing to fit to");
+    decisions.emplace_back("keypoints: none is detected (no confidence is over 0), so they cannot be fitted");
 }
 
 void check_intrinsics(const std::string& path, const Keypoints& k) {

@@ -1,5 +1,5 @@
-/// Keypoints and cameras looked at like motions: what cannot be pixels, confidences or a camera is refused in
-/// one line that says what was expected; what is clear is put right, and said.
+/// Checks keypoints and cameras of a file. Values that cannot be pixels, confidences or a camera are errors.
+/// Mistakes with an obvious meaning, such as confidences in percent, are corrected and reported.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace mimicx::motion {
 
-/// Confidences of 0 to 100 are divided by 100, those little over 1 are 1; single points that are far out of
-/// every picture count as not detected.
-/// @param decisions  gets a line for everything that was put right
-/// @throws DataError for names that are given twice, coordinates that are no pixels, focal lengths that are
-/// not positive, and extrinsics that are no rotation and translation
+/// Divides confidences of 0 to 100 by 100, lowers confidences slightly above 1 to 1, and marks single points
+/// far outside of any picture as not detected.
+/// @param decisions  gets a line for every correction
+/// @throws DataError for repeated names, coordinates that are not pixels, focal lengths that are not
+/// positive, and extrinsics that are not a rotation and a translation
 void check_keypoints(const std::string& path, Keypoints& keypoints, std::vector<std::string>& decisions);
 
 }  // namespace mimicx::motion

@@ -1,5 +1,4 @@
-/// The sets of 2D keypoints that the program knows, what their points are called, and where on the body they
-/// are.
+/// The known sets of 2D keypoints: the names of their points and their positions on the body.
 #pragma once
 
 #include <optional>
@@ -17,22 +16,22 @@ enum class KeypointSet { kJoints22, kCoco17, kCoco133 };
 /// Names of a set in file order. Points that are joints of ours have the joints' names.
 std::vector<std::string> keypoint_names(KeypointSet set);
 
-/// The set of so many points. Empty: there is none.
+/// The set with this number of points; empty where there is none.
 std::optional<KeypointSet> keypoint_set_of(std::size_t points);
 
-/// The name with left and right exchanged; the name itself where it has no side.
+/// The name with left and right exchanged; a name without a side is returned unchanged.
 std::string mirrored_name(const std::string& name);
 
-/// Where on the body a keypoint is.
+/// The position of a keypoint on the body.
 struct KeypointPlace {
   int body = 0;
-  int first = 0, last = -1;  ///< it is above the middle of these points of the soles; none: at the joint
-  double above = 0.0;        ///< m, in the body's frame
+  int first = 0, last = -1;  ///< sole points whose mean it lies above; none: it lies at the joint
+  double above = 0.0;        ///< height above that mean, in the body's frame, m
 };
-/// Joints, heels, big and small toes. Empty for other names (face, fingers, strangers).
+/// For joints, heels, big and small toes; empty for other names (face, fingers, unknown points).
 std::optional<KeypointPlace> place_of_keypoint(const std::string& name);
 
-/// In the frame of its body, m.
+/// The keypoint's position in the frame of its body, m.
 Vector3d place_on(const Character& character, const KeypointPlace& place);
 
 }  // namespace mimicx::motion

@@ -13,7 +13,7 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kStaticMotion = 0.010;  ///< m/frame; a foot point of the truth under it stands
+constexpr double kStaticMotion = 0.010;  ///< m/frame; a slower foot point of the truth stands
 constexpr double kMaxMpjpe = 60.0;       ///< mm
 
 using Joints = PerBody<Vector3d>;
@@ -231,7 +231,7 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
                " m from its reference at frame " + std::to_string(worst_frame) + " (limit 0.5 m)";
   else if (!(s.mpjpe_mm <= kMaxMpjpe))
     s.reason = "the joints are " + rounded(s.mpjpe_mm, 1) +
-               " mm from the reference's in the mean (MPJPE, limit 60 mm)";
+               " mm from the reference's on average (MPJPE, limit 60 mm)";
   s.success = s.reason.empty();
   return s;
 }

@@ -1,9 +1,8 @@
-/// How close a motion is to the truth and how physical it is by itself.                docs/metrics.md
+/// Metrics of a motion: its distance from the truth, and its physical plausibility.       docs/metrics.md
 ///
-/// Positions go in in metres, at the frame rate given; values come out in the unit of `metric_definitions`
-/// (mm, mm/frame, …). Every value is a mean and says of how many samples; it is NaN where there is none
-/// (no truth, too few frames). The floor is z = 0. Truth and motion are compared frame by frame: nothing is
-/// resampled or shifted in time here.
+/// Input positions are in metres; results are in the units of `metric_definitions` (mm, mm/frame, …). Every
+/// result is a mean with its number of samples; it is NaN without samples (no truth, too few frames). The
+/// floor is z = 0. Truth and motion are compared frame by frame, without resampling or shift in time.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +14,17 @@
 
 namespace mimicx::motion {
 
-/// A body that is ever farther than this from its reference is no success, m.
+/// Success requires that no body is ever farther than this from its reference, m.
 inline constexpr double kMaxBodyDistance = 0.5;
 
-/// A point at this height or under it touches the floor, m.
+/// A point at or below this height touches the floor, m.
 inline constexpr double kContactHeight = 0.005;
 
-/// What the metrics look at; one entry per frame.
+/// The input of the metrics; one entry per frame.
 struct MotionSamples {
   PerFrame<PerBody<Vector3d>> joints;       ///< world positions, m
   PerFrame<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
-  std::vector<double> self_depth;           ///< mean depth of the overlapping self pairs, m; 0 without any
+  std::vector<double> self_depth;  ///< mean overlap of the body's own capsule pairs, m; 0 without any
   double fps = 30.0;
 
   int frames() const { return joints.count(); }
@@ -41,7 +40,7 @@ struct MetricValue {
 struct Metrics {
   MetricValue mrpe, gmpjpe, mpjpe, pa_mpjpe, vel, accel;         // against the truth
   MetricValue fs, fs_0, gp, gp_max, floating, jitter, self_pen;  // of the motion alone
-  MetricValue fs_gt, float_gt;                                   // of the motion, where the truth has contact
+  MetricValue fs_gt, float_gt;                                   // of the motion where the truth has contact
 };
 
 struct MetricDefinition {
@@ -50,10 +49,10 @@ struct MetricDefinition {
   const char* definition;
   MetricValue Metrics::*value;
 };
-/// All metrics in the order of the tables, with the definition to print beside the numbers.
+/// All metrics in the order of the tables, with the definition that is printed beside the numbers.
 const std::vector<MetricDefinition>& metric_definitions();
 
-/// @param truth  null where there is none: the metrics that need it are NaN
+/// @param truth  may be null: the metrics that need it are NaN then
 /// @throws std::invalid_argument when truth and motion differ in length, frame rate or number of points
 Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth);
 
@@ -61,11 +60,11 @@ Metrics evaluate_motion(const MotionSamples& motion, const MotionSamples* truth)
 /// prepared reference, and MPJPE to it is at most 60 mm.
 struct Success {
   bool success = false;
-  std::string reason;         ///< why not; empty for a success
-  double max_distance_m = 0;  ///< farthest any body ever was from its reference
+  std::string reason;         ///< of a failure; empty for a success
+  double max_distance_m = 0;  ///< largest distance of any body from its reference in any frame
   double mpjpe_mm = 0;
 };
-/// @param simulated  may be shorter than the reference (a fall): then it is no success
+/// @param simulated  a motion shorter than the reference (a fall) is no success
 Success judge_success(const MotionSamples& simulated, const MotionSamples& reference);
 
 }  // namespace mimicx::motion

@@ -23,7 +23,7 @@ RowsBetween locate_rows(double at, std::size_t rows) {
   return {row, std::min(row + 1, rows - 1), std::clamp(at - static_cast<double>(row), 0.0, 1.0)};
 }
 
-/// The rows that `source` names, element by element as they were.
+/// The rows with the indices of `source`, unchanged.
 NpyArray picked(const NpyArray& array, std::size_t count,
                 const std::function<std::size_t(std::size_t)>& source) {
   NpyArray out;
@@ -47,7 +47,7 @@ bool has_fractions(const NpyArray& array) {
   return array.type == Type::kFloat32 || array.type == Type::kFloat64;
 }
 
-/// Numbers back in the type that they were read in.
+/// Numbers in the type in which they were read.
 NpyArray of_type(Type type, std::vector<std::size_t> shape, const Rows& values) {
   if (type == Type::kFloat64) return NpyArray::from_double(std::move(shape), values.data());
   const std::vector<float> narrow(values.data(), values.data() + values.size());
@@ -91,7 +91,7 @@ Passthrough frames_from(const Passthrough& members, std::size_t frames, std::siz
 
 bool is_per_frame(const std::string& name, const NpyArray& array, std::size_t frames) {
   const bool rows = frames > 0 && !array.shape.empty() && array.shape[0] == frames;
-  return rows && name != "betas_rest";  // a row of a shape, however long
+  return rows && name != "betas_rest";  // one shape, not a row per frame
 }
 
 Passthrough resampled_members(const Passthrough& members, std::size_t frames, std::size_t count,

@@ -1,8 +1,8 @@
-/// Members of a file that the program does not use, such as hands, face and soft tissue: what becomes of them
-/// when the frames change.
+/// Members of a file that the program does not use, such as hands, face and soft tissue, after a change of
+/// the frames.
 ///
-/// A member whose first dimension is the number of frames belongs to the frames and follows them; every other
-/// one belongs to the file and stays as it is.
+/// A member whose first dimension is the number of frames is resampled or cut with the frames; every other
+/// member stays unchanged.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ using Passthrough = std::vector<std::pair<std::string, NpyArray>>;
 bool is_per_frame(const std::string& name, const NpyArray& array, std::size_t frames);
 
 /// Members at another frame rate: row k of the result is row k · ratio of the input. Rotations ("pose" in the
-/// name, triples of axis-angle) by slerp, other fractions linearly; whole numbers and texts are those of the
-/// nearer frame. @param frames  of the input @param count  of the result
+/// name, triples of axis-angle) are interpolated by slerp, other floating-point numbers linearly; integers
+/// and texts are taken from the nearer frame. @param frames  of the input @param count  frames of the result
 Passthrough resampled_members(const Passthrough& members, std::size_t frames, std::size_t count,
                               double ratio);
 

@@ -1,4 +1,4 @@
-/// The similarity transform that brings points closest to others.
+/// Procrustes alignment: the similarity transform that brings one set of points closest to another.
 ///
 /// S. Umeyama, "Least-squares estimation of transformation parameters between two point patterns", IEEE PAMI
 /// 13 (1991): rotation from the singular vectors of the cross-covariance, reflections excluded.
@@ -18,8 +18,9 @@ struct Similarity {
   Points of(const Points& p) const { return ((scale * R) * p).colwise() + offset; }
 };
 
-/// @param p, g      as many points, at least one
-/// @param rigid     the scale stays 1
+/// The transform of p that is nearest to g in the least-squares sense.
+/// @param p, g   equally many points, at least one
+/// @param rigid  keep the scale at 1
 Similarity nearest_similarity(const Points& p, const Points& g, bool rigid = false);
 
 }  // namespace mimicx::motion

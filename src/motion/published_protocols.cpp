@@ -23,14 +23,14 @@ MetricValue mean_of(double sum, std::size_t count, double factor) {
   return {factor * sum / static_cast<double>(count), count};
 }
 
-/// Of all joints but the toes.
+/// Mean distance of all joints except the toes.
 double mean_distance(const PerBody<Vector3d>& p, const PerBody<Vector3d>& g) {
   double sum = 0.0;
   for (int j = 0; j < kBodies; ++j) sum += j == kLeftFoot || j == kRightFoot ? 0.0 : (p[j] - g[j]).norm();
   return sum / (kBodies - 2);
 }
 
-/// 100 or 0 %.
+/// Success in percent: 100 or 0.
 MetricValue success(const JointPaths& p, const JointPaths& g) {
   bool near = true;
   for (int t = kFirstJudged; t < p.count(); ++t) near = near && mean_distance(p[t], g[t]) <= kMaxMeanDistance;
@@ -47,7 +47,8 @@ MetricValue penetration(const PerFrame<std::vector<Vector3d>>& surface) {
   return mean_of(sum, surface.size(), kMm);
 }
 
-/// Horizontal way of the points of the feet that touch in two frames in a row; 0 for a pair without any.
+/// Horizontal path of the foot points that touch the floor in two successive frames; 0 for a pair without
+/// any.
 MetricValue skate(const PerFrame<std::vector<Vector3d>>& surface) {
   double sum = 0.0;
   for (int t = 0; t + 1 < surface.count(); ++t) {
@@ -83,7 +84,8 @@ MetricValue segment_error(const JointPaths& p, const JointPaths& g, int aligned)
   return mean_of(sum, kBodies * p.size(), kMm);
 }
 
-/// Distance of the pelvis after the rigid transform that fits the whole way, in parts of the truth's way, %.
+/// Distance of the pelvis after the rigid transform that fits the whole path, in % of the length of the
+/// truth's path.
 MetricValue root_error(const JointPaths& p, const JointPaths& g) {
   Points way(3, p.count()), true_way(3, p.count());
   double length = 0.0;

@@ -1,4 +1,4 @@
-/// Published evaluation protocols, so that a table can stand beside those of the papers.     docs/metrics.md
+/// Published evaluation protocols, for tables that can be compared with the papers'.         docs/metrics.md
 ///
 ///  - phc   physics-based imitation: Z. Luo et al., "Perpetual Humanoid Control for Real-time Simulated
 ///          Avatars" (ICCV 2023), evaluation of its repository and of SMPLSim
@@ -7,11 +7,11 @@
 ///  - emdb  recovery in the world: the second split of EMDB (M. Kaufmann et al., ICCV 2023) as the
 ///          evaluations of WHAM (S. Shin et al., CVPR 2024) and GVHMR (Z. Shen et al., 2024) have it
 ///
-/// A value is a mean of samples, and a table's mean pools the samples of all motions: long motions count
-/// more, as they do in those evaluations. All three are defined at 30 frames per second.
+/// A value is the mean of its samples. The mean of a table pools the samples of all motions, so that long
+/// motions count more, as in those evaluations. All three protocols are defined at 30 frames per second.
 ///
-/// What differs from the published ones, and cannot be otherwise here: 22 joints instead of SMPL's 24 (no
-/// hands), surface points of our shapes instead of the vertices of a mesh.
+/// Differences from the published evaluations: 22 joints instead of SMPL's 24 (no hands), surface points of
+/// our collision shapes instead of mesh vertices.
 #pragma once
 
 #include <string>
@@ -29,15 +29,15 @@ struct ProtocolColumn {
   const char* name;
   const char* unit;
   const char* definition;
-  const char* source;  ///< whose code or paper has it
+  const char* source;  ///< code or paper that defines it
 };
 
 /// "phc", "pmr", "emdb".
 const std::vector<std::string>& protocol_names();
-/// In the order of a table.
+/// The columns in the order of the table.
 const std::vector<ProtocolColumn>& protocol_columns(Protocol protocol);
 
-/// A value per column; NaN with a count of 0 where a motion has none.
+/// A value per column; NaN with a count of 0 where it is undefined.
 /// @throws std::invalid_argument when truth and motion differ in length, are not at 30 fps or lack feet
 std::vector<MetricValue> evaluate_by(Protocol protocol, const MotionSamples& motion,
                                      const MotionSamples& truth);

@@ -1,5 +1,5 @@
-/// The motion a simulated character is asked to follow, in the simulator's coordinates. prepare.h makes it of
-/// a clip.
+/// The motion that a simulated character follows, in the simulator's coordinates. prepare.h makes it of a
+/// clip.
 ///
 /// Generalised coordinates and velocities are those of physics/model.h: joint rotations relative to the
 /// parent, joint angular velocities in the child's frame, root position and linear velocity of the pelvis
@@ -26,14 +26,14 @@ struct Reference {
   Character character;
   PerFrame<ReferenceFrame> frames;
   PerFrame<BodyPoses> poses;           ///< forward kinematics of every frame
-  PerFrame<bool> flagged;              ///< frames whose input was implausible and has been bridged
+  PerFrame<bool> flagged;              ///< frames that were implausible and are interpolated
   std::optional<Keypoints> keypoints;  ///< at the reference's frames
 
   int size() const { return frames.count(); }
 };
 
 /// Fills in the velocities of `frames` by central differences on the rotation group, one-sided at both ends;
-/// p_root and q must be set. One frame alone keeps the velocities it has.
+/// p_root and q must be set. A single frame keeps its velocities.
 void differentiate(PerFrame<ReferenceFrame>& frames, double fps);
 
 }  // namespace mimicx::motion

@@ -45,7 +45,7 @@ Clip resampled(const Clip& clip, double fps) {
   const int frames = clip.frames();
   const auto q = joint_rotations(clip);
   const double ratio = clip.fps / fps;
-  // The last frame counts as reached when rounding alone keeps it away.
+  // The last frame is included if only rounding separates it from the end.
   const auto count = static_cast<std::size_t>((frames - 1) / ratio + 1e-9) + 1;
   if (count > std::max(kMostFrames, clip.rotations.size()))
     throw DataError(clip.name, "", "at most " + std::to_string(kMostFrames) + " frames at the new frame rate",

@@ -1,10 +1,10 @@
-/// Body-fixed sample points on the surface of a character, for everything that asks how high a motion stands
-/// over the floor.                                                                docs/metrics.md
+/// Sample points on the surface of a character, to measure its height over the floor.      docs/metrics.md
 ///
-/// There is no mesh: the points lie on the collision shapes. They are fixed to their bodies, because the
-/// moving "lowest point of a capsule" would read rolling as sliding. Heel, ball and toe of each foot come
-/// first (`sole_point` of the first kFootPoints contact points), then rings and tips on the capsules of every
-/// other body. Between the points of a cap a rounded shape may reach lower by up to 12 % of its radius.
+/// The points lie on the collision shapes; there is no mesh. They are fixed to their bodies, because the
+/// lowest point of a capsule moves on it, and rolling would look like sliding. Heel, ball and toe of each
+/// foot come first (`sole_point` of the first kFootPoints contact points), then rings and tips on the
+/// capsules of every other body. Between its points a rounded cap may reach lower by up to 12 % of its
+/// radius.
 #pragma once
 
 #include <vector>
@@ -23,9 +23,9 @@ std::vector<SurfacePoint> surface_points(const Character& character);
 /// World positions, in the order of the points, m.
 std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
 
-/// Height of the lowest of some points over the floor z = 0, m; +∞ of none.
+/// Height of the lowest of the points over the floor z = 0, m; +∞ without points.
 double lowest_height(const std::vector<Vector3d>& points);
-/// The same of a character's surface.
+/// The same for the surface points of a posed character.
 double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
 
 }  // namespace mimicx::motion

@@ -5,7 +5,7 @@
 
 namespace mimicx::test {
 
-/// poses[t][c] = 100 t + c / 1000, so that every element says where it came from.
+/// poses[t][c] = 100 t + c / 1000, so that every element shows its origin.
 inline NpyArray counted(std::size_t rows, std::size_t columns, double offset = 0.0) {
   std::vector<double> values;
   for (std::size_t t = 0; t < rows; ++t)

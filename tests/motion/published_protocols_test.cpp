@@ -125,8 +125,8 @@ TEST(Protocol, SuccessEndsWhereTheMeanDistanceExceedsHalfAMetre) {
   EXPECT_EQ(phc("Succ", off(0.501), truth), 0.0);
 }
 
-/// The mean is over the pelvis and 19 joints: toes have no say, and the frame that the motion starts from and
-/// the first that is simulated are not judged.
+/// The mean is over the pelvis and 19 joints: toes do not count, nor do the initial frame and the
+/// first simulated one.
 TEST(Protocol, SuccessExcludesToesAndTheFirstTwoFrames) {
   const MotionSamples truth = walking(30, 1.0);
   const auto with = [&](int t, int body, double metres) {

@@ -1,36 +1,34 @@
 /// Feet: the step of preparation (prepare.h) that levels soles and bends toes.
 ///
-/// Estimators and converted skeletons often carry a constant error in the pitch of the feet: a person who
-/// stands flat comes out on tip-toe or on the heels, and a simulated character that is asked to stand there
-/// has its support in the wrong place. While a foot stands, its sole is level; so the median direction of
-/// "up" in the foot's own frame over its standing frames gives the constant error, and one constant rotation
-/// removes it.
+/// Estimated and converted motions often have a constant error in the pitch of the feet: a person who stands
+/// flat stands on the toes or the heels. A simulated character would have its support in the wrong place.
+/// The sole of a standing foot is level. Therefore the median direction of "up" in the foot's frame over its
+/// standing frames shows the constant error, and one constant rotation removes it.
 ///
-/// What it does not do: it never changes how a foot moves relative to that constant, so a heel strike or a
-/// push-off stays one, and it leaves feet alone that hardly ever stand or that tilt beyond what an error can
-/// be.
+/// What it does not do: it keeps the foot's motion relative to that constant, so heel strikes and push-offs
+/// remain. It does not change feet that hardly ever stand or whose tilt is too large for an error.
 #pragma once
 
 #include "motion/reference.h"
 
 namespace mimicx::motion {
 
-/// Frames in which a foot stands: ankle and ball slower than 0.4 m/s and the ankle within 6 cm of where it is
-/// lowest (10th percentile). @param ankle  kLeftAnkle or kRightAnkle
+/// Frames in which a foot stands: ankle and ball are slower than 0.4 m/s, and the ankle is within 6 cm of its
+/// lowest height (10th percentile). @param ankle  kLeftAnkle or kRightAnkle
 PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps);
 
-/// Levels both soles and both toes by constant rotations of at most 30°; `poses` must be those of `frames`
-/// and are stale afterwards. Feet with fewer than 10 standing frames, or less than 10° off,
-/// stay as they are: a policy corrects small errors itself, and the feet of such clips drift about as much.
+/// Levels both soles and both toes by constant rotations of at most 30°. `poses` must be those of `frames`
+/// and are not updated. Feet with fewer than 10 standing frames or an error under 10° stay unchanged: a
+/// policy corrects small errors, and the feet of such clips drift by about as much.
 /// @return largest rotation applied, degrees
 double level_feet(Reference& reference);
 
-/// Height of the lowest surface point per frame, m, without the toes of feet that do not stand: converted
-/// motions seldom bend their toes, and stiff toes that dip at push-off say nothing about the floor.
+/// Height of the lowest surface point per frame, m. The toes of feet that do not stand are left out:
+/// converted motions seldom bend their toes, and stiff toes that dip at push-off do not show the floor.
 PerFrame<double> support_heights(const Reference& reference);
 
 /// Extends toes that reach below the floor (z = 0) until they lie on it, by at most 60°. `poses` must be
-/// those of `frames` and are stale afterwards.
+/// those of `frames` and are not updated.
 void bend_toes(Reference& reference);
 
 }  // namespace mimicx::motion

@@ -9,7 +9,7 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis: such a joint stays as it is
+constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis; joints below it do not change
 constexpr double kStraightWeight = 0.06;           ///< pull to SMPL's own swivel, in units of sin²α
 constexpr double kStraightFrom = 15.0 * kDegree;   ///< the pull fades out …
 constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and is gone: above, the conversion is exact

@@ -9,11 +9,11 @@
 
 namespace mimicx::motion {
 
-/// SMPL rotations → joint rotations whose knees and elbows turn about `hinge_axis` alone. The hinge's angle
-/// and the rotation of the joint above it are solved again so that both bones point where they did; the body
-/// below the hinge keeps its orientation in the world. Ankles and wrists stay in place for every limb the
-/// hinge can reach. A limb that is bent by less than 30° keeps its continuity instead: its knee or elbow
-/// moves by millimetres. A joint that is a hinge already stays as it is.
+/// SMPL rotations → joint rotations whose knees and elbows turn about `hinge_axis` only. The hinge's angle
+/// and the rotation of the joint above it are solved again so that both bones keep their directions; the body
+/// below the hinge keeps its orientation in the world. Ankles and wrists keep their positions where the hinge
+/// can reach them. A limb bent by less than 30° stays continuous instead: its knee or elbow moves by
+/// millimetres. A joint that is already a hinge stays unchanged.
 /// @param smpl  [frames][22] joint rotations relative to the parent; entry 0: root in world
 PerFrame<PerBody<Quaterniond>> to_hinges(const Character& character,
                                          const PerFrame<PerBody<Quaterniond>>& smpl);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kMaxAcceleration = 200.0;  ///< m/s²
 constexpr double kLongest = 1.0 / 6.0;      ///< s
-constexpr double kOverBridged = 3.0;        ///< what the bridge must win
+constexpr double kOverBridged = 3.0;        ///< smallest ratio of accelerations without and with the bridge
 
 /// m/s².
 double largest_acceleration(const PerFrame<BodyPoses>& poses, int limb, int first, int last, double fps) {
@@ -53,7 +53,7 @@ List<LimbGlitch> find_limb_glitches(const Clip& clip) {
     PerFrame<bool> jumps(clip.rotations.size(), false);
     for (int t = 1; t + 1 < clip.frames(); ++t)
       jumps[t] = clip.fps * clip.fps * limb_acceleration(poses, limb, t) > kMaxAcceleration;
-    // A glitch of frames first … last has jumps at first − 1 and last + 1 at the outside.
+    // A glitch of frames first … last has its jumps at first − 1 and last + 1 at the latest.
     for (int before = 1; before + 1 < clip.frames(); ++before) {
       if (!jumps[before]) continue;
       for (int after = std::min(before + longest + 1, clip.frames() - 2); after >= before + 2; --after) {

@@ -70,9 +70,8 @@ void forward(Reference& reference) {
 }
 
 /// Puts the reference on the floor and reports by how much it moved.
-/// @param bend   the feet were levelled: their stiff toes may be bent, and they do not count in frames in
-///               which the foot does not stand
-/// @param known  the floor is known to be z = 0: the motion as a whole stays where it is
+/// @param bend   the feet were levelled: toes are bent, and toes of feet that do not stand are ignored first
+/// @param known  the floor is known to be z = 0: no constant shift
 void align_with_floor(bool bend, bool known, Reference& reference, PreparationReport& report) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
   PerFrame<double> moved(reference.frames.size(), 0.0);

@@ -1,4 +1,4 @@
-/// Preparation: from a clip to the reference that a simulated character is asked to follow.
+/// Preparation: makes the reference that a simulated character follows of a clip.
 ///                                                                                docs/method.md §2, §9
 ///
 /// What it does not do: no fit to keypoints (fit/keypoint_fit.h), no smoothing, no model of stairs or slopes.
@@ -11,20 +11,17 @@
 
 namespace mimicx::motion {
 
-/// What preparation did to a clip; every figure goes into the manifest.
+/// The changes that preparation made to a clip; every number is written into the manifest.
 struct PreparationReport {
-  double floor_shift_mm = 0;      ///< static height added to put the motion on the floor
-  double max_floor_shift_mm = 0;  ///< largest per-frame height change, static part included
+  double floor_shift_mm = 0;      ///< constant height added to put the motion on the floor
+  double max_floor_shift_mm = 0;  ///< largest change of height of a frame, constant part included
   double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< docs/method.md §2
-  /// Distance of joint positions from the input's, both on the body of the clip.
+  /// Distance of the joint positions from those of the input, on the body of the clip.
   double change_mean_mm = 0, change_max_mm = 0;
-  double arms_moved_mm =
-      0;  ///< largest distance of a joint by separate_arms (motion/prepare/arm_separation.h)
-  double foot_level_deg =
-      0;                   ///< largest constant rotation that levelled a sole or toes (motion/prepare/feet.h)
-  int flagged_frames = 0;  ///< frames of glitches (motion/prepare/glitches.h)
-  int limb_frames =
-      0;  ///< frames of single limbs' glitches (motion/prepare/limb_glitches.h), all limbs together
+  double arms_moved_mm = 0;   ///< largest distance by which separate_arms moved a joint
+  double foot_level_deg = 0;  ///< largest constant rotation by which level_feet turned a sole or toes
+  int flagged_frames = 0;     ///< frames of glitches (glitches.h)
+  int limb_frames = 0;        ///< frames of glitches of single limbs (limb_glitches.h), summed over the limbs
   std::vector<std::string> notes;
 };
 

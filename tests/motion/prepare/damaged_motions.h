@@ -17,7 +17,7 @@ inline PerFrame<double> jump_heights(int frames, double take_off_speed) {
   return z;
 }
 
-/// A pose thrown in for the frames [from, to).
+/// The clip with another pose in the frames [from, to).
 inline motion::Clip with_glitch(motion::Clip clip, std::size_t from, std::size_t to, double size) {
   for (std::size_t t = from; t < to; ++t) clip.rotations[t][kLeftShoulder] += Vector3d(0, size, 0);
   return clip;

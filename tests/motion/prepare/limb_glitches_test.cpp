@@ -14,7 +14,7 @@ using test::kPi;
 
 Clip synthetic(const std::string& kind) { return test::synthetic_clip(kind, 501); }
 
-/// The right leg is taken for another one in the frames first … last: its hip is turned by 0.6 rad.
+/// The right leg is displaced in the frames first … last: its hip is turned by 0.6 rad.
 Clip with_swapped_leg(Clip clip, int first, int last) {
   for (int t = first; t <= last; ++t) clip.rotations[t][kRightHip] += Vector3d(0.6, 0.2, 0.3);
   return clip;
