@@ -10,7 +10,7 @@ using Eigen::MatrixXd;
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  ///< of the members read: SMPL-X needs 105 MB
 
-/// A numeric member with the expected shape; 0 stands for any size.
+/// A numeric member with the expected shape; 0 accepts any size.
 MatrixXd matrix_of(const Npz& npz, const std::string& key, const std::vector<std::size_t>& least) {
   const NpyArray& array = npz.at(key);
   bool fits = array.type != NpyArray::Type::kText && array.shape.size() == least.size();

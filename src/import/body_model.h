@@ -3,7 +3,7 @@
 ///     J(β) = J_regressor · (v_template + shapedirs[:, :, :10] · β)
 ///
 /// Layout: v_template (V, 3), shapedirs (V, 3, n ≥ 10), J_regressor (≥ 22, V), kintree_table (2, ≥ 22) with
-/// the parents in row 0. Only these members are read, and of them only what the sum needs is kept.
+/// the parents in row 0. Only these members are read.
 ///
 /// What it does not do: no mesh, no pose-dependent shape, no pickles (SMPL's .pkl files).
 #pragma once
@@ -18,7 +18,7 @@ namespace mimicx::import {
 /// Rest joints of the first 22 bodies, affine in β.
 struct BodyModel {
   RestJoints mean;                    ///< β = 0, m
-  Array<RestJoints, kBetas> by_beta;  ///< what each β adds
+  Array<RestJoints, kBetas> by_beta;  ///< derivative by each β, m
 
   RestJoints joints(const std::array<double, kBetas>& betas) const;
 };

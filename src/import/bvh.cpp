@@ -68,7 +68,7 @@ void read_channels(TextInput& in, Hierarchy& out) {
   }
 }
 
-/// From ROOT to its closing brace, without recursion: files may nest deeper than a stack.
+/// Reads from ROOT to its closing brace. It does not recurse, because deep files could overflow the stack.
 Hierarchy read_hierarchy(TextInput& in) {
   Hierarchy out;
   std::vector<std::size_t> open;  ///< joints whose closing brace is still to come
@@ -163,7 +163,7 @@ SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& pat
   in.expect("Frames:");
   const std::size_t frames = in.integer("the number of frames", 1, kMaxJointFrames / hierarchy.joints.size());
   motion.fps = read_fps(in, motion);
-  // A claim is not believed before memory is: every number takes two bytes at least.
+  // Check the declared size before allocating: every number takes at least two bytes.
   if (frames > (in.bytes_left() + 1) / (2 * hierarchy.channels.size()))
     in.fail_with(
         std::to_string(frames) + " frames of " + std::to_string(hierarchy.channels.size()) + " numbers",
@@ -172,8 +172,8 @@ SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& pat
   motion.rotation.reserve(frames);
   for (std::size_t t = 0; t < frames; ++t) read_frame(in, hierarchy, t, motion);
   if (!in.peek().empty())
-    motion.warnings.push_back("the file says " + std::to_string(frames) +
-                              " frames and goes on after them: the rest is not read");
+    motion.warnings.push_back("the file declares " + std::to_string(frames) +
+                              " frames but has more: the rest is not read");
   return motion;
 }
 

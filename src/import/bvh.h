@@ -1,12 +1,13 @@
 /// BVH, the text format of motion capture: a tree of joints with offsets, then a line of channel values per
 /// frame.
 ///
-/// Source: the files people have; the format has no standard. What is read: any number and order of channels
-/// per joint, rotations (degrees) multiplied in that order; position channels on any joint, which replace its
-/// OFFSET; End Sites; names with spaces; keywords in any case; any line ends, tabs, blank lines. One frame is
-/// one line. Unit and axes are not in the file: retarget.h finds them. bvh_write.h writes such files.
+/// The format has no standard; the reader accepts what common programs write: any number and order of
+/// channels per joint, with rotations (degrees) multiplied in that order; position channels on any joint,
+/// which replace its OFFSET; End Sites; names with spaces; keywords in any case; any line ends, tabs and
+/// blank lines. One frame is one line. Unit and axes are not in the file: retarget.h finds them. bvh_write.h
+/// writes BVH files.
 ///
-/// What it does not do: one skeleton per file, no more than 256 levels and 4096 joints.
+/// Limits: one skeleton per file, 256 levels, 4096 joints.
 #pragma once
 
 #include <filesystem>

@@ -23,8 +23,8 @@ std::string triple(const Vector3d& v) { return number(v.x()) + ' ' + number(v.y(
 /// An angle (degrees) turned by full turns until it is within half a turn of `near`.
 double unwrapped(double angle, double near) { return angle - 360.0 * std::round((angle - near) / 360.0); }
 
-/// R = Rz(a) Ry(b) Rx(c) → (a, b, c) in degrees; of the two solutions, and all full turns, the one nearest to
-/// `near`, so that curves do not jump.
+/// R = Rz(a) Ry(b) Rx(c) → (a, b, c) in degrees. Of both solutions, plus any full turns, it returns the one
+/// nearest to `near`, so that curves do not jump.
 Vector3d zyx_angles(const Matrix3d& R, const Vector3d& near) {
   const double cosine = hypot(R(2, 1), R(2, 2)), b = atan2(-R(2, 0), cosine) / kDegree;
   double a, c;

@@ -12,9 +12,9 @@ namespace mimicx::import {
 namespace {
 
 constexpr double kLargestAngle = 100.0;  ///< rad: sixteen turns of one joint
-constexpr double kUsualAngle = 12.6;     ///< rad: two turns in half of the frames are degrees, not a slip
+constexpr double kUsualAngle = 12.6;     ///< rad; larger angles in half of the frames are degrees
 constexpr double kFastJoint = 12.0;      ///< m/s, as in motion/prepare/glitches.cpp
-constexpr double kOverMotion = 3.0;      ///< so much faster than the motion itself is the way out of a T-pose
+constexpr double kOverMotion = 3.0;      ///< ratio of the transition's speed to the motion's
 constexpr double kLongestWayOut = 0.25;  ///< s, out of a T-pose
 constexpr double kFastBody = 15.0;       ///< m/s of the pelvis
 constexpr double kOverNeighbours = 5.0;  ///< a jump is so much faster than the steps around it
@@ -39,7 +39,7 @@ PerFrame<double> joint_speeds(const PerFrame<BodyPoses>& poses, double fps) {
   return speeds;
 }
 
-/// Everything of a clip but its first frames.
+/// The clip without its first frames.
 void leave_out_first(int count, motion::Clip& clip) {
   const auto cut = [&](auto& rows) { rows.erase(rows.begin(), rows.begin() + count); };
   clip.passthrough = motion::last_frames(clip.passthrough, clip.rotations.size(),
@@ -51,8 +51,8 @@ void leave_out_first(int count, motion::Clip& clip) {
   if (clip.keypoints->extrinsics.size() > 1) cut(clip.keypoints->extrinsics);
 }
 
-/// How many frames a clip starts with that are a T-pose or the way out of it; 0 where there is no T-pose, or
-/// a human's way out. @param fastest  gets the largest speed on the way, m/s
+/// Number of leading frames that are a T-pose or the transition out of it; 0 without a T-pose, or where a
+/// human can make the transition. @param fastest  gets the largest speed of the transition, m/s
 int t_pose_frames(const PerFrame<BodyPoses>& poses, double fps, double& fastest) {
   int first = 0;  // behind the T-pose
   while (first < poses.count() && is_t_pose({poses[first].p_WB, poses[first].q_WB})) ++first;
@@ -68,7 +68,7 @@ int t_pose_frames(const PerFrame<BodyPoses>& poses, double fps, double& fastest)
 
 }  // namespace
 
-void mend_angles(const std::string& path, motion::Clip& clip) {
+void repair_angles(const std::string& path, motion::Clip& clip) {
   std::vector<double> largest;
   PerFrame<int> bad;
   for (int t = 0; t < clip.frames(); ++t) {
@@ -86,10 +86,10 @@ void mend_angles(const std::string& path, motion::Clip& clip) {
         clip.rotations[t][j] = t > 0 ? clip.rotations[t - 1][j] : Vector3d::Zero();
   clip.warnings.push_back(found + " rad in frame " + std::to_string(bad.front()) +
                           (bad.count() > 1 ? ", and in " + std::to_string(bad.count() - 1) + " more" : "") +
-                          ": such joints are held as in the frame before");
+                          ": such joints keep the rotation of the frame before");
 }
 
-void leave_out_t_pose(motion::Clip& clip) {
+void remove_t_pose(motion::Clip& clip) {
   double fastest = 0.0;
   const int count = t_pose_frames(motion::poses_of(clip), clip.fps, fastest);
   if (count == 0 || clip.frames() - count < 2) return;
@@ -97,10 +97,10 @@ void leave_out_t_pose(motion::Clip& clip) {
   clip.decisions.push_back((count == 1 ? "the first frame is a T-pose"
                                        : "the first " + std::to_string(count) + " frames are a T-pose") +
                            std::string(" out of which the body moves at ") + short_number(fastest) +
-                           " m/s: left out of the motion");
+                           " m/s: removed");
 }
 
-void name_jumps(motion::Clip& clip) {
+void warn_of_jumps(motion::Clip& clip) {
   PerFrame<double> steps;  // of the pelvis, m
   for (int t = 1; t < clip.frames(); ++t) steps.push_back((clip.trans[t] - clip.trans[t - 1]).norm());
   std::vector<std::string> said;

@@ -15,7 +15,7 @@ constexpr int kColumns = 44;
 constexpr int kMaxNesting = 64;         ///< of values that are skipped
 constexpr double kMaxFrameValue = 1e4;  ///< m, rad
 
-/// A joint of the humanoid: where it stands in its parent's frame (m) and what a row says of it.
+/// A joint of the humanoid: its position in its parent's frame (m) and its columns in a row.
 struct HumanoidJoint {
   const char* name;
   int parent;
@@ -50,7 +50,7 @@ const std::array<HumanoidJoint, 17>& humanoid() {
 
 using Row = Array<double, kColumns>;
 
-/// Any JSON value, checked and forgotten.
+/// Checks any JSON value and ignores it.
 void skip_value(TextInput& in, int depth) {
   if (depth > kMaxNesting) in.fail_with("at most 64 levels of brackets", "more");
   const std::string_view word = in.word();
@@ -137,7 +137,7 @@ void set_fps(std::vector<double> durations, SkeletonMotion& motion) {
                     std::to_string(duration) + " s");
   const auto [shortest, longest] = std::minmax_element(durations.begin(), durations.end());
   if (*longest > 1.01 * duration || *shortest < 0.99 * duration)
-    motion.warnings.push_back("frames are of different durations: all are taken for " +
+    motion.warnings.push_back("frames have different durations: all are taken to last " +
                               std::to_string(duration) + " s");
   motion.fps = whole_rate(1.0 / duration);
 }

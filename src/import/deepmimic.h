@@ -6,10 +6,10 @@
 ///
 /// Rotations are quaternions w x y z relative to the parent; knees and elbows turn about z by an angle in
 /// radians. Metres, y up; at rest the humanoid looks along x with its arms hanging. The files hold no bone
-/// lengths: those of the published humanoid are used. Keys other than "Frames" are checked to be JSON and
-/// left alone.
+/// lengths: those of the published humanoid are used. Keys other than "Frames" must be valid JSON and are
+/// ignored.
 ///
-/// What it does not do: no other characters of that project (their rows are of other lengths).
+/// What it does not do: no other characters of that project (their rows have other lengths).
 #pragma once
 
 #include <filesystem>

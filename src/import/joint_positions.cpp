@@ -14,8 +14,9 @@ namespace {
 using Positions = PerBody<Vector3d>;
 using Rotations = PerBody<Quaterniond>;
 
-constexpr double kStraight = 0.1, kBent = 0.35;  ///< sine of the bend from which a hinge shows, fully shows
-constexpr double kTallest = 5.0;                 ///< m, of features that are not normalised
+constexpr double kStraight = 0.1,
+                 kBent = 0.35;    ///< sines of the bend where a hinge starts to count, and counts fully
+constexpr double kTallest = 5.0;  ///< m, of features that are not normalised
 
 PerFrame<Positions> positions_of(const Eigen::MatrixXd& rows) {
   PerFrame<Positions> frames;
@@ -63,7 +64,8 @@ Quaterniond frame_of(const Vector3d& across, const Vector3d& along) {
   return Quaterniond(m);
 }
 
-/// An upper limb, whose hinge stands across the plane of its two bones where these are not in line.
+/// Turns an upper limb so that its hinge is perpendicular to the plane of its two bones, if they are not in
+/// line.
 /// @param q  of the limb, its bone in place
 Quaterniond with_hinge(const Quaterniond& q, int hinge, const Vector3d& upper, const Vector3d& lower) {
   const Vector3d u = upper.normalized(), across = u.cross(lower.normalized()), now = q * hinge_axis(hinge);
@@ -82,7 +84,7 @@ constexpr std::array<Limb, 4> kLimbs = {{{kLeftHip, kLeftKnee, kLeftAnkle},
                                          {kLeftShoulder, kLeftElbow, kLeftWrist},
                                          {kRightShoulder, kRightElbow, kRightWrist}}};
 
-/// World rotations of the bodies, as at rest where all bones point as the character's do.
+/// World rotations of the bodies; identity where all bones have the directions of the character's rest pose.
 Rotations rotations_of(const Character& character, const Positions& p) {
   Rotations q;
   const Vector3d hips = 0.5 * (p[kLeftHip] + p[kRightHip]),
@@ -108,7 +110,7 @@ Rotations rotations_of(const Character& character, const Positions& p) {
   return q;
 }
 
-/// Every bone as the character's at rest, as long as it is in the mean.
+/// The rest skeleton: bones with the character's rest directions and their mean lengths in the motion.
 PerJoint<SkeletonJoint> joints_of(const Character& character, const PerFrame<Positions>& frames,
                                   const std::string& path) {
   PerJoint<SkeletonJoint> joints;
@@ -118,9 +120,11 @@ PerJoint<SkeletonJoint> joints_of(const Character& character, const PerFrame<Pos
     for (const Positions& p : frames)
       length += parent < 0 ? 0.0 : (p[b] - p[parent]).norm() / static_cast<double>(frames.size());
     if (parent >= 0 && !(length > 0.0))
-      throw DataError(path, "", body_in_words(b) + " and its parent at different places", "both at one");
+      throw DataError(path, "", body_in_words(b) + " and its parent at different places",
+                      "both at the same place");
     const Vector3d rest = parent < 0 ? Vector3d::Zero() : character.joint_offset[b].normalized();
-    // Called otherwise than ours: retarget.h takes a skeleton of our own for a file of ours, y up and exact.
+    // Names differ from ours, because retarget.h would take the skeleton for one of our own files, y up and
+    // exact.
     joints.push_back({parent < 0 ? "root" : std::string(kBodyNames[b]), parent, length * rest});
   }
   return joints;
@@ -161,8 +165,8 @@ SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& n
     }
   }
   motion.decisions.emplace_back(features
-                                    ? "frame rate: 20 fps, HumanML3D's; --fps overrides"
-                                    : "frame rate: 20 fps, as motion generators have it; --fps overrides");
+                                    ? "frame rate: 20 fps, that of HumanML3D; --fps overrides"
+                                    : "frame rate: 20 fps, usual for motion generators; --fps overrides");
   return motion;
 }
 

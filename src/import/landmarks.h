@@ -1,5 +1,5 @@
-/// What a foreign skeleton shows of a body: the joints that stand for the 22 bodies, and what can be read
-/// from them without knowing its unit, axes or rest pose.
+/// Landmarks of a foreign skeleton: its joints for the 22 bodies, and quantities that do not depend on its
+/// unit, axes or rest pose.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace mimicx::import {
 
-/// The joints of one pose by body. A body without a joint of its own is where, and turns as, its parent.
+/// The joints of one pose, by body. A body without a joint of its own has position and rotation of its
+/// parent.
 struct Landmarks {
   PerBody<Vector3d> p;
   PerBody<Quaterniond> q;
@@ -21,40 +22,40 @@ struct Landmarks {
   Vector3d direction(int from, int to) const { return (p[to] - p[from]).normalized(); }
   /// Unit vector from the middle of the hips to the middle of the shoulders.
   Vector3d trunk() const;
-  /// Unit vector to where the body faces: across hips and trunk.
+  /// Unit vector in which the body faces: perpendicular to hips and trunk.
   Vector3d forward() const;
 };
 
 Landmarks landmarks_of(const SkeletonPose& pose, const JointMap& map);
-/// Turned, then scaled.
+/// The landmarks turned, then scaled.
 Landmarks transformed(const Landmarks& landmarks, const Quaterniond& turn, double scale);
 
 /// Mean length of a leg, hip to knee to ankle, over the poses.
 double leg_length(const PerFrame<Landmarks>& poses);
 
-/// How far a pose is from a straight stance, 0 … : bends of hips and knees, half those of the elbows, and
-/// arms that reach forward or back.
+/// How far a pose is from a straight stance, ≥ 0: bends of hips and knees, half the bends of the elbows, and
+/// how far the arms reach forward or back.
 double bend_of(const Landmarks& pose);
-/// Legs under the trunk and straight, arms in the plane of the body: a person who stands, whichever axis is
-/// up.
+/// Whether a person stands, whichever axis is up: straight legs under the trunk, arms in the plane of the
+/// body.
 bool is_stance(const Landmarks& pose);
-/// A stance with the arms straight out to the sides.
+/// Whether a pose is a stance with the arms straight out to the sides.
 bool is_t_pose(const Landmarks& pose);
 
-/// The first frame is a T-pose out of which the motion jumps.
+/// Whether the first frame is a T-pose and the second one a jump away from it.
 bool starts_with_t_pose(const PerFrame<Landmarks>& frames);
 
-/// The axis along which stretched bodies stand, over all poses whose legs are straight under the trunk; none
-/// where there are few of these, or they stand along different axes. 'x', 'y', 'z', or capitals for the
-/// negative axes.
+/// The up axis: along which the body stands in the poses with straight legs under the trunk. None where there
+/// are few such poses or they differ. 'x', 'y', 'z', or capitals for the negative axes.
 std::optional<char> up_of(const PerFrame<Landmarks>& poses);
 
-/// A unit of length that makes a leg of `length` file units a human one (0.45 to 1.2 m).
+/// A unit of length.
 struct Unit {
   const char* name;
   double metres;
 };
-/// @return none where no known unit does
+/// The unit in which a leg of `length` file units has a human length (0.45 to 1.2 m); none where no known
+/// unit gives one.
 std::optional<Unit> unit_of(double length);
 
 }  // namespace mimicx::import

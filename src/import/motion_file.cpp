@@ -27,7 +27,7 @@ namespace {
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
 constexpr std::string_view kHierarchy = "hierarchy";  // in any case
 constexpr std::size_t kHeaderBytes = 1024;            ///< an npy header fits in
-constexpr std::size_t kFirstBytes = 64;               ///< bytes that tell a format
+constexpr std::size_t kFirstBytes = 64;               ///< bytes that identify a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
 constexpr double kFloorWorthSaying = 0.05;  ///< m
 
@@ -41,7 +41,7 @@ void require_sense(const ReadConfig& o) {
   if (o.up) rotation_to_z_up(*o.up);
 }
 
-/// The file's own body: nothing of it, its joints by the licensed model, or what its model says.
+/// Chooses the body: the standard one, the joints of the licensed model, or the file's own body.
 void choose_body(const ReadConfig& o, motion::Clip& clip) {
   const bool foreign = clip.body_model != "mimicx";
   if (o.standard_body) {
@@ -81,18 +81,18 @@ void settle_scale(const ReadConfig& o, bool believed, motion::Clip& clip) {
   scale_world(scale, clip);
   clip.decisions.push_back("scale: the translation is taken to be in " +
                            std::string(scale == 0.01 ? "centimetres" : "millimetres") +
-                           " (in metres the stiller foot would move at " + short_number(before) +
-                           " m/s, now it does at " + short_number(support_speed(clip)) +
+                           " (read as metres, the slower foot would move at " + short_number(before) +
+                           " m/s; now it moves at " + short_number(support_speed(clip)) +
                            "; --scale overrides)");
 }
 
-/// The axis of the file that reading, which took `custom` for up, has turned to `axis`.
+/// The file's axis that is `axis` now, after the reader has turned `custom` to z.
 char in_file(char axis, char custom) {
   return axis_letter(rotation_to_z_up(custom).conjugate() *
                      (rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ()));
 }
 
-/// @param custom  the axis that the format has up, which is z by now
+/// @param custom  the format's up axis, which the reader has turned to z
 void settle_up(const ReadConfig& o, bool believed, char custom, motion::Clip& clip) {
   const auto turn_up = [&](char axis) {
     if (axis != custom) rotate_world(rotation_to_z_up(axis) * rotation_to_z_up(custom).conjugate(), clip);
@@ -109,7 +109,7 @@ void settle_up(const ReadConfig& o, bool believed, char custom, motion::Clip& cl
   turn_up(up);
   if (!found.sure)
     clip.decisions.push_back("up axis: " + axis_name(up) +
-                             ", as the format has it (the body lies, crawls or turns over)");
+                             ", the default of the format (the body lies, crawls or turns over)");
   else if (found.axis == 'Z')
     clip.decisions.push_back("up axis: upside down, turned over" + along + "; --up overrides");
   else
@@ -124,7 +124,7 @@ double usual_rate(double fps) {
   return 0.0;
 }
 
-/// Whether a motion at another rate has no speeds that it has not now and that no human has.
+/// Whether another frame rate adds no inhuman speeds to a motion.
 bool is_plausible_at(double fps, const motion::Clip& clip) {
   motion::Clip other = clip;
   other.fps = fps;
@@ -185,14 +185,14 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// "0.0254 m" as people call it.
+/// The usual name of a unit of length.
 std::string unit_name(double metres) {
   for (const auto& [name, size] : {std::pair("metres", 1.0), {"centimetres", 0.01}, {"millimetres", 0.001}})
     if (std::abs(metres / size - 1.0) < 1e-6) return name;
   return "unit " + short_number(metres) + " m";
 }
 
-/// What was decided of a foreign skeleton, in three lines.
+/// Summary of the decisions about a foreign skeleton, in three lines.
 std::vector<std::string> summary_of(const std::string& format, const RetargetReport& report, bool standard,
                                     double fps) {
   const std::string rate = short_number(fps) + " frames per second, ";
@@ -202,10 +202,10 @@ std::vector<std::string> summary_of(const std::string& format, const RetargetRep
               short_number(report.mean_residual_mm) +
               " mm from the skeleton's in the mean; neutral pose: " + report.neutral,
           "moved " + short_number(std::abs(report.lift)) + " m " + (report.lift < 0.0 ? "down" : "up") +
-              " to the floor; --verbose tells every decision"};
+              " to the floor; --verbose lists every decision"};
 }
 
-/// A motion of a foreign skeleton on our body, axes and unit settled.
+/// Retargets the motion of a foreign skeleton to our body.
 motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format, const ReadConfig& o) {
   RetargetConfig config;
   config.standard_body = o.standard_body;
@@ -219,17 +219,17 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   return clip;
 }
 
-/// The shape that an npy header tells; empty where it is damaged.
+/// The shape in an npy header; empty where it is damaged.
 std::vector<std::size_t> header_shape(const std::string& bytes) {
   try {
     const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
     return parse_npy_header(data, bytes.size(), "", "").shape;
-  } catch (const std::exception&) {  // reading the file says what is wrong
+  } catch (const std::exception&) {  // the reader reports the error
     return {};
   }
 }
 
-/// Results of video estimators are pickles, alone or in torch's archives, and never read here.
+/// Whether a file is a Python pickle, alone or in an archive of torch, as results of video estimators are.
 bool is_pickled(const std::string& bytes, const std::filesystem::path& path) {
   const std::string suffix = lower_case(path.extension().string());
   return suffix == ".pt" || suffix == ".pth" || suffix == ".pkl" || bytes.starts_with("\x80");
@@ -239,8 +239,8 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
   const std::string name = path.stem().string();
   if (is_pickled(bytes, path))
     throw DataError(path.string(), "", "a motion (npz, npy, BVH or DeepMimic)",
-                    "a pickle of Python's: of GVHMR, WHAM or TRAM, tools/convert_video_results.py makes a "
-                    "motion of it");
+                    "a Python pickle: tools/convert_video_results.py converts results of GVHMR, WHAM and "
+                    "TRAM");
   switch (recognise(bytes)) {
     case MotionFormat::kNpz: {
       motion::Clip clip = motion::clip_from(parse_npz(bytes, path.string()), name);
@@ -265,7 +265,7 @@ motion::Clip read_any(const std::string& bytes, const std::filesystem::path& pat
                   bytes.empty() ? "an empty file" : "other content");
 }
 
-/// The first bytes of a file, fewer where it has fewer, none of a pipe: opening one waits for a writer.
+/// The first bytes of a file. None for a pipe, because opening it would wait for a writer.
 std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return {};
@@ -316,7 +316,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
                          const ReadConfig& config) {
   require_sense(config);
   motion::Clip clip = read_any(bytes, path, config);
-  mend_angles(path.string(), clip);
+  repair_angles(path.string(), clip);
   const MotionFormat format = recognise(bytes);
   const bool positions = format == MotionFormat::kNpy && is_positions(header_shape(bytes));
   const bool skeleton = positions || format == MotionFormat::kBvh || format == MotionFormat::kDeepMimic;
@@ -330,8 +330,8 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   settle_fps(config, believed, clip);
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
   settle_floor(config, believed, clip);
-  if (!believed) leave_out_t_pose(clip);
-  name_jumps(clip);
+  if (!believed) remove_t_pose(clip);
+  warn_of_jumps(clip);
   if (!believed)
     for (const std::string& speed : implausible_speeds(clip)) clip.warnings.push_back(speed);
   require_near(path, clip);

@@ -46,8 +46,8 @@ void read_betas(const MatrixXd& values, motion::Clip& clip) {
     clip.warnings.emplace_back("betas change over time: those of the first frame are used");
 }
 
-/// Undoes centimetres, or the scale and the mirrored axis of the AIST subset, where the speed gives them
-/// away. They are alike in size; the feet are calmer where the right one is undone.
+/// Converts from centimetres, or undoes the scale and the mirrored axis of the AIST subset, where speeds show
+/// them. Both factors are similar; the right one gives calmer feet.
 void settle_unit(motion::Clip& clip) {
   motion::Clip aist = clip, centimetres = clip;
   for (Vector3d& trans : aist.trans) trans = kAistScale * trans.cwiseProduct(Vector3d(1, 1, -1));
@@ -59,7 +59,7 @@ void settle_unit(motion::Clip& clip) {
   const bool is_aist = as_aist <= as_centimetres;
   clip = is_aist ? aist : centimetres;
   clip.decisions.push_back(std::string("scale: ") +
-                           (is_aist ? "1/94 with z negated, the known slip of Motion-X's AIST part"
+                           (is_aist ? "1/94 with z negated, the known error of Motion-X's AIST part"
                                     : "the translation is in centimetres") +
                            " (the stillest joint moved at " + short_number(before) + " m/s, now at " +
                            short_number(after) + "; --scale overrides)");

@@ -11,8 +11,8 @@
 
 namespace mimicx::import {
 
-/// How every file of ours begins: its header has a line of blanks more than NumPy's, which every reader
-/// skips.
+/// The first bytes of every Motion-X file of this program, by which it recognises its own files: the header
+/// has 64 blanks more than NumPy's, which readers skip.
 inline constexpr std::string_view kMotionxOpening("\x93NUMPY\x01\x00\xb6\x00", 10);
 
 inline constexpr std::size_t kMotionxColumns = 322;

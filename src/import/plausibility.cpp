@@ -18,7 +18,7 @@ namespace mimicx::import {
 namespace {
 
 // Unit of length.
-constexpr double kFastSupport = 3.0;   ///< m/s: nothing that carries a human moves as fast for half of a clip
+constexpr double kFastSupport = 3.0;   ///< m/s; a supporting joint is slower in half of the frames
 constexpr double kFarHeight = 20.0;    ///< m of the pelvis over or under z = 0, in the median
 constexpr double kCalmer = 1.0 / 3.0;  ///< how much calmer the support must be in the other unit
 
@@ -27,12 +27,12 @@ constexpr double kSteadier = 0.5;  ///< how much steadier the floor must be alon
 constexpr double kStands = 0.6;    ///< mean component of feet → neck along the axis
 
 // Frame rate.
-constexpr double kClear = 0.03;              ///< m over the floor: nothing carries the body
+constexpr double kClear = 0.03;              ///< m over the floor; nothing supports the body there
 constexpr double kFootTravel = 0.08;         ///< m of either foot in a flight
 constexpr double kLargestFactor = 4.2;       ///< between frame rates: 120 labelled 30, a little noise
 constexpr int kShortestFlight = 5;           ///< frames
 constexpr double kParabolaResidual = 0.012;  ///< m, root mean square, of a clean flight
-constexpr int kSeveralFlights = 3;           ///< that must agree before a file is not believed
+constexpr int kSeveralFlights = 3;           ///< flights that must agree to change the frame rate
 constexpr double kSameRate = 0.1;            ///< relative difference of the rates of flights that agree
 
 // Floor and speeds.
@@ -40,7 +40,7 @@ constexpr double kFloorShare = 0.05;
 constexpr double kFastPelvis = 8.0;     ///< m/s in the median: a sprinter's pace
 constexpr double kSuspectJoint = 30.0;  ///< m/s, exceeded in 1 % of the frames: a pitcher's hand reaches 25
 
-/// Quantile of the finite values: absurd input may lead to others. 0 where there is none.
+/// Quantile of the finite values; 0 without any. Absurd input can give values that are not finite.
 double finite_quantile(std::vector<double> values, double share) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   return values.empty() ? 0.0 : quantile(std::move(values), share);
@@ -66,8 +66,8 @@ PerFrame<double> lowest_heights(const Character& character, const PerFrame<BodyP
   return lowest;
 }
 
-/// How much the farthest point of the body in a direction moves in that direction, m: little, where the
-/// direction is down and the floor stops it.
+/// How much the farthest point of the body in a direction moves in that direction, m. It is small where the
+/// direction is down, because the floor stops the body.
 double support_spread(const motion::Clip& clip, const PerFrame<BodyPoses>& poses, const Vector3d& down) {
   const std::vector<motion::SurfacePoint> points = motion::surface_points(motion::character_of(clip));
   std::vector<double> deepest;
@@ -115,7 +115,7 @@ Parabola fit_parabola(const PerFrame<double>& z, int first, int last) {
   return {c[2], (powers * c - values).norm() / std::sqrt(n)};
 }
 
-/// A stretch in which nothing carries the body.
+/// Successive frames in which nothing supports the body.
 struct Flight {
   int frames = 0;
   double acceleration = 0;  ///< downward, m per frame²
@@ -135,7 +135,7 @@ List<Flight> flights_of(const motion::Clip& clip) {
     const int length = end - first;
     if (length >= kShortestFlight) {
       const Parabola p = fit_parabola(height, first, end - 1);
-      // A foot that stays where it is carries the body, whatever its height.
+      // A foot that does not move supports the body at any height.
       const bool free = travel_of(poses, kLeftFoot, first, end - 1) > kFootTravel &&
                         travel_of(poses, kRightFoot, first, end - 1) > kFootTravel;
       if (free && p.residual < kParabolaResidual && p.acceleration < 0.0)
@@ -193,7 +193,7 @@ UpAxis detect_up(const motion::Clip& clip) {
   up.sure = up.along > kStands &&
             (axis == 2 ||
              support_spread(clip, poses, down) < kSteadier * support_spread(clip, poses, -Vector3d::UnitZ()));
-  // On its head: a file that is upside down, unless the hands carry the body.
+  // Head down: the file is upside down, unless the hands support the body.
   if (axis == 2 && mean.z() < 0.0)
     up.sure = up.sure && path_of(poses, kLeftFoot) < path_of(poses, kLeftWrist);
   if (up.sure) up.axis = axis_letter(mean);

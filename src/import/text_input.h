@@ -1,7 +1,7 @@
-/// Text files read word by word, with the line of every word for messages. Lines end in \n, \r\n or \r, in
+/// Reads text files word by word, with the line of every word for messages. Lines end in \n, \r\n or \r, in
 /// any mixture; other control characters and bytes outside ASCII are ordinary characters of a word.
 ///
-/// What it does not do: no locale (numbers are read by `number_from`), no encodings but UTF-8.
+/// What it does not do: no locale (`number_from` reads numbers), no encodings other than UTF-8.
 #pragma once
 
 #include <filesystem>
@@ -17,26 +17,25 @@ inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 30;
 /// The bytes of a file. @throws DataError when it is not a readable file, or larger than `kMaxTextBytes`
 std::string read_text(const std::filesystem::path& path);
 
-/// At most 40 characters of a word, valid UTF-8 without control characters: what is not becomes '?'.
+/// At most 40 characters of a word as valid UTF-8; control characters and invalid bytes become '?'.
 std::string printable(std::string_view word);
 
 class TextInput {
  public:
-  /// @param path  for messages @param marks  characters that are a word by themselves, e.g. "{}"
+  /// @param path  for messages @param marks  characters that are words of their own, e.g. "{}"
   TextInput(std::string_view text, std::string path, std::string_view marks = "");
 
   /// The next word; empty at the end of the text. Its line is `line()`.
   std::string_view word();
-  /// The next word if it stands on the line of the last one, else empty.
+  /// The next word if it is on the same line as the last one, else empty.
   std::string_view word_on_line();
-  /// What `word` will give.
+  /// The next word without reading on.
   std::string_view peek();
-  /// What stands up to the next quotation mark, which is taken too; a backslash guards the character after
-  /// it.
+  /// The text up to the next quotation mark, which is read as well; a backslash escapes the next character.
   std::string_view quoted();
   /// Throws unless the next word is `expected`.
   void expect(std::string_view expected);
-  /// The next word as a finite number. @param what  it is, for the message
+  /// The next word as a finite number. @param what  its meaning, for the message
   double number(const std::string& what);
   /// The next word as an integer between `low` and `high`.
   std::size_t integer(const std::string& what, std::size_t low, std::size_t high);
@@ -44,7 +43,7 @@ class TextInput {
   std::size_t bytes_left() const { return text_.size() - at_; }
   std::size_t line() const { return line_; }
   const std::string& path() const { return path_; }
-  /// @param word  what was found; empty: the end of the file
+  /// Throws DataError with the current line. @param word  the word found; empty: the end of the file
   [[noreturn]] void fail(const std::string& expected, std::string_view word) const;
   [[noreturn]] void fail_with(const std::string& expected, const std::string& found) const;
 
@@ -58,7 +57,7 @@ class TextInput {
   std::size_t line_ = 1;
 };
 
-/// A word as a finite number. @return false when it is none
+/// Reads a word as a finite number. @return false when it is not a number
 bool parse_number(std::string_view word, double& value);
 
 }  // namespace mimicx::import

@@ -1,9 +1,8 @@
-/// Changes of the world a clip stands in: its axes, its unit of length, the height of its floor.
+/// Changes a clip's world: its axes, its unit of length, the height of its floor.
 ///
-/// SMPL's trans is not the pelvis: pelvis = trans + J0, and a rotation of the model turns about its pelvis. A
-/// change of the world moves the pelvis, and what is stored follows: trans' = R (trans + J0) − J0
-/// (docs/method.md §2).
-/// Cameras move along, so that pixels stay what they are.
+/// SMPL's trans is not the pelvis' position: pelvis = trans + J0, and the model rotates about its pelvis. A
+/// rotation R of the world therefore gives trans' = R (trans + J0) − J0 (docs/method.md §2). Cameras move
+/// with the world, so keypoints in pixels stay valid.
 #pragma once
 
 #include <string>
@@ -15,7 +14,8 @@ namespace mimicx::import {
 /// p → R p for every point of the world.
 void rotate_world(const Quaterniond& R, motion::Clip& clip);
 
-/// trans and the cameras' places in another unit; the body is in metres already. @param scale  m per unit
+/// Converts trans and the cameras' positions to metres; the body is in metres already.
+/// @param scale  m per unit
 void scale_world(double scale, motion::Clip& clip);
 
 /// p → p + shift (m).
@@ -24,7 +24,7 @@ void shift_world(const Vector3d& shift, motion::Clip& clip);
 /// The rotation that takes an axis to z: 'x', 'y', 'z', or 'X', 'Y', 'Z' for the negative ones.
 /// @throws std::invalid_argument for another letter
 Quaterniond rotation_to_z_up(char axis);
-/// The letter of the axis that a direction lies along most, as `rotation_to_z_up` takes it.
+/// The letter of the axis nearest to a direction, as for `rotation_to_z_up`.
 char axis_letter(const Vector3d& direction);
 /// "y", "-y", …
 std::string axis_name(char axis);

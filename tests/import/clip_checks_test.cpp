@@ -14,7 +14,7 @@
 namespace mimicx::import {
 namespace {
 
-/// As a file of somebody else.
+/// The clip as a foreign file.
 motion::Clip read_as_foreign(motion::Clip clip) {
   clip.body_model = "smplx";
   clip.betas = {};

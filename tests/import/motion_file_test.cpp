@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A synthetic motion as a file of somebody else: body model smplx, so that nothing in it is believed.
+/// A synthetic motion as a foreign file: body model smplx, so that the reader trusts nothing in it.
 motion::Clip foreign(const std::string& kind) {
   synth::SynthConfig config;
   config.kind = kind;
@@ -84,7 +84,7 @@ TEST(ReadMotion, TurnsEveryUpAxisToZAndReportsIt) {
     EXPECT_LT(largest_joint_distance(written_and_read(turned, asked), clip), 1e-9);
     asked.up = 'z';
     EXPECT_LT(largest_joint_distance(written_and_read(turned, asked), turned), 1e-9)
-        << "the user is believed";
+        << "the user's setting counts";
   }
 }
 
@@ -142,7 +142,7 @@ TEST(ReadMotion, ThreeAgreeingFallsSetTheFrameRate) {
     EXPECT_TRUE(decided(back, "frame rate: " + short_number(rate) + " fps, not " + short_number(label)));
     ReadConfig asked;
     asked.fps = label;
-    EXPECT_EQ(written_and_read(wrong, asked).fps, label) << "the user is believed";
+    EXPECT_EQ(written_and_read(wrong, asked).fps, label) << "the user's setting counts";
   }
 }
 

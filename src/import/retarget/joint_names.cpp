@@ -14,13 +14,13 @@ namespace {
 
 enum Side { kMiddle, kLeft, kRight };
 
-/// What a body is called, the surer word first: "foot" is an ankle where nothing is called ankle.
+/// Words for a body, the most specific first: "foot" is the ankle if no joint is called ankle.
 struct Part {
   int left, right;  ///< bodies; equal for the head and neck
   std::vector<std::string_view> words;
 };
 
-/// Rows are searched in this order, and a joint stands for one body only.
+/// Rows are searched in this order, and a joint is used for one body only.
 const std::vector<Part>& parts() {
   static const std::vector<Part> table = {
       {kLeftHip, kRightHip, {"upleg", "upperleg", "thigh", "femur", "hip"}},
@@ -36,7 +36,7 @@ const std::vector<Part>& parts() {
   return table;
 }
 
-/// Bodies without which there is nothing to retarget, and the joint above which each must hang.
+/// Bodies that retargeting requires, each with the body that must be above it in the tree.
 constexpr std::array<std::array<int, 2>, 12> kNeeded = {{{kLeftHip, kPelvis},
                                                          {kRightHip, kPelvis},
                                                          {kLeftKnee, kLeftHip},
@@ -50,7 +50,7 @@ constexpr std::array<std::array<int, 2>, 12> kNeeded = {{{kLeftHip, kPelvis},
                                                          {kLeftWrist, kLeftElbow},
                                                          {kRightWrist, kRightElbow}}};
 
-/// Lower-case parts of a name; a part that is a side by itself is taken out.
+/// Lower-case parts of a name without parts that are a side.
 std::vector<std::string> split(const std::string& name, Side& side) {
   std::vector<std::string> words(1);
   for (const char c : name) {
@@ -67,14 +67,14 @@ std::vector<std::string> split(const std::string& name, Side& side) {
   return words;
 }
 
-/// How well a joint's name says that it is a body; smaller is better.
+/// How well a joint's name matches a body; smaller is better.
 struct Match {
   std::size_t word;     ///< place in the row of the table
   std::size_t dropped;  ///< parts left out in front
   auto operator<=>(const Match&) const = default;
 };
 
-/// `text` is a word of the part, with or without a side in front or behind; a side found fills `side`.
+/// Position of the word `text` in a row of the table; the word may have the wanted side as prefix or suffix.
 std::optional<std::size_t> word_of(const Part& part, std::string_view text, Side side, Side wanted) {
   const auto place = [&](std::string_view core) -> std::optional<std::size_t> {
     const auto found = std::find(part.words.begin(), part.words.end(), core);
@@ -144,8 +144,8 @@ int end_site_of(const SkeletonMotion& motion, int joint) {
   return -1;
 }
 
-/// Where the neck joint stands in the chest's, as in the CMU recordings, the neck begins at the joint after
-/// it.
+/// Where the neck joint is at the same position as the chest's, as in the CMU recordings, the neck is the
+/// joint after it.
 void raise_neck(const SkeletonMotion& motion, JointMap& map) {
   if (map[kNeck] < 0 || map[kHead] < 0 || map[kSpine3] < 0) return;
   const std::vector<int> path = path_to_root(motion, map[kHead]);

@@ -23,12 +23,12 @@ std::string sentence(const char* format, Values... values) {
   return text;
 }
 
-/// What is worked on: landmarks of every frame, and what is said about them.
+/// The input of retargeting: landmarks of every frame and the neutral poses.
 struct Source {
   JointMap map;
   PerBody<bool> turns{};
   PerFrame<Landmarks> frames;   ///< first in the file's unit and axes, then z up and in metres
-  PerFrame<Landmarks> neutral;  ///< poses the calibration starts from, like `frames`
+  PerFrame<Landmarks> neutral;  ///< neutral poses for the calibration, in the units of `frames`
   std::string neutral_name;
   bool neutral_stands = true;  ///< it is a stance, not the frames that come nearest to one
 };
@@ -43,7 +43,7 @@ Source read_source(const SkeletonMotion& motion, const std::filesystem::path& jo
   return source;
 }
 
-/// Bones that directions are taken from must be there in every frame.
+/// Throws where a bone whose direction is used has length 0.
 void check_bones(const SkeletonMotion& motion, const Source& source) {
   const double least = 0.01 * leg_length(source.frames);
   for (int t = 0; t < source.frames.count(); ++t) {
@@ -51,7 +51,7 @@ void check_bones(const SkeletonMotion& motion, const Source& source) {
       if (!((source.frames[t].p[from] - source.frames[t].p[to]).norm() > least))
         throw DataError(motion.path, "frame " + std::to_string(t + 1),
                         body_in_words(from) + " and " + body_in_words(to) + " at different places",
-                        "both at one");
+                        "both at the same place");
     };
     check(kLeftHip, kRightHip);
     check(kLeftShoulder, kRightShoulder);
@@ -65,23 +65,23 @@ void drop_t_pose(Source& source, motion::Clip& clip) {
   source.neutral = {source.frames[0]};
   source.neutral_name = "the T-pose of the first frame";
   source.frames.erase(source.frames.begin());
-  clip.decisions.emplace_back("the first frame is a T-pose: left out of the motion");
+  clip.decisions.emplace_back("the first frame is a T-pose: removed");
 }
 
-/// Up axis of the motion; the format's custom where the motion does not show one.
+/// Up axis of the motion; the usual one of the format where the motion does not show it.
 char find_up(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
              motion::Clip& clip) {
   const auto found = up_of(source.frames);
-  std::string why = "stretched bodies stand along it";
+  std::string why = "the body stands along it";
   char up = found.value_or('y');
   if (config.up) {
     up = *config.up;
-    why = "as told";
+    why = "given by the user";
   } else if (motion.metric_y_up) {
     up = 'y';
-    why = "the format says so";
+    why = "defined by the format";
   } else if (!found) {
-    why = "the custom of the format; nobody stands up straight here";
+    why = "usual for the format; the body never stands upright";
   }
   clip.decisions.emplace_back("up axis " + axis_name(up) + ": " + why);
   return up;
@@ -92,7 +92,7 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
   const double leg = leg_length(source.frames);
   if (config.scale != 0.0) {
     clip.decisions.push_back(
-        sentence("unit %.6g m: as told; legs are %.2f m long", config.scale, config.scale * leg));
+        sentence("unit %.6g m: given by the user; legs are %.2f m long", config.scale, config.scale * leg));
     return config.scale;
   }
   if (motion.metric_y_up) return 1.0;
@@ -104,7 +104,7 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
   const BodyLengths standard = lengths_of(joint_offsets({}));
   const double scale = standard[kThigh] + standard[kShank];
   clip.warnings.push_back(
-      sentence("legs are %.4g units long, which no known unit explains: taken for %.2f m", leg, scale));
+      sentence("legs are %.4g units long, which fits no known unit: scaled to %.2f m", leg, scale));
   return scale / leg;
 }
 
@@ -117,7 +117,7 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
     source.neutral = {transformed(rest, rotation_to_z_up(*rest_up), scale)};
     source.neutral_name = "the rest pose";
   } else if (source.neutral.empty()) {
-    // A tenth of the frames: one alone may be mid-gesture.
+    // A tenth of the frames, because a single one may belong to a gesture.
     std::vector<std::pair<double, int>> order;
     for (int t = 0; t < source.frames.count(); ++t) order.emplace_back(bend_of(source.frames[t]), t);
     std::sort(order.begin(), order.end());
@@ -176,7 +176,7 @@ void solve(const Character& character, const Calibration& calibration, const Per
   }
 }
 
-/// Joints that mean the same in every skeleton.
+/// Joints that have the same position in every skeleton.
 constexpr PerBody<bool> kCompared = [] {
   PerBody<bool> compared{};
   compared.fill(true);
@@ -203,7 +203,7 @@ void measure(const motion::Clip& clip, const Source& source, double lift, Retarg
   report.mean_residual_mm = sum / count;
 }
 
-/// The residual of every body that has one, in one line.
+/// The residuals of all compared bodies, in one line.
 std::string residuals_line(const RetargetReport& report) {
   std::string line;
   for (int b = 0; b < kBodies; ++b)
@@ -213,8 +213,8 @@ std::string residuals_line(const RetargetReport& report) {
   return line;
 }
 
-/// A skeleton that `write_bvh` wrote: the bodies themselves, offsets those of some β.
-/// @return false where it is not
+/// Handles a skeleton that `write_bvh` wrote: its joints are the bodies, its offsets those of some β.
+/// @return false for another skeleton
 bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
   PerBody<int> joint{};
   PerBody<Vector3d> offsets;
@@ -239,7 +239,7 @@ bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
     rotations[0] = log_map(up * motion.rotation[t][0]);
     clip.trans.push_back(up * motion.translation[t][0] - mimicx::rest_pelvis(clip.body_model));
   }
-  clip.decisions.emplace_back("the skeleton is this program's own: taken over as it is, y up, metres");
+  clip.decisions.emplace_back("the skeleton is this program's own: used unchanged, y up, metres");
   return true;
 }
 
@@ -279,7 +279,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   clip.decisions.push_back(residuals_line(report));
   std::string missing;
   for (const std::string& name : report.unmapped) missing += (missing.empty() ? "" : ", ") + name;
-  if (!missing.empty()) clip.warnings.emplace_back("no joint for " + missing + ": held as at rest");
+  if (!missing.empty()) clip.warnings.emplace_back("no joint for " + missing + ": kept in the rest pose");
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ void level_soles(bool neutral_stands, Calibration& calibration, motion::Clip& cl
       q_JB = (q_JB * turn).normalized();
     }
     char text[96];
-    std::snprintf(text, sizeof text, "the %s sole is level where it stands: turned by %.0f degrees", side,
+    std::snprintf(text, sizeof text,
+                  "the %s sole is turned by %.0f degrees, so that it is level where it stands", side,
                   angle / kDegree);
     clip.decisions.emplace_back(text);
   };

@@ -52,7 +52,7 @@ Trunk trunk_of(const Character& character) {
   return trunk;
 }
 
-/// The sole level, the foot pointing where its toes are; without toes where the body faces.
+/// Orientation of a foot with a level sole that points to its toes, or without toes in the body's direction.
 Quaterniond level_foot(const Character& character, const Landmarks& pose, int ankle, int toes,
                        bool has_toes) {
   const Vector3d rest = has_toes ? character.joint_offset[toes] : Vector3d::UnitZ();
@@ -82,7 +82,8 @@ JointRotations neutral_rotations(const Character& character, const Landmarks& po
   return q;
 }
 
-/// Lumbar bodies bend so that the middle of the shoulders lies where the skeleton has it, seen from the hips.
+/// Bends the lumbar bodies so that the middle of the shoulders lies in the skeleton's direction from the
+/// hips.
 void solve_trunk(const Character& character, const Vector3d& direction, JointRotations& q) {
   const Trunk trunk = trunk_of(character);
   const auto& offset = character.joint_offset;
@@ -141,7 +142,7 @@ Twists measure_twists(const Character& character, const Calibration& calibration
       squares += ab * ab.transpose();
       products += (h.dot(bone_direction(character, lower)) - h.dot(u) * v.dot(u)) * ab;
     }
-    // Least squares; every frame also says "no twist" with the weight of a bend of ten degrees.
+    // Least squares; every frame also pulls to zero twist with the weight of a bend of ten degrees.
     const double pull = 0.03 * static_cast<double>(frames.size());
     double best = std::numeric_limits<double>::infinity();
     for (int tenths = -900; tenths <= 900; ++tenths) {

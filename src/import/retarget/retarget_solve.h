@@ -1,8 +1,8 @@
-/// The geometry of retargeting: how joints of a skeleton stand to bodies, and the pose that follows.
+/// The geometry of retargeting: constant rotations between a skeleton's joints and the bodies, and the
+/// bodies' poses from them.
 ///
-/// Every joint turns with a frame of its own, q_WJ; the body that it stands for has q_WB = q_WJ · q_JB with a
-/// constant q_JB, found in neutral poses, where the orientation of the bodies is known from the positions of
-/// the joints alone.
+/// A joint has a world rotation q_WJ; its body has q_WB = q_WJ · q_JB with a constant q_JB. q_JB is found in
+/// neutral poses, where the positions of the joints determine the orientations of the bodies.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace mimicx::import {
 
-/// Bones whose direction is kept: the body and the joint at its other end.
+/// A bone whose direction is kept: its body and the joint at its other end.
 struct Bone {
   int body, end;
 };
@@ -27,30 +27,30 @@ inline constexpr std::array<Bone, 8> kBones = {{{kLeftHip, kLeftKnee},
 
 struct Calibration {
   PerBody<Quaterniond> q_JB;         ///< body in the frame of its joint
-  PerBody<bool> turns{};             ///< has a joint that turns; else the body follows its parent
+  PerBody<bool> turns{};             ///< the body has a joint with rotations; else it follows its parent
   Vector3d p_JS = Vector3d::Zero();  ///< middle of the shoulders in the chest joint's frame, m
 };
 
-/// Turns about thighs and upper arms, rad, that bring the hinges of knees and elbows into the planes in which
-/// they bend. Index: kLeftHip, kRightHip, kLeftShoulder, kRightShoulder; others 0.
+/// Rotations about the axes of thighs and upper arms, rad, that align the hinges of knees and elbows with the
+/// planes in which they bend. Index: kLeftHip, kRightHip, kLeftShoulder, kRightShoulder; others 0.
 using Twists = PerBody<double>;
 
-/// Finds how each body stands in the frame of its joint, as a mean over neutral poses. In a neutral pose a
-/// body is taken to stand as if its bone had swung there from the T-pose by the shortest way; soles are
-/// level.
-/// @param neutral  poses that count as neutral, z up, m
-/// @param turns    bodies that have a joint that turns
-/// @param twists   of thighs and upper arms, on top of the shortest way
+/// The rotation of each body in the frame of its joint, as a mean over neutral poses. In a neutral pose a
+/// body is assumed to be turned from the T-pose by the smallest rotation that gives its bone's direction, and
+/// soles are assumed to be level.
+/// @param neutral  neutral poses, z up, m
+/// @param turns    bodies whose joint has rotations
+/// @param twists   of thighs and upper arms, in addition to the smallest rotation
 Calibration calibrate(const Character& character, const PerFrame<Landmarks>& neutral,
                       const PerBody<bool>& turns, const JointMap& map, const Twists& twists = {});
 
-/// The twists, within ±90°, with which the hinges of knees and elbows explain best how the lower bones move.
-/// Limbs that hardly bend show little of it and get twists near 0. Resolution: a tenth of a degree.
+/// The twists, within ±90°, for which the hinges of knees and elbows fit the motion of the lower bones best.
+/// Limbs that hardly bend get twists near 0. Resolution: a tenth of a degree.
 Twists measure_twists(const Character& character, const Calibration& calibration,
                       const PerFrame<Landmarks>& frames);
 
-/// World rotations of the bodies for a pose: q_WJ · q_JB, then limbs and trunk swung onto their exact
-/// directions.
+/// World rotations of the bodies for a pose: q_WJ · q_JB, then corrected so that limbs and trunk have their
+/// exact directions.
 PerBody<Quaterniond> body_rotations(const Character& character, const Calibration& calibration,
                                     const Landmarks& pose);
 

@@ -1,11 +1,10 @@
-/// A motion on a skeleton of its own, as BVH and DeepMimic files hold it.
+/// A motion on the skeleton of its file, as in BVH and DeepMimic files.
 ///
-/// Everything is in the file's units and axes, and joints are as many, and called what, the file has them. A
-/// joint's rotation and translation are relative to its parent; the translation stands at the rest offset
-/// unless the file moves it. End sites are joints that never turn, named after their parent with "_end".
+/// Units, axes, number of joints and their names are those of the file. A joint's rotation and translation
+/// are relative to its parent; the translation is the rest offset unless the file has position channels. End
+/// sites are joints without rotation, named after their parent with "_end".
 ///
-/// What it does not do: nothing is known here of the human body; retarget.h finds it in the names and the
-/// geometry.
+/// What it does not do: no mapping to the human body; retarget.h finds it by names and geometry.
 #pragma once
 
 #include <string>
@@ -29,25 +28,25 @@ struct SkeletonJoint {
 
 struct SkeletonMotion {
   std::string name;  ///< file name without folder and suffix
-  std::string path;  ///< where it came from, for messages
+  std::string path;  ///< of the file, for messages
   double fps = 30.0;
-  bool metric_y_up = false;  ///< the format itself says metres and y up; else retargeting finds both
+  bool metric_y_up = false;  ///< the format defines metres and y up; else retargeting detects both
   PerJoint<SkeletonJoint> joints;
   PerFrame<PerJoint<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
   PerFrame<PerJoint<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent
   std::vector<std::string> warnings;         ///< one line each
-  std::vector<std::string> decisions;        ///< what reading decided, one line each
+  std::vector<std::string> decisions;        ///< what the reader decided, one line each
 
   int frames() const { return rotation.count(); }
 };
 
-/// Joints times frames that a file may have: 16 M, 0.9 GB of memory; two hours of a body at 100 frames per
-/// second.
+/// Largest number of joints times frames of a file: 16 M take 0.9 GB and are two hours of a body at 100
+/// frames per second.
 inline constexpr std::size_t kMaxJointFrames = std::size_t{1} << 24;
 
 inline constexpr double kMaxFps = 2000.0;
-/// The whole number of frames per second that a rate stands for, where one is within 0.05 %, else the rate:
-/// files print frame times with few digits, 0.0083333 for 120. (29.97 and 30 are 0.1 % apart.)
+/// The rate rounded to a whole number of frames per second where that differs by less than 0.05 %, else the
+/// rate: files print frame times with few digits, 0.0083333 for 120. (29.97 and 30 differ by 0.1 %.)
 double whole_rate(double fps);
 
 /// World poses of all joints, file's unit and axes.
@@ -56,7 +55,7 @@ struct SkeletonPose {
   PerJoint<Quaterniond> q;
 };
 SkeletonPose pose_of(const SkeletonMotion& motion, int frame);
-/// Every rotation the identity, every translation the offset.
+/// The pose with all rotations the identity and all translations the rest offsets.
 SkeletonPose rest_pose(const SkeletonMotion& motion);
 
 }  // namespace mimicx::import
