@@ -20,7 +20,8 @@ Vector3d eye_of(const Eigen::Matrix4d& E) {
   return -E.topLeftCorner<3, 3>().transpose() * E.topRightCorner<3, 1>();
 }
 
-/// Mean turn and place around a frame: as many frames before it as after it, so that a steady pan stays.
+/// Mean rotation and position around a frame, over equally many frames before and after it, so that a steady
+/// pan does not change.
 Eigen::Matrix4d mean_around(const PerFrame<Eigen::Matrix4d>& path, int t, double sigma) {
   const int reach = std::min({static_cast<int>(kReach * sigma), t, path.count() - 1 - t});
   const Quaterniond middle = camera_turn(path[t]);
@@ -56,7 +57,7 @@ CameraJitter jitter_of_camera(const PerFrame<Eigen::Matrix4d>& path) {
   return {jitter_of(turns), jitter_of(places)};
 }
 
-PerFrame<Eigen::Matrix4d> calmed(const PerFrame<Eigen::Matrix4d>& path, double fps) {
+PerFrame<Eigen::Matrix4d> smoothed_path(const PerFrame<Eigen::Matrix4d>& path, double fps) {
   const CameraJitter jitter = jitter_of_camera(path);
   if (jitter.turn < kCameraTurn * kDegree && jitter.place < kCameraPlace) return path;
   PerFrame<Eigen::Matrix4d> calm;

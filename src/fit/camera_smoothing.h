@@ -1,15 +1,16 @@
-/// A told camera that trembles, calmed.                              docs/method.md, "Keypoint fit", "Camera"
+/// Smooths the path of a camera that trembles.                       docs/method.md, "Keypoint fit", "Camera"
 ///
-/// The keypoint fit takes the camera of every frame as told. Where that trembles, all keypoints of a frame
-/// err together, and a nearer and smaller person would have to move less: the fit would shrink the world.
-/// What it does not do: no slow errors of the camera, and no look at the keypoints.
+/// The keypoint fit trusts the given camera of every frame. Where that camera trembles, all keypoints of a
+/// frame have the same error. A nearer and smaller person would have to move less to explain it, so the fit
+/// would shrink the motion.
+/// What it does not do: no correction of slow camera errors, and no use of the keypoints.
 #pragma once
 
 #include "motion/clip.h"
 
 namespace mimicx::fit {
 
-/// White part of a camera's path, per axis.
+/// Standard deviation of the white noise in a camera's path, per axis.
 struct CameraJitter {
   double turn = 0.0;   ///< rad
   double place = 0.0;  ///< m
@@ -17,11 +18,11 @@ struct CameraJitter {
 /// 0 for fewer than 4 frames. @param extrinsics  world → camera
 CameraJitter jitter_of_camera(const PerFrame<Eigen::Matrix4d>& extrinsics);
 
-inline constexpr double kCameraTurn = 0.05;    ///< degrees: a camera that trembles by more is calmed …
-inline constexpr double kCameraPlace = 0.003;  ///< m: … or by more than this
+inline constexpr double kCameraTurn = 0.05;    ///< degrees; a path with more white noise is smoothed …
+inline constexpr double kCameraPlace = 0.003;  ///< m; … or with more than this
 
-/// The path as it is where it does not tremble; else turns and places are means under a Gaussian of 0.1 s,
-/// which takes a tenth of a sway of 0.7 Hz along.
-PerFrame<Eigen::Matrix4d> calmed(const PerFrame<Eigen::Matrix4d>& extrinsics, double fps);
+/// The path, smoothed where it trembles: turns and places are means under a Gaussian with σ = 0.1 s, which
+/// reduces a sway of 0.7 Hz by a tenth. A steady path is returned unchanged.
+PerFrame<Eigen::Matrix4d> smoothed_path(const PerFrame<Eigen::Matrix4d>& extrinsics, double fps);
 
 }  // namespace mimicx::fit

@@ -1,7 +1,7 @@
-/// Settings of the keypoint fit: what it believes before it has looked, and its effort.
+/// Settings of the keypoint fit: prior uncertainties and effort.
 ///
-/// Every σ is that of one term of the cost in docs/method.md, "Keypoint fit". The level of every keypoint and
-/// the power of the confidence are only where the fit begins: it finds its own (error_levels.h).
+/// Every σ belongs to one term of the cost in docs/method.md, "Keypoint fit". The level of every keypoint and
+/// the power of the confidence are initial values: the fit estimates its own (error_levels.h).
 #pragma once
 
 namespace mimicx::fit {

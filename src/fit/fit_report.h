@@ -1,4 +1,4 @@
-/// What a fit did to a motion.
+/// What the keypoint fit or the pose fit did to a motion.
 #pragma once
 
 #include <string>
@@ -6,22 +6,22 @@
 
 namespace mimicx::fit {
 
-/// What the fit did; every figure goes into the manifest.
+/// Every number is written into the manifest.
 struct FitReport {
-  /// RMS over keypoints weighted by confidence, % of the box; after: without the static offsets.
+  /// RMS over keypoints weighted by confidence, % of the box; `residual_after` without the constant offsets.
   double residual_before = 0, residual_after = 0;
   int iterations = 0;
   double focal_scale = 1.0;         ///< estimated focal length over the one in the file
   double tilt_deg = 0.0;            ///< estimated turn of the camera about its horizontal axis
   double shape_change = 0.0;        ///< largest change of an entry of β
-  double keypoint_sigma = 0.0;      ///< level found for the middle keypoint, % of the box
-  double keypoint_sigma_max = 0.0;  ///< for the worst one
-  double confidence_power = 0.0;    ///< found: σ grows with confidence to the minus this power
+  double keypoint_sigma = 0.0;      ///< estimated σ of the median keypoint, % of the box
+  double keypoint_sigma_max = 0.0;  ///< of the worst keypoint
+  double confidence_power = 0.0;    ///< estimated p: σ grows with confidence^−p
   double lead_frames = 0.0;         ///< frames by which the keypoints are ahead of the motion
-  int swapped_frames = 0;           ///< frames in which left and right of arms or legs changed places back
-  int dropped_points = 0;           ///< detections without confidence, or set aside as far off
+  int swapped_frames = 0;           ///< frames in which left and right of arms or legs were exchanged
+  int dropped_points = 0;           ///< detections without confidence, or rejected as outliers
   double change_mean_mm = 0, change_max_mm = 0;  ///< of joint positions against the input
-  std::vector<std::string> notes;                ///< why nothing was done, and what is odd
+  std::vector<std::string> notes;                ///< why nothing was done, and what is unusual
 };
 
 }  // namespace mimicx::fit

@@ -1,4 +1,4 @@
-/// The white part of a series, told from its motion.                 docs/method.md, "Keypoint fit", (8)
+/// White noise in a series, separated from its smooth motion.         docs/method.md, "Keypoint fit", (8)
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,8 @@
 
 namespace mimicx::fit {
 
-/// Standard deviation of the white part of a series; 0 for none. @param third_differences  absolute values
+/// Standard deviation of the white noise in a series; 0 for an empty one.
+/// @param third_differences  absolute third differences of the series
 inline double jitter_of(const std::vector<double>& third_differences) {
   constexpr double kMedianToSigma = 1.4826;  // of a normal distribution
   constexpr double kThirdDifference = 20.0;  // variance of a third difference of white noise of variance 1

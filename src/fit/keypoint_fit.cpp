@@ -9,22 +9,22 @@
 namespace mimicx::fit {
 namespace {
 
-constexpr std::size_t kFewestKeypoints = 6;  ///< joints among the keypoints, else there is nothing to fit to
+constexpr std::size_t kFewestKeypoints = 6;  ///< joints among the keypoints that a fit needs
 
-/// Why there is nothing to fit to; empty where there is.
+/// Why the clip cannot be fitted; empty where it can.
 std::string reason_to_refuse(const FitProblem& problem) {
-  if (problem.points.size() < kFewestKeypoints) return "too few keypoints of known joints: left as it is";
+  if (problem.points.size() < kFewestKeypoints) return "too few keypoints of known joints: not fitted";
   const auto seen = std::count_if(problem.box.begin(), problem.box.end(), [](double b) { return b > 0.0; });
-  if (2 * seen < problem.frames()) return "the camera does not see the motion: left as it is";
+  if (2 * seen < problem.frames()) return "the camera does not see the motion: not fitted";
   return "";
 }
 
-/// The clip, its camera calmed where it trembles.
+/// The clip, its camera smoothed where it trembles.
 motion::Clip with_a_calm_camera(const motion::Clip& clip, FitReport& report) {
   motion::Clip calm = clip;
-  calm.keypoints->extrinsics = calmed(clip.keypoints->extrinsics, clip.fps);
+  calm.keypoints->extrinsics = smoothed_path(clip.keypoints->extrinsics, clip.fps);
   if (calm.keypoints->extrinsics != clip.keypoints->extrinsics)
-    report.notes.emplace_back("the told camera trembles from frame to frame: smoothed over 0.1 s");
+    report.notes.emplace_back("the given camera trembles from frame to frame: smoothed over 0.1 s");
   return calm;
 }
 
@@ -34,7 +34,7 @@ motion::Clip fit_keypoints(const motion::Clip& clip, const FitConfig& config, Fi
   FitReport r;
   motion::Clip fitted = clip;
   if (!clip.keypoints) {
-    r.notes.emplace_back("no keypoints: left as it is");
+    r.notes.emplace_back("no keypoints: not fitted");
   } else {
     motion::require_usable(clip, 3);
     const motion::Clip calm = with_a_calm_camera(clip, r);

@@ -12,9 +12,9 @@
 namespace mimicx::fit {
 namespace {
 
-constexpr int kFewestFrames = 4;  ///< that show a tremor
+constexpr int kFewestFrames = 4;  ///< needed to measure a tremor
 
-/// Puts the input on the floor, as slowly as preparation does: where feet stand can be seen there alone.
+/// Puts the input on the floor as preparation does: standing feet can only be found there.
 void put_on_floor(bool known, FitProblem& problem) {
   const Character character = character_of(problem, initial_state(problem));
   const std::vector<motion::SurfacePoint> points = motion::surface_points(character);
@@ -32,9 +32,9 @@ FitProblem problem_of(const motion::Clip& clip, const FitConfig& config) {
   blind.keypoints.reset();
   FitProblem problem = make_problem(blind, config);
   problem.poses_alone = true;
-  problem.calms = problem.rotation_jitter >= kTremor * kDegree;
+  problem.penalises_acceleration = problem.rotation_jitter >= kTremor * kDegree;
   FitConfig& own = problem.config;
-  own.prior_frames = problem.calms ? config.tremor_prior_frames : config.pose_prior_frames;
+  own.prior_frames = problem.penalises_acceleration ? config.tremor_prior_frames : config.pose_prior_frames;
   own.joint_rate = config.pose_joint_rate;
   own.joint_bend = config.pose_joint_bend;
   own.root_rotation_sigma = config.pose_root_rotation_sigma;
@@ -65,8 +65,9 @@ motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitRep
   if (clip.frames() < kFewestFrames) return clip;
   motion::require_usable(clip, kFewestFrames);
   FitProblem problem = problem_of(clip, config);
-  motion::Clip fitted =
-      problem.calms || slip_of(problem) >= config.pose_slip ? solved(clip, problem, r) : clip;
+  motion::Clip fitted = problem.penalises_acceleration || slip_of(problem) >= config.pose_slip
+                            ? solved(clip, problem, r)
+                            : clip;
   if (report) *report = r;
   return fitted;
 }

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// A camera that turns after somebody and walks, and trembles by so many degrees and by 50 times so many mm.
+/// A moving camera that follows a person, with a tremor of an angle in degrees and of 50 mm per degree.
 PerFrame<Eigen::Matrix4d> carried(int frames, double degrees) {
   Random random(3, {1});
   PerFrame<Eigen::Matrix4d> path;
@@ -35,14 +35,15 @@ double distance(const PerFrame<Eigen::Matrix4d>& a, const PerFrame<Eigen::Matrix
 }
 
 TEST(CameraSmoothing, SteadyPathStaysBitIdentical) {
-  for (const int frames : {1, 2, 3, 200}) EXPECT_EQ(calmed(carried(frames, 0.0), 30.0), carried(frames, 0.0));
+  for (const int frames : {1, 2, 3, 200})
+    EXPECT_EQ(smoothed_path(carried(frames, 0.0), 30.0), carried(frames, 0.0));
 }
 
 TEST(CameraSmoothing, MeasuresJitterAndRemovesAThirdOfTheErrorDespiteSway) {
   const PerFrame<Eigen::Matrix4d> truth = carried(300, 0.0), told = carried(300, 0.3);
   EXPECT_NEAR(jitter_of_camera(told).turn, 0.3 * kDegree, 0.1 * kDegree);
   EXPECT_NEAR(jitter_of_camera(told).place, 0.015, 0.004);
-  EXPECT_LT(distance(calmed(told, 30.0), truth), 0.67 * distance(told, truth));
+  EXPECT_LT(distance(smoothed_path(told, 30.0), truth), 0.67 * distance(told, truth));
 }
 
 TEST(CameraSmoothing, TremblingCameraDoesNotShrinkTheWorld) {

@@ -36,7 +36,7 @@ TEST(Fit, ExactDetectionsRecoverTheTruth) {
     EXPECT_LT(report.residual_after, 0.1);
     EXPECT_EQ(report.swapped_frames, 0);
     EXPECT_EQ(report.dropped_points, 0);
-    EXPECT_NEAR(report.focal_scale, 1.0, 1e-9);  // the camera was to be believed
+    EXPECT_NEAR(report.focal_scale, 1.0, 1e-9);  // the camera is exact
     EXPECT_NEAR(report.tilt_deg, 0.0, 1e-6);
   }
 }

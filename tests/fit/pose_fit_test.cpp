@@ -65,7 +65,7 @@ TEST(FitPoses, MovesALeaningBodyOverItsFeet) {
   const double with = against(truth, fit_poses(leaning, {}, nullptr)).mpjpe.value;
   const double without = against(truth, fit_poses(leaning, config, nullptr)).mpjpe.value;
   EXPECT_LT(with, before);
-  EXPECT_LT(with, without) << "balance tells of the lean";
+  EXPECT_LT(with, without) << "the balance term reduces the lean";
 }
 
 TEST(FitPoses, MovesEstimatesCloserToTheTruth) {
@@ -90,7 +90,7 @@ TEST(FitPoses, SmoothsATremblingMotion) {
     const motion::Clip calm = fit_poses(noisy, {}, nullptr);
     EXPECT_LT(against(truth, calm).accel.value, 0.5 * against(truth, noisy).accel.value) << kind;
     for (std::size_t i = 0; i < kBetas; ++i)
-      EXPECT_NEAR(calm.betas[i], noisy.betas[i], 1e-4) << "nothing tells of the shape";
+      EXPECT_NEAR(calm.betas[i], noisy.betas[i], 1e-4) << "the shape is not observable";
   }
 }
 

@@ -10,17 +10,17 @@ namespace mimicx::fit {
 namespace {
 
 constexpr double kAccelerationWindow = 0.1;   ///< s to either side
-constexpr double kOtherSupport = 0.05;        ///< m: what else is so low may bear weight
-constexpr double kLeastPush = 0.5;            ///< of the weight; a body that bears less flies
+constexpr double kOtherSupport = 0.05;        ///< m; other points this low may bear weight
+constexpr double kLeastPush = 0.5;            ///< share of the weight; with less load the body flies
 constexpr double kSpread = 0.02;              ///< m, σ of the point where the support has no size
 constexpr double kCornersToArea = 1.0 / 3.0;  ///< variance of a rectangle over that of its corners
-constexpr double kKernel = 2.0;               ///< in σ: what a point mass leaves out
+constexpr double kKernel = 2.0;               ///< in σ; the model of point masses is approximate
 constexpr int kFewestPoints = 3;
 
 using Plane = Eigen::Vector2d;
 using PlaneJacobian = Eigen::Matrix<double, 2, kFrameUnknowns>;
 
-/// Everything of the surface but the feet.
+/// All surface points except those of the feet.
 std::vector<motion::SurfacePoint> points_beside_feet(const Character& character) {
   std::vector<motion::SurfacePoint> points = motion::surface_points(character);
   std::erase_if(points, [](const motion::SurfacePoint& p) {
@@ -29,7 +29,7 @@ std::vector<motion::SurfacePoint> points_beside_feet(const Character& character)
   return points;
 }
 
-/// Derivative of the centre of mass, over the floor.
+/// Derivative of the horizontal position of the centre of mass.
 PlaneJacobian centre_jacobian(const Character& character, const FrameKinematics& k) {
   PlaneJacobian J = PlaneJacobian::Zero();
   const double total = character.total_mass();
@@ -40,7 +40,7 @@ PlaneJacobian centre_jacobian(const Character& character, const FrameKinematics&
   return J;
 }
 
-/// The points that stand in a frame, over the floor.
+/// Horizontal positions of the points that stand in a frame.
 struct Support {
   int points = 0;
   Plane middle = Plane::Zero();

@@ -1,9 +1,8 @@
-/// The balance term of a fit of poses alone: over the feet that stand, the zero-moment point lies within
-/// them.
+/// The balance term of the pose fit: the zero-moment point lies within the standing feet.
 ///                                                     docs/method.md, "Keypoint fit", "Without keypoints"
 ///
-/// What it does not do: it says nothing of frames in which hands, knees or trunk are near the floor, nor of
-/// flights, and nothing of the body's angular momentum.
+/// What it does not do: it ignores frames in which hands, knees or trunk are near the floor, flights, and the
+/// body's angular momentum.
 #pragma once
 
 #include "fit/least_squares/bordered_band.h"
@@ -12,8 +11,8 @@
 
 namespace mimicx::fit {
 
-/// Adds the normal equations of the term at a state; accelerations are held fixed. `balance_frames` = 0:
-/// nothing.
+/// Adds the normal equations of the term at a state, with accelerations held fixed. Adds nothing for
+/// `balance_frames` = 0.
 /// @param motion, feet  kinematics and foot points of the state, [frames]
 void add_balance(const FitProblem& problem, const Character& character,
                  const PerFrame<FrameKinematics>& motion, const PerFrame<FootPositions>& feet,

@@ -44,8 +44,8 @@ void forward(const BorderedBand& s, PerFrame<VectorXd>& y) {
   }
 }
 
-constexpr int kBlock = 512;            ///< frames of the border that are there at once
-constexpr Eigen::Index kColumns = 64;  ///< of the border in a chunk
+constexpr int kBlock = 512;            ///< frames of the border in memory at once
+constexpr Eigen::Index kColumns = 64;  ///< columns of the border in a chunk
 
 int chunks_of(const BorderedBand& s) { return static_cast<int>((s.corner.cols() + kColumns - 1) / kColumns); }
 

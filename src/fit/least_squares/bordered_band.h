@@ -8,9 +8,9 @@
 /// the number of frames.
 ///
 /// The border is as large as the rest of the system and is needed twice: for the Schur complement, and to
-/// take the border's share off the frames' right side once g is known. It is made anew for each, a few frames
-/// at a time, and never there as a whole. Its columns do not know of each other: they are divided among
-/// threads in chunks of fixed width, so the bytes are those of one thread.
+/// subtract B g from the frames' right side once g is known. To save memory it is computed twice, a few
+/// frames at a time, and never stored as a whole. Its columns are independent: threads share them in chunks
+/// of fixed width, so the result does not depend on the number of threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@
 
 namespace mimicx::fit {
 
-/// B: writes n × m rows of the frames first, first + 1, … Called from several threads at once.
+/// Computes B: writes the n × m rows of the frames first, first + 1, … Called by several threads at once.
 using Border = std::function<void(int first, std::span<Eigen::MatrixXd> rows)>;
 
 struct BorderedBand {
@@ -46,15 +46,16 @@ struct BandSolution {
   Eigen::VectorXd g;            ///< m
 };
 
-/// A solution, and draws of its error under the model: from the normal distribution whose inverse covariance
-/// is the matrix of the system.  docs/method.md, "Keypoint fit", (10)
+/// A solution, and samples of its error from the normal distribution whose inverse covariance is the matrix
+/// of the system.  docs/method.md, "Keypoint fit", (10)
 struct SolutionWithDraws : BandSolution {
   std::vector<BandSolution> draws;
 };
 
-/// Solves the system; overwrites it with its factors.
+/// Solves the system. Its factors overwrite it.
+/// @param draws    number of samples of the error
 /// @param random   advanced by the draws
-/// @param threads  no influence on the result
+/// @param threads  without influence on the result
 /// @throws std::domain_error when it is not positive definite
 SolutionWithDraws solve(BorderedBand& system, const Border& border, int draws, Random& random,
                         int threads = 1);

@@ -17,7 +17,7 @@ DetectionRows Detections::rows(int t) const {
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const double scale = weights[t][k];
     if (scale <= 0.0) continue;
-    const SeenPoint point = see_closely(problem, state, motion, t, k);
+    const KeypointDerivatives point = keypoint_derivatives(problem, state, motion, t, k);
     const auto row = static_cast<Eigen::Index>(2 * k);
     out.J.middleRows<2>(row) = scale * point.by_frame;
     out.G.middleRows<2>(row) = scale * point.by_clip;
@@ -27,9 +27,9 @@ DetectionRows Detections::rows(int t) const {
   return out;
 }
 
-NewInFrame Detections::news(int t, const DetectionRows& before, const DetectionRows& now) const {
+Innovation Detections::innovation(int t, const DetectionRows& before, const DetectionRows& now) const {
   const auto size = now.z.size();
-  NewInFrame out;
+  Innovation out;
   out.here = VectorXd::Ones(size), out.kept = VectorXd::Zero(size), out.own = VectorXd(size);
   const double correlation = correlation_of(problem);
   const double grown = 1.0 / std::sqrt(1.0 - correlation * correlation);
@@ -55,12 +55,13 @@ NewInFrame Detections::news(int t, const DetectionRows& before, const DetectionR
   return out;
 }
 
-void Detections::add_border(const Eigen::MatrixXd& J, const NewInFrame& news, Eigen::MatrixXd& border) const {
-  border.leftCols<kFirstOffset>().noalias() += J.transpose() * news.G;
+void Detections::add_border(const Eigen::MatrixXd& J, const Innovation& innovation,
+                            Eigen::MatrixXd& border) const {
+  border.leftCols<kFirstOffset>().noalias() += J.transpose() * innovation.G;
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(2 * k);
     border.middleCols<kOffsets>(offset_of(k)).noalias() +=
-        J.middleRows<2>(row).transpose() * news.O.middleRows<2>(row);
+        J.middleRows<2>(row).transpose() * innovation.O.middleRows<2>(row);
   }
 }
 

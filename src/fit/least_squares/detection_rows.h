@@ -1,5 +1,6 @@
-/// The detections' rows of the fit's least-squares problem: what is new in the errors of a frame after those
-/// of the frame before, by all unknowns.  docs/method.md, "Keypoint fit", (7), "keypoints"
+/// The detections' rows of the fit's least-squares problem. Errors of neighbouring frames are correlated, so
+/// a row is the innovation: the error of a frame minus its prediction from the frame before.
+///                                                          docs/method.md, "Keypoint fit", (7), "keypoints"
 #pragma once
 
 #include "fit/least_squares/fit_kinematics.h"
@@ -14,8 +15,8 @@ struct DetectionRows {
   VectorXd z;         ///< [2K]
 };
 
-/// What is new in them: here ∘ rows(t) − kept ∘ rows(t − 1), row by row.
-struct NewInFrame {
+/// The innovation of a frame: here ∘ rows(t) − kept ∘ rows(t − 1), row by row.
+struct Innovation {
   VectorXd here, kept;  ///< [2K]
   VectorXd own;  ///< [2K] here², and kept² of the frame after: the weight of the rows of t on themselves
   Eigen::MatrixXd G, O;  ///< as above
@@ -29,10 +30,10 @@ struct Detections {
   PerFrame<std::vector<double>> weights;  ///< [frames][K] detection_weights
 
   DetectionRows rows(int t) const;
-  /// @param before  rows of the frame before; of the first frame not looked at
-  NewInFrame news(int t, const DetectionRows& before, const DetectionRows& now) const;
+  /// @param before  rows of the frame before; unused for the first frame
+  Innovation innovation(int t, const DetectionRows& before, const DetectionRows& now) const;
   /// Adds to the border's rows of a frame: Jᵀ (G, O), each keypoint's offsets in their own columns.
-  void add_border(const Eigen::MatrixXd& J, const NewInFrame& news, Eigen::MatrixXd& border) const;
+  void add_border(const Eigen::MatrixXd& J, const Innovation& innovation, Eigen::MatrixXd& border) const;
 };
 
 }  // namespace mimicx::fit

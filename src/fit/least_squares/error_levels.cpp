@@ -11,17 +11,18 @@
 namespace mimicx::fit {
 namespace {
 
-constexpr double kTail = 4.0;            ///< degrees of freedom of a detection's error: outliers happen
-constexpr double kToldCounts = 300.0;    ///< coordinates that the told σ counts for, beside all residuals
-constexpr double kPooledCounts = 100.0;  ///< that the σ of all keypoints counts for, beside a keypoint's own
-constexpr double kConfidenceSpread = 0.5;  ///< σ of the told power of the confidence
+constexpr double kTail = 4.0;           ///< degrees of freedom of Student's t of a detection's error
+constexpr double kPriorCounts = 300.0;  ///< weight of the prior σ, in coordinates of detections
+constexpr double kPooledCounts =
+    100.0;  ///< weight of the σ of all keypoints in a keypoint's own σ, in coordinates
+constexpr double kConfidenceSpread = 0.5;  ///< σ of the prior of the power of the confidence
 constexpr double kMostPower = 4.0;
 
-/// Expected square of a keypoint's error in a frame: the state's, and what the state does not know.
+/// Expected square of a keypoint's error in a frame, including the state's uncertainty.
 double expected_square(const FitProblem& problem, const FitState& state,
                        const PerFrame<FrameKinematics>& motion, const std::vector<BandSolution>& draws, int t,
                        std::size_t k) {
-  const SeenPoint p = see_closely(problem, state, motion, t, k);
+  const KeypointDerivatives p = keypoint_derivatives(problem, state, motion, t, k);
   double sum = p.seen.error.squaredNorm();
   for (const BandSolution& d : draws)
     sum += (p.by_frame * d.x[t] + p.by_clip * d.g.head<kFirstOffset>() +
@@ -31,7 +32,7 @@ double expected_square(const FitProblem& problem, const FitState& state,
   return sum;
 }
 
-/// A detection as its levels see it.
+/// A detection as input of the level estimate.
 struct Seen {
   double log_confidence;
   double square;  ///< expected, under the kernel, over σ²
@@ -53,7 +54,7 @@ struct Sum {
   double squares = 0, count = 0;
 };
 
-/// What the detections of a keypoint say of the power of the confidence: slope and curvature of the
+/// Evidence of the detections of a keypoint for the power of the confidence: slope and curvature of the
 /// likelihood's logarithm. The mean confidence is left to the keypoint's own σ.
 struct Evidence {
   double slope = 0, curvature = 0;
@@ -101,7 +102,7 @@ PerFrame<std::vector<double>> detection_weights(const FitProblem& problem, const
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
       const double confidence = problem.uvc[t][k].z();
       if (confidence <= 0.0) continue;
-      const Projection seen = see(problem, state, motion, t, k);
+      const Projection seen = keypoint_error(problem, state, motion, t, k);
       if (!seen.valid) continue;
       const double plain = pow(confidence, level.confidence_power) / level.keypoint[k];
       const double squares = seen.error.squaredNorm();
@@ -120,7 +121,7 @@ FitLevels levels_of(const FitProblem& problem, const FitState& state, const PerF
   const auto weights = detection_weights(problem, state, motion);
   Evidence evidence;
   std::vector<Sum> sums;
-  Sum all{square(problem.config.keypoint_sigma) * kToldCounts, kToldCounts};
+  Sum all{square(problem.config.keypoint_sigma) * kPriorCounts, kPriorCounts};
   List<std::vector<Seen>> of_points(problem.points.size());
   parallel_for(of_points.count(), problem.config.threads, [&](int k) {
     of_points[k] = seen_of(problem, state, motion, draws, weights, static_cast<std::size_t>(k));

@@ -1,9 +1,9 @@
-/// How wrong the input is: levels that are told, and levels that the fit finds out from what it leaves over.
+/// Error levels of the fit: those of corrections and offsets are given, those of detections are estimated.
 ///                                                               docs/method.md, "Keypoint fit", "Levels"
 ///
 /// What it does not do: no solution of the fit itself (keypoint_fit.h, bordered_band.h). The levels of the
-/// corrections, of the offsets and the correlation are told, not found: docs/experiments.md, "Keypoint fit",
-/// says why.
+/// corrections, of the offsets and the correlation are given, not estimated: docs/experiments.md, "Keypoint
+/// fit", says why.
 #pragma once
 
 #include "fit/least_squares/bordered_band.h"
@@ -20,13 +20,14 @@ struct CorrectionLevels {
 };
 CorrectionLevels correction_levels(const FitProblem& problem);
 
-/// Square root of the weight of every detection: 1/σ under its kernel, 0 where it is not used. [frames][K]
+/// Square root of the weight of every detection: 1/σ reduced by its robust kernel; 0 where it is not used.
+/// [frames][K]
 PerFrame<std::vector<double>> detection_weights(const FitProblem& problem, const FitState& state,
                                                 const PerFrame<FrameKinematics>& motion);
 
-/// One step of expectation-maximisation: the levels of the detections under which the residuals of a state,
-/// with the state's own uncertainty, are most likely.  docs/method.md, "Keypoint fit", (11), (12)
-/// @param draws  of the state's error, from `draw`
+/// One step of expectation-maximisation: the levels of the detections that maximise the likelihood of the
+/// residuals of a state, given the state's own uncertainty.  docs/method.md, "Keypoint fit", (11), (12)
+/// @param draws  samples of the state's error (SolutionWithDraws)
 FitLevels levels_of(const FitProblem& problem, const FitState& state, const PerFrame<FrameKinematics>& motion,
                     const std::vector<BandSolution>& draws);
 

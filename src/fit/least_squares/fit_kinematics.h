@@ -12,7 +12,7 @@ namespace mimicx::fit {
 using PointJacobian = Eigen::Matrix<double, 3, kFrameUnknowns>;
 using FootPositions = Array<Vector3d, kFootPoints>;  ///< of the points of the soles, world, m
 
-/// Poses of a frame with what their derivatives need.
+/// Poses of a frame, and the matrices that their derivatives need.
 struct FrameKinematics {
   BodyPoses poses;
   PerBody<Matrix3d> R;             ///< R_WB
@@ -22,7 +22,7 @@ struct FrameKinematics {
 FrameKinematics kinematics(const FitProblem& problem, const FitState& state, const Character& character,
                            int t);
 
-/// Where the points of the soles are in a frame.
+/// Positions of the points of the soles in a frame, m.
 FootPositions foot_positions(const Character& character, const FrameKinematics& k);
 
 /// Derivative of a point p (world, m) fixed to a body.

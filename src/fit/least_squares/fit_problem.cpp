@@ -33,7 +33,7 @@ bool is_of_a_limb(int body) {
   }
 }
 
-/// The keypoints with a place on the body, and which of them belong together.
+/// The keypoints with a position on the body, each with the index of its mirror point.
 std::vector<FitPoint> points_among(const std::vector<std::string>& names, const Character& character) {
   std::vector<FitPoint> points;
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -48,7 +48,7 @@ std::vector<FitPoint> points_among(const std::vector<std::string>& names, const 
   return points;
 }
 
-/// How the places of keypoints on their bodies move with the shape.
+/// Derivatives of the keypoints' positions on their bodies by β.
 void add_shape_derivatives(const std::vector<std::string>& names, std::vector<FitPoint>& points) {
   const Character standard = make_character();
   for (std::size_t k = 0; k < kBetas; ++k) {
@@ -135,8 +135,8 @@ Array<double, kBetas> told_shape(const FitConfig& config) {
   return sigma;
 }
 
-/// How people differ, as σ of our entries of β: the first is stature, the others move proportions. An entry
-/// is measured by the bone that it changes most; one that changes none (girth) cannot be seen and stays.
+/// The variation between people as σ of our entries of β: the first is stature, the others change
+/// proportions. An entry is scaled by the bone that it changes most; one that changes no bone (girth) gets 0.
 Array<double, kBetas> shapes_of_people(const FitConfig& config, const FitProblem& problem) {
   const Character standard = make_character();
   Array<double, kBetas> sigma{};
@@ -158,7 +158,8 @@ FitProblem make_problem(const motion::Clip& clip, const FitConfig& config) {
   problem.fps = clip.fps;
   problem.betas = clip.usable_betas();
   add_shape_derivatives(problem);
-  if (clip.keypoints && !clip.rest_joints)  // nothing else tells of the shape, or it is known
+  if (clip.keypoints &&
+      !clip.rest_joints)  // without keypoints the shape is not observable; with rest joints it is known
     problem.beta_sigma = clip.body_model == "mimicx" ? told_shape(config) : shapes_of_people(config, problem);
   problem.rest_joints = clip.rest_joints;
   const Character character = character_of(clip);

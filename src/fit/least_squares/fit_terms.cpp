@@ -14,12 +14,12 @@
 namespace mimicx::fit {
 namespace {
 
-constexpr double kFloorKernel = 0.03;  ///< m: a "standing" foot so far off the floor has lost half its weight
-constexpr double kAccelerationKernel = 3.0;  ///< in its σ: landings and kicks may be sharp
-constexpr double kSlipKernel = 5.0;          ///< in its σ: a foot that begins to move
+constexpr double kFloorKernel = 0.03;        ///< m; at this height the weight of a "standing" foot is halved
+constexpr double kAccelerationKernel = 3.0;  ///< in its σ; landings and kicks are sharp
+constexpr double kSlipKernel = 5.0;          ///< in its σ; for feet that begin to move
 constexpr double kFixed = 1e-6;              ///< σ of an unknown that is not estimated
 
-/// Of the coordinates of N points by a frame's unknowns.
+/// Jacobian of the coordinates of N points by a frame's unknowns.
 template <int N>
 using PointsJacobian = Eigen::Matrix<double, 3 * N, kFrameUnknowns>;
 
@@ -69,28 +69,30 @@ struct Assembler {
   void border(int first, std::span<Eigen::MatrixXd> rows) const;
 };
 
-/// Projected joints against detections: what is new in the error of a frame after that of the frame before.
+/// Projected joints against detections: the innovation of a frame's error after the frame before.
 void Assembler::keypoints(int t, const DetectionRows& before, const DetectionRows& now,
                           BorderedBand& system) const {
-  const NewInFrame news = detections.news(t, before, now);
-  system.diagonal[t].noalias() += now.J.transpose() * (news.own.asDiagonal() * now.J);
+  const Innovation innovation = detections.innovation(t, before, now);
+  system.diagonal[t].noalias() += now.J.transpose() * (innovation.own.asDiagonal() * now.J);
   if (t > 0) {
     system.next[t - 1].noalias() -=
-        now.J.transpose() * (news.here.cwiseProduct(news.kept).asDiagonal() * before.J);
-    system.rhs[t - 1].noalias() += (news.kept.asDiagonal() * before.J).eval().transpose() * news.r;
+        now.J.transpose() * (innovation.here.cwiseProduct(innovation.kept).asDiagonal() * before.J);
+    system.rhs[t - 1].noalias() +=
+        (innovation.kept.asDiagonal() * before.J).eval().transpose() * innovation.r;
   }
-  system.rhs[t].noalias() -= (news.here.asDiagonal() * now.J).eval().transpose() * news.r;
-  system.corner.topLeftCorner<kFirstOffset, kFirstOffset>().noalias() += news.G.transpose() * news.G;
-  system.rhs_border.head<kFirstOffset>().noalias() -= news.G.transpose() * news.r;
+  system.rhs[t].noalias() -= (innovation.here.asDiagonal() * now.J).eval().transpose() * innovation.r;
+  system.corner.topLeftCorner<kFirstOffset, kFirstOffset>().noalias() +=
+      innovation.G.transpose() * innovation.G;
+  system.rhs_border.head<kFirstOffset>().noalias() -= innovation.G.transpose() * innovation.r;
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(2 * k);
     const int at = offset_of(k);
-    const Eigen::Matrix<double, kOffsets, 2> offsets = news.O.middleRows<2>(row).transpose();
-    const Eigen::Matrix<double, kOffsets, kFirstOffset> shared = offsets * news.G.middleRows<2>(row);
+    const Eigen::Matrix<double, kOffsets, 2> offsets = innovation.O.middleRows<2>(row).transpose();
+    const Eigen::Matrix<double, kOffsets, kFirstOffset> shared = offsets * innovation.G.middleRows<2>(row);
     system.corner.block<kOffsets, kFirstOffset>(at, 0) += shared;
     system.corner.block<kFirstOffset, kOffsets>(0, at) += shared.transpose();
     system.corner.block<kOffsets, kOffsets>(at, at) += offsets * offsets.transpose();
-    system.rhs_border.segment<kOffsets>(at) -= offsets * news.r.segment<2>(row);
+    system.rhs_border.segment<kOffsets>(at) -= offsets * innovation.r.segment<2>(row);
   }
 }
 
@@ -116,7 +118,7 @@ void Assembler::priors(int t, BorderedBand& system) const {
   system.rhs[t] -= weight.cwiseProduct(state.c[t]);
 }
 
-/// First and second differences of the corrections; what the input itself jitters is allowed on top.
+/// First and second differences of the corrections; the input's own jitter is added to their σ.
 void Assembler::smoothness(int t, BorderedBand& system) const {
   const CorrectionLevels level = correction_levels(problem);
   if (t + 1 < state.c.count()) {
@@ -201,7 +203,7 @@ double Assembler::standing_weight(int t, int i) const {
   return w;
 }
 
-/// By the unknowns of the frame and by the shape: how high a foot point is.
+/// Derivative of a foot point's height by the unknowns of the frame and by the shape.
 struct HeightJacobian {
   Eigen::RowVectorXd J;
   Eigen::Matrix<double, 1, kBetas> G;
@@ -213,7 +215,7 @@ struct HeightJacobian {
   }
 };
 
-/// Heights of the foot points: on the floor where they stand, not below it anywhere.
+/// Heights of the foot points: 0 where they stand, nowhere below 0.
 void Assembler::standing(int t, BorderedBand& system) const {
   for (int i = 0; i < kFootPoints; ++i) {
     const double z = feet[t][i].z(), w = standing_weight(t, i);
@@ -226,19 +228,20 @@ void Assembler::standing(int t, BorderedBand& system) const {
   }
 }
 
-/// What frames share with the clip's unknowns: detections and heights.
+/// The border: derivatives of detections and heights by the clip's unknowns.
 void Assembler::border(int first, std::span<Eigen::MatrixXd> rows) const {
   DetectionRows before, now = first > 0 ? detections.rows(first - 1) : DetectionRows{};
   const int end = first + static_cast<int>(rows.size());
   for (int t = first; t <= std::min(end, problem.frames() - 1); ++t) {
     std::swap(before, now);
     now = detections.rows(t);
-    const NewInFrame news = detections.news(t, before, now);
+    const Innovation innovation = detections.innovation(t, before, now);
     const auto at = static_cast<std::size_t>(t - first);
-    if (t > first) detections.add_border(-(news.kept.asDiagonal() * before.J).eval(), news, rows[at - 1]);
+    if (t > first)
+      detections.add_border(-(innovation.kept.asDiagonal() * before.J).eval(), innovation, rows[at - 1]);
     if (t == end) break;
     rows[at].setZero(kFrameUnknowns, problem.globals());
-    detections.add_border(news.here.asDiagonal() * now.J, news, rows[at]);
+    detections.add_border(innovation.here.asDiagonal() * now.J, innovation, rows[at]);
     for (int i = 0; i < kFootPoints; ++i) {
       const double w = standing_weight(t, i);
       if (w == 0.0) continue;
@@ -297,7 +300,7 @@ NormalEquations linearise(const FitProblem& problem, const FitState& state,
     terms.standing(t, system);
   }
   terms.slipping(system);
-  if (problem.calms) terms.acceleration(system);
+  if (problem.penalises_acceleration) terms.acceleration(system);
   return {std::move(system),
           [terms](int first, std::span<Eigen::MatrixXd> rows) { terms.border(first, rows); }};
 }

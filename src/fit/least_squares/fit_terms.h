@@ -7,7 +7,7 @@
 
 namespace mimicx::fit {
 
-/// A system and its border, which is made from what `linearise` was given: that must outlive it.
+/// A system and its border. The border refers to the arguments of `linearise`, which must outlive it.
 struct NormalEquations {
   BorderedBand band;
   Border border;

@@ -17,15 +17,15 @@
 namespace mimicx::fit {
 namespace {
 
-constexpr int kDraws = 3;                       ///< of the solution's error, for the levels
+constexpr int kDraws = 3;                       ///< samples of the solution's error, for the levels
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
 constexpr int kUnsettled = 3;           ///< iterations until the motion is on the floor
 constexpr double kLargestTurn = 0.35;   ///< rad: longest step of one joint in one iteration
-constexpr double kFarOff = 3.0;         ///< kernels: a detection this far off was set aside
+constexpr double kFarOff = 3.0;         ///< kernel widths; detections farther off count as dropped
 constexpr double kSmallestStep = 1e-5;  ///< rad and m: below, the fit has converged
 
-/// A state with everything that follows from it.
+/// A state with its derived quantities.
 struct Evaluated {
   PerFrame<FrameKinematics> motion;
   PerFrame<FootPositions> feet;
@@ -45,14 +45,14 @@ Evaluated evaluate(const FitProblem& problem, const FitState& state) {
   return e;
 }
 
-/// Where the detections should be, pixels: [frames][K].
+/// Predicted detections, pixels, [frames][K].
 PerFrame<std::vector<Eigen::Vector2d>> predict(const FitProblem& problem, const FitState& state,
                                                const Evaluated& e) {
   PerFrame<std::vector<Eigen::Vector2d>> predicted;
   for (int t = 0; t < problem.frames(); ++t) {
     predicted.emplace_back();
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
-      const Projection seen = see(problem, state, e.motion, t, k);
+      const Projection seen = keypoint_error(problem, state, e.motion, t, k);
       const Eigen::Vector2d detected = problem.uvc[t][k].head<2>();
       predicted.back().push_back(seen.valid ? Eigen::Vector2d(detected + problem.box[t] * seen.error)
                                             : detected);
@@ -72,7 +72,7 @@ Residual residual_of(const FitProblem& problem, const FitState& state, const Eva
   for (int t = 0; t < problem.frames(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k) {
       const double confidence = problem.uvc[t][k].z();
-      const Projection seen = see(problem, state, e.motion, t, k);
+      const Projection seen = keypoint_error(problem, state, e.motion, t, k);
       if (confidence <= 0.0 || !seen.valid || seen.error.norm() > kFarOff * problem.config.keypoint_kernel)
         ++out.dropped;
       if (confidence <= 0.0 || !seen.valid) continue;
@@ -97,7 +97,7 @@ double advance(const BandSolution& step, FitState& state) {
   return scale * longest;
 }
 
-/// Keypoints of the clip with the labels and the camera of the fit.
+/// Keypoints of the clip with the sides and the camera of the fit.
 void correct_keypoints(const FitProblem& problem, const FitState& state, motion::Keypoints& keypoints) {
   for (int t = 0; t < keypoints.uvc.count(); ++t)
     for (std::size_t k = 0; k < problem.points.size(); ++k)
@@ -153,7 +153,7 @@ SolutionWithDraws step_from(const FitProblem& problem, const FitState& state, co
   return solve(equations.band, equations.border, draws, random, problem.config.threads);
 }
 
-/// Gauss-Newton with labels and contacts found anew before each step, levels after it.
+/// Gauss-Newton; sides and contacts are updated before each step, levels after it.
 FitState iterate(FitProblem& problem, FitReport& report) {
   const PerFrame<std::vector<Vector3d>> detected = problem.uvc;
   Random random(kLevelStream);
@@ -161,7 +161,7 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   Evaluated e = evaluate(problem, state);
   report.residual_before = residual_of(problem, state, e).rms;
   for (report.iterations = 0; report.iterations < problem.config.iterations;) {
-    report.swapped_frames = order_labels(detected, predict(problem, state, e), problem);
+    report.swapped_frames = order_left_and_right(detected, predict(problem, state, e), problem);
     const bool settled = report.iterations >= kUnsettled;
     const Contacts contacts = contacts_of(problem, e, settled);
     const bool levels = settled && problem.config.find_levels && !problem.points.empty();
@@ -202,7 +202,7 @@ motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& re
     report_change(clip, fitted, report);
     return fitted;
   } catch (const std::domain_error& error) {
-    report.notes.push_back(std::string(error.what()) + ": left as it is");
+    report.notes.push_back(std::string(error.what()) + ": not fitted");
     return clip;
   }
 }

@@ -1,4 +1,4 @@
-/// The solution of a fit: Gauss-Newton over its terms, with contacts, labels and levels found anew.
+/// Solves a fit by Gauss-Newton; contacts, sides and error levels are updated in every iteration.
 ///                                                                docs/method.md, "Keypoint fit", "Solution"
 ///
 /// What it does not do: it does not decide whether there is anything to fit (keypoint_fit.h, pose_fit.h).
@@ -9,8 +9,8 @@
 
 namespace mimicx::fit {
 
-/// The clip at the problem's solution; as it is, with a note, where there is none.
-/// @param problem  its levels and its `settled` change
+/// The clip at the problem's solution; the unchanged clip, with a note, where the solver fails.
+/// @param problem  its levels, sides and `settled` change
 motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& report);
 
 }  // namespace mimicx::fit

@@ -7,16 +7,16 @@
 namespace mimicx::fit {
 namespace {
 
-constexpr double kFar = 0.15;        ///< heights of the box: farther detections count no more than this
-constexpr double kBetter = 0.4;      ///< a swap must lower a limb's cost to this share …
-constexpr double kFarEnough = 0.03;  ///< … and its points must be so far off on average, heights of the box
+constexpr double kFar = 0.15;        ///< heights of the box; cap of a distance in the cost
+constexpr double kBetter = 0.4;      ///< a swap must reduce a limb's cost to this share …
+constexpr double kFarEnough = 0.03;  ///< … and its mean distance must be above this, heights of the box
 
 bool is_leg(int body) {
   return body == kLeftHip || body == kRightHip || body == kLeftKnee || body == kRightKnee ||
          body == kLeftAnkle || body == kRightAnkle || body == kLeftFoot || body == kRightFoot;
 }
 
-/// Mean offset of the detections from the prediction, which no swap changes.
+/// Mean offset of the detections from the prediction. Swaps do not change it.
 Eigen::Vector2d mean_offset(const std::vector<Vector3d>& detected,
                             const std::vector<Eigen::Vector2d>& predicted,
                             const std::vector<FitPoint>& points) {
@@ -30,7 +30,7 @@ Eigen::Vector2d mean_offset(const std::vector<Vector3d>& detected,
   return count ? Eigen::Vector2d(sum / count) : sum;
 }
 
-/// Whether the legs (or arms) of a frame fit the prediction much better with left and right exchanged.
+/// Whether the legs (or arms) of a frame fit the prediction much better after exchanging left and right.
 bool prefers_swap(const std::vector<Vector3d>& detected, const std::vector<Eigen::Vector2d>& predicted,
                   const std::vector<FitPoint>& points, bool legs, double box) {
   const Eigen::Vector2d offset = mean_offset(detected, predicted, points);
@@ -52,8 +52,8 @@ bool prefers_swap(const std::vector<Vector3d>& detected, const std::vector<Eigen
 
 }  // namespace
 
-int order_labels(const PerFrame<std::vector<Vector3d>>& detected,
-                 const PerFrame<std::vector<Eigen::Vector2d>>& predicted, FitProblem& problem) {
+int order_left_and_right(const PerFrame<std::vector<Vector3d>>& detected,
+                         const PerFrame<std::vector<Eigen::Vector2d>>& predicted, FitProblem& problem) {
   int frames = 0;
   problem.uvc = detected;
   for (int t = 0; t < detected.count(); ++t) {

@@ -49,16 +49,16 @@ Vector3d point_of(const FitProblem& problem, const FitState& state, const FrameK
   return k.poses.p_WB[p.body] + k.R[p.body] * p_B;
 }
 
-Projection see(const FitProblem& problem, const FitState& state, const PerFrame<FrameKinematics>& motion,
-               int t, std::size_t k) {
+Projection keypoint_error(const FitProblem& problem, const FitState& state,
+                          const PerFrame<FrameKinematics>& motion, int t, std::size_t k) {
   return project_point(problem, state, t, k, point_of(problem, state, motion[t], k),
                        velocity(motion, t, problem.points[k].body));
 }
 
-SeenPoint see_closely(const FitProblem& problem, const FitState& state,
-                      const PerFrame<FrameKinematics>& motion, int t, std::size_t k) {
-  SeenPoint out;
-  out.seen = see(problem, state, motion, t, k);
+KeypointDerivatives keypoint_derivatives(const FitProblem& problem, const FitState& state,
+                                         const PerFrame<FrameKinematics>& motion, int t, std::size_t k) {
+  KeypointDerivatives out;
+  out.seen = keypoint_error(problem, state, motion, t, k);
   if (!out.seen.valid) return out;
   const int body = problem.points[k].body;
   out.by_frame = out.seen.by_point * point_jacobian(motion[t], body, point_of(problem, state, motion[t], k));

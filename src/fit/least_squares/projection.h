@@ -1,4 +1,4 @@
-/// Where the camera of the keypoint fit sees a joint, with derivatives.  docs/method.md, "Keypoint fit", (6)
+/// Projection of a keypoint into the picture, with derivatives.  docs/method.md, "Keypoint fit", (6)
 #pragma once
 
 #include "fit/least_squares/fit_kinematics.h"
@@ -7,7 +7,7 @@ namespace mimicx::fit {
 
 /// Error of a keypoint, in heights of the box, and its derivatives.
 struct Projection {
-  bool valid = false;                              ///< in front of the camera
+  bool valid = false;                              ///< the point is in front of the camera
   Eigen::Vector2d error;                           ///< (projected − detected) / box + offset
   Eigen::Matrix<double, 2, 3> by_point;            ///< by the position of the point
   Eigen::Matrix<double, 2, kFirstBeta> by_camera;  ///< by tilt, focal length and lead
@@ -23,22 +23,22 @@ Projection project_point(const FitProblem& problem, const FitState& state, int t
 inline int offset_of(std::size_t k) { return kFirstOffset + kOffsets * static_cast<int>(k); }
 
 /// A keypoint of a frame: its error and the derivatives by all unknowns it depends on.
-struct SeenPoint {
+struct KeypointDerivatives {
   Projection seen;
   Eigen::Matrix<double, 2, kFrameUnknowns> by_frame;
   Eigen::Matrix<double, 2, kFirstOffset> by_clip;  ///< camera, lead and shape
   Eigen::Matrix<double, 2, kOffsets> by_offset;
 };
 
-/// Where a keypoint's point is: its place on the body, of the shape, with the offset on the limb.
+/// World position of a keypoint, m, with its offset on the limb.
 Vector3d point_of(const FitProblem& problem, const FitState& state, const FrameKinematics& k,
                   std::size_t point);
 
 /// Error of a keypoint in a frame. @param motion  of the state, [frames]
-Projection see(const FitProblem& problem, const FitState& state, const PerFrame<FrameKinematics>& motion,
-               int t, std::size_t k);
+Projection keypoint_error(const FitProblem& problem, const FitState& state,
+                          const PerFrame<FrameKinematics>& motion, int t, std::size_t k);
 /// The same with derivatives by the unknowns.
-SeenPoint see_closely(const FitProblem& problem, const FitState& state,
-                      const PerFrame<FrameKinematics>& motion, int t, std::size_t k);
+KeypointDerivatives keypoint_derivatives(const FitProblem& problem, const FitState& state,
+                                         const PerFrame<FrameKinematics>& motion, int t, std::size_t k);
 
 }  // namespace mimicx::fit

@@ -33,10 +33,10 @@ VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState&
         if (confidence <= 0.0) return Eigen::Vector2d::Zero();
         const double plain =
             std::pow(confidence, problem.levels.confidence_power) / problem.levels.keypoint[k];
-        const double was = see(problem, weights_at, frozen.motion, at, k).error.squaredNorm();
+        const double was = keypoint_error(problem, weights_at, frozen.motion, at, k).error.squaredNorm();
         const double weight =
             problem.settled ? std::sqrt(6.0 / (4.0 + plain * plain * was)) : kernel(was, o.keypoint_kernel);
-        return plain * weight * see(problem, s, m.motion, at, k).error;
+        return plain * weight * keypoint_error(problem, s, m.motion, at, k).error;
       };
       const bool follows = t > 0 && problem.uvc[t][k].z() > 0.0 && problem.uvc[t - 1][k].z() > 0.0;
       const double c = follows ? o.keypoint_correlation : 0.0;

@@ -50,13 +50,13 @@ void expect_derivatives(motion::KeypointSet set) {
     const test::Moved m = test::move(problem, s);
     VectorXd e(2 * static_cast<Eigen::Index>(problem.points.size()));
     for (std::size_t k = 0; k < problem.points.size(); ++k)
-      e.segment<2>(2 * static_cast<Eigen::Index>(k)) = see(problem, s, m.motion, 0, k).error;
+      e.segment<2>(2 * static_cast<Eigen::Index>(k)) = keypoint_error(problem, s, m.motion, 0, k).error;
     return e;
   };
   const MatrixXd expected = test::finite_differences(state, errors);
   const test::Moved m = test::move(problem, state);
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
-    const SeenPoint found = see_closely(problem, state, m.motion, 0, k);
+    const KeypointDerivatives found = keypoint_derivatives(problem, state, m.motion, 0, k);
     ASSERT_TRUE(found.seen.valid);
     const auto row = 2 * static_cast<Eigen::Index>(k);
     EXPECT_LT((found.by_frame - expected.block<2, kFrameUnknowns>(row, 0)).norm(), 1e-7);
@@ -79,7 +79,7 @@ TEST(FitProjection, LeadShiftsTheMotionInTime) {
     const int body = problem.points[k].body;
     const Vector3d v = 0.5 * (m.motion[2].poses.p_WB[body] - m.motion[0].poses.p_WB[body]);
     state.g[kLead] = 0.6;
-    const Eigen::Vector2d late = see(problem, state, m.motion, 1, k).error;
+    const Eigen::Vector2d late = keypoint_error(problem, state, m.motion, 1, k).error;
     state.g[kLead] = 0.0;
     const Vector3d p = m.motion[1].poses.p_WB[body] + 0.6 * v;
     EXPECT_LT((late - project_point(problem, state, 1, k, p, Vector3d::Zero()).error).norm(), 1e-12);
