@@ -1,4 +1,4 @@
-/// Plans that are strung together: steps, raised legs and postures, one after the other.
+/// Builds a plan as a sequence of steps, raised legs and postures.
 ///
 ///     Choreography c(request, random_stance(request, 0.95, 1.2, 4.0, 12.0));
 ///     c.pause(0.4);
@@ -6,7 +6,7 @@
 ///     c.pose(c.crouched(arms_ahead, 60.0), 0.8);
 ///     return c.finished(style);
 ///
-/// It keeps the time and where the feet stand. What follows from balance is the solver's (balance.h).
+/// It tracks the time and the positions of the feet. The solver adds balance (whole_body_balance.h).
 #pragma once
 
 #include "synth/gait.h"
@@ -14,7 +14,7 @@
 
 namespace mimicx::synth {
 
-/// A place in the air for a raised foot, in the frame of the foot where it stood: m ahead, m outward.
+/// A position in the air for a raised foot, in the frame of the foot where it stood: m ahead, m outward.
 struct RaisedFoot {
   double ahead, outward, lift;
   double pitch = 0.0;  ///< toes up, rad; negative: heel up
@@ -22,43 +22,43 @@ struct RaisedFoot {
 
 class Choreography {
  public:
-  /// Stands still at time 0. @param settle  time the load takes from the middle to one foot and back, s
+  /// Begins standing still. @param settle  time in which the load moves between the middle and one foot, s
   Choreography(const PlanRequest& request, const PerSide<FootTarget>& start, double settle = 0.5);
 
   Random& random() { return request_.random; }
   const Character& character() const { return request_.character; }
   double now() const { return now_; }
-  /// Until the time that is left is kept for coming to rest, s.
+  /// Time that remains before the motion must come to rest, s.
   double left() const { return request_.seconds() - now_ - settle_ - 0.55; }
-  /// Where the feet stand now, or will after what was decided.
+  /// Where the feet stand after all steps so far.
   const PerSide<FootTarget>& feet() const { return feet_; }
   Eigen::Vector2d middle() const { return 0.5 * (feet_[0].place + feet_[1].place); }
   double heading() const { return 0.5 * (feet_[0].yaw + feet_[1].yaw); }
-  /// Someone standing at ease on the feet that the motion began with.
+  /// Standing at ease on the feet of time 0.
   const PlanFrame& stand() const { return stand_; }
 
-  /// The posture with both knees bent by about so many degrees where the feet stand now.
+  /// The posture with both knees bent by about `knee_degrees` where the feet stand now.
   PlanFrame crouched(PlanFrame posture, double knee_degrees) const;
 
   void pause(double seconds) { now_ += seconds; }
-  /// The load needs so long to leave a foot on which someone stands at ease.
+  /// Waits until the load has left a foot.
   void settle() { now_ += settle_; }
-  /// A foot goes to a place on the floor; now is when it has landed.
+  /// Moves a foot to a place on the floor in `seconds`; the time goes on until it has landed.
   void step(int side, const Eigen::Vector2d& place, double yaw, double seconds, double clearance = 0.05);
-  /// The posture is that of the key before until now, and this one after so many seconds; the time goes on.
+  /// Blends from the posture of the last key to this one in `seconds`; the time goes on.
   void pose(const PlanFrame& posture, double seconds);
-  /// The same; the time stays, so that steps go on meanwhile.
+  /// The same without advancing the time, so that steps can run in parallel.
   void pose_while(const PlanFrame& posture, double seconds);
 
   struct Raise {
     RaisedFoot at;
-    double seconds;  ///< from the place before
+    double seconds;  ///< from the previous place
   };
-  /// A foot leaves the floor, visits places in the air and returns to where it stood in `down` seconds.
-  /// @param postures  taken at those places; empty: as before
+  /// Raises a foot, moves it through places in the air, and returns it to where it stood in `down` seconds.
+  /// @param postures  at those places; empty: no change of posture
   void raise(int side, const std::vector<Raise>& places, const std::vector<PlanFrame>& postures, double down);
 
-  /// The plan of all of it. @param style  of steps; swinging arms where they do
+  /// The plan. @param style  of the steps, including swinging arms
   PerFrame<PlanFrame> finished(const GaitStyle& style);
 
  private:

@@ -1,13 +1,13 @@
-/// `mimicx corrupt`: a benchmark out of anyone's clean motion. Each file becomes a pair
+/// `mimicx corrupt`: makes a benchmark of clean motions. Each file becomes a pair
 ///
 ///     DIR/truth/NAME.npz   the motion on our own body, at 30 frames per second, on the floor z = 0
-///     DIR/noisy/NAME.npz   what a video estimator might make of it, with 2D keypoints and a camera
+///     DIR/noisy/NAME.npz   a simulated video estimate of it, with 2D keypoints and a camera
 ///
-/// so that `mimicx evaluate --truth DIR/truth --motions …` scores whatever is done with the second.
-/// The errors of a clip follow from the seed and its NAME alone (`synth::clip_seed`): the other files
-/// of a call change nothing. The noisy file holds nothing of the truth.
+/// `mimicx evaluate --truth DIR/truth --motions …` then scores methods that are given the noisy files.
+/// The errors of a clip depend only on the seed and its NAME (`synth::clip_seed`), not on other files of the
+/// call. The noisy file holds nothing of the truth.
 ///
-/// What it does not do: no smoothing or repair of the truth; a motion that no body can do stays one.
+/// What it does not do: no smoothing or repair of the truth; implausible input stays implausible.
 #pragma once
 
 #include <filesystem>
@@ -19,9 +19,10 @@
 
 namespace mimicx::synth {
 
-/// A clip as a truth: on our own body (the standard one where its shape means nothing here, the nearest one
-/// where its joints are known), 30 frames per second, without keypoints and other members. A foreign body is
-/// put on the floor z = 0 as a whole, by the low percentile of its lowest point, unless its floor is known.
+/// Converts a clip to a truth: on our own body (the nearest shape where its joints are known, else the
+/// standard body where its shape is foreign), at 30 frames per second, without keypoints and other members. A
+/// foreign body is put on the floor z = 0 by one shift, using a low percentile of its lowest point, unless
+/// its floor is known.
 /// @throws DataError for fewer than 2 frames, at its own rate or at 30, and for values that are not finite
 motion::Clip benchmark_truth(const motion::Clip& input);
 
@@ -32,7 +33,7 @@ struct CorruptConfig {
 };
 
 /// Writes the pair of one file. @param name  NAME of the pair
-/// @return the file as it was read, with what reading decided
+/// @return the clip of the file, with the decisions of the reader
 /// @throws DataError and std::invalid_argument for a file that cannot be read or corrupted
 motion::Clip corrupt_file(const std::filesystem::path& file, const std::string& name,
                           const std::filesystem::path& directory, const CorruptConfig& config);

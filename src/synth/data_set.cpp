@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSetNoiseStream = 0x53594E04, kMixStream = 0x53594E05;
 
-/// The sum turns −0 into 0: the sign of a zero is a last-bit difference too.
+/// Adding 0 turns −0 into 0, because the sign of a zero is a last-bit difference as well.
 double on_grid(double value, double steps) { return std::round(value * steps) / steps + 0.0; }
 
 void round_to_grid(motion::Clip& clip) {
@@ -48,7 +48,7 @@ std::uint64_t noise_seed(const SynthConfig& clip) {
   return high << 32 | low;
 }
 
-/// How a clip errs of a set in which every clip errs in its own way.
+/// The noise of a clip of a "mixed" set.
 EstimateConfig mixed(const SynthSetConfig& set, std::uint64_t seed) {
   Random random(seed, {kMixStream});
   const double drawn = random.uniform();
@@ -66,7 +66,7 @@ EstimateConfig mixed(const SynthSetConfig& set, std::uint64_t seed) {
 std::vector<SynthConfig> clips_of_set(const SynthSetConfig& config) {
   const std::vector<std::string> kinds = config.kinds.empty() ? basic_kinds() : config.kinds;
   for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
-    index_of_kind(*kind);  // throws for an unknown one
+    index_of_kind(*kind);  // throws for an unknown kind
     if (std::find(kinds.begin(), kind, *kind) != kind)
       throw std::invalid_argument("kind of motion '" + *kind + "' is named twice");
   }

@@ -1,15 +1,13 @@
-/// Sets of synthetic motions: which clips, what an estimator makes of each, and the files.
+/// Data sets of synthetic motions: their clips, a simulated estimate of each, and the files.
 ///
 /// Layout: DIR/truth/NAME.npz (exact) and DIR/noisy/NAME.npz (estimate, 2D keypoints, camera), NAME =
 /// KIND_SEED. Clip i of a set has kind i mod kinds and seed K + i / kinds; its shape follows from the seed.
-/// The splits differ by their seeds: 1 to 99 is the test split, 101 and up the training split, as large as
-/// one asks for.
+/// The splits differ in their seeds: 1 to 99 for the test split, 101 and higher for the training split, which
+/// can have any size.
 ///
-/// Every clip depends on its kind and seed alone, never on the set it is in. Numbers are rounded to a fixed
-/// binary grid (2⁻²⁰ rad and m, 2⁻¹⁰ px), so that a last-bit difference between math libraries does not reach
-/// the files.
-/// What it does not do: no noise model of its own (estimator_noise.h), no check of what the motions demand of
-/// a body.
+/// A clip depends only on its kind and seed, not on its set. Numbers are rounded to a fixed binary grid (2⁻²⁰
+/// rad and m, 2⁻¹⁰ px), so that a last-bit difference between math libraries does not reach the files.
+/// What it does not do: no noise model of its own (estimator_noise.h), no check of feasibility.
 #pragma once
 
 #include <functional>
@@ -29,8 +27,7 @@ struct SynthSetConfig {
   int clips = 0;                   ///< 0: one of each kind
   std::uint64_t seed = kTestSeed;  ///< of the first clip of every kind
   /// "gvhmr", "vibe", "independent" (independent_noise.h); "none": exact motion, detected keypoints; "mixed":
-  /// every clip draws one of these four, in shares of 3 : 3 : 3 : 1, and loses its keypoints half of the
-  /// time.
+  /// every clip draws one of these four with odds of 3 : 3 : 3 : 1, and half of the clips have no keypoints.
   std::string noise = "gvhmr";
   std::string camera = "perturbed";  ///< see `camera_error`
   motion::KeypointSet keypoints = motion::KeypointSet::kJoints22;
@@ -48,13 +45,13 @@ struct SynthPair {
 /// @throws std::invalid_argument for an unknown kind, noise or camera
 SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config);
 
-/// Writes the files of a set; files of other names stay as they are.
-/// @param written  told after each clip: its index in `clips_of_set` and its truth
+/// Writes the files of a set; files with other names do not change.
+/// @param written  called after each clip with its index in `clips_of_set` and its truth
 void write_synth_set(const std::filesystem::path& directory, const SynthSetConfig& config,
                      const std::function<void(std::size_t index, const motion::Clip& truth)>& written = {});
 
-/// The data set in data/synthetic: test/ and train/, each one clip of every kind with the first seed of its
-/// split, gvhmr noise, perturbed camera.
+/// The data set in data/synthetic: test/ and train/ have one clip of every basic kind each, with the first
+/// seed of the split, gvhmr noise and perturbed camera.
 std::vector<std::pair<std::string, SynthSetConfig>> synthetic_splits();
 /// Writes it.
 void write_synthetic_data(const std::filesystem::path& directory);

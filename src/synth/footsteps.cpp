@@ -98,7 +98,7 @@ void add_raised_swing(const FootSwing& swing, const FootTarget& from, FootKnots&
   knots.toe_rise.push_back({home, 0.0});
 }
 
-/// Time left between a landing and the next start decides whether the load comes back to the middle.
+/// Moves the load back to the middle if there is enough time between a landing and the next start.
 void add_rest(double landed, double next, double settle, double middle, std::vector<Knot>& knots) {
   constexpr double kMoment = 1e-6;  ///< s
   if (next - landed <= 2.0 * settle + kMoment) return;

@@ -10,7 +10,7 @@
 
 namespace mimicx::synth {
 
-/// A place in the air at which a foot comes to rest on its way.
+/// A place in the air at which a moving foot comes to rest.
 struct FootVia {
   double time;            ///< s
   Eigen::Vector2d place;  ///< as FootTarget's
@@ -26,10 +26,10 @@ struct FootSwing {
   double yaw = 0.0;                   ///< how it lands
   double clearance = 0.0;             ///< height of the sole at mid-swing, m
   bool running = false;               ///< leaves and meets the floor with speed, and meets it flat
-  std::vector<FootVia> through = {};  ///< where it rests in the air, in order of time; then no clearance
+  std::vector<FootVia> through = {};  ///< rests in the air, in order of time; `clearance` is unused then
 };
 
-/// A foot's motion; `pressure` is where in the foot its share of the load acts, m ahead of the ankle.
+/// A foot's motion; `pressure` is the point of the foot at which its load acts, m ahead of the ankle.
 struct FootTracks {
   MinJerkTrack x, y, yaw, lift, heel_rise, toe_rise, pressure;
   FootTarget at(double time) const;
@@ -39,26 +39,28 @@ struct FootTracks {
 struct FeetTracks {
   PerSide<FootTracks> foot;
   MinJerkTrack load;
-  double splay = 0.0;  ///< the line of the load leaves the foot's axis outward by this much per m ahead
+  double splay = 0.0;  ///< outward distance of the load from the foot's axis, m per m ahead of the ankle
 };
 
-/// Feet that stand where they are, equally loaded in their middle.
+/// Feet that stand still, equally loaded in their middle.
 FeetTracks standing_feet(const Character& character, const PerSide<FootTarget>& start);
 
-/// Feet that walk: heel first, flat, then over the toes; the load moves over while both feet stand.
-/// @param swings  in order of their starts; where both feet are in the air (running), load and pressure are
-///                the caller's to set
-/// @param settle  time the load takes from the middle to a foot before the first swing and back at the end, s
+/// Feet that walk: a foot lands on the heel, becomes flat and rolls over the toes. The load changes feet
+/// while both feet stand.
+/// @param swings  in order of their starts; while both feet are in the air (running), the caller sets the
+///                load and the pressure
+/// @param settle  time in which the load moves from the middle to a foot before the first swing, and back at
+///                the end, s
 FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& start,
                          const std::vector<FootSwing>& swings, double settle);
 
-/// Feet and the centre of pressure that follows from them. Leaves the posture alone.
+/// Sets the feet of a frame and its centre of pressure; the posture does not change.
 void place_feet(const FeetTracks& feet, double time, PlanFrame& frame);
 
-/// Two feet on the line y, toes turned out. @param half_width  of the middle to each ankle, m
+/// Two feet on the y axis, toes turned out. @param half_width  distance of each ankle from the middle, m
 PerSide<FootTarget> feet_apart(double half_width, double toes_out);
 
-/// Half distance of the ankles with the legs straight down as in the rest pose, m.
+/// Half the distance of the ankles in the rest pose, m.
 double rest_half_width(const Character& character);
 
 /// Distance from hip to ankle along the stretched leg, m.
@@ -67,7 +69,7 @@ double leg_length(const Character& character);
 /// Distance from the ankle to the toe points along the foot, m.
 double forefoot_length(const Character& character);
 
-/// Where the load acts in a foot that stands flat, m ahead of the ankle.
+/// Point at which the load of a flat foot acts, m ahead of the ankle.
 double feet_middle(const Character& character);
 
 /// `hold_postures` in all frames, and `place_feet`.

@@ -1,6 +1,6 @@
-/// What walking kinds have in common: the body follows the feet.
+/// Gait: pelvis, trunk and arms that follow the feet.
 ///
-/// What it does not do: decide where the feet go (FootSwing, synth/footsteps.h).
+/// What it does not do: it does not decide where the feet go (FootSwing, synth/footsteps.h).
 #pragma once
 
 #include "core/units.h"
@@ -8,20 +8,21 @@
 
 namespace mimicx::synth {
 
-/// How a gait looks, beyond where the feet go.
+/// Amplitudes of a gait.
 struct GaitStyle {
   double arm_swing, pelvis_turn, pelvis_drop, trunk_lean;  ///< rad
 };
-/// Of somebody who stands and does something else: next to nothing.
+/// Of a person who hardly walks.
 inline constexpr GaitStyle kQuiet = {0.0, 0.0, 2.0 * kDegree, 0.0};
 
-/// Pelvis, trunk, arms and height follow the feet: what swings the arms is which foot is ahead.
-/// @param plan  feet and heading set; posture and height those of standing
+/// Adds to a plan the motion of pelvis, trunk, arms and height that belongs to its steps. The arms swing with
+/// the distance between the feet.
 /// @param stride  distance of the feet in a full step, m
+/// @param plan    has feet and heading, and posture and height of standing
 void follow_feet(const Character& character, const GaitStyle& style, double stride, const FeetTracks& feet,
                  PerFrame<PlanFrame>& plan);
 
-/// The pelvis faces where the feet point on average, without their steps. @param plan  feet set
+/// Turns the pelvis to the mean direction of the feet, smoothed over the steps. @param plan  has its feet
 void face_along_feet(PerFrame<PlanFrame>& plan);
 
 }  // namespace mimicx::synth

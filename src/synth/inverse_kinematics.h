@@ -1,8 +1,9 @@
-/// Legs of the synthetic motions: where a foot is, and the joint rotations that put it there.
+/// Inverse kinematics of the legs of synthetic motions: the joint rotations that put a foot on its target.
 ///
 /// Closed form: the knee angle from the distance hip–ankle, the hip from that direction and the plane the
 /// knee bends in, the ankle from the foot's orientation. No iteration, hence smooth in its arguments.
-/// What it does not do: joint limits; a target out of reach is met as far as the leg goes and reported.
+/// What it does not do: no joint limits. For a target out of reach the leg is stretched, and the shortfall is
+/// reported.
 #pragma once
 
 #include "character/character.h"
@@ -12,8 +13,8 @@ namespace mimicx::synth {
 /// Model axes (x left, y up, z forward) → plan axes (x forward, y left, z up): a cyclic permutation.
 inline const Quaterniond kModelToPlan{0.5, 0.5, 0.5, 0.5};
 
-/// A foot on or over the floor. Planted points stay where they are: the foot rolls about its two heel
-/// points (toe_rise) and about its two toe points (heel_rise), never about a point between.
+/// A foot on or over the floor. It rolls about its two heel points (toe_rise) or its two toe points
+/// (heel_rise), which keep their places.
 struct FootTarget {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< floor point under the ankle of the flat foot, m
   double yaw = 0.0;                                 ///< about the vertical, 0 = toes along x, rad
@@ -36,10 +37,10 @@ struct LegPose {
   Quaterniond hip;    ///< relative to the pelvis
   double knee;        ///< flexion, rad
   Quaterniond ankle;  ///< relative to the shank
-  double shortfall;   ///< how far the ankle stays from its target, m; 0 within reach
+  double shortfall;   ///< distance of the ankle from its target, m; 0 within reach
 };
 
-/// @param knee_axis  world direction the knee's axis should point to (to the character's left)
+/// @param knee_axis  world direction of the knee's axis (to the character's left)
 LegPose solve_leg(const Character& character, int side, const Vector3d& p_pelvis, const Quaterniond& q_pelvis,
                   const FootPose& foot, const Vector3d& knee_axis);
 

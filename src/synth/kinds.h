@@ -1,9 +1,9 @@
 /// The kinds of synthetic motion, as plans.
 ///
-/// A kind draws its parameters from the random stream it is given and fills one `PlanFrame` per frame. Two
-/// draws never stand in one argument list: compilers differ in the order of evaluation.
-/// To add a kind: write its plan in a file of the folder kinds, declare it below and name it at the end of
-/// `synth_kinds()`. The random streams are keyed by the place in that list.
+/// A kind draws its parameters from the random stream of the request and fills one `PlanFrame` per frame.
+/// Never write two draws in one argument list: compilers differ in the order of evaluation. To add a kind:
+/// write its plan in a file of the folder kinds, declare it below and name it at the end of `synth_kinds()`.
+/// The position in that list is the key of its random streams.
 #pragma once
 
 #include <string>
@@ -17,39 +17,39 @@ namespace mimicx::synth {
 
 struct SynthPose;
 
-/// What a plan is made for.
+/// The input of a kind.
 struct PlanRequest {
   const Character& character;
   Random& random;
   int frames;
 
   double seconds() const { return (frames - 1) / kSynthFps; }
-  /// One frame of the plan for each frame of the motion, all the same.
+  /// A plan that repeats one frame.
   PerFrame<PlanFrame> every_frame(const PlanFrame& frame) const { return PerFrame<PlanFrame>(frames, frame); }
 };
 
 struct SynthKind {
   std::string name;
-  double shortest, longest;  ///< range of the length where none is asked for, s
+  double shortest, longest;  ///< range of the default length, s
   PerFrame<PlanFrame> (*plan)(const PlanRequest&);
 };
 
 const std::vector<SynthKind>& synth_kinds();
 
-/// A kind that is drawn by geometry alone (synth/sketch.h).
+/// A kind that is made by geometry only, without balance (synth/sketch.h).
 struct SketchedKind {
   std::string name;
-  double shortest, longest;  ///< as of a SynthKind
+  double shortest, longest;  ///< as in SynthKind
   PerFrame<SynthPose> (*draw)(const PlanRequest&);
 };
 
 const std::vector<SketchedKind>& sketched_kinds();
 
-/// A frame that stands at ease on `feet` with slightly bent knees, and the height of its centre of mass.
+/// A frame of standing at ease on `feet` with slightly bent knees; its `com_height` is set.
 PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
 
-/// Two feet apart at random. @param narrow, wide  half width in units of the rest pose's
-/// @param least_out, most_out  how far the toes turn out, degrees
+/// Two feet at a random distance. @param narrow, wide  range of half the distance over the rest pose's
+/// @param least_out, most_out  range of the angle by which the toes turn out, degrees
 PerSide<FootTarget> random_stance(const PlanRequest& request, double narrow, double wide, double least_out,
                                   double most_out);
 

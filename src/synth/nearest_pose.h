@@ -1,8 +1,9 @@
-/// The pose nearest to a nominal one in which points are at their places and the centre of mass at its own.
+/// The pose nearest to a nominal one that brings contact points and the centre of mass to their targets.
 ///
-/// Gauss-Newton on a weighted sum of squares over all joints and the root: angles off the nominal ones,
-/// points off their places, every other contact point below the floor, centre of mass off its place. What it
-/// does not do: ranges of joints, contact of the body with itself.
+/// Gauss-Newton on a weighted sum of squares over all joints and the root: differences from the nominal
+/// angles, distances of points from their targets, depths of other contact points below the floor, distance
+/// of the centre of mass from its target. What it does not do: no joint ranges, no contact of the body with
+/// itself.
 #pragma once
 
 #include <optional>
@@ -11,19 +12,19 @@
 
 namespace mimicx::synth {
 
-/// Where the lowest of a contact point's sphere is wanted.
+/// Target of the lowest point of a contact point's sphere.
 struct PointTarget {
   Vector3d place;         ///< m
-  bool anywhere = false;  ///< the height alone counts
+  bool anywhere = false;  ///< only the height counts
 };
 
 struct PoseTargets {
   SynthPose nominal;
   List<std::optional<PointTarget>> point;  ///< one per contact point of the character
-  Eigen::Vector2d com;                     ///< m; missed by centimetres where the rest asks for it
+  Eigen::Vector2d com;                     ///< m; a soft target, missed by centimetres where others conflict
 };
 
-/// @param start  to begin with: of several minima the near one is found
+/// @param start  initial pose, which selects among several minima
 SynthPose nearest_pose(const Character& character, const PoseTargets& wanted, const SynthPose& start);
 
 }  // namespace mimicx::synth

@@ -1,9 +1,10 @@
-/// A frame of the plan of a synthetic motion: where the feet are, how the body is held, where the load acts.
+/// A frame of the plan of a synthetic motion: feet, posture, centre of pressure, height of the centre of
+/// mass.
 ///
 /// Plan frame: x forward at the start, y left, z up, floor z = 0, origin between the feet at the start.
 /// Postures are relative to it through model axes (x left, y up, z forward): a positive first component
 /// leans forward, a positive second turns left, a positive third leans right.
-/// What it does not do: place the pelvis. That follows from balance (synth/whole_body_balance.h).
+/// What it does not do: it does not place the pelvis, which follows from balance (whole_body_balance.h).
 #pragma once
 
 #include <vector>
@@ -20,7 +21,7 @@ inline double time_of(int frame) { return frame / kSynthFps; }
 template <class T>
 using PerSide = Array<T, 2>;
 
-/// An arm by anatomy; all zero is straight down along the body.
+/// An arm by anatomical angles; all 0: straight down along the body.
 struct ArmPosture {
   double forward = 0.0;   ///< raised to the front, rad
   double out = 0.0;       ///< raised to the side, rad
@@ -43,14 +44,14 @@ struct PlanFrame {
 /// Posture of someone standing at ease, the arms hanging clear of trunk and thighs.
 PlanFrame relaxed_posture(const Character& character);
 
-/// A posture to be held at a time.
+/// A posture at a time.
 struct PostureKey {
   double time;
   PlanFrame posture;
 };
 
-/// Minimum-jerk blends from key to key of pelvis tilt, trunk, head, arms and height of the centre of mass;
-/// feet and pressure stay as they are.
+/// Sets pelvis tilt, trunk, head, arms and height of the centre of mass to a minimum-jerk blend between keys;
+/// feet and pressure do not change.
 /// @param keys  in order of time
 void hold_postures(const std::vector<PostureKey>& keys, double time, PlanFrame& frame);
 

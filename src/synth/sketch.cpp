@@ -49,7 +49,7 @@ void put_onto_supports(const Character& c, const PoseTargets& wanted, SynthPose&
   pose.p_root += shift.cwiseQuotient(count.cwiseMax(1.0));
 }
 
-/// Where loads put the centre of mass if a pose is as it is.
+/// Target of the centre of mass for the loads of a pose.
 Eigen::Vector2d middle_of(const std::vector<Load>& loads, const PoseTargets& wanted,
                           const List<Vector3d>& lowest) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

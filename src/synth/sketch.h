@@ -1,15 +1,15 @@
-/// Motions that bear the body on hands, knees or front: key poses, and the way from one to the next.
+/// Motions on hands, knees or front, by key poses and interpolation between them.
 ///
 ///     Sketch s(request, random_stance(request, 1.0, 1.3, 4.0, 12.0));
 ///     s.go({kneeling, {on(toes(0)), on(toes(1)), on(knee(0)), on(knee(1))}}, 1.2);
 ///     return s.finished();
 ///
-/// A key pose is nominal angles and what bears the body. Least squares bring the bearing points to the floor,
-/// keep every other point above it and the centre of mass over what bears; between two keys the nominal
-/// angles are blended and points that bear in both stay where they are.
+/// A key pose has nominal angles and supports. Least squares bring the supports to the floor, keep all other
+/// points above it and the centre of mass over the supports. Between two keys the nominal angles are blended,
+/// and supports of both keys keep their places.
 ///
-/// What it does not do: dynamics. A sketch is slow and in balance in its keys, but no forces explain it on
-/// the way; the plan of it is the motion that a body can do (docs/method.md, "Synthetic motions").
+/// What it does not do: no dynamics. A sketch is slow and balanced in its keys, but between them it may be
+/// physically impossible; planning it gives a possible motion (docs/method.md, "Synthetic motions").
 #pragma once
 
 #include "synth/kinds.h"
@@ -17,7 +17,7 @@
 
 namespace mimicx::synth {
 
-/// A leg by anatomy; all zero is straight down.
+/// A leg by anatomical angles; all 0: straight down.
 struct LegPosture {
   double flexion = 0.0;   ///< of the hip, thigh to the front, rad
   double out = 0.0;       ///< thigh to the side, rad
@@ -26,28 +26,28 @@ struct LegPosture {
   double toes_up = 0.0;   ///< of the toes relative to the foot, rad
 };
 
-/// Contact points (indices into `Character::contact_points`) that bear the body together.
+/// Contact points (indices into `Character::contact_points`) that support the body together.
 using Support = std::vector<int>;
 Support sole(int side);
 Support toes(int side);  ///< with the ball of the foot
 Support knee(int side);
 Support hand(int side);
-Support front(int side);  ///< hip and belly of someone who lies on the front
+Support front(int side);  ///< hip and belly, for lying on the front
 
-/// Where a support is in a key pose. One that bore before, or was led somewhere, stays there, moved by
-/// `shift`; a new one is where the pose has it.
+/// Position of a support in a key pose. A support of earlier keys keeps its position plus `shift`; a new one
+/// has the position of the nominal pose.
 struct Bearing {
   Support points;
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< from where it was, m
-  double lift = 0.0;                                ///< over the floor, m; then it bears nothing
-  bool from_start = false;                          ///< `shift` is from where it was at time 0
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< from its last position, m
+  double lift = 0.0;                                ///< height over the floor, m; above 0 it bears no load
+  bool from_start = false;                          ///< `shift` counts from its position at time 0
 };
 inline Bearing on(Support points) { return {std::move(points)}; }
 inline Bearing moved(Support points, double ahead, double lift = 0.0) {
   return {std::move(points), {ahead, 0.0}, lift};
 }
 
-/// Where it was at time 0, or so far ahead of it.
+/// At its position of time 0, moved ahead, m.
 inline Bearing home(Support points, double ahead) { return {std::move(points), {ahead, 0.0}, 0.0, true}; }
 
 /// A part of the weight, in any unit.
@@ -60,32 +60,32 @@ struct KeyPose {
   PlanFrame upper;          ///< pelvis, trunk, head and arms
   PerSide<LegPosture> leg;  ///< left, right
   std::vector<Bearing> bearings;
-  std::vector<Load> weight_on = {};  ///< where the centre of mass is; empty: equally on all that bear
+  std::vector<Load> weight_on = {};  ///< supports of the centre of mass; empty: all of them equally
 };
 
 class Sketch {
  public:
-  /// Stands at ease at time 0.
+  /// Begins standing at ease.
   Sketch(const PlanRequest& request, const PerSide<FootTarget>& start);
 
   Random& random() { return request_.random; }
-  /// Someone standing at ease on the feet that the motion began with.
+  /// Standing at ease on the feet of time 0.
   const PlanFrame& stand() const { return stand_; }
   void go(const KeyPose& key, double seconds);
-  /// Standing at ease as at time 0, so far ahead of where that was.
+  /// Goes to standing at ease as at time 0, moved ahead, m.
   void stand_up(double seconds, double ahead);
   void pause(double seconds);
-  /// Middle of a support, which must have been in a key, where it is now or was last, m.
+  /// Last position of the middle of a support, m; the support must have been in a key.
   Eigen::Vector2d place(const Support& support) const;
-  /// All of it, its time stretched to the length that was asked for.
+  /// The motion, its time scaled to the requested length.
   PerFrame<SynthPose> finished() const;
 
  private:
   struct Key {
     double time;  ///< s
     SynthPose pose;
-    List<bool> held;                      ///< per contact point: it was asked for
-    List<std::optional<Vector3d>> place;  ///< per contact point: where it is, or was when last asked for
+    List<bool> held;                      ///< per contact point: whether it belongs to a support
+    List<std::optional<Vector3d>> place;  ///< per contact point: its last position as part of a support
   };
   SynthPose between(const Key& a, const Key& b, double share) const;
 

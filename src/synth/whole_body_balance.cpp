@@ -14,7 +14,7 @@ namespace {
 constexpr double kPoseGain = 1.28, kPoseTolerance = 1e-14;  // m
 constexpr int kPoseIterations = 40;
 constexpr int kBalanceIterations = 6;
-constexpr double kStraightestKnee = 0.10;  // rad: a straighter leg is asked for too much
+constexpr double kStraightestKnee = 0.10;  // rad; the pelvis is lowered for straighter legs
 
 constexpr double kLight = 0.3;  // share of the weight under which the floor cannot turn the body
 // Inertia of pelvis and trunk over the whole mass, about the model's axes, m². A rough figure is enough,
@@ -106,7 +106,7 @@ Eigen::MatrixX3d track_of_accelerations(const Eigen::MatrixX3d& wanted, const Pe
 /// which the floor can hardly change it.
 /// @param drawn    the plan before any tilt
 /// @param rates    `spin_rates` of the motion with the last tilt
-/// @param wanted   [frames] second differences asked of the tilt, rad; corrected by what is left of `rates`
+/// @param wanted   [frames] target second differences of the tilt, rad; corrected by the remaining `rates`
 /// @param plan     gets the pelvis of `drawn` with the new tilt
 void keep_spin_in_flight(const PerFrame<PlanFrame>& drawn, const PerFrame<Vector3d>& rates, double fps,
                          Eigen::MatrixX3d& wanted, PerFrame<PlanFrame>& plan) {

@@ -64,7 +64,7 @@ TEST(SolveLeg, PointsTheKneeAxisAsRequested) {
     const LegPose leg = solve_leg(c, 0, p_pelvis, q_pelvis, foot, axis);
     const Vector3d knee_axis = q_pelvis * leg.hip * Vector3d::UnitX();
     const Vector3d along = (foot.p_ankle - p_pelvis - q_pelvis * c.joint_offset[kLeftHip]).normalized();
-    // Seen along the leg, the knee's axis points where it was told to.
+    // Seen along the leg, the knee's axis has the requested direction.
     EXPECT_LT(std::abs(along.cross(axis).normalized().dot(knee_axis)), 1e-12);
     EXPECT_GT(knee_axis.dot(axis), 0.9);
   }

@@ -129,7 +129,7 @@ TEST(Synthesize, NeedsNoPullFromTheFloorAndACentreOfPressureUnderTheFeet) {
       const Wrench wrench = required_wrench(m, t);
       ASSERT_GT(wrench.force.z(), -1e-3 * weight);
       ASSERT_LT(wrench.force.z(), 3.0 * weight);
-      if (wrench.force.z() < 0.3 * weight) continue;  // about to fly: the quotient says little
+      if (wrench.force.z() < 0.3 * weight) continue;  // nearly in flight: the quotient is ill-conditioned
       ASSERT_LE(pressure_outside(m, t, wrench), tolerance) << "frame " << t;
       const double friction = wrench.force.head<2>().norm() / wrench.force.z();
       ASSERT_LT(friction, 0.6) << "frame " << t;

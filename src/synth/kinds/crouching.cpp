@@ -1,4 +1,4 @@
-// Close to the floor: crouches, picking up, sitting down on nothing, lunges in every direction.
+// Low postures: crouches, picking up, sitting without a chair, lunges in every direction.
 #include <algorithm>
 #include <cmath>
 
@@ -63,7 +63,7 @@ PerFrame<PlanFrame> plan_sit(const PlanRequest& request) {
     const double down = random.uniform(1.1, 1.6), hold = random.uniform(0.3, 1.2),
                  up = random.uniform(0.9, 1.3);
     if (down + hold + up > c.left()) break;
-    PlanFrame seat = c.stand();  // as onto a chair that is not there: the trunk balances the hips
+    PlanFrame seat = c.stand();  // as on a chair: the trunk balances the hips
     seat.pelvis.x() = random.uniform(18.0, 30.0) * kDegree;
     seat.trunk.x() = random.uniform(14.0, 26.0) * kDegree;
     seat.head.x() = -0.75 * (seat.pelvis.x() + seat.trunk.x());

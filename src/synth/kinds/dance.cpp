@@ -11,7 +11,7 @@ namespace {
 constexpr int kBeats = 4;  ///< of a figure
 constexpr double kBegin = 0.85, kDanceRest = 0.75;
 
-/// A dance in the making: where the dancer stands, what was decided so far.
+/// A dance under construction: position of the dancer and steps so far.
 struct Dance {
   const PlanRequest& request;
   PerSide<FootTarget> stance;  ///< about the dancer's middle

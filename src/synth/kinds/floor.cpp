@@ -193,7 +193,7 @@ class Crawler {
   PerSide<Eigen::Vector2d> reach_;  ///< of the hands, from where they first touch the floor, m
 };
 
-/// Down on both knees, there `busy(sketch, kneeler)`, up again.
+/// Kneels down on both knees, calls `busy(sketch, kneeler)`, and stands up again.
 template <class Busy>
 PerFrame<SynthPose> on_knees(const PlanRequest& request, const Busy& busy) {
   Sketch s(request, random_stance(request, 0.95, 1.15, 2.0, 8.0));
@@ -204,7 +204,7 @@ PerFrame<SynthPose> on_knees(const PlanRequest& request, const Busy& busy) {
   return s.finished();
 }
 
-/// Down on hands and knees, there `busy(crawler, kneeler)`, up again.
+/// Goes down on hands and knees, calls `busy(crawler, kneeler)`, and stands up again.
 template <class Busy>
 PerFrame<SynthPose> on_all_fours(const PlanRequest& request, const Busy& busy) {
   return on_knees(request, [&](Sketch& s, Kneeler& k) {

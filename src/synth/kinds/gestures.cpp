@@ -1,4 +1,4 @@
-// Standing and busy with the arms: reaching, talking, stretching, swinging.
+// Gestures of the arms while standing: reaching, talking, stretching, swinging.
 #include <cmath>
 #include <numbers>
 

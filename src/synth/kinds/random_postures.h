@@ -1,4 +1,4 @@
-/// Postures at random, for the kinds that are strung together (choreography.h).
+/// Random postures for the kinds that are built by a Choreography (choreography.h).
 #pragma once
 
 #include "core/random.h"
@@ -6,10 +6,10 @@
 
 namespace mimicx::synth {
 
-/// An arm anywhere in front of, above or beside the body.
+/// A random arm posture in front of, above or beside the body.
 ArmPosture random_arm(Random& random);
 
-/// Pelvis, trunk, head and both arms at random on top of someone who stands. @param amount  0 none, 1 much
+/// Random pelvis, trunk, head and arms, added to a standing posture. @param amount  0: none, 1: much
 PlanFrame random_posture(Random& random, const PlanFrame& stand, double amount);
 
 /// Hands in front of the chin, elbows low.

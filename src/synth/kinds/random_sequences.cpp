@@ -1,4 +1,4 @@
-// Phrases: steps, postures, raised legs and crouches strung together at random.
+// Random sequences of steps, postures, raised legs and crouches.
 #include <algorithm>
 #include <cmath>
 
@@ -53,7 +53,7 @@ void free_posture(Choreography& c) {
   c.pause(random.uniform(0.0, 0.4));
 }
 
-/// The feet side by side, as at the beginning, and someone at ease on them.
+/// Returns to standing at ease with the feet side by side, as at the beginning.
 void come_to_rest(Choreography& c, double half_width) {
   const FootTarget& left = c.feet()[0];
   const double yaw = c.heading();

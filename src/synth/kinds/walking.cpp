@@ -12,7 +12,7 @@ constexpr double kSettle = 0.55;     ///< from standing to the first step and ba
 constexpr double kRest = 0.90;       ///< standing after the last step, s
 constexpr double kClearance = 0.05;  ///< of the sole in mid-swing, m
 
-/// The frames of someone who stands, with the feet of `feet`.
+/// A standing plan with the given feet.
 PerFrame<PlanFrame> frames_on(const PlanRequest& request, const FeetTracks& feet) {
   PerFrame<PlanFrame> plan = request.every_frame(standing_frame(request.character, feet));
   for (int i = 0; i < plan.count(); ++i) place_feet(feet, time_of(i), plan[i]);

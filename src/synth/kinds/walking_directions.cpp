@@ -1,4 +1,4 @@
-// Walking in every direction: one walker, told where each step goes.
+// Walking in every direction: one walker whose steps are given one by one.
 #include <algorithm>
 
 #include "core/elementary.h"
@@ -7,7 +7,7 @@
 namespace mimicx::synth {
 namespace {
 
-/// How someone walks a stretch, per pair of steps, in the walker's own frame.
+/// A pair of steps in the walker's own frame.
 struct Stretch {
   double ahead, aside;  ///< m, x forward and y left
   double turn;          ///< rad, to the left
@@ -15,7 +15,7 @@ struct Stretch {
   double half_width;    ///< of the middle to each foot, m
 };
 
-/// Where the walker's middle is and looks.
+/// Position and heading of the walker's middle.
 struct Walker {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double yaw = 0.0, toes_out = 0.0;

@@ -1,4 +1,4 @@
-/// The points that 2D detectors find on a body, and how large the body is in the picture.
+/// The points that 2D detectors find on a body, and the body's size in the picture.
 ///
 /// What it does not do: no errors (keypoint_noise.h, independent_keypoints.h).
 #pragma once
@@ -18,10 +18,10 @@ struct Landmark {
   Vector3d p_B;
 };
 
-/// In the order of the set; what is no joint has a place on the skin of its body.
+/// The points of a set, in its order. Points that are not joints lie on the skin of their body.
 std::vector<Landmark> landmarks(motion::KeypointSet set);
 
-/// The other side's keypoint of the same limb, or the same index for one in the middle.
+/// Index of the point on the other side; the same index for a point without a side.
 std::size_t mirror_of(const std::vector<Landmark>& points, std::size_t k);
 
 bool is_descendant(int body, int ancestor);

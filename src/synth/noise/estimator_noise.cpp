@@ -139,9 +139,9 @@ void disturb_height(const NoisePreset& p, std::uint64_t seed, double fps,
   for (int t = 0; t < frames; ++t) motion.p_root[t].z() += p.height_offset + offset[t] - p.snap * error[t];
 }
 
-/// What the program is told of shape and camera.
-std::array<double, kBetas> told_betas(const std::array<double, kBetas>& betas, double sigma,
-                                      std::uint64_t seed) {
+/// The shape with errors that is given to the program.
+std::array<double, kBetas> erroneous_betas(const std::array<double, kBetas>& betas, double sigma,
+                                           std::uint64_t seed) {
   Random random(seed, {kToldShapeStream});
   std::array<double, kBetas> told = betas;
   for (double& beta : told) beta = std::clamp(beta + sigma * random.normal(), -kMaxBeta, kMaxBeta);
@@ -221,7 +221,7 @@ motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config) {
   noisy.name = truth.name;
   noisy.fps = truth.fps;
   noisy.gender = truth.gender;
-  noisy.betas = told_betas(truth.betas, config.camera.beta, seed);
+  noisy.betas = erroneous_betas(truth.betas, config.camera.beta, seed);
   disturb_joints(preset, seed, truth.fps, motion.q);
   apply_bursts(bursts, motion.q);
   disturb_root(preset, seed, truth.fps, motion.q);
@@ -234,7 +234,7 @@ motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config) {
     noisy.trans.push_back(motion.p_root[t] - rest);
   }
   noisy.keypoints = detect_keypoints(poses, camera, config.keypoints, bursts, seed, truth.fps);
-  const CameraPath told = told_camera(camera, config.camera, seed, truth.fps);
+  const CameraPath told = erroneous_camera(camera, config.camera, seed, truth.fps);
   noisy.keypoints->intrinsics = told.intrinsics;
   noisy.keypoints->extrinsics = told.extrinsics;
   return noisy;

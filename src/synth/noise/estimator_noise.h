@@ -1,15 +1,14 @@
-/// What a video-based estimator does to a motion: a clean clip becomes a "video-recovered" one with 2D
-/// keypoints and a camera.
+/// The first noise model: turns a clean clip into a "video-recovered" one with the errors of a video
+/// estimator, 2D keypoints and a camera.
 ///
 /// Source: a noise model fitted so that the metrics of the noisy clips land near the rows "VIBE" and
 /// "GVHMR" of the paper's Table 1 (docs/method.md, "Noise model"). Notation there and here: N is one
 /// standard normal per clip, S_τ a unit-variance Gaussian process with autocorrelation exp(−Δ²/4τ²),
 /// J_s unit-variance white noise filtered by a Gaussian of s frames.
 ///
-/// Everything the true clip does not tell (camera, errors) comes from the seed; each term has its own
-/// random stream, so that turning one off leaves the others as they are.
-/// What it does not do: no images, no occlusion by geometry (independent_noise.h); the truth is never written
-/// into the noisy clip.
+/// Camera and errors follow from the seed. Each term has its own random stream, so that turning one off does
+/// not change the others. What it does not do: no images, no occlusion by geometry (independent_noise.h); the
+/// truth is never written into the noisy clip.
 #pragma once
 
 #include <string_view>
@@ -31,7 +30,7 @@ struct NoisePreset {
   double drift, drift_tau;  // velocity of the drift: drift · S_drift_tau, m/s
   double speed_error,
       heading_error;  // path scaled by 1 + speed_error·N and turned by heading_error·N degrees
-  // Height: snap · (support height error, smoothed over snap_frames) is taken back, then offsets are added.
+  // Height: snap · (support height error, smoothed over snap_frames) is subtracted, then offsets are added.
   double snap, snap_frames;
   double height_offset, height_static, height_slow, height_jitter;
 };
@@ -46,12 +45,12 @@ struct NoiseConfig {
   std::uint64_t seed = 0;
 };
 
-/// The estimator's result for a clean clip of body model "mimicx": rotations, trans and β with errors,
-/// keypoints of the clean motion with detection errors, and the camera as the program is told of it.
+/// The simulated estimate of a clean clip of body model "mimicx": rotations, trans and β with errors,
+/// keypoints of the clean motion with detection errors, and a camera with errors.
 /// @throws std::invalid_argument for fewer than 2 frames or another body model.
 motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config);
 
-/// Bursts of a clip, in the order of their beginnings.
+/// Bursts of a clip, in order of their start.
 std::vector<Burst> draw_bursts(const NoisePreset& preset, std::uint64_t seed, int frames, double fps);
 
 }  // namespace mimicx::synth

@@ -86,7 +86,7 @@ PerFrame<Vector3d> drifting(Random& random, int frames, double size, double fps)
   return out;
 }
 
-/// The path of the pelvis as somebody follows it: smoothed, its ends held.
+/// The path of the pelvis that the camera follows: smoothed, its ends held.
 PerFrame<Vector3d> followed(const PerFrame<BodyPoses>& truth, double fps) {
   PerFrame<Vector3d> path;
   const double frames = kFollowTau * fps;
@@ -180,7 +180,8 @@ CameraError camera_error(std::string_view name) {
   throw std::invalid_argument("camera_error: unknown camera '" + std::string(name) + "'");
 }
 
-CameraPath told_camera(const CameraPath& camera, const CameraError& error, std::uint64_t seed, double fps) {
+CameraPath erroneous_camera(const CameraPath& camera, const CameraError& error, std::uint64_t seed,
+                            double fps) {
   Random random(seed, {kToldCameraStream});
   const double focal = 1.0 + error.focal * random.normal();
   const Vector3d tilt = kDegree * error.tilt * random.normal() * Vector3d::UnitX();

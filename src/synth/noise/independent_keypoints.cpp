@@ -62,14 +62,14 @@ Eigen::Vector2d detection_error(const IndependentPreset& p, ErrorNoise& noise, i
 }
 
 /// Confidence that is only weakly correlated with how good a detection is. @param error  in parts of the box
-double told_confidence(const IndependentPreset& p, double noise, double error) {
+double drawn_confidence(const IndependentPreset& p, double noise, double error) {
   const double good = std::clamp(log(kTypicalError / std::max(error, 1e-9)), -kFarOdds, kFarOdds);
   const double belief =
       p.confidence_truth * good + std::sqrt(1.0 - p.confidence_truth * p.confidence_truth) * noise;
   return std::clamp(kMeanConfidence + p.confidence_spread * belief, kLeastConfidence, 1.0);
 }
 
-/// Left and right of arms, legs, both, or hands alone change places for a few frames.
+/// Exchanges left and right of arms, legs, both, or hands only, for a few frames.
 void mix_up_sides(const std::vector<Landmark>& points, double rate, std::uint64_t seed, double fps,
                   PerFrame<std::vector<Vector3d>>& uvc) {
   static constexpr Array<int, 4> kMixed = {kLeftHip, kLeftShoulder, kLeftElbow, kLeftKnee};
@@ -146,7 +146,7 @@ motion::Keypoints detect_independently(const SeenMotion& truth, const CameraPath
                           preset.occlusion > 0.0 && is_hidden(truth.character, seen[t], eye, joint));
       const Eigen::Vector2d uv = project(view, found).head<2>() + box * error;
       const double off = (uv - project(view, joint).head<2>()).norm() / box;
-      keypoints.uvc[t][k] = {uv.x(), uv.y(), told_confidence(preset, noise.confidence[t], off)};
+      keypoints.uvc[t][k] = {uv.x(), uv.y(), drawn_confidence(preset, noise.confidence[t], off)};
     }
   }
   mix_up_sides(points, preset.swap_rate, seed, truth.fps, keypoints.uvc);

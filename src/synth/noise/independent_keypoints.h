@@ -1,8 +1,7 @@
-/// What a stranger's 2D detector makes of the motion it sees.          docs/method.md, "Noise model", (10) to
-/// (15)
+/// 2D detections of the independent noise model.                 docs/method.md, "Noise model", (10) to (15)
 ///
-/// Its idea of a joint turns with the limb and with the view; its errors grow for limbs that point at the
-/// camera and for what the body hides; they have heavy tails; and its confidence hardly tells.
+/// The offset of a keypoint turns with its limb and with the view. Errors grow for limbs that point at the
+/// camera and for hidden points, and have heavy tails. Confidence is only weakly correlated with the error.
 /// What it does not do: no images, no second person.
 #pragma once
 
@@ -12,7 +11,7 @@
 
 namespace mimicx::synth {
 
-/// The person that is seen: body, and root and joint rotations of every frame.
+/// The motion that the detector sees.
 struct SeenMotion {
   const Character& character;
   const PerFrame<Vector3d>& p_root;  ///< m
@@ -20,14 +19,15 @@ struct SeenMotion {
   double fps;
 };
 
-/// World poses at a time between frames (clamped to the clip): places linearly, rotations by slerp.
+/// World poses at a time between frames, clamped to the clip: positions interpolated linearly, rotations by
+/// slerp.
 BodyPoses pose_between(const SeenMotion& motion, double frame);
 
-/// How much of a keypoint's bone the camera does not see for its direction: 0 across the ray, 1 along it.
+/// How much a keypoint's bone is foreshortened: 0 perpendicular to the ray, 1 along it.
 /// @param eye  m, world
 double foreshortening(const BodyPoses& poses, const Landmark& point, const Vector3d& eye);
 
-/// Detections of the clean motion through the true camera; the told camera is not its matter.
+/// Detections of the clean motion in the picture of the true camera; the camera of the result is not set.
 motion::Keypoints detect_independently(const SeenMotion& truth, const CameraPath& camera,
                                        motion::KeypointSet set, const IndependentPreset& preset,
                                        std::uint64_t seed);

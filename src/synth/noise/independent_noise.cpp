@@ -21,7 +21,7 @@ double standing_height(const Character& character) {
   return -lowest_contact(character, forward_kinematics(character, Vector3d::Zero(), q));
 }
 
-/// Pan and roll of the camera that is told, beside the tilt that every camera error has.
+/// Adds pan and roll errors to a camera, in addition to the tilt error of `erroneous_camera`.
 CameraPath turned_camera(const CameraPath& camera, double degrees, std::uint64_t seed) {
   Random random(seed, {kToldTurnStream});
   const double pan = degrees * random.normal(), roll = degrees * random.normal();
@@ -61,7 +61,7 @@ motion::Clip add_independent_noise(const motion::Clip& truth, const IndependentN
   const Character body = make_character(truth.betas);
   const SeenMotion seen{body, motion.p_root, motion.q, truth.fps};
   motion::Keypoints keypoints = detect_independently(seen, camera, config.keypoints, preset, config.seed);
-  const CameraPath told = turned_camera(told_camera(camera, config.camera, config.seed, truth.fps),
+  const CameraPath told = turned_camera(erroneous_camera(camera, config.camera, config.seed, truth.fps),
                                         preset.camera_turn * config.camera.tilt, config.seed);
   keypoints.intrinsics = told.intrinsics;
   keypoints.extrinsics = told.extrinsics;

@@ -1,11 +1,10 @@
 /// A second noise model, which shares none of the keypoint fit's assumptions.
-///                                                                   docs/method.md, "Noise model", (4) to
-///                                                                   (15)
-/// The first model (estimator_noise.h) and the fit believe in the same joint weights, in constant offsets of
-/// keypoints in the picture, in normal errors and in confidence that tells. This one does not; what a method
-/// achieves on it is nearer to what it achieves on a stranger's estimate. Everything the true clip does not
-/// tell comes from the seed; each term has its own random stream, so that turning one off leaves the others
-/// as they are.
+///                                                              docs/method.md, "Noise model", (4) to (15)
+///
+/// The first model (estimator_noise.h) and the fit share their joint weights, constant offsets of keypoints
+/// in the picture, normal errors, and confidence that depends on the error. This model shares none of these,
+/// so results on it predict results on other estimators better. Camera and errors follow from the seed; each
+/// term has its own random stream, so that turning one off does not change the others.
 ///
 /// What it does not do: no images; the truth is never written into the noisy clip.
 #pragma once
@@ -26,7 +25,7 @@ struct IndependentNoiseConfig {
 /// As `add_noise`. @throws std::invalid_argument for fewer than 2 frames or another body model than "mimicx".
 motion::Clip add_independent_noise(const motion::Clip& truth, const IndependentNoiseConfig& config);
 
-/// The shape that is told: `stature` and `proportions` off.
+/// The erroneous shape given to the program, by `stature` and `proportions`.
 std::array<double, kBetas> mistaken_betas(const std::array<double, kBetas>& betas,
                                           const IndependentPreset& preset, std::uint64_t seed);
 

@@ -1,8 +1,7 @@
-/// Amplitudes of the independent noise model, by name and with units.   docs/method.md, "Noise model", (4) to
-/// (15)
+/// Amplitudes of the independent noise model, with units.         docs/method.md, "Noise model", (4) to (15)
 ///
-/// "Independent" of the keypoint fit: no error here has the form, the weights or the distribution that the
-/// fit's cost believes in, so what the fit makes of it says what it makes of a stranger's estimate.
+/// "Independent" of the keypoint fit: no error has the form, the weights or the distribution that the fit's
+/// cost assumes. Results of the fit on it therefore predict results on other estimators.
 #pragma once
 
 #include <string_view>
@@ -17,7 +16,7 @@ struct IndependentPreset {
   double joint_static = 0;  ///< °, constant error of a joint, about its parent's axes, Student's t, times v_j
   double joint_slow = 0;    ///< °, slow error, times v_j
   double joint_jitter = 0;  ///< °, from frame to frame, times v_j
-  double joint_shrink = 0;  ///< share of every joint's rotation that is missing: a regression to the mean
+  double joint_shrink = 0;  ///< missing share of every joint's rotation: regression to the mean
   double root_static = 0;   ///< °, constant error of the root, about its own axes
   double wobble_turn = 0;   ///< °, rms of a slow oscillation of the root's orientation, world axes
   // Place of the root.
@@ -28,7 +27,7 @@ struct IndependentPreset {
   double turn_drift = 0;  ///< °/√s, walk of the heading; the path turns with it
   double height = 0;      ///< m, constant error of the height
   double skate = 0;       ///< m/s, slip of a foot that stands, per axis
-  // The body that is told.
+  // The body shape that is given to the program.
   double stature = 0;      ///< relative error
   double proportions = 0;  ///< error of every other entry of β
   // Keypoints. Box: larger side of the person's box in the picture.
@@ -38,21 +37,21 @@ struct IndependentPreset {
   double wander = 0;             ///< % of the box, slow
   double tail = 0;               ///< % of the box, frame by frame, scale of Student's t
   double foreshortening = 0;     ///< factor by which the two above grow for a limb that points at the camera
-  double occlusion = 0;          ///< % of the box, where the body hides the point
-  double swap_rate = 0;          ///< left and right mixed up, per second
+  double occlusion = 0;          ///< % of the box, for points that the body hides
+  double swap_rate = 0;          ///< exchanges of left and right, per second
   double gap_rate = 0;           ///< frames without any detection: gaps per second
-  double drop_share = 0;         ///< single detections that are missing
-  double confidence_truth = 0;   ///< correlation of the confidence with how good a detection is
+  double drop_share = 0;         ///< share of single detections that are missing
+  double confidence_truth = 0;   ///< correlation of the confidence with the accuracy of a detection
   double confidence_spread = 0;  ///< standard deviation of the confidence
-  // The told camera.
-  double camera_turn = 0;  ///< pan and roll of the told camera, in σ of its tilt
+  // The camera that is given to the program.
+  double camera_turn = 0;  ///< pan and roll errors, in σ of the tilt error
 };
 
 /// The levels of "independent". Its metrics on real clips: docs/method.md, "Noise model".
 IndependentPreset independent_preset();
 
-/// v_j: how large the rotation error of a joint is beside the others'. These are not the weights of
-/// estimator_noise.cpp on purpose.
+/// v_j: relative size of a joint's rotation error. The weights differ from those of estimator_noise.cpp on
+/// purpose.
 double independent_joint_weight(int body);
 
 }  // namespace mimicx::synth

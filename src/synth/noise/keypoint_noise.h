@@ -1,4 +1,4 @@
-/// What a 2D detector makes of the motion it sees: keypoints with errors.
+/// 2D detections of the first noise model: keypoints with errors.
 ///
 /// Source: docs/method.md, "Noise model". Errors are in units of the person's box in the picture.
 /// What it does not do: no images, no occlusion by geometry.

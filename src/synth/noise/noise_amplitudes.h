@@ -1,4 +1,4 @@
-/// The amplitudes of both noise models by name: what `--noise NAME=VALUE` sets, and what the tables print.
+/// The amplitudes of both noise models by name, for `--noise NAME=VALUE` and for tables.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ struct Amplitude {
   const char* name;
   const char* unit;
   double Preset::*value;
-  double least = 0.0;  ///< smallest value that makes sense
-  double most = 1e6;
+  double least = 0.0;  ///< smallest valid value
+  double most = 1e6;   ///< largest valid value
 };
 
 /// All of a preset, in the order of its fields.

@@ -14,12 +14,12 @@ constexpr const char* kModels = "independent, gvhmr, vibe";
 NoiseModel model_of_name(const std::string& name) {
   if (name == "independent") return independent_preset();
   if (name == "gvhmr" || name == "vibe") return noise_preset(name + "-like");
-  throw std::invalid_argument("no noise '" + name + "'; known: " + kModels + ", or NAME=VALUE");
+  throw std::invalid_argument("unknown noise '" + name + "'; known: " + kModels + ", or NAME=VALUE");
 }
 
 double number_of(const std::string& word, const std::string& text) {
   const std::optional<double> value = number_from(text);
-  if (!value) throw std::invalid_argument("noise '" + word + "': a number is needed behind the =");
+  if (!value) throw std::invalid_argument("noise '" + word + "': expected a number after =");
   return *value;
 }
 
@@ -42,7 +42,7 @@ void set_amplitude(const std::string& word, Preset& preset) {
     preset.*amplitude.value = value;
     return;
   }
-  throw std::invalid_argument("no amplitude '" + name + "'; known: " + known);
+  throw std::invalid_argument("unknown amplitude '" + name + "'; known: " + known);
 }
 
 motion::Clip estimate_by(const NoisePreset& preset, const motion::Clip& truth, const EstimateConfig& config,

@@ -1,4 +1,4 @@
-/// An estimate of any clean clip, by whichever noise model: what `mimicx corrupt` writes.
+/// Simulated estimates of clean clips by either noise model, as `mimicx corrupt` writes them.
 ///
 /// What it does not do: no reading of files and no retargeting (synth/corrupt.h).
 #pragma once
@@ -15,10 +15,9 @@ namespace mimicx::synth {
 
 using NoiseModel = std::variant<NoisePreset, IndependentPreset>;
 
-/// A model by name ("independent", "gvhmr", "vibe"; "independent" where none is named) with single amplitudes
-/// set by NAME=VALUE. @param words  one name at most; amplitudes in any order
-/// @throws std::invalid_argument for an unknown name, with those that are known, and for a value that makes
-/// no sense
+/// A model by name ("gvhmr", "vibe" or the default, "independent"), with single amplitudes set by NAME=VALUE.
+/// @param words  at most one name; amplitudes in any order
+/// @throws std::invalid_argument for an unknown name, listing the known ones, and for an invalid value
 NoiseModel noise_model(const std::vector<std::string>& words);
 
 struct EstimateConfig {
@@ -31,8 +30,8 @@ struct EstimateConfig {
 /// @param seed  of this clip  @throws std::invalid_argument as `add_noise`
 motion::Clip estimate(const motion::Clip& truth, const EstimateConfig& config, std::uint64_t seed);
 
-/// The seed of a clip: a hash of the set's seed and the clip's name, so that a clip gets the same errors
-/// whichever others are corrupted with it.
+/// The seed of a clip: a hash of the set's seed and the clip's name, so that a clip's errors do not depend on
+/// the other clips of a call.
 std::uint64_t clip_seed(std::uint64_t seed, const std::string& name);
 
 }  // namespace mimicx::synth

@@ -1,16 +1,17 @@
-/// Which points of a body the body itself hides from a camera.       docs/method.md, "Noise model", (13)
+/// Self-occlusion: the points of a body that the body hides from a camera.  docs/method.md, "Noise model",
+/// (13)
 ///
-/// The body is its collision capsules. A joint lies inside its own limb and is seen all the same, so a point
-/// counts as hidden where the ray from the eye to it runs through more of a capsule than one and a half of
-/// its radius: a limb in front of it, or the trunk between the eye and a hip of the far side.
-/// What it does not do: no furniture, no other people, no borders of the picture.
+/// The body is represented by its collision capsules. A joint lies inside its own limb and is visible anyway,
+/// so a point counts as hidden only where the ray from the eye to it passes through more than one and a half
+/// radii of a capsule: a limb in front of it, or the trunk in front of a hip on the far side. What it does
+/// not do: no furniture, no other people, no borders of the picture.
 #pragma once
 
 #include "character/character.h"
 
 namespace mimicx::synth {
 
-inline constexpr double kHidingDepth = 1.5;  ///< radii of a capsule that hide what is behind them
+inline constexpr double kHidingDepth = 1.5;  ///< length inside a capsule that hides a point, in its radii
 
 /// Length of the part of the segment from `eye` to `point` that lies inside a capsule, m.
 /// @param a, b  ends of the capsule's axis, world, m

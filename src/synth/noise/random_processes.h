@@ -1,5 +1,4 @@
-/// What the files of the noise model share: the purposes of its random streams, intervals that begin at
-/// random, and occlusions.
+/// Random streams and random processes of the noise models: Poisson intervals, smooth noise, random walks.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +59,7 @@ enum NoiseStream : std::uint64_t {
 
 inline constexpr double kHeightTau = 1.5;  ///< of the slow term of the height, s
 
-/// Occlusion of one limb joint: a Hann window of rotation error, low confidence for its keypoints.
+/// Occlusion of one limb joint: a rotation error under a Hann window, and low confidence of its keypoints.
 struct Burst {
   int joint;
   int first, length;  ///< frames
@@ -81,8 +80,8 @@ PerFrame<double> smooth_noise(Random& random, int count, double frames);
 /// Student's t with a whole number of degrees of freedom. @param random  advanced
 double student_t(Random& random, int freedom);
 
-/// A walk that begins at 0 and whose variance grows, after τ, by 1 per second. Its velocity is the smooth
-/// process S_τ / √(2√π τ), so that its position is smooth, too. @param random  advanced
+/// A random walk that starts at 0 and whose variance grows by 1 per second after τ. Its velocity is the
+/// smooth process S_τ / √(2√π τ), so its position is smooth as well. @param random  advanced
 PerFrame<double> smooth_walk(Random& random, int count, double tau, double fps);
 
 }  // namespace mimicx::synth

@@ -8,7 +8,7 @@
 namespace mimicx::synth {
 namespace {
 
-/// A carried camera that is told exactly.
+/// A carried camera without errors.
 CameraError exact_moving() {
   CameraError error;
   error.moving = true;
@@ -73,7 +73,8 @@ TEST(CarriedCamera, GivenPathDriftsWithTheRootOfTime) {
   error.turn_drift = 0.4, error.place_drift = 0.02;
   test::Spread turn, place;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const CameraPath camera = carry_camera(poses, seed, 30.0), told = told_camera(camera, error, seed, 30.0);
+    const CameraPath camera = carry_camera(poses, seed, 30.0),
+                     told = erroneous_camera(camera, error, seed, 30.0);
     EXPECT_TRUE(told.extrinsics[0].isApprox(camera.extrinsics[0], 1e-12));
     const Matrix3d off =
         told.extrinsics[last].block<3, 3>(0, 0) * camera.extrinsics[last].block<3, 3>(0, 0).transpose();

@@ -9,7 +9,7 @@
 
 namespace mimicx::test {
 
-/// No error but one term, the camera told exactly.
+/// A preset with a single error term and an exact camera.
 inline synth::IndependentNoiseConfig only(double synth::IndependentPreset::*term, double value,
                                           std::uint64_t seed) {
   synth::IndependentNoiseConfig config;

@@ -15,7 +15,7 @@ namespace {
 using test::only;
 using Term = double IndependentPreset::*;
 
-/// Detections of a clip, the camera told exactly, and where they should be.
+/// Detections of a clip with an exact camera, and their true positions.
 struct Detected {
   motion::Keypoints keypoints;
   PerFrame<BodyPoses> poses;
@@ -169,7 +169,7 @@ TEST(IndependentKeypoints, OcclusionErrorsOnlyAffectHiddenPoints) {
 }
 
 TEST(IndependentKeypoints, AreLateOrEarlyByAFractionOfAFrame) {
-  // A body that glides: where it is seen says when it was seen.
+  // A body that glides: the position of a detection shows its time.
   motion::Clip glide = test::still_truth();
   for (int t = 0; t < glide.frames(); ++t) {
     glide.rotations[t] = glide.rotations[0];

@@ -56,7 +56,7 @@ TEST(AddNoise, AddsErrorsToCameraAndShape) {
       config.camera = camera_error(name);
       const motion::Clip noisy = add_noise(truth, config);
       const motion::Keypoints& told = *noisy.keypoints;
-      EXPECT_TRUE(told.uvc == exact.uvc);  // what is seen does not depend on what is told
+      EXPECT_TRUE(told.uvc == exact.uvc);  // detections do not depend on the camera's errors
       EXPECT_LT((test::camera_position(told) - test::camera_position(exact)).norm(), 1e-9);
       focal.add(told.intrinsics(0, 0) / exact.intrinsics(0, 0) - 1.0);
       const Matrix3d turn =
