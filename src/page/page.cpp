@@ -1,5 +1,5 @@
-// What a page's worker calls. Texts go through one buffer: a call leaves its answer there. Every answer is
-// JSON or bytes; where a call fails it is {"error": "the program's own line"}.
+// Functions that the page's worker calls. A call writes its answer into one buffer, as JSON or bytes; a call
+// that fails writes {"error": "the program's message"}.
 #include <memory>
 #include <sstream>
 #include <string>
@@ -11,7 +11,7 @@
 // Functions that are used from outside stay in the program, and JavaScript sees them.
 #define MIMICX_ASKED extern "C" __attribute__((used))
 
-/// In web/tell.js. @param urgent  0: how far it is; else a line that stays
+/// Defined in web/tell.js. @param urgent  0: progress; else a message that stays visible
 extern "C" void mimicx_tell(const char* line, int urgent);
 
 namespace {
@@ -21,14 +21,14 @@ using mimicx::page::Playground;
 using mimicx::page::Session;
 using mimicx::record::Json;
 
-/// What a terminal would show of a piece of text that may begin lines anew.
+/// The text that a terminal would show, with carriage returns applied.
 std::string last_state(std::string text) {
   text.erase(0, text.rfind('\r') + 1);
   for (std::size_t at; (at = text.find("\x1b[K")) != std::string::npos;) text.erase(at, 3);
   return text;
 }
 
-/// Hands on what is written: whole lines, and how far a job is, which has no end of line.
+/// Passes on what is written: whole lines, and progress, which has no end of line.
 class Lines : public std::stringbuf {
  public:
   int sync() override {
@@ -49,7 +49,7 @@ Session& session() {
 std::unique_ptr<Playground> playground;
 std::string answer;
 
-/// Does something, whatever comes of it.
+/// Stores the result of `work`, or its error, in the answer.
 template <class Work>
 void call(const Work& work) {
   try {
@@ -61,7 +61,7 @@ void call(const Work& work) {
 
 /// @throws std::invalid_argument where nothing is being played
 Playground& playing() {
-  if (playground == nullptr) throw std::invalid_argument("the program has begun anew: begin to play again");
+  if (playground == nullptr) throw std::invalid_argument("the program was restarted: start to play again");
   return *playground;
 }
 
@@ -70,7 +70,7 @@ std::string played() {
   return played_json(playing(), body);
 }
 
-/// The shape as it is now, by what its numbers change.
+/// The current β, each with the name of what it changes.
 Json betas() {
   Json list = Json::array();
   for (int k = 0; k < mimicx::kBetas; ++k)
@@ -96,7 +96,7 @@ MIMICX_ASKED void mimicx_plan(const char* file) {
   });
 }
 
-/// @param file  what `mimicx_plan` was told; its run has been put back where it was
+/// @param file  as given to `mimicx_plan`; its run has been put back in place
 MIMICX_ASKED void mimicx_take_up(const char* file) {
   call([&] { return session().take_up(file); });
 }
@@ -139,7 +139,7 @@ MIMICX_ASKED void mimicx_push(double x, double y, double z) {
     return std::string("{}");
   });
 }
-/// @param controller  0 feedback, 1 the plan alone, 2 none
+/// @param controller  0 feedback, 1 plan without feedback, 2 no motors
 MIMICX_ASKED void mimicx_controller(int controller) {
   call([&] {
     playing().set_controller(static_cast<Controller>(controller));

@@ -1,4 +1,4 @@
-/// A frame of the playground as the page takes it.
+/// A frame of the playground as JSON for the page.
 #pragma once
 
 #include <string>
@@ -7,9 +7,8 @@
 
 namespace mimicx::page {
 
-/// JSON: `frame` of `frames`; `clip`, a clip of this frame alone as in a report; `body`, its key;
-/// `floor_N`, `unexplained_N`, `unexplained_Nm`, `distance_mm` (null where the simulation
-/// went wrong).
+/// JSON: `frame` of `frames`; `clip`, a report's clip with this frame only; `body`, its key; `floor_N`,
+/// `unexplained_N`, `unexplained_Nm`, `distance_mm` (null where the simulation failed).
 /// @param body  key of the body's bones and skin (report::ReportBodies)
 std::string played_json(const Playground& playground, const std::string& body);
 

@@ -20,7 +20,7 @@ physics::State<double> raised(physics::State<double> x, double up) {
   return x;
 }
 
-/// What the plan followed, in the plan's very numbers.
+/// The reference of the plan, bit for bit.
 motion::Reference reference_of(const Character& character, const files::StoredPlan& plan, double up) {
   motion::Reference reference;
   reference.fps = plan.fps;
@@ -34,7 +34,7 @@ motion::Reference reference_of(const Character& character, const files::StoredPl
   return reference;
 }
 
-/// A body whose motors are cut off.
+/// The character without motors.
 Character limp(Character character) {
   for (JointParameters& joint : character.joint) joint.kp = joint.kd = 0.0;
   return character;
@@ -152,7 +152,7 @@ void Playground::set_controller(Controller controller) {
 void Playground::set_friction(double friction) {
   rl::tracking::TrackingConfig config = config_;
   config.simulation.friction = friction;
-  physics::make_model<float>(character_, config.simulation);  // which says what it cannot have
+  physics::make_model<float>(character_, config.simulation);  // throws for invalid values
   config_ = config;
   rebuild(true);
 }

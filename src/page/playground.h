@@ -1,12 +1,12 @@
-/// A plan that is simulated frame by frame while somebody disturbs it: pushes, another body, another floor,
-/// no feedback, no motors.
+/// Simulates a plan frame by frame under a user's disturbances: pushes, another body, another friction, no
+/// feedback, no motors.
 ///
 /// The simulated character follows the plan under its feedback gains (control/gains.h),
 ///
 ///     u = ū_t + K_t (z − z̄_t),
 ///
-/// in the tracking task's own pack: what nobody disturbs gives the states of the plan, byte for byte. After
-/// the last frame it begins again at the first.
+/// in the pack of the tracking task: without disturbance the states are those of the plan, byte for byte.
+/// After the last frame it restarts at the first one.
 #pragma once
 
 #include <array>
@@ -19,50 +19,49 @@
 
 namespace mimicx::page {
 
-/// Who moves the joints.
+/// Control of the joints.
 enum class Controller {
-  kFeedback,  ///< the plan, corrected by the gains
-  kPlan,      ///< the plan alone, whatever happens
-  kNone       ///< nobody: joints without torque but at the ends of their ranges
+  kFeedback,  ///< the plan with feedback
+  kPlan,      ///< the plan without feedback
+  kNone       ///< no motors: torques only at the ends of the joints' ranges
 };
 
-/// What the simulated character does at a frame.
+/// The simulated character at a frame.
 struct PlayedFrame {
   int frame = 0;  ///< of the plan
   motion::ReferenceFrame state;
   BodyPoses poses;
   rl::tracking::ActingForces forces;  ///< means since the frame before; zero at frame 0
-  double distance = 0.0;              ///< of the farthest body from its place in the plan's reference, m
+  double distance = 0.0;              ///< largest distance of a body from the plan's reference, m
   Vector6d unexplained =
       Vector6d::Zero();  ///< root wrench of the audit since the frame before: moment, force
 };
 
 class Playground {
  public:
-  /// @param character  whose plan it is @param gains  [frames − 1] of the plan
+  /// @param character  of the plan @param gains  [frames − 1] of the plan
   /// @throws std::invalid_argument for a plan of fewer than 2 frames, or gains of another length
   Playground(const Character& character, files::StoredPlan plan, std::vector<Eigen::MatrixXf> gains);
 
   int frames() const { return static_cast<int>(plan_.plan.states.size()); }
   double fps() const { return plan_.fps; }
-  /// The simulated body as it is shaped now.
+  /// The simulated character with its current shape.
   const Character& character() const { return character_; }
   const PlayedFrame& now() const { return now_; }
 
-  /// One frame on; from the last one to the first.
+  /// Goes to the next frame; from the last one to the first.
   const PlayedFrame& step();
-  /// Back to the first frame.
+  /// Goes back to the first frame.
   void restart();
-  /// Changes the velocity of the pelvis, world, m/s. The audit finds it as a force that nothing explains.
+  /// Adds to the velocity of the pelvis, world, m/s. The audit reports it as an unexplained force.
   void push(const Vector3d& change);
   void set_controller(Controller controller);
-  /// μ of the floor. @throws std::invalid_argument for what the simulator cannot have
+  /// Sets μ of the floor. @throws std::invalid_argument for a value that the simulator rejects
   void set_friction(double friction);
-  /// Another body on the same bones' rotations, from the first frame on. The whole plan is moved up or down
-  /// so that the first pose stands as high over the floor as it did. @throws std::invalid_argument as
-  /// make_character does
+  /// Sets another body shape and restarts. The whole plan is moved up or down so that the first pose keeps
+  /// its height over the floor. @throws std::invalid_argument as make_character
   void set_shape(const std::array<double, kBetas>& betas);
-  /// The body that the plan was made for.
+  /// Sets the body of the plan.
   void set_own_shape() { set_body(planned_for_); }
 
  private:
@@ -73,7 +72,7 @@ class Playground {
   files::StoredPlan plan_;
   std::vector<Eigen::MatrixXf> gains_;
   Character planned_for_, character_;
-  double up_ = 0.0;  ///< by which the plan is moved for the body, m
+  double up_ = 0.0;  ///< height added to the plan for the body, m
   Controller controller_ = Controller::kFeedback;
   rl::tracking::TrackingConfig config_;
   std::unique_ptr<rl::tracking::TrackingPack> pack_;

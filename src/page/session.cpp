@@ -30,7 +30,7 @@ std::string empty_report() {
 Session::Session(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
 std::string Session::plan(const std::filesystem::path& motion, const record::RunContext& context) {
-  std::filesystem::remove_all(next_folder());  // of an attempt that failed halfway
+  std::filesystem::remove_all(next_folder());  // left by an attempt that failed
   plan::PlanMotionsConfig config = plan::plan_configuration();
   config.run.inputs = {motion.string()};
   config.run.out = next_folder();
@@ -89,7 +89,7 @@ std::string Session::saved(int number, const std::string& suffix) const {
 Playground Session::play(int number) const {
   const Done& d = done(number);
   if (!std::filesystem::exists(d.folder.gains(d.entry.name)))
-    throw std::invalid_argument(d.entry.name + ": no plan followed it: there is nothing to play with");
+    throw std::invalid_argument(d.entry.name + ": its plan failed, so it cannot be played");
   const motion::Clip clip = motion::read_clip(d.folder.reference(d.entry.name));
   return {motion::character_of(clip), files::read_plan(d.folder.plan(d.entry.name)),
           files::read_gains(d.folder.gains(d.entry.name)).gains};

@@ -1,9 +1,9 @@
-/// What a browser page is told when a motion is dropped on it: the file is cleaned by a plan in a folder of
-/// its own, exactly as `mimicx plan FILE --out FOLDER --gains` does it, shown by the report's player, saved
-/// in other formats, and played with (playground.h).
+/// The browser page's work on motions. Each motion is cleaned by a plan in a folder of its own, exactly as by
+/// `mimicx plan FILE --out FOLDER --gains`. It can then be shown by the report's player, saved in other
+/// formats, and simulated interactively (playground.h).
 ///
-/// The page has no logic of its own: what it shows are the words and numbers that come out of here. In a
-/// browser the folder is one in memory.
+/// The page has no logic of its own: it shows the words and numbers of this class. In a browser the folder is
+/// in memory.
 #pragma once
 
 #include <filesystem>
@@ -19,37 +19,37 @@
 
 namespace mimicx::page {
 
-/// An empty report, which the page adds motions to: metrics and skin, no clip.
+/// An empty report with metrics and skin but no clip. The page adds motions to it.
 std::string empty_report();
 
 class Session {
  public:
-  /// @param folder  where motions get a folder each, numbered from 0 on
+  /// @param folder  gets a folder per motion, numbered from 0
   explicit Session(std::filesystem::path folder);
 
-  /// Reads, fits, prepares and plans a motion, and looks at it as a report does.
-  /// @return JSON: `number`; `ok`; `row` and `clip` as in a report, `bodies` by key; of a failure the
-  /// row's reason is the program's own message
-  /// @throws DataError or std::invalid_argument where not even that can be said
+  /// Reads, fits, prepares and plans a motion, and evaluates it as a report does.
+  /// @return JSON: `number`; `ok`; `row` and `clip` as in a report, `bodies` by key. For a failure the row's
+  /// reason is the program's message
+  /// @throws DataError or std::invalid_argument where no row can be made
   std::string plan(const std::filesystem::path& motion, const record::RunContext& context);
 
-  /// Takes up what `plan` of an earlier session has left in the folder of the motion with the number that is
-  /// next here: a browser's program that is stopped keeps nothing, but the page that it ran in may.
-  /// @param motion  as `plan` was told it @return JSON: `number`
-  /// @throws DataError where no such run is there
+  /// Restores a motion that an earlier session has planned, from the folder with the next number. A stopped
+  /// worker of the browser loses its files; the page keeps them and puts them back.
+  /// @param motion  the file given to `plan` then @return JSON: `number`
+  /// @throws DataError where the folder holds no such run
   std::string take_up(const std::filesystem::path& motion);
 
-  /// The cleaned motion as `mimicx plan` leaves it where the suffix is that of the input, else as
-  /// `mimicx convert` writes it. @param number  of the motion @param suffix  with its dot
-  /// @throws DataError, std::invalid_argument as these do; also where there is no cleaned motion
+  /// The bytes of the cleaned motion: as written by `mimicx plan` if the suffix is that of the input, else as
+  /// written by `mimicx convert`. @param number  of the motion @param suffix  with its dot
+  /// @throws DataError, std::invalid_argument as these do, and where there is no cleaned motion
   std::string saved(int number, const std::string& suffix) const;
 
-  /// Begins to play with a motion that was followed. @throws as `saved`
+  /// A playground for a motion whose plan succeeded. @throws as `saved`
   Playground play(int number) const;
 
-  /// A shape of bones and skin that clips of this session may name. @return its key
+  /// Registers a body's bones and skin for the clips of this session. @return its key
   std::string body_of(const Character& character) { return bodies_.take(character); }
-  /// All of them, as JSON by key.
+  /// All registered bodies, as JSON by key.
   std::string bodies_json() const;
 
  private:

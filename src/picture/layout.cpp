@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kGap = 2;  ///< between cells, pixels
 
-/// Of a cell whose picture may be as large as it likes, pixels.
+/// Default size of a cell, pixels.
 struct NaturalSize {
   int height, least_width, most_width;
 };
@@ -111,7 +111,7 @@ class Planner {
   }
 
  private:
-  /// What the camera's place is relative to.
+  /// Origin of the camera's position.
   Vector3d origin_at(double time) const {
     return config_.kind == Kind::kStrip ? middle_at(motions_, time) : Vector3d(Vector3d::Zero());
   }

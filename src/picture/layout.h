@@ -1,8 +1,8 @@
-/// What stands where in a picture of motions, seen by which camera.
+/// Layout of a picture of motions: cells, cameras and notes.
 ///
-/// Several motions are shown at the same moments by the same cameras: they are the rows of a strip and of a
-/// stroboscope, and stand beside each other in a still and in an animation. The camera stands still, but for
-/// a strip's: from moment to moment it goes along with the middle of all pelvises, over the floor.
+/// Several motions are shown at the same moments by the same cameras, as rows of a strip or a stroboscope, or
+/// side by side in a still or an animation. The camera does not move, except in a strip: from moment to
+/// moment it follows the horizontal position of the mean of all pelvises.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace mimicx::picture {
 
-/// One moment; one room with many moments; many moments beside each other; a film.
+/// One moment; many moments in one scene; many moments side by side; an animation.
 enum class Kind { kStill, kStroboscope, kStrip, kAnimation };
 
 struct Size {
@@ -22,12 +22,12 @@ struct Size {
 
 struct PictureConfig {
   Kind kind = Kind::kStrip;
-  /// Where the camera stands, degrees: 0 before the first body as it looks at first, 90 at its right side.
+  /// Direction of the camera, degrees: 0 in front of the first body in its first pose, 90 at its right side.
   double view = 45.0;
-  List<double> at;            ///< moments to show, s; empty: evenly spread, of a still a telling one
-  int moments = 8;            ///< of a strip and a stroboscope
-  Stretch stretch{0.0, 1e9};  ///< moments are taken from it, s; cut to where all motions are
-  std::optional<Size> size;   ///< of the whole picture; none: as large as the motion needs
+  List<double> at;            ///< moments to show, s; empty: evenly spaced, or `telling_moment` for a still
+  int moments = 8;            ///< number of moments of a strip or a stroboscope
+  Stretch stretch{0.0, 1e9};  ///< time range of the moments, s; cut to the range that all motions have
+  std::optional<Size> size;   ///< of the whole picture; none: chosen by the motion
   double rate = 30.0;         ///< pages per second of an animation
 };
 
@@ -45,7 +45,7 @@ struct Note {
   double x, y, height, width;  ///< pixels
 };
 
-/// One picture; of an animation a frame.
+/// One picture, or one frame of an animation.
 struct Page {
   double time = 0;  ///< of its first moment, s
   List<Cell> cells;
@@ -55,14 +55,14 @@ struct Page {
 struct Layout {
   Size size;
   List<double> moments;  ///< all that are shown, s
-  List<Page> pages;      ///< one; of an animation as many as there are moments
+  List<Page> pages;      ///< one; for an animation one per moment
 };
 
-/// Cells are at least this wide and high, pixels.
+/// Smallest width and height of a cell, pixels.
 inline constexpr int kLeastCell = 16;
 
-/// @throws std::invalid_argument for moments where not all motions are, and for a size that leaves cells no
-/// room
+/// @throws std::invalid_argument for moments outside of any motion, and for a size that is too small for the
+/// cells
 Layout lay_out(const List<PosedMotion>& motions, const PictureConfig& config);
 
 }  // namespace mimicx::picture

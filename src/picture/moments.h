@@ -1,4 +1,4 @@
-/// Which moments of a motion are shown.
+/// Chooses the moments of a motion that a picture shows.
 #pragma once
 
 #include "core/containers.h"
@@ -6,16 +6,16 @@
 
 namespace mimicx::picture {
 
-/// A stretch of time, s.
+/// A range of time, s.
 struct Stretch {
   double first = 0, last = 0;
 };
 
-/// Moments at equal distances, both ends among them; of one moment the middle.
+/// Evenly spaced moments including both ends; the middle for a count of 1.
 List<double> even_moments(const Stretch& stretch, int count);
 
-/// The moment that says most about a motion: whose pose is farthest from the motion's mean one, in the mean
-/// square of the joints' places relative to the pelvis, seen from where the body looks.
+/// The most characteristic moment of a motion: its pose has the largest mean square distance from the
+/// motion's mean pose, with joints relative to the pelvis and its heading.
 double telling_moment(const PosedMotion& motion, const Stretch& stretch);
 
 }  // namespace mimicx::picture

@@ -14,9 +14,9 @@ namespace {
 
 const render::Colour kInk(0.02F, 0.03F, 0.04F);
 constexpr render::Pixel kPaper{255, 255, 255};
-constexpr float kFaded = 0.55F;  ///< what the first moment of a stroboscope has lost of its colour
+constexpr float kFaded = 0.55F;  ///< share of the background colour in a stroboscope's first moment
 
-/// One motion alone is blue; of several the first, which is mostly the input, is brown.
+/// A single motion is blue. Of several motions the first, usually the input, is brown.
 render::Colour colour_of(int motion, int count) {
   const List<render::Colour> colours = {
       {0.09F, 0.25F, 0.56F}, {0.48F, 0.23F, 0.10F}, {0.13F, 0.38F, 0.14F}, {0.36F, 0.13F, 0.42F}};

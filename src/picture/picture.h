@@ -1,4 +1,4 @@
-/// Draws what was laid out.
+/// Draws the pages of a layout and writes them as PNG files.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace mimicx::picture {
 
-/// The same pixels for any number of threads.
+/// Draws a page. The pixels do not depend on the number of threads.
 render::Image draw_page(const List<PosedMotion>& motions, const Page& page, const Size& size, int threads);
 
-/// Writes the layout's one page, or its pages as an animation, as PNG. @param rate  pages per second
+/// Writes the layout's page as PNG, or several pages as an animated PNG. @param rate  pages per second
 /// @throws DataError when the file cannot be written
 void write_picture(const std::filesystem::path& path, const List<PosedMotion>& motions, const Layout& layout,
                    double rate, int threads);

@@ -1,8 +1,8 @@
-/// PNG files without interlace: pictures of 8-bit RGB, animations of 8-bit RGBA.
+/// Writes PNG files without interlace: pictures in 8-bit RGB, animations in 8-bit RGBA.
 ///
 /// Source: W3C, "Portable Network Graphics (PNG) Specification (Third Edition)", its chapters on chunks,
 /// filters, compression and animation. Every row is filtered by Paeth's predictor. The compression is zlib's:
-/// equal pixels give equal bytes as long as the library is the same.
+/// equal pixels give equal bytes with the same version of zlib.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,20 @@
 
 namespace mimicx::picture {
 
-/// Files of ours say who made them, at byte kPngOpeningAt.
+/// Text chunk at byte kPngOpeningAt by which the program recognises its own files.
 inline constexpr std::string_view kPngOpening{"tEXtSoftware\0mimicx", 19};
 inline constexpr std::size_t kPngOpeningAt = 37;
 
 std::string format_png(const render::Image& image);
 
-/// An animation that grows frame by frame and is repeated for ever; every browser plays it, and what knows no
-/// animations shows its first frame. Of a frame the rectangle is stored in which it differs from the one
-/// before, and in it the pixels that differ.
+/// Builds an animation frame by frame. It repeats for ever; browsers play it, and other programs show its
+/// first frame. Of a frame only the changed rectangle is stored, in which unchanged pixels are transparent.
 class PngAnimation {
  public:
-  /// @param image  of the size of the ones before
-  /// @param milliseconds  how long it is shown, at most 65535
+  /// Appends a frame. @param image  has the size of earlier ones
+  /// @param milliseconds  its duration, at most 65535
   void add(const render::Image& image, int milliseconds);
-  /// The file of all frames; there is at least one.
+  /// The bytes of the file. There must be at least one frame.
   std::string finish() const;
 
  private:

@@ -1,4 +1,4 @@
-/// A motion on its body, ready to be drawn at any time.
+/// A motion with the poses, mesh and forces that drawing it needs.
 #pragma once
 
 #include <optional>
@@ -17,19 +17,19 @@ struct PosedMotion {
   PerFrame<BodyPoses> poses;
   Character character;
   skin::Mesh mesh;
-  List<files::FloorForces> forces;  ///< [frames − 1] of the intervals between frames; empty: not shown
+  List<files::FloorForces> forces;  ///< [frames − 1] means between frames; empty: no arrows
 
   double seconds() const { return (poses.count() - 1) / fps; }
-  /// The frame nearest to a time; the first and the last beyond the ends.
+  /// The frame nearest to a time, clamped to the first and last one.
   int frame_at(double time) const;
 };
 
-/// @param forces  what the floor does, to be shown as arrows; none: no arrows
+/// @param forces  of the floor, drawn as arrows; none: no arrows
 PosedMotion posed_motion(const motion::Clip& clip, files::Skin skin,
                          const std::optional<files::RecordedForces>& forces);
 
-/// The body at a frame, its left limbs lighter than the rest, and behind it the arrows of the floor's forces
-/// over the interval that ends there, files::kMetresPerNewton long.
+/// The body at a frame with lighter left limbs, then the arrows of the floor's forces over the interval that
+/// ends at the frame. Arrows have files::kMetresPerNewton per newton.
 List<render::Solid> solids_at(const PosedMotion& motion, int frame, const render::Colour& colour);
 
 }  // namespace mimicx::picture

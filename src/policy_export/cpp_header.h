@@ -1,4 +1,4 @@
-/// A policy as a C++17 header that needs nothing else: data, runtime.h, and what a user calls.
+/// A policy as a self-contained C++17 header: its data, runtime.h, and the functions for users.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace mimicx::policy_export {
 
-/// How such a header begins.
+/// First bytes of such a header.
 inline constexpr std::string_view kHeaderOpening = "// A policy by mimicx export-policy";
 
-/// The header. Its namespace is policy_ and the name, with _ for what no C++ name can have.
+/// The text of the header. Its namespace is `namespace_of` the motion's name.
 std::string to_header(const ExportedPolicy& exported);
 
-/// policy_ and the name of a motion as a name of C++.
+/// "policy_" and the name of a motion, in which '_' replaces all characters that C++ names cannot have.
 std::string namespace_of(const std::string& name);
 
 }  // namespace mimicx::policy_export

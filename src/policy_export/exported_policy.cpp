@@ -17,7 +17,7 @@ constexpr int kPasses = 4;                        // of the roll-outs that show 
 constexpr double kNoise = 0.05;                   // rad
 constexpr int kSpacing = 1, kSpacingIn8Bits = 2;  // frames from knot to knot
 
-/// Near the motion, as after a push: every number of the state is somewhere else, quaternions of unit length.
+/// A random state near the motion, as after a push: every number is disturbed, quaternions keep unit length.
 State disturbed(State state, Random& random) {
   const auto move = [&](float& x, double by) { x += static_cast<float>(by * random.normal()); };
   for (int k = 0; k < 3; ++k) {
@@ -39,7 +39,7 @@ State disturbed(State state, Random& random) {
   return state;
 }
 
-/// What the policy sees on its way through the motion, once alone and a few times with noise on its actions.
+/// Observations of the policy along the motion, once without noise and a few times with noise on its actions.
 nn::Matrix<float> observations_of(const files::StoredPolicy& policy) {
   rl::tracking::TrackingConfig task;
   task.simulation = policy.simulation;

@@ -1,6 +1,5 @@
-/// A policy as the files of `mimicx export-policy` mean it: the motion that it follows as their splines say
-/// it, its network with all its bits or in 8 (quantised_network.h), and records of what it answers.
-///                                                                          docs/exported_policies.md
+/// A policy as `mimicx export-policy` writes it: its motion as splines, its network in 32-bit floats or in 8
+/// bits (quantised_network.h), and recorded answers to test against.             docs/exported_policies.md
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace mimicx::policy_export {
 
-/// One question to the policy and its answer by runtime.h.
+/// A state and the answer of the policy to it, computed by runtime.h.
 struct Record {
   int frame = 0;
   State now{};
@@ -23,28 +22,28 @@ struct Record {
 };
 
 struct ExportedPolicy {
-  files::StoredPolicy meant;  ///< runs in the program: the same motion and the same weights, to the bit
+  files::StoredPolicy meant;  ///< the same policy for the program: motion and weights of equal bits
   float max_action = 0.0F;    ///< rad
   MotionSpline motion;
   bool in_8_bits = false;
-  QuantisedNetwork quantised;        ///< where it is in 8 bits
-  std::vector<std::int16_t> inputs;  ///< of the first layer
+  QuantisedNetwork quantised;        ///< used if `in_8_bits`
+  std::vector<std::int16_t> inputs;  ///< inputs of the first layer as indices into the observation
   std::vector<Record> records;
 
   int widest() const;  ///< largest number of inputs or outputs of a layer
 };
 
-inline constexpr int kWidestEver = 4096;  ///< of the networks that are exported
+inline constexpr int kWidestEver = 4096;  ///< largest width of an exported network
 
 /// @throws std::invalid_argument for a network that runtime.h cannot run, and as fit_spline
 ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits);
 
-/// Calls f with the policy as runtime.h takes it: a Policy<float>, or a Policy<std::int8_t> in 8 bits. It is
-/// gone afterwards.
+/// Calls f with the policy in runtime.h's form: a Policy<float>, or a Policy<std::int8_t> in 8 bits. Its
+/// pointers are valid during the call only.
 template <class F>
 void with_policy(const ExportedPolicy& exported, F&& f);
 
-/// What the policy answers in the runtime's arithmetic.
+/// The policy's answer, computed in the runtime's arithmetic.
 Record answer(const ExportedPolicy& exported, int frame, const State& now);
 
 // ---- the template -------------------------------------------------------------------------------

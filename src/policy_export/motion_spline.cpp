@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kLargestCoefficient = 32766.0;  // of a 16-bit coefficient, one of its own for rounding
+constexpr double kLargestCoefficient = 32766.0;  // of a 16-bit coefficient, less one for rounding
 constexpr double kFastest = 127.0;               // of an 8-bit speed
 constexpr double kVelocityWeight = 0.25;         // of a step's error per frame against an error of place
 constexpr double kTurnedTooFar = 20.0;           // tan(angle / 4): 348°
@@ -64,7 +64,7 @@ Coordinates coordinates_of(const List<physics::State<double>>& states, double fp
       if (!(m.norm() < kTurnedTooFar))
         throw std::invalid_argument("frame " + std::to_string(t) + ": the joint of " +
                                     std::string(kBodyNames[body]) +
-                                    " turns by a whole circle, which no exported motion can");
+                                    " turns by nearly 360 degrees, which an exported motion cannot hold");
       if (is_hinge(body)) {
         c.values(t, channel) = m[hinge_entry(body)];
         c.rates(t, channel++) = rate[hinge_entry(body)];
@@ -114,7 +114,7 @@ std::vector<double> speeds_of(const physics::State<double>& x) {
   return out;
 }
 
-/// Fills in what the velocities are more than those of the splines.
+/// Fills in the differences between the velocities and those of the splines.
 void add_speeds(const List<physics::State<double>>& states, MotionSpline& spline) {
   const auto frames = static_cast<Index>(states.size());
   spline.speeds.assign(states.size() * kSpeeds, 0);

@@ -1,10 +1,10 @@
-/// The motion that a policy follows, small: B-splines with 16-bit coefficients.
+/// Compresses the motion that a policy follows: B-splines with 16-bit coefficients.
 ///
-/// A planned motion is 160 numbers per frame (91 of places and quaternions, 69 of velocities), 640 bytes: in
-/// five seconds a quarter of what the network takes. But it moves little within a fifteenth of a second, and
-/// its velocities are nearly the derivatives of its places. So 62 coordinates (runtime.h) become uniform
-/// cubic B-splines of 16-bit coefficients, and what the velocities are more than the splines' own, 8-bit
-/// numbers. All are numbers over the range that they have in this motion.
+/// A planned motion has 160 numbers per frame (91 for positions and quaternions, 69 for velocities), 640
+/// bytes: five seconds take a quarter of the network's size. It changes little within a fifteenth of a
+/// second, and its velocities are nearly the derivatives of its positions. Therefore 62 coordinates
+/// (runtime.h) are stored as uniform cubic B-splines with 16-bit coefficients, and the differences of the
+/// velocities from the splines' derivatives as 8-bit numbers. All are scaled to their range in this motion.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,11 @@ struct MotionSpline {
 
 /// @param states   at least 2
 /// @param spacing  ≥ 1
-/// @throws std::invalid_argument for fewer states or less spacing, or a joint that turns by nearly 360°,
-/// where
-///         its coordinates have no value
+/// @throws std::invalid_argument for fewer states, a smaller spacing, or a joint that turns by nearly 360°,
+/// where its coordinates are undefined
 MotionSpline fit_spline(const List<physics::State<double>>& states, double fps, int spacing);
 
-/// The states of a spline, rounded to float as the simulator's are.
+/// The states of a spline, rounded to float as those of the simulator.
 List<physics::State<double>> states_of(const MotionSpline& spline);
 
 physics::State<double> to_physics(const State& state);

@@ -1,4 +1,4 @@
-/// A policy as an archive of NumPy: docs/exported_policies.md lists its members.
+/// A policy as a NumPy archive (npz). docs/exported_policies.md lists its members.
 #pragma once
 
 #include "core/npz/npz.h"

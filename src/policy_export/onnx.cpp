@@ -81,7 +81,7 @@ std::vector<float> values_of(const nn::Matrix<float>& matrix) {
   return {matrix.data(), matrix.data() + matrix.size()};
 }
 
-/// The codes of a layer with the inputs that have no weights put back as zeros. [inputs][outputs]
+/// The codes of a layer, with zeros for the removed inputs, [inputs][outputs].
 std::vector<std::int8_t> all_codes(const ExportedPolicy& exported, std::size_t layer, std::size_t inputs,
                                    std::size_t outputs) {
   const std::vector<std::int8_t>& codes = exported.quantised.layers[layer].codes;

@@ -1,4 +1,4 @@
-/// The files of `mimicx export-policy`: which kind an ending means, and what is written.
+/// The files of `mimicx export-policy`: the suffix chooses the format.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace mimicx::policy_export {
 
-/// How a file of that ending begins, for record::Outputs; empty of an archive.
-/// @throws std::invalid_argument for an ending that is none of .h, .onnx, .npz
+/// First bytes of a file with that suffix, for record::Outputs; empty for an archive.
+/// @throws std::invalid_argument for a suffix other than .h, .onnx or .npz
 std::string_view opening_of(const std::filesystem::path& path);
 
-/// The bytes of a file, by its ending. @throws std::invalid_argument as above
+/// The bytes of the file. @throws std::invalid_argument as `opening_of`
 std::string bytes_of(const ExportedPolicy& exported, const std::filesystem::path& path);
 
 }  // namespace mimicx::policy_export

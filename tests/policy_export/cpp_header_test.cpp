@@ -1,4 +1,4 @@
-// The header as its reader has it: a C++17 compiler that knows nothing of this project.
+// The header for its users: compiled as C++17 without any other file of this project.
 #include "policy_export/cpp_header.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ constexpr const char* kEmbedded =
     " -std=c++17 -O1 -ffp-contract=off -fno-exceptions -fno-rtti -Wall -Wextra -Wconversion -Wshadow "
     "-Werror ";
 
-/// Compiles one file in a folder of its own and calls it. @return its status and what it said
+/// Compiles one file in a folder of its own and calls it. @return its status and output
 Call compiled(const TemporaryFolder& folder, const std::string& source) {
   write_file_atomically(folder.path / "main.cpp", source);
   const std::string at = folder.path.string();

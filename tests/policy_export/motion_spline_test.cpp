@@ -1,4 +1,4 @@
-// A motion as splines: near the states it was made of, whatever way the body turns.
+// A motion as splines is near its states, however the body turns.
 #include "policy_export/motion_spline.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The archive runs in NumPy: the example of docs/exported_policies.md, as it stands there.
+// Runs the NumPy example of docs/exported_policies.md on the archive.
 #include "policy_export/numpy_arrays.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The ONNX model is read by a reader of its own, and its graph computed node by node, in double.
+// Reads the ONNX model with an independent reader and computes its graph node by node, in double.
 #include "policy_export/onnx.h"
 
 #include <gtest/gtest.h>

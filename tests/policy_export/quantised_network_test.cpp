@@ -1,4 +1,4 @@
-// A network in 8 bits: what is folded away changes nothing, and the weights are what the codes say.
+// An 8-bit network: folding inputs changes nothing, and the weights equal those of the codes.
 #include "policy_export/quantised_network.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(QuantisedNetwork, ErrsLessThanPlainRounding) {
   rl::Agent exact = small_policy().agent;
   fold_inputs(small_policy().motion.character.betas, exact);
   rl::Agent alone = exact, helped = exact;
-  nn::Matrix<float> nothing(1, kStateCount);  // at the mean of everything: no input tells of another one
+  nn::Matrix<float> nothing(1, kStateCount);  // all inputs at their mean: no correlation between inputs
   nothing = exact.observations.shift;
   quantise(nothing, alone);
   quantise(seen, helped);

@@ -1,4 +1,4 @@
-// What a header computes is what the program computes: the same bits where both fuse nothing.
+// The header computes what the program computes: equal bits where neither fuses operations.
 #include "policy_export/runtime.h"
 
 #include <gtest/gtest.h>

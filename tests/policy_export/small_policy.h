@@ -1,4 +1,4 @@
-/// A policy that nobody has taught: random weights of the sizes that are taught, on a short squat.
+/// An untrained policy: random weights in the usual sizes, on a short squat.
 #pragma once
 
 #include "core/random.h"

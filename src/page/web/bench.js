@@ -1,18 +1,18 @@
-// A page that cleans motions: files go to the program in a worker, and what it makes of them into the report's tables and
-// player.
+// The page that cleans motions: it passes files to the program in a worker and adds the results to the report's tables
+// and player.
 
-// Of `motions`, what was dropped and has not been begun yet: [{name, read}], read() brings the bytes.
+// `motions` are the dropped files that wait: [{name, read}], where read() returns the bytes.
 const bench = {worker: null, waiting: null, queue: [], ready: null, cleaned: 0, kept: [], motions: [], busy: false,
                stops: 0};
 
-// Base64 of gzip, as it stands in an element of this page, as bytes.
+// The bytes of an element that holds base64 of gzip.
 async function unpacked(id) {
   const text = atob($(id).textContent.trim()), bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// One question at a time; the next one goes when the answer is there. @return what the worker answers
+// Sends requests to the worker one at a time. @return the worker's answer
 function ask(what) {
   return new Promise((answered) => {
     bench.queue.push({what, answered});
@@ -35,7 +35,7 @@ function hear({data: said}) {
   send_next();
 }
 
-// A worker, and in it what earlier ones have made, by the same numbers.
+// Starts a worker and restores in it the motions of earlier workers, with the same numbers.
 async function begin_worker() {
   if (bench.worker) bench.worker.terminate();
   for (const {answered} of [bench.waiting, ...bench.queue].filter(Boolean)) answered({answer: {error: 'stopped'}});
@@ -49,7 +49,7 @@ async function begin_worker() {
   URL.revokeObjectURL(address);
 }
 
-// ---- what it says ---------------------------------------------------------------------------------
+// ---- messages -------------------------------------------------------------------------------------
 
 function show_told(line, urgent) {
   if (urgent) { $('told').append(...line.split('\n').filter(Boolean).map((text) => make('li', {}, text))); return; }
@@ -70,7 +70,7 @@ function show_more() {
   $('work-more').textContent = more ? `${more} more to come` : '';
 }
 
-// @param name  of the motion, where the words do not begin with it
+// @param name  of the motion, added where the text does not begin with it
 function show_failure(text, name = '') {
   $('told').append(make('li', {className: 'failed'}, text.startsWith(name) ? text : `${name}: ${text}`));
 }
@@ -88,7 +88,7 @@ function add_clip(made) {
   return index;
 }
 
-// @return the clip that came of it, null where there is none
+// @return index of the new clip, null for a failure
 async function clean({name, read}) {
   const {stops} = bench;
   show_working(name);
@@ -102,8 +102,8 @@ async function clean({name, read}) {
   return add_clip(answer);
 }
 
-// One after the other, whatever is dropped meanwhile. The first that there is something of is shown; the others can be
-// chosen.
+// Cleans motions one after the other, including those dropped meanwhile. The first success is shown; the others can be
+// selected.
 async function take_motions(motions) {
   bench.motions.push(...motions);
   show_more();
@@ -156,7 +156,7 @@ async function save_as(suffix) {
   }
 }
 
-// Playing has the program for itself.
+// Updates the buttons. Playing needs the worker, so it is disabled while motions are cleaned.
 function show_after() {
   for (const button of $('after').querySelectorAll('[data-suffix]')) button.disabled = !row_shown();
   $('begin-play').disabled = !row_shown() || bench.busy;

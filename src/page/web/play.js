@@ -1,5 +1,5 @@
-// Playing with a cleaned motion: the worker simulates a frame after the other, and the report's player shows them beside the
-// plan, in the place of a clip whose frames are filled in while it is seen.
+// Interactive simulation of a cleaned motion: the worker simulates frame by frame, and the report's player shows the frames
+// beside the plan, as a clip that is filled in while it plays.
 
 const play = {on: false, held: false, motion: null, due: 0, asked: false, frame: 0, key: null};
 
@@ -12,7 +12,7 @@ function empty_motion(frames, body) {
           centers: new Int32Array(3 * frames), support: Array.from({length: frames}, () => [])};
 }
 
-// A frame as it comes, at its place. The first one stands for all that are not there yet.
+// Stores a new frame in the clip. The first frame is also used for all frames that are still missing.
 function put_frame({frame, clip}, bodies) {
   const one = take_motion(clip.motions[0], bodies), {motion} = play;
   motion.body = one.body;
@@ -97,7 +97,7 @@ function stop_playing() {
 
 // ---- while it goes on -----------------------------------------------------------------------------
 
-// A frame when it is due; where the program is slower than time, as fast as it can.
+// Requests each frame when it is due, or as fast as possible if the program is slower than real time.
 async function live_on(now) {
   if (!play.on) return;
   requestAnimationFrame(live_on);
@@ -121,7 +121,7 @@ async function change(what) {
   return answer;
 }
 
-// Directions as the person sees them.
+// Directions of pushes as seen on the screen.
 const directions = {right: [-Math.sin, Math.cos], left: [Math.sin, (a) => -Math.cos(a)],
                     away: [(a) => -Math.cos(a), (a) => -Math.sin(a)], near: [Math.cos, Math.sin]};
 function push_towards(side) {
@@ -165,8 +165,8 @@ const play_keys = {
   ' ': hold_or_go_on, Home: restart, End: () => {}, Escape: stop_playing,
 };
 
-// Before the player's own keys, which would move the frames of a clip. What has the focus keeps the keys that it needs,
-// and a key that is held down is one push.
+// Handles keys before the player does, which would change frames. A focused element keeps the keys that it needs, and a
+// key that is held down gives one push.
 function on_play_key(e) {
   const act = play_keys[e.key], tag = e.target.tagName;
   const ours = e.repeat ? play.key === e.key : play.on && act && !e.ctrlKey && !e.metaKey && !e.altKey;

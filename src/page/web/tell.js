@@ -1,4 +1,4 @@
-// What the program calls while it works (src/page/page.cpp), for emscripten's linker.
+// The function that the program calls to report progress (src/page/page.cpp), for emscripten's linker.
 mergeInto(LibraryManager.library, {
   mimicx_tell: function(line, urgent) { mimicx_told(UTF8ToString(line), urgent !== 0); },
 });

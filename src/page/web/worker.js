@@ -1,5 +1,5 @@
-// What runs beside the page: the program, compiled to WebAssembly, and the few words that they exchange. It computes
-// nothing; every answer is what the program says.
+// The page's worker: it runs the program, compiled to WebAssembly, and passes messages between it and the page. Every
+// answer is the program's own.
 //
 // The page asks {ask, …}, an answer is {ask, answer} or {ask, bytes}; while the program works it tells {told, urgent}.
 
@@ -10,7 +10,7 @@ function mimicx_told(line, urgent) { postMessage({told: line, urgent}); }
 const answer_bytes = () => program.HEAPU8.slice(program._mimicx_answer(), program._mimicx_answer() + program._mimicx_answer_size());
 const answer = () => JSON.parse(new TextDecoder().decode(answer_bytes()));
 
-// Calls f(pointer) with a text, or with doubles, in the program's memory.
+// Copies a text or doubles into the program's memory and calls f(pointer).
 function with_memory(bytes, f) {
   const at = program._malloc(bytes.length);
   program.HEAPU8.set(bytes, at);
@@ -19,7 +19,7 @@ function with_memory(bytes, f) {
 const with_text = (text, f) => with_memory(new TextEncoder().encode(text + '\0'), f);
 const with_numbers = (numbers, f) => with_memory(new Uint8Array(Float64Array.from(numbers).buffer), f);
 
-// Every file below a folder, by its path.
+// All files below a folder, by path.
 function files_below(folder) {
   return program.FS.readdir(folder).filter((name) => !name.startsWith('.')).flatMap((name) => {
     const path = `${folder}/${name}`;
@@ -27,7 +27,7 @@ function files_below(folder) {
   });
 }
 
-// What the program has made of a motion, for the page to keep: a program that is stopped leaves nothing.
+// The program's files for a motion. The page keeps them, because a stopped worker loses its files.
 function plan({name, bytes}) {
   program.FS.writeFile(name, bytes);
   with_text(name, (file) => program._mimicx_plan(file));
