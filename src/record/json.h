@@ -65,6 +65,7 @@ class Json {
 
   bool is_null() const { return std::holds_alternative<std::nullptr_t>(value_); }
   bool is_boolean() const { return std::holds_alternative<bool>(value_); }
+  bool is_number() const { return !is_null() && !is_boolean() && value_.index() < 5; }
   bool is_object() const { return std::holds_alternative<std::vector<Member>>(value_); }
   bool contains(const std::string& name) const { return find(name) != nullptr; }
 

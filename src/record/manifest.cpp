@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "record/former_settings.h"
 #include "record/sequence_entry.h"
 #include "record/table.h"
 #include "record/utf8_names.h"
@@ -23,7 +24,8 @@ std::vector<std::pair<std::string, std::string>> texts_of(const Manifest& m) {
                                                             {"samples", std::to_string(m.samples)},
                                                             {"options", m.options},
                                                             {"reading", m.reading}};
-  for (const auto& [name, value] : m.settings) texts.emplace_back(name, format_number(value));
+  for (const auto& [name, value] : m.settings)
+    if (!is_former_default(name, value)) texts.emplace_back(name, format_number(value));
   return texts;
 }
 
