@@ -9,7 +9,6 @@
 
 #include "commands.h"
 #include "files/inputs.h"
-#include "fit/fit_settings.h"
 #include "record/folder_lock.h"
 #include "record/outputs.h"
 #include "run/preparation.h"

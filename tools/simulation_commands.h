@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "fit/fit_settings.h"
+#include "core/setting.h"
 #include "program/configurations.h"
 
 namespace mimicx::tools {

@@ -128,10 +128,8 @@ void write_substeps(const std::filesystem::path& path, const SubstepMotion& moti
   npz.set("betas", NpyArray::from_double({kBetas}, motion.character.betas.data()));
   npz.set("body_model", NpyArray::scalar_text("mimicx"));
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
-  files::for_each_simulation_setting(motion.simulation, [&](const std::string& name, const auto& field) {
-    const double value = static_cast<double>(field);
-    npz.set(name, NpyArray::from_double({1}, &value));
-  });
+  for (const auto& [name, number] : files::simulation_numbers(motion.simulation))
+    npz.set(name, NpyArray::from_double({1}, &number));
   write_npz(path, npz);
 }
 

@@ -1,13 +1,21 @@
 /// Settings: the fields of a configuration as named numbers, as in manifests and `--set`.
 ///
-/// A configuration has one function that visits its fields: it calls add(name, field) or
-/// add(name, field, least, most) for each. Listing, changing and checking settings use that function.
+/// A configuration has one function beside it that names its settings, each with its field, the least and the
+/// most that it may be, and its meaning in a few words with the unit:
+///
+///     void visit_settings(PpoConfig& ppo, const auto& visit) {
+///       visit("gamma", ppo.gamma, 0, 1, "discount per step");
+///     }
+///
+/// It may hand `visit` on to the visitors of its parts. The functions below do the rest.
 #pragma once
 
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/named_values.h"
 
@@ -37,35 +45,50 @@ inline void require_range(const std::string& name, double value, double least, d
   throw std::invalid_argument(text);
 }
 
-/// All numbers by name. @param visit  visit(add)
-template <class Visit>
-NamedValues numbers_in(const Visit& visit) {
+/// For the settings of a part: the same visit, with `prefix` before every name.
+auto with_prefix(const char* prefix, const auto& visit) {
+  return [prefix, &visit](const std::string& name, auto& field, double least, double most,
+                          const char* meaning) { visit(prefix + name, field, least, most, meaning); };
+}
+
+/// All settings by name, in the order of the visit.
+template <class Config>
+NamedValues settings_of(Config config) {  // a copy: visitors take fields that may be changed
   NamedValues values;
-  visit([&](const std::string& name, const auto& field, auto...) {
+  visit_settings(config, [&](const std::string& name, const auto& field, double, double, const char*) {
     values.emplace_back(name, setting_number(field));
   });
   return values;
 }
 
-/// Changes the number of that name. @return whether there is one
-/// @throws std::invalid_argument as `assign_setting`
-template <class Visit>
-bool change_one(const Visit& visit, const std::string& name, double value) {
+/// {name, meaning} of all settings, in the order of the visit.
+template <class Config>
+std::vector<std::pair<std::string, std::string>> meanings_of(Config config) {
+  std::vector<std::pair<std::string, std::string>> meanings;
+  visit_settings(config, [&](const std::string& name, const auto&, double, double, const char* meaning) {
+    meanings.emplace_back(name, meaning);
+  });
+  return meanings;
+}
+
+/// Changes one setting; its range is not looked at (`require_ranges`).
+/// @throws std::invalid_argument for an unknown name, and as `assign_setting`
+template <class Config>
+void apply_setting(Config& config, const std::string& name, double value) {
   bool found = false;
-  visit([&](const std::string& known, auto& field, auto...) {
+  visit_settings(config, [&](const std::string& known, auto& field, double, double, const char*) {
     if (known != name) return;
     assign_setting(field, value);
     found = true;
   });
-  return found;
+  if (!found) throw std::invalid_argument("unknown setting '" + name + "': `mimicx config` lists them all");
 }
 
-/// @throws std::invalid_argument naming the first number outside its range
-template <class Visit>
-void require_ranges(const Visit& visit) {
-  visit([](const std::string& name, const auto& field, double least, double most) {
-    require_range(name, setting_number(field), least, most);
-  });
+/// @throws std::invalid_argument naming the first setting that is out of its range
+template <class Config>
+void require_ranges(Config config) {
+  visit_settings(config, [](const std::string& name, const auto& field, double least, double most,
+                            const char*) { require_range(name, setting_number(field), least, most); });
 }
 
 }  // namespace mimicx

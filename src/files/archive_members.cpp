@@ -159,8 +159,8 @@ double read_number(const Npz& npz, const std::string& name) { return read_number
 
 physics::SimulationConfig read_simulation(const Npz& npz) {
   physics::SimulationConfig simulation;
-  for_each_simulation_setting(simulation,
-                              [&](const std::string& name, auto& field) { read_into(npz, name, field); });
+  visit_settings(simulation,
+                 [&](const std::string& name, auto& field, auto...) { read_into(npz, name, field); });
   try {
     physics::make_model<double>(make_character(), simulation);  // checks the values
   } catch (const std::invalid_argument& error) {

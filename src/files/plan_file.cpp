@@ -70,7 +70,7 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
   if (!plan.soft_help.empty()) add_rows("soft_help", plan.soft_help, npz);
   npz.set("input_checksum", NpyArray::scalar_text(stored.input_checksum));
   add("fps", stored.fps);
-  for_each_simulation_setting(stored.simulation, add);
+  for (const auto& [name, number] : simulation_numbers(stored.simulation)) add(name, number);
   write_npz(path, npz);
 }
 

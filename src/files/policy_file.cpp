@@ -24,10 +24,8 @@ void write_policy(const std::filesystem::path& path, const motion::Clip& input, 
   if (input.rest_joints) motion::put_on_body_of(input, clip);
   Npz npz = motion::to_npz(clip);
   add_states(kStatePrefix, stored.states, Precision::kFloat32, npz);
-  for_each_simulation_setting(stored.simulation, [&](const std::string& name, const auto& field) {
-    const double value = static_cast<double>(field);
-    npz.set(name, NpyArray::from_double({1}, &value));
-  });
+  for (const auto& [name, number] : simulation_numbers(stored.simulation))
+    npz.set(name, NpyArray::from_double({1}, &number));
   rl::save(npz, kAgentPrefix, stored.agent);
   write_npz(path, npz);
 }

@@ -4,6 +4,8 @@
 /// the power of the confidence are initial values: the fit estimates its own (error_levels.h).
 #pragma once
 
+#include "core/setting.h"
+
 namespace mimicx::fit {
 
 struct FitConfig {
@@ -60,5 +62,42 @@ struct FitConfig {
   /// Number of frames at 30 fps whose zero-moment points weigh as much as one. 0: balance is not asked for.
   double balance_frames = 8.0;
 };
+
+/// core/setting.h; `mimicx fit --set` takes them.
+void visit_settings(FitConfig& f, const auto& visit) {
+  visit("fit_iterations", f.iterations, 1, 1000, "iterations of Gauss-Newton, at most");
+  visit("fit_find_levels", f.find_levels, 0, 1, "1: the levels of the keypoints' errors are estimated");
+  visit("fit_keypoint_sigma", f.keypoint_sigma, 1e-9, 1e6, "sigma of a detection, box heights");
+  visit("fit_keypoint_correlation", f.keypoint_correlation, 0, 0.99,
+        "correlation of a detection's error from frame to frame");
+  visit("fit_confidence_power", f.confidence_power, 0, 10,
+        "sigma grows with confidence to the minus this power");
+  visit("fit_flat_offset_sigma", f.flat_offset_sigma, 0, 1e6,
+        "sigma of a keypoint's static offset in the picture, box heights");
+  visit("fit_limb_offset_sigma", f.limb_offset_sigma, 0, 1e6,
+        "sigma of a keypoint's static offset on its limb, m");
+  visit("fit_focal_sigma", f.focal_sigma, 0, 1e6, "sigma of the focal length, relative; 0: as the file says");
+  visit("fit_tilt_sigma", f.tilt_sigma, 0, 1e6, "sigma of the camera's tilt, degrees; 0: as the file says");
+  visit("fit_lead_sigma", f.lead_sigma, 0, 1e6, "sigma of the frames by which keypoints are ahead; 0: none");
+  visit("fit_beta_sigma", f.beta_sigma, 0, 1e6, "sigma of each entry of the shape; 0: as the file says");
+  visit("fit_stature_spread", f.stature_spread, 0, 1,
+        "relative sigma of a stature that the file does not tell");
+  visit("fit_proportion_spread", f.proportion_spread, 0, 1,
+        "relative sigma of limb lengths that the file does not tell");
+  visit("fit_joint_sigma", f.joint_sigma, 1e-9, 1e6, "sigma of the input's joint rotations, degrees");
+  visit("fit_root_rotation_sigma", f.root_rotation_sigma, 1e-9, 1e6,
+        "sigma of the input's pelvis rotation, degrees");
+  visit("fit_root_position_sigma", f.root_position_sigma, 1e-9, 1e6,
+        "sigma of the input's pelvis position, m");
+  visit("fit_prior_frames", f.prior_frames, 1e-9, 1e6,
+        "frames at 30 fps over which the input's error stays the same");
+  visit("fit_slip_sigma", f.slip_sigma, 1e-9, 1e6,
+        "sigma of the speed of a standing foot point, m per frame");
+  visit("fit_balance_frames", f.balance_frames, 0, 1e6,
+        "frames whose balance weighs as much as one frame; 0: no balance");
+}
+
+/// @throws std::invalid_argument naming a setting that no fit can have
+inline void check(const FitConfig& config) { require_ranges(config); }
 
 }  // namespace mimicx::fit

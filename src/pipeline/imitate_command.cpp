@@ -1,5 +1,6 @@
 #include "pipeline/imitate_command.h"
 
+#include "core/setting.h"
 #include "pipeline/train_motion.h"
 
 namespace mimicx::pipeline {
@@ -10,7 +11,7 @@ run::Method imitation_of(const ImitateConfig& config) {
   method.name = "imitate";
   method.seed = config.training.seed;
   method.samples = config.training.samples;
-  method.settings = settings_of(config);
+  method.settings = manifest_settings(config);
   method.simulation = config.training.tracking.simulation;
   method.simulate = [&training = config.training](const motion::Reference& reference,
                                                   const run::SequenceJob& job) {
@@ -24,9 +25,9 @@ run::Method imitation_of(const ImitateConfig& config) {
 
 }  // namespace
 
-NamedValues settings_of(const ImitateConfig& config) {
+NamedValues manifest_settings(const ImitateConfig& config) {
   NamedValues settings = settings_of(config.training);
-  append(settings, settings_of(config.run));
+  append(settings, manifest_settings(config.run));
   return settings;
 }
 

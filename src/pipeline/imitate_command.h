@@ -12,7 +12,7 @@ struct ImitateConfig {
 };
 
 /// The settings, as the manifest lists them.
-NamedValues settings_of(const ImitateConfig& config);
+NamedValues manifest_settings(const ImitateConfig& config);
 
 /// @throws std::invalid_argument as `run_sequences`
 record::RunOutcome imitate(const ImitateConfig& config, const record::RunContext& context);

@@ -10,6 +10,7 @@
 #include "core/build.h"
 #include "core/error.h"
 #include "core/npz/npz.h"
+#include "core/setting.h"
 #include "files/inputs.h"
 #include "pipeline/options_folder.h"
 #include "record/folder_lock.h"
@@ -65,9 +66,6 @@ record::Json settings_json(const PretrainConfig& config) {
   for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
   settings["fit"] = config.fit;
   settings["encoder"] = config.use_encoder;
-  settings["encoder_code"] = config.encoder.code;
-  settings["encoder_hidden"] = config.encoder.hidden;
-  settings["encoder_corruption"] = config.encoder.corruption;
   settings["encoder_steps"] = config.encoder.steps;
   settings["cluster_radius"] = config.clusters.radius;
   settings["clusters"] = config.clusters.clusters.value_or(0);
@@ -190,7 +188,7 @@ OptionTraining train_option(const PretrainConfig& config, const record::RunConte
 
 }  // namespace
 
-NamedValues settings_of(const PretrainConfig& config) {
+NamedValues manifest_settings(const PretrainConfig& config) {
   NamedValues values;
   const record::Json settings = settings_json(config);  // items() refers to it
   for (const auto& [name, value] : settings.items())

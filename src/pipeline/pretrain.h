@@ -29,7 +29,7 @@ struct PretrainConfig {
   std::vector<std::string> inputs;  ///< files and folders
   std::filesystem::path out;
   TrainingConfig training;  ///< its samples are of all options together
-  options::ClusterConfig clusters;
+  options::ClusterConfig clusters{.radius = 3.0, .clusters = std::nullopt, .seed = 1};
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies observe the reference itself (an ablation)
   bool fit = false;         ///< first fit motions to their keypoints, if they have any
@@ -39,7 +39,7 @@ struct PretrainConfig {
 };
 
 /// The settings, as the manifest lists them.
-NamedValues settings_of(const PretrainConfig& config);
+NamedValues manifest_settings(const PretrainConfig& config);
 
 /// Training steps of an option's encoder: those of the settings, but at most a tenth of its policy's samples,
 /// and at least 100.

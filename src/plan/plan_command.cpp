@@ -1,5 +1,6 @@
 #include "plan/plan_command.h"
 
+#include "core/setting.h"
 #include "plan/plan_motion.h"
 
 namespace mimicx::plan {
@@ -10,16 +11,16 @@ PlanMotionsConfig plan_configuration() {
   return config;
 }
 
-NamedValues settings_of(const PlanMotionsConfig& config) {
-  NamedValues settings = planning_settings(config.planning);
-  append(settings, settings_of(config.run));
+NamedValues manifest_settings(const PlanMotionsConfig& config) {
+  NamedValues settings = settings_of(config.planning);
+  append(settings, manifest_settings(config.run));
   return settings;
 }
 
 record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::RunContext& context) {
   run::Method method;
   method.name = "plan";
-  method.settings = settings_of(config);
+  method.settings = manifest_settings(config);
   method.simulation = config.planning.simulation;
   method.simulate = [&planning = config.planning](const motion::Reference& reference,
                                                   const run::SequenceJob& job) {

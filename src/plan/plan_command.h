@@ -15,7 +15,7 @@ struct PlanMotionsConfig {
 PlanMotionsConfig plan_configuration();
 
 /// The settings, as the manifest lists them.
-NamedValues settings_of(const PlanMotionsConfig& config);
+NamedValues manifest_settings(const PlanMotionsConfig& config);
 
 /// @throws std::invalid_argument as `run_sequences`
 record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::RunContext& context);

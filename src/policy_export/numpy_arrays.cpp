@@ -75,10 +75,8 @@ Npz to_arrays(const ExportedPolicy& exported) {
   }
   files::add_states("state_", exported.meant.states, files::Precision::kFloat32, npz);
   add_body(exported.meant.motion.character, static_cast<double>(exported.max_action), npz);
-  files::for_each_simulation_setting(exported.meant.simulation,
-                                     [&](const std::string& name, const auto& field) {
-                                       npz.set(name, NpyArray::scalar(static_cast<double>(field)));
-                                     });
+  for (const auto& [name, number] : files::simulation_numbers(exported.meant.simulation))
+    npz.set(name, NpyArray::scalar(number));
   add_records(exported.records, npz);
   return npz;
 }

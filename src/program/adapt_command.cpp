@@ -14,22 +14,6 @@
 namespace mimicx::program {
 namespace {
 
-/// Calls add(name, field) for every number of the arrangement.
-template <class Config, class Add>
-void for_each_arrangement_setting(Config& config, const Add& add) {
-  add("switch_penalty", config.switch_penalty);
-  add("rescue_reward", config.rescue_reward);
-  add("rescue_frames", config.rescue_frames);
-  add("beam_width", config.beam_width);
-  add("beam_stretch", config.beam_stretch);
-  add("beam_retries", config.beam_retries);
-  add("selector", config.selector);
-}
-
-bool change_arrangement(pipeline::options::ArrangementConfig& config, const std::string& name, double value) {
-  return change_one([&](const auto& add) { for_each_arrangement_setting(config, add); }, name, value);
-}
-
 plan::PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
@@ -108,7 +92,7 @@ run::Method adaptation_of(const AdaptConfig& config) {
   run::Method method;
   method.seed = config.training.seed;
   method.samples = config.training.samples;
-  method.settings = settings_of(config);
+  method.settings = manifest_settings(config);
   method.options = pipeline::options::checksum_of(config.options);
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
@@ -121,37 +105,16 @@ run::Method adaptation_of(const AdaptConfig& config) {
 
 }  // namespace
 
-NamedValues settings_of(const AdaptConfig& config) {
-  if (config.method == AdaptMethod::kPlan)
-    return settings_of(plan::PlanMotionsConfig{config.run, planning_of(config)});
-  NamedValues settings = settings_of(config.training);
-  append(settings, settings_of(config.run));
-  append(settings,
-         numbers_in([&](const auto& add) { for_each_arrangement_setting(config.arrangement, add); }));
-  if (config.method == AdaptMethod::kAuto) {
-    append(settings, plan::plan_settings(config.plan));
-    append(settings, teaching::teaching_settings(config.teaching));
-  }
+NamedValues manifest_settings(const AdaptConfig& config) {
+  NamedValues settings = settings_of(config);
+  append(settings, manifest_settings(config.run));
   return settings;
 }
 
-void apply_setting(AdaptConfig& config, const std::string& name, double value) {
-  if (config.method != AdaptMethod::kPaper && change_setting(config.plan, name, value)) return;
-  if (config.method == AdaptMethod::kAuto && change_setting(config.teaching, name, value)) return;
-  if (config.method != AdaptMethod::kPlan) {
-    if (!change_arrangement(config.arrangement, name, value)) apply_setting(config.training, name, value);
-    return;
-  }
-  plan::PlanningConfig planning = planning_of(config);
-  apply_setting(planning, name, value);
-  config.training.tracking.simulation = planning.simulation;
-}
-
 void check(const AdaptConfig& config) {
-  if (config.method != AdaptMethod::kPaper) check(planning_of(config));
-  if (config.method != AdaptMethod::kPlan) check(config.training);
-  if (config.method != AdaptMethod::kPlan) check(config.arrangement);
-  if (config.method == AdaptMethod::kAuto) check(config.teaching);
+  require_ranges(config);
+  if (config.method == AdaptMethod::kPlan) return check(planning_of(config));
+  check(config.training);
 }
 
 record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& context) {
@@ -159,7 +122,7 @@ record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& co
     return plan::plan_motions({config.run, planning_of(config)}, context);
   if (config.options.empty())
     throw std::invalid_argument("adapt: expected options to start from, found none");
-  check(config.arrangement);
+  require_ranges(config.arrangement);
   run::RunConfig run = config.run;
   run.map = pipeline::run_map(clusters_of(config.options));
   return run::run_sequences(run, adaptation_of(config), context);

@@ -31,12 +31,19 @@ struct AdaptConfig {
   pipeline::options::OptionSets options;  ///< to start from (option_set_choice.h); not used by the plan alone
 };
 
-/// The settings, as the manifest lists them.
-NamedValues settings_of(const AdaptConfig& config);
+/// core/setting.h; those that the method has.
+void visit_settings(AdaptConfig& config, const auto& visit) {
+  if (config.method != AdaptMethod::kPaper) visit_settings(config.plan, visit);
+  if (config.method == AdaptMethod::kPlan)
+    return files::visit_settings(config.training.tracking.simulation, visit);
+  visit_settings(config.training, visit);
+  visit_settings(config.arrangement, visit);
+  if (config.method == AdaptMethod::kAuto) visit_settings(config.teaching, visit);
+}
 
-/// Changes a setting of the plan, of teaching, of the arrangement, or of the training.
-/// @throws std::invalid_argument as those of plan_settings.h and training_config.h
-void apply_setting(AdaptConfig& config, const std::string& name, double value);
+/// The settings, as the manifest lists them.
+NamedValues manifest_settings(const AdaptConfig& config);
+
 /// @throws std::invalid_argument naming a setting that the method cannot have
 void check(const AdaptConfig& config);
 

@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "fit/fit_settings.h"
+#include "core/setting.h"
+#include "fit/fit_config.h"
 #include "record/json.h"
 #include "record/table.h"
 
@@ -14,85 +15,9 @@ namespace mimicx::program {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kMeaning = "meaning";  ///< of the texts beside the values
 
-enum Column { kImitate, kAdapt, kSmall, kPaper };
-
-struct Row {
-  std::string_view name;
-  Array<double, 4> values;
-};
-
-// training_config.h and rl/ppo_config.h document each setting. The values come from docs/method.md §12 and
-// docs/experiments.md. PPO for tracking takes many small iterations with a large KL, and a discount that
-// looks 0.4 s ahead, because a pose error costs reward at once.
-// clang-format off
-constexpr Array<Row, 43> kTable = {{{
-  //                      imitate    adapt      small      paper
-  {"samples",            {4e6,       3e6,       80e6,      80e6}},    // per motion; of all options together
-  {"seed",               {1,         1,         1,         1}},
-
-  {"characters",         {256,       128,       512,       512}},
-  {"group_size",         {64,        32,        64,        64}},
-  {"hidden_1",           {128,       128,       128,       1024}},    // adapt: the options' own
-  {"hidden_2",           {128,       128,       128,       1024}},
-  {"hidden_3",           {kNone,     kNone,     kNone,     512}},
-  {"sigma_share",        {0.75,      0.75,      0.75,      0.75}},
-  {"evaluate_iterations", {20,       20,        100,       100}},
-  {"stop_reward",        {0,         0.985,     0,         0}},
-  {"stall_evaluations",  {0,         12,        0,         0}},
-
-  {"horizon",            {16,        16,        16,        16}},
-  {"gamma",              {0.92,      0.92,      0.92,      0.92}},
-  {"lambda",             {0.9,       0.9,       0.9,       0.9}},
-  {"sigma_start",        {0.07,      0.04,      0.07,      0.07}},    // options explore less
-  {"sigma_end",          {0.04,      0.02,      0.05,      0.05}},
-  {"epochs",             {2,         6,         2,         2}},
-  {"minibatch",          {1024,      1024,      2048,      2048}},
-  {"clip",               {0.2,       0.2,       0.2,       0.2}},
-  {"gradient_norm",      {1,         1,         1,         1}},
-  {"critic_step_size",   {5e-4,      1e-3,      5e-4,      5e-4}},
-  {"return_rate",        {0.1,       0.1,       0.1,       0.1}},
-  {"step_size",          {1e-4,      1e-4,      1e-4,      1e-4}},
-  {"step_factor",        {1.5,       1.5,       1.5,       1.5}},
-  {"step_min",           {1e-6,      1e-6,      1e-6,      1e-6}},
-  {"step_max",           {2e-3,      2e-3,      2e-3,      2e-3}},
-  {"kl_target",          {0.06,      0.16,      0.06,      0.06}},
-  {"kl_stop",            {4,         4,         4,         4}},
-  {"penalty_weight",     {0,         0,         0,         0}},
-  {"penalty_fraction",   {0.125,     0.125,     0.125,     0.125}},
-  {"gradient_slots",     {4,         4,         4,         4}},
-  {"pass_rows",          {256,       256,       256,       256}},
-
-  {"fit",                {0,         1,         1,         1}},
-  {"switch_penalty",     {kNone,     -1,        kNone,     kNone}},
-  {"rescue_reward",      {kNone,     0.1,       kNone,     kNone}},
-  {"rescue_frames",      {kNone,     30,        kNone,     kNone}},
-  {"beam_width",         {kNone,     64,        kNone,     kNone}},
-  {"beam_stretch",       {kNone,     10,        kNone,     kNone}},
-  {"beam_retries",       {kNone,     2,         kNone,     kNone}},
-  {"selector",           {kNone,     1,         kNone,     kNone}},    // 0 dp, 1 beam, 2 single, 3 nearest
-  {"cluster_radius",     {kNone,     kNone,     3,         3}},
-}}};
-// clang-format on
-
-double value(Column column, const std::string& name) {
-  const auto row = std::find_if(kTable.begin(), kTable.end(), [&](const Row& r) { return r.name == name; });
-  if (row == kTable.end() || std::isnan(row->values[column]))
-    throw std::logic_error("configurations: the table lacks " + name);
-  return row->values[column];
-}
-
-pipeline::TrainingConfig training(Column column) {
-  pipeline::TrainingConfig config;
-  config.samples = static_cast<std::int64_t>(value(column, "samples"));
-  config.seed = static_cast<std::uint64_t>(value(column, "seed"));
-  for (const Row& row : kTable)
-    if (row.name.starts_with("hidden_") && !std::isnan(row.values[column])) config.hidden.push_back(0);
-  const NamedValues task = pipeline::settings_of(config.tracking);
-  for (const auto& [name, unset] : settings_of(config))
-    if (std::isnan(value_of(task, name))) apply_setting(config, name, value(column, name));
-  return config;
-}
+using Meanings = std::vector<std::pair<std::string, std::string>>;
 
 NamedValues with_budget(const pipeline::TrainingConfig& config, const NamedValues& settings) {
   NamedValues values = {{"samples", static_cast<double>(config.samples)},
@@ -109,38 +34,63 @@ Array<NamedValues, 7> columns() {
                                  paper = pretrain_configuration("paper");
   const teaching::TeachConfig teach = teach_configuration();
   NamedValues taught = {{"seed", static_cast<double>(teach.school.seed)}};
-  append(taught, settings_of(teach));
-  return {settings_of(plan::plan_configuration()),
-          with_budget(imitate.training, settings_of(imitate)),
-          with_budget(adapt.training, settings_of(adapt)),
-          with_budget(small.training, settings_of(small)),
-          with_budget(paper.training, settings_of(paper)),
+  append(taught, manifest_settings(teach));
+  return {manifest_settings(plan::plan_configuration()),
+          with_budget(imitate.training, manifest_settings(imitate)),
+          with_budget(adapt.training, manifest_settings(adapt)),
+          with_budget(small.training, manifest_settings(small)),
+          with_budget(paper.training, manifest_settings(paper)),
           taught,
-          fit::fit_settings({})};
+          settings_of(fit::FitConfig{})};
+}
+
+/// What the settings mean that have arguments of their own, and then all others.
+Meanings all_meanings() {
+  Meanings all = {{"samples",
+                   "training budget of a motion, or of all options together, character steps (--samples; "
+                   "adapt: --budget-samples)"},
+                  {"seed", "root of every random number (--seed)"},
+                  {"fit", "1: motions are moved onto their keypoints first (--fit)"},
+                  {"as_is", "1: nothing is corrected (--as-is)"},
+                  {"keypoints", "1: the reward sees keypoints, as the fit does (--fit)"},
+                  {"encoder", "1: policies see their reference through an encoder (--encoder)"},
+                  {"encoder_steps", "minibatches that train an encoder, at most (fixed)"},
+                  {"cluster_radius", "largest distance within a cluster, units of features (--radius)"},
+                  {"clusters", "number of options; 0: as the radius says (--clusters)"}};
+  for (const Meanings& more :
+       {meanings_of(adapt_configuration()), meanings_of(pretrain_configuration("paper").training),
+        meanings_of(teach_configuration()), meanings_of(fit::FitConfig{})})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// @throws std::logic_error where there is none
+std::string meaning_of(const Meanings& meanings, const std::string& name) {
+  for (const auto& [known, meaning] : meanings)
+    if (known == name) return meaning;
+  throw std::logic_error("configurations: " + name + " has no meaning");
 }
 
 std::string setting_cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
 
 }  // namespace
 
-pipeline::ImitateConfig imitate_configuration() {
-  pipeline::ImitateConfig config;
-  config.training = training(kImitate);
-  config.run.fit = value(kImitate, "fit") != 0.0;
-  return config;
-}
+pipeline::ImitateConfig imitate_configuration() { return {}; }
 
 AdaptConfig adapt_configuration() {
   AdaptConfig config;
-  config.training = training(kAdapt);
-  config.run.fit = value(kAdapt, "fit") != 0.0;
-  config.arrangement = {.switch_penalty = value(kAdapt, "switch_penalty"),
-                        .rescue_reward = value(kAdapt, "rescue_reward"),
-                        .selector = static_cast<pipeline::options::Selector>(value(kAdapt, "selector")),
-                        .rescue_frames = static_cast<int>(value(kAdapt, "rescue_frames")),
-                        .beam_width = static_cast<int>(value(kAdapt, "beam_width")),
-                        .beam_stretch = static_cast<int>(value(kAdapt, "beam_stretch")),
-                        .beam_retries = static_cast<int>(value(kAdapt, "beam_retries"))};
+  config.run.fit = true;
+  pipeline::TrainingConfig& training = config.training;
+  training.samples = 3000000;
+  training.characters = 128;
+  training.group_size = 32;
+  training.stop_reward = 0.985;
+  training.stall_evaluations = 12;
+  training.ppo.sigma_start = 0.04;  // trained options explore less
+  training.ppo.sigma_end = 0.02;
+  training.ppo.epochs = 6;
+  training.ppo.critic_step_size = 1e-3;
+  training.ppo.kl_target = 0.16;
   return config;
 }
 
@@ -153,26 +103,30 @@ teaching::TeachConfig teach_configuration() {
 pipeline::PretrainConfig pretrain_configuration(const std::string& preset) {
   if (preset != "small" && preset != "paper")
     throw std::invalid_argument("unknown preset '" + preset + "': small or paper");
-  const Column column = preset == "small" ? kSmall : kPaper;
   pipeline::PretrainConfig config;
-  config.training = training(column);
-  config.fit = value(column, "fit") != 0.0;
-  config.clusters.radius = value(column, "cluster_radius");
-  config.clusters.seed = config.training.seed;
+  config.fit = true;
+  pipeline::TrainingConfig& training = config.training;
+  training.samples = 80000000;
+  training.characters = 512;
+  if (preset == "paper") training.hidden = {1024, 1024, 512};
+  training.evaluate_iterations = 100;
+  training.ppo.sigma_end = 0.05;
+  training.ppo.minibatch = 2048;
   return config;
 }
 
 std::vector<ConfigurationRow> configuration_rows() {
   const Array<NamedValues, 7> all = columns();
+  const Meanings meanings = all_meanings();
   std::vector<ConfigurationRow> rows;
   for (int column = 0; column < static_cast<int>(all.size()); ++column) {
-    std::size_t next = 0;  // behind the setting that came last, so that a new one stands beside its like
+    std::size_t next = rows.size();  // behind the setting that came last: a new one stands beside its like
     for (const auto& [name, value] : all[column]) {
       std::size_t at = 0;
       while (at < rows.size() && rows[at].name != name) ++at;
       if (at == rows.size()) {
         at = next;
-        ConfigurationRow row{name, {}};
+        ConfigurationRow row{name, {}, meaning_of(meanings, name)};
         row.values.fill(kNone);
         rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at), row);
       }
@@ -192,21 +146,26 @@ std::string format_configurations() {
   };
   std::string text = "setting" + std::string(width - 7, ' ');
   for (const char* name : kConfigurationNames) text += "  " + padded(name, 14);
+  text += std::string("  ") + kMeaning;
   for (const ConfigurationRow& row : rows) {
     text += "\n" + row.name + std::string(width - row.name.size(), ' ');
     for (const double v : row.values) text += "  " + padded(setting_cell(v), 14);
+    text += "  " + row.meaning;
   }
   return text + "\n";
 }
 
 std::string configurations_json() {
-  record::Json json = record::Json::object();
+  const std::vector<ConfigurationRow> rows = configuration_rows();
+  record::Json json = record::Json::object(), meanings = record::Json::object();
   for (std::size_t column = 0; column < kConfigurationNames.size(); ++column) {
     record::Json settings = record::Json::object();
-    for (const ConfigurationRow& row : configuration_rows())
+    for (const ConfigurationRow& row : rows)
       if (!std::isnan(row.values[column])) settings[row.name] = row.values[column];
     json[kConfigurationNames[column]] = settings;
   }
+  for (const ConfigurationRow& row : rows) meanings[row.name] = row.meaning;
+  json[kMeaning] = meanings;
   return json.dump(1) + "\n";
 }
 

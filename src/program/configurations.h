@@ -1,4 +1,4 @@
-/// The default configurations, as the columns of one table. `mimicx config` prints it.
+/// The configurations that people run, and all settings in a table with a column for each of them.
 ///
 ///     plan            optimal control, without any training (plan.h)                    docs/control.md
 ///     imitate         one policy per motion, trained from scratch
@@ -8,10 +8,8 @@
 ///     teach           options taught by plans                                           docs/teaching.md §5
 ///     fit             the keypoint fit, which all of them begin with          docs/method.md, "Keypoint fit"
 ///
-/// This is the only place with defaults of a training, an arrangement or a clustering. The task (reward,
-/// starts, simulation), the encoder, the plan and the fit have one default for all configurations, which is
-/// in their headers (rl/tracking/tracking_config.h, rl/tracking/reward.h, physics/model.h, nn/autoencoder.h,
-/// control/plan.h, fit/fit_config.h). The printed table includes them.
+/// The default of a setting stands beside its member in the struct that has it. The functions here change
+/// what a configuration does not take from there. `mimicx config` prints the table.
 #pragma once
 
 #include <string>
@@ -39,12 +37,13 @@ inline constexpr Array<const char*, 7> kConfigurationNames = {
 struct ConfigurationRow {
   std::string name;
   Array<double, 7> values;  ///< in the order of kConfigurationNames
+  std::string meaning;      ///< in a few words, with the unit; (--ARGUMENT) where `--set` does not take it
 };
 std::vector<ConfigurationRow> configuration_rows();
 
-/// A line per setting, columns aligned; "-" for NaN.
+/// A line per setting, columns aligned, the meaning last; "-" where there is none.
 std::string format_configurations();
-/// {"plan": {name: value, …}, …}, the settings in the order of the table.
+/// {"plan": {name: value, …}, …, "meaning": {name: text, …}}, the settings in the order of the table.
 std::string configurations_json();
 
 }  // namespace mimicx::program

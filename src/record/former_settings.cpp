@@ -12,9 +12,10 @@ struct FormerSetting {
   double value;  ///< the default then, the constant today
 };
 
-constexpr Array<FormerSetting, 46> kFormerSettings = {{{
+constexpr Array<FormerSetting, 47> kFormerSettings = {{{
     {"plan_help", 96},
     {"plan_help_spin", 8.6},
+    {"plan_derivatives", 0},
     {"plan_step_position", 1.5e-3},
     {"plan_step_rotation", 3e-3},
     {"plan_step_velocity", 1.5e-2},

@@ -328,7 +328,7 @@ class ParallelRun {
 
 }  // namespace
 
-NamedValues settings_of(const RunConfig& config) {
+NamedValues manifest_settings(const RunConfig& config) {
   const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;
   return {{"fit", fit},
           {"as_is", config.as_is ? 1.0 : 0.0},

@@ -21,8 +21,8 @@
 
 namespace mimicx::run {
 
-/// The settings of a run on which its results depend, for any method.
-NamedValues settings_of(const RunConfig& config);
+/// The settings of a run on which its results depend, whatever the method.
+NamedValues manifest_settings(const RunConfig& config);
 
 /// @throws std::invalid_argument if an input is given twice, the folder holds a run of other settings, or a
 /// file of another program would be overwritten

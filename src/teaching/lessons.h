@@ -23,7 +23,14 @@ struct LessonConfig {
   int teacher_lanes = 2;       ///< lanes of a pack that follow the teacher once there is a student
 };
 
-/// Whether lessons are recorded as they are, or as their mirror images (rl/tracking/mirror.h).
+/// core/setting.h.
+void visit_settings(LessonConfig& lessons, const auto& visit) {
+  visit("action_noise", lessons.action_noise, 0, 1, "sigma of the noise on actions in lessons, rad");
+  visit("push", lessons.push, 0, 10, "sigma of pushes of the pelvis in lessons, m/s");
+  visit("off_path", lessons.off_path, 1e-3, 10, "distance at which a body is put back to the teacher, m");
+}
+
+/// In which world a lesson is written down: as it was, or as its mirror image (rl/tracking/mirror.h).
 enum class Side { kAsIs, kMirrored };
 
 /// Rows of lessons.

@@ -1,6 +1,5 @@
 #include "teaching/plan_teachers.h"
 
-#include "core/setting.h"
 #include "files/plan_file.h"
 #include "files/simulation_settings.h"
 #include "motion/clip_file.h"
@@ -24,10 +23,7 @@ motion::Reference planned_reference(const motion::Reference& reference, const fi
 
 void require_simulation(const std::filesystem::path& file, const physics::SimulationConfig& there,
                         const physics::SimulationConfig& here) {
-  const auto numbers_of = [](const physics::SimulationConfig& simulation) {
-    return numbers_in([&](const auto& add) { files::for_each_simulation_setting(simulation, add); });
-  };
-  const NamedValues found = numbers_of(there), expected = numbers_of(here);
+  const NamedValues found = files::simulation_numbers(there), expected = files::simulation_numbers(here);
   for (std::size_t k = 0; k < found.size(); ++k)
     if (found[k] != expected[k])
       throw DataError(file.string(), found[k].first, std::to_string(expected[k].second),

@@ -37,6 +37,18 @@ struct SchoolConfig {
   RegressionConfig regression{.minibatch = 512};
 };
 
+/// core/setting.h; all but seed and rounds.
+void visit_settings(SchoolConfig& school, const auto& visit) {
+  for (std::size_t layer = 0; layer < school.hidden.size(); ++layer)
+    visit("hidden_" + std::to_string(layer + 1), school.hidden[layer], 1, 4096, "units of that hidden layer");
+  visit("passes", school.passes, 0, 1000, "how often the lessons of a round are gone over");
+  visit("weigh", school.weigh, 0, 1, "1: errors count by what they cost the plan; 0: all alike");
+  visit("mirror", school.mirror, 0, 1, "1: every other visit is to the motion's mirror image");
+  visit("follow_plan", school.follow_plan, 0, 1, "1: policies see the plan; 0: its reference");
+  visit("see_shape", school.see_shape, 0, 1, "1: policies see the body's shape");
+  visit_settings(school.lessons, visit);
+}
+
 /// A pupil between two rounds.
 struct Pupil {
   rl::Agent agent;

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "core/npz/npz.h"
-#include "core/setting.h"
 #include "record/table.h"
 
 namespace mimicx::teaching {
@@ -12,31 +11,7 @@ namespace {
 
 constexpr double kCheckpointSeconds = 60.0;  ///< least time between two checkpoints, s
 
-/// Calls add(name, field, least, most) for every number of the school.
-template <class Config, class Add>
-void for_each_school_setting(Config& school, const Add& add) {
-  for (std::size_t layer = 0; layer < school.hidden.size(); ++layer)
-    add("school_hidden_" + std::to_string(layer + 1), school.hidden[layer], 1, 4096);
-  add("school_packs", school.packs, 1, 10000);
-  add("school_passes", school.passes, 0, 1000);
-  add("school_step_size", school.step_size, 0, 1);
-  add("school_last_step_size", school.last_step_size, 0, 1);
-  add("school_decay", school.decay, 0, 1);
-  add("school_weigh", school.weigh, 0, 1);
-  add("school_mirror", school.mirror, 0, 1);
-  add("school_follow_plan", school.follow_plan, 0, 1);
-  add("school_see_shape", school.see_shape, 0, 1);
-  add("school_action_noise", school.lessons.action_noise, 0, 1);
-  add("school_push", school.lessons.push, 0, 10);
-  add("school_push_every", school.lessons.push_every, 1, 1e6);
-  add("school_off_path", school.lessons.off_path, 1e-3, 10);
-  add("school_teacher_lanes", school.lessons.teacher_lanes, 1, 16);
-  add("school_minibatch", school.regression.minibatch, 1, 1e6);
-  add("school_slots", school.regression.slots, 1, 64);
-  add("school_gradient_norm", school.regression.gradient_norm, 1e-9, 1e9);
-}
-
-/// A pupil from its checkpoint, or a new one, and the log so far.
+/// A teaching as its checkpoint has it, or a new one; and its log so far.
 struct Progress {
   Pupil pupil;
   record::Table log{{"round", "lessons", "put_back", "loss"}, {}};
@@ -62,18 +37,6 @@ void write_checkpoint(const record::RunFolder& folder, const std::string& name, 
 }
 
 }  // namespace
-
-NamedValues school_settings(const SchoolConfig& school) {
-  return numbers_in([&](const auto& add) { for_each_school_setting(school, add); });
-}
-
-bool change_setting(SchoolConfig& school, const std::string& name, double value) {
-  return change_one([&](const auto& add) { for_each_school_setting(school, add); }, name, value);
-}
-
-void check(const SchoolConfig& school) {
-  require_ranges([&](const auto& add) { for_each_school_setting(school, add); });
-}
 
 std::optional<Pupil> teach_option(const std::vector<PlannedMotion>& motions, const SchoolConfig& school,
                                   const rl::tracking::TrackingConfig& task, const record::RunFolder& folder,

@@ -1,28 +1,17 @@
-/// Teaching one policy by many plans: its settings by name, and the rounds with their checkpoints.
+/// How many plans teach one policy: the rounds, with their checkpoints.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/named_values.h"
 #include "record/run_context.h"
 #include "teaching/plan_teachers.h"
 #include "teaching/school.h"
 
 namespace mimicx::teaching {
 
-/// The numbers by name; all begin with "school_".
-NamedValues school_settings(const SchoolConfig& school);
-
-/// Changes one of them. @return whether the name exists
-/// @throws std::invalid_argument for a fraction where a whole number is expected
-bool change_setting(SchoolConfig& school, const std::string& name, double value);
-
-/// @throws std::invalid_argument naming a setting that no school can have
-void check(const SchoolConfig& school);
-
-/// Teaches one policy by all of the plans; continues from the checkpoint in the folder.
+/// Teaches one policy by all of the plans; goes on where the checkpoint in the folder left it.
 ///
 ///     DIR/training/NAME.csv     a row per round: lessons, resets per thousand lessons, loss
 ///     DIR/checkpoints/NAME.npz  the pupil

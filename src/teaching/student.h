@@ -32,6 +32,16 @@ struct StudentConfig {
   RegressionConfig regression;
 };
 
+/// core/setting.h.
+void visit_settings(StudentConfig& student, const auto& visit) {
+  visit("hidden", student.hidden, 1, 4096, "units of both hidden layers");
+  visit("wider", student.wider, 1, 64, "factor on units and steps in later stages");
+  visit("rounds", student.rounds, 1, 10000, "rounds of lessons and regression in a stage");
+  visit("stages", student.stages, 1, 1000, "stages, at most");
+  visit("least_steps", student.least_steps, 1, 1e6, "gradient steps of a round, at least");
+  visit_settings(student.lessons, visit);
+}
+
 struct RoundStats {
   int round = 0;
   int taken = 0;      ///< lessons so far, including replaced ones

@@ -7,7 +7,6 @@
 #include "core/build.h"
 #include "core/npz/npz.h"
 #include "core/parallel.h"
-#include "core/setting.h"
 #include "pipeline/options/features.h"
 #include "pipeline/options/option_set.h"
 #include "pipeline/options_folder.h"
@@ -45,7 +44,7 @@ std::vector<PlannedMotion> motions_of(const TeachConfig& config) {
 
 record::Json teaching_record(const TeachConfig& config, const std::vector<PlannedMotion>& motions) {
   record::Json settings = record::Json::object(), inputs = record::Json::array();
-  for (const auto& [name, value] : settings_of(config)) settings[name] = value;
+  for (const auto& [name, value] : manifest_settings(config)) settings[name] = value;
   for (const PlannedMotion& motion : motions)
     inputs.push_back({{"input", record::to_utf8(motion.input)}, {"checksum", motion.checksum}});
   return {{"version", MIMICX_VERSION},
@@ -70,12 +69,6 @@ SchoolConfig school_for(const TeachConfig& config, int motions) {
   school.packs = std::min(school.packs, motions);
   school.rounds = (config.visits * motions + school.packs - 1) / school.packs;
   return school;
-}
-
-/// Calls add(name, field, least, most) for the settings beside those of `SchoolConfig`.
-template <class Config, class Add>
-void for_each_cluster_setting(Config& config, const Add& add) {
-  add("school_visits", config.visits, 1, 1e5);
 }
 
 pipeline::options::Clusters cluster(const TeachConfig& config, const std::vector<PlannedMotion>& motions,
@@ -103,23 +96,16 @@ std::vector<PlannedMotion> members(const pipeline::options::MotionCluster& clust
 
 }  // namespace
 
-NamedValues settings_of(const TeachConfig& config) {
-  NamedValues values = numbers_in([&](const auto& add) { for_each_cluster_setting(config, add); });
-  append(values, school_settings(config.school));
+NamedValues manifest_settings(const TeachConfig& config) {
+  NamedValues values = settings_of(config);
+  append(values, manifest_settings(config.planning.run));
   values.emplace_back("cluster_radius", config.clusters.radius);
   values.emplace_back("clusters", config.clusters.clusters.value_or(0));
-  append(values, settings_of(config.planning));
   return values;
 }
 
-void apply_setting(TeachConfig& config, const std::string& name, double value) {
-  if (change_one([&](const auto& add) { for_each_cluster_setting(config, add); }, name, value)) return;
-  if (!change_setting(config.school, name, value)) apply_setting(config.planning.planning, name, value);
-}
-
 void check(const TeachConfig& config) {
-  require_ranges([&](const auto& add) { for_each_cluster_setting(config, add); });
-  check(config.school);
+  require_ranges(config);
   check(config.planning.planning);
 }
 

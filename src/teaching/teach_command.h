@@ -15,6 +15,7 @@
 /// uninterrupted run, for any number of threads. It never opens any ground truth.
 #pragma once
 
+#include "core/setting.h"
 #include "pipeline/options/clusters.h"
 #include "plan/plan_command.h"
 #include "teaching/school.h"
@@ -31,12 +32,15 @@ struct TeachConfig {
   pipeline::options::ClusterConfig clusters{.clusters = 1};
 };
 
-/// The settings, as the manifest lists them.
-NamedValues settings_of(const TeachConfig& config);
+/// core/setting.h.
+void visit_settings(TeachConfig& config, const auto& visit) {
+  visit("school_visits", config.visits, 1, 1e5, "visits to every motion, in all");
+  visit_settings(config.school, with_prefix("school_", visit));
+  visit_settings(config.planning.planning, visit);
+}
 
-/// Changes one of them, or one of the plan's.
-/// @throws std::invalid_argument for an unknown name or a fraction where a whole number is expected
-void apply_setting(TeachConfig& config, const std::string& name, double value);
+/// The settings, as the manifest lists them.
+NamedValues manifest_settings(const TeachConfig& config);
 
 /// @throws std::invalid_argument naming a setting that no teaching can have
 void check(const TeachConfig& config);

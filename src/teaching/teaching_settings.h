@@ -1,9 +1,7 @@
-/// Settings of teaching a policy by a plan; every number has a name, for manifests and `--set`.
+/// How a policy is taught a planned motion, with every setting by its name: for manifests and `--set`.
 #pragma once
 
-#include <string>
-
-#include "core/named_values.h"
+#include "core/setting.h"
 #include "teaching/student.h"
 
 namespace mimicx::teaching {
@@ -18,14 +16,13 @@ struct TeachingConfig {
   double polish_reward = 0.6;
 };
 
-/// The numbers by name; all begin with "teach_" or "polish_".
-NamedValues teaching_settings(const TeachingConfig& config);
-
-/// Changes one of them. @return whether the name exists
-/// @throws std::invalid_argument for a fraction where a whole number is expected
-bool change_setting(TeachingConfig& config, const std::string& name, double value);
-
-/// @throws std::invalid_argument naming a setting that no teaching can have
-void check(const TeachingConfig& config);
+/// core/setting.h.
+void visit_settings(TeachingConfig& config, const auto& visit) {
+  visit("teach", config.teach, 0, 1, "1: a plan that is followed teaches a policy (--policy)");
+  visit_settings(config.student, with_prefix("teach_", visit));
+  visit("polish_samples", config.polish_samples, 0, 1e9,
+        "PPO's budget where a taught policy fails, character steps; 0: no PPO");
+  visit("polish_reward", config.polish_reward, 0, 1, "mean reward at which this PPO ends");
+}
 
 }  // namespace mimicx::teaching

@@ -37,7 +37,8 @@ struct OptionSetChoice : testing::Test {
 
   motion::Reference reference = rl::tracking::swaying_reference(kFrames);
   std::shared_ptr<const rl::tracking::TrackingClip> clip = rl::tracking::make_tracking_clip(reference, {});
-  options::ArrangementConfig config{.selector = options::Selector::kBeam, .beam_width = 4, .beam_stretch = 5};
+  options::ArrangementConfig config{
+      .switch_penalty = 0.0, .beam_width = 4, .beam_stretch = 5, .beam_retries = 0};
 };
 
 TEST_F(OptionSetChoice, TakesTheFirstThatFollowsAndTriesNoOther) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/setting_checks.h"
 #include "program/pretrained_options.h"
 #include "run/results.h"
 
@@ -172,10 +173,29 @@ TEST_F(Pretrain, MoreSamplesDoNotAllowOtherSettings) {
   EXPECT_EQ(run::results_of(out("run")), before);
 }
 
-TEST_F(Pretrain, RejectsAFolderOfAnotherRun) {
+TEST_F(Pretrain, ItsFolderOfAnEarlierVersionIsDoneWhereFormerSettingsAreTodaysConstants) {
+  const PretrainConfig config = pretraining("run");
+  run(config);
+  const std::filesystem::path manifest = out("run") / "manifest.json";
+  const std::string today = read_file(manifest), opening = "\"settings\": {";
+  const auto with = [&](const std::string& setting) {
+    std::string text = today;
+    text.insert(text.find(opening) + opening.size(), setting + ",");
+    write_file_atomically(manifest, text);
+    return text;
+  };
+  const std::string before = with("\"encoder_code\": 64, \"step_factor\": 1.5");
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  EXPECT_EQ(read_file(manifest), before) << "it is done";
+  with("\"step_factor\": 2.0");
+  EXPECT_NE(refusal_of([&] { run(config); }).find("settings/step_factor is 2.0 there, not set here"),
+            std::string::npos);
+}
+
+TEST_F(Pretrain, RefusesAFolderOfAnotherRun) {
   PretrainConfig config = pretraining("run");
   run(config);
-  config.encoder.code = 4;
+  config.encoder.steps += 1;
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 

@@ -47,7 +47,7 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "imitate " + a + out + " --frobnicate",
                                        "imitate " + a + out + " --set gamma",
                                        "imitate " + a + out + " --set gamma=2",
-                                       "imitate " + a + out + " --set bin_frames=0",
+                                       "imitate " + a + out + " --set epochs=0",
                                        "imitate " + a + out + " --set characters=100",
                                        "adapt " + a + out + " --switch-penalty 1",
                                        "adapt " + a + out + " --switch-penalty nan",

@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fit/fit_settings.h"
+#include "core/setting_checks.h"
+#include "fit/fit_config.h"
 
 namespace mimicx::program {
 namespace {
@@ -24,17 +25,30 @@ double value(const std::string& name, int column) {
   return 0.0;
 }
 
-// A setting of a training that the table lacks is a logic error of every configuration.
-TEST(Configurations, AllAreCompleteAndValid) {
+TEST(Configurations, AllAreCompleteAndCanBeDone) {
   for (const pipeline::TrainingConfig& training : trainings()) EXPECT_NO_THROW(check(training));
   EXPECT_NO_THROW(check(plan::plan_configuration().planning));
   EXPECT_NO_THROW(check(adapt_configuration()));
 }
 
-TEST(Configurations, AllShareOneTask) {
+TEST(Configurations, EverySettingOfAMethodCanBeChangedByItsNameAndChangesNoOther) {
+  for (const AdaptMethod method : {AdaptMethod::kAuto, AdaptMethod::kPlan, AdaptMethod::kPaper}) {
+    AdaptConfig config = adapt_configuration();
+    config.method = method;
+    check_settings(config);
+  }
+  check_settings(teach_configuration());
+}
+
+TEST(Configurations, TheDefaultsTrainOneMotionFromScratch) {
+  const pipeline::ImitateConfig imitate = imitate_configuration();
+  EXPECT_EQ(manifest_settings(imitate), manifest_settings(pipeline::ImitateConfig{}));
+  EXPECT_EQ(imitate.training.samples, 4000000);
+}
+
+TEST(Configurations, TheTaskIsOneForAll) {
   for (const pipeline::TrainingConfig& training : trainings())
-    EXPECT_EQ(pipeline::settings_of(training.tracking),
-              pipeline::settings_of(rl::tracking::TrackingConfig{}));
+    EXPECT_EQ(settings_of(training.tracking), settings_of(rl::tracking::TrackingConfig{}));
 }
 
 TEST(Configurations, NoSettingIsNamedTwice) {
@@ -50,13 +64,13 @@ TEST(Configurations, TableListsWhatManifestsRecord) {
     for (const ConfigurationRow& row : configuration_rows()) rows += !std::isnan(row.values[column]);
     EXPECT_EQ(rows, settings.size() + more) << kConfigurationNames[column];
   };
-  has_all(0, settings_of(plan::plan_configuration()), 0);
-  has_all(1, settings_of(imitate_configuration()), 2);  // the samples and the seed besides
-  has_all(2, settings_of(adapt_configuration()), 2);
-  has_all(3, settings_of(pretrain_configuration("small")), 2);
-  has_all(4, settings_of(pretrain_configuration("paper")), 2);
-  has_all(5, settings_of(teach_configuration()), 1);
-  has_all(6, fit::fit_settings({}), 0);
+  has_all(0, manifest_settings(plan::plan_configuration()), 0);
+  has_all(1, manifest_settings(imitate_configuration()), 2);  // the samples and the seed besides
+  has_all(2, manifest_settings(adapt_configuration()), 2);
+  has_all(3, manifest_settings(pretrain_configuration("small")), 2);
+  has_all(4, manifest_settings(pretrain_configuration("paper")), 2);
+  has_all(5, manifest_settings(teach_configuration()), 1);
+  has_all(6, settings_of(fit::FitConfig{}), 0);
 }
 
 TEST(Configurations, PresetsDifferOnlyInTheirNetworks) {
@@ -92,6 +106,9 @@ TEST(Configurations, TextAndJsonAgree) {
       EXPECT_EQ(std::stod(word), row.values[column]) << row.name;
       EXPECT_EQ(settings.at(row.name), row.values[column]) << row.name;
     }
+    EXPECT_FALSE(row.meaning.empty()) << row.name;
+    EXPECT_TRUE(line.ends_with("  " + row.meaning)) << line;
+    EXPECT_EQ(json.at("meaning").at(row.name), row.meaning);
   }
   EXPECT_FALSE(std::getline(lines, line));
 }

@@ -1,9 +1,8 @@
 #include "pipeline/options/arrangement.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
+#include "core/setting.h"
 #include "pipeline/options/beam_search.h"
 #include "pipeline/options/clusters.h"
 #include "pipeline/options/option_rewards.h"
@@ -71,24 +70,10 @@ Choice choose(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
 
 }  // namespace
 
-void check(const ArrangementConfig& config) {
-  if (!(config.switch_penalty <= 0.0) || !std::isfinite(config.switch_penalty))
-    throw std::invalid_argument("the switch penalty must be finite and at most 0");
-  if (!(config.rescue_reward >= 0.0 && config.rescue_reward <= 1.0))
-    throw std::invalid_argument("the rescue reward must be 0 to 1, as rewards are");
-  if (config.selector < Selector::kDp || config.selector > Selector::kNearest)
-    throw std::invalid_argument("the selector must be 0 (dp), 1 (beam), 2 (single) or 3 (nearest)");
-  if (config.rescue_frames < 0) throw std::invalid_argument("the rescue frames must be at least 0");
-  if (config.beam_width < 1 || config.beam_stretch < 1)
-    throw std::invalid_argument("the beam's width and stretch must be at least 1");
-  if (config.beam_retries < 0 || config.beam_retries > 5)
-    throw std::invalid_argument("the beam's retries must be 0 to 5");
-}
-
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                      const rl::tracking::TrackingConfig& tracking, const OptionSet& set,
                      const ArrangementConfig& config, const std::function<bool()>& should_stop) {
-  check(config);
+  require_ranges(config);
   List<const Option*> all;
   for (const TrainedOption& trained : set.options) all.push_back(&trained.option);
   Choice choice = choose(clip, tracking, set, all, config, should_stop);

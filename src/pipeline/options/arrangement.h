@@ -22,20 +22,27 @@ namespace mimicx::pipeline::options {
 
 enum class Selector { kDp, kBeam, kSingle, kNearest };
 
+/// The defaults are those of `mimicx adapt`.
 struct ArrangementConfig {
-  double switch_penalty = 0.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
-  double rescue_reward = 0.0;   ///< dp: σ; a character of smaller reward is put into the best one's state
-  Selector selector = Selector::kDp;
-  int rescue_frames =
-      0;  ///< dp: N, frames before a rescue over which the reward fades to 0; 0: rescues cost nothing
-  int beam_width = 1;    ///< beam: states that are kept
-  int beam_stretch = 1;  ///< beam: shortest stretch of one option, frames
-  int beam_retries = 0;  ///< beam: wider retries where every path has fallen
+  double switch_penalty = -1.0;  ///< w_p of Eq. 4, in rewards; ≤ 0
+  double rescue_reward = 0.1;    ///< dp: σ; a character of less reward is put into the best one's state
+  Selector selector = Selector::kBeam;
+  int rescue_frames = 30;  ///< dp: N, frames over which a reward fades towards a rescue; 0: rescues are free
+  int beam_width = 64;     ///< beam: states that are kept
+  int beam_stretch = 10;   ///< beam: frames for which an option acts at least
+  int beam_retries = 2;    ///< beam: wider attempts where every path has fallen
 };
 
-/// @throws std::invalid_argument unless the penalty is finite and at most 0, σ in [0, 1], the selector one
-/// of those above, N at least 0, the beam's width and stretch at least 1, and its retries 0 to 5
-void check(const ArrangementConfig& config);
+/// core/setting.h.
+void visit_settings(ArrangementConfig& a, const auto& visit) {
+  visit("switch_penalty", a.switch_penalty, -1e9, 0, "penalty on a change of option (Eq. 4), in rewards");
+  visit("rescue_reward", a.rescue_reward, 0, 1, "dp: reward below which a character is rescued");
+  visit("rescue_frames", a.rescue_frames, 0, 1e9, "dp: frames over which rewards fade towards a rescue");
+  visit("beam_width", a.beam_width, 1, 1e9, "beam: states kept per step");
+  visit("beam_stretch", a.beam_stretch, 1, 1e9, "beam: frames for which an option acts at least");
+  visit("beam_retries", a.beam_retries, 0, 5, "beam: wider attempts after every path has fallen");
+  visit("selector", a.selector, 0, 3, "which option acts when: 0 dp, 1 beam, 2 single, 3 nearest");
+}
 
 struct ArrangedClip {
   List<int> options;       ///< [frames] index in the set of the option that acts
@@ -48,9 +55,8 @@ struct ArrangedClip {
 };
 
 /// @param clip  as `make_tracking_clip` gives it: not encoded, without an arrangement
-/// @param should_stop  stops a search (beam, single): the last option found acts in all later frames; may be
-/// empty
-/// @throws std::invalid_argument as `check`
+/// @param should_stop  ends a search (beam, single) where it is: the option found last acts on; may be empty
+/// @throws std::invalid_argument as `require_ranges` (core/setting.h)
 /// @throws DataError for `nearest` and a clip of fewer than 3 frames
 ArrangedClip arrange(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
                      const rl::tracking::TrackingConfig& tracking, const OptionSet& set,

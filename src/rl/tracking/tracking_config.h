@@ -26,4 +26,22 @@ struct TrackingConfig {
   double softest_reward = 0.1;      ///< smallest exponent of the softened reward
 };
 
+/// core/setting.h; those of the simulation apart (src/files/simulation_settings.h).
+void visit_settings(TrackingConfig& t, const auto& visit) {
+  visit("residual_actions", t.action_mode, 0, 1, "1: actions are added to the reference; 0: absolute");
+  visit("velocity_feed_forward", t.velocity_feed_forward, 0, 1,
+        "1: PD damps towards the reference's velocity");
+  visit("max_action", t.max_action, 0, 1e9, "bound of each entry of an action, rad");
+  visit("reward_root_position", t.reward.root_position, 0, 1e9, "sharpness for the pelvis' position, 1/m²");
+  visit("reward_root_rotation", t.reward.root_rotation, 0, 1e9, "sharpness for the pelvis' rotation, 1/rad²");
+  visit("reward_pose", t.reward.pose, 0, 1e9, "sharpness for joint rotations, 1/rad²");
+  visit("reward_velocity", t.reward.velocity, 0, 1e9, "sharpness for joint velocities, s²/rad²");
+  visit("reward_end_effector", t.reward.end_effector, 0, 1e9, "sharpness for hands and feet, 1/m²");
+  visit("reward_projection", t.reward.projection, 0, 1e9, "sharpness for keypoints, 1/(box height)²");
+  visit("reward_target", t.reward_target, 0, 1e9, "a mean reward below it is softened; 0: never");
+  visit("terminate_distance", t.terminate_distance, 0, 1e9, "distance of a body that ends an episode, m");
+  visit("uniform_starts", t.uniform_starts, 0, 1,
+        "share of episode starts drawn uniformly; the others where it fails");
+}
+
 }  // namespace mimicx::rl::tracking

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/setting_checks.h"
 #include "pipeline/options/constant_option.h"
 #include "pipeline/options/option_rewards.h"
 #include "pipeline/options/two_poses.h"
@@ -15,6 +16,13 @@ namespace mimicx::pipeline::options {
 namespace {
 
 constexpr double kRescue = 0.3;
+
+ArrangementConfig by_programme(double switch_penalty, double rescue_reward) {
+  return {.switch_penalty = switch_penalty,
+          .rescue_reward = rescue_reward,
+          .selector = Selector::kDp,
+          .rescue_frames = 0};
+}
 
 /// A set of options without encoders, by their constant actions.
 OptionSet set_of(const std::vector<float>& actions) {
@@ -45,7 +53,7 @@ TEST(Arrangement, IsTheBestOfAll) {
   const SideBySide rolled = roll_out_side_by_side(clip, {}, {&first, &second}, kRescue);
   std::size_t most = 0;
   for (const double penalty : {0.0, -1e-3, -1.0}) {
-    const ArrangedClip arranged = arrange(clip, {}, set, {penalty, kRescue});
+    const ArrangedClip arranged = arrange(clip, {}, set, by_programme(penalty, kRescue));
     ASSERT_EQ(arranged.options.count(), kFrames);
     double best = -1e9;
     for (int bits = 0; bits < 1 << kActing; ++bits) {
@@ -63,7 +71,7 @@ TEST(Arrangement, IsTheBestOfAll) {
 TEST(Arrangement, KeepsAndRenumbersTheActingOptions) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({1.5F, 0.02F, 1.5F, -0.02F});  // 0 and 2 make the character fall
-  const ArrangedClip arranged = arrange(clip, {}, set, {0.0, kRescue});
+  const ArrangedClip arranged = arrange(clip, {}, set, by_programme(0.0, kRescue));
   EXPECT_EQ(arranged.kept, (std::vector<int>{1, 3}));
   ASSERT_EQ(arranged.agents.size(), 2u);
   for (int k = 0; k < 2; ++k)
@@ -84,7 +92,7 @@ TEST(Arrangement, ClipIsEncodedByTheKeptOptionsInOrder) {
     trained.option.encoder = some_encoder(*clip, static_cast<std::uint64_t>(k));
     set.options.push_back(trained);
   }
-  const ArrangedClip arranged = arrange(clip, {}, set, {-10.0, kRescue});
+  const ArrangedClip arranged = arrange(clip, {}, set, by_programme(-10.0, kRescue));
   ASSERT_EQ(arranged.kept, std::vector<int>{1});
   ASSERT_EQ(arranged.clip->encoded.size(), 1u);
   EXPECT_EQ(arranged.clip->encoded[0].codes, encode_reference(*set.options[1].option.encoder, *clip).codes);
@@ -92,18 +100,19 @@ TEST(Arrangement, ClipIsEncodedByTheKeptOptionsInOrder) {
 
 TEST(Arrangement, ListsFramesThatNoOptionFollows) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
-  EXPECT_TRUE(arrange(clip, {}, set_of({0.0F}), {0.0, kRescue}).breaks.empty());
+  EXPECT_TRUE(arrange(clip, {}, set_of({0.0F}), by_programme(0.0, kRescue)).breaks.empty());
   const OptionSet bad = set_of({1.5F, 1.5F});
   const Option& option = bad.options[0].option;
-  EXPECT_EQ(arrange(clip, {}, bad, {0.0, kRescue}).breaks,
+  EXPECT_EQ(arrange(clip, {}, bad, by_programme(0.0, kRescue)).breaks,
             roll_out_side_by_side(clip, {}, {&option, &option}, kRescue).breaks);
-  EXPECT_FALSE(arrange(clip, {}, bad, {0.0, kRescue}).breaks.empty());
+  EXPECT_FALSE(arrange(clip, {}, bad, by_programme(0.0, kRescue)).breaks.empty());
 }
 
 TEST(Arrangement, RescueRewardChangesTheRollOut) {
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), {});
   const OptionSet set = set_of({0.3F});
-  EXPECT_NE(arrange(clip, {}, set, {0.0, 1e-9}).breaks, arrange(clip, {}, set, {0.0, 0.9999}).breaks);
+  EXPECT_NE(arrange(clip, {}, set, by_programme(0.0, 1e-9)).breaks,
+            arrange(clip, {}, set, by_programme(0.0, 0.9999)).breaks);
 }
 
 constexpr int kHalves = 60;
@@ -114,7 +123,8 @@ ArrangementConfig selecting(Selector selector) {
           .selector = selector,
           .rescue_frames = 30,
           .beam_width = 4,
-          .beam_stretch = 5};
+          .beam_stretch = 5,
+          .beam_retries = 0};
 }
 
 /// One option is right in each half.
@@ -171,9 +181,11 @@ TEST(Arrangement, NearestIsTheOptionOfTheNearestCentre) {
   EXPECT_EQ(arrange(clip, {}, set, selecting(Selector::kNearest)).options, List<int>(30, 1));
 }
 
-TEST(Arrangement, RejectsImpossibleSettings) {
+TEST(Arrangement, EverySettingCanBeChangedByItsNameAndChangesNoOther) { check_settings(ArrangementConfig{}); }
+
+TEST(Arrangement, RefusesNumbersThatCannotBe) {
   const ArrangementConfig good = selecting(Selector::kBeam);
-  EXPECT_NO_THROW(check(good));
+  EXPECT_NO_THROW(require_ranges(good));
   for (const auto& spoil : std::vector<void (*)(ArrangementConfig&)>{
            [](ArrangementConfig& c) { c.rescue_frames = -1; }, [](ArrangementConfig& c) { c.beam_width = 0; },
            [](ArrangementConfig& c) { c.beam_stretch = 0; },
@@ -182,7 +194,7 @@ TEST(Arrangement, RejectsImpossibleSettings) {
            [](ArrangementConfig& c) { c.selector = static_cast<Selector>(4); }}) {
     ArrangementConfig config = good;
     spoil(config);
-    EXPECT_THROW(check(config), std::invalid_argument);
+    EXPECT_THROW(require_ranges(config), std::invalid_argument);
   }
 }
 
