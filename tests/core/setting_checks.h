@@ -24,7 +24,7 @@ std::string refusal_of(const Work& work) {
 }
 
 /// Every setting has a name of its own, a meaning, and a range that its default is in; both ends of the range
-/// can be set, change that setting and no other, and what is beyond them is refused by name.
+/// can be set, change that setting and no other, and what is beyond them is refused.
 template <class Config>
 void check_settings(const Config& original) {
   const NamedValues defaults = settings_of(original);
