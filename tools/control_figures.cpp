@@ -235,9 +235,10 @@ double velocity_after(const System& system, State<double> x) {
 }
 
 /// A line through a point, over some mm to both sides.
-Curve slope(const std::string& name, Style style, int colour, double at, double value, double rise,
-            double mm) {
-  return {name, style, colour, {at - mm, at + mm}, {value - mm * rise, value + mm * rise}};
+Curve slope(Curve line, const Eigen::Vector2d& through, double rise, double mm) {
+  line.x = {through.x() - mm, through.x() + mm};
+  line.y = {through.y() - mm * rise, through.y() + mm * rise};
+  return line;
 }
 
 std::string contact_figure(const System& stand) {
@@ -270,10 +271,10 @@ std::string contact_figure(const System& stand) {
     const double smoothed = rise(linearise_smoothed(stand, point, *GainConfig{}.smoothing));
     print("height, velocity, slopes in m/s per mm", {height, at, exact, smoothed});
     const bool first = height < 0.0;
-    velocity.curves.push_back(
-        slope(first ? "derivatives at −2 and 2 mm" : "", Style::kDashed, 1, height, at, exact, 4.0));
-    velocity.curves.push_back(
-        slope(first ? "smoothed derivatives there" : "", Style::kLine, 2, height, at, smoothed, 8.0));
+    velocity.curves.push_back(slope({first ? "derivatives at −2 and 2 mm" : "", Style::kDashed, 1, {}, {}},
+                                    {height, at}, exact, 4.0));
+    velocity.curves.push_back(slope({first ? "smoothed derivatives there" : "", Style::kLine, 2, {}, {}},
+                                    {height, at}, smoothed, 8.0));
   }
   return line_plot("What feet feel of the floor, and its derivatives", {force, velocity});
 }

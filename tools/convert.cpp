@@ -67,10 +67,8 @@ void declare_convert(CommandLine& line) {
       line.add("convert", "Write a motion in another format, chosen by the suffix",
                "mimicx convert clip.bvh clip.npz                       # AMASS layout\n"
                "mimicx convert RUN/motions/walk.npz walk.glb --arrows  # a skinned body, for any viewer",
-               ".npz: AMASS layout; .npy: Motion-X; .bvh: a skeleton; .qpos.npz: MuJoCo's qpos;
-               "
-               ".glb: glTF, a skinned body; .csv: a table. For OpenSim, of motions with forces (plan,
-               "
+               ".npz: AMASS layout; .npy: Motion-X; .bvh: a skeleton; .qpos.npz: MuJoCo's qpos;\n"
+               ".glb: glTF, a skinned body; .csv: a table. For OpenSim, of motions with forces (plan,\n"
                "adapt), .mot: ground reaction forces; .sto: joint moments.");
   command.file("IN", a->in, "motion");
   command.file("OUT", a->out, "where to write it");

@@ -53,8 +53,7 @@ int export_mjcf(const ExportMjcfArguments& a) {
 void declare_export_mjcf(CommandLine& line) {
   const auto a = std::make_shared<ExportMjcfArguments>();
   Command command = line.add("export-mjcf", "Write the character as a MuJoCo model",
-                             "mimicx export-mjcf body.xml --motion clip.npz   # the body of a motion
-                             "
+                             "mimicx export-mjcf body.xml --motion clip.npz   # the body of a motion\n"
                              "mimicx export-mjcf tall.xml --betas 2,-1        # a shape");
   command.file("OUT", a->out, "where to write it: .xml");
   const Option betas =

@@ -91,8 +91,7 @@ void declare_export_policy(CommandLine& line) {
   const auto a = std::make_shared<ExportPolicyArguments>();
   Command command =
       line.add("export-policy", "Write the policy of a motion for other programs",
-               "mimicx export-policy RUN/walk --out walk.h --int8   # one self-contained C++17 header
-               "
+               "mimicx export-policy RUN/walk --out walk.h --int8   # one self-contained C++17 header\n"
                "mimicx export-policy RUN/walk --out walk.onnx       # or .npz, for Python");
   command.file("RUN/NAME", a->policy, "a run of `mimicx adapt`, and a motion of it that has a policy");
   command.path("--out", a->out, "where to write it: .h, .onnx or .npz").required();

@@ -73,8 +73,7 @@ int merge(const MergeArguments& a) try {
 void declare_merge(CommandLine& line) {
   const auto a = std::make_shared<MergeArguments>();
   Command command = line.add("merge", "Join the shards of a run that several machines did (--shard I/N)",
-                             "mimicx merge out/run             # manifest and report, as from one machine
-                             "
+                             "mimicx merge out/run             # manifest and report, as from one machine\n"
                              "mimicx merge out/run --missing   # list missing shards and files",
                              "Exit status: 0 complete, 1 something is missing and nothing was written.");
   command.file("OUT", a->out, "folder of the run");

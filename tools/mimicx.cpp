@@ -62,9 +62,8 @@ int main(int argc, char** argv) {
     std::cerr << "mimicx: " << error.path1().string() << ": " << error.code().message() << '\n';
     return mimicx::tools::kSomeFailed;
   } catch (const std::bad_alloc&) {
-    std::cerr << "mimicx: not enough memory
-                 ";
-        return mimicx::tools::kSomeFailed;
+    std::cerr << "mimicx: not enough memory\n";
+    return mimicx::tools::kSomeFailed;
   } catch (const std::exception& error) {
     std::cerr << "mimicx: " << error.what() << '\n';
     return mimicx::tools::kSomeFailed;

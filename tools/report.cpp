@@ -64,8 +64,7 @@ int report(const ReportArguments& a) {
 void declare_report(CommandLine& line) {
   const auto a = std::make_shared<ReportArguments>();
   Command command = line.add("report", "Write the report of a run again, optionally with the truth",
-                             "mimicx report out/run                 # out/run/report.html, from its files
-                             "
+                             "mimicx report out/run                 # out/run/report.html, from its files\n"
                              "mimicx report out/run --truth truth   # with the truth of each clip");
   command.file("RUN", a->run, "folder of a run");
   command.path("--truth", a->truth,

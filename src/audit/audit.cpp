@@ -169,13 +169,21 @@ Vector6d integrator_share(const Character& c, double dt, double fps, const motio
   return dt * fps * (change(to, from) - 0.5 * change(middle, middle));
 }
 
+/// Two frames and what acted between them.
+struct FrameInterval {
+  const Kinematics &before, &after;
+  const physics::BodyWrenches& external;  ///< mean wrenches about the joint centres
+  double fps;
+};
+
 /// docs/physics.md §9, (10): change of momentum = weight and mean wrenches, about `point`.
-Vector6d momentum_gap(const Character& c, double gravity, double rate, const Kinematics& before,
-                      const Kinematics& after, const physics::BodyWrenches& external, const Vector3d& point) {
-  Vector6d gap = rate * (momentum_of(c, after, point) - momentum_of(c, before, point));
+Vector6d momentum_gap(const Character& c, double gravity, const FrameInterval& interval,
+                      const Vector3d& point) {
+  const Kinematics &before = interval.before, &after = interval.after;
+  Vector6d gap = interval.fps * (momentum_of(c, after, point) - momentum_of(c, before, point));
   gap[5] += c.total_mass() * gravity;
   for (std::size_t i = 0; i < kBodies; ++i)
-    gap -= shifted(external[i], 0.5 * (before.poses.p_WB[i] + after.poses.p_WB[i]), point);
+    gap -= shifted(interval.external[i], 0.5 * (before.poses.p_WB[i] + after.poses.p_WB[i]), point);
   return gap;
 }
 
@@ -212,7 +220,7 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
     AuditRow row;
     row.index = static_cast<int>(t);
     const Vector3d point = 0.5 * (before.center + after.center);  // middle of the centre of mass' way
-    row.root = momentum_gap(c, simulation.gravity, motion.fps, before, after, external, point) -
+    row.root = momentum_gap(c, simulation.gravity, {before, after, external, motion.fps}, point) -
                integrator_share(c, 1.0 / simulation.rate, motion.fps, a, b, point);
     const physics::RequiredForces required =
         physics::inverse_dynamics(c, simulation.gravity, between(a, b, motion.fps, 0.5), external);

@@ -13,17 +13,22 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr int kMostSteps = 200;     ///< observed: under 20; bounds the loop even if rounding causes a cycle
 constexpr double kNoSlope = 1e-13;  ///< of φ, in parts of ‖b‖, below which only rounding is left
 
-/// Slope of φ along d at r + part · d. `at` = Aᵀr, `change` = Aᵀd.
-double slope_at(double part, const Vector6d& r, const Vector6d& d, const Vector6d& b,
-                const Eigen::VectorXd& at, const Eigen::VectorXd& change, double small) {
-  return (r + part * d - b).dot(d) + (at + part * change).cwiseMax(0.0).dot(change) / small;
-}
+/// The line r + part · d on which φ is minimised.
+struct SearchLine {
+  Vector6d r, d;
+  Eigen::VectorXd at, change;  ///< Aᵀr, Aᵀd
 
-/// The part in [0, 1] at which φ is smallest on the line from r to r + d: its slope, piecewise linear and
-/// nondecreasing, is 0 there.
-double smallest_on_the_way(const Vector6d& r, const Vector6d& d, const Vector6d& b, const Eigen::VectorXd& at,
-                           const Eigen::VectorXd& change, double small) {
-  const auto slope = [&](double part) { return slope_at(part, r, d, b, at, change, small); };
+  /// Slope of φ along d.
+  double slope(double part, const Vector6d& b, double small) const {
+    return (r + part * d - b).dot(d) + (at + part * change).cwiseMax(0.0).dot(change) / small;
+  }
+};
+
+/// The part in [0, 1] at which φ is smallest on the line: its slope, piecewise linear and nondecreasing, is 0
+/// there.
+double smallest_on(const SearchLine& line, const Vector6d& b, double small) {
+  const Eigen::VectorXd &at = line.at, &change = line.change;
+  const auto slope = [&](double part) { return line.slope(part, b, small); };
   std::vector<double> planes = {1.0};
   for (Eigen::Index i = 0; i < at.size(); ++i)
     if (at[i] * change[i] < 0.0 && std::abs(at[i]) < std::abs(change[i]))
@@ -51,8 +56,7 @@ Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b,
     for (Eigen::Index i = 0; i < A.cols(); ++i)
       if (at[i] > 0.0) hessian.noalias() += A.col(i) * (A.col(i).transpose() / small);
     const Vector6d d = -hessian.ldlt().solve(slope);
-    const Eigen::VectorXd change = A.transpose() * d;
-    const double part = smallest_on_the_way(r, d, b, at, change, small);
+    const double part = smallest_on({r, d, at, A.transpose() * d}, b, small);
     if (part == 0.0) break;
     r += part * d;
     const Eigen::VectorXd next = A.transpose() * r;

@@ -34,9 +34,9 @@ std::vector<double> per_frame(const audit::Audit& audit, const Value& value) {
 
 ReportChart unexplained_chart(const ChartSources& sources) {
   ReportChart chart{
-      {"force from nowhere", "N",
-       "what would have to push the body from outside: of the input by its poses, after the best "
-       "that a floor could do; of the cleaned motion, what its recorded forces leave unexplained"},
+      {"unexplained force", "N",
+       "external force that the motion would need: of the input by its poses, beside the best floor forces; "
+       "of the cleaned motion, beyond its recorded forces"},
       {}};
   const auto force = [](const audit::AuditRow& row) { return row.root.tail<3>().norm(); };
   if (sources.audit_of_input)

@@ -20,7 +20,7 @@
 namespace mimicx::report {
 namespace {
 
-constexpr const char* kPhysics = "on the floor, and by itself";
+constexpr const char* kPhysics = "without reference";
 constexpr const char* kReference = "against the prepared reference";
 constexpr const char* kTruth = "against the truth";
 constexpr const char* kTruthKey = "truth:";  ///< before the names of the metrics in that group
@@ -275,8 +275,9 @@ std::vector<ReportMetric> report_metrics(bool truth) {
   std::vector<ReportMetric> metrics;
   Words force = words_of_value("audit", kRootForce);
   force.meaning =
-      "what would have to push the body from outside: of the input by its poses, after the best that a floor "
-      "could do; of the cleaned motion, what its recorded forces do not explain";
+      "external force that the motion would need: of the input by its poses, beside the best floor forces; "
+      "of "
+      "the cleaned motion, beyond its recorded forces";
   metrics.push_back({kRootForce, force, kPhysics});
   for (const char* name : {"Float", "GP", "FS", "FS_gt", "Jitter", "SelfPen", "GP_max", "FS_0"})
     metrics.push_back({name, words_of_metric(name), kPhysics});

@@ -12,137 +12,169 @@ using Table = std::map<std::string, Words>;
 
 const std::map<std::string, std::string>& metric_words() {
   static const std::map<std::string, std::string> kWords = {
-      {"MRPE", "place of the pelvis"},
-      {"gMPJPE", "place of the joints"},
+      {"MRPE", "position of the pelvis"},
+      {"gMPJPE", "positions of the joints"},
       {"MPJPE", "pose"},
-      {"PA-MPJPE", "pose, sizes and turns apart"},
+      {"PA-MPJPE", "pose, without scale and rotation"},
       {"Vel", "speeds of the joints"},
       {"Accel", "accelerations of the joints"},
       {"FS", "feet slide"},
-      {"GP", "sinks into the floor"},
-      {"Float", "hangs over the floor"},
-      {"FS_0", "feet slide, strictly"},
+      {"GP", "penetrates the floor"},
+      {"Float", "floats over the floor"},
+      {"FS_0", "feet slide, strict"},
       {"FS_gt", "feet slide where they should stand"},
       {"GP_max", "deepest point in the floor"},
-      {"Float_gt", "hangs where it should stand"},
+      {"Float_gt", "floats where it should stand"},
       {"Jitter", "shakes"},
       {"SelfPen", "limbs in the body"},
   };
   return kWords;
 }
 
-/// "group.name", and "name" for all groups.
-const Table& value_words() {
-  static const Table kWords = {
-      {"fit.residual_before_percent",
+Table fit_words() {
+  return {
+      {"residual_before_percent",
        {"distance from the keypoints before", "%",
-        "mean distance of the projected joints from their "
-        "detections, in parts of the person's height"}},
-      {"fit.residual_after_percent", {"distance from the keypoints after", "%", "the same after the fit"}},
-      {"fit.iterations", {"steps of the fit", "", ""}},
-      {"fit.focal_scale", {"focal length, times the file's", "", "found by the fit"}},
-      {"fit.tilt_deg", {"camera tilted by", "°", "found by the fit"}},
-      {"fit.shape_change", {"change of the body's shape", "", "norm of the change of β"}},
-      {"fit.keypoint_sigma_percent", {"noise of the keypoints", "%", "in parts of the person's height"}},
-      {"fit.keypoint_sigma_max_percent", {"noise of the noisiest keypoint", "%", ""}},
-      {"fit.confidence_power", {"how far confidences tell the noise", "", "0: not at all; 1: in full"}},
-      {"fit.lead_frames", {"keypoints ahead of the poses by", "frames", ""}},
-      {"fit.swapped_frames", {"frames with left and right exchanged", "", "put right"}},
-      {"fit.dropped_points", {"keypoints that were not believed", "", ""}},
+        "mean distance of the projected joints from their detections, in parts of the person's height"}},
+      {"residual_after_percent", {"distance from the keypoints after", "%", "the same after the fit"}},
+      {"iterations", {"steps of the fit", "", ""}},
+      {"focal_scale", {"focal length, times the file's", "", "found by the fit"}},
+      {"tilt_deg", {"camera tilted by", "°", "found by the fit"}},
+      {"shape_change", {"change of the body's shape", "", "norm of the change of β"}},
+      {"keypoint_sigma_percent", {"noise of the keypoints", "%", "in parts of the person's height"}},
+      {"keypoint_sigma_max_percent", {"noise of the noisiest keypoint", "%", ""}},
+      {"confidence_power", {"how well confidences predict the noise", "", "0: not at all; 1: fully"}},
+      {"lead_frames", {"keypoints ahead of the poses by", "frames", ""}},
+      {"swapped_frames", {"frames with left and right exchanged", "", "corrected"}},
+      {"dropped_points", {"keypoints that were rejected", "", ""}},
+  };
+}
+
+Table general_words() {
+  return {
       {"change_mean_mm", {"joints moved by, on average", "mm", ""}},
       {"change_max_mm", {"joints moved by, at most", "mm", ""}},
-      {"preparation.floor_shift_mm",
-       {"moved up or down by, on average", "mm", "so that it stands on the floor"}},
-      {"preparation.max_floor_shift_mm", {"moved up or down by, at most", "mm", ""}},
-      {"preparation.hinge_residual_mean_mm", {"moved by knees and elbows as hinges, on average", "mm", ""}},
-      {"preparation.hinge_residual_max_mm", {"moved by knees and elbows as hinges, at most", "mm", ""}},
-      {"preparation.arms_moved_mm", {"arms moved out of the body by", "mm", ""}},
-      {"preparation.foot_level_deg", {"feet turned level by", "°", ""}},
-      {"preparation.flagged_frames", {"implausible frames that were bridged", "", ""}},
-      {"preparation.limb_frames", {"frames with a limb that was bridged", "", ""}},
-      {"preparation.pose_fit_mean_mm",
+  };
+}
+
+Table preparation_words() {
+  return {
+      {"floor_shift_mm", {"moved up or down by, on average", "mm", "so that it stands on the floor"}},
+      {"max_floor_shift_mm", {"moved up or down by, at most", "mm", ""}},
+      {"hinge_residual_mean_mm", {"moved by knees and elbows as hinges, on average", "mm", ""}},
+      {"hinge_residual_max_mm", {"moved by knees and elbows as hinges, at most", "mm", ""}},
+      {"arms_moved_mm", {"arms moved out of the body by", "mm", ""}},
+      {"foot_level_deg", {"feet turned level by", "°", ""}},
+      {"flagged_frames", {"implausible frames that were bridged", "", ""}},
+      {"limb_frames", {"frames with a limb that was bridged", "", ""}},
+      {"pose_fit_mean_mm",
        {"moved by the fit of poses, on average", "mm",
         "onto its own standing feet and balance, where there are no keypoints"}},
-      {"preparation.pose_fit_max_mm", {"moved by the fit of poses, at most", "mm", ""}},
-      {"plan.frames", {"frames that were planned", "", ""}},
-      {"plan.cost", {"cost of the plan", "", "what the planner made as small as it could"}},
-      {"plan.worst_distance_mm", {"farthest body from the reference", "mm", ""}},
-      {"plan.iterations", {"steps of the planner", "", ""}},
-      {"plan.linearised_frames", {"frames whose derivatives were taken", "", ""}},
-      {"plan.backtracks", {"stretches that were planned again", "", ""}},
-      {"plan.by_way_of_help",
-       {"found by way of help from outside", "", "1: a plan with help had to show how"}},
-      {"policy.teacher_survives", {"pushes that the plan's feedback survives", "share", ""}},
-      {"policy.lessons", {"lessons", "", "states in which the plan said what to do"}},
-      {"policy.rounds", {"rounds of lessons", "", ""}},
-      {"policy.polish_samples", {"samples of the polish by PPO", "", ""}},
-      {"policy.success", {"follows the motion alone", "", "1: it does"}},
-      {"policy.gMPJPE", {"places of the joints against the plan", "mm", ""}},
-      {"policy.MPJPE", {"pose against the plan", "mm", ""}},
-      {"policy.Jitter", {"shakes", "10 m/s³", ""}},
-      {"policy.pushes_survived", {"pushes that the policy survives", "share", ""}},
-      {"policy.pushes_tried", {"pushes that were tried", "", ""}},
-      {"audit.root_force_mean_N",
-       {"force from nowhere, on average", "N",
-        "what gravity, floor and the body's "
-        "own forces leave unexplained"}},
-      {"audit.root_force_max_N", {"force from nowhere, at most", "N", ""}},
-      {"audit.root_force_worst", {"force from nowhere is largest at frame", "", ""}},
-      {"audit.root_moment_mean_Nm", {"moment from nowhere, on average", "N·m", "about the centre of mass"}},
-      {"audit.root_moment_max_Nm", {"moment from nowhere, at most", "N·m", ""}},
-      {"audit.root_moment_worst", {"moment from nowhere is largest at frame", "", ""}},
-      {"audit.torque_gap_mean_Nm",
-       {"recorded joint torques beside the required ones, on average", "N·m", ""}},
-      {"audit.torque_gap_max_Nm", {"recorded joint torques beside the required ones, at most", "N·m", ""}},
-      {"audit.torque_worst_share", {"largest joint torque, in parts of its bound", "", "1: at its bound"}},
-      {"audit.torque_violations", {"frames with a torque over its bound", "", ""}},
-      {"audit.beyond_cone_percent", {"friction beyond what the floor gives", "%", "of the normal impulse"}},
-      {"audit.pull_percent", {"floor that pulls", "%", "of the normal impulse"}},
-      {"audit.in_air_percent", {"floor forces on bodies in the air", "%", "of the normal impulse"}},
-      {"audit.cone_violations", {"frames with such friction or pull", "", ""}},
-      {"audit.travel_worst_share",
-       {"way of the centre of mass beyond its speed", "",
-        "in parts of what forces "
-        "can do by their timing"}},
-      {"audit.power_max_W", {"largest power of all joints", "W", ""}},
-      {"audit.work_positive_J", {"work of the joints that drive", "J", ""}},
-      {"audit.work_negative_J", {"work of the joints that brake", "J", ""}},
-      {"feasibility.frames", {"frames that were judged", "", ""}},
-      {"feasibility.fps", {"frame rate", "1/s", ""}},
-      {"feasibility.weight_N", {"weight of the body", "N", ""}},
-      {"feasibility.force_mean_N",
-       {"force from outside, on average", "N",
-        "by the poses alone, after the best "
-        "that a floor could do"}},
-      {"feasibility.force_max_N", {"force from outside, at most", "N", ""}},
-      {"feasibility.accel_mean_m_s2", {"the same by the body's mass, on average", "m/s²", ""}},
-      {"feasibility.accel_max_m_s2", {"the same by the body's mass, at most", "m/s²", ""}},
-      {"feasibility.moment_mean_Nm", {"moment from outside, on average", "N·m", ""}},
-      {"feasibility.moment_max_Nm", {"moment from outside, at most", "N·m", ""}},
-      {"feasibility.worst_frame", {"the force is largest at frame", "", ""}},
-      {"feasibility.infeasible_share", {"share of frames that no body can do", "", ""}},
-      {"feasibility.hovers_share",
-       {"share of frames that hover", "", "nothing is near the floor, and it does not fall"}},
-      {"feasibility.pulled_share", {"share of frames that are pulled down", "", ""}},
-      {"feasibility.drifts_share", {"share of frames that drift in the air", "", ""}},
-      {"feasibility.turns_share", {"share of frames that turn in the air", "", ""}},
-      {"feasibility.slips_share", {"share of frames that would slip", "", ""}},
-      {"feasibility.tips_share", {"share of frames that would tip over", "", ""}},
-      {"feasibility.sunk_share", {"share of frames that are in the floor", "", ""}},
-      {"feasibility.longest_s", {"longest stretch that no body can do", "s", ""}},
-      {"feasibility.longest_first", {"it begins at frame", "", ""}},
-      {"feasibility.longest_last", {"it ends at frame", "", ""}},
-      {"feasibility.over_torque_share", {"share of frames with a joint over its bound", "", ""}},
-      {"feasibility.torque_max_share", {"largest torque, in parts of the joint's bound", "", ""}},
-      {"feasibility.lowest_mm", {"lowest point over the floor", "mm", ""}},
-      {"feasibility.help_frames", {"frames that were planned with help", "", "a plan's soft stage"}},
-      {"feasibility.help_force_mean_N", {"help, on average", "N", "a force on the pelvis, at a price"}},
-      {"feasibility.help_force_max_N", {"help, at most", "N", ""}},
-      {"feasibility.help_accel_mean_m_s2", {"help by the body's mass, on average", "m/s²", ""}},
-      {"feasibility.help_accel_max_m_s2", {"help by the body's mass, at most", "m/s²", ""}},
-      {"feasibility.help_moment_mean_Nm", {"moment of the help, on average", "N·m", ""}},
-      {"feasibility.help_moment_max_Nm", {"moment of the help, at most", "N·m", ""}},
-      {"feasibility.help_worst_frame", {"the help is largest at frame", "", ""}},
+      {"pose_fit_max_mm", {"moved by the fit of poses, at most", "mm", ""}},
+  };
+}
+
+Table plan_words() {
+  return {
+      {"frames", {"frames that were planned", "", ""}},
+      {"cost", {"cost of the plan", "", "which the planner minimises"}},
+      {"worst_distance_mm", {"farthest body from the reference", "mm", ""}},
+      {"iterations", {"steps of the planner", "", ""}},
+      {"linearised_frames", {"frames whose derivatives were computed", "", ""}},
+      {"backtracks", {"stretches that were planned again", "", ""}},
+      {"by_way_of_help", {"found with assistive forces", "", "1: by way of a plan with assistive forces"}},
+  };
+}
+
+Table policy_words() {
+  return {
+      {"teacher_survives", {"pushes that the plan's feedback survives", "share", ""}},
+      {"lessons", {"lessons", "", "states, each with the plan's action"}},
+      {"rounds", {"rounds of lessons", "", ""}},
+      {"polish_samples", {"samples of the polish by PPO", "", ""}},
+      {"success", {"follows the motion unaided", "", "1: yes"}},
+      {"gMPJPE", {"positions of the joints against the plan", "mm", ""}},
+      {"MPJPE", {"pose against the plan", "mm", ""}},
+      {"Jitter", {"shakes", "10 m/s³", ""}},
+      {"pushes_survived", {"pushes that the policy survives", "share", ""}},
+      {"pushes_tried", {"pushes that were tried", "", ""}},
+  };
+}
+
+Table audit_words() {
+  return {
+      {"root_force_mean_N",
+       {"unexplained force, on average", "N", "beyond gravity, floor and the body's own forces"}},
+      {"root_force_max_N", {"unexplained force, at most", "N", ""}},
+      {"root_force_worst", {"unexplained force is largest at frame", "", ""}},
+      {"root_moment_mean_Nm", {"unexplained moment, on average", "N·m", "about the centre of mass"}},
+      {"root_moment_max_Nm", {"unexplained moment, at most", "N·m", ""}},
+      {"root_moment_worst", {"unexplained moment is largest at frame", "", ""}},
+      {"torque_gap_mean_Nm", {"recorded minus required joint torques, on average", "N·m", ""}},
+      {"torque_gap_max_Nm", {"recorded minus required joint torques, at most", "N·m", ""}},
+      {"torque_worst_share", {"largest joint torque, in parts of its bound", "", "1: at its bound"}},
+      {"torque_violations", {"frames with a torque over its bound", "", ""}},
+      {"beyond_cone_percent", {"friction beyond the friction cone", "%", "of the normal impulse"}},
+      {"pull_percent", {"pull of the floor", "%", "of the normal impulse"}},
+      {"in_air_percent", {"floor forces on bodies in the air", "%", "of the normal impulse"}},
+      {"cone_violations", {"frames with such friction or pull", "", ""}},
+      {"travel_worst_share",
+       {"motion of the centre of mass beyond its velocity", "",
+        "in parts of what the timing of forces can cause"}},
+      {"power_max_W", {"largest power of all joints", "W", ""}},
+      {"work_positive_J", {"work of the joints that drive", "J", ""}},
+      {"work_negative_J", {"work of the joints that brake", "J", ""}},
+  };
+}
+
+Table feasibility_words() {
+  return {
+      {"frames", {"frames that were judged", "", ""}},
+      {"fps", {"frame rate", "1/s", ""}},
+      {"weight_N", {"weight of the body", "N", ""}},
+      {"force_mean_N",
+       {"external force needed, on average", "N", "by the poses alone, beside the best floor forces"}},
+      {"force_max_N", {"external force needed, at most", "N", ""}},
+      {"accel_mean_m_s2", {"the same by the body's mass, on average", "m/s²", ""}},
+      {"accel_max_m_s2", {"the same by the body's mass, at most", "m/s²", ""}},
+      {"moment_mean_Nm", {"external moment needed, on average", "N·m", ""}},
+      {"moment_max_Nm", {"external moment needed, at most", "N·m", ""}},
+      {"worst_frame", {"the force is largest at frame", "", ""}},
+      {"infeasible_share", {"share of infeasible frames", "", ""}},
+      {"hovers_share", {"share of frames that hover", "", "without contact, and without falling"}},
+      {"pulled_share", {"share of frames that are pulled down", "", ""}},
+      {"drifts_share", {"share of frames that drift in the air", "", ""}},
+      {"turns_share", {"share of frames that turn in the air", "", ""}},
+      {"slips_share", {"share of frames that would slip", "", ""}},
+      {"tips_share", {"share of frames that would tip over", "", ""}},
+      {"sunk_share", {"share of frames that are in the floor", "", ""}},
+      {"longest_s", {"longest infeasible stretch", "s", ""}},
+      {"longest_first", {"it begins at frame", "", ""}},
+      {"longest_last", {"it ends at frame", "", ""}},
+      {"over_torque_share", {"share of frames with a joint over its bound", "", ""}},
+      {"torque_max_share", {"largest torque, in parts of the joint's bound", "", ""}},
+      {"lowest_mm", {"lowest point over the floor", "mm", ""}},
+      {"help_frames", {"frames that were planned with help", "", "by a plan's relaxed stage"}},
+      {"help_force_mean_N", {"help, on average", "N", "assistive force on the pelvis"}},
+      {"help_force_max_N", {"help, at most", "N", ""}},
+      {"help_accel_mean_m_s2", {"help by the body's mass, on average", "m/s²", ""}},
+      {"help_accel_max_m_s2", {"help by the body's mass, at most", "m/s²", ""}},
+      {"help_moment_mean_Nm", {"moment of the help, on average", "N·m", ""}},
+      {"help_moment_max_Nm", {"moment of the help, at most", "N·m", ""}},
+      {"help_worst_frame", {"the help is largest at frame", "", ""}},
+  };
+}
+
+/// Words of the manifest's values by group; "" has those of all groups.
+const std::map<std::string, Table>& value_words() {
+  static const std::map<std::string, Table> kWords = {
+      {"fit", fit_words()},
+      {"", general_words()},
+      {"preparation", preparation_words()},
+      {"plan", plan_words()},
+      {"policy", policy_words()},
+      {"audit", audit_words()},
+      {"feasibility", feasibility_words()},
   };
   return kWords;
 }
@@ -152,16 +184,15 @@ const Table& log_words() {
       {"iteration", {"iterations", "", ""}},
       {"samples", {"samples", "", "control steps that were simulated"}},
       {"reward", {"mean reward of a step", "", "with noise on the actions; 1 is the reference itself"}},
-      {"episode_length", {"length of an episode", "frames", "until the body is lost or the clip ends"}},
+      {"episode_length", {"length of an episode", "frames", "until the body falls or the clip ends"}},
       {"reward_term", {"factors of the reward", "", "their product is the reward"}},
-      {"kl",
-       {"step of the policy (KL divergence)", "", "how far an update moved the policy from the one before"}},
-      {"step_size", {"step size of the actor", "", "follows the step of the policy"}},
+      {"kl", {"step of the policy (KL divergence)", "", "how far an update changed the policy"}},
+      {"step_size", {"step size of the actor", "", "adapted to the step of the policy"}},
       {"sigma", {"noise on the actions", "rad", "standard deviation"}},
       {"policy_loss", {"loss of the policy", "", ""}},
       {"value_loss", {"loss of the critic", "", ""}},
-      {"explained_variance", {"what the critic explains of the returns", "", "1: all of their variance"}},
-      {"clip_fraction", {"share of clipped ratios", "", "samples whose update PPO holds back"}},
+      {"explained_variance", {"explained variance of the returns", "", "by the critic; 1: all of it"}},
+      {"clip_fraction", {"share of clipped ratios", "", "samples whose ratio PPO clips"}},
       {"gradient_norm", {"norm of the gradients", "", ""}},
       {"penalty", {"penalty of the critic's gradient", "", ""}},
       {"saturation", {"share at the bound", "", "actions that were clipped, torques at their bounds"}},
@@ -175,7 +206,7 @@ const Table& log_words() {
 const std::map<std::string, std::string>& group_words() {
   static const std::map<std::string, std::string> kWords = {
       {"fit", "Keypoint fit"}, {"preparation", "Preparation"},
-      {"plan", "Plan"},        {"feasibility", "What the prepared reference asks for"},
+      {"plan", "Plan"},        {"feasibility", "Feasibility of the prepared reference"},
       {"policy", "Policy"},    {"audit", "Audit: do the recorded forces explain the motion?"},
   };
   return kWords;
@@ -187,17 +218,20 @@ std::string with_blanks(std::string name) {
 }
 
 const Words* find_value(const std::string& group, const std::string& name) {
-  const Table& words = value_words();
-  auto found = words.find(group + "." + name);
-  if (found == words.end()) found = words.find(name);
-  return found == words.end() ? nullptr : &found->second;
+  for (const std::string& key : {group, std::string()}) {
+    const auto table = value_words().find(key);
+    if (table == value_words().end()) continue;
+    const auto found = table->second.find(name);
+    if (found != table->second.end()) return &found->second;
+  }
+  return nullptr;
 }
 
 }  // namespace
 
 Words words_of_metric(const std::string& name) {
   if (name == "max_distance_mm")
-    return {"farthest body from the reference", "mm", "the largest distance that any body ever had"};
+    return {"farthest body from the reference", "mm", "the largest distance of any body in any frame"};
   const auto found = metric_words().find(name);
   for (const motion::MetricDefinition& d : motion::metric_definitions()) {
     if (name != d.name) continue;
@@ -226,10 +260,10 @@ Words words_of_log(const std::string& title) {
 
 std::string words_of_line(const std::string& name) {
   static const std::map<std::string, std::string> kWords = {
-      {"root_position", "place of the pelvis"},
-      {"root_rotation", "turn of the pelvis"},
+      {"root_position", "position of the pelvis"},
+      {"root_rotation", "rotation of the pelvis"},
       {"pose", "joint rotations"},
-      {"velocity", "joint speeds"},
+      {"velocity", "joint velocities"},
       {"end_effector", "hands and feet"},
       {"projection", "keypoints (Eq. 3)"},
   };
@@ -240,8 +274,8 @@ std::string words_of_line(const std::string& name) {
 std::string words_of_method(const std::string& method) {
   static const std::map<std::string, std::string> kWords = {
       {"plan", "a plan (optimal control)"},
-      {"policy", "a policy that the plan has taught"},
-      {"paper", "trained options, chosen frame by frame and tuned together"},
+      {"policy", "a policy taught by the plan"},
+      {"paper", "trained options, chosen frame by frame and fine-tuned jointly"},
       {"imitate", "a policy trained from scratch"},
   };
   const auto found = kWords.find(method);

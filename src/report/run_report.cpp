@@ -45,9 +45,9 @@ std::vector<std::pair<std::string, std::string>> run_in_words(const record::RunF
     for (const record::Timing& t : record::read_timing(folder.timing())) {
       all += t.seconds, planning += t.planning_seconds, training += t.training_seconds;
     }
-    run.emplace_back("work on the clips, summed up", in_words(all));
-    run.emplace_back("of it planning", in_words(planning));
-    run.emplace_back("of it training", in_words(training));
+    run.emplace_back("work on all clips", in_words(all));
+    run.emplace_back("planning", in_words(planning));
+    run.emplace_back("training", in_words(training));
   }
   run.emplace_back("method", manifest.method);
   run.emplace_back("seed", std::to_string(manifest.seed));

@@ -59,9 +59,7 @@ void restore_files(const Worker& worker, const record::SequenceEntry& entry,
     const bool input = file == run.folder.input(entry.name), fit = file == run.folder.fit(entry.name),
                again = input || fit || file == run.folder.reference(entry.name);
     worker.context.messages << entry.name << ": " << name << " is gone or damaged"
-                            << (again ? ": made again
-" : ", and is not made again
-");
+                            << (again ? ": made again\n" : ", and is not made again\n");
     if (!again) continue;
     if (!motion)
       motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads);

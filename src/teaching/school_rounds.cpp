@@ -38,13 +38,13 @@ void write_checkpoint(const record::RunFolder& folder, const std::string& name, 
 
 }  // namespace
 
-std::optional<Pupil> teach_option(const std::vector<PlannedMotion>& motions, const SchoolConfig& school,
-                                  const rl::tracking::TrackingConfig& task, const record::RunFolder& folder,
-                                  const std::string& name, int threads, const record::RunContext& context) {
+std::optional<Pupil> teach_option(const OptionLessons& option, const record::RunFolder& folder, int threads,
+                                  const record::RunContext& context) {
+  const auto& [name, motions, school, task] = option;
   const int count = static_cast<int>(motions.size());
   const Teachers teachers = [&](int k) {
-    return read_teacher(motions[static_cast<std::size_t>(k)], task,
-                        school.follow_plan ? Followed::kPlan : Followed::kReference);
+    return read_teacher(option.motions[static_cast<std::size_t>(k)], option.task,
+                        option.school.follow_plan ? Followed::kPlan : Followed::kReference);
   };
   control::PlanControl control;
   control.threads = threads;

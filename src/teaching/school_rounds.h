@@ -11,15 +11,21 @@
 
 namespace mimicx::teaching {
 
-/// Teaches one policy by all of the plans; goes on where the checkpoint in the folder left it.
+/// One policy to be taught.
+struct OptionLessons {
+  std::string name;                    ///< of its files
+  std::vector<PlannedMotion> motions;  ///< whose plans teach it
+  SchoolConfig school;
+  rl::tracking::TrackingConfig task;  ///< with the simulation of all plans
+};
+
+/// Teaches one policy by all of the plans; continues from the checkpoint in the folder.
 ///
 ///     DIR/training/NAME.csv     a row per round: lessons, resets per thousand lessons, loss
 ///     DIR/checkpoints/NAME.npz  the pupil
 ///
-/// @param task  with the simulation of all plans
 /// @return none if it was interrupted; the checkpoint then has the finished rounds
-std::optional<Pupil> teach_option(const std::vector<PlannedMotion>& motions, const SchoolConfig& school,
-                                  const rl::tracking::TrackingConfig& task, const record::RunFolder& folder,
-                                  const std::string& name, int threads, const record::RunContext& context);
+std::optional<Pupil> teach_option(const OptionLessons& option, const record::RunFolder& folder, int threads,
+                                  const record::RunContext& context);
 
 }  // namespace mimicx::teaching

@@ -137,7 +137,7 @@ record::RunOutcome teach(const TeachConfig& config, const record::RunContext& co
     const std::string name = "option" + std::to_string(index);
     SchoolConfig school = school_for(config, static_cast<int>(cluster.members.size()));
     school.seed += static_cast<std::uint64_t>(index);
-    const auto pupil = teach_option(members(cluster, motions, names), school, task, folder, name,
+    const auto pupil = teach_option({name, members(cluster, motions, names), school, task}, folder,
                                     config.planning.run.threads, context);
     if (!pupil) {
       context.progress.finish("interrupted; the same command continues");

@@ -67,7 +67,7 @@ TEST(Charts, AuditValuesAreAtTheirFrames) {
   sources.audit_of_cleaned = &audit;
   int found = 0;
   for (const ReportChart& chart : charts_of(sources)) {
-    const double expected = chart.words.words == "force from nowhere"     ? 5.0
+    const double expected = chart.words.words == "unexplained force"      ? 5.0
                             : chart.words.words == "largest joint torque" ? 25.0
                                                                           : NAN;
     if (std::isnan(expected)) continue;
@@ -88,7 +88,7 @@ TEST(Charts, ColumnsOfOneTitleShareAChart) {
   ASSERT_EQ(charts.size(), 3u);
   EXPECT_EQ(charts[0].x, (std::vector<double>{512, 1024}));
   ASSERT_EQ(charts[1].lines.size(), 2u);
-  EXPECT_EQ(charts[1].lines[1].name, "joint speeds");
+  EXPECT_EQ(charts[1].lines[1].name, "joint velocities");
   EXPECT_EQ(charts[1].lines[1].values, (std::vector<double>{0.7, 0.8}));
 }
 

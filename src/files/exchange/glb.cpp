@@ -46,36 +46,35 @@ Glb::Glb() {
 
 int Glb::add(const std::vector<float>& values, const std::string& type, BufferUse use, bool with_range) {
   const std::size_t width = width_of(type);
-  return add_array(values.data(), values.size() * sizeof(float), values.size() / width, kFloat, type, use,
-                   with_range ? range_of(values, width) : record::Json::object());
+  Accessor accessor{values.size() / width, kFloat, type};
+  if (with_range) accessor.range = range_of(values, width);
+  return add_array(values.data(), values.size() * sizeof(float), accessor, use);
 }
 
 int Glb::add(const std::vector<std::uint8_t>& values, const std::string& type, BufferUse use) {
-  return add_array(values.data(), values.size(), values.size() / width_of(type), kUnsignedByte, type, use,
-                   record::Json::object());
+  return add_array(values.data(), values.size(), {values.size() / width_of(type), kUnsignedByte, type}, use);
 }
 
 int Glb::add(const std::vector<std::uint32_t>& values, const std::string& type, BufferUse use) {
-  return add_array(values.data(), values.size() * sizeof(std::uint32_t), values.size() / width_of(type),
-                   kUnsignedInt, type, use, record::Json::object());
+  return add_array(values.data(), values.size() * sizeof(std::uint32_t),
+                   {values.size() / width_of(type), kUnsignedInt, type}, use);
 }
 
-int Glb::add_array(const void* data, std::size_t bytes, std::size_t count, int component,
-                   const std::string& type, BufferUse use, record::Json range) {
+int Glb::add_array(const void* data, std::size_t bytes, const Accessor& accessor, BufferUse use) {
   buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');
   record::Json view = record::Json::object();
   view["buffer"] = 0;
   view["byteOffset"] = buffer_.size();
   view["byteLength"] = bytes;
   if (use != BufferUse::kAnimation) view["target"] = static_cast<int>(use);
-  record::Json accessor = record::Json::object();
-  accessor["bufferView"] = append("bufferViews", view);
-  accessor["componentType"] = component;
-  accessor["count"] = count;
-  accessor["type"] = type;
-  for (const auto& [name, value] : range.items()) accessor[name] = value;
+  record::Json json_accessor = record::Json::object();
+  json_accessor["bufferView"] = append("bufferViews", view);
+  json_accessor["componentType"] = accessor.component;
+  json_accessor["count"] = accessor.count;
+  json_accessor["type"] = accessor.type;
+  for (const auto& [name, value] : accessor.range.items()) json_accessor[name] = value;
   buffer_.append(static_cast<const char*>(data), bytes);
-  return append("accessors", accessor);
+  return append("accessors", json_accessor);
 }
 
 int Glb::append(const std::string& list, record::Json element) {

@@ -40,8 +40,14 @@ class Glb {
   std::string bytes() const;
 
  private:
-  int add_array(const void* data, std::size_t bytes, std::size_t count, int component,
-                const std::string& type, BufferUse use, record::Json range);
+  /// What glTF calls an accessor.
+  struct Accessor {
+    std::size_t count;  ///< of elements
+    int component;      ///< glTF's number of the component type
+    std::string type;   ///< "SCALAR", …
+    record::Json range = record::Json::object();
+  };
+  int add_array(const void* data, std::size_t bytes, const Accessor& accessor, BufferUse use);
 
   std::string buffer_;
 };
