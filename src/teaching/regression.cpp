@@ -1,6 +1,9 @@
 #include "teaching/regression.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
+#include "core/random.h"
 #include "nn/gradient.h"
 
 namespace mimicx::teaching {
@@ -44,6 +47,12 @@ void take_gradient(const Lessons& lessons, const List<Eigen::MatrixXf>& importan
 
 }  // namespace
 
+PolicyInTraining untaught(int state_size, const std::vector<int>& hidden, std::uint64_t seed) {
+  PolicyInTraining policy{beginner(state_size, hidden, seed), {}};
+  policy.adam = nn::make_adam<float>(nn::parameters(policy.agent.actor));
+  return policy;
+}
+
 double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
                        std::span<const int> rows, const RegressionConfig& config, double step_size,
                        int threads, rl::Agent& agent, nn::Adam<float>& adam, RegressionScratch& scratch) {
@@ -63,6 +72,26 @@ double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& impo
   const std::vector<nn::Matrix<float>*> parameters = nn::parameters(agent.actor);
   nn::adam_step<float>(adam, parameters, std::span<const nn::Matrix<float>>(gradient),
                        static_cast<float>(step_size));
+  return loss;
+}
+
+std::optional<double> regression_round(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
+                                       const RegressionRound& round, const RegressionConfig& config,
+                                       const control::PlanControl& control, Random& random,
+                                       PolicyInTraining& policy) {
+  RegressionScratch scratch;
+  List<int> rows(config.minibatch);
+  double loss = 0.0;
+  for (int step = 0; step < round.steps; ++step) {
+    if (control.should_stop && control.should_stop()) return {};
+    for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(lessons.rows())));
+    const double done = (round.round + (step + 0.5) / round.steps) / round.rounds;
+    const double left = 1.0 - std::min(done, 1.0);
+    const double step_size = round.last_step_size + left * left * (round.step_size - round.last_step_size);
+    loss += regression_step(lessons, importance, rows, config, step_size, control.threads, policy.agent,
+                            policy.adam, scratch) /
+            round.steps;
+  }
   return loss;
 }
 

@@ -7,8 +7,10 @@
 /// threads: a minibatch is cut into slots, whose gradients are added in order.
 #pragma once
 
+#include <optional>
 #include <span>
 
+#include "control/plan_control.h"
 #include "nn/adam.h"
 #include "nn/tape.h"
 #include "teaching/lessons.h"
@@ -33,9 +35,28 @@ struct RegressionScratch {
   List<RegressionSlot> slots;
 };
 
+/// A policy that learns from lessons.
+struct PolicyInTraining {
+  rl::Agent agent;
+  nn::Adam<float> adam;  ///< of the actor
+};
+PolicyInTraining untaught(int state_size, const std::vector<int>& hidden, std::uint64_t seed);
+
 /// One step of Adam on rows of the lessons. @return L before the step
 double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
                        std::span<const int> rows, const RegressionConfig& config, double step_size,
                        int threads, rl::Agent& agent, nn::Adam<float>& adam, RegressionScratch& scratch);
+
+/// The gradient steps of one round, each on random rows.
+struct RegressionRound {
+  int round, rounds;  ///< its number, and how many there are
+  int steps;
+  double step_size, last_step_size;  ///< falls with the square of what is left of the rounds
+};
+/// @return the mean of L over the steps; none where it was told to stop
+std::optional<double> regression_round(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
+                                       const RegressionRound& round, const RegressionConfig& config,
+                                       const control::PlanControl& control, Random& random,
+                                       PolicyInTraining& policy);
 
 }  // namespace mimicx::teaching

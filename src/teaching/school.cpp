@@ -95,24 +95,10 @@ void hide_shape(rl::Agent& agent) {
   nn::refresh(agent.observations);
 }
 
-/// Loshchilov and Hutter, "Decoupled weight decay regularization", ICLR 2019. Biases do not decay.
-void decay(nn::Mlp<float>& network, double share) {
-  for (nn::Matrix<float>* parameter : nn::parameters(network))
-    if (parameter->rows() > 1) *parameter *= static_cast<float>(1.0 - share);
-}
-
-double step_size_at(const SchoolConfig& config, double done) {
-  const double left = (1.0 - done) * (1.0 - done);
-  return config.last_step_size + left * (config.step_size - config.last_step_size);
-}
-
 }  // namespace
 
 Pupil new_pupil(const SchoolConfig& config, int state_size) {
-  Pupil pupil;
-  pupil.agent = beginner(state_size, config.hidden, config.seed);
-  pupil.adam = nn::make_adam<float>(nn::parameters(pupil.agent.actor));
-  return pupil;
+  return {untaught(state_size, config.hidden, config.seed)};
 }
 
 std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,
@@ -131,18 +117,11 @@ std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,
   const int steps =
       std::max(1, static_cast<int>(std::lround(config.passes * stats.lessons / config.regression.minibatch)));
   Random random(config.seed, {kLessonRows, static_cast<std::uint64_t>(next.rounds)});
-  List<int> rows(config.regression.minibatch);
-  RegressionScratch scratch;
-  for (int step = 0; step < steps; ++step) {
-    if (control.should_stop && control.should_stop()) return {};
-    for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(stats.lessons)));
-    const double done = (next.rounds + (step + 0.5) / steps) / config.rounds;
-    const double step_size = step_size_at(config, std::min(done, 1.0));
-    stats.loss += regression_step(material.lessons, material.importance, rows, config.regression, step_size,
-                                  control.threads, next.agent, next.adam, scratch) /
-                  steps;
-    decay(next.agent.actor, step_size * config.decay);
-  }
+  const RegressionRound round = {next.rounds, config.rounds, steps, config.step_size, config.last_step_size};
+  const auto loss = regression_round(material.lessons, material.importance, round, config.regression, control,
+                                     random, next);
+  if (!loss) return {};
+  stats.loss = *loss;
   ++next.rounds;
   next.taken += stats.lessons;
   pupil = std::move(next);

@@ -26,7 +26,6 @@ struct SchoolConfig {
   double passes = 4;                     ///< passes over the lessons of a round
   double step_size = 1e-3;  ///< Adam's first step size; falls with the square of the remaining share
   double last_step_size = 2e-5;
-  double decay = 0.0;        ///< weight decay (AdamW), times the step size
   bool weigh = true;         ///< weigh errors by Teacher::importance; otherwise all equally
   bool mirror = true;        ///< every other visit of a motion uses its mirror image
   bool follow_plan = false;  ///< the pupil observes the planned motions instead of their references
@@ -50,9 +49,7 @@ void visit_settings(SchoolConfig& school, const auto& visit) {
 }
 
 /// A pupil between two rounds.
-struct Pupil {
-  rl::Agent agent;
-  nn::Adam<float> adam;
+struct Pupil : PolicyInTraining {
   int rounds = 0;          ///< done
   std::int64_t taken = 0;  ///< lessons so far
 };

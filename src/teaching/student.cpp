@@ -33,50 +33,15 @@ struct Best {
   void consider(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                 const rl::Agent& candidate) {
     const auto alone = rl::tracking::roll_out(teacher.clip, task, rl::tracking::mean_action({candidate}));
-    const double fell = alone.broken                                      ? kFar
-                        : alone.worst_distance > motion::kMaxBodyDistance ? alone.worst_distance
-                                                                          : 0.0;
-    const double score = alone.mean_position_error + fell;
+    const double score = rl::tracking::distance_from_clip(alone);
     if (score < distance) *this = {candidate, score};
   }
   bool followed() const { return distance < motion::kMaxBodyDistance; }
-
-  static constexpr double kFar = 100.0;
 };
 
-/// A student with its optimiser.
-struct Student {
-  /// @param times  factor on width and steps
-  Student(const Teacher& teacher, const StudentConfig& config, int times)
-      : agent(beginner(teacher.clip->state_size(), {times * config.hidden, times * config.hidden},
-                       config.seed)),
-        adam(nn::make_adam<float>(nn::parameters(agent.actor))),
-        steps(times * std::max(config.least_steps,
-                               static_cast<int>(std::lround(config.steps_per_frame * teacher.size())))) {}
-
-  rl::Agent agent;
-  nn::Adam<float> adam;
-  int steps;  ///< of a round
-};
-
-/// The regression of one round. @param of_stage  index of the round in its stage
-/// @return the mean loss; none if it was stopped
-std::optional<double> study(const Lessons& lessons, const Teacher& teacher, const StudentConfig& config,
-                            int of_stage, const control::PlanControl& control, Random& random,
-                            RegressionScratch& scratch, Student& student) {
-  List<int> rows(config.regression.minibatch);
-  double loss = 0.0;
-  for (int step = 0; step < student.steps; ++step) {
-    if (control.should_stop && control.should_stop()) return {};
-    const double done = (of_stage + (step + 0.5) / student.steps) / config.rounds;
-    const double fall = (1.0 - done) * (1.0 - done);
-    const double step_size = config.last_step_size + fall * (config.step_size - config.last_step_size);
-    for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(lessons.rows())));
-    loss += regression_step(lessons, teacher.importance, rows, config.regression, step_size, control.threads,
-                            student.agent, student.adam, scratch) /
-            student.steps;
-  }
-  return loss;
+/// @param times  as wide as the first student
+PolicyInTraining new_student(const Teacher& teacher, const StudentConfig& config, int times) {
+  return untaught(teacher.clip->state_size(), {times * config.hidden, times * config.hidden}, config.seed);
 }
 
 }  // namespace
@@ -84,9 +49,10 @@ std::optional<double> study(const Lessons& lessons, const Teacher& teacher, cons
 std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
                                const StudentConfig& config, const control::PlanControl& control,
                                const std::function<void(const RoundStats&, const rl::Agent&)>& watch) {
-  Student student(teacher, config, 1);
+  PolicyInTraining student = new_student(teacher, config, 1);
+  int steps =
+      std::max(config.least_steps, static_cast<int>(std::lround(config.steps_per_frame * teacher.size())));
   Best best{student.agent};
-  RegressionScratch scratch;
   Lessons all;
   Random random(config.seed, {kStudentRows});
   RoundStats stats;
@@ -107,9 +73,14 @@ std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::Track
       stats.taken += lessons.rows();
     }
     const bool another = round == config.rounds && config.wider > 1;
-    if (another) student = Student(teacher, config, config.wider);
+    if (another) {
+      student = new_student(teacher, config, config.wider);
+      steps *= config.wider;
+    }
     if (round == 0 || another) scale_inputs(all, student.agent);
-    const auto loss = study(all, teacher, config, of_stage, control, random, scratch, student);
+    const RegressionRound of_this = {of_stage, config.rounds, steps, config.step_size, config.last_step_size};
+    const auto loss =
+        regression_round(all, teacher.importance, of_this, config.regression, control, random, student);
     if (!loss) return {};
     stats.loss = *loss;
     if (2 * (of_stage + 1) > config.rounds) best.consider(teacher, task, student.agent);

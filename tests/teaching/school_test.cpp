@@ -181,17 +181,5 @@ TEST(School, MirroredLessonsFavourNoSide) {
   EXPECT_LT(asymmetry(taught(config, 1, one_sided).agent, lessons), 0.7f * alone);
 }
 
-TEST(School, DecayShrinksWeightsButNotBiases) {
-  SchoolConfig config = quick_school();
-  config.step_size = config.last_step_size = 1e-9;  // hardly learns
-  config.rounds = 1;
-  const nn::Mlp<float> before = new_pupil(config).agent.actor;
-  config.decay = 1.0 / 1e-9 * 1e-3;  // a thousandth per step
-  const nn::Mlp<float> after = taught(config).agent.actor;
-  EXPECT_LT(after.weights[0].norm(), 0.999f * before.weights[0].norm());
-  EXPECT_GT(after.weights[0].norm(), 0.9f * before.weights[0].norm());
-  EXPECT_LT((after.biases[0] - before.biases[0]).norm(), 1e-5f);
-}
-
 }  // namespace
 }  // namespace mimicx::teaching

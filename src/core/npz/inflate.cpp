@@ -152,7 +152,7 @@ class Inflater {
                      s == 16 ? lengths.back() : std::uint8_t{0});
     }
     const std::span<const std::uint8_t> both(lengths);
-    return lengths.size() == all && literals_.set(both.first(first)) && distances_.set(told.subspan(first)) &&
+    return lengths.size() == all && literals_.set(both.first(first)) && distances_.set(both.subspan(first)) &&
            block();
   }
 
