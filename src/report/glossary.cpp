@@ -154,7 +154,7 @@ Table feasibility_words() {
       {"over_torque_share", {"share of frames with a joint over its bound", "", ""}},
       {"torque_max_share", {"largest torque, in parts of the joint's bound", "", ""}},
       {"lowest_mm", {"lowest point over the floor", "mm", ""}},
-      {"help_frames", {"frames that were planned with help", "", "by a plan's relaxed stage"}},
+      {"help_frames", {"frames that were planned with help", "", "by a plan's assisted stage"}},
       {"help_force_mean_N", {"help, on average", "N", "assistive force on the pelvis"}},
       {"help_force_max_N", {"help, at most", "N", ""}},
       {"help_accel_mean_m_s2", {"help by the body's mass, on average", "m/s²", ""}},

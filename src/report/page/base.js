@@ -16,7 +16,7 @@ function make(tag, properties = {}, ...children) {
 
 const with_minus = (text) => text.replace('-', '−');
 
-// A number as people read it: three digits, no more than it needs; a dash for none.
+// A number with at most three significant digits; a dash for a missing one.
 function short(value) {
   if (value === null || value === undefined) return '–';
   const size = Math.abs(value);
@@ -26,7 +26,7 @@ function short(value) {
   return with_minus(String(Number(value.toPrecision(size < 1 ? 2 : 3))));
 }
 
-// A number of an axis, which is round already.
+// A tick label of an axis: the number is round already.
 function tick_text(value) {
   const size = Math.abs(value);
   if (size >= 1e6) return with_minus(`${Number((value / 1e6).toPrecision(6))} M`);
@@ -72,7 +72,7 @@ function decode_numbers(text, sizes) {
 // Numbers that are never negative, all of one size.
 const decode_counts = (text, size) => decode_numbers(text, [size]).map((n) => n + 2 ** (6 * size - 1));
 
-// The same one by one.
+// The same, one after the other.
 function reader_of(text) {
   let at = 0;
   const read = (size) => decode_numbers(text.slice(at, at += size), [size])[0];

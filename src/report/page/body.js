@@ -3,9 +3,9 @@
 const body_count = 22, bodies_known = new Map();  // by key
 
 const element_json = (id) => { const element = $(id); return element ? JSON.parse(element.textContent) : null; };
-const skin = element_json('skin');  // what all bodies have in common; null where there is nothing to show
+const skin = element_json('skin');  // what all bodies share; null if there is nothing to show
 
-// The places of the joints where all bodies stand as the model does, one after another from the pelvis on.
+// Positions of the joints in the bind pose, from the pelvis on.
 function bind_joints(offsets) {
   const joints = [];
   offsets.forEach((offset, b) => joints.push(b === 0 ? [0, 0, 0] : offset.map((x, i) => x + joints[skin.parents[b]][i])));
@@ -25,7 +25,7 @@ function skin_parts() {
   return shared_skin;
 }
 
-// Vertices of a body as it stands in the model, [vertex][3]; and unit normals, means of the triangles around.
+// Vertices of a body in the bind pose, [vertex][3], and unit normals, means over the adjacent triangles.
 function skin_of(body) {
   if (body.places) return body;
   const {triangles, joints} = skin_parts(), raw = decode_numbers(body.vertices, [2]), places = new Float32Array(raw.length);
@@ -40,7 +40,7 @@ function skin_of(body) {
   return Object.assign(body, {places, normals});
 }
 
-// @param given  bodies that came with the clip; others stand in the page
+// @param given  bodies of the clip's file; others are in the page
 function take_body(key, given) {
   if (!bodies_known.has(key)) {
     const body = (given && given[key]) || element_json(`body-${key}`);
@@ -59,7 +59,7 @@ function put_rotation(x, y, z, out, at) {
            c * x * z - s * y, c * y * z + s * x, d + c * z * z], at);
 }
 
-// A motion as it comes → {frames, body, turns: [frame][body][9], places: [frame][body][3], m, centers, support}.
+// Decodes a motion → {frames, body, turns: [frame][body][9], places: [frame][body][3], m, centers, support}.
 function take_motion(motion, given) {
   const body = take_body(motion.body, given), {frames} = motion;
   const raw = decode_numbers(motion.poses, [3, 3, 3, ...Array(3 * body_count).fill(2)]), row = 3 + 3 * body_count;
@@ -77,7 +77,7 @@ function take_motion(motion, given) {
   return {frames, body, turns, places, centers: decode_numbers(motion.centers, [3]), support: decode_support(motion, places)};
 }
 
-// Corners of what the body stands on, [frame][corner][2], m.
+// Corners of the support polygon, [frame][corner][2], m.
 function decode_support(motion, places) {
   if (!motion.support) return null;
   const read = reader_of(motion.support);
@@ -87,7 +87,7 @@ function decode_support(motion, places) {
   });
 }
 
-// Where a point of a body is, world.
+// The world position of a point of a body.
 function point_of(motion, frame, b, p, offset = [0, 0]) {
   const at = Math.min(frame, motion.frames - 1) * body_count + b, R = 9 * at;
   return [0, 1, 2].map((i) => motion.places[3 * at + i] + (i < 2 ? offset[i] : 0) +

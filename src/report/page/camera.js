@@ -1,10 +1,10 @@
-// Cameras: how a point of the world comes onto the canvas.
+// Cameras: projection of world points onto the canvas.
 //
 // A camera is {rows, shift, lens}: x (right), y (down) and z (forward) of a point are rows · p + shift; the lens has focal
 // lengths and the middle of the picture in pixels of the canvas.
 
 const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-const nearest = 0.15;  // m before the camera
+const nearest = 0.15;  // m in front of the camera
 
 function make_camera(rows, shift, lens) {
   const project = (p) => {
@@ -14,7 +14,7 @@ function make_camera(rows, shift, lens) {
   return {rows, shift, lens, project};
 }
 
-// Around a point, seen in a part {x, y, width, height} of the canvas.
+// A camera that orbits a point, drawn in a part {x, y, width, height} of the canvas.
 function orbit_camera(centre, view, part) {
   const cy = Math.cos(view.yaw), sy = Math.sin(view.yaw), cp = Math.cos(view.pitch), sp = Math.sin(view.pitch);
   const rows = [[-sy, cy, 0], [cy * sp, sy * sp, -cp], [-cy * cp, -sy * cp, -sp]];
@@ -23,7 +23,7 @@ function orbit_camera(centre, view, part) {
                      {fx: focal, fy: focal, skew: 0, cx: part.x + part.width / 2, cy: part.y + part.height * 0.52});
 }
 
-// That of a clip at a frame. @param shown  {u, v, zoom}: what is in the middle of the part, px of the picture; how large
+// The camera of a clip at a frame. @param shown  {u, v, zoom}: centre of the view, px of the picture; magnification
 function clip_camera(camera, frame, shown, part) {
   const e = camera.extrinsics[camera.extrinsics.length > 1 ? Math.min(frame, camera.extrinsics.length - 1) : 0];
   const at = (middle, from, c) => middle + shown.zoom * (c - from);
@@ -32,7 +32,7 @@ function clip_camera(camera, frame, shown, part) {
                       cx: at(part.x + part.width / 2, shown.u, camera.cx), cy: at(part.y + part.height / 2, shown.v, camera.cy)});
 }
 
-// For the graphics processor: what brings a point of the world into its cube, column by column.
+// The projection matrix for WebGL's clip space, column by column.
 function clip_matrix({rows, shift, lens}, width, height) {
   const near = nearest, far = 200;
   const x = [0, 1, 2].map((i) => [rows[0][i], rows[1][i], rows[2][i]]).concat([shift]);

@@ -9,7 +9,7 @@ function svg(tag, attributes, ...children) {
 
 // Round numbers from at most `low` to at least `high`, about `count` of them.
 function nice_ticks(low, high, count) {
-  if (!(high > low)) {  // what does not change stands in the middle, or on zero
+  if (!(high > low)) {  // a constant value is in the middle, or on zero
     const room = Math.abs(low) || 1;
     high = low < 0 ? 0 : low + room;
     low = low < 0 ? low - room : 0;
@@ -22,7 +22,7 @@ function nice_ticks(low, high, count) {
 
 const plot = {width: 380, height: 190, left: 46, right: 10, top: 10, bottom: 34};
 
-// The path of what is known; a pen that is lifted over unknown values, or that joins them up.
+// The path of the known values, with gaps at unknown ones, or joined over them.
 function path_of(xs, values, X, Y, join) {
   let path = '', pen = 'M';
   values.forEach((v, i) => {
@@ -75,7 +75,7 @@ function chart_of(chart, on_time) {
   const Y = (y) => height - bottom - (height - top - bottom) * (y - y0) / (y1 - y0);
   const picture = svg('svg', {viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': chart.title.words});
   axes(picture, chart, {...ticks, x: ticks.x.filter((v) => v >= x0)}, X, Y);
-  // Lines that belong to no motion have looks of their own, and not the first one beside one that does.
+  // Lines that belong to no motion have their own dashes; beside lines of motions the first dash is not used.
   const rank = new Map();
   for (const line of chart.lines) if (!line.who) rank.set(line, rank.size + (chart.lines[0].who ? 1 : 0));
   for (const line of chart.lines)

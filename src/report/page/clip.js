@@ -1,9 +1,9 @@
-// One clip: its data, wherever that stands, and everything that is shown of it.
+// One clip: loads its data from the page or from its file, and shows it.
 
-const arrived = new Map();  // by index, what clips beside the page said
-const waiting = new Map();  // by name, what to do when it arrives
+const arrived = new Map();  // data of clip files, by index
+const waiting = new Map();  // callbacks for clip files, by name
 
-// The files beside the page call this.
+// Called by the clip files beside the page.
 function mimicx_clip(name, clip, bodies) {
   const take = waiting.get(name);
   waiting.delete(name);
@@ -66,7 +66,7 @@ function show_clip(index, ready) {
   $('status').className = row.ok ? 'ok' : 'failed';
   $('clip-message').textContent = 'loading …';
   load_clip(index, (clip, bodies) => {
-    if (Number($('clip').value) !== index) return;  // another one was asked for meanwhile
+    if (Number($('clip').value) !== index) return;  // another clip was chosen meanwhile
     show_loaded(index, clip, bodies);
     if (ready) ready();
   });

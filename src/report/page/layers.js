@@ -1,6 +1,6 @@
-// What can be switched on and off beside the canvas, and how the canvas is turned.
+// The switches beside the canvas, and turning the view.
 
-// Layers beside the motions: what they are called, and whether the clip has them here.
+// Layers beside the motions: names, and whether the clip has them in this view.
 const layers = [
   {key: 'forces', name: 'forces of the floor', there: () => player.ground, meaning: 'at their centres of pressure; a body weight is 0.9 m long'},
   {key: 'balance', name: 'centre of mass and support', there: () => true,
@@ -32,7 +32,7 @@ function show_layers() {
   show_ramp();
 }
 
-// The scale of the joints' colours, and the joint that has most to do.
+// The colour scale of the joints, and the joint with the largest torque share.
 function show_ramp() {
   $('ramp').hidden = !(player.layers.loads && player.torques);
   $('ramp-bar').style.background = `linear-gradient(to right, ${load_ramp.map((rgb) => `rgb(${rgb.join()})`).join()})`;

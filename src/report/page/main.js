@@ -1,5 +1,5 @@
-// The page as a whole: which of its two views is seen, keys, and the clock of the player.
-// report.html#2,30 opens the third clip at its frame 30; without anything behind it, all clips.
+// The whole page: switching between its two views, keys, and the clock of the player.
+// report.html#2,30 opens the third clip at its frame 30; without a hash, all clips.
 
 function route() {
   const [clip, frame] = location.hash.slice(1).split(',').map((text) => text === '' ? NaN : Number(text));

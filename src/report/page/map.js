@@ -11,7 +11,7 @@ const option_in_words = (option) => {
 
 const middle_of = (points) => [0, 1].map((i) => points.reduce((sum, p) => sum + p[i], 0) / points.length);
 
-// What two numbers of a motion have in common with a place on the map.
+// Scales from the two coordinates of a motion to positions on the map.
 function scales_of(points, plot) {
   const of = (i) => points.map((p) => p[i]), low = [0, 1].map((i) => Math.min(...of(i))), high = [0, 1].map((i) => Math.max(...of(i)));
   const room = [0, 1].map((i) => 0.06 * (high[i] - low[i] || 1));
@@ -19,7 +19,7 @@ function scales_of(points, plot) {
   return {x: (v) => plot.left + per[0] * (v - low[0] + room[0]), y: (v) => plot.height - plot.bottom - per[1] * (v - low[1] + room[1])};
 }
 
-// Names beside dots where they cover neither another name nor another dot; the others are said by the pointer.
+// Names beside dots where they cover neither another name nor another dot; the others appear under the pointer.
 function place_names(dots, picture) {
   const taken = dots.map(({x, y}) => ({x0: x - 6, x1: x + 6, y0: y - 6, y1: y + 6}));
   for (const {x, y, name} of dots) {

@@ -1,5 +1,5 @@
-// What is drawn over the bodies, in perspective: arrows, centres of mass, loads of the joints, keypoints; and on the floor
-// what a body stands on. Canvas 2D.
+// Marks over the bodies, in perspective: arrows, centres of mass, joint torques, keypoints; and on the floor the
+// support polygon. Canvas 2D.
 
 function draw_arrow(g, project, from, to, colour) {
   const a = project(from), b = project(to);
@@ -22,7 +22,7 @@ function draw_arrow(g, project, from, to, colour) {
   }
 }
 
-// A ball at a point of the air, its place on the floor and the line between.
+// A ball at a point, its projection on the floor and the line between.
 function draw_center(g, project, p, colour) {
   const ball = project(p), foot = project([p[0], p[1], 0]);
   if (ball.depth < nearest || foot.depth < nearest) return;
@@ -63,8 +63,8 @@ function draw_support(g, project, corners, offset, rgb) {
   g.stroke();
 }
 
-// How near to its bound the torque of a joint is: the ramp "cividis" (Nuñez, Anderton, Renslow, PLoS ONE 13 (2018)),
-// which people see alike whatever colours they tell apart; a joint beyond its bound is white.
+// Colour of a joint's torque in parts of its bound: the ramp "cividis" (Nuñez, Anderton, Renslow, PLoS ONE 13 (2018)),
+// which is readable with colour-vision deficiency; a joint over its bound is white.
 const load_ramp = [[0, 34, 78], [57, 72, 107], [110, 110, 115], [166, 157, 117], [225, 204, 85], [254, 232, 56]];
 function load_colour(share) {
   if (share > 1.001) return '#fff';
@@ -72,7 +72,7 @@ function load_colour(share) {
   return `rgb(${load_ramp[k].map((v, i) => Math.round(v + (at - k) * (load_ramp[k + 1][i] - v))).join()})`;
 }
 
-// A ball at every joint but the pelvis, farthest first, the larger the more it does.
+// A ball at every joint but the pelvis, farthest first; its size shows the torque share.
 function draw_loads(g, project, joints, shares) {
   const balls = joints.map((p, b) => ({...project(p), share: shares[b]})).slice(1).sort((a, b) => b.depth - a.depth);
   for (const ball of balls) {
@@ -87,7 +87,7 @@ function draw_loads(g, project, joints, shares) {
   }
 }
 
-// What a detector saw, each the fainter the less sure it was; and, in the body's colour, how far it is from there.
+// The detected points, fainter at low confidence, with lines to the body's points in the body's colour.
 // @param seen  [{x, y, confidence}] on the canvas @param bodies  [{points: [{x, y, depth}], rgb}]
 function draw_keypoints(g, seen, bones, bodies) {
   g.lineWidth = 2;

@@ -1,4 +1,4 @@
-// The first page: what the run was, a table of all clips, and how the metrics are spread before and after.
+// The first page: facts about the run, a table of all clips, and the distributions of the metrics before and after.
 
 const groups = [...new Set(data.metrics.map((m) => m.group))];
 const overview = {group: groups[0], sort: {column: 'status', down: false}, filter: ''};
@@ -6,7 +6,7 @@ const before = 0, between = 1, after = 2;  // the three values of a metric: inpu
 
 const metrics_shown = () => data.metrics.map((m, k) => ({...m, k})).filter((m) => m.group === overview.group);
 
-// Which of two values is the better one; every metric is the better the smaller it is. 0: neither.
+// The better of two values; for every metric smaller is better. 0: neither.
 function better_of(a, b) {
   if (a === null || b === null || a === b) return 0;
   return a < b ? -1 : 1;
@@ -56,7 +56,7 @@ function head_cell(column) {
   return cell;
 }
 
-// What hangs in the air neither slides nor sinks: the input's value says nothing then.
+// A floating input neither slides nor sinks, so its value is meaningless.
 const only_on_floor = ['FS', 'FS_0', 'GP', 'GP_max'];
 function hangs(row, metric) {
   const float = data.metrics.findIndex((m) => m.key === 'Float');
@@ -105,7 +105,7 @@ function show_groups() {
   }));
 }
 
-// ---- how the metrics are spread ---------------------------------------------------------------------
+// ---- distributions of the metrics ---------------------------------------------------------------------
 
 const known = (values) => values.filter((v) => v !== null);
 function median(values) {
@@ -113,7 +113,7 @@ function median(values) {
   return n === 0 ? null : n % 2 ? sorted[(n - 1) / 2] : (sorted[n / 2 - 1] + sorted[n / 2]) / 2;
 }
 
-// A dot per clip on one axis from 0 on: the inputs above, the cleaned below; a bar at the median.
+// A dot per clip on an axis from 0: the inputs above, the cleaned below; a bar at the median.
 function spread_of(metric) {
   const width = 340, left = 56, right = 14, height = 78;
   const of = (which) => data.rows.map((row) => row.values[metric.k][which]);

@@ -1,13 +1,13 @@
-// The clip as its own camera saw it: which part of the picture is shown, and the keypoints in it.
+// The clip's own camera view: the visible part of the picture, and the keypoints in it.
 
-// u, v and confidence of what was seen, [frame][point][3].
+// u, v and confidence of the detections, [frame][point][3].
 function decode_seen(camera) {
   const raw = decode_numbers(camera.seen, [3, 3, 1]), seen = new Float32Array(raw.length);
   for (let i = 0; i < raw.length; i += 3) seen.set([0.1 * raw[i], 0.1 * raw[i + 1], (raw[i + 2] + 32) / 63], i);
   return seen;
 }
 
-// The box around everything that was seen of the clip, and some room; what is hardly seen does not count.
+// The box around all detections of the clip, with a margin; detections of low confidence do not count.
 function box_of_clip() {
   const {seen} = player, box = {left: Infinity, right: -Infinity, top: Infinity, bottom: -Infinity};
   for (let i = 0; i < seen.length; i += 3) {
@@ -17,7 +17,7 @@ function box_of_clip() {
     box.top = Math.min(box.top, seen[i + 1]);
     box.bottom = Math.max(box.bottom, seen[i + 1]);
   }
-  const {cx, cy} = player.clip.camera;  // nothing seen at all: the whole picture
+  const {cx, cy} = player.clip.camera;  // no detections: the whole picture
   return box.left < box.right ? box : {left: 0, right: 2 * cx, top: 0, bottom: 2 * cy};
 }
 
@@ -39,7 +39,7 @@ function seen_at(frame, camera) {
   });
 }
 
-// The edge of the picture, as far as it can be told: its middle is where the lens looks.
+// The edge of the picture, an estimate: its middle is the principal point.
 function draw_edge(g, camera) {
   const {fx, fy, cx, cy} = player.clip.camera, {lens} = camera;
   g.strokeStyle = tones.ink;

@@ -1,5 +1,5 @@
-// The motions of one clip in one world: input where it was, reference, cleaned, truth; each can be switched off. Seen from
-// anywhere, or as the clip's own camera saw them.
+// The motions of one clip in one world: input, reference, cleaned, truth; each can be switched off. Seen from
+// anywhere, or by the clip's own camera.
 
 const view = {yaw: 0.5, pitch: 0.16, distance: 3.3, pan: [0, 0], zoom: 1};
 const player = {clip: null, index: -1, frames: 0, time: 0, playing: false, last: 0, stale: true, motions: {}, ground: null,
@@ -8,7 +8,7 @@ const player = {clip: null, index: -1, frames: 0, time: 0, playing: false, last:
                 layers: {forces: true, balance: false, loads: false, shapes: false, keypoints: true}};
 const tones = {};
 
-// The colours of the style sheet as numbers, again whenever the scheme changes.
+// The colours of the style sheet as numbers, read again when the colour scheme changes.
 function read_tones() {
   for (const who of Object.keys(people)) tones[who] = rgb_of(style_value(`--${who}`));
   tones.floor = [rgb_of(style_value('--floor-a')), rgb_of(style_value('--floor-b'))];
@@ -24,7 +24,7 @@ function frame_of(time) {
 }
 
 // Decodes a clip for the player. Frames past the end of a motion repeat its last one.
-// @param bodies  that came with it, by key
+// @param bodies  of its file, by key
 function take_clip(clip, bodies) {
   player.clip = clip;
   player.motions = {};
@@ -75,7 +75,7 @@ function panels_of(width, height, shown, frame) {
   return [{part, shown, offsets, camera: orbit_camera([pelvis[0], pelvis[1], 0.85], view, part)}];
 }
 
-// Bodies over others can be seen through; so can one whose joints are looked at, and what a camera saw.
+// Overlapping bodies are transparent; so is one whose joint torques are shown, and those in a camera view.
 function alpha_of(who, panel) {
   if (player.layers.loads && player.torques && who === 'cleaned') return 0.45;
   if (as_camera_saw() && player.layers.keypoints) return 0.6;
@@ -87,7 +87,7 @@ const camera_of = (who, panel) => who === 'input' && panel.of_input || panel.cam
 const figures_of = (panel, frame) => panel.shown.map((who, k) =>
     ({who, motion: player.motions[who], frame, offset: panel.offsets[k], rgb: tones[who], alpha: alpha_of(who, panel), camera: camera_of(who, panel)}));
 
-// Sky, floor, shadows, and what bodies stand on.
+// Sky, floor, shadows and support polygons.
 function draw_ground(g, panel, figures, frame) {
   const {part, camera} = panel, sky = g.createLinearGradient(0, 0, 0, part.height);
   tones.sky.forEach((tone, i) => sky.addColorStop(i, tone));
@@ -122,7 +122,7 @@ function draw_forces(g, project, frame, offset) {
   }
 }
 
-// Torques of the joints of a frame, 1 = the bound. Those of frame 0 are those of no interval: the next ones stand for them.
+// Torques of the joints of a frame, 1 = the bound. Frame 0 ends no interval, so it shows those of frame 1.
 function loads_at(frame) {
   const t = Math.min(Math.max(frame, 1), player.torques.length / body_count - 1);
   return Array.from(player.torques.subarray(t * body_count, (t + 1) * body_count), (n) => 1e-3 * n);
@@ -142,7 +142,7 @@ function draw_marks(g, figures, frame) {
   }
 }
 
-// The name of what is seen, where there is a picture for each.
+// The name of the motion, where each has its own picture.
 function draw_title(g, panel) {
   g.font = '600 13px system-ui, sans-serif';
   g.fillStyle = `rgb(${tones[panel.shown[0]].join()})`;
@@ -151,7 +151,7 @@ function draw_title(g, panel) {
 
 function draw_scene(canvas) {
   const {g, width, height, ratio} = resize(canvas);
-  if (!width || !height) return;  // it is not on the screen
+  if (!width || !height) return;  // not on the screen
   const frame = frame_of(player.time), panels = panels_of(width, height, visible(), frame), skins = skins_shown();
   const scenes = panels.map((panel) => ({panel, figures: figures_of(panel, frame)}));
   const within = (part, draw) => {

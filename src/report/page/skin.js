@@ -1,4 +1,4 @@
-// Skins on the graphics processor: bodies alone, on nothing. The canvas that this draws on is laid over the floor.
+// Draws skins with WebGL, on a transparent canvas over the canvas of the floor.
 
 const painter = {gl: null, canvas: null, tried: false, meshes: new Map(), places: {}};
 
@@ -42,7 +42,7 @@ function shader(gl, kind, text) {
   return made;
 }
 
-// Whether skins can be drawn here; without a graphics processor, or a program that stands in for one, shapes are shown.
+// Whether WebGL works here; otherwise the collision shapes are drawn.
 function can_paint() {
   if (!painter.tried && skin) {
     painter.tried = true;
@@ -93,7 +93,7 @@ function mesh_buffers(body) {
   return painter.meshes.get(body);
 }
 
-// What moves the vertices of the model into the world, [body][3 rows][4].
+// Matrices from the bind pose to the world, [body][3 rows][4].
 function bone_rows(motion, frame, offset) {
   const rows = new Float32Array(12 * body_count), t = Math.min(frame, motion.frames - 1);
   for (let b = 0; b < body_count; ++b) {
@@ -118,7 +118,7 @@ function begin_painting(width, height, ratio) {
   Object.assign(painter, {width, height, ratio});
 }
 
-// What a camera makes of the world, and the light that comes with it.
+// The camera's matrix and the direction of the light.
 function look_through(camera) {
   const {gl, places, width, height} = painter, [right, down, forward] = camera.rows;
   const light = right.map((r, i) => -0.5 * r - 0.75 * down[i] - 0.6 * forward[i]), long = Math.hypot(...light);
@@ -132,7 +132,7 @@ function paint_skins(figures, part) {
   const {gl, places, height, ratio} = painter;
   gl.scissor(Math.round(part.x * ratio), Math.round((height - part.y - part.height) * ratio),
              Math.round(part.width * ratio), Math.round(part.height * ratio));
-  for (const figure of [...figures].sort((a, b) => b.alpha - a.alpha)) {  // what can be seen through comes last
+  for (const figure of [...figures].sort((a, b) => b.alpha - a.alpha)) {  // transparent ones last
     look_through(figure.camera);
     const mesh = mesh_buffers(figure.motion.body);
     for (const [name, buffer, size] of [['place', mesh.places, 3], ['normal', mesh.normals, 3], ['joints', painter.joints, 4], ['weights', painter.weights, 4]]) {
@@ -142,7 +142,7 @@ function paint_skins(figures, part) {
     gl.uniform4fv(places.bones, bone_rows(figure.motion, figure.frame, figure.offset));
     gl.uniform4fv(places.colour, [...figure.rgb.map((v) => v / 255), figure.alpha]);
     const draw = () => gl.drawElements(gl.TRIANGLES, painter.count, gl.UNSIGNED_SHORT, 0);
-    if (figure.alpha < 1) {  // first how far it is, then how it looks: its far side must not shine through
+    if (figure.alpha < 1) {  // depth first, then colour, so that the far side does not shine through
       gl.colorMask(false, false, false, false);
       draw();
       gl.colorMask(true, true, true, true);

@@ -1,7 +1,7 @@
-// The rows under the player: the slider, where the input breaks the physics, the feet's contacts, and what would
-// have to push from outside.
+// The rows under the player: the slider, flaws of the input, contacts of the feet, and external forces that the
+// reference would need.
 
-// What is wrong with a frame of the reference, as kinds with a colour; the height of a bar says how much.
+// The faults of the reference's frames, a colour each; the height of a bar is the amount.
 const kinds = [
   {words: ['hovers', 'pulled'], colour: '--input', name: 'up or down'},
   {words: ['drifts', 'slips'], colour: '--cleaned', name: 'sideways'},
@@ -27,7 +27,7 @@ function bar_row(bars) {
   return [label, track];
 }
 
-// Which option acts, in the colours of the clusters that the options were made of.
+// The option that acts, in the colour of its cluster.
 function option_row(stretches) {
   const track = make('div', {className: 'track options'});
   for (const [first, last, option] of stretches) {
@@ -56,8 +56,8 @@ function show_timeline() {
   if (!clip.needs) return;
   $('band').style.height = `${band.row * (clip.help ? 2 : 1)}px`;
   const kind_shown = kinds.filter((k) => k.words.some((w) => clip.needs.wrong.includes(w)));
-  const keys = [{colour: '--feasible', name: 'a body can do it'}, ...kind_shown];
-  if (clip.help) keys.push({colour: '--truth', name: 'help in the plan\'s soft stage (lower row)'});
+  const keys = [{colour: '--feasible', name: 'feasible'}, ...kind_shown];
+  if (clip.help) keys.push({colour: '--truth', name: 'help in the plan\'s assisted stage (lower row)'});
   $('need-key').replaceChildren('a full bar is half the weight or more:', ...keys.flatMap((k) => {
     const swatch = make('i');
     swatch.style.background = `var(${k.colour})`;
@@ -69,16 +69,16 @@ function show_timeline() {
 const kind_of = (word) => kinds.find((k) => k.words.includes(word));
 const amount = (n, t) => `${short(Math.round(n.force[t]))} N (${n.acceleration[t].toFixed(1)} m/s²) and ${short(Math.round(n.moment[t]))} N·m`;
 
-// "frame 61 (2.03 s): the reference is not feasible (hovers); 310 N (4.4 m/s²) and 12 N·m would have to come …"
+// "frame 61 (2.03 s): the reference is not feasible (hovers); 310 N (4.4 m/s²) and 12 N·m would be needed from outside"
 function need_in_words(frame) {
   const clip = player.clip;
   let text = `frame ${frame} (${(frame / clip.fps).toFixed(2)} s): `;
-  if (frame >= clip.needs.force.length) return text + 'behind the end of the reference';
+  if (frame >= clip.needs.force.length) return text + 'after the end of the reference';
   const word = clip.needs.wrong[frame];
-  text += word === 'feasible' ? 'a body can do what the reference asks' : `no body can do what the reference asks (${word})`;
-  text += `; ${amount(clip.needs, frame)} would have to come from outside`;
+  text += word === 'feasible' ? 'the reference is feasible' : `the reference is not feasible (${word})`;
+  text += `; ${amount(clip.needs, frame)} would be needed from outside`;
   if (!clip.help || frame >= clip.help.force.length) return text;
-  return text + `; in the soft stage ${amount(clip.help, frame)} helped the pelvis`;
+  return text + `; in the assisted stage ${amount(clip.help, frame)} helped the pelvis`;
 }
 
 function draw_band() {
@@ -94,7 +94,7 @@ function draw_band() {
   if (clip.help) bars(clip.help, 2 * band.row, () => '--truth');
 }
 
-// What follows the present frame.
+// Updates everything that depends on the present frame.
 function update_timeline(frame) {
   const clip = player.clip;
   $('scrub').value = frame;
