@@ -1,6 +1,6 @@
 /// The external force that a reference would need: for the manifest, for feasibility/NAME.npz, and in words.
 ///
-/// The poses alone give an external force (audit/pose_needs.h). If a plan failed, its relaxed stage gives
+/// The poses alone give an external force (audit/pose_needs.h). If a plan failed, its assisted stage gives
 /// another one, with simulated contacts: the assistive force on the pelvis that remained although it has a
 /// cost.
 #pragma once
@@ -17,7 +17,7 @@ namespace mimicx::judge {
 /// Without frames if the reference has fewer than 3.
 audit::PoseNeeds needs_of(const motion::Reference& reference);
 
-/// Frames that the relaxed stage reached, mean and largest force, acceleration and moment of its help, and
+/// Frames that the assisted stage reached, mean and largest force, acceleration and moment of its help, and
 /// the frame of the largest force. Empty without help. @param help  moment and force, N·m, N
 NamedValues help_values(const PerFrame<Vector6d>& help, double mass);
 

@@ -55,7 +55,7 @@ run::SimulatedSequence fine_tune(const motion::Reference& reference, const optio
   run::SequenceJob rest = run::after_seconds(job, record::steady_seconds() - watch.started);
   rest.input_checksum = start_of_training(job, *sets[chosen.set], arranged.options);
   run::SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, training, rest);
-  if (watch.timed_out) made.ending = record::Ending::kLimitSeconds;
+  if (watch.timed_out) made.ending = record::SequenceEnding::kLimitSeconds;
   made.method = "paper";
   made.arrangement = options::stretches_of(arranged.options);
   for (auto& [frame, option] : made.arrangement) option += options::first_option(sets, chosen.set);

@@ -83,8 +83,8 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
 
 /// Writes the log first, so that it always has all rows of the checkpoint.
 void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& environment,
-          const TrainingConfig& config, const TrainingFiles& files, const Best& best, record::Ending ending,
-          const record::Table& log) {
+          const TrainingConfig& config, const TrainingFiles& files, const Best& best,
+          record::SequenceEnding ending, const record::Table& log) {
   for (const auto* file : {&files.log, &files.falls, &files.checkpoint}) make_folder(file->parent_path());
   write_file_atomically(files.log, record::format_csv(log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
@@ -101,11 +101,11 @@ void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& envir
 
 /// Continues from the checkpoint, if there is one of this input, and drops newer rows of the log.
 /// @return how that training ended; kNone if it continues
-record::Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, record::Table& log) {
-  if (!std::filesystem::exists(files.checkpoint)) return record::Ending::kNone;
+record::SequenceEnding resume(Trainer& trainer, const TrainingFiles& files, Best& best, record::Table& log) {
+  if (!std::filesystem::exists(files.checkpoint)) return record::SequenceEnding::kNone;
   const Npz archive = read_npz(files.checkpoint);
   if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum})
-    return record::Ending::kNone;
+    return record::SequenceEnding::kNone;
   trainer.load(archive, kTrainerPrefix);
   for (std::size_t k = 0; k < best.agents.size(); ++k)
     best.agents[k] = rl::load_agent(archive, kBestPrefix + std::to_string(k) + ".");
@@ -114,7 +114,7 @@ record::Ending resume(Trainer& trainer, const TrainingFiles& files, Best& best, 
   log.rows = record::read_csv(files.log).rows;
   const auto iterations = static_cast<std::size_t>(trainer.iterations());
   if (log.rows.size() > iterations) log.rows.resize(iterations);
-  return static_cast<record::Ending>(static_cast<int>(whole_number_at(archive, kEndingKey)));
+  return static_cast<record::SequenceEnding>(static_cast<int>(whole_number_at(archive, kEndingKey)));
 }
 
 std::string detail_of(const rl::IterationStats& s) {
@@ -161,7 +161,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   Best best{agents};
   Trainer trainer(config.ppo, course_of(config), std::move(agents), environment);
   record::Table log = empty_training_log();
-  record::Ending ending = resume(trainer, files, best, log);
+  record::SequenceEnding ending = resume(trainer, files, best, log);
   control.progress(trainer.samples(), "");
 
   const double started = record::steady_seconds();
@@ -169,27 +169,27 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
   TrainingResult result;
   if (std::isinf(best.score))  // the initial agents are candidates, too
     consider(best, trainer, evaluate(clips, config.tracking, best.agents, control.threads).score);
-  if (config.samples == 0) ending = record::Ending::kBudget;
-  if (ending == record::Ending::kBudget && trainer.samples() < config.samples)
-    ending = record::Ending::kNone;  // this budget is larger than the checkpoint's
+  if (config.samples == 0) ending = record::SequenceEnding::kBudget;
+  if (ending == record::SequenceEnding::kBudget && trainer.samples() < config.samples)
+    ending = record::SequenceEnding::kNone;  // this budget is larger than the checkpoint's
   // A checkpoint of more samples belongs to a later, larger budget (pretrain.h): nothing to train here.
-  while (ending == record::Ending::kNone && trainer.samples() < config.samples) {
+  while (ending == record::SequenceEnding::kNone && trainer.samples() < config.samples) {
     const rl::IterationStats stats = trainer.iterate(control.threads);
-    if (stats.samples >= config.samples) ending = record::Ending::kBudget;
+    if (stats.samples >= config.samples) ending = record::SequenceEnding::kBudget;
     TrainingLogRow row = {stats, environment.statistics(), environment.sharpness(), kNan, kNan};
-    if (ending == record::Ending::kBudget || stats.iteration % config.evaluate_iterations == 0) {
+    if (ending == record::SequenceEnding::kBudget || stats.iteration % config.evaluate_iterations == 0) {
       const MeanRollout rollout = evaluate(clips, config.tracking, trainer.agents(), control.threads);
       consider(best, trainer, rollout.score);
       row.rollout_reward = rollout.reward;
       row.rollout_position_error = rollout.position_error;
       if (config.stop_reward > 0.0 && rollout.reward >= config.stop_reward)
-        ending = record::Ending::kThreshold;
+        ending = record::SequenceEnding::kThreshold;
       else if (config.stall_evaluations > 0 && best.age >= config.stall_evaluations)
-        ending = record::Ending::kStall;
+        ending = record::SequenceEnding::kStall;
     }
     append(log, row);
     control.progress(stats.samples, detail_of(stats));
-    if (ending != record::Ending::kNone) break;
+    if (ending != record::SequenceEnding::kNone) break;
     const double now = record::steady_seconds();
     if (now - saved >= control.checkpoint_seconds) {
       save(trainer, environment, config, files, best, ending, log);
@@ -200,12 +200,12 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
       break;
     }
     if (control.limit_seconds > 0.0 && now - started >= control.limit_seconds) {
-      result.ending = record::Ending::kLimitSeconds;
+      result.ending = record::SequenceEnding::kLimitSeconds;
       break;
     }
   }
   save(trainer, environment, config, files, best, ending, log);
-  if (ending != record::Ending::kNone) result.ending = ending;
+  if (ending != record::SequenceEnding::kNone) result.ending = ending;
   result.agents = best.agents;
   result.samples = trainer.samples();
   result.seconds = record::steady_seconds() - started;

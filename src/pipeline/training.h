@@ -44,7 +44,7 @@ struct TrainingControl {
 struct TrainingResult {
   std::vector<rl::Agent> agents;  ///< the best of those that were rolled out during the training
   std::int64_t samples = 0;
-  record::Ending ending = record::Ending::kBudget;
+  record::SequenceEnding ending = record::SequenceEnding::kBudget;
   bool interrupted = false;  ///< `should_stop` was true: the state is in the checkpoint
   double seconds = 0.0;      ///< of this call
 };

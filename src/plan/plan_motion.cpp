@@ -93,16 +93,16 @@ NamedValues numbers_of_plan(const control::Plan& plan) {
           {"by_way_of_help", plan.by_way_of_help ? 1.0 : 0.0}};
 }
 
-record::Ending ending_of(const control::Plan& plan) {
+record::SequenceEnding ending_of(const control::Plan& plan) {
   switch (plan.ending) {
     case control::Ending::kFollowed:
-      return record::Ending::kFollowed;
+      return record::SequenceEnding::kFollowed;
     case control::Ending::kLost:
-      return record::Ending::kLost;
+      return record::SequenceEnding::kLost;
     case control::Ending::kStopped:
-      return record::Ending::kLimitSeconds;
+      return record::SequenceEnding::kLimitSeconds;
   }
-  return record::Ending::kNone;
+  return record::SequenceEnding::kNone;
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
   made.plan = numbers_of_plan(plan);
   made.help = control::wrenches_of(plan.soft_help, reference.character.total_mass());
   if (plan.loss) made.reason = loss_in_words(*plan.loss, job.needs, made.help);
-  if (made.ending == record::Ending::kLimitSeconds)
+  if (made.ending == record::SequenceEnding::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);
   if (planned) *planned = std::move(stored->plan);

@@ -27,7 +27,7 @@ run::SimulatedSequence teach_after(const AdaptConfig& config, const motion::Refe
   made.interrupted = taught.interrupted;
   made.training_seconds = taught.seconds;
   if (taught.interrupted) return made;
-  if (taught.timed_out) made.ending = record::Ending::kLimitSeconds;
+  if (taught.timed_out) made.ending = record::SequenceEnding::kLimitSeconds;
   made.policy = taught.values;
   made.samples = taught.samples;
   if (!taught.note.empty()) made.notes.push_back(taught.note);
@@ -72,8 +72,8 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   kept.samples = trained.samples;
   kept.plan = plan.plan;
   kept.help = plan.help;
-  for (const record::Ending ending : {plan.ending, trained.ending})
-    if (ending == record::Ending::kLimitSeconds) kept.ending = ending;
+  for (const record::SequenceEnding ending : {plan.ending, trained.ending})
+    if (ending == record::SequenceEnding::kLimitSeconds) kept.ending = ending;
   if (!keep_plan && !plan.reason.empty()) kept.notes.push_back(plan.reason);
   kept.notes.push_back("plan: " + judge::in_words(planned) + "; policies: " + judge::in_words(learned) +
                        "; written: " + (keep_plan ? "the plan" : "the policies"));

@@ -2,7 +2,7 @@
 /// docs/formats.md
 ///
 /// From two sources: inverse dynamics of the poses alone (audit/pose_needs.h), for every reference; and the
-/// assistive force that remained in a plan's relaxed stage (control/plan.h), where there was one.
+/// assistive force that remained in a plan's assisted stage (control/plan.h), where there was one.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct FrameFeasibility {
   PerFrame<Vector6d> need;      ///< external moment about the centre of mass and force, N·m, N, world axes
   PerFrame<std::string> wrong;  ///< "feasible", or the fault in one word
   PerFrame<Vector6d> help;  ///< assistive moment and force on the pelvis until the next frame, N·m, N, world
-                            ///< axes, of the frames that the relaxed stage reached; empty without one
+                            ///< axes, of the frames that the assisted stage reached; empty without one
 
   /// Of the body's mass under a need or help, m/s².
   double acceleration(const Vector6d& wrench) const { return wrench.tail<3>().norm() / mass; }

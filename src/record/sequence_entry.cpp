@@ -23,10 +23,10 @@ Json checksums_json(const FileChecksums& files) {
   return json;
 }
 
-Ending ending_of(const std::string& name) {
+SequenceEnding ending_of(const std::string& name) {
   const auto found = std::find(kEndings.begin(), kEndings.end(), name);
   if (found == kEndings.end()) throw JsonError("an ending '" + name + "'");
-  return static_cast<Ending>(found - kEndings.begin());
+  return static_cast<SequenceEnding>(found - kEndings.begin());
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace mimicx::record {
 using FileChecksums = std::vector<std::pair<std::string, std::string>>;
 
 /// How the work on a motion ended.
-enum class Ending {
+enum class SequenceEnding {
   kNone,          ///< the input could not be used
   kBudget,        ///< all samples were spent
   kThreshold,     ///< a roll-out was good enough
@@ -36,7 +36,7 @@ struct SequenceEntry {
   bool ok = false;
   std::string reason;  ///< why it failed
   std::string method;  ///< what made the motion: imitate, plan, policy or paper
-  Ending ending = Ending::kNone;
+  SequenceEnding ending = SequenceEnding::kNone;
   int frames = 0;
   double fps = 0.0;
   std::uint64_t seed = 0;
@@ -61,7 +61,7 @@ struct SequenceEntry {
   std::vector<std::string> notes;
 
   /// Whether the same command keeps this result instead of repeating the work.
-  bool finished() const { return !output.empty() && ending != Ending::kLimitSeconds; }
+  bool finished() const { return !output.empty() && ending != SequenceEnding::kLimitSeconds; }
 };
 
 /// A member per value; null for NaN.

@@ -62,7 +62,7 @@ struct SimulatedSequence {
   bool interrupted = false;  ///< the job's context requested a stop: only the seconds below are set
   std::string method;        ///< that made the result: imitate, plan or paper
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
-  record::Ending ending = record::Ending::kNone;
+  record::SequenceEnding ending = record::SequenceEnding::kNone;
   std::int64_t samples = 0;
   std::optional<rl::tracking::TrackingRollout> before;  ///< of the agents before training; a plan has none
   rl::tracking::TrackingRollout after;                  ///< the result
@@ -71,8 +71,9 @@ struct SimulatedSequence {
   NamedValues policy = {};  ///< how well the policy acts that the plan taught; or empty
   std::optional<files::StoredPolicy> taught = {};  ///< that policy, for the run to write
   std::vector<rl::Agent> agents = {};              ///< of a training
-  PerFrame<Vector6d> help = {};  ///< remaining assistive moment and force of a plan's relaxed stage; or empty
-  std::string reason = {};       ///< why it is no success, or may be none, if the method knows
+  PerFrame<Vector6d> help =
+      {};                   ///< remaining assistive moment and force of a plan's assisted stage; or empty
+  std::string reason = {};  ///< why it is no success, or may be none, if the method knows
   std::vector<std::string> notes = {};  ///< for the manifest
 };
 

@@ -83,14 +83,14 @@ std::string failures(const std::vector<record::SequenceEntry>& entries) {
 std::string ended_by(const record::SequenceEntry& entry) {
   const std::string budget = entry.method == "imitate" ? "--samples" : "--budget-samples";
   switch (entry.ending) {
-    case record::Ending::kBudget:
+    case record::SequenceEnding::kBudget:
       return "the training spent its budget: with a larger " + budget + " than " +
              std::to_string(entry.samples) + " the same command continues it";
-    case record::Ending::kLimitSeconds:
+    case record::SequenceEnding::kLimitSeconds:
       return "the time limit ended it: with a larger --limit-seconds the same command continues";
-    case record::Ending::kStall:
+    case record::SequenceEnding::kStall:
       return "the training stopped improving: another --seed starts a new one, in another folder";
-    case record::Ending::kLost:
+    case record::SequenceEnding::kLost:
       if (entry.samples == 0) return "no policy was trained: mimicx adapt trains policies where a plan fails";
       return "neither a plan nor policies could follow: with a larger --budget-samples than " +
              std::to_string(entry.samples) + " the same command continues the training";

@@ -76,7 +76,7 @@ void restore_files(const Worker& worker, const record::SequenceEntry& entry,
 /// Whether a training spent its budget and now has a larger one.
 bool goes_on(const RunState& run, const record::SequenceEntry& there) {
   return there.samples > 0 && there.samples < run.method.samples &&
-         (there.ending == record::Ending::kBudget || !there.ok);
+         (there.ending == record::SequenceEnding::kBudget || !there.ok);
 }
 
 /// Fills in what is known before any work on an input. @param there  its earlier result, or null
@@ -89,10 +89,10 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
   entry.seed = run.method.seed;
   entry.input_checksum = record::file_checksum(input);
   const auto has = [](const std::filesystem::path& file) { return std::filesystem::exists(file); };
-  const bool complete =
-      there && has(run.folder.root / there->output) &&
-      (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
-      (!run.config.gains || there->ending != record::Ending::kFollowed || has(run.folder.gains(entry.name)));
+  const bool complete = there && has(run.folder.root / there->output) &&
+                        (!run.config.substeps || has(run.folder.substeps(entry.name))) &&
+                        (!run.config.gains || there->ending != record::SequenceEnding::kFollowed ||
+                         has(run.folder.gains(entry.name)));
   if (!complete || !there->finished() || there->input_checksum != entry.input_checksum) return true;
   if (goes_on(run, *there)) return true;
   const std::vector<std::string> damaged = damaged_files(run.folder, *there);

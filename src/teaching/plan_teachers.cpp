@@ -36,7 +36,7 @@ std::vector<PlannedMotion> planned_motions(const record::RunFolder& run) {
   std::vector<PlannedMotion> motions;
   for (const record::SequenceEntry& entry : record::read_manifest(run.manifest()).sequences) {
     if (!std::filesystem::exists(run.plan(entry.name))) continue;
-    PlannedMotion motion{run, entry.name, entry.input, {}, entry.ending == record::Ending::kFollowed};
+    PlannedMotion motion{run, entry.name, entry.input, {}, entry.ending == record::SequenceEnding::kFollowed};
     for (const auto& [file, checksum] : entry.files)
       if (run.root / file == run.plan(entry.name)) motion.checksum = checksum;
     motions.push_back(std::move(motion));

@@ -277,13 +277,13 @@ TEST_F(Imitate, RecordsTheTimeLimitAndTheSameCommandContinues) {
   config.run.limit_seconds = 1e-9;
   run(config);
   const record::SequenceEntry stopped = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(stopped.ending, record::Ending::kLimitSeconds);
+  EXPECT_EQ(stopped.ending, record::SequenceEnding::kLimitSeconds);
   EXPECT_EQ(stopped.samples, 64 * 8);
   EXPECT_EQ(stopped.output, "motions/stand.npz");
   config.run.limit_seconds = 0.0;
   run(config);
   const record::SequenceEntry done = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(done.ending, record::Ending::kBudget);
+  EXPECT_EQ(done.ending, record::SequenceEnding::kBudget);
   EXPECT_EQ(done.samples, 6 * 64 * 8);
 }
 

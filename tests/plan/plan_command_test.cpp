@@ -74,7 +74,7 @@ TEST_F(PlanMotions, RecordsThePlanAndPassesTheAudit) {
   const record::SequenceEntry& entry = manifest.sequences.at(0);
   EXPECT_TRUE(entry.ok) << entry.reason;
   EXPECT_EQ(entry.method, "plan");
-  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kFollowed);
   EXPECT_EQ(value_of(entry.plan, "frames"), 20);
   EXPECT_GT(value_of(entry.plan, "iterations"), 0);
   EXPECT_LT(value_of(entry.metrics, "gMPJPE"), 5.0);
@@ -204,7 +204,7 @@ TEST_F(PlanMotions, FailedPlanSaysWhereAndWhyAndOthersFinish) {
   EXPECT_EQ(run(planning("run", {lean, stand})).value, record::RunOutcome::kSomeFailed);
   const record::SequenceEntry lost = entry("run", 0), done = entry("run", 1);
   EXPECT_FALSE(lost.ok);
-  EXPECT_EQ(lost.ending, record::Ending::kLost);
+  EXPECT_EQ(lost.ending, record::SequenceEnding::kLost);
   EXPECT_EQ(lost.output, "rejected/lean.npz");
   EXPECT_LT(value_of(lost.plan, "frames"), 45);
   for (const char* words :
@@ -270,11 +270,11 @@ TEST_F(PlanMotions, RecordsTheTimeLimitAndTheSameCommandContinues) {
   PlanMotionsConfig config = planning("run", {other});
   config.run.limit_seconds = 1e-9;
   run(config);
-  EXPECT_EQ(entry("run").ending, record::Ending::kLimitSeconds);
+  EXPECT_EQ(entry("run").ending, record::SequenceEnding::kLimitSeconds);
   EXPECT_EQ(value_of(entry("run").plan, "frames"), 1);
   config.run.limit_seconds = 0.0;
   run(config);
-  EXPECT_EQ(entry("run").ending, record::Ending::kFollowed);
+  EXPECT_EQ(entry("run").ending, record::SequenceEnding::kFollowed);
   EXPECT_TRUE(entry("run").ok) << entry("run").reason;
 }
 

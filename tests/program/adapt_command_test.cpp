@@ -26,7 +26,7 @@ TEST_F(Adapt, RecordsArrangementEndingAndWhatTheOptionsDidBefore) {
   const record::SequenceEntry& entry = manifest.sequences.at(0);
   ASSERT_FALSE(entry.arrangement.empty());
   EXPECT_EQ(entry.arrangement.front()[0], 0);
-  EXPECT_EQ(entry.ending, record::Ending::kBudget);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kBudget);
   EXPECT_FALSE(entry.metrics_before.empty());
   EXPECT_TRUE(entry.fit.empty()) << "no keypoints, no fit";
 }
@@ -233,7 +233,7 @@ TEST_F(Adapt, BeamSearchIsInterruptibleAndCountsItsSeconds) {
   config.run.limit_seconds = 1e-9;
   run(config);
   const record::SequenceEntry entry = record::read_manifest(out("hasty") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(entry.ending, record::Ending::kLimitSeconds);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kLimitSeconds);
   EXPECT_EQ(entry.arrangement, (std::vector<std::array<int, 2>>{{0, 0}}));
   bool said = false;
   for (const std::string& note : entry.notes)
@@ -247,13 +247,13 @@ TEST_F(Adapt, RecordsThresholdAndStallEndings) {
   config.training.stop_reward = 1e-9;  // whatever it does is good enough
   run(config);
   EXPECT_EQ(record::read_manifest(out("good") / "manifest.json").sequences.at(0).ending,
-            record::Ending::kThreshold);
+            record::SequenceEnding::kThreshold);
   config = adapting("stalled", "options");
   config.training.stall_evaluations = 1;
   config.training.ppo.step_size = config.training.ppo.step_max = config.training.ppo.step_min = 1e-30;
   run(config);
   EXPECT_EQ(record::read_manifest(out("stalled") / "manifest.json").sequences.at(0).ending,
-            record::Ending::kStall);
+            record::SequenceEnding::kStall);
 }
 
 TEST_F(Adapt, ResultDoesNotDependOnTheTruth) {
@@ -336,7 +336,7 @@ TEST_F(Adapt, FollowedPlanTeachesAPolicyWithoutOtherTraining) {
   const AdaptConfig config = teaching_quickly(adapting("run", "options"));
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(entry.ending, record::Ending::kFollowed);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kFollowed);
   EXPECT_TRUE(entry.arrangement.empty());
   EXPECT_FALSE(std::filesystem::exists(out("run") / "training")) << "no PPO where the student follows";
   EXPECT_EQ(value_of(entry.policy, "success"), 1.0);
@@ -405,7 +405,7 @@ TEST_F(Adapt, RecordsTeachingStoppedByTheTimeLimit) {
   config.run.limit_seconds = 2.0;  // the plan takes a twentieth of that
   run(config);
   const record::SequenceEntry entry = record::read_manifest(out("run") / "manifest.json").sequences.at(0);
-  EXPECT_EQ(entry.ending, record::Ending::kLimitSeconds);
+  EXPECT_EQ(entry.ending, record::SequenceEnding::kLimitSeconds);
   EXPECT_TRUE(entry.ok) << "the plan's motion is there all the same";
   EXPECT_NE(entry.notes.back().find("--limit-seconds"), std::string::npos) << entry.notes.back();
   EXPECT_FALSE(std::filesystem::exists(out("run") / "policies" / "sway.npz"));

@@ -20,7 +20,7 @@ inline Manifest example_manifest() {
   e.input_checksum = "00ff";
   e.output = "motions/walk.npz";
   e.ok = true;
-  e.ending = Ending::kBudget;
+  e.ending = SequenceEnding::kBudget;
   e.frames = 150;
   e.fps = 30.0;
   e.seed = m.seed;

@@ -61,9 +61,9 @@ TEST(Manifest, ResultIsFinishedUnlessMissingOrStoppedByTheTimeLimit) {
   EXPECT_TRUE(e.finished());
   e.ok = false;  // it fell: spending the same samples again gives the same fall
   EXPECT_TRUE(e.finished());
-  e.ending = Ending::kLimitSeconds;
+  e.ending = SequenceEnding::kLimitSeconds;
   EXPECT_FALSE(e.finished());
-  e.ending = Ending::kNone;
+  e.ending = SequenceEnding::kNone;
   e.output.clear();
   EXPECT_FALSE(e.finished());
 }
