@@ -200,7 +200,7 @@ std::vector<std::string> summary_of(const std::string& format, const RetargetRep
   return {format + ": " + rate + axis_name(report.up) + " up, " + unit_name(report.scale),
           std::string(standard ? "standard body" : "body shape fitted") + ", joints " +
               short_number(report.mean_residual_mm) +
-              " mm from the skeleton's in the mean; neutral pose: " + report.neutral,
+              " mm from the skeleton's on average; neutral pose: " + report.neutral,
           "moved " + short_number(std::abs(report.lift)) + " m " + (report.lift < 0.0 ? "down" : "up") +
               " to the floor; --verbose lists every decision"};
 }

@@ -117,7 +117,7 @@ TEST_F(Cli, CorruptRejectsUnknownNoise) {
   EXPECT_TRUE(says(unknown, "known: independent, gvhmr, vibe")) << unknown.text;
   const Call amplitude = mimicx(start + "stature=0,mystery=1");
   EXPECT_EQ(amplitude.status, 2);
-  EXPECT_TRUE(says(amplitude, "no amplitude 'mystery'; known: joint_static")) << amplitude.text;
+  EXPECT_TRUE(says(amplitude, "unknown amplitude 'mystery'; known: joint_static")) << amplitude.text;
   EXPECT_EQ(mimicx(start + "stature=0,proportions=0").status, 0);
   EXPECT_EQ(motion::read_clip(path("b/noisy/x.npz")).betas, motion::standing_clip(20).betas);
 }

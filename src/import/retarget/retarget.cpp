@@ -272,9 +272,9 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   measure(clip, source, report.lift, report);
   clip.decisions.push_back(sentence(
       config.standard_body
-          ? "standard body: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the mean"
-          : "body shape fitted: legs are %.3f times the skeleton's, joints %.0f mm from its joints in the "
-            "mean",
+          ? "standard body: legs are %.3f times the skeleton's, joints %.0f mm from its joints on average"
+          : "body shape fitted: legs are %.3f times the skeleton's, joints %.0f mm from its joints on "
+            "average",
       report.leg_ratio, report.mean_residual_mm));
   clip.decisions.push_back(residuals_line(report));
   std::string missing;

@@ -30,7 +30,7 @@ TEST(NoiseModel, IsChosenByNameWithSingleAmplitudesSetByValue) {
 
 TEST(NoiseModel, RejectsUnknownWordsListingTheKnownOnes) {
   EXPECT_NE(complaint({"mystery"}).find("independent, gvhmr, vibe"), std::string::npos);
-  EXPECT_NE(complaint({"burst_rate=1"}).find("no amplitude 'burst_rate'; known: joint_static"),
+  EXPECT_NE(complaint({"burst_rate=1"}).find("unknown amplitude 'burst_rate'; known: joint_static"),
             std::string::npos);
   EXPECT_NE(complaint({"gvhmr", "stature=1"}).find("known: joint_static, joint_slow, slow_tau"),
             std::string::npos);
