@@ -73,7 +73,7 @@ TEST_F(CliOutputs, ReplacesOwnFilesAndOthersOnlyByForce) {
     std::ofstream(file) << "years of work";
     const Call refused = mimicx(asked.arguments);
     EXPECT_EQ(refused.status, 2) << asked.name << ": " << refused.text;
-    EXPECT_TRUE(says(refused, asked.file + " is there")) << asked.name << ": " << refused.text;
+    EXPECT_TRUE(says(refused, asked.file + " exists")) << asked.name << ": " << refused.text;
     EXPECT_EQ(read_file(file), "years of work") << asked.name;
     const Call forced = mimicx(asked.arguments + " --force");
     EXPECT_LE(forced.status, 1) << asked.name << ": " << forced.text;
@@ -114,7 +114,7 @@ TEST_F(CliOutputs, CleanCopyNeverReplacesOtherFiles) {
   const std::string command = "plan " + path("in/w.npz") + " --threads 1";
   const Call refused = mimicx(command);
   EXPECT_EQ(refused.status, 2) << refused.text;
-  EXPECT_TRUE(says(refused, "w.clean.npz is there")) << refused.text;
+  EXPECT_TRUE(says(refused, "w.clean.npz exists")) << refused.text;
   EXPECT_FALSE(std::filesystem::exists(path("in/w.mimicx"))) << "nothing is begun";
   EXPECT_EQ(read_file(path("in/w.clean.npz")), "mine");
   EXPECT_EQ(mimicx(command + " --force").status, 0);

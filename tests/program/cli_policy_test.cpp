@@ -58,7 +58,7 @@ TEST_F(CliPolicy, FindsAPolicyByNameByFolderAndByFile) {
 
 TEST_F(CliPolicy, NamesWhatIsMissingInOneLine) {
   const std::pair<std::string, std::string> cases[] = {
-      {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: there is more/walk, walk"},
+      {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: it has more/walk, walk"},
       {path("options/walk") + " --out " + path("x.h"), "it has options, which follow many motions"},
       {path("plain/walk") + " --out " + path("x.h"), "it has no policies"},
       {path("empty/walk") + " --out " + path("x.h"), "it is no folder of `mimicx adapt --out`"},
@@ -81,7 +81,7 @@ TEST_F(CliPolicy, ReplacesOwnFilesAndOthersOnlyByForce) {
     const std::string line = "export-policy " + path("run/walk") + " --out " + path(out);
     const Call refused = mimicx(line);
     EXPECT_EQ(refused.status, 2) << refused.text;
-    EXPECT_TRUE(says(refused, out + " is there")) << refused.text;
+    EXPECT_TRUE(says(refused, out + " exists")) << refused.text;
     EXPECT_EQ(read_file(path(out)), "years of work");
     EXPECT_EQ(mimicx(line + " --force").status, 0);
     EXPECT_EQ(mimicx(line + " --int8").status, 0) << "our own is replaced";

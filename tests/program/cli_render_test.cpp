@@ -74,7 +74,7 @@ TEST_F(CliRender, ReplacesOwnPicturesAndOthersOnlyByForce) {
         path("a.npz") + " --kind " + kind + " --frames 2 --rate 3 --out " + path("x.png");
     const Call refused = render(call);
     EXPECT_EQ(refused.status, 2) << refused.text;
-    EXPECT_TRUE(says(refused, "x.png is there")) << refused.text;
+    EXPECT_TRUE(says(refused, "x.png exists")) << refused.text;
     EXPECT_EQ(read_file(path("x.png")), "a photograph");
     const Call forced = render(call + " --force");
     EXPECT_EQ(forced.status, 0) << forced.text;

@@ -81,7 +81,7 @@ TEST_F(CliShards, KilledShardContinuesToTheSameBytes) {
   EXPECT_LE(mimicx(shard("parts", 0, 2)).status, 1);
   const Call early = mimicx("merge " + path("parts"));
   EXPECT_EQ(early.status, 1) << early.text;
-  EXPECT_TRUE(says(early, "are missing, of shards 1 of 2")) << early.text;
+  EXPECT_TRUE(says(early, "are missing, in shards 1 of 2")) << early.text;
   EXPECT_TRUE(says(early, "--shard 1/2")) << early.text;
   EXPECT_FALSE(std::filesystem::exists(path("parts/manifest.json")))
       << "nothing is written before all is there";

@@ -72,7 +72,7 @@ TEST_F(OutputsTest, OtherFilesAreOursByTheirFirstBytes) {
 TEST_F(OutputsTest, RefusesFoldersDevicesAndSecondClaims) {
   std::filesystem::create_directory(path("d.npz"));
   for (const std::string& bad : {path("d.npz"), std::string("/dev/null")})
-    EXPECT_NE(refusal(Outputs({}, true), bad).find("is no file"), std::string::npos) << bad;
+    EXPECT_NE(refusal(Outputs({}, true), bad).find("is no regular file"), std::string::npos) << bad;
   Outputs outputs({}, false);
   outputs.claim(path("x"));
   EXPECT_THROW(outputs.claim(path("./x")), OutputRefused);
