@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "page/playground.h"
-#include "record/run_context.h"
+#include "record/progress.h"
 #include "record/run_folder.h"
 #include "record/sequence_entry.h"
 #include "report/report_bodies.h"

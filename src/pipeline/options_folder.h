@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "record/json.h"
-#include "record/run_context.h"
+#include "record/progress.h"
 #include "record/run_folder.h"
 
 namespace mimicx::pipeline {

@@ -21,7 +21,7 @@
 #include "pipeline/options/clusters.h"
 #include "pipeline/options/option_set.h"
 #include "pipeline/training.h"
-#include "record/run_context.h"
+#include "record/progress.h"
 
 namespace mimicx::pipeline {
 

@@ -48,4 +48,13 @@ std::string format_count(double count);
 /// 5 → "5 s", 151 → "2 min 31 s", 4000 → "1 h 06 min".
 std::string format_duration(double seconds);
 
+/// What a run gets from its caller: where to print progress and messages, and when to stop.
+struct RunContext {
+  Progress& progress;
+  std::ostream& messages;             ///< one line per input, warnings
+  std::function<bool()> should_stop;  ///< true: write a checkpoint and return
+};
+
+enum class RunOutcome { kAllGood, kSomeFailed, kInterrupted };
+
 }  // namespace mimicx::record

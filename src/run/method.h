@@ -14,7 +14,7 @@
 #include "core/containers.h"
 #include "core/named_values.h"
 #include "files/policy_file.h"
-#include "record/run_context.h"
+#include "record/progress.h"
 #include "record/run_folder.h"
 #include "record/sequence_entry.h"
 #include "rl/tracking/tracking_rollout.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "record/run_context.h"
+#include "record/progress.h"
 #include "teaching/plan_teachers.h"
 #include "teaching/school.h"
 

@@ -33,7 +33,7 @@ function show_played(played, bodies) {
   player.time = (played.frame + 0.5) / player.clip.fps;
   player.stale = true;
   $('floor-said').textContent = `the floor carries ${short(Math.max(Math.round(played.floor_N), 0))} N of ${short(Math.round(played.clip.weight))} N`;
-  $('audit-said').textContent = `force from nowhere: ${short(played.unexplained_N)} N, ${short(played.unexplained_Nm)} N·m`;
+  $('audit-said').textContent = `unexplained force: ${short(played.unexplained_N)} N, ${short(played.unexplained_Nm)} N·m`;
   $('distance-said').textContent = played.distance_mm === null ? 'the simulation went wrong'
       : `farthest body: ${Math.round(played.distance_mm)} mm from the reference`;
   Object.assign(play, {distance: played.distance_mm, unexplained: played.unexplained_N, floor: played.floor_N});
