@@ -8,12 +8,14 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "files/inputs.h"
+#include "motion/resample.h"
 #include "record/json.h"
 
 namespace mimicx::judge {
 namespace {
 
-motion::MotionSamples samples_of(const motion::Clip& clip) {
+motion::MotionSamples samples_of(const motion::Clip& read, double rate) {
+  const motion::Clip clip = rate > 0.0 ? motion::resampled(read, rate) : read;
   return motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps);
 }
 
@@ -21,7 +23,7 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const 
   EvaluatedMotion result;
   result.name = name;
   try {
-    const PairedMotion pair = read_pair(files, read);
+    const PairedMotion pair = read_pair(files, read, motion::kMetricRate);
     result.frames = pair.evaluated.frames();
     result.metrics = motion::evaluate_motion(pair.evaluated, &pair.truth);
     result.ok = true;
@@ -78,11 +80,11 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
   return pairs;
 }
 
-PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read) {
+PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read, double rate) {
   if (pair.truth.empty())
     throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
-  return {samples_of(import::read_motion(pair.motion, read)),
-          samples_of(import::read_motion(pair.truth, read))};
+  return {samples_of(import::read_motion(pair.motion, read), rate),
+          samples_of(import::read_motion(pair.truth, read), rate)};
 }
 
 Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions,

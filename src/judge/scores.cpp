@@ -1,6 +1,7 @@
 #include "judge/scores.h"
 
 #include "core/units.h"
+#include "motion/resample.h"
 
 namespace mimicx::judge {
 namespace {
@@ -46,10 +47,10 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
 }
 
 NamedValues score_input(const motion::Clip& input, const motion::Reference& reference) {
-  const Character character = motion::character_of(input);
-  const motion::MotionSamples raw = motion::sample_motion(character, motion::poses_of(input), input.fps);
-  if (raw.frames() != reference.size() || input.fps != reference.fps)
-    return named_values(motion::evaluate_motion(raw, nullptr));
+  const motion::Clip clip = motion::resampled(input, reference.fps);
+  const Character character = motion::character_of(clip);
+  const motion::MotionSamples raw = motion::sample_motion(character, motion::poses_of(clip), clip.fps);
+  if (raw.frames() != reference.size()) return named_values(motion::evaluate_motion(raw, nullptr));
   const motion::MotionSamples prepared = motion::sample_motion(character, reference.poses, reference.fps);
   return named_values(motion::evaluate_motion(raw, &prepared));
 }

@@ -17,6 +17,9 @@ namespace mimicx::motion {
 /// Success requires that no body is ever farther than this from its reference, m.
 inline constexpr double kMaxBodyDistance = 0.5;
 
+/// Of motions that are scored, frames/s: distances and slides per frame depend on it.
+inline constexpr double kMetricRate = 30.0;
+
 /// A point at or below this height touches the floor, m.
 inline constexpr double kContactHeight = 0.005;
 

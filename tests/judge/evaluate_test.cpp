@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/temporary_folder.h"
 #include "motion/clip_file.h"
+#include "motion/resample.h"
 #include "motion/standing_clip.h"
 
 namespace mimicx::judge {
@@ -44,6 +45,22 @@ TEST_F(Evaluate, ShiftedMotionScoresItsShift) {
   EXPECT_NEAR(metric(e.motions[0], "MRPE"), 30.0, 1e-6);
   EXPECT_NEAR(metric(e.motions[0], "gMPJPE"), 30.0, 1e-6);
   EXPECT_NEAR(metric(e.motions[0], "MPJPE"), 0.0, 1e-6);
+}
+
+// A slide of 10 mm per frame at 30 fps is one of 2.5 mm at 120.
+TEST_F(Evaluate, ScoresMotionsOfAnotherRateAt30Fps) {
+  motion::Clip clip = motion::standing_clip(21);
+  motion::write_clip(truth / "slide.npz", clip);
+  for (int t = 0; t < clip.frames(); ++t) clip.trans[t].x() += 0.010 * t;
+  motion::write_clip(motions / "slide.npz", clip);
+  const EvaluatedMotion at_30 = evaluate_folders(truth, motions).motions.at(0);
+  motion::write_clip(motions / "slide.npz", motion::resampled(clip, 120.0));
+  const EvaluatedMotion at_120 = evaluate_folders(truth, motions).motions.at(0);
+  ASSERT_TRUE(at_30.ok && at_120.ok) << at_120.reason;
+  EXPECT_EQ(at_120.frames, 21);
+  EXPECT_NEAR(metric(at_30, "Vel"), 10.0, 1e-6);
+  for (const char* name : {"Vel", "FS_gt", "Jitter", "MRPE"})
+    EXPECT_NEAR(metric(at_120, name), metric(at_30, name), 1e-6) << name;
 }
 
 TEST_F(Evaluate, MeanIsOverFilesWithAValue) {
