@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "synth/footsteps.h"
+#include "synth/min_jerk_track.h"
+
 namespace mimicx::synth {
 namespace {
 
