@@ -6,10 +6,7 @@ namespace mimicx::judge {
 
 Candidate candidate_of(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   const Scores scores = score_simulated(reference, rollout);
-  Candidate candidate{scores.success, static_cast<int>(rollout.poses.size()), HUGE_VAL};
-  for (const auto& [name, value] : scores.values)
-    if (name == "MPJPE") candidate.mpjpe_mm = value;
-  return candidate;
+  return {scores.success, static_cast<int>(rollout.poses.size()), value_of(scores.values, "MPJPE")};
 }
 
 bool better(const Candidate& a, const Candidate& b) {

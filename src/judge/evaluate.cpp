@@ -8,15 +8,14 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "files/inputs.h"
-#include "motion/resample.h"
+#include "judge/scores.h"
 #include "record/json.h"
 
 namespace mimicx::judge {
 namespace {
 
-motion::MotionSamples samples_of(const motion::Clip& read, double rate) {
-  const motion::Clip clip = rate > 0.0 ? motion::resampled(read, rate) : read;
-  return motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps);
+motion::MotionSamples samples_of(const motion::Clip& clip, double rate) {
+  return samples_at(clip, rate > 0.0 ? rate : clip.fps);
 }
 
 EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const import::ReadConfig& read) {

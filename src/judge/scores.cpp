@@ -24,6 +24,11 @@ motion::MotionSamples head_of(motion::MotionSamples samples, std::size_t frames)
 
 }  // namespace
 
+motion::MotionSamples samples_at(const motion::Clip& clip, double rate) {
+  return motion::sample_motion(motion::character_of(clip), motion::poses_of(motion::resampled(clip, rate)),
+                               rate);
+}
+
 NamedValues named_values(const motion::Metrics& metrics) {
   NamedValues values;
   for (const auto& definition : motion::metric_definitions())
@@ -47,11 +52,10 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
 }
 
 NamedValues score_input(const motion::Clip& input, const motion::Reference& reference) {
-  const motion::Clip clip = motion::resampled(input, reference.fps);
-  const Character character = motion::character_of(clip);
-  const motion::MotionSamples raw = motion::sample_motion(character, motion::poses_of(clip), clip.fps);
+  const motion::MotionSamples raw = samples_at(input, reference.fps);
   if (raw.frames() != reference.size()) return named_values(motion::evaluate_motion(raw, nullptr));
-  const motion::MotionSamples prepared = motion::sample_motion(character, reference.poses, reference.fps);
+  const motion::MotionSamples prepared =
+      motion::sample_motion(motion::character_of(input), reference.poses, reference.fps);
   return named_values(motion::evaluate_motion(raw, &prepared));
 }
 

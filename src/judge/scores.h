@@ -10,6 +10,9 @@
 
 namespace mimicx::judge {
 
+/// A clip at `rate` frames/s, as the metrics take it.
+motion::MotionSamples samples_at(const motion::Clip& clip, double rate);
+
 /// By name, in the order of the tables.
 NamedValues named_values(const motion::Metrics& metrics);
 
