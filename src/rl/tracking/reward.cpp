@@ -9,6 +9,11 @@ double squared_angle(const Quaterniond& a, const Quaterniond& b) {
   return log_map(a.conjugate() * b).squaredNorm();
 }
 
+/// Position of a body in the frame of the root, m.
+Vector3d from_root(const Pose& pose, int body) {
+  return pose.frame.q[0].conjugate() * Vector3d(pose.p_WB[body] - pose.frame.p_root);
+}
+
 }  // namespace
 
 Reward tracking_reward(const RewardWeights& weights, const Pose& reference, const Pose& simulated,
@@ -20,7 +25,7 @@ Reward tracking_reward(const RewardWeights& weights, const Pose& reference, cons
     velocity += (s.omega[i] - r.omega[i]).squaredNorm();
   }
   for (const int i : kEndEffectors) {
-    end_effector += ((simulated.p_WB[i] - s.p_root) - (reference.p_WB[i] - r.p_root)).squaredNorm();
+    end_effector += (from_root(simulated, i) - from_root(reference, i)).squaredNorm();
   }
   const bool seen = keypoints != nullptr && !keypoints->detections.empty();
   Reward reward;

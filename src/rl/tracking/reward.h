@@ -2,7 +2,9 @@
 ///
 /// Every factor is exp(−w · error) in (0, 1]. Errors are means over joints, so that the weights do not depend
 /// on their number. The difference of rotations is the geodesic angle. The third velocity term of Eq. 2 is
-/// taken as the difference of the joints' angular velocities. Without keypoints Eq. 3 is exactly 1.
+/// taken as the difference of the joints' angular velocities. Positions of hands and feet are local, as in
+/// the paper: each relative to its own root, in the frame of that root, so that an error of the root counts
+/// in the terms of the root only. Without keypoints Eq. 3 is exactly 1.
 #pragma once
 
 #include <string_view>
@@ -19,7 +21,7 @@ struct RewardWeights {
   double root_rotation = 8.0;    ///< 1/rad²
   double pose = 20.0;            ///< 1/rad², mean over the 21 joints
   double velocity = 0.05;        ///< s²/rad², mean over the 21 joints
-  double end_effector = 40.0;    ///< 1/m², mean over hands and feet
+  double end_effector = 40.0;    ///< 1/m², mean over hands and feet, in the root's frame
   double projection = 100.0;     ///< per (box height)², confidence-weighted mean over the keypoints
 };
 

@@ -40,15 +40,83 @@ TEST(TrackingReward, TermsFollowTheirClosedForms) {
   const Reward fast = tracking_reward(w, pose, pose_of(character, faster), nullptr);
   EXPECT_NEAR(fast.term[3], std::exp(-w.velocity * 25.0 / 21.0), 1e-9);
 
-  motion::ReferenceFrame turned = pose.frame;
-  turned.q[0] = rotation_z(0.3) * turned.q[0];
-  EXPECT_NEAR(tracking_reward(w, pose, pose_of(character, turned), nullptr).term[1],
-              std::exp(-w.root_rotation * 0.09), 1e-9);
-
   Pose lifted = pose;
   lifted.p_WB[kLeftWrist].z() += 0.1;
   EXPECT_NEAR(tracking_reward(w, pose, lifted, nullptr).term[4], std::exp(-w.end_effector * 0.01 / 4.0),
               1e-9);
+}
+
+/// The whole body turned about the pelvis, which keeps its place.
+Pose turned(const Character& character, const Pose& pose, const Quaterniond& turn) {
+  motion::ReferenceFrame f = pose.frame;
+  f.q[0] = turn * f.q[0];
+  return pose_of(character, f);
+}
+
+// End effectors are compared in the frame of the pelvis, so a turn of the whole body counts once.
+TEST(TrackingReward, TurnOfTheWholeBodyChangesTheRootRotationTermOnly) {
+  const Character character = make_character();
+  Random random(9);
+  const RewardWeights w;
+  for (const Vector3d& axis : {Vector3d(0, 0, 1), Vector3d(1, 0, 0), Vector3d(0.6, 0, -0.8)}) {
+    const Pose pose = pose_of(character, random_frame(random, 0.3));
+    const Pose other = turned(character, pose, exp_map(0.3 * axis));
+    const Reward reward = tracking_reward(w, pose, other, nullptr);
+    EXPECT_NEAR(reward.term[1], std::exp(-w.root_rotation * 0.09), 1e-9);
+    EXPECT_NEAR(reward.term[4], 1.0, 1e-9);
+    EXPECT_NEAR(reward.total, reward.term[1], 1e-9);
+  }
+}
+
+/// Angle of the rotation that leads from a to b, from the trace of its matrix.
+double angle_between(const Quaterniond& a, const Quaterniond& b) {
+  const Matrix3d between = a.toRotationMatrix().transpose() * b.toRotationMatrix();
+  return std::acos(std::clamp(0.5 * (between.trace() - 1.0), -1.0, 1.0));
+}
+
+/// Eq. 2 without its keypoints, written with matrices and the standard library.
+Array<double, kRewardTerms> terms_by_matrices(const RewardWeights& w, const Pose& a, const Pose& b) {
+  double pose = 0.0, velocity = 0.0, effectors = 0.0;
+  for (int body = 1; body < kBodies; ++body) {
+    pose += std::pow(angle_between(a.frame.q[body], b.frame.q[body]), 2);
+    for (int k = 0; k < 3; ++k) velocity += std::pow(a.frame.omega[body][k] - b.frame.omega[body][k], 2);
+  }
+  const auto local = [](const Pose& p, int body) {  // by the inverse of the pelvis' homogeneous matrix
+    Eigen::Matrix4d pelvis = Eigen::Matrix4d::Identity();
+    pelvis.topLeftCorner<3, 3>() = p.frame.q[0].toRotationMatrix();
+    pelvis.topRightCorner<3, 1>() = p.p_WB[0];
+    return Vector3d((pelvis.inverse() * p.p_WB[body].homogeneous()).head<3>());
+  };
+  for (int body : {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot})
+    effectors += (local(a, body) - local(b, body)).squaredNorm();
+  const double root = (a.p_WB[0] - b.p_WB[0]).squaredNorm(),
+               turn = std::pow(angle_between(a.frame.q[0], b.frame.q[0]), 2);
+  return {std::exp(-w.root_position * root),
+          std::exp(-w.root_rotation * turn),
+          std::exp(-w.pose * pose / 21.0),
+          std::exp(-w.velocity * velocity / 21.0),
+          std::exp(-w.end_effector * effectors / 4.0),
+          1.0};
+}
+
+TEST(TrackingReward, EqualsEq2ByMatricesOnRandomPairsOfPoses) {
+  const Character character = make_character();
+  Random random(10);
+  RewardWeights w;  // small enough for pairs of random poses to keep digits, and all different
+  w.root_position = 0.11, w.root_rotation = 0.23, w.pose = 0.37, w.velocity = 0.41, w.end_effector = 0.53;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Pose a = pose_of(character, random_frame(random, 0.4)),
+               b = pose_of(character, random_frame(random, 0.4));
+    const Reward reward = tracking_reward(w, a, b, nullptr);
+    const auto expected = terms_by_matrices(w, a, b);
+    double product = 1.0;
+    for (int k = 0; k < kRewardTerms; ++k) {
+      EXPECT_NEAR(reward.term[k], expected[k], 1e-9) << kRewardTermNames[k] << ", trial " << trial;
+      product *= expected[k];
+    }
+    EXPECT_NEAR(reward.total, product, 1e-9);
+    EXPECT_LT(product, 0.9) << "the poses must differ";
+  }
 }
 
 motion::Keypoints camera_and_points(const Pose& pose) {
