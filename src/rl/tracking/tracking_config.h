@@ -1,6 +1,8 @@
 /// The configuration of the tracking task.
 #pragma once
 
+#include <numbers>
+
 #include "physics/model.h"
 #include "rl/tracking/reward.h"
 
@@ -15,8 +17,8 @@ enum class ActionMode {
 /// Defaults: docs/method.md §12 and docs/experiments.md.
 struct TrackingConfig {
   ActionMode action_mode = ActionMode::kResidual;
-  bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity, not towards 0
-  double max_action = 2.5;            ///< each entry of an action is clamped to ± this, rad
+  bool velocity_feed_forward = true;     ///< PD damps towards the reference's joint velocity, not towards 0
+  double max_action = std::numbers::pi;  ///< each entry is clamped to ± this, rad; π allows every rotation
   RewardWeights reward;
   physics::SimulationConfig simulation;
   double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m

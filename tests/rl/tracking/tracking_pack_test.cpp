@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "physics/pd_target.h"
 #include "rl/tracking/tracking_fixture.h"
 
 namespace mimicx::rl::tracking {
@@ -49,6 +52,37 @@ TEST(TrackingPack, AbsoluteActionIsTheTargetPoseItself) {
   }
   for (int i = 0; i < kBodies; ++i)
     EXPECT_LT((a.pose(0).p_WB[i] - r.pose(0).p_WB[i]).norm(), 1e-4) << kBodyNames[i];
+}
+
+/// The largest rotations of a joint's range: hinges at their ends, ball joints on a grid of the ellipsoid.
+std::vector<Vector3d> ends_of_range(const JointParameters& joint, int body) {
+  if (is_hinge(body))
+    return {(joint.centre.x() - joint.half_range.x()) * hinge_axis(body),
+            (joint.centre.x() + joint.half_range.x()) * hinge_axis(body)};
+  std::vector<Vector3d> ends;
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -4; y <= 4; ++y)
+      for (int z = -4; z <= 4; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const Vector3d on_surface = joint.half_range.cwiseProduct(Vector3d(x, y, z).normalized());
+        ends.push_back(log_map(exp_map(joint.centre) * exp_map(on_surface)));
+      }
+  return ends;
+}
+
+TEST(TrackingPack, AbsoluteActionsReachEveryPoseOfTheJointRanges) {
+  const Character character = make_character();
+  double largest = 0.0;
+  for (int body = 1; body < kBodies; ++body)
+    for (const Vector3d& end : ends_of_range(character.joint[body], body)) {
+      const int dof = first_dof(body);
+      const Vector3d reached = physics::action_rotation(body, TrackingConfig{}.max_action, [&](int k) {
+        return is_hinge(body) ? end.dot(hinge_axis(body)) : end[k - dof];
+      });
+      EXPECT_LT((reached - end).norm(), 1e-12) << kBodyNames[body] << ": " << end.transpose();
+      largest = std::max(largest, end.cwiseAbs().maxCoeff());
+    }
+  EXPECT_GT(largest, 2.7) << "elbows bend to 162 degrees";
 }
 
 TEST(TrackingPack, TreatsNonFiniteActionEntriesAsZero) {
