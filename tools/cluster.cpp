@@ -62,8 +62,9 @@ int cluster(const ClusterArguments& a) {
     throw UsageError(error.what());
   }
   pipeline::options::write_clusters(a.out, clusters);
-  std::printf("%zu clusters, no two motions of one farther apart than %.2f\n\n%s", clusters.clusters.size(),
-              clusters.settings.radius, pipeline::options::format_cluster_tree(clusters).c_str());
+  std::printf("%zu clusters, no two motions of one farther apart than %.2f\n%s\n%s", clusters.clusters.size(),
+              clusters.settings.radius, pipeline::options::format_kind_shares(clusters).c_str(),
+              pipeline::options::format_cluster_tree(clusters).c_str());
   return all_good ? kAllGood : kSomeFailed;
 }
 

@@ -36,7 +36,9 @@ void add_seed(Command& command, std::uint64_t& seed) {
 void add_cluster_arguments(Command& command, pipeline::options::ClusterConfig& clusters) {
   const Option radius = command.number("--radius", clusters.radius, kFromZero,
                                        "no two motions of a cluster are farther apart than this");
-  command.number("--clusters", clusters.clusters, kFromOne, "number of clusters to make instead")
+  command
+      .number("--clusters", clusters.clusters, kFromOne,
+              "number of clusters to make, whatever their size; instead of --radius")
       .excludes(radius);
 }
 

@@ -22,26 +22,19 @@ Scaled scaled(const options::MotionFeatures& features) {
   return Eigen::Map<const Scaled>(values.data());
 }
 
-/// Groups of features of one kind, with words for what there is more or less of.
-struct FeatureKind {
-  int first, count;
-  const char* words;
-};
-constexpr FeatureKind kKinds[] = {{options::kRootHeight, 1, "height of the hips"},
-                                  {options::kRootTurning, 1, "turning"},
-                                  {options::kPlanarVelocity, kBodies, "speed across the floor"},
-                                  {options::kVerticalVelocity, kBodies, "speed up and down"},
-                                  {options::kAcceleration, kBodies, "acceleration"}};
+/// What there is more or less of, in the order of kFeatureKinds.
+constexpr Array<const char*, options::kFeatureKindCount> kWordsOfKinds = {
+    "height of the hips", "turning", "speed across the floor", "speed up and down", "acceleration"};
 constexpr double kWorthSaying = 0.1;  ///< smaller parts of a direction's squared length get no words
 
 /// "more speed across the floor, less height of the hips", the largest part first.
 std::string words_of(const Eigen::VectorXd& direction) {
   std::vector<std::pair<double, std::string>> parts;
-  for (const FeatureKind& kind : kKinds) {
-    const auto part = direction.segment(kind.first, kind.count);
+  for (std::size_t k = 0; k < options::kFeatureKinds.size(); ++k) {
+    const auto part = direction.segment(options::kFeatureKinds[k].first, options::kFeatureKinds[k].entries);
     if (part.squaredNorm() >= kWorthSaying)
       parts.emplace_back(part.squaredNorm(),
-                         (part.sum() > 0.0 ? "more " : "less ") + std::string(kind.words));
+                         std::string(part.sum() > 0.0 ? "more " : "less ") + kWordsOfKinds[k]);
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });

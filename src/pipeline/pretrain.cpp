@@ -232,7 +232,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
   const options::Clusters clusters = options::cluster_motions(motions.features, config.clusters);
   options::write_clusters(config.out / "clusters.json", clusters);
-  context.messages << options::format_cluster_tree(clusters);
+  context.messages << options::format_kind_shares(clusters) << options::format_cluster_tree(clusters);
 
   std::vector<int> sizes;
   for (const options::MotionCluster& cluster : clusters.clusters)

@@ -29,7 +29,7 @@ struct PretrainConfig {
   std::vector<std::string> inputs;  ///< files and folders
   std::filesystem::path out;
   TrainingConfig training;  ///< its samples are of all options together
-  options::ClusterConfig clusters{.radius = 3.0, .clusters = std::nullopt, .seed = 1};
+  options::ClusterConfig clusters{.radius = 2.0, .clusters = std::nullopt, .seed = 1};
   nn::AutoEncoderConfig encoder;
   bool use_encoder = true;  ///< false: policies observe the reference itself (an ablation)
   bool fit = false;         ///< first fit motions to their keypoints, if they have any

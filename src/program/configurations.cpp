@@ -46,17 +46,18 @@ Array<NamedValues, 7> columns() {
 
 /// What the settings mean that have arguments of their own, and then all others.
 Meanings all_meanings() {
-  Meanings all = {{"samples",
-                   "training budget of a motion, or of all options together, character steps (--samples; "
-                   "adapt: --budget-samples)"},
-                  {"seed", "root of every random number (--seed)"},
-                  {"fit", "1: motions are moved onto their keypoints first (--fit)"},
-                  {"as_is", "1: nothing is corrected (--as-is)"},
-                  {"keypoints", "1: the reward sees keypoints, as the fit does (--fit)"},
-                  {"encoder", "1: policies see their reference through an encoder (--encoder)"},
-                  {"encoder_steps", "minibatches that train an encoder, at most (fixed)"},
-                  {"cluster_radius", "largest distance within a cluster, units of features (--radius)"},
-                  {"clusters", "number of options; 0: as the radius says (--clusters)"}};
+  Meanings all = {
+      {"samples",
+       "training budget of a motion, or of all options together, character steps (--samples; "
+       "adapt: --budget-samples)"},
+      {"seed", "root of every random number (--seed)"},
+      {"fit", "1: motions are moved onto their keypoints first (--fit)"},
+      {"as_is", "1: nothing is corrected (--as-is)"},
+      {"keypoints", "1: the reward sees keypoints, as the fit does (--fit)"},
+      {"encoder", "1: policies see their reference through an encoder (--encoder)"},
+      {"encoder_steps", "minibatches that train an encoder, at most (fixed)"},
+      {"cluster_radius", "largest distance within a cluster; ignored where clusters is not 0 (--radius)"},
+      {"clusters", "number of options; 0: as cluster_radius gives (--clusters)"}};
   for (const Meanings& more :
        {meanings_of(adapt_configuration()), meanings_of(pretrain_configuration("paper").training),
         meanings_of(teach_configuration()), meanings_of(fit::FitConfig{})})

@@ -167,6 +167,21 @@ std::string format_cluster_tree(const Clusters& clusters) {
   return out;
 }
 
+std::string format_kind_shares(const Clusters& clusters) {
+  List<MotionFeatures> motions;
+  for (const MotionCluster& cluster : clusters.clusters)
+    motions.insert(motions.end(), cluster.features.begin(), cluster.features.end());
+  if (motions.empty()) return "";
+  const Array<double, kFeatureKindCount> shares = kind_shares(motions);
+  std::string line = "shares of the variance:";
+  for (int kind = 0; kind < kFeatureKindCount; ++kind) {
+    char share[16];
+    std::snprintf(share, sizeof share, " %.1f %%", 100.0 * shares[kind]);
+    line += (kind > 0 ? ", " : " ") + std::string(kFeatureKinds[static_cast<std::size_t>(kind)].name) + share;
+  }
+  return line + '\n';
+}
+
 std::string format_clusters(const Clusters& clusters) {
   const ClusterConfig& s = clusters.settings;
   record::Json json = {{"settings",

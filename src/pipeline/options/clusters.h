@@ -68,6 +68,10 @@ int nearest_cluster(const Clusters& clusters, const MotionFeatures& features);
 /// The tree with its members, indented, for people.
 std::string format_cluster_tree(const Clusters& clusters);
 
+/// The share of every kind of feature in what sets the motions apart, in a line, for people; empty if the
+/// members' features are not known.
+std::string format_kind_shares(const Clusters& clusters);
+
 std::string format_clusters(const Clusters& clusters);
 /// Writes a temporary file and renames it, so that a reader sees the old file or the new one.
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters);

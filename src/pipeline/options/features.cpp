@@ -8,14 +8,6 @@ namespace {
 
 constexpr double kSmoothing = 0.1334;  ///< s to either side of a frame: 4 frames at 30 fps
 
-/// Typical spread of each kind of feature over 19 real clips (walks, kicks, squats, jumps, dances, a crawl):
-/// between the interquartile range and the standard deviation, rounded.
-constexpr double kHeightUnit = 0.1;         ///< m
-constexpr double kTurningUnit = 1.0;        ///< rad²/s²
-constexpr double kPlanarUnit = 0.5;         ///< m²/s²
-constexpr double kVerticalUnit = 0.2;       ///< m²/s²
-constexpr double kAccelerationUnit = 25.0;  ///< m²/s⁴
-
 /// Rows: weights of the frames of a window for value, first and second derivative at one of them.
 using FitWeights = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
@@ -51,13 +43,10 @@ double vertical_turning(const motion::ReferenceFrame& frame) { return (frame.q[0
 const Array<std::string, kFeatures>& feature_names() {
   static const Array<std::string, kFeatures> names = [] {
     Array<std::string, kFeatures> out;
-    out[kRootHeight] = "root_height";
-    out[kRootTurning] = "root_turning";
-    for (int j = 0; j < kBodies; ++j) {
-      out[kPlanarVelocity + j] = "planar_velocity." + std::string(kBodyNames[j]);
-      out[kVerticalVelocity + j] = "vertical_velocity." + std::string(kBodyNames[j]);
-      out[kAcceleration + j] = "acceleration." + std::string(kBodyNames[j]);
-    }
+    for (const FeatureKind& kind : kFeatureKinds)
+      for (int k = 0; k < kind.entries; ++k)
+        out[kind.first + k] =
+            std::string(kind.name) + (kind.entries > 1 ? "." + std::string(kBodyNames[k]) : "");
     return out;
   }();
   return names;
@@ -95,16 +84,10 @@ MotionFeatures motion_features(const motion::Reference& reference) {
 
 const MotionFeatures& feature_units() {
   static const MotionFeatures units = [] {
-    // √22: the 22 joints together weigh as much as one entry, else the root's two would drown.
-    const double joints = std::sqrt(static_cast<double>(kBodies));
     MotionFeatures out;
-    out[kRootHeight] = kHeightUnit;
-    out[kRootTurning] = kTurningUnit;
-    for (int j = 0; j < kBodies; ++j) {
-      out[kPlanarVelocity + j] = joints * kPlanarUnit;
-      out[kVerticalVelocity + j] = joints * kVerticalUnit;
-      out[kAcceleration + j] = joints * kAccelerationUnit;
-    }
+    for (const FeatureKind& kind : kFeatureKinds)
+      for (int k = 0; k < kind.entries; ++k)
+        out[kind.first + k] = std::sqrt(static_cast<double>(kind.entries)) * kind.unit;
     return out;
   }();
   return units;
@@ -114,6 +97,25 @@ MotionFeatures scaled_features(const MotionFeatures& features) {
   MotionFeatures scaled;
   for (int k = 0; k < kFeatures; ++k) scaled[k] = features[k] / feature_units()[k];
   return scaled;
+}
+
+Array<double, kFeatureKindCount> kind_shares(const List<MotionFeatures>& motions) {
+  Array<double, kFeatureKindCount> shares{};
+  double all = 0.0;
+  for (int i = 0; i < kFeatureKindCount; ++i) {
+    const FeatureKind& kind = kFeatureKinds[static_cast<std::size_t>(i)];
+    for (int k = kind.first; k < kind.first + kind.entries; ++k) {
+      double mean = 0.0;
+      for (const MotionFeatures& motion : motions) mean += motion[k] / motions.count();
+      for (const MotionFeatures& motion : motions) {
+        const double off = (motion[k] - mean) / feature_units()[k];
+        shares[i] += off * off;
+      }
+    }
+    all += shares[i];
+  }
+  for (double& share : shares) share = all > 0.0 ? share / all : 0.0;
+  return shares;
 }
 
 }  // namespace mimicx::pipeline::options

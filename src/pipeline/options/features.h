@@ -23,6 +23,10 @@
 /// What it does not do: the features do not depend on the place, heading or order of a motion's parts.
 #pragma once
 
+#include <array>
+#include <string>
+#include <string_view>
+
 #include "motion/reference.h"
 
 namespace mimicx::pipeline::options {
@@ -39,6 +43,26 @@ inline constexpr int kPlanarVelocity = 2;
 inline constexpr int kVerticalVelocity = kPlanarVelocity + kBodies;
 inline constexpr int kAcceleration = kVerticalVelocity + kBodies;
 
+/// One of the five kinds of features of Eq. 1.
+struct FeatureKind {
+  std::string_view name;
+  int first;    ///< index of its first entry
+  int entries;  ///< 1, or one per body
+  double
+      unit;  ///< that of an entry is this times √entries, so that all entries together weigh as much as one
+};
+
+inline constexpr int kFeatureKindCount = 5;
+/// The unit is the geometric mean of two standard deviations of an entry: that over the 112 synthetic motions
+/// of the options' training, and that over 17 real clips (docs/method.md §6).
+inline constexpr std::array<FeatureKind, kFeatureKindCount> kFeatureKinds = {{
+    {"root_height", kRootHeight, 1, 0.08},                    // m
+    {"root_turning", kRootTurning, 1, 0.1},                   // rad²/s²
+    {"planar_velocity", kPlanarVelocity, kBodies, 0.45},      // m²/s²
+    {"vertical_velocity", kVerticalVelocity, kBodies, 0.13},  // m²/s²
+    {"acceleration", kAcceleration, kBodies, 23.0},           // m²/s⁴
+}};
+
 /// "root_height", …, "acceleration.right_wrist".
 const Array<std::string, kFeatures>& feature_names();
 
@@ -53,5 +77,9 @@ const MotionFeatures& feature_units();
 
 /// features / units, entry by entry.
 MotionFeatures scaled_features(const MotionFeatures& features);
+
+/// The share of every kind in the variance of the scaled features of these motions, in the order of
+/// kFeatureKinds: how much it contributes to what sets them apart. All 0 if nothing does.
+Array<double, kFeatureKindCount> kind_shares(const List<MotionFeatures>& motions);
 
 }  // namespace mimicx::pipeline::options

@@ -46,7 +46,7 @@ double arrangement_value(const OptionRewards& rewards, const List<int>& options,
 }
 
 TEST(Arrangement, IsTheBestOfAll) {
-  constexpr int kFrames = 8, kActing = kFrames - 1;
+  constexpr int kFrames = 14, kActing = kFrames - 1;
   const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(kFrames), {});
   const OptionSet set = set_of({0.02F, -0.02F});
   const Option &first = set.options[0].option, &second = set.options[1].option;

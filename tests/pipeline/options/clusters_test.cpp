@@ -10,7 +10,9 @@
 #include "core/file.h"
 #include "core/random.h"
 #include "core/temporary_folder.h"
+#include "motion/prepare/prepare.h"
 #include "pipeline/options/cluster_words.h"
+#include "synth/data_set.h"
 
 namespace mimicx::pipeline::options {
 namespace {
@@ -63,6 +65,29 @@ TEST(Clusters, SeparateKindsOfMotion) {
     const std::string kind = c.members[0].substr(0, 3);
     EXPECT_EQ(c.members.size(), kind == "lie" ? 3u : 10u);
     for (const auto& m : c.members) EXPECT_EQ(m.substr(0, 3), kind);
+  }
+}
+
+/// Motions of the training split of two seeds each, true.
+List<NamedFeatures> synthetic_motions(const std::vector<std::string>& kinds) {
+  List<NamedFeatures> motions;
+  for (const std::string& kind : kinds)
+    for (const std::uint64_t seed : {synth::kTrainingSeed, synth::kTrainingSeed + 1}) {
+      const motion::Clip clip = synth::synthesize({.kind = kind, .seed = seed, .betas_from_seed = true});
+      motions.push_back({clip.name, motion_features(motion::prepare_reference(clip, {}, nullptr))});
+    }
+  return motions;
+}
+
+TEST(Clusters, TurningOnTheSpotIsNotStandingOrWaving) {
+  ClusterConfig two;
+  two.clusters = 2;
+  for (const MotionCluster& cluster :
+       cluster_motions(synthetic_motions({"turn_in_place", "stand", "wave", "bow", "side_step"}), two)
+           .clusters) {
+    const bool turns = cluster.members[0].starts_with("turn");
+    EXPECT_EQ(cluster.members.size(), turns ? 2u : 8u);
+    for (const std::string& member : cluster.members) EXPECT_EQ(member.starts_with("turn"), turns) << member;
   }
 }
 

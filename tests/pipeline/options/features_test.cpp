@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <set>
 
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
+#include "synth/data_set.h"
 
 namespace mimicx::pipeline::options {
 namespace {
@@ -154,6 +156,42 @@ TEST(Features, RejectTooShortMotions) {
   const auto path = [](double s) { return Vector3d(s, 0, 0.9); };
   EXPECT_THROW(motion_features(rigid(2, path, still)), DataError);
   EXPECT_NEAR(motion_features(rigid(3, path, still))[kPlanarVelocity], 1.0, 1e-10);
+}
+
+/// True motions of the basic kinds, the first seeds of the training split.
+List<MotionFeatures> synthetic_features(int seeds) {
+  synth::SynthSetConfig set;
+  set.seed = synth::kTrainingSeed;
+  set.clips = seeds * static_cast<int>(synth::basic_kinds().size());
+  List<MotionFeatures> features;
+  for (const synth::SynthConfig& clip : synth::clips_of_set(set))
+    features.push_back(motion_features(motion::prepare_reference(synth::synthesize(clip), {}, nullptr)));
+  return features;
+}
+
+// A kind of feature whose share is tiny decides nothing: R_avel once had 0.2 %.
+TEST(Features, EveryKindHasACommensurateShareInTheVarianceOfSyntheticMotions) {
+  const auto shares = kind_shares(synthetic_features(2));
+  double sum = 0.0;
+  for (int kind = 0; kind < kFeatureKindCount; ++kind) {
+    const std::string_view name = kFeatureKinds[static_cast<std::size_t>(kind)].name;
+    std::printf("  measured: %-17s %4.1f %%\n", std::string(name).c_str(), 100.0 * shares[kind]);
+    EXPECT_GT(shares[kind], 0.08) << name;
+    EXPECT_LT(shares[kind], 0.40) << name;
+    sum += shares[kind];
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(Features, KindSharesAreThoseOfTheVarianceInUnits) {
+  List<MotionFeatures> motions(2, MotionFeatures{});
+  motions[1][kRootTurning] = 3.0 * feature_units()[kRootTurning];
+  motions[1][kAcceleration + kHead] = 1.0 * feature_units()[kAcceleration + kHead];
+  const auto shares = kind_shares(motions);
+  EXPECT_EQ(shares[0] + shares[2] + shares[3], 0.0);
+  EXPECT_NEAR(shares[1], 0.9, 1e-12);
+  EXPECT_NEAR(shares[4], 0.1, 1e-12);
+  for (const double share : kind_shares({MotionFeatures{}})) EXPECT_EQ(share, 0.0);
 }
 
 TEST(Features, ScaledFeaturesAreInTheirUnits) {

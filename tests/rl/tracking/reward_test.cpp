@@ -69,7 +69,7 @@ TEST(TrackingReward, TurnOfTheWholeBodyChangesTheRootRotationTermOnly) {
 }
 
 /// Angle of the rotation that leads from a to b, from the trace of its matrix.
-double angle_between(const Quaterniond& a, const Quaterniond& b) {
+double angle_by_trace(const Quaterniond& a, const Quaterniond& b) {
   const Matrix3d between = a.toRotationMatrix().transpose() * b.toRotationMatrix();
   return std::acos(std::clamp(0.5 * (between.trace() - 1.0), -1.0, 1.0));
 }
@@ -78,7 +78,7 @@ double angle_between(const Quaterniond& a, const Quaterniond& b) {
 Array<double, kRewardTerms> terms_by_matrices(const RewardWeights& w, const Pose& a, const Pose& b) {
   double pose = 0.0, velocity = 0.0, effectors = 0.0;
   for (int body = 1; body < kBodies; ++body) {
-    pose += std::pow(angle_between(a.frame.q[body], b.frame.q[body]), 2);
+    pose += std::pow(angle_by_trace(a.frame.q[body], b.frame.q[body]), 2);
     for (int k = 0; k < 3; ++k) velocity += std::pow(a.frame.omega[body][k] - b.frame.omega[body][k], 2);
   }
   const auto local = [](const Pose& p, int body) {  // by the inverse of the pelvis' homogeneous matrix
@@ -90,7 +90,7 @@ Array<double, kRewardTerms> terms_by_matrices(const RewardWeights& w, const Pose
   for (int body : {kLeftWrist, kRightWrist, kLeftFoot, kRightFoot})
     effectors += (local(a, body) - local(b, body)).squaredNorm();
   const double root = (a.p_WB[0] - b.p_WB[0]).squaredNorm(),
-               turn = std::pow(angle_between(a.frame.q[0], b.frame.q[0]), 2);
+               turn = std::pow(angle_by_trace(a.frame.q[0], b.frame.q[0]), 2);
   return {std::exp(-w.root_position * root),
           std::exp(-w.root_rotation * turn),
           std::exp(-w.pose * pose / 21.0),
