@@ -74,9 +74,9 @@ void declare_corrupt(CommandLine& line) {
                "A motion's errors depend on the seed and its name alone, not on the other files.");
   command.files("FILE", a->inputs, "clean motions and folders of them");
   command.path("--out", a->out, "folder to write to").required();
-  command.list("--noise", a->noise, "MODEL,NAME=VALUE...",
-               "noise model: independent (default; shares nothing with the keypoint fit), gvhmr or "
-               "vibe; then single amplitudes after commas: independent,stature=0,swap_rate=0 "
+  command.list("--noise", a->noise, "PRESET,NAME=VALUE...",
+               "preset of the noise model: independent (default), gvhmr, vibe, or none for exact motion; "
+               "then single amplitudes after commas: independent,stature=0,swap_rate=0 "
                "(docs/method.md, \"Noise model\")");
   command.one_of("--camera", a->camera, {"calibrated", "perturbed", "wild", "moving"},
                  "how well the camera is known; moving: hand-held, its track has drift");

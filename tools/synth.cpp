@@ -114,7 +114,7 @@ void declare_synth(CommandLine& line) {
                   "kinds to make, separated by commas; all: every exact kind; floor: sketches that go "
                   "down to the floor, to be planned; default: the fourteen kinds of data/synthetic");
   command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
-                 "noise model of noisy/; none: exact; mixed: each clip with one of these, half of them "
+                 "errors of noisy/; none: exact motion; mixed: each clip with one of these, half of them "
                  "without keypoints");
   command.one_of("--camera", set.camera, {"calibrated", "perturbed", "wild"}, "how well its camera is known");
   command.choice("--keypoints", set.keypoints,

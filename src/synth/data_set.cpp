@@ -32,15 +32,6 @@ void round_to_grid(motion::Clip& clip) {
     extrinsics = extrinsics.unaryExpr([](double x) { return on_grid(x, kSteps); }).eval();
 }
 
-NoiseModel model_of(const std::string& noise) {
-  if (noise == "independent") return independent_preset();
-  if (noise != "none") return noise_preset(noise + "-like");
-  NoisePreset silent{};  // the time constants still have to be times
-  silent.slow_tau = silent.depth_tau = silent.drift_tau = 1.0;
-  silent.jitter_frames = silent.depth_jitter_frames = 1.0;
-  return silent;
-}
-
 /// Every clip has errors and a camera of its own, whichever set it is in.
 std::uint64_t noise_seed(const SynthConfig& clip) {
   Random random(clip.seed, {kSetNoiseStream, index_of_kind(clip.kind)});
@@ -52,10 +43,10 @@ std::uint64_t noise_seed(const SynthConfig& clip) {
 EstimateConfig mixed(const SynthSetConfig& set, std::uint64_t seed) {
   Random random(seed, {kMixStream});
   const double drawn = random.uniform();
-  EstimateConfig estimate{model_of(drawn < 0.3   ? "gvhmr"
-                                   : drawn < 0.6 ? "vibe"
-                                   : drawn < 0.9 ? "independent"
-                                                 : "none"),
+  EstimateConfig estimate{noise_preset(drawn < 0.3   ? "gvhmr"
+                                       : drawn < 0.6 ? "vibe"
+                                       : drawn < 0.9 ? "independent"
+                                                     : "none"),
                           camera_error(set.camera), set.keypoints};
   if (random.uniform() < 0.5) estimate.keypoints.reset();
   return estimate;
@@ -85,7 +76,7 @@ SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config)
   const EstimateConfig noise =
       config.noise == "mixed"
           ? mixed(config, seed)
-          : EstimateConfig{model_of(config.noise), camera_error(config.camera), config.keypoints};
+          : EstimateConfig{noise_preset(config.noise), camera_error(config.camera), config.keypoints};
   SynthPair pair;
   pair.truth = synthesize(clip);
   round_to_grid(pair.truth);

@@ -7,7 +7,7 @@
 ///
 /// A clip depends only on its kind and seed, not on its set. Numbers are rounded to a fixed binary grid (2⁻²⁰
 /// rad and m, 2⁻¹⁰ px), so that a last-bit difference between math libraries does not reach the files.
-/// What it does not do: no noise model of its own (estimator_noise.h), no check of feasibility.
+/// What it does not do: no noise of its own (estimator_noise.h), no check of feasibility.
 #pragma once
 
 #include <functional>
@@ -26,8 +26,8 @@ struct SynthSetConfig {
   std::vector<std::string> kinds;  ///< empty: `basic_kinds()`
   int clips = 0;                   ///< 0: one of each kind
   std::uint64_t seed = kTestSeed;  ///< of the first clip of every kind
-  /// "gvhmr", "vibe", "independent" (independent_noise.h); "none": exact motion, detected keypoints; "mixed":
-  /// every clip draws one of these four with odds of 3 : 3 : 3 : 1, and half of the clips have no keypoints.
+  /// A preset (`noise_preset`); "mixed": every clip draws "gvhmr", "vibe", "independent" or "none" with odds
+  /// of 3 : 3 : 3 : 1, and half of the clips have no keypoints.
   std::string noise = "gvhmr";
   std::string camera = "perturbed";  ///< see `camera_error`
   motion::KeypointSet keypoints = motion::KeypointSet::kJoints22;

@@ -48,7 +48,7 @@ TEST(CameraSmoothing, MeasuresJitterAndRemovesAThirdOfTheErrorDespiteSway) {
 
 TEST(CameraSmoothing, TremblingCameraDoesNotShrinkTheWorld) {
   const motion::Clip truth = truth_of("walk");
-  const motion::Clip still = noisy_of(truth, "gvhmr-like", motion::KeypointSet::kJoints22, 3);
+  const motion::Clip still = noisy_of(truth, "gvhmr", motion::KeypointSet::kJoints22, 3);
   motion::Clip trembling = still;
   Random random(4, {1});
   const Eigen::Matrix4d E = still.keypoints->extrinsics[0];

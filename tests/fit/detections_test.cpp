@@ -96,7 +96,7 @@ const std::vector<int> kLegs = {kLeftHip,   kRightHip,   kLeftKnee, kRightKnee,
                                 kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot};
 
 TEST(Fit, ImprovesTwoSecondsWithoutDetections) {
-  for (const char* preset : {"gvhmr-like", "vibe-like"}) {
+  for (const char* preset : {"gvhmr", "vibe"}) {
     const motion::Clip truth = synthetic_clip("walk", 5, 150);
     motion::Clip noisy = noisy_of(truth, preset, motion::KeypointSet::kJoints22, 3);
     for (int t = 45; t < 105; ++t)
@@ -110,7 +110,7 @@ TEST(Fit, ImprovesTwoSecondsWithoutDetections) {
 }
 
 TEST(Fit, UnseenLegsDoNotGetWorse) {
-  for (const char* preset : {"gvhmr-like", "vibe-like"})
+  for (const char* preset : {"gvhmr", "vibe"})
     for (const char* kind : {"walk", "squat"}) {
       const motion::Clip truth = truth_of(kind);
       motion::Clip noisy = noisy_of(truth, preset, motion::KeypointSet::kCoco17, 3);

@@ -76,7 +76,7 @@ TEST(Fit, FindsAnErrorOfTheCameraTilt) {
 }
 
 TEST(Fit, MovesNoisyEstimatesCloserToTheTruth) {
-  for (const char* preset : {"gvhmr-like", "vibe-like"})
+  for (const char* preset : {"gvhmr", "vibe"})
     for (const motion::KeypointSet set : {motion::KeypointSet::kJoints22, motion::KeypointSet::kCoco17}) {
       const motion::Clip truth = truth_of("walk"), noisy = noisy_of(truth, preset, set, 3);
       FitReport report;
@@ -94,7 +94,7 @@ TEST(Fit, MovesNoisyEstimatesCloserToTheTruth) {
 
 TEST(Fit, ResultHardlyDependsOnTheFrameRate) {
   const motion::Clip truth = truth_of("squat");
-  const motion::Clip slow = noisy_of(truth, "gvhmr-like", motion::KeypointSet::kJoints22, 2);
+  const motion::Clip slow = noisy_of(truth, "gvhmr", motion::KeypointSet::kJoints22, 2);
   const motion::Clip at_30 = fit_keypoints(slow, {}, nullptr);
   const motion::Clip at_60 =
       motion::resampled(fit_keypoints(motion::resampled(slow, 60.0), {}, nullptr), 30.0);
@@ -102,7 +102,7 @@ TEST(Fit, ResultHardlyDependsOnTheFrameRate) {
 }
 
 TEST(Fit, IsBitIdenticalForAnyNumberOfThreads) {
-  const motion::Clip noisy = noisy_of(truth_of("walk"), "vibe-like", motion::KeypointSet::kJoints22, 1);
+  const motion::Clip noisy = noisy_of(truth_of("walk"), "vibe", motion::KeypointSet::kJoints22, 1);
   FitConfig three;
   three.threads = 3;
   EXPECT_TRUE(same_clip(fit_keypoints(noisy, {}, nullptr), fit_keypoints(noisy, three, nullptr)));

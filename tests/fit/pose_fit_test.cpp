@@ -69,7 +69,7 @@ TEST(FitPoses, MovesALeaningBodyOverItsFeet) {
 }
 
 TEST(FitPoses, MovesEstimatesCloserToTheTruth) {
-  for (const char* preset : {"gvhmr-like", "vibe-like"})
+  for (const char* preset : {"gvhmr", "vibe"})
     for (const char* kind : {"walk", "punch"}) {
       const motion::Clip truth = truth_of(kind), noisy = estimate_of(truth, preset);
       FitReport report;
@@ -86,7 +86,7 @@ TEST(FitPoses, MovesEstimatesCloserToTheTruth) {
 
 TEST(FitPoses, SmoothsATremblingMotion) {
   for (const char* kind : {"walk", "punch"}) {
-    const motion::Clip truth = truth_of(kind), noisy = estimate_of(truth, "vibe-like");
+    const motion::Clip truth = truth_of(kind), noisy = estimate_of(truth, "vibe");
     const motion::Clip calm = fit_poses(noisy, {}, nullptr);
     EXPECT_LT(against(truth, calm).accel.value, 0.5 * against(truth, noisy).accel.value) << kind;
     for (std::size_t i = 0; i < kBetas; ++i)
@@ -102,7 +102,7 @@ TEST(FitPoses, CleanMotionStaysByteIdentical) {
 }
 
 TEST(FitPoses, IgnoresTheKeypoints) {
-  const motion::Clip noisy = estimate_of(truth_of("walk"), "gvhmr-like");
+  const motion::Clip noisy = estimate_of(truth_of("walk"), "gvhmr");
   motion::Clip blind = noisy;
   blind.keypoints.reset();
   const motion::Clip fitted = fit_poses(noisy, {}, nullptr);

@@ -1,6 +1,6 @@
 /// The points that 2D detectors find on a body, and the body's size in the picture.
 ///
-/// What it does not do: no errors (keypoint_noise.h, independent_keypoints.h).
+/// What it does not do: no errors (keypoint_noise.h).
 #pragma once
 
 #include <string>

@@ -172,11 +172,10 @@ CameraPath carry_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed, do
 
 CameraError camera_error(std::string_view name) {
   if (name == "calibrated") return {};
-  if (name == "perturbed") return {.focal = 0.01, .tilt = 0.3, .beta = 0.15};
-  if (name == "wild") return {.focal = 0.05, .tilt = 0.7, .beta = 0.3};
+  if (name == "perturbed") return {.focal = 0.01, .tilt = 0.3};
+  if (name == "wild") return {.focal = 0.05, .tilt = 0.7};
   if (name == "moving")
-    return {
-        .focal = 0.01, .tilt = 0.3, .beta = 0.15, .moving = true, .turn_drift = 0.2, .place_drift = 0.015};
+    return {.focal = 0.01, .tilt = 0.3, .moving = true, .turn_drift = 0.2, .place_drift = 0.015};
   throw std::invalid_argument("camera_error: unknown camera '" + std::string(name) + "'");
 }
 

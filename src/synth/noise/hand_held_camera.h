@@ -44,11 +44,10 @@ Camera place_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed);
 /// @return extrinsics per frame  @throws std::invalid_argument as `place_camera`
 CameraPath carry_camera(const PerFrame<BodyPoses>& truth, std::uint64_t seed, double fps);
 
-/// Errors of the camera and the body shape that are given to the program.
+/// Errors of the camera that is given to the program.
 struct CameraError {
   double focal = 0.0;        ///< relative σ of the focal length
   double tilt = 0.0;         ///< σ of the tilt, degrees
-  double beta = 0.0;         ///< σ per entry of β
   bool moving = false;       ///< the camera is carried (`carry_camera`) and given frame by frame
   double turn_drift = 0.0;   ///< random walk of the given orientation, per axis, °/√s
   double place_drift = 0.0;  ///< random walk of the given position, per axis, m/√s

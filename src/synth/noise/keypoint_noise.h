@@ -1,18 +1,34 @@
-/// 2D detections of the first noise model: keypoints with errors.
+/// 2D detections, keypoints with errors.                         docs/method.md, "Noise model", (11) to (16)
 ///
-/// Source: docs/method.md, "Noise model". Errors are in units of the person's box in the picture.
-/// What it does not do: no images, no occlusion by geometry.
+/// The offset of a keypoint turns with its limb and with the view. Errors grow for limbs that point at the
+/// camera and for hidden points, and have heavy tails. Confidence is only weakly correlated with the error.
+/// What it does not do: no images, no second person.
 #pragma once
 
-#include "motion/keypoint_names.h"
+#include "synth/noise/detected_points.h"
 #include "synth/noise/hand_held_camera.h"
-#include "synth/noise/random_processes.h"
+#include "synth/noise/noise_preset.h"
 
 namespace mimicx::synth {
 
-/// Detections of the clean motion. @param truth  poses of every frame
-motion::Keypoints detect_keypoints(const PerFrame<BodyPoses>& truth, const CameraPath& camera,
-                                   motion::KeypointSet set, const std::vector<Burst>& bursts,
-                                   std::uint64_t seed, double fps);
+/// The motion that the detector sees.
+struct SeenMotion {
+  const Character& character;
+  const PerFrame<Vector3d>& p_root;  ///< m
+  const PerFrame<PerBody<Quaterniond>>& q;
+  double fps;
+};
+
+/// World poses at a time between frames, clamped to the clip: positions interpolated linearly, rotations by
+/// slerp.
+BodyPoses pose_between(const SeenMotion& motion, double frame);
+
+/// How much a keypoint's bone is foreshortened: 0 perpendicular to the ray, 1 along it.
+/// @param eye  m, world
+double foreshortening(const BodyPoses& poses, const Landmark& point, const Vector3d& eye);
+
+/// Detections of the clean motion in the picture of the true camera; the camera of the result is not set.
+motion::Keypoints detect_keypoints(const SeenMotion& truth, const CameraPath& camera, motion::KeypointSet set,
+                                   const NoisePreset& preset, std::uint64_t seed);
 
 }  // namespace mimicx::synth

@@ -1,27 +1,23 @@
-/// Simulated estimates of clean clips by either noise model, as `mimicx corrupt` writes them.
+/// Simulated estimates of clean clips, as `mimicx corrupt` writes them.
 ///
 /// What it does not do: no reading of files and no retargeting (synth/corrupt.h).
 #pragma once
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "synth/noise/estimator_noise.h"
-#include "synth/noise/independent_noise.h"
 
 namespace mimicx::synth {
 
-using NoiseModel = std::variant<NoisePreset, IndependentPreset>;
-
-/// A model by name ("gvhmr", "vibe" or the default, "independent"), with single amplitudes set by NAME=VALUE.
+/// A preset by name (`noise_preset`; "independent" without a name), with single amplitudes set by NAME=VALUE.
 /// @param words  at most one name; amplitudes in any order
 /// @throws std::invalid_argument for an unknown name, listing the known ones, and for an invalid value
-NoiseModel noise_model(const std::vector<std::string>& words);
+NoisePreset noise_model(const std::vector<std::string>& words);
 
 struct EstimateConfig {
-  NoiseModel noise = independent_preset();
+  NoisePreset noise = noise_preset("independent");
   CameraError camera = camera_error("perturbed");
   std::optional<motion::KeypointSet> keypoints =
       motion::KeypointSet::kJoints22;  ///< none: neither detections nor a camera

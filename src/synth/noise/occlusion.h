@@ -1,5 +1,5 @@
 /// Self-occlusion: the points of a body that the body hides from a camera.  docs/method.md, "Noise model",
-/// (13)
+/// (14)
 ///
 /// The body is represented by its collision capsules. A joint lies inside its own limb and is visible anyway,
 /// so a point counts as hidden only where the ray from the eye to it passes through more than one and a half

@@ -1,4 +1,4 @@
-/// Random streams and random processes of the noise models: Poisson intervals, smooth noise, random walks.
+/// Random streams and random processes of the noise model: Poisson intervals, smooth noise, random walks.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,9 @@
 namespace mimicx::synth {
 
 enum NoiseStream : std::uint64_t {
-  kJointStream = 0x4E4F4901,
-  kRootStream,
-  kHeadingStream,
-  kPathStream,
-  kDepthStream,
-  kDriftStream,
-  kHeightStream,
-  kBurstStream,
-  kToldShapeStream,
-  kToldCameraStream,
+  kToldCameraStream = 0x4E4F490A,
   kCameraStream,
-  kKeypointBiasStream,
-  kKeypointStream,
-  kSwapStream,
-  kDropStream,
-  kCarriedCameraStream,
+  kCarriedCameraStream = 0x4E4F4910,
   kHandStream,
   kToldDriftStream,
   kToldTurnStream,
@@ -55,15 +42,6 @@ enum NoiseStream : std::uint64_t {
   kMissStream,
   kConfidenceStream,
   kClipSeedStream
-};
-
-inline constexpr double kHeightTau = 1.5;  ///< of the slow term of the height, s
-
-/// Occlusion of one limb joint: a rotation error under a Hann window, and low confidence of its keypoints.
-struct Burst {
-  int joint;
-  int first, length;  ///< frames
-  Vector3d peak;      ///< rotation vector at the window's middle, rad
 };
 
 struct Interval {

@@ -19,7 +19,12 @@ inline fit::FitProblem random_problem(std::uint64_t seed, int frames, const fit:
   camera.intrinsics << 900, 2, 640, 0, 950, 360, 0, 0, 1;
   camera.extrinsics.block<3, 3>(0, 0) << 1, 0, 0, 0, 0.1, -std::sqrt(0.99), 0, std::sqrt(0.99), 0.1;
   camera.extrinsics.block<3, 1>(0, 3) = Vector3d(0.1, 1.2, 4.5);
-  clip.keypoints = synth::detect_keypoints(motion::poses_of(clip), camera, set, {}, seed, clip.fps);
+  const Character character = motion::character_of(clip);
+  const PerFrame<PerBody<Quaterniond>> q = motion::joint_rotations(clip);
+  PerFrame<Vector3d> p_root;
+  for (const BodyPoses& poses : motion::poses_of(clip)) p_root.push_back(poses.p_WB[kPelvis]);
+  clip.keypoints = synth::detect_keypoints({character, p_root, q, clip.fps}, camera, set,
+                                           synth::noise_preset("none"), seed);
   return fit::make_problem(clip, config);
 }
 

@@ -1,12 +1,14 @@
 /// Clips for the tests of the noise model, and how their errors spread.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "synth/noise/estimator_noise.h"
+#include "synth/noise/noise_amplitudes.h"
 #include "synth/synthesize.h"
 
 namespace mimicx::test {
@@ -49,12 +51,11 @@ inline const motion::Clip& still_truth() {
   return still;
 }
 
-/// No error of any kind; the tests switch on one term at a time.
-inline synth::NoiseConfig silent(std::uint64_t seed = 0) {
+/// A preset with a single error term and an exact camera.
+inline synth::NoiseConfig only(double synth::NoisePreset::*term, double value, std::uint64_t seed) {
   synth::NoiseConfig config;
-  config.preset = synth::NoisePreset{};
-  config.preset.slow_tau = config.preset.depth_tau = config.preset.drift_tau = 0.3;
-  config.preset.jitter_frames = config.preset.depth_jitter_frames = 0.5;
+  config.preset = {};
+  if (term) config.preset.*term = value;
   config.camera = synth::camera_error("calibrated");
   config.seed = seed;
   return config;
@@ -75,6 +76,37 @@ inline Vector3d camera_position(const motion::Keypoints& k) {
 }
 inline Vector3d viewing_direction(const motion::Keypoints& k) {
   return k.extrinsics.front().block<1, 3>(2, 0).transpose();
+}
+
+/// A second and a half of walking.
+inline const motion::Clip& short_walk() {
+  static const motion::Clip walk = [] {
+    motion::Clip clip = truth_of("walk");
+    clip.rotations.resize(45);
+    clip.trans.resize(45);
+    return clip;
+  }();
+  return walk;
+}
+
+/// Error of one joint about its parent's axes, degrees.
+inline Vector3d joint_error(const motion::Clip& truth, const motion::Clip& noisy, int t, int body) {
+  return log_map(exp_map(noisy.rotations[t][body]) * exp_map(truth.rotations[t][body]).conjugate()) / kDegree;
+}
+
+/// The value that a share of the samples lies under.
+inline double share_below(std::vector<double> samples, double share) {
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(samples.size()));
+  std::nth_element(samples.begin(), at, samples.end());
+  return *at;
+}
+
+/// u, v by the 3 × 4 projection matrix of the camera of a frame: an oracle that shares no code with
+/// `project`.
+inline Eigen::Vector2d pinhole(const motion::Keypoints& k, int t, const Vector3d& p_W) {
+  const Eigen::Matrix4d& E = k.extrinsics[k.extrinsics.count() > 1 ? t : 0];
+  const Eigen::Matrix<double, 3, 4> projection = k.intrinsics * E.topRows<3>();
+  return (projection * p_W.homogeneous()).hnormalized();
 }
 
 }  // namespace mimicx::test

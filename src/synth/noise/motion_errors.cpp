@@ -1,10 +1,11 @@
-#include "synth/noise/independent_motion.h"
+#include "synth/noise/motion_errors.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "core/elementary.h"
 #include "core/units.h"
+#include "motion/surface_points.h"
 #include "synth/noise/random_processes.h"
 
 namespace mimicx::synth {
@@ -12,7 +13,6 @@ namespace {
 
 // Time constants, s, and frequencies, Hz.
 constexpr double kJointTau = 1.2, kStrideTau = 2.0, kDriftTau = 2.5, kTurnTau = 1.0;
-constexpr double kJitterFrames = 0.8;
 constexpr double kSlowestWobble = 0.3, kFastestWobble = 0.7;
 constexpr int kStaticFreedom = 4;  ///< of Student's t of the constant errors
 
@@ -51,16 +51,15 @@ PerFrame<Vector3d> oscillation(Random& random, int count, double size, double fp
   return out;
 }
 
-void disturb_joint(const IndependentPreset& p, std::uint64_t seed, double fps, int body,
-                   EstimatedMotion& motion) {
+void disturb_joint(const NoisePreset& p, std::uint64_t seed, double fps, int body, EstimatedMotion& motion) {
   const auto key = static_cast<std::uint64_t>(body);
   const int frames = motion.q.count();
   Random still(seed, {kJointConstantStream, key}), slow(seed, {kJointSlowStream, key}),
       quick(seed, {kJointJitterStream, key});
-  const double weight = kDegree * independent_joint_weight(body);
+  const double weight = kDegree * joint_error_weight(body);
   const Vector3d constant = p.joint_static * drawn_vector([&] { return constant_error(still); });
   const PerFrame<Vector3d> slowly = errors_over_time(slow, frames, p.joint_slow, kJointTau * fps),
-                           quickly = errors_over_time(quick, frames, p.joint_jitter, kJitterFrames);
+                           quickly = errors_over_time(quick, frames, p.joint_jitter, p.jitter_frames);
   for (int t = 0; t < frames; ++t) {
     Quaterniond& joint = motion.q[t][body];
     if (p.joint_shrink != 0.0) joint = exp_map((1.0 - p.joint_shrink) * log_map(joint));
@@ -70,7 +69,7 @@ void disturb_joint(const IndependentPreset& p, std::uint64_t seed, double fps, i
 
 }  // namespace
 
-void disturb_rotations(const IndependentPreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
+void disturb_rotations(const NoisePreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
   for (int body = 1; body < kBodies; ++body) disturb_joint(p, seed, fps, body, motion);
   Random still(seed, {kRootConstantStream}), wobbling(seed, {kWobbleTurnStream});
   const Quaterniond constant =
@@ -80,7 +79,7 @@ void disturb_rotations(const IndependentPreset& p, std::uint64_t seed, double fp
     motion.q[t][kPelvis] = exp_map(kDegree * wobble[t]) * motion.q[t][kPelvis] * constant;
 }
 
-void disturb_travel(const IndependentPreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
+void disturb_travel(const NoisePreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
   const int frames = motion.q.count();
   Random stride(seed, {kStrideStream}), drift(seed, {kFalseVelocityStream}), turn(seed, {kHeadingWalkStream});
   const PerFrame<double> scale = smooth_noise(stride, frames, kStrideTau * fps),
@@ -104,13 +103,26 @@ void disturb_travel(const IndependentPreset& p, std::uint64_t seed, double fps, 
   }
 }
 
-void disturb_place(const IndependentPreset& p, std::uint64_t seed, double fps, const CameraPath& camera,
+void disturb_place(const NoisePreset& p, std::uint64_t seed, double fps, const CameraPath& camera,
                    EstimatedMotion& motion) {
   Random distance(seed, {kDistanceStream}), height(seed, {kFloorStream}), wobbling(seed, {kWobbleStream});
   const Vector3d ray = motion.p_root.front() - eye_of(camera.at(0).extrinsics);
   const Vector3d offset = p.depth * distance.normal() * ray + p.height * height.normal() * Vector3d::UnitZ();
   const PerFrame<Vector3d> wobble = oscillation(wobbling, motion.p_root.count(), p.wobble, fps);
   for (int t = 0; t < motion.p_root.count(); ++t) motion.p_root[t] += offset + wobble[t];
+}
+
+void put_on_floor(const NoisePreset& p, const Character& mistaken, const SeenMotion& truth,
+                  EstimatedMotion& motion) {
+  const std::vector<motion::SurfacePoint> points = motion::surface_points(mistaken),
+                                          true_points = motion::surface_points(truth.character);
+  for (int t = 0; t < motion.frames(); ++t) {
+    const double height = motion::lowest_height(points,
+                                                forward_kinematics(mistaken, motion.p_root[t], motion.q[t])),
+                 true_height = motion::lowest_height(
+                     true_points, forward_kinematics(truth.character, truth.p_root[t], truth.q[t]));
+    motion.p_root[t].z() += p.height_offset - p.snap * (height - true_height);
+  }
 }
 
 }  // namespace mimicx::synth
