@@ -117,7 +117,7 @@ Table audit_words() {
       {"beyond_cone_percent", {"friction beyond the friction cone", "%", "of the normal impulse"}},
       {"pull_percent", {"pull of the floor", "%", "of the normal impulse"}},
       {"in_air_percent", {"floor forces on bodies in the air", "%", "of the normal impulse"}},
-      {"cone_violations", {"frames with such friction or pull", "", ""}},
+      {"cone_violations", {"frames with such friction and pull", "", "together over 1 % of the weight"}},
       {"travel_worst_share",
        {"motion of the centre of mass beyond its velocity", "",
         "in parts of what the timing of forces can cause"}},
