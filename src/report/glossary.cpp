@@ -183,9 +183,10 @@ const Table& log_words() {
   static const Table kWords = {
       {"iteration", {"iterations", "", ""}},
       {"samples", {"samples", "", "control steps that were simulated"}},
-      {"reward", {"mean reward of a step", "", "with noise on the actions; 1 is the reference itself"}},
+      {"reward",
+       {"mean softened reward of a step", "", "with noise on the actions; 1 is the reference itself"}},
       {"episode_length", {"length of an episode", "frames", "until the body falls or the clip ends"}},
-      {"reward_term", {"factors of the reward", "", "their product is the reward"}},
+      {"reward_term", {"factors of the reward", "", "on average, before softening"}},
       {"kl", {"step of the policy (KL divergence)", "", "how far an update changed the policy"}},
       {"step_size", {"step size of the actor", "", "adapted to the step of the policy"}},
       {"sigma", {"noise on the actions", "rad", "standard deviation"}},
@@ -194,10 +195,10 @@ const Table& log_words() {
       {"explained_variance", {"explained variance of the returns", "", "by the critic; 1: all of it"}},
       {"clip_fraction", {"share of clipped ratios", "", "samples whose ratio PPO clips"}},
       {"gradient_norm", {"norm of the gradients", "", ""}},
-      {"penalty", {"penalty of the critic's gradient", "", ""}},
+      {"penalty", {"gradient penalty of the policy", "", "before its weight"}},
       {"saturation", {"share at the bound", "", "actions that were clipped, torques at their bounds"}},
       {"sharpness", {"sharpness of the reward", "", "exponent of the softened reward; 1: the reward itself"}},
-      {"rollout_reward", {"reward of the mean actions", "", "over the whole clip"}},
+      {"rollout_reward", {"mean reward of the mean actions", "", "over the whole clip, not softened"}},
       {"rollout_position_error_mm", {"distance of the joints, mean actions", "mm", "over the whole clip"}},
   };
   return kWords;

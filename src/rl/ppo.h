@@ -34,7 +34,7 @@ Learner make_learner(const PpoConfig& config, Agent agent);
 struct IterationStats {
   std::int64_t iteration = 0;        ///< counted from 0
   std::int64_t samples = 0;          ///< drawn so far, this iteration included
-  double mean_reward = 0.0;          ///< per step
+  double mean_reward = 0.0;          ///< per step, of the rewards that it learns from
   double mean_episode_length = 0.0;  ///< of the episodes that ended, steps; 0 if none ended
   double explained_variance = 0.0;   ///< 1 − Var(return − V)/Var(return), before the update
   double saturation = 0.0;           ///< share of the mean actions' components beyond ± 3
