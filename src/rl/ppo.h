@@ -62,12 +62,13 @@ struct GradientSlot {
   LossSums sums;
 };
 
-/// Buffers of `update`; their contents do not matter.
-struct UpdateScratch {
+/// The workers of `update` and their buffers, whose contents do not matter.
+struct UpdateWorkers {
+  int threads = 1;  ///< the result does not depend on it
   List<GradientSlot> slots;
   std::vector<int> order;  ///< shuffled rows
 
-  explicit UpdateScratch(const PpoConfig& config) : slots(config.gradient_slots) {}
+  explicit UpdateWorkers(const PpoConfig& config) : slots(config.gradient_slots) {}
 };
 
 /// The rows of a roll-out that an agent learns from. Refers to its parts.
@@ -85,7 +86,7 @@ struct ShuffleKey {
 
 /// All epochs over the given rows; adapts the step size.
 void update(Learner& learner, const PpoConfig& config, const LearningRows& data, const ShuffleKey& key,
-            int threads, UpdateScratch& scratch, IterationStats& stats);
+            UpdateWorkers& workers, IterationStats& stats);
 
 /// Reward, episode length, explained variance and saturation of a roll-out.
 void describe_rollout(const RolloutBuffer& buffer, IterationStats& stats);
