@@ -221,7 +221,7 @@ void tell_training(const pipeline::options::ArrangedClip& arranged, const pipeli
                {"KL(old || new)", stats.kl},
                {"step size of the actor", stats.step_size},
                {"sigma", stats.sigma},
-               {"mean reward of a step", stats.mean_reward}});
+               {"mean softened reward of a step", stats.mean_reward}});
 }
 
 void tell_files(const record::RunFolder& folder, const std::string& name) {

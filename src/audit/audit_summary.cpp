@@ -29,8 +29,10 @@ Limits limits_of(Evidence evidence) {
 }
 constexpr double kTorqueRounding = 1e-5;  ///< relative, of float32
 constexpr double kMostTravel = 1.2;       ///< parts of (12): its derivation leaves out an eighth
-/// Share of the normal impulse; likewise of pull and of force in the air.
+/// Share of the normal impulse, which the contact law does not reach (docs/physics.md §4); likewise of pull
+/// and of force in the air.
 constexpr double kMostBeyondCone = 0.1;
+constexpr double kConeViolation = 0.01;  ///< friction beyond the cone and pull, parts of the weight
 
 struct Extreme {
   double sum = 0.0, largest = 0.0;
@@ -74,7 +76,7 @@ NamedValues force_summary(const Audit& audit) {
     positive += row.positive;
     total += row.total;
     over_bound += row.torque_share > 1.0 + kTorqueRounding;
-    beyond_cone += row.beyond_cone + row.pull > 0.01 * audit.weight;
+    beyond_cone += row.beyond_cone + row.pull > kConeViolation * audit.weight;
   }
   const double n = std::max<double>(static_cast<double>(audit.rows.size()), 1.0);
   const double hundred = 100.0 / std::max(normal, 1e-9);

@@ -3,10 +3,11 @@
 /// A spring–damper evaluated at the end of the step is, to first order in dt,
 ///     τ = kp·φ − (kd + dt·kp)·ω + kd·ω*  −  δ·q̈,      δ = dt·kd + dt²·kp,      φ = log(q⁻¹ q*),
 /// so its explicit part goes into τ and δ onto the diagonal of D.             docs/physics.md §3, (5)
-/// The torque of an anatomical range has the same form with the range's own stiffness, and pushes back along
-/// the gradient of the range ellipsoid; its deflection is docs/physics.md §3, (6). The torque of the PD
-/// controller never exceeds its bound: joints that exceed it after the last pass are saturated, too, and the
-/// step is solved again. The torque of the range comes from bones and ligaments and has no bound.
+/// The torque of an anatomical range has the same implicit terms: a spring along the gradient of the range
+/// ellipsoid and a damper on the whole joint velocity; its deflection is docs/physics.md §3, (6). The torque
+/// of the PD controller never exceeds its bound: joints that exceed it after the last pass are saturated,
+/// too, and the step is solved again. The torque of the range comes from bones and ligaments and has no
+/// bound.
 #pragma once
 
 #include "physics/data.h"

@@ -23,7 +23,8 @@ struct TrainingConfig {
   std::vector<int> hidden{128, 128};  ///< widths of the hidden layers of actor and critic
   double sigma_share = 0.75;          ///< share of the budget during which σ falls
   int evaluate_iterations = 20;       ///< every so many iterations the mean actions are rolled out
-  double stop_reward = 0.0;           ///< a roll-out of this mean reward ends the training; 0: none does
+  /// A roll-out of the mean actions with this mean reward, not softened, ends the training; 0: none does.
+  double stop_reward = 0.0;
   /// The training ends after this many roll-outs in a row that follow the motion to its end without being
   /// better than the best one before; 0: it does not end so.
   int stall_evaluations = 0;
@@ -40,7 +41,8 @@ void visit_settings(TrainingConfig& config, const auto& visit) {
           "units of that hidden layer of actor and critic");
   visit("sigma_share", config.sigma_share, 0, 1, "share of the budget during which exploration falls");
   visit("evaluate_iterations", config.evaluate_iterations, 1, 1e9, "iterations between two evaluations");
-  visit("stop_reward", config.stop_reward, 0, 1e9, "mean reward that ends the training; 0: none does");
+  visit("stop_reward", config.stop_reward, 0, 1e9,
+        "mean reward of a mean-action roll-out, not softened, that ends the training; 0: none does");
   visit("stall_evaluations", config.stall_evaluations, 0, 1e9,
         "evaluations in a row without progress that end the training; 0: never");
   visit_settings(config.ppo, visit);

@@ -41,7 +41,7 @@ struct SequenceEntry {
   double fps = 0.0;
   std::uint64_t seed = 0;
   std::int64_t samples = 0;
-  /// Mean reward per frame of the mean-action roll-out, before and after training.
+  /// Mean reward per frame (not softened) of the mean-action roll-out, before and after training.
   double reward_before = std::numeric_limits<double>::quiet_NaN();
   double reward_after = std::numeric_limits<double>::quiet_NaN();
   /// {first frame, option} of every stretch of one option; empty for a training from scratch.

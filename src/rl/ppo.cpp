@@ -162,13 +162,13 @@ void clear(const nn::Mlp<float>& mlp, Gradients& gradients) {
 
 /// Gradients of one minibatch, slot by slot. @return the losses summed over the slots, in their order
 LossSums take_gradients(const Agent& agent, const PpoConfig& config, const LearningRows& batch,
-                        const AdvantageScale& advantages, int threads, UpdateScratch& scratch) {
-  parallel_for(config.gradient_slots, threads, [&](int index) {
-    GradientSlot& slot = scratch.slots[index];
+                        const AdvantageScale& advantages, UpdateWorkers& workers) {
+  parallel_for(config.gradient_slots, workers.threads, [&](int index) {
+    GradientSlot& slot = workers.slots[index];
     slot.sums = {};
     clear(agent.actor, slot.actor_gradient);
     clear(agent.critic, slot.critic_gradient);
-    const auto mine = part(batch.rows, static_cast<std::size_t>(index), scratch.slots.size());
+    const auto mine = part(batch.rows, static_cast<std::size_t>(index), workers.slots.size());
     const auto pass_rows = static_cast<std::size_t>(config.pass_rows);
     const std::size_t passes = (mine.size() + pass_rows - 1) / pass_rows;
     for (std::size_t pass = 0; pass < passes; ++pass) {
@@ -178,7 +178,7 @@ LossSums take_gradients(const Agent& agent, const PpoConfig& config, const Learn
     }
   });
   LossSums total;
-  for (const GradientSlot& slot : scratch.slots) {
+  for (const GradientSlot& slot : workers.slots) {
     total.policy_loss += slot.sums.policy_loss;
     total.value_loss += slot.sums.value_loss;
     total.penalty += slot.sums.penalty;
@@ -190,26 +190,25 @@ LossSums take_gradients(const Agent& agent, const PpoConfig& config, const Learn
 
 /// Adds the slots' gradients into the first slot's, clips and steps. @return the norm before clipping
 double descend(nn::Mlp<float>& mlp, nn::Adam<float>& adam, Gradients GradientSlot::*gradients,
-               double max_norm, double step_size, UpdateScratch& scratch) {
-  Gradients& total = scratch.slots.front().*gradients;
-  for (std::size_t slot = 1; slot < scratch.slots.size(); ++slot)
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] += (scratch.slots[slot].*gradients)[k];
+               double max_norm, double step_size, UpdateWorkers& workers) {
+  Gradients& total = workers.slots.front().*gradients;
+  for (std::size_t slot = 1; slot < workers.slots.size(); ++slot)
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] += (workers.slots[slot].*gradients)[k];
   const double norm = nn::clip_gradient_norm<float>(total, max_norm);
   nn::adam_step<float>(adam, parameters(mlp), total, static_cast<float>(step_size));
   return norm;
 }
 
 /// Both networks step in parallel: they share no data.
-void step_networks(Learner& learner, const PpoConfig& config, int threads, UpdateScratch& scratch,
-                   IterationStats& stats) {
+void step_networks(Learner& learner, const PpoConfig& config, UpdateWorkers& workers, IterationStats& stats) {
   double norms[2] = {0.0, 0.0};
-  parallel_for(2, threads, [&](int network) {
+  parallel_for(2, workers.threads, [&](int network) {
     if (network == 0)
       norms[0] = descend(learner.agent.actor, learner.actor_adam, &GradientSlot::actor_gradient,
-                         config.gradient_norm, learner.step_size, scratch);
+                         config.gradient_norm, learner.step_size, workers);
     else
       norms[1] = descend(learner.agent.critic, learner.critic_adam, &GradientSlot::critic_gradient,
-                         config.gradient_norm, config.critic_step_size, scratch);
+                         config.gradient_norm, config.critic_step_size, workers);
   });
   stats.actor_gradient += norms[0];
   stats.critic_gradient += norms[1];
@@ -249,7 +248,7 @@ Learner make_learner(const PpoConfig& config, Agent agent) {
 }
 
 void update(Learner& learner, const PpoConfig& config, const LearningRows& data, const ShuffleKey& key,
-            int threads, UpdateScratch& scratch, IterationStats& stats) {
+            UpdateWorkers& workers, IterationStats& stats) {
   const auto& [buffer, rows, sigma] = data;
   if (rows.empty()) return;
   stats.learned = true;
@@ -259,16 +258,16 @@ void update(Learner& learner, const PpoConfig& config, const LearningRows& data,
   const auto minibatches =
       static_cast<std::size_t>(std::max(1L, std::lround(double(rows.size()) / double(config.minibatch))));
   bool stopped = false;
-  scratch.order.assign(rows.begin(), rows.end());
+  workers.order.assign(rows.begin(), rows.end());
   for (int epoch = 0; epoch < config.epochs && !stopped; ++epoch) {
-    shuffle(scratch.order,
+    shuffle(workers.order,
             Random(key.seed, {kShuffle, key.learner, static_cast<std::uint64_t>(learner.iteration),
                               static_cast<std::uint64_t>(epoch)}));
     double epoch_kl = 0.0;
     for (std::size_t k = 0; k < minibatches; ++k) {
-      const LearningRows batch{buffer, part(scratch.order, k, minibatches), sigma};
+      const LearningRows batch{buffer, part(workers.order, k, minibatches), sigma};
       const double count = static_cast<double>(batch.rows.size());
-      const LossSums sums = take_gradients(learner.agent, config, batch, advantages, threads, scratch);
+      const LossSums sums = take_gradients(learner.agent, config, batch, advantages, workers);
       const double kl = sums.kl / count;
       stopped = kl > config.kl_stop * config.kl_target;
       stats.kl = kl;
@@ -278,7 +277,7 @@ void update(Learner& learner, const PpoConfig& config, const LearningRows& data,
       stats.value_loss += sums.value_loss / count;
       stats.penalty += sums.penalty / count;
       stats.clip_fraction += sums.clipped / count;
-      step_networks(learner, config, threads, scratch, stats);
+      step_networks(learner, config, workers, stats);
     }
     if (!stopped) stats.kl = epoch_kl / static_cast<double>(minibatches);
   }

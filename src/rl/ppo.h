@@ -34,7 +34,7 @@ Learner make_learner(const PpoConfig& config, Agent agent);
 struct IterationStats {
   std::int64_t iteration = 0;        ///< counted from 0
   std::int64_t samples = 0;          ///< drawn so far, this iteration included
-  double mean_reward = 0.0;          ///< per step
+  double mean_reward = 0.0;          ///< per step, of the rewards that it learns from
   double mean_episode_length = 0.0;  ///< of the episodes that ended, steps; 0 if none ended
   double explained_variance = 0.0;   ///< 1 − Var(return − V)/Var(return), before the update
   double saturation = 0.0;           ///< share of the mean actions' components beyond ± 3
@@ -62,12 +62,13 @@ struct GradientSlot {
   LossSums sums;
 };
 
-/// Buffers of `update`; their contents do not matter.
-struct UpdateScratch {
+/// The workers of `update` and their buffers, whose contents do not matter.
+struct UpdateWorkers {
+  int threads = 1;  ///< the result does not depend on it
   List<GradientSlot> slots;
   std::vector<int> order;  ///< shuffled rows
 
-  explicit UpdateScratch(const PpoConfig& config) : slots(config.gradient_slots) {}
+  explicit UpdateWorkers(const PpoConfig& config) : slots(config.gradient_slots) {}
 };
 
 /// The rows of a roll-out that an agent learns from. Refers to its parts.
@@ -85,7 +86,7 @@ struct ShuffleKey {
 
 /// All epochs over the given rows; adapts the step size.
 void update(Learner& learner, const PpoConfig& config, const LearningRows& data, const ShuffleKey& key,
-            int threads, UpdateScratch& scratch, IterationStats& stats);
+            UpdateWorkers& workers, IterationStats& stats);
 
 /// Reward, episode length, explained variance and saturation of a roll-out.
 void describe_rollout(const RolloutBuffer& buffer, IterationStats& stats);

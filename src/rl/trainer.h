@@ -38,7 +38,7 @@ class PpoTrainer {
                                     static_cast<int>(agents.size()))),
         collect_(environment.groups(),
                  CollectScratch(environment.group_size(), environment.observation_dim())),
-        update_(config),
+        workers_(config),
         rows_(agents.size()) {
     if (static_cast<int>(agents.size()) != environment.agents())
       throw std::invalid_argument("PpoTrainer: " + std::to_string(agents.size()) + " agents where " +
@@ -59,14 +59,14 @@ class PpoTrainer {
     stats.samples = samples_;
     describe_rollout(buffer_, stats);
     assign_rows();
+    workers_.threads = threads;
     std::vector<IterationStats> parts(learners_.size(), stats);
     for (std::size_t k = 0; k < learners_.size(); ++k) {
       Learner& learner = learners_[k];
       // The first roll-out only measures the observations: learning uses the scale with which the agents
       // acted, and for the first roll-out that is unknown.
       if (learner.agent.observations.moments.count > 0)
-        update(learner, config_, {buffer_, rows_[k], stats.sigma}, {course_.seed, k}, threads, update_,
-               parts[k]);
+        update(learner, config_, {buffer_, rows_[k], stats.sigma}, {course_.seed, k}, workers_, parts[k]);
       learner.samples += static_cast<std::int64_t>(rows_[k].size());
       ++learner.iteration;
     }
@@ -177,7 +177,7 @@ class PpoTrainer {
   std::int64_t iteration_ = 0, samples_ = 0;
   RolloutBuffer buffer_;
   List<CollectScratch> collect_;
-  UpdateScratch update_;
+  UpdateWorkers workers_;
   List<std::vector<int>> rows_;  ///< [agent]
 };
 

@@ -101,8 +101,7 @@ void scale_inputs(const Lessons& lessons, rl::Agent& agent) {
 }
 
 Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
-                     const LessonConfig& config, const rl::Agent* student, std::uint64_t seed,
-                     std::uint64_t key, Side side) {
+                     const LessonConfig& config, const rl::Agent* student, const LessonKey& key, Side side) {
   const bool mirrored = side == Side::kMirrored;
   const rl::tracking::MirrorMap of_state = rl::tracking::mirror_of_state();
   const rl::tracking::MirrorMap of_action = rl::tracking::mirror_of_action();
@@ -110,7 +109,7 @@ Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig&
   const auto scratch = std::make_unique<physics::Data<TrackingPack::P>>();
   std::optional<Player> player;
   if (student) player.emplace(*student);
-  Random noise(seed, {kNoise, key}), pushes(seed, {kPushes, key});
+  Random noise(key.seed, {kNoise, key.pack}), pushes(key.seed, {kPushes, key.pack});
   Lessons lessons;
   LaneActions before{}, own{};
   for (int t = 0; t < teacher.size(); ++t) {

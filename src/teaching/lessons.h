@@ -52,14 +52,19 @@ rl::Agent beginner(int state_size, const std::vector<int>& hidden, std::uint64_t
 /// Sets the agent's input normalisation from the states of these lessons.
 void scale_inputs(const Lessons& lessons, rl::Agent& agent);
 
+/// Key of the random numbers of lessons.
+struct LessonKey {
+  std::uint64_t seed;  ///< of the training
+  std::uint64_t pack;  ///< number of the pack in the training
+};
+
 /// One pack goes through the motion once: frames × lanes rows.
 /// @param student  null: all lanes follow the teacher
-/// @param key  of the random numbers
 /// @param side  mirrored: the student observes and acts in the mirrored motion, and the lessons are those of
 /// it
 Lessons take_lessons(const Teacher& teacher, const rl::tracking::TrackingConfig& task,
-                     const LessonConfig& config, const rl::Agent* student, std::uint64_t seed,
-                     std::uint64_t key, Side side = Side::kAsIs);
+                     const LessonConfig& config, const rl::Agent* student, const LessonKey& key,
+                     Side side = Side::kAsIs);
 
 /// How well an agent follows the motion under pushes, by the rules of control/gains.h.
 control::PushResult test_pushes(const std::shared_ptr<const rl::tracking::TrackingClip>& clip,

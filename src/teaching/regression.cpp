@@ -22,9 +22,9 @@ void gather(const Lessons& lessons, std::span<const int> rows, int state_size, R
 }
 
 /// Gradient of the loss over the slot's rows, each of which counts `share`.
-void take_gradient(const Lessons& lessons, const List<Eigen::MatrixXf>& importance, std::span<const int> rows,
-                   const rl::Agent& agent, float share, RegressionSlot& slot) {
-  gather(lessons, rows, agent.actor.inputs(), slot);
+void take_gradient(const WeighedLessons& data, std::span<const int> rows, const rl::Agent& agent, float share,
+                   RegressionSlot& slot) {
+  gather(data.lessons, rows, agent.actor.inputs(), slot);
   nn::normalise(agent.observations, slot.states, slot.normalised);
   nn::Tape<float>& tape = slot.tape;
   tape.reset();
@@ -34,7 +34,8 @@ void take_gradient(const Lessons& lessons, const List<Eigen::MatrixXf>& importan
   slot.pull.resize(error.rows(), error.cols());
   slot.loss = 0.0;
   for (Eigen::Index k = 0; k < error.rows(); ++k) {
-    const Eigen::MatrixXf& W = importance[lessons.weighed_by[rows[static_cast<std::size_t>(k)]]];
+    const int row = rows[static_cast<std::size_t>(k)];
+    const Eigen::MatrixXf& W = data.importance[data.lessons.weighed_by[row]];
     slot.pull.row(k).noalias() = share * (error.row(k) * W);
     slot.loss += 0.5 * static_cast<double>(error.row(k).dot(slot.pull.row(k)));
   }
@@ -53,14 +54,13 @@ PolicyInTraining untaught(int state_size, const std::vector<int>& hidden, std::u
   return policy;
 }
 
-double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
-                       std::span<const int> rows, const RegressionConfig& config, double step_size,
-                       int threads, rl::Agent& agent, nn::Adam<float>& adam, RegressionScratch& scratch) {
+double regression_step(const WeighedLessons& data, const RegressionStep& step, const RegressionConfig& config,
+                       int threads, PolicyInTraining& policy, RegressionScratch& scratch) {
   if (scratch.slots.count() != config.slots) scratch.slots = List<RegressionSlot>(config.slots);
-  const float share = 1.0f / static_cast<float>(rows.size());
+  const float share = 1.0f / static_cast<float>(step.rows.size());
   parallel_for(config.slots, threads, [&](int k) {
-    take_gradient(lessons, importance, part(rows, static_cast<std::size_t>(k), scratch.slots.size()), agent,
-                  share, scratch.slots[k]);
+    const auto rows = part(step.rows, static_cast<std::size_t>(k), scratch.slots.size());
+    take_gradient(data, rows, policy.agent, share, scratch.slots[k]);
   });
   std::vector<nn::Matrix<float>>& gradient = scratch.slots.front().gradient;
   double loss = scratch.slots.front().loss;
@@ -69,28 +69,26 @@ double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& impo
     for (std::size_t p = 0; p < gradient.size(); ++p) gradient[p] += scratch.slots[k].gradient[p];
   }
   nn::clip_gradient_norm<float>(std::span<nn::Matrix<float>>(gradient), config.gradient_norm);
-  const std::vector<nn::Matrix<float>*> parameters = nn::parameters(agent.actor);
-  nn::adam_step<float>(adam, parameters, std::span<const nn::Matrix<float>>(gradient),
-                       static_cast<float>(step_size));
+  const std::vector<nn::Matrix<float>*> parameters = nn::parameters(policy.agent.actor);
+  nn::adam_step<float>(policy.adam, parameters, std::span<const nn::Matrix<float>>(gradient),
+                       static_cast<float>(step.step_size));
   return loss;
 }
 
-std::optional<double> regression_round(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
-                                       const RegressionRound& round, const RegressionConfig& config,
-                                       const control::PlanControl& control, Random& random,
-                                       PolicyInTraining& policy) {
+std::optional<double> regression_round(const WeighedLessons& data, const RegressionRound& round,
+                                       const RegressionConfig& config, const control::PlanControl& control,
+                                       Random& random, PolicyInTraining& policy) {
   RegressionScratch scratch;
   List<int> rows(config.minibatch);
   double loss = 0.0;
   for (int step = 0; step < round.steps; ++step) {
     if (control.should_stop && control.should_stop()) return {};
-    for (int& row : rows) row = static_cast<int>(random.below(static_cast<std::uint32_t>(lessons.rows())));
+    for (int& row : rows)
+      row = static_cast<int>(random.below(static_cast<std::uint32_t>(data.lessons.rows())));
     const double done = (round.round + (step + 0.5) / round.steps) / round.rounds;
     const double left = 1.0 - std::min(done, 1.0);
     const double step_size = round.last_step_size + left * left * (round.step_size - round.last_step_size);
-    loss += regression_step(lessons, importance, rows, config, step_size, control.threads, policy.agent,
-                            policy.adam, scratch) /
-            round.steps;
+    loss += regression_step(data, {rows, step_size}, config, control.threads, policy, scratch) / round.steps;
   }
   return loss;
 }

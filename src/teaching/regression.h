@@ -42,10 +42,20 @@ struct PolicyInTraining {
 };
 PolicyInTraining untaught(int state_size, const std::vector<int>& hidden, std::uint64_t seed);
 
-/// One step of Adam on rows of the lessons. @return L before the step
-double regression_step(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
-                       std::span<const int> rows, const RegressionConfig& config, double step_size,
-                       int threads, rl::Agent& agent, nn::Adam<float>& adam, RegressionScratch& scratch);
+/// What a policy regresses onto. Refers to its parts.
+struct WeighedLessons {
+  const Lessons& lessons;
+  const List<Eigen::MatrixXf>& importance;  ///< W_t, by `weighed_by` of the lessons
+};
+
+/// One step of Adam.
+struct RegressionStep {
+  std::span<const int> rows;  ///< of the lessons
+  double step_size;
+};
+/// @return L before the step
+double regression_step(const WeighedLessons& data, const RegressionStep& step, const RegressionConfig& config,
+                       int threads, PolicyInTraining& policy, RegressionScratch& scratch);
 
 /// The gradient steps of one round, each on random rows.
 struct RegressionRound {
@@ -54,9 +64,8 @@ struct RegressionRound {
   double step_size, last_step_size;  ///< falls with the square of what is left of the rounds
 };
 /// @return the mean of L over the steps; none where it was told to stop
-std::optional<double> regression_round(const Lessons& lessons, const List<Eigen::MatrixXf>& importance,
-                                       const RegressionRound& round, const RegressionConfig& config,
-                                       const control::PlanControl& control, Random& random,
-                                       PolicyInTraining& policy);
+std::optional<double> regression_round(const WeighedLessons& data, const RegressionRound& round,
+                                       const RegressionConfig& config, const control::PlanControl& control,
+                                       Random& random, PolicyInTraining& policy);
 
 }  // namespace mimicx::teaching

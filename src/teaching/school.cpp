@@ -74,10 +74,10 @@ Material gather_material(const Teachers& teachers, int count, const rl::tracking
     Eigen::MatrixXf& importance = material.importance[pack];
     importance = config.weigh ? teacher.importance.front() : Eigen::MatrixXf::Identity(kDofs, kDofs);
     if (side == Side::kMirrored) importance = mirrored(importance);
-    const auto key = static_cast<std::uint64_t>(pupil.rounds) * static_cast<std::uint64_t>(config.packs) +
-                     static_cast<std::uint64_t>(pack);
-    taken[pack] = take_lessons(teacher, task, config.lessons, pupil.rounds > 0 ? &pupil.agent : nullptr,
-                               config.seed, key, side);
+    const auto before = static_cast<std::uint64_t>(pupil.rounds) * static_cast<std::uint64_t>(config.packs);
+    const LessonKey key = {config.seed, before + static_cast<std::uint64_t>(pack)};
+    taken[pack] =
+        take_lessons(teacher, task, config.lessons, pupil.rounds > 0 ? &pupil.agent : nullptr, key, side);
     std::fill(taken[pack].weighed_by.begin(), taken[pack].weighed_by.end(), pack);
   });
   int rows = 0;
@@ -118,8 +118,8 @@ std::optional<SchoolRound> teach_round(const Teachers& teachers, int count,
       std::max(1, static_cast<int>(std::lround(config.passes * stats.lessons / config.regression.minibatch)));
   Random random(config.seed, {kLessonRows, static_cast<std::uint64_t>(next.rounds)});
   const RegressionRound round = {next.rounds, config.rounds, steps, config.step_size, config.last_step_size};
-  const auto loss = regression_round(material.lessons, material.importance, round, config.regression, control,
-                                     random, next);
+  const auto loss = regression_round({material.lessons, material.importance}, round, config.regression,
+                                     control, random, next);
   if (!loss) return {};
   stats.loss = *loss;
   ++next.rounds;

@@ -61,9 +61,8 @@ std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::Track
     if (of_stage == 0 && best.followed()) break;
     List<Lessons> fresh(config.packs);
     parallel_for(config.packs, control.threads, [&](int pack) {
-      const auto key = static_cast<std::uint64_t>(round * config.packs + pack);
-      fresh[pack] =
-          take_lessons(teacher, task, config.lessons, round > 0 ? &student.agent : nullptr, config.seed, key);
+      const LessonKey key = {config.seed, static_cast<std::uint64_t>(round * config.packs + pack)};
+      fresh[pack] = take_lessons(teacher, task, config.lessons, round > 0 ? &student.agent : nullptr, key);
     });
     stats.round = round;
     stats.put_back = 0;
@@ -80,7 +79,7 @@ std::optional<rl::Agent> teach(const Teacher& teacher, const rl::tracking::Track
     if (round == 0 || another) scale_inputs(all, student.agent);
     const RegressionRound of_this = {of_stage, config.rounds, steps, config.step_size, config.last_step_size};
     const auto loss =
-        regression_round(all, teacher.importance, of_this, config.regression, control, random, student);
+        regression_round({all, teacher.importance}, of_this, config.regression, control, random, student);
     if (!loss) return {};
     stats.loss = *loss;
     if (2 * (of_stage + 1) > config.rounds) best.consider(teacher, task, student.agent);

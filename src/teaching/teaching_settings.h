@@ -12,7 +12,7 @@ struct TeachingConfig {
   StudentConfig student;
   /// Samples of PPO, at most, if the student does not follow the motion unaided; 0: no PPO.
   std::int64_t polish_samples = 400000;
-  /// PPO ends at this mean reward on the planned motion.
+  /// PPO ends where a roll-out of the mean action has this mean reward (not softened) on the planned motion.
   double polish_reward = 0.6;
 };
 
@@ -22,7 +22,8 @@ void visit_settings(TeachingConfig& config, const auto& visit) {
   visit_settings(config.student, with_prefix("teach_", visit));
   visit("polish_samples", config.polish_samples, 0, 1e9,
         "PPO's budget where a taught policy fails, character steps; 0: no PPO");
-  visit("polish_reward", config.polish_reward, 0, 1, "mean reward at which this PPO ends");
+  visit("polish_reward", config.polish_reward, 0, 1,
+        "mean reward of a mean-action roll-out, not softened, that ends this PPO");
 }
 
 }  // namespace mimicx::teaching

@@ -65,6 +65,32 @@ TEST(AutoEncoder, RemovesNoiseThatSamplesDoNotShare) {
   EXPECT_LT(across(decoded - clean), 0.05 * across(noisy - clean));
 }
 
+// Steps of size 0 leave the initial networks: the loss of a large minibatch is that of as many own draws.
+TEST(AutoEncoder, LossIsTheMeanSquaredErrorAgainstTheUncorruptedInput) {
+  constexpr int kRows = 20000;
+  const Matrix<float> samples = plane_points(50, 6);
+  AutoEncoderConfig config = small();
+  config.corruption = 1.5;
+  config.steps = 1;
+  config.minibatch = kRows;
+  config.step_size = 0.0;
+  AutoEncoderStats stats;
+  const AutoEncoder coder = train_autoencoder(samples, config, 3, &stats);
+  Matrix<float> normalised, clean(kRows, samples.cols()), corrupted, code, decoded;
+  normalise(coder.inputs, samples, normalised);
+  Random random(8);
+  for (int row = 0; row < kRows; ++row) clean.row(row) = normalised.row(static_cast<int>(random.below(50)));
+  corrupted = clean;
+  for (Eigen::Index k = 0; k < corrupted.size(); ++k)
+    corrupted.data()[k] += static_cast<float>(config.corruption * random.normal());
+  Workspace<float> workspace;
+  evaluate(coder.encoder, corrupted, workspace, code);
+  evaluate(coder.decoder, code, workspace, decoded);
+  const double expected = std::pow(rms(decoded - clean), 2);
+  EXPECT_NEAR(stats.first_loss, expected, 0.02 * expected);
+  EXPECT_GT(std::abs(std::pow(rms(decoded - corrupted), 2) - expected), 0.1 * expected);
+}
+
 TEST(AutoEncoder, BitsDependOnTheSeedAlone) {
   const Matrix<float> samples = plane_points(100, 5);
   AutoEncoderConfig config = small();

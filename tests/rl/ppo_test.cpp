@@ -45,15 +45,15 @@ TEST(Ppo, UpdateReadsOnlyTheRowsItIsGiven) {
   const PpoConfig config = small_config();
   RolloutBuffer buffer = random_rollout(small_agent(), 3);
   const std::vector<int> mine = rows_from(0, 250);
-  UpdateScratch scratch(config);
+  UpdateWorkers workers(config);
   IterationStats stats;
   Learner a = make_learner(config, small_agent()), b = a;
-  update(a, config, {buffer, mine, 0.3}, kShuffles, 1, scratch, stats);
+  update(a, config, {buffer, mine, 0.3}, kShuffles, workers, stats);
   GroupRollout& second = buffer.groups[1];  // rows 200 … 399
   second.observations.bottomRows(150).setConstant(1e6F);
   second.actions.bottomRows(150).setConstant(-1e6F);
   second.advantages.bottomRows(7).setConstant(1e6F);
-  update(b, config, {buffer, mine, 0.3}, kShuffles, 1, scratch, stats);
+  update(b, config, {buffer, mine, 0.3}, kShuffles, workers, stats);
   Npz first_state, second_state;
   save(first_state, "", a);
   save(second_state, "", b);
@@ -72,10 +72,10 @@ TEST(Ppo, SlotsAndPassesChangeTheGradientByRoundingOnly) {
       config.minibatch = buffer.rows();
       config.gradient_slots = slots;
       config.pass_rows = pass;
-      UpdateScratch scratch(config);
+      UpdateWorkers workers(config);
       IterationStats stats;
       Learner learner = make_learner(config, small_agent());
-      update(learner, config, {buffer, rows, 0.3}, kShuffles, 1, scratch, stats);
+      update(learner, config, {buffer, rows, 0.3}, kShuffles, workers, stats);
       EXPECT_EQ(stats.minibatches, 1);
       norms.push_back(stats.actor_gradient);
       norms.push_back(stats.critic_gradient);
@@ -88,10 +88,10 @@ TEST(Ppo, FirstMinibatchSeesNoDifferenceFromTheOldPolicy) {
   config.epochs = 1;
   config.minibatch = 400;
   const RolloutBuffer buffer = random_rollout(small_agent(), 6);
-  UpdateScratch scratch(config);
+  UpdateWorkers workers(config);
   IterationStats stats;
   Learner learner = make_learner(config, small_agent());
-  update(learner, config, {buffer, rows_from(0, 400), 0.3}, kShuffles, 1, scratch, stats);
+  update(learner, config, {buffer, rows_from(0, 400), 0.3}, kShuffles, workers, stats);
   EXPECT_LT(stats.kl, 1e-9);
   EXPECT_EQ(stats.clip_fraction, 0.0);
   EXPECT_NEAR(stats.policy_loss, 0.0, 1e-5);  // normalised advantages sum to nothing
@@ -105,12 +105,12 @@ TEST(Ppo, ReportedKlIsThatOfThePolicyBeforeTheLastStep) {
   config.kl_stop = 1e9;
   config.step_size = 3e-3;
   const RolloutBuffer buffer = random_rollout(small_agent(), 8);
-  UpdateScratch scratch(config);
+  UpdateWorkers workers(config);
   IterationStats two_steps, one_step;
   Learner after_two = make_learner(config, small_agent()), after_one = after_two;
-  update(after_two, config, {buffer, rows_from(0, 400), sigma}, kShuffles, 1, scratch, two_steps);
+  update(after_two, config, {buffer, rows_from(0, 400), sigma}, kShuffles, workers, two_steps);
   config.epochs = 1;
-  update(after_one, config, {buffer, rows_from(0, 400), sigma}, kShuffles, 1, scratch, one_step);
+  update(after_one, config, {buffer, rows_from(0, 400), sigma}, kShuffles, workers, one_step);
   double kl = 0.0;
   nn::Workspace<float> workspace;
   nn::Matrix<float> means;
@@ -127,11 +127,11 @@ TEST(Ppo, StopsAnIterationOfLargeKl) {
   config.minibatch = 100;
   config.step_size = 0.05;
   const RolloutBuffer buffer = random_rollout(small_agent(), 7);
-  UpdateScratch scratch(config);
+  UpdateWorkers workers(config);
   IterationStats stats;
   Learner learner = make_learner(config, small_agent());
   learner.step_size = 0.05;
-  update(learner, config, {buffer, rows_from(0, 400), 0.3}, kShuffles, 1, scratch, stats);
+  update(learner, config, {buffer, rows_from(0, 400), 0.3}, kShuffles, workers, stats);
   EXPECT_LT(stats.minibatches, 8);
   EXPECT_GT(stats.kl, config.kl_stop * config.kl_target);
 }

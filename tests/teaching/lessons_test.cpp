@@ -27,7 +27,7 @@ std::span<const float> state_of(const Lessons& lessons, int row) {
 
 TEST(Lessons, FirstLaneFollowsTheMotionUndisturbed) {
   const Teacher& teacher = teacher_of_squat();
-  const Lessons lessons = take_lessons(teacher, {}, {}, nullptr, 1, 0);
+  const Lessons lessons = take_lessons(teacher, {}, {}, nullptr, {1, 0});
   ASSERT_EQ(lessons.rows(), teacher.size() * kLanes);
   for (int t = 0; t < teacher.size(); ++t) {
     const int row = t * kLanes;
@@ -40,7 +40,7 @@ TEST(Lessons, FirstLaneFollowsTheMotionUndisturbed) {
 TEST(Lessons, LanesAreEqualWithoutDisturbance) {
   LessonConfig calm;
   calm.action_noise = calm.push = 0.0;
-  const Lessons lessons = take_lessons(teacher_of_squat(), {}, calm, nullptr, 1, 0);
+  const Lessons lessons = take_lessons(teacher_of_squat(), {}, calm, nullptr, {1, 0});
   for (int row = 0; row < lessons.rows(); ++row) {
     const auto a = state_of(lessons, row), b = state_of(lessons, row - row % kLanes);
     ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin())) << row;
@@ -49,9 +49,9 @@ TEST(Lessons, LanesAreEqualWithoutDisturbance) {
 
 TEST(Lessons, DependOnTheKeyOnly) {
   const rl::Agent student = beginner();
-  const Lessons a = take_lessons(teacher_of_squat(), {}, {}, &student, 1, 5),
-                b = take_lessons(teacher_of_squat(), {}, {}, &student, 1, 5),
-                c = take_lessons(teacher_of_squat(), {}, {}, &student, 1, 6);
+  const Lessons a = take_lessons(teacher_of_squat(), {}, {}, &student, {1, 5}),
+                b = take_lessons(teacher_of_squat(), {}, {}, &student, {1, 5}),
+                c = take_lessons(teacher_of_squat(), {}, {}, &student, {1, 6});
   EXPECT_EQ(a.states, b.states);
   EXPECT_EQ(a.actions, b.actions);
   EXPECT_NE(a.states, c.states);
@@ -61,7 +61,7 @@ TEST(Lessons, ResetsLanesThatLeaveTheMotion) {
   const rl::Agent student = beginner();
   LessonConfig strict;
   strict.off_path = 0.02;
-  const Lessons lessons = take_lessons(teacher_of_squat(), {}, strict, &student, 1, 0);
+  const Lessons lessons = take_lessons(teacher_of_squat(), {}, strict, &student, {1, 0});
   EXPECT_GT(lessons.put_back, 0);
   // The root offset of a state, its last two numbers, is the distance from the next frame's reference: it
   // never grows beyond what a body may stray, plus what the reference moves in a frame.
@@ -71,8 +71,8 @@ TEST(Lessons, ResetsLanesThatLeaveTheMotion) {
 }
 
 TEST(Lessons, MirroredLessonsAreMirrorImages) {
-  const Lessons as_is = take_lessons(teacher_of_squat(), {}, {}, nullptr, 1, 0);
-  const Lessons mirrored = take_lessons(teacher_of_squat(), {}, {}, nullptr, 1, 0, Side::kMirrored);
+  const Lessons as_is = take_lessons(teacher_of_squat(), {}, {}, nullptr, {1, 0});
+  const Lessons mirrored = take_lessons(teacher_of_squat(), {}, {}, nullptr, {1, 0}, Side::kMirrored);
   std::vector<float> state(rl::tracking::kStateSize), action(kDofs);
   ASSERT_EQ(as_is.rows(), mirrored.rows());
   for (int row = 0; row < as_is.rows(); ++row) {
@@ -89,8 +89,8 @@ TEST(Lessons, ExpertActionDoesNotDependOnTheActingPolicy) {
   const rl::Agent student = beginner();
   LessonConfig calm;
   calm.action_noise = calm.push = 0.0;
-  const Lessons taught = take_lessons(teacher_of_squat(), {}, calm, nullptr, 1, 0),
-                own = take_lessons(teacher_of_squat(), {}, calm, &student, 1, 0);
+  const Lessons taught = take_lessons(teacher_of_squat(), {}, calm, nullptr, {1, 0}),
+                own = take_lessons(teacher_of_squat(), {}, calm, &student, {1, 0});
   EXPECT_TRUE(
       std::equal(taught.actions.begin(), taught.actions.begin() + kLanes * kDofs, own.actions.begin()));
   EXPECT_NE(taught.states, own.states) << "the student acts in later frames";

@@ -36,13 +36,20 @@ List<int> all_rows(const Lessons& lessons) {
   return rows;
 }
 
+PolicyInTraining in_training(rl::Agent agent) {
+  PolicyInTraining policy{std::move(agent), {}};
+  policy.adam = nn::make_adam<float>(nn::parameters(policy.agent.actor));
+  return policy;
+}
+
 double loss_of(const Lessons& lessons, const List<Eigen::MatrixXf>& importance, rl::Agent agent,
                int slots = 2) {
-  nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
+  PolicyInTraining policy = in_training(std::move(agent));
+  const List<int> rows = all_rows(lessons);
   RegressionScratch scratch;
   RegressionConfig config;
   config.slots = slots;
-  return regression_step(lessons, importance, all_rows(lessons), config, 0.0, 1, agent, adam, scratch);
+  return regression_step({lessons, importance}, {rows, 0.0}, config, 1, policy, scratch);
 }
 
 TEST(Regression, LossIsTheMeanWeightedSquare) {
@@ -75,40 +82,40 @@ TEST(Regression, EqualStatesLearnTheWeightedMean) {
   std::fill(lessons.states.begin(), lessons.states.end(), 0.0f);
   const List<Eigen::MatrixXf> importance = {3.0f * Eigen::MatrixXf::Identity(kDofs, kDofs),
                                             Eigen::MatrixXf::Identity(kDofs, kDofs)};
-  rl::Agent agent = agent_of(3, {});
-  nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
+  PolicyInTraining policy = in_training(agent_of(3, {}));
   RegressionScratch scratch;
+  const List<int> rows = all_rows(lessons);
   for (int step = 0; step < 3000; ++step)
-    regression_step(lessons, importance, all_rows(lessons), {}, 0.02 / (1 + 0.01 * step), 1, agent, adam,
-                    scratch);
-  for (int k = 0; k < kDofs; ++k) EXPECT_NEAR(agent.actor.biases[0](0, k), (3 * 1.0 + 5.0) / 4, 1e-3) << k;
+    regression_step({lessons, importance}, {rows, 0.02 / (1 + 0.01 * step)}, {}, 1, policy, scratch);
+  for (int k = 0; k < kDofs; ++k)
+    EXPECT_NEAR(policy.agent.actor.biases[0](0, k), (3 * 1.0 + 5.0) / 4, 1e-3) << k;
 }
 
 TEST(Regression, StepsReduceTheLoss) {
   const Lessons lessons =
       random_lessons(64, 4, 6, [](int row, int k) { return 0.3f * float((row * k) % 5); });
   const List<Eigen::MatrixXf> importance(4, Eigen::MatrixXf(Eigen::MatrixXf::Identity(kDofs, kDofs)));
-  rl::Agent agent = agent_of(6, {32});
-  nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
+  PolicyInTraining policy = in_training(agent_of(6, {32}));
   RegressionScratch scratch;
-  const double before = loss_of(lessons, importance, agent);
+  const List<int> rows = all_rows(lessons);
+  const double before = loss_of(lessons, importance, policy.agent);
   for (int step = 0; step < 200; ++step)
-    regression_step(lessons, importance, all_rows(lessons), {}, 3e-3, 1, agent, adam, scratch);
-  EXPECT_LT(loss_of(lessons, importance, agent), 0.3 * before);
+    regression_step({lessons, importance}, {rows, 3e-3}, {}, 1, policy, scratch);
+  EXPECT_LT(loss_of(lessons, importance, policy.agent), 0.3 * before);
 }
 
 TEST(Regression, ThreadsDoNotChangeABit) {
   const Lessons lessons = random_lessons(50, 4, 6, [](int row, int k) { return 0.1f * float(row % 7 + k); });
   const List<Eigen::MatrixXf> importance(4, Eigen::MatrixXf(Eigen::MatrixXf::Identity(kDofs, kDofs)));
   const auto trained = [&](int threads) {
-    rl::Agent agent = agent_of(6, {8});
-    nn::Adam<float> adam = nn::make_adam<float>(nn::parameters(agent.actor));
+    PolicyInTraining policy = in_training(agent_of(6, {8}));
+    const List<int> rows = all_rows(lessons);
     RegressionScratch scratch;
     RegressionConfig config;
     config.slots = 4;
     for (int step = 0; step < 5; ++step)
-      regression_step(lessons, importance, all_rows(lessons), config, 1e-2, threads, agent, adam, scratch);
-    return agent.actor.weights[0];
+      regression_step({lessons, importance}, {rows, 1e-2}, config, threads, policy, scratch);
+    return policy.agent.actor.weights[0];
   };
   EXPECT_EQ(trained(1), trained(2));
 }

@@ -174,7 +174,7 @@ Teacher one_sided(int) {
 
 TEST(School, MirroredLessonsFavourNoSide) {
   SchoolConfig config = thorough();
-  const Lessons lessons = take_lessons(one_sided(0), {}, {}, nullptr, 77, 0);
+  const Lessons lessons = take_lessons(one_sided(0), {}, {}, nullptr, {77, 0});
   config.mirror = false;
   const float alone = asymmetry(taught(config, 1, one_sided).agent, lessons);
   config.mirror = true;

@@ -2,10 +2,11 @@
 ///                                                                          docs/method.md §8, §9
 /// A selector names the option of every frame:
 ///
-///     dp the options run side by side (option_rewards.h), rescues are charged, and the arrangement of the
-///     largest total reward is taken (selector.h): the paper's beam     a beam search over real roll-outs
-///     (beam_search.h) single   the option of the largest reward when it acts alone over the whole clip
-///     nearest  the option whose cluster's centre is nearest to the motion's features; nothing is simulated
+///   - dp: the options run side by side (option_rewards.h), rescues are charged, and the arrangement of the
+///     largest total reward is taken (selector.h): the paper's;
+///   - beam: a beam search over real roll-outs (beam_search.h);
+///   - single: the option of the largest reward when it acts alone over the whole clip;
+///   - nearest: the option whose cluster's centre is nearest to the motion's features; nothing is simulated.
 ///
 /// Only the options that act are kept, in the order of the set, and renumbered from 0: joint fine-tuning
 /// trains these policies and no others.

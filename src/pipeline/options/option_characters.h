@@ -19,7 +19,7 @@ class Characters {
 
   /// Advances all by one frame, each with the mean action of its option. @param options  [count]
   void advance(const rl::tracking::MeanAction& policy, const List<int>& options);
-  /// The reward of Eq. 2 at the frame reached; 0 if `fell`.
+  /// The reward of Eqs. 2 and 3 at the frame reached; 0 if `fell`.
   double reward(int c) const;
   /// Whether a body is farther than `terminate_distance` from its reference, or the simulation failed.
   bool fell(int c) const;

@@ -23,7 +23,7 @@ SideBySide roll_out_side_by_side(const std::shared_ptr<const rl::tracking::Track
     List<bool> failed;
     for (int c = 0; c < count; ++c) {
       rewards.push_back(characters.reward(c));
-      failed.push_back(!(rewards[c] >= threshold));
+      failed.push_back(characters.fell(c) || !(rewards[c] >= threshold));
     }
     const auto best = static_cast<int>(std::max_element(rewards.begin(), rewards.end()) - rewards.begin());
     if (failed[best]) result.breaks.push_back(t);

@@ -24,7 +24,7 @@ struct TrackingConfig {
   double terminate_distance = 0.4;  ///< a body farther than this from its reference ends the episode, m
   int bin_frames = 10;              ///< frames per bin of starts and falls
   double uniform_starts = 0.4;      ///< share of starts drawn uniformly; the others before falls
-  double reward_target = 0.5;       ///< below this mean reward the learner's reward is softened; 0: never
+  double reward_target = 0.5;       ///< mean of the learner's rewards below which they soften; 0: never
   double softest_reward = 0.1;      ///< smallest exponent of the softened reward
 };
 
@@ -40,7 +40,8 @@ void visit_settings(TrackingConfig& t, const auto& visit) {
   visit("reward_velocity", t.reward.velocity, 0, 1e9, "sharpness for joint velocities, s²/rad²");
   visit("reward_end_effector", t.reward.end_effector, 0, 1e9, "sharpness for hands and feet, 1/m²");
   visit("reward_projection", t.reward.projection, 0, 1e9, "sharpness for keypoints, 1/(box height)²");
-  visit("reward_target", t.reward_target, 0, 1e9, "a mean reward below it is softened; 0: never");
+  visit("reward_target", t.reward_target, 0, 1e9,
+        "mean softened reward of an iteration below which rewards soften further; 0: never");
   visit("terminate_distance", t.terminate_distance, 0, 1e9, "distance of a body that ends an episode, m");
   visit("uniform_starts", t.uniform_starts, 0, 1,
         "share of episode starts drawn uniformly; the others where it fails");

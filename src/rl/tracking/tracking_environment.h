@@ -6,7 +6,8 @@
 ///
 /// While a motion is hard to follow, the product of Eq. 2 is near zero and almost constant. The learner's
 /// reward is therefore a power of the product, that is, all weights times one factor. The exponent falls
-/// while the mean reward is below `reward_target`, and returns to 1 as the reward rises (docs/method.md §7).
+/// while the mean of the learner's rewards over an iteration is below `reward_target`, and returns to 1 as
+/// that mean rises (docs/method.md §7, (2)).
 ///
 /// Every pack of characters follows one clip. If there are more clips than packs, packs switch to the next
 /// clip in turn, so that all clips are used equally. Every start is drawn from a stream keyed by seed,

@@ -72,5 +72,21 @@ TEST(Rescues, OnlyFailingOptionsAreRescued) {
   EXPECT_GT(rescues, 1);
 }
 
+// A fallen character earns 0, which a threshold of 0 does not exceed.
+TEST(Rescues, FallsAreRescuedAtAThresholdOfZero) {
+  rl::tracking::TrackingConfig config;
+  config.terminate_distance = 0.05;
+  const auto clip = rl::tracking::make_tracking_clip(rl::tracking::swaying_reference(30), config);
+  const Option good = constant_option(rl::tracking::kStateSize, 0.0F),
+               bad = constant_option(rl::tracking::kStateSize, 1.5F);
+  const SideBySide rolled = roll_out_side_by_side(clip, config, {&bad, &good}, 0.0);
+  int rescues = 0;
+  for (int t = 0; t < 30; ++t) {
+    for (int c = 0; c < 2; ++c) EXPECT_EQ(rolled.rescued[t][c], rolled.rewards[t][c] == 0.0) << t << " " << c;
+    if (rolled.rescued[t][0]) ++rescues;
+  }
+  EXPECT_GT(rescues, 1);
+}
+
 }  // namespace
 }  // namespace mimicx::pipeline::options
