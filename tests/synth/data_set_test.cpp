@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace mimicx::synth {
@@ -131,6 +132,30 @@ TEST(SynthSet, WithoutNoiseTheEstimateIsTheTruthAndHasKeypoints) {
       EXPECT_LT((pair.noisy.rotations[t][b] - pair.truth.rotations[t][b]).norm(), 2e-6);
   }
   EXPECT_EQ(pair.noisy.keypoints->names, motion::keypoint_names(motion::KeypointSet::kCoco17));
+}
+
+TEST(SynthSet, MixedDrawsAPresetForEveryClipAndHalfOfThemHaveNoKeypoints) {
+  SynthSetConfig mixed;
+  mixed.noise = "mixed";
+  std::map<std::string, int> drawn;
+  int blind = 0;
+  constexpr int kClips = 20;
+  for (int i = 0; i < kClips; ++i) {
+    SynthConfig clip;
+    clip.kind = "stand";
+    clip.seed = static_cast<std::uint64_t>(i);
+    const motion::Clip noisy = make_synth_pair(clip, mixed).noisy;
+    for (const char* name : {"gvhmr", "vibe", "independent", "none"}) {
+      SynthSetConfig one;
+      one.noise = name;
+      if (noisy.rotations == make_synth_pair(clip, one).noisy.rotations) ++drawn[name];
+    }
+    blind += noisy.keypoints ? 0 : 1;
+  }
+  for (const char* name : {"gvhmr", "vibe", "independent"}) EXPECT_NEAR(drawn[name], 0.3 * kClips, 4) << name;
+  EXPECT_EQ(drawn["gvhmr"] + drawn["vibe"] + drawn["independent"] + drawn["none"], kClips);
+  EXPECT_GT(drawn["none"], 0);
+  EXPECT_NEAR(blind, 0.5 * kClips, 4);
 }
 
 TEST(SyntheticData, IsRegeneratedByteForByte) {

@@ -1,4 +1,4 @@
-/// The motion that an estimator estimates, as the noise models change it.
+/// The motion that an estimator estimates, as the noise model changes it.
 #pragma once
 
 #include "character/character.h"
