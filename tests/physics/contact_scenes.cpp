@@ -31,14 +31,18 @@ Snapshot snapshot_of(Scene scene, const Character& c, std::uint64_t lane) {
 
 namespace {
 
-double energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double gravity) {
-  double sum = 0;
+struct Energy {
+  double kinetic = 0, potential = 0;  ///< J
+};
+
+Energy energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double gravity) {
+  Energy sum;
   for (int i = 0; i < kBodies; ++i) {
     const Quaterniond q = lane_of(d.q_WB[i], lane);
     const Vector3d w = lane_of(d.w[i], lane), arm = q * c.com_B[i], v = lane_of(d.v[i], lane) + w.cross(arm);
     const Vector3d w_B = q.conjugate() * w;
-    sum += 0.5 * c.mass[i] * v.squaredNorm() + 0.5 * w_B.dot(c.inertia_B[i] * w_B) +
-           c.mass[i] * gravity * (lane_of(d.p_WB[i], lane) + arm).z();
+    sum.kinetic += 0.5 * c.mass[i] * v.squaredNorm() + 0.5 * w_B.dot(c.inertia_B[i] * w_B);
+    sum.potential += c.mass[i] * gravity * (lane_of(d.p_WB[i], lane) + arm).z();
   }
   return sum;
 }
@@ -56,12 +60,15 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
     set_lane(snapshot_of(scene, c, static_cast<std::uint64_t>(lane)), lane, s->state, s->target);
   SceneReport report;
   Array<double, kLanes> first{};
-  double normal = 0, pull = 0, beyond = 0;
-  for (int k = 0; k < static_cast<int>(3 * rate); ++k) {
+  double normal = 0, pull = 0, beyond = 0, late = 0;
+  const int steps = static_cast<int>(3 * rate), late_steps = static_cast<int>(0.5 * rate);
+  for (int k = 0; k < steps; ++k) {
     report.wrong = any(s->advance()) || report.wrong;
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double now = energy(c, s->data, lane, o.gravity);
+      const Energy e = energy(c, s->data, lane, o.gravity);
+      const double now = e.kinetic + e.potential;
       double& start = first[lane];
+      if (k + 1 == steps) report.kinetic = std::max(report.kinetic, e.kinetic);
       if (k == 0) start = now;
       report.energy_ratio = std::max(report.energy_ratio, now / start);
       for (int n = 0; n < s->data.ground_count; ++n) {
@@ -70,6 +77,7 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
         report.deepest = std::max(report.deepest, ScalarTraits<P>::get(contact.depth, lane) - o.skin);
         const double f_n = std::max(0.0, f.z());
         normal += f_n;
+        if (k >= steps - late_steps) late += f.z();
         pull += std::max(0.0, -f.z());
         beyond += std::max(0.0, f.head<2>().norm() - o.friction * f_n);
       }
@@ -77,6 +85,9 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
   }
   report.outside_cone = beyond / normal;
   report.adhesion = pull / normal;
+  double mass = 0;
+  for (const double m : c.mass) mass += m;
+  report.load = late / (late_steps * kLanes * mass * o.gravity);
   return report;
 }
 

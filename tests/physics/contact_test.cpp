@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "physics/contact.h"
 #include "physics/contact_scenes.h"
@@ -84,7 +85,8 @@ SceneReport run(Scene scene, double rate, int passes) {
   const SceneReport r = run_scene(scene, rate, passes);
   std::printf("  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, ",
               kSceneNames[static_cast<int>(scene)], rate, passes, 100 * r.outside_cone, 100 * r.adhesion);
-  std::printf("energy ratio %.3f, deepest %.0f mm\n", r.energy_ratio, kMm * r.deepest);
+  std::printf("energy ratio %.3f, deepest %.0f mm, ", r.energy_ratio, kMm * r.deepest);
+  std::printf("kinetic energy at the end %.2f J, load %.3f\n", r.kinetic, r.load);
   return r;
 }
 
@@ -92,17 +94,23 @@ SceneReport run(Scene scene, double rate, int passes) {
 /// build with four lanes it does so for one character of these scenes, which is excluded there.
 bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || passes < 3; }
 
-TEST(GroundContact, StandFallDropAndThrowAreStableAtEveryRate) {
+// The oracles: joints start at their targets and the floor only takes energy, so the energy of the start is
+// never exceeded; what has fallen comes to rest, and then the floor carries its weight.
+TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
+  constexpr double kOthers = kLanes == 8 ? 1.0 : 1.2;  // packs of another size have other worst cases
   for (Scene scene : {Scene::kStand, Scene::kFall, Scene::kDrop, Scene::kThrow})
     for (double rate : {120.0, 240.0, 480.0})
       for (int passes : {1, 2, 3}) {
         if (!is_proven(rate, passes)) continue;
+        SCOPED_TRACE(std::string(kSceneNames[static_cast<int>(scene)]) + " " + std::to_string(rate) + " " +
+                     std::to_string(passes));
         const SceneReport r = run(scene, rate, passes);
-        EXPECT_FALSE(r.wrong) << kSceneNames[static_cast<int>(scene)] << " " << rate << " " << passes;
-        EXPECT_LT(r.energy_ratio, 1.05)
-            << kSceneNames[static_cast<int>(scene)] << " " << rate << " " << passes;
-        EXPECT_LT(r.deepest, rate < 240.0 ? 0.12 : 0.08)
-            << kSceneNames[static_cast<int>(scene)] << " " << rate << " " << passes;
+        EXPECT_FALSE(r.wrong);
+        EXPECT_LT(r.energy_ratio, 1.0005);
+        EXPECT_LT(r.deepest, kOthers * (rate < 240.0 ? 0.11 : rate < 480.0 ? 0.045 : 0.03));
+        if (scene == Scene::kStand) continue;  // without a policy it tips over in the last second
+        EXPECT_LT(r.kinetic, 20.0) << "of 500 J and more; one character may still roll";
+        EXPECT_NEAR(r.load, 1.0, 0.02);
       }
 }
 
