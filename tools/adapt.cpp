@@ -60,13 +60,15 @@ void declare_adapt(CommandLine& line) {
       line.add("adapt", "Clean motions: keypoint fit, then a plan; trained policies if the plan fails",
                "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
                "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
-  command.choice("--method", a->config.method,
-                 {{"auto", program::AdaptMethod::kAuto},
-                  {"plan", program::AdaptMethod::kPlan},
-                  {"paper", program::AdaptMethod::kPaper}},
-                 "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
-                 "fine-tuned, minutes per motion; auto: the plan, and only if it fails the paper's "
-                 "method, which takes minutes; the better result is kept");
+  command.choice_of<program::AdaptMethod>(
+      "--method", a->config.method,
+      {{"auto", program::AdaptMethod::kAuto},
+       {"plan", program::AdaptMethod::kPlan},
+       {"options", program::AdaptMethod::kOptions}},
+      [a](program::AdaptMethod method) { a->config.method = method; },
+      "plan: optimal control alone, seconds per motion; options: trained options chosen and fine-tuned, "
+      "minutes per motion; auto: the plan, and only if it fails the options; the better result is kept",
+      {{"paper", "options"}});
   command.flag("--policy", a->config.teaching.teach,
                "every successful plan also teaches a policy, which follows the motion unaided and withstands "
                "pushes: policies/NAME.npz; takes 2 to 10 times the motion's length");

@@ -44,9 +44,9 @@ run::SimulatedSequence teach_after(const AdaptConfig& config, const motion::Refe
   return made;
 }
 
-/// The paper's method: arrange trained options over the motion and fine-tune them.
-run::SimulatedSequence paper_method(const AdaptConfig& config, const motion::Reference& reference,
-                                    const run::SequenceJob& job) {
+/// Arranges trained options over the motion and fine-tunes them.
+run::SimulatedSequence options_method(const AdaptConfig& config, const motion::Reference& reference,
+                                      const run::SequenceJob& job) {
   return pipeline::fine_tune(reference, config.options, config.arrangement, config.training, job);
 }
 
@@ -61,7 +61,7 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)
     return teach_after(config, reference, found, planned, std::move(plan), rest);
   if (planned.success) return plan;
-  run::SimulatedSequence trained = paper_method(config, reference, rest);
+  run::SimulatedSequence trained = options_method(config, reference, rest);
   trained.planning_seconds = plan.planning_seconds;
   if (trained.interrupted) return trained;
   const judge::Candidate learned = judge::candidate_of(reference, trained.after);
@@ -96,9 +96,9 @@ run::Method adaptation_of(const AdaptConfig& config) {
   method.options = pipeline::options::checksum_of(config.options);
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
-  method.name = plan_first ? "auto" : "paper";
+  method.name = plan_first ? "auto" : "options";
   method.simulate = [&config, plan_first](const motion::Reference& reference, const run::SequenceJob& job) {
-    return plan_first ? plan_or_fine_tune(config, reference, job) : paper_method(config, reference, job);
+    return plan_first ? plan_or_fine_tune(config, reference, job) : options_method(config, reference, job);
   };
   return method;
 }

@@ -441,8 +441,8 @@ TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
   AdaptConfig config = hopeless(adapting("auto", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
   run(config);
-  config.run.out = out("paper");
-  config.method = AdaptMethod::kPaper;
+  config.run.out = out("options-alone");
+  config.method = AdaptMethod::kOptions;
   run(config);
   config.run.out = out("plan");
   config.method = AdaptMethod::kPlan;
@@ -450,19 +450,19 @@ TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
   const auto entry_of = [&](const std::string& name) {
     return record::read_manifest(out(name) / "manifest.json").sequences.at(0);
   };
-  const record::SequenceEntry chosen = entry_of("auto"), trained = entry_of("paper"),
+  const record::SequenceEntry chosen = entry_of("auto"), trained = entry_of("options-alone"),
                               planned = entry_of("plan");
   ASSERT_FALSE(planned.ok);
   EXPECT_EQ(chosen.samples, config.training.samples);
   const bool plan_is_nearer =
       !trained.ok && value_of(planned.metrics, "MPJPE") < value_of(trained.metrics, "MPJPE");
-  EXPECT_EQ(chosen.method, plan_is_nearer ? "plan" : "paper");
+  EXPECT_EQ(chosen.method, plan_is_nearer ? "plan" : "options");
   const record::SequenceEntry& expected = plan_is_nearer ? planned : trained;
   EXPECT_EQ(chosen.ok, expected.ok);
   EXPECT_EQ(chosen.metrics, expected.metrics);
   EXPECT_EQ(chosen.ending, expected.ending);
   EXPECT_EQ(read_file(out("auto") / chosen.output),
-            read_file(out(plan_is_nearer ? "plan" : "paper") / expected.output));
+            read_file(out(plan_is_nearer ? "plan" : "options") / expected.output));
   EXPECT_NE(chosen.notes.back().find("; written: the "), std::string::npos) << chosen.notes.back();
 }
 

@@ -64,7 +64,7 @@ TEST_F(Cli, BadValueErrorIsOneLineWithTheExpectedValue) {
            {"imitate a --threads 0", "--threads: expected a whole number from 1 to 1024, found 0"},
            {"imitate a --limit-seconds nan", "--limit-seconds: expected a number above 0, found nan"},
            {"adapt a --switch-penalty 1", "--switch-penalty: expected a number up to 0, found 1"},
-           {"adapt a --method dance", "--method: expected auto, plan, paper, found dance"},
+           {"adapt a --method dance", "--method: expected auto, plan, options, found dance"},
            {"info a --up w", "--up: expected x, y, z, -x, -y, -z, found w"},
            {"info a --smplx none.npz", "--smplx: expected an existing file, found none.npz"},
            {"info a --floor inf", "--floor: expected a number, found inf"},

@@ -32,7 +32,7 @@ TEST(Configurations, AllAreCompleteAndCanBeDone) {
 }
 
 TEST(Configurations, EverySettingOfAMethodCanBeChangedByItsNameAndChangesNoOther) {
-  for (const AdaptMethod method : {AdaptMethod::kAuto, AdaptMethod::kPlan, AdaptMethod::kPaper}) {
+  for (const AdaptMethod method : {AdaptMethod::kAuto, AdaptMethod::kPlan, AdaptMethod::kOptions}) {
     AdaptConfig config = adapt_configuration();
     config.method = method;
     check_settings(config);
