@@ -58,6 +58,8 @@ void declare_pretrain(CommandLine& line) {
                "policies observe their reference through a denoising encoder (default)", "--no-encoder");
   command.flag("--fit", a->config.fit, "first fit motions to their keypoints, if they have any (default)",
                "--no-fit");
+  add_as_is(command, a->config.as_is);
+  add_unfitted_keypoints(command, a->config.unfitted_keypoints);
   add_settings(command, a->settings);
   command.action([a] { return pretrain_options(preset_of(*a), a->settings); });
 }

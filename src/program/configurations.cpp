@@ -52,7 +52,7 @@ Meanings all_meanings() {
                   {"seed", "root of every random number (--seed)"},
                   {"fit", "1: motions are moved onto their keypoints first (--fit)"},
                   {"as_is", "1: nothing is corrected (--as-is)"},
-                  {"keypoints", "1: the reward sees keypoints, as the fit does (--fit)"},
+                  {"keypoints", "1: Eq. 3 rewards agreement with keypoints (--fit, --unfitted-keypoints)"},
                   {"encoder", "1: policies see their reference through an encoder (--encoder)"},
                   {"encoder_steps", "minibatches that train an encoder, at most (fixed)"},
                   {"cluster_radius", "largest distance within a cluster, units of features (--radius)"},
