@@ -88,6 +88,16 @@ std::vector<std::filesystem::path> clusters_of(const pipeline::options::OptionSe
   return files;
 }
 
+/// @throws std::invalid_argument for options whose policies were trained with the other kind of action
+void require_actions(const AdaptConfig& config) {
+  const bool absolute = config.training.tracking.action_mode == rl::tracking::ActionMode::kAbsolute;
+  for (const auto& set : config.options)
+    if (set->absolute_actions != absolute)
+      throw std::invalid_argument(std::string("options: expected policies of ") +
+                                  (absolute ? "absolute" : "residual") + " actions (residual_actions " +
+                                  (absolute ? "0" : "1") + "), found others");
+}
+
 run::Method adaptation_of(const AdaptConfig& config) {
   run::Method method;
   method.seed = config.training.seed;
@@ -122,6 +132,7 @@ record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& co
     return plan::plan_motions({config.run, planning_of(config)}, context);
   if (config.options.empty())
     throw std::invalid_argument("adapt: expected options to start from, found none");
+  require_actions(config);
   require_ranges(config.arrangement);
   run::RunConfig run = config.run;
   run.map = pipeline::run_map(clusters_of(config.options));

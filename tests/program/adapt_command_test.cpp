@@ -309,6 +309,20 @@ TEST_F(Adapt, RejectsImpossibleArrangementSettings) {
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 
+TEST_F(Adapt, RefusesOptionsOfTheOtherActions) {
+  pipeline::PretrainConfig pretrained = pretraining("absolute");
+  pretrained.training.tracking.action_mode = rl::tracking::ActionMode::kAbsolute;
+  pretrained.training.samples = 0;
+  run(pretrained);
+  AdaptConfig config = adapting("run", "absolute");
+  EXPECT_NE(refusal_of([&] { run(config); }).find("residual actions (residual_actions 1), found others"),
+            std::string::npos);
+  config.training.tracking.action_mode = rl::tracking::ActionMode::kAbsolute;
+  config.training.samples = 0;
+  EXPECT_NE(run(config), record::RunOutcome::kInterrupted) << "these can be used";
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "manifest.json"));
+}
+
 TEST_F(Adapt, MethodPlanNeedsNoOptionsAndMatchesPlan) {
   AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPlan;
