@@ -14,6 +14,8 @@
 namespace mimicx::program {
 namespace {
 
+constexpr const char* kPrinted = "printed";
+
 plan::PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
@@ -47,7 +49,10 @@ run::SimulatedSequence teach_after(const AdaptConfig& config, const motion::Refe
 /// Arranges trained options over the motion and fine-tunes them.
 run::SimulatedSequence options_method(const AdaptConfig& config, const motion::Reference& reference,
                                       const run::SequenceJob& job) {
-  return pipeline::fine_tune(reference, config.options, config.arrangement, config.training, job);
+  run::SimulatedSequence made =
+      pipeline::fine_tune(reference, config.options, config.arrangement, config.training, job);
+  if (config.method == AdaptMethod::kPrinted) made.method = kPrinted;
+  return made;
 }
 
 /// Plans the motion, and fine-tunes where the plan's roll-out is no success; the better roll-out is kept.
@@ -98,6 +103,11 @@ void require_actions(const AdaptConfig& config) {
                                   (absolute ? "0" : "1") + "), found others");
 }
 
+const char* name_of(AdaptMethod method) {
+  if (method == AdaptMethod::kPrinted) return kPrinted;
+  return method == AdaptMethod::kAuto ? "auto" : "options";
+}
+
 run::Method adaptation_of(const AdaptConfig& config) {
   run::Method method;
   method.seed = config.training.seed;
@@ -106,7 +116,7 @@ run::Method adaptation_of(const AdaptConfig& config) {
   method.options = pipeline::options::checksum_of(config.options);
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
-  method.name = plan_first ? "auto" : "options";
+  method.name = name_of(config.method);
   method.simulate = [&config, plan_first](const motion::Reference& reference, const run::SequenceJob& job) {
     return plan_first ? plan_or_fine_tune(config, reference, job) : options_method(config, reference, job);
   };
@@ -132,6 +142,9 @@ record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& co
     return plan::plan_motions({config.run, planning_of(config)}, context);
   if (config.options.empty())
     throw std::invalid_argument("adapt: expected options to start from, found none");
+  if (config.method == AdaptMethod::kPrinted && config.options.count() > 1)
+    throw std::invalid_argument("--options: expected one set for --method printed, found " +
+                                std::to_string(config.options.count()));
   require_actions(config);
   require_ranges(config.arrangement);
   run::RunConfig run = config.run;

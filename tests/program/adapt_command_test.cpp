@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/setting_checks.h"
 #include "files/policy_file.h"
 #include "judge/scores.h"
 #include "motion/clip_file.h"

@@ -141,6 +141,31 @@ TEST_F(Cli, FormerNameOfAMethodIsAcceptedAndItsFolderContinued) {
   EXPECT_EQ(read_file(path("out/manifest.json")), manifest) << "the motion is done, under today's name";
 }
 
+TEST_F(Cli, MethodAsPrintedChangesDefaultsAndEachCanBeChangedBack) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  const auto settings_of_run = [&](const std::string& command, const std::string& out) {
+    const Call call = mimicx(command + " --threads 1 --out " + path(out));
+    EXPECT_TRUE(std::filesystem::exists(path(out) + "/manifest.json")) << call.text;
+    return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["settings"];
+  };
+  const std::string pretrain = "pretrain " + path("a.npz") + " --clusters 1 --samples 0";
+  const auto options = settings_of_run(pretrain + " --preset paper --method printed", "options");
+  EXPECT_EQ(options["hidden_1"], 1536) << "the preset's former name";
+  EXPECT_EQ(options["residual_actions"], 0);
+  EXPECT_EQ(options["as_is"], true);
+  const auto undone =
+      settings_of_run(pretrain + " --no-as-is --fit --method printed --set residual_actions=1", "residual");
+  EXPECT_EQ(undone["residual_actions"], 1);
+  EXPECT_EQ(undone["as_is"], false);
+  EXPECT_EQ(undone["fit"], true);
+  EXPECT_EQ(undone["reward_target"], 0);
+  const std::string adapt = "adapt " + path("a.npz") + " --budget-samples 0 --options " + path("options");
+  EXPECT_EQ(settings_of_run(adapt + " --method printed", "dp")["selector"], 0);
+  EXPECT_EQ(settings_of_run(adapt + " --method printed --selector beam", "beam")["selector"], 1);
+  EXPECT_EQ(settings_of_run(adapt + " --selector beam --method printed", "beam_first")["selector"], 1)
+      << "wherever the method stands on the line";
+}
+
 TEST_F(Cli, ManifestRecordsTheSelectorsSettings) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   mimicx("adapt " + path("a.npz") +
