@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/file.h"
 #include "core/setting_checks.h"
 #include "fit/fit_config.h"
 
@@ -118,7 +120,6 @@ TEST(Configurations, PresetsDifferOnlyInTheirNetworks) {
   EXPECT_THROW(pretrain_configuration("huge"), std::invalid_argument);
 }
 
-// docs/deviations.md has a row for each of these settings.
 TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
   const rl::tracking::TrackingConfig task;
   std::map<std::string, double> printed = {{"fit", 0},
@@ -138,6 +139,21 @@ TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
   EXPECT_EQ(value_of(adapt, "keypoints"), 1.0) << "Eq. 3 acts without a fit";
   EXPECT_EQ(value_of(adapt, "reward_root_position"), value_of(adapt, "reward_root_rotation"))
       << "w_r of Eq. 2";
+}
+
+TEST(Configurations, EverySettingOfTheMethodAsPrintedHasARowInTheDeviations) {
+  std::istringstream page(read_file(std::filesystem::path(MIMICX_SOURCE_DIR) / "docs" / "deviations.md"));
+  std::string rows;
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| ")) rows += line;
+  for (const auto& [name, value] : settings_changed("adapt", "adapt printed")) {
+    std::string argument = name;
+    std::replace(argument.begin(), argument.end(), '_', '-');
+    const bool named = rows.find(" " + name + "=") != std::string::npos ||
+                       rows.find("`" + name + "`") != std::string::npos ||
+                       rows.find("--" + argument) != std::string::npos;
+    EXPECT_TRUE(named) << name;
+  }
 }
 
 TEST(Configurations, TextAndJsonAgree) {
