@@ -119,7 +119,9 @@ TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
   }
   const Call table = mimicx("config");
   EXPECT_EQ(table.status, 0);
-  EXPECT_TRUE(says(table, "pretrain paper") && says(table, "switch_penalty")) << table.text;
+  EXPECT_TRUE(says(table, "pretrain large") && says(table, "pretrain printed") &&
+              says(table, "switch_penalty"))
+      << table.text;
 }
 
 TEST_F(Cli, FormerNameOfAMethodIsAcceptedAndItsFolderContinued) {
@@ -148,13 +150,13 @@ TEST_F(Cli, MethodAsPrintedChangesDefaultsAndEachCanBeChangedBack) {
     EXPECT_TRUE(std::filesystem::exists(path(out) + "/manifest.json")) << call.text;
     return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["settings"];
   };
-  const std::string pretrain = "pretrain " + path("a.npz") + " --clusters 1 --samples 0";
-  const auto options = settings_of_run(pretrain + " --preset paper --method printed", "options");
-  EXPECT_EQ(options["hidden_1"], 1536) << "the preset's former name";
+  const std::string pretrain = "pretrain --clusters 1 --samples 0 --no-encoder " + path("a.npz");
+  const auto options = settings_of_run(pretrain + " --method printed", "options");
   EXPECT_EQ(options["residual_actions"], 0);
   EXPECT_EQ(options["as_is"], true);
-  const auto undone =
-      settings_of_run(pretrain + " --no-as-is --fit --method printed --set residual_actions=1", "residual");
+  const auto undone = settings_of_run(
+      pretrain + " --preset paper --no-as-is --fit --method printed --set residual_actions=1", "residual");
+  EXPECT_EQ(undone["hidden_1"], 1536) << "the former name of the preset large";
   EXPECT_EQ(undone["residual_actions"], 1);
   EXPECT_EQ(undone["as_is"], false);
   EXPECT_EQ(undone["fit"], true);
