@@ -16,8 +16,12 @@ struct AdaptArguments {
   RunArguments more;
 };
 
-/// @throws UsageError if none are given, and the program has none
-pipeline::options::OptionSets read_sets(const std::vector<std::string>& given) {
+/// @throws UsageError if none are given, and the program has none of this method
+pipeline::options::OptionSets read_sets(const std::vector<std::string>& given, program::AdaptMethod method) {
+  if (given.empty() && method == program::AdaptMethod::kPrinted)
+    throw UsageError(
+        "--method printed: the program has no such options; train them with `mimicx pretrain --method "
+        "printed DIR --out OPTIONS` and name them with --options OPTIONS");
   std::vector<std::filesystem::path> places;
   for (const std::string& set : given) {
     if (set.empty()) throw UsageError("--options: expected a set of options, found the empty text");
@@ -45,7 +49,7 @@ int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& o
   if (config.method == program::AdaptMethod::kPlan)
     config.run.map = pipeline::run_map(shipped_clusters());
   else
-    config.options = read_sets(options);
+    config.options = read_sets(options, config.method);
   if (config.teaching.teach && config.method != program::AdaptMethod::kAuto)
     throw UsageError("--policy: expected --method auto, whose plan teaches it, found another one");
   apply_settings(settings, config);
@@ -60,19 +64,28 @@ void declare_adapt(CommandLine& line) {
       line.add("adapt", "Clean motions: keypoint fit, then a plan; trained policies if the plan fails",
                "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
                "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores");
-  command.choice("--method", a->config.method,
-                 {{"auto", program::AdaptMethod::kAuto},
-                  {"plan", program::AdaptMethod::kPlan},
-                  {"paper", program::AdaptMethod::kPaper}},
-                 "plan: optimal control alone, seconds per motion; paper: trained options chosen and "
-                 "fine-tuned, minutes per motion; auto: the plan, and only if it fails the paper's "
-                 "method, which takes minutes; the better result is kept");
+  command.choice_of<program::AdaptMethod>(
+      "--method", a->config.method,
+      {{"auto", program::AdaptMethod::kAuto},
+       {"plan", program::AdaptMethod::kPlan},
+       {"options", program::AdaptMethod::kOptions},
+       {"printed", program::AdaptMethod::kPrinted}},
+      [a](program::AdaptMethod method) {
+        a->config.method = method;
+        if (method == program::AdaptMethod::kPrinted) program::use_printed_method(a->config);
+      },
+      "plan: optimal control alone, seconds per motion; options: trained options chosen and fine-tuned, "
+      "minutes per motion; auto: the plan, and only if it fails the options; the better result is kept; "
+      "printed: options by the paper's method as printed, without our additions; it changes defaults as "
+      "`mimicx config` lists them, and --options must name one set of `pretrain --method printed`",
+      {{"paper", "options"}});
   command.flag("--policy", a->config.teaching.teach,
                "every successful plan also teaches a policy, which follows the motion unaided and withstands "
                "pushes: policies/NAME.npz; takes 2 to 10 times the motion's length");
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);
+  add_unfitted_keypoints(command, a->config.run.unfitted_keypoints);
   add_gains_argument(command, a->config.run);
   command.texts(
       "--options", a->options, "SET",

@@ -309,11 +309,19 @@ Option Command::one_of(const std::string& name, std::string& value, const std::v
 }
 
 Option Command::choose(const std::string& name, const std::vector<std::string>& names, const std::string& now,
-                       const std::function<void(std::size_t)>& take, const std::string& help) {
+                       const std::function<void(std::size_t)>& take, const std::string& help,
+                       const FormerNames& former) {
   const Names texts = shown(names, help);
   CLI::Option* option = add_single(
       app_, name, texts.form,
-      [take, name, names](const std::string& text) { take(place_of(name, names, text)); }, texts.help);
+      [take, name, names, former](const std::string& text) {
+        std::string today = text;
+        for (const auto& [then, called] : former)
+          if (text == then) today = called;
+        if (today != text) std::cerr << name << " " << text << " is called " << today << " now\n";
+        take(place_of(name, names, today));
+      },
+      texts.help);
   append_text(option, default_text(now));
   return Option(option);
 }

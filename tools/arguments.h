@@ -45,6 +45,9 @@ struct Range {
 inline constexpr Range kAnyNumber{}, kFromZero{0.0}, kFromOne{1.0},
     kPositive{0.0, std::numeric_limits<double>::infinity(), true};
 
+/// {name in earlier versions, name today} of the values of an option.
+using FormerNames = std::vector<std::pair<std::string, std::string>>;
+
 /// A declared argument, to set further properties.
 class Option {
  public:
@@ -117,19 +120,30 @@ class Command {
   template <class T>
   Option choice(const std::string& name, T& value, const std::vector<std::pair<std::string, T>>& choices,
                 const std::string& help) {
+    return choice_of<T>(
+        name, value, choices, [&value](T chosen) { value = chosen; }, help);
+  }
+  /// The same for a value that `take` gets. It may set variables of arguments that are declared later: these
+  /// write to them after it, wherever they stand on the line. @param former  earlier names, with today's;
+  /// such a name is accepted, and one line on standard error says what it is called now
+  template <class T>
+  Option choice_of(const std::string& name, T initial, const std::vector<std::pair<std::string, T>>& choices,
+                   const std::function<void(T)>& take, const std::string& help,
+                   const FormerNames& former = {}) {
     std::vector<std::string> names;
     std::string now;
     for (const auto& [text, meant] : choices) {
       names.push_back(text);
-      if (meant == value) now = text;
+      if (meant == initial) now = text;
     }
     return choose(
-        name, names, now, [&value, choices](std::size_t i) { value = choices[i].second; }, help);
+        name, names, now, [take, choices](std::size_t i) { take(choices[i].second); }, help, former);
   }
 
  private:
   Option choose(const std::string& name, const std::vector<std::string>& names, const std::string& now,
-                const std::function<void(std::size_t)>& take, const std::string& help);
+                const std::function<void(std::size_t)>& take, const std::string& help,
+                const FormerNames& former = {});
 
   CLI::App* app_;
   Action* action_;

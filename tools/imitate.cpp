@@ -32,7 +32,8 @@ void declare_imitate(CommandLine& line) {
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--samples");
   command.flag("--fit", a->config.run.fit, "first fit motions to their keypoints, if they have any");
-  add_as_is(command, a->config.run);
+  add_as_is(command, a->config.run.as_is);
+  add_unfitted_keypoints(command, a->config.run.unfitted_keypoints);
   command.action([a] { return imitate_motions(*a); });
 }
 

@@ -19,7 +19,7 @@ int run_all_stages(RunFileArguments a) {
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
-  a.adapt.method = program::AdaptMethod::kPaper;  // uses the trained options
+  a.adapt.method = program::AdaptMethod::kOptions;  // uses the trained options
   a.adapt.training.seed = a.pretrain.training.seed;
   a.adapt.run.threads = a.pretrain.threads;
   a.adapt.run.force = a.pretrain.force;

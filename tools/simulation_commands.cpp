@@ -108,8 +108,15 @@ void add_training_arguments(Command& command, pipeline::TrainingConfig& training
   add_seed(command, training.seed);
 }
 
-void add_as_is(Command& command, run::RunConfig& run) {
-  command.flag("--as-is", run.as_is, "follow the poses unchanged: no fit and no repair, regardless of --fit");
+void add_as_is(Command& command, bool& as_is) {
+  command.flag("--as-is", as_is, "follow the poses unchanged: no fit and no repair, regardless of --fit",
+               "--no-as-is");
+}
+
+void add_unfitted_keypoints(Command& command, bool& unfitted_keypoints) {
+  command.flag("--unfitted-keypoints", unfitted_keypoints,
+               "Eq. 3 rewards agreement with the keypoints of motions that were not fitted to them, too",
+               "--no-unfitted-keypoints");
 }
 
 void add_fit_arguments(Command& command, run::RunConfig& run) {
@@ -118,7 +125,7 @@ void add_fit_arguments(Command& command, run::RunConfig& run) {
                "keypoints and correct the motion by its feet, the floor and balance alone, as for "
                "files without keypoints",
                "--no-fit");
-  add_as_is(command, run);
+  add_as_is(command, run.as_is);
 }
 
 void add_gains_argument(Command& command, run::RunConfig& run) {

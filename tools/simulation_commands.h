@@ -42,7 +42,9 @@ void take_shard(const std::string& asked, run::RunConfig& run);
 /// The arguments of a run that trains. @param samples name of the argument for the budget
 void add_training_arguments(Command& command, pipeline::TrainingConfig& training, const std::string& samples);
 /// --as-is.
-void add_as_is(Command& command, run::RunConfig& run);
+void add_as_is(Command& command, bool& as_is);
+/// --unfitted-keypoints.
+void add_unfitted_keypoints(Command& command, bool& unfitted_keypoints);
 /// --fit, the default, --no-fit and --as-is.
 void add_fit_arguments(Command& command, run::RunConfig& run);
 /// --gains.

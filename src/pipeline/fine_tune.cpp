@@ -56,7 +56,7 @@ run::SimulatedSequence fine_tune(const motion::Reference& reference, const optio
   rest.input_checksum = start_of_training(job, *sets[chosen.set], arranged.options);
   run::SimulatedSequence made = train_sequence(arranged.clip, arranged.agents, training, rest);
   if (watch.timed_out) made.ending = record::SequenceEnding::kLimitSeconds;
-  made.method = "paper";
+  made.method = "options";
   made.arrangement = options::stretches_of(arranged.options);
   for (auto& [frame, option] : made.arrangement) option += options::first_option(sets, chosen.set);
   for (std::string& note : notes_of(chosen, clip->size(), sets.count(), watch.timed_out))

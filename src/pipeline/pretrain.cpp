@@ -39,7 +39,7 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
     std::string reason;
     try {
       run::PreparedMotion motion = run::prepare_motion(
-          files[i], config.read, config.fit ? run::Correction::kKeypoints : run::Correction::kPoses);
+          files[i], config.read, run::correction_of(config.fit, config.as_is), 1, config.unfitted_keypoints);
       run::tell_decisions(files[i], motion.input, context.messages);
       // Names identify motions in the set; files of the same name in two folders get different names.
       const std::string name = record::unique_name(inputs[i].name, taken);
@@ -64,7 +64,10 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
 record::Json settings_json(const PretrainConfig& config) {
   record::Json settings = record::Json::object();
   for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
-  settings["fit"] = config.fit;
+  const bool fit = run::correction_of(config.fit, config.as_is) == run::Correction::kKeypoints;
+  settings["fit"] = fit;
+  settings["as_is"] = config.as_is;
+  settings["keypoints"] = fit || config.unfitted_keypoints;
   settings["encoder"] = config.use_encoder;
   settings["encoder_steps"] = config.encoder.steps;
   settings["cluster_radius"] = config.clusters.radius;
@@ -239,6 +242,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
     sizes.push_back(static_cast<int>(cluster.members.size()));
   const std::vector<std::vector<std::int64_t>> budgets = budgets_of_options(record, sizes);
   options::OptionSet set;
+  set.absolute_actions = config.training.tracking.action_mode == rl::tracking::ActionMode::kAbsolute;
   record::Json trained = record::Json::array();
   for (int index = 0; index < clusters.clusters.count(); ++index) {
     OptionTraining made =

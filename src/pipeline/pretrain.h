@@ -31,8 +31,10 @@ struct PretrainConfig {
   TrainingConfig training;  ///< its samples are of all options together
   options::ClusterConfig clusters{.radius = 2.0, .clusters = std::nullopt, .seed = 1};
   nn::AutoEncoderConfig encoder;
-  bool use_encoder = true;  ///< false: policies observe the reference itself (an ablation)
-  bool fit = false;         ///< first fit motions to their keypoints, if they have any
+  bool use_encoder = true;          ///< false: policies observe the reference itself (an ablation)
+  bool fit = false;                 ///< first fit motions to their keypoints, if they have any
+  bool as_is = false;               ///< correct nothing, regardless of `fit`
+  bool unfitted_keypoints = false;  ///< Eq. 3 also rewards keypoints that the motion was not fitted to
   import::ReadConfig read;
   bool force = false;  ///< overwrite files of other programs
   int threads = 1;

@@ -14,6 +14,8 @@
 namespace mimicx::program {
 namespace {
 
+constexpr const char* kPrinted = "printed";
+
 plan::PlanningConfig planning_of(const AdaptConfig& config) {
   return {config.plan, config.training.tracking.simulation};
 }
@@ -44,10 +46,13 @@ run::SimulatedSequence teach_after(const AdaptConfig& config, const motion::Refe
   return made;
 }
 
-/// The paper's method: arrange trained options over the motion and fine-tune them.
-run::SimulatedSequence paper_method(const AdaptConfig& config, const motion::Reference& reference,
-                                    const run::SequenceJob& job) {
-  return pipeline::fine_tune(reference, config.options, config.arrangement, config.training, job);
+/// Arranges trained options over the motion and fine-tunes them.
+run::SimulatedSequence options_method(const AdaptConfig& config, const motion::Reference& reference,
+                                      const run::SequenceJob& job) {
+  run::SimulatedSequence made =
+      pipeline::fine_tune(reference, config.options, config.arrangement, config.training, job);
+  if (config.method == AdaptMethod::kPrinted) made.method = kPrinted;
+  return made;
 }
 
 /// Plans the motion, and fine-tunes where the plan's roll-out is no success; the better roll-out is kept.
@@ -61,7 +66,7 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   if (planned.success && found.ending == control::Ending::kFollowed && config.teaching.teach)
     return teach_after(config, reference, found, planned, std::move(plan), rest);
   if (planned.success) return plan;
-  run::SimulatedSequence trained = paper_method(config, reference, rest);
+  run::SimulatedSequence trained = options_method(config, reference, rest);
   trained.planning_seconds = plan.planning_seconds;
   if (trained.interrupted) return trained;
   const judge::Candidate learned = judge::candidate_of(reference, trained.after);
@@ -88,6 +93,21 @@ std::vector<std::filesystem::path> clusters_of(const pipeline::options::OptionSe
   return files;
 }
 
+/// @throws std::invalid_argument for options whose policies were trained with the other kind of action
+void require_actions(const AdaptConfig& config) {
+  const bool absolute = config.training.tracking.action_mode == rl::tracking::ActionMode::kAbsolute;
+  for (const auto& set : config.options)
+    if (set->absolute_actions != absolute)
+      throw std::invalid_argument(std::string("options: expected policies of ") +
+                                  (absolute ? "absolute" : "residual") + " actions (residual_actions " +
+                                  (absolute ? "0" : "1") + "), found others");
+}
+
+const char* name_of(AdaptMethod method) {
+  if (method == AdaptMethod::kPrinted) return kPrinted;
+  return method == AdaptMethod::kAuto ? "auto" : "options";
+}
+
 run::Method adaptation_of(const AdaptConfig& config) {
   run::Method method;
   method.seed = config.training.seed;
@@ -96,9 +116,9 @@ run::Method adaptation_of(const AdaptConfig& config) {
   method.options = pipeline::options::checksum_of(config.options);
   method.simulation = config.training.tracking.simulation;
   const bool plan_first = config.method == AdaptMethod::kAuto;
-  method.name = plan_first ? "auto" : "paper";
+  method.name = name_of(config.method);
   method.simulate = [&config, plan_first](const motion::Reference& reference, const run::SequenceJob& job) {
-    return plan_first ? plan_or_fine_tune(config, reference, job) : paper_method(config, reference, job);
+    return plan_first ? plan_or_fine_tune(config, reference, job) : options_method(config, reference, job);
   };
   return method;
 }
@@ -122,6 +142,10 @@ record::RunOutcome adapt(const AdaptConfig& config, const record::RunContext& co
     return plan::plan_motions({config.run, planning_of(config)}, context);
   if (config.options.empty())
     throw std::invalid_argument("adapt: expected options to start from, found none");
+  if (config.method == AdaptMethod::kPrinted && config.options.count() > 1)
+    throw std::invalid_argument("--options: expected one set for --method printed, found " +
+                                std::to_string(config.options.count()));
+  require_actions(config);
   require_ranges(config.arrangement);
   run::RunConfig run = config.run;
   run.map = pipeline::run_map(clusters_of(config.options));

@@ -1,10 +1,11 @@
 /// `mimicx adapt`: cleans each motion, by a plan, by trained policies, or by policies if the plan fails.
 ///
-/// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion. *Paper*: trained
+/// *Plan*: optimal control on the simulator's derivatives (plan.h); seconds per motion. *Options*: trained
 /// options are arranged over the motion, and those that act are fine-tuned jointly (fine_tune.h); minutes.
 ///                                                                     docs/method.md §8, §9
+/// *Printed*: the same with the settings of the method as the paper prints it (configurations.h).
 /// *Auto*: the plan and, on request, a policy that it teaches (teach_motion.h); if the plan's roll-out is no
-/// success, the paper's method with its whole budget. The better roll-out is written (choice.h), and the
+/// success, the options with their whole budget. The better roll-out is written (choice.h), and the
 /// manifest says which.
 #pragma once
 
@@ -19,7 +20,7 @@
 
 namespace mimicx::program {
 
-enum class AdaptMethod { kAuto, kPlan, kPaper };
+enum class AdaptMethod { kAuto, kPlan, kOptions, kPrinted };
 
 struct AdaptConfig {
   AdaptMethod method = AdaptMethod::kAuto;
@@ -33,7 +34,8 @@ struct AdaptConfig {
 
 /// core/setting.h; those that the method has.
 void visit_settings(AdaptConfig& config, const auto& visit) {
-  if (config.method != AdaptMethod::kPaper) visit_settings(config.plan, visit);
+  if (config.method == AdaptMethod::kAuto || config.method == AdaptMethod::kPlan)
+    visit_settings(config.plan, visit);
   if (config.method == AdaptMethod::kPlan)
     return files::visit_settings(config.training.tracking.simulation, visit);
   visit_settings(config.training, visit);

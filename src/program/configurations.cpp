@@ -27,19 +27,25 @@ NamedValues with_budget(const pipeline::TrainingConfig& config, const NamedValue
 }
 
 /// All configurations, each in the order of its manifest.
-Array<NamedValues, 7> columns() {
+Array<NamedValues, kConfigurations> columns() {
   const pipeline::ImitateConfig imitate = imitate_configuration();
   const AdaptConfig adapt = adapt_configuration();
+  AdaptConfig adapt_printed = adapt;
+  use_printed_method(adapt_printed);
   const pipeline::PretrainConfig small = pretrain_configuration("small"),
-                                 paper = pretrain_configuration("paper");
+                                 large = pretrain_configuration("large");
+  pipeline::PretrainConfig printed = small;
+  use_printed_method(printed);
   const teaching::TeachConfig teach = teach_configuration();
   NamedValues taught = {{"seed", static_cast<double>(teach.school.seed)}};
   append(taught, manifest_settings(teach));
   return {manifest_settings(plan::plan_configuration()),
           with_budget(imitate.training, manifest_settings(imitate)),
           with_budget(adapt.training, manifest_settings(adapt)),
+          with_budget(adapt_printed.training, manifest_settings(adapt_printed)),
           with_budget(small.training, manifest_settings(small)),
-          with_budget(paper.training, manifest_settings(paper)),
+          with_budget(large.training, manifest_settings(large)),
+          with_budget(printed.training, manifest_settings(printed)),
           taught,
           settings_of(fit::FitConfig{})};
 }
@@ -53,13 +59,13 @@ Meanings all_meanings() {
       {"seed", "root of every random number (--seed)"},
       {"fit", "1: motions are moved onto their keypoints first (--fit)"},
       {"as_is", "1: nothing is corrected (--as-is)"},
-      {"keypoints", "1: the reward sees keypoints, as the fit does (--fit)"},
+      {"keypoints", "1: Eq. 3 rewards agreement with keypoints (--fit, --unfitted-keypoints)"},
       {"encoder", "1: policies see their reference through an encoder (--encoder)"},
       {"encoder_steps", "minibatches that train an encoder, at most (fixed)"},
       {"cluster_radius", "largest distance within a cluster; ignored where clusters is not 0 (--radius)"},
       {"clusters", "number of options; 0: as cluster_radius gives (--clusters)"}};
   for (const Meanings& more :
-       {meanings_of(adapt_configuration()), meanings_of(pretrain_configuration("paper").training),
+       {meanings_of(adapt_configuration()), meanings_of(pretrain_configuration("large").training),
         meanings_of(teach_configuration()), meanings_of(fit::FitConfig{})})
     all.insert(all.end(), more.begin(), more.end());
   return all;
@@ -70,6 +76,18 @@ std::string meaning_of(const Meanings& meanings, const std::string& name) {
   for (const auto& [known, meaning] : meanings)
     if (known == name) return meaning;
   throw std::logic_error("configurations: " + name + " has no meaning");
+}
+
+/// What the paper prints of the task, the policy and its exploration.
+void use_printed_training(pipeline::TrainingConfig& training) {
+  rl::tracking::TrackingConfig& task = training.tracking;
+  task.action_mode = rl::tracking::ActionMode::kAbsolute;
+  task.velocity_feed_forward = false;                     // actions are rotations of the target pose alone
+  task.reward.root_position = task.reward.root_rotation;  // Eq. 2: one w_r for both
+  task.reward_target = 0.0;
+  task.uniform_starts = 1.0;
+  training.ppo.sigma_start = training.ppo.sigma_end = 0.055;  // Σ is fixed; value: ASE (Peng et al. 2022)
+  training.ppo.penalty_weight = 0.002;                        // value: Chen et al. 2024
 }
 
 std::string setting_cell(double value) { return std::isnan(value) ? "-" : record::format_number(value); }
@@ -102,22 +120,40 @@ teaching::TeachConfig teach_configuration() {
 }
 
 pipeline::PretrainConfig pretrain_configuration(const std::string& preset) {
-  if (preset != "small" && preset != "paper")
-    throw std::invalid_argument("unknown preset '" + preset + "': small or paper");
+  if (preset != "small" && preset != "large")
+    throw std::invalid_argument("unknown preset '" + preset + "': small or large");
   pipeline::PretrainConfig config;
   config.fit = true;
   pipeline::TrainingConfig& training = config.training;
   training.samples = 80000000;
   training.characters = 512;
-  if (preset == "paper") training.hidden = {1024, 1024, 512};
+  if (preset == "large") training.hidden = {1536, 1024, 512};
   training.evaluate_iterations = 100;
   training.ppo.sigma_end = 0.05;
   training.ppo.minibatch = 2048;
   return config;
 }
 
+void use_printed_method(AdaptConfig& config) {
+  config.method = AdaptMethod::kPrinted;
+  config.run.fit = false;
+  config.run.as_is = true;
+  config.run.unfitted_keypoints = true;
+  use_printed_training(config.training);
+  config.training.stall_evaluations = 0;  // the threshold alone ends the fine-tuning
+  config.arrangement.selector = pipeline::options::Selector::kDp;
+  config.arrangement.rescue_frames = 0;
+}
+
+void use_printed_method(pipeline::PretrainConfig& config) {
+  config.fit = false;
+  config.as_is = true;
+  config.unfitted_keypoints = true;
+  use_printed_training(config.training);
+}
+
 std::vector<ConfigurationRow> configuration_rows() {
-  const Array<NamedValues, 7> all = columns();
+  const Array<NamedValues, kConfigurations> all = columns();
   const Meanings meanings = all_meanings();
   std::vector<ConfigurationRow> rows;
   for (int column = 0; column < static_cast<int>(all.size()); ++column) {
@@ -142,15 +178,16 @@ std::string format_configurations() {
   const std::vector<ConfigurationRow> rows = configuration_rows();
   std::size_t width = 0;
   for (const ConfigurationRow& row : rows) width = std::max(width, row.name.size());
-  const auto padded = [](const std::string& text, std::size_t to) {
-    return std::string(to > text.size() ? to - text.size() : 0, ' ') + text;
+  constexpr std::size_t kColumn = 16;
+  const auto padded = [](const std::string& text) {
+    return std::string(kColumn > text.size() ? kColumn - text.size() : 0, ' ') + text;
   };
   std::string text = "setting" + std::string(width - 7, ' ');
-  for (const char* name : kConfigurationNames) text += "  " + padded(name, 14);
+  for (const char* name : kConfigurationNames) text += "  " + padded(name);
   text += std::string("  ") + kMeaning;
   for (const ConfigurationRow& row : rows) {
     text += "\n" + row.name + std::string(width - row.name.size(), ' ');
-    for (const double v : row.values) text += "  " + padded(setting_cell(v), 14);
+    for (const double v : row.values) text += "  " + padded(setting_cell(v));
     text += "  " + row.meaning;
   }
   return text + "\n";

@@ -3,8 +3,10 @@
 ///     plan            optimal control, without any training (plan.h)                    docs/control.md
 ///     imitate         one policy per motion, trained from scratch
 ///     adapt           the plan, and if it fails trained options, fine-tuned jointly   docs/method.md §9
+///     adapt printed   trained options by the paper's method as printed                docs/deviations.md
 ///     pretrain small  an option per cluster; networks that two cores fine-tune fast      docs/method.md §7
-///     pretrain paper  the same with the paper's networks
+///     pretrain large  the same with networks of the paper's size
+///     pretrain printed  the same by the paper's method as printed                     docs/deviations.md
 ///     teach           options taught by plans                                           docs/teaching.md §5
 ///     fit             the keypoint fit, which all of them begin with          docs/method.md, "Keypoint fit"
 ///
@@ -27,17 +29,24 @@ namespace mimicx::program {
 pipeline::ImitateConfig imitate_configuration();
 AdaptConfig adapt_configuration();
 teaching::TeachConfig teach_configuration();
-/// @param preset  "small" or "paper" @throws std::invalid_argument for another one
+/// @param preset  "small" or "large" @throws std::invalid_argument for another one
 pipeline::PretrainConfig pretrain_configuration(const std::string& preset);
 
-inline constexpr Array<const char*, 7> kConfigurationNames = {
-    "plan", "imitate", "adapt", "pretrain small", "pretrain paper", "teach", "fit"};
+/// Sets what the paper prints instead of what we do, as far as settings differ (docs/deviations.md). What the
+/// paper leaves open stays.
+void use_printed_method(AdaptConfig& config);
+void use_printed_method(pipeline::PretrainConfig& config);
+
+inline constexpr int kConfigurations = 9;
+inline constexpr Array<const char*, kConfigurations> kConfigurationNames = {
+    "plan",  "imitate", "adapt", "adapt printed", "pretrain small", "pretrain large", "pretrain printed",
+    "teach", "fit"};
 
 /// A setting by its name in manifests, with its value in every configuration; NaN if one has no such setting.
 struct ConfigurationRow {
   std::string name;
-  Array<double, 7> values;  ///< in the order of kConfigurationNames
-  std::string meaning;      ///< in a few words, with the unit; (--ARGUMENT) where `--set` does not take it
+  Array<double, kConfigurations> values;  ///< in the order of kConfigurationNames
+  std::string meaning;  ///< in a few words, with the unit; (--ARGUMENT) where `--set` does not take it
 };
 std::vector<ConfigurationRow> configuration_rows();
 

@@ -70,4 +70,6 @@ bool is_former_default(const std::string& name, double value) {
   return false;
 }
 
+std::string current_method(const std::string& name) { return name == "paper" ? "options" : name; }
+
 }  // namespace mimicx::record

@@ -1,4 +1,4 @@
-/// Settings that manifests of earlier versions list and that are constants today.
+/// Settings that manifests of earlier versions list and that are constants today, and former names.
 #pragma once
 
 #include <string>
@@ -8,5 +8,8 @@ namespace mimicx::record {
 /// Whether `name` is such a setting and has the value of today's constant: a run that lists it so and one
 /// that does not list it may stand side by side.
 bool is_former_default(const std::string& name, double value);
+
+/// Today's name of a method in a manifest: earlier versions called `options` `paper`.
+std::string current_method(const std::string& name);
 
 }  // namespace mimicx::record

@@ -99,7 +99,7 @@ Manifest run_of(const Json& run) {
   manifest.target = run.at("target").get<std::string>();
   manifest.seed = run.at("seed");
   manifest.samples = run.at("samples");
-  manifest.method = run.value("method", "").get<std::string>();
+  manifest.method = current_method(run.value("method", "").get<std::string>());
   manifest.options = run.at("options").get<std::string>();
   manifest.reading = from_utf8(run.value("reading", "").get<std::string>());
   manifest.settings = named_values(run.at("settings"));

@@ -21,7 +21,7 @@ struct Manifest {
   std::string target;   ///< arithmetic it was built for (core/build.h)
   std::uint64_t seed = 0;
   std::int64_t samples = 0;  ///< budget per sequence
-  std::string method;        ///< how the motions are simulated: imitate, plan, paper or auto
+  std::string method;        ///< how the motions are simulated: imitate, plan, options, printed or auto
   NamedValues settings;      ///< every other parameter that the results depend on
   std::string options;       ///< checksums of the sets of options, joined by +; empty: from scratch
   std::string reading;       ///< how the user asked to read the files (ReadConfig::text)

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/containers.h"
+#include "record/former_settings.h"
 #include "record/utf8_names.h"
 
 namespace mimicx::record {
@@ -82,7 +83,7 @@ SequenceEntry entry_of(const Json& json) {
   if (!json.at("output").is_null()) e.output = from_utf8(json.at("output").get<std::string>());
   e.ok = json.at("status") == "ok";
   e.reason = json.at("reason").get<std::string>();
-  e.method = json.value("method", "").get<std::string>();
+  e.method = current_method(json.value("method", "").get<std::string>());
   e.ending = ending_of(json.at("ending").get<std::string>());
   e.frames = json.at("frames");
   e.fps = json.at("fps");

@@ -35,7 +35,7 @@ struct SequenceEntry {
   FileChecksums files;         ///< that the sequence left, to detect missing and changed ones
   bool ok = false;
   std::string reason;  ///< why it failed
-  std::string method;  ///< what made the motion: imitate, plan, policy or paper
+  std::string method;  ///< what made the motion: imitate, plan, policy, options or printed
   SequenceEnding ending = SequenceEnding::kNone;
   int frames = 0;
   double fps = 0.0;

@@ -276,7 +276,8 @@ std::string words_of_method(const std::string& method) {
   static const std::map<std::string, std::string> kWords = {
       {"plan", "a plan (optimal control)"},
       {"policy", "a policy taught by the plan"},
-      {"paper", "trained options, chosen frame by frame and fine-tuned jointly"},
+      {"options", "trained options, chosen frame by frame and fine-tuned jointly"},
+      {"printed", "trained options, by the method as the paper prints it"},
       {"imitate", "a policy trained from scratch"},
   };
   const auto found = kWords.find(method);

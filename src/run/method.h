@@ -60,7 +60,7 @@ struct JobWatch {
 /// The result of a method for one motion.
 struct SimulatedSequence {
   bool interrupted = false;  ///< the job's context requested a stop: only the seconds below are set
-  std::string method;        ///< that made the result: imitate, plan or paper
+  std::string method;        ///< that made the result: imitate, plan, options or printed
   double planning_seconds = 0.0, training_seconds = 0.0;  ///< for timing.json
   record::SequenceEnding ending = record::SequenceEnding::kNone;
   std::int64_t samples = 0;
@@ -79,7 +79,7 @@ struct SimulatedSequence {
 
 /// A way to make the humanoid follow a motion, with everything that its results depend on.
 struct Method {
-  std::string name;  ///< imitate, plan, paper or auto
+  std::string name;  ///< imitate, plan, options, printed or auto
   std::uint64_t seed = 0;
   std::int64_t samples = 0;              ///< budget per motion
   NamedValues settings;                  ///< as the manifest lists them, including those of the RunConfig

@@ -45,8 +45,13 @@ motion::PreparationConfig preparing(Correction correction) {
 
 }  // namespace
 
+Correction correction_of(bool fit, bool as_is) {
+  if (as_is) return Correction::kNone;
+  return fit ? Correction::kKeypoints : Correction::kPoses;
+}
+
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
-                              Correction correction, int threads) {
+                              Correction correction, int threads, bool keep_keypoints) {
   PreparedMotion motion;
   fit::FitConfig config;
   config.threads = threads;
@@ -69,7 +74,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;
   motion.reference = motion::prepare_reference(motion.fitted, preparing(correction), &report);
-  if (!motion.has_fit) motion.reference.keypoints.reset();
+  if (!motion.has_fit && !keep_keypoints) motion.reference.keypoints.reset();
   motion.preparation_values = values_of(report);
   motion.preparation_values.emplace_back("pose_fit_mean_mm", planting.change_mean_mm);
   motion.preparation_values.emplace_back("pose_fit_max_mm", planting.change_max_mm);

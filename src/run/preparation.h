@@ -2,7 +2,8 @@
 /// preparation. Every method begins with it.
 ///
 /// Eq. 3 rewards agreement with the keypoints, Eq. 2 with the reference. If the reference was not fitted onto
-/// the keypoints, the two contradict each other; such a reference has no keypoints. docs/method.md §5
+/// the keypoints, the two contradict each other; such a reference has no keypoints, unless they are requested
+/// (the paper's method, which has no fit). docs/method.md §5
 ///
 /// It never opens any ground truth.
 #pragma once
@@ -23,7 +24,7 @@ struct PreparedMotion {
   motion::Clip input;              ///< as it was read, with the decisions of the reader
   motion::Clip fitted;             ///< moved onto its keypoints, or by the fit of poses alone
   bool has_fit = false;            ///< onto its keypoints
-  motion::Reference reference;     ///< with keypoints, for Eq. 3, only if it was fitted onto them
+  motion::Reference reference;     ///< with keypoints, for Eq. 3, if it was fitted onto them or they are kept
   NamedValues fit_values;          ///< of the fit's report; empty without a fit
   NamedValues preparation_values;  ///< of the preparation's report
   std::vector<std::string> notes;  ///< warnings of all steps
@@ -36,10 +37,15 @@ enum class Correction {
   kKeypoints  ///< keypoint fit and preparation; without keypoints as kPoses
 };
 
-/// @param threads  do not influence the result
+/// @param fit    onto the keypoints, if there are any
+/// @param as_is  correct nothing, regardless of `fit`
+Correction correction_of(bool fit, bool as_is);
+
+/// @param threads         do not influence the result
+/// @param keep_keypoints  an unfitted reference keeps its keypoints for Eq. 3
 /// @throws DataError as reading, fitting and preparing do
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
-                              Correction correction, int threads = 1);
+                              Correction correction, int threads = 1, bool keep_keypoints = false);
 
 /// Prints the reader's decisions (their summary if there is one) and warnings, a line each after the file's
 /// name.

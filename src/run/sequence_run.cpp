@@ -44,9 +44,9 @@ struct Worker {
   int threads;
 };
 
-Correction correction_of(const RunConfig& config) {
-  if (config.as_is) return Correction::kNone;
-  return config.fit ? Correction::kKeypoints : Correction::kPoses;
+PreparedMotion prepared(const RunConfig& config, const std::string& input, int threads) {
+  return prepare_motion(input, config.read, correction_of(config.fit, config.as_is), threads,
+                        config.unfitted_keypoints);
 }
 
 /// Remakes damaged input, fit and reference files of a finished sequence; reports other damaged files.
@@ -61,8 +61,7 @@ void restore_files(const Worker& worker, const record::SequenceEntry& entry,
     worker.context.messages << entry.name << ": " << name << " is gone or damaged"
                             << (again ? ": made again\n" : ", and is not made again\n");
     if (!again) continue;
-    if (!motion)
-      motion = prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads);
+    if (!motion) motion = prepared(run.config, entry.input, worker.threads);
     make_folder(file.parent_path());
     if (input)
       files::write_input(file, motion->input);
@@ -109,8 +108,7 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
 /// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
   const RunState& run = worker.run;
-  JudgedMotion motion{prepare_motion(entry.input, run.config.read, correction_of(run.config), worker.threads),
-                      {}};
+  JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}};
   motion.needs = judge::needs_of(motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
@@ -327,10 +325,10 @@ class ParallelRun {
 }  // namespace
 
 NamedValues manifest_settings(const RunConfig& config) {
-  const double fit = correction_of(config) == Correction::kKeypoints ? 1.0 : 0.0;
-  return {{"fit", fit},
+  const bool fit = correction_of(config.fit, config.as_is) == Correction::kKeypoints;
+  return {{"fit", fit ? 1.0 : 0.0},
           {"as_is", config.as_is ? 1.0 : 0.0},
-          {"keypoints", fit}};  // Eq. 3 sees keypoints where the fit does (preparation.h)
+          {"keypoints", fit || config.unfitted_keypoints ? 1.0 : 0.0}};
 }
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,

@@ -269,7 +269,7 @@ struct CleanedAndRaw : testing::Test {
 TEST_F(CleanedAndRaw, CleanedMotionPassesAndItsNoisyInputFails) {
   const TemporaryFolder folder;
   program::AdaptConfig config = program::adapt_configuration();
-  config.method = program::AdaptMethod::kPaper;
+  config.method = program::AdaptMethod::kOptions;
   run::RunConfig& run = config.run;
   for (const char* name : {"squat_1", "wave_1"}) run.inputs.push_back(split("noisy", name).string());
   run.out = folder.path / "run";

@@ -154,19 +154,26 @@ TEST_F(Imitate, ForcesExplainTheMotion) {
   EXPECT_EQ(value_of(audit, "torque_violations"), 0.0);
 }
 
-TEST_F(Imitate, Eq3UsesKeypointsOnlyIfFittedToThem) {
+TEST_F(Imitate, Eq3UsesKeypointsOnlyIfFittedToThemOrRequested) {
   const std::string noisy = std::string(MIMICX_SOURCE_DIR) + "/data/synthetic/test/noisy/stand_1.npz";
-  const auto lowest_projection = [&](bool fit) {
-    ImitateConfig config = small_run(out(fit ? "fitted" : "unfitted"), {noisy});
+  const auto lowest_projection = [&](bool fit, bool unfitted_keypoints) {
+    ImitateConfig config = small_run(out(fit                  ? "fitted"
+                                         : unfitted_keypoints ? "requested"
+                                                              : "unfitted"),
+                                     {noisy});
     config.run.fit = fit;
+    config.run.unfitted_keypoints = unfitted_keypoints;
     run(config);
+    EXPECT_EQ(value_of(record::read_manifest(config.run.out / "manifest.json").settings, "keypoints"),
+              fit || unfitted_keypoints);
     const record::Table log = record::read_csv(config.run.out / "training" / "stand_1.csv");
     double lowest = 1.0;
     for (const auto& row : log.rows) lowest = std::min(lowest, row[log.column("reward_term:projection")]);
     return lowest;
   };
-  EXPECT_EQ(lowest_projection(false), 1.0);
-  EXPECT_LT(lowest_projection(true), 1.0);
+  EXPECT_EQ(lowest_projection(false, false), 1.0);
+  EXPECT_LT(lowest_projection(true, false), 1.0);
+  EXPECT_LT(lowest_projection(false, true), 1.0);
 }
 
 TEST_F(Imitate, StartsOverIfTheInputChanged) {

@@ -7,6 +7,7 @@
 
 #include "core/setting_checks.h"
 #include "program/pretrained_options.h"
+#include "run/preparation.h"
 #include "run/results.h"
 
 namespace mimicx::pipeline {
@@ -101,6 +102,42 @@ TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
   run(config);
   EXPECT_EQ(read_file(out("seen") / "training" / "option0.csv"),
             read_file(out("blind") / "training" / "option0.csv"));
+}
+
+TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid) {
+  PretrainConfig config = pretraining("run");
+  run(config);
+  std::string earlier = read_file(out("run") / "manifest.json");
+  for (const std::string setting : {"\"as_is\": false,", "\"keypoints\": true,"}) {
+    const std::size_t at = earlier.find(setting);
+    ASSERT_NE(at, std::string::npos) << setting;
+    earlier.erase(at, setting.size());
+  }
+  write_file_atomically(out("run") / "manifest.json", earlier);
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
+  EXPECT_EQ(read_file(out("run") / "manifest.json"), earlier) << "it is done";
+  config.as_is = true;
+  config.unfitted_keypoints = true;
+  EXPECT_NE(refusal_of([&] { run(config); }).find("settings/fit is true there, false here"),
+            std::string::npos);
+  config.fit = true;
+  config.as_is = false;
+  EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "fitted keypoints count anyway";
+}
+
+TEST_F(Pretrain, AsIsCorrectsNothing) {
+  const std::filesystem::path noisy = std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy";
+  std::filesystem::remove_all(motions);
+  std::filesystem::create_directories(motions);
+  std::filesystem::copy(noisy / "stand_1.npz", motions / "stand_1.npz");
+  PretrainConfig config = pretraining("run");
+  config.clusters.clusters = 1;
+  config.as_is = true;
+  run(config);
+  const run::PreparedMotion unchanged =
+      run::prepare_motion(motions / "stand_1.npz", {}, run::Correction::kNone);
+  EXPECT_EQ(options::read_clusters(out("run") / "clusters.json").clusters[0].features[0],
+            options::motion_features(unchanged.reference));
 }
 
 TEST_F(Pretrain, RejectsAFolderWithAnInvalidManifest) {

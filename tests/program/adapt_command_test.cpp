@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/setting_checks.h"
 #include "files/policy_file.h"
 #include "judge/scores.h"
 #include "motion/clip_file.h"
@@ -309,6 +310,20 @@ TEST_F(Adapt, RejectsImpossibleArrangementSettings) {
   EXPECT_THROW(run(config), std::invalid_argument);
 }
 
+TEST_F(Adapt, RefusesOptionsOfTheOtherActions) {
+  pipeline::PretrainConfig pretrained = pretraining("absolute");
+  pretrained.training.tracking.action_mode = rl::tracking::ActionMode::kAbsolute;
+  pretrained.training.samples = 0;
+  run(pretrained);
+  AdaptConfig config = adapting("run", "absolute");
+  EXPECT_NE(refusal_of([&] { run(config); }).find("residual actions (residual_actions 1), found others"),
+            std::string::npos);
+  config.training.tracking.action_mode = rl::tracking::ActionMode::kAbsolute;
+  config.training.samples = 0;
+  EXPECT_NE(run(config), record::RunOutcome::kInterrupted) << "these can be used";
+  EXPECT_TRUE(std::filesystem::exists(out("run") / "manifest.json"));
+}
+
 TEST_F(Adapt, MethodPlanNeedsNoOptionsAndMatchesPlan) {
   AdaptConfig config = adapt_configuration();
   config.method = AdaptMethod::kPlan;
@@ -441,8 +456,8 @@ TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
   AdaptConfig config = hopeless(adapting("auto", "options"));
   config.run.inputs = {(motions / "walk.npz").string()};
   run(config);
-  config.run.out = out("paper");
-  config.method = AdaptMethod::kPaper;
+  config.run.out = out("options-alone");
+  config.method = AdaptMethod::kOptions;
   run(config);
   config.run.out = out("plan");
   config.method = AdaptMethod::kPlan;
@@ -450,19 +465,19 @@ TEST_F(Adapt, TrainsAfterAFailedPlanAndWritesTheBetterResult) {
   const auto entry_of = [&](const std::string& name) {
     return record::read_manifest(out(name) / "manifest.json").sequences.at(0);
   };
-  const record::SequenceEntry chosen = entry_of("auto"), trained = entry_of("paper"),
+  const record::SequenceEntry chosen = entry_of("auto"), trained = entry_of("options-alone"),
                               planned = entry_of("plan");
   ASSERT_FALSE(planned.ok);
   EXPECT_EQ(chosen.samples, config.training.samples);
   const bool plan_is_nearer =
       !trained.ok && value_of(planned.metrics, "MPJPE") < value_of(trained.metrics, "MPJPE");
-  EXPECT_EQ(chosen.method, plan_is_nearer ? "plan" : "paper");
+  EXPECT_EQ(chosen.method, plan_is_nearer ? "plan" : "options");
   const record::SequenceEntry& expected = plan_is_nearer ? planned : trained;
   EXPECT_EQ(chosen.ok, expected.ok);
   EXPECT_EQ(chosen.metrics, expected.metrics);
   EXPECT_EQ(chosen.ending, expected.ending);
   EXPECT_EQ(read_file(out("auto") / chosen.output),
-            read_file(out(plan_is_nearer ? "plan" : "paper") / expected.output));
+            read_file(out(plan_is_nearer ? "plan" : "options") / expected.output));
   EXPECT_NE(chosen.notes.back().find("; written: the "), std::string::npos) << chosen.notes.back();
 }
 

@@ -64,7 +64,7 @@ TEST_F(Cli, WrongUsageIsStatusTwo) {
                                        "plan " + a + out + " --set gamma=0.9",
                                        "adapt " + a + out + " --method dance",
                                        "adapt " + a + out + " --method plan --set gamma=0.9",
-                                       "adapt " + a + out + " --method paper --set plan_horizon=5",
+                                       "adapt " + a + out + " --method options --set plan_horizon=5",
                                        std::string("evaluate"),
                                        std::string("info"),
                                        "convert " + a,
@@ -119,7 +119,53 @@ TEST_F(Cli, ConfigPrintsTheDefaultsThatHelpNames) {
   }
   const Call table = mimicx("config");
   EXPECT_EQ(table.status, 0);
-  EXPECT_TRUE(says(table, "pretrain paper") && says(table, "switch_penalty")) << table.text;
+  EXPECT_TRUE(says(table, "pretrain large") && says(table, "pretrain printed") &&
+              says(table, "switch_penalty"))
+      << table.text;
+}
+
+TEST_F(Cli, FormerNameOfAMethodIsAcceptedAndItsFolderContinued) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  const std::string rest = " --budget-samples 0 --threads 1 --out " + path("out") + " " + path("a.npz");
+  const Call former = mimicx("adapt --method paper" + rest);
+  EXPECT_EQ(former.status, 0) << former.text;
+  EXPECT_TRUE(says(former, "--method paper is called options now\n"));
+  const std::string manifest = read_file(path("out/manifest.json"));
+  EXPECT_NE(manifest.find("\"method\": \"options\""), std::string::npos);
+  EXPECT_EQ(manifest.find("\"paper\""), std::string::npos);
+  std::string earlier = manifest;
+  for (std::size_t at; (at = earlier.find("\"method\": \"options\"")) != std::string::npos;)
+    earlier.replace(at, 19, "\"method\": \"paper\"");
+  write_file_atomically(path("out/manifest.json"), earlier);
+  const Call continued = mimicx("adapt --method options" + rest);
+  EXPECT_EQ(continued.status, 0) << continued.text;
+  EXPECT_FALSE(says(continued, "is called"));
+  EXPECT_EQ(read_file(path("out/manifest.json")), manifest) << "the motion is done, under today's name";
+}
+
+TEST_F(Cli, MethodAsPrintedChangesDefaultsAndEachCanBeChangedBack) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  const auto settings_of_run = [&](const std::string& command, const std::string& out) {
+    const Call call = mimicx(command + " --threads 1 --out " + path(out));
+    EXPECT_TRUE(std::filesystem::exists(path(out) + "/manifest.json")) << call.text;
+    return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["settings"];
+  };
+  const std::string pretrain = "pretrain --clusters 1 --samples 0 --no-encoder " + path("a.npz");
+  const auto options = settings_of_run(pretrain + " --method printed", "options");
+  EXPECT_EQ(options["residual_actions"], 0);
+  EXPECT_EQ(options["as_is"], true);
+  const auto undone = settings_of_run(
+      pretrain + " --preset paper --no-as-is --fit --method printed --set residual_actions=1", "residual");
+  EXPECT_EQ(undone["hidden_1"], 1536) << "the former name of the preset large";
+  EXPECT_EQ(undone["residual_actions"], 1);
+  EXPECT_EQ(undone["as_is"], false);
+  EXPECT_EQ(undone["fit"], true);
+  EXPECT_EQ(undone["reward_target"], 0);
+  const std::string adapt = "adapt " + path("a.npz") + " --budget-samples 0 --options " + path("options");
+  EXPECT_EQ(settings_of_run(adapt + " --method printed", "dp")["selector"], 0);
+  EXPECT_EQ(settings_of_run(adapt + " --method printed --selector beam", "beam")["selector"], 1);
+  EXPECT_EQ(settings_of_run(adapt + " --selector beam --method printed", "beam_first")["selector"], 1)
+      << "wherever the method stands on the line";
 }
 
 TEST_F(Cli, ManifestRecordsTheSelectorsSettings) {
@@ -139,7 +185,7 @@ TEST_F(Cli, FindsShippedOptionsByName) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::filesystem::path shipped = std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options";
   const auto taken = [&](const std::string& options, const std::string& out) {
-    mimicx("adapt " + path("a.npz") + " --method paper --budget-samples 0 --threads 1 " + options +
+    mimicx("adapt " + path("a.npz") + " --method options --budget-samples 0 --threads 1 " + options +
            " --out " + path(out));
     return nlohmann::json::parse(read_file(path(out) + "/manifest.json"))["run"]["options"];
   };
@@ -163,10 +209,10 @@ TEST_F(Cli, FolderOfAShippedNameDoesNotReplaceTheShippedOptions) {
   std::filesystem::create_directory(path("taught"));
   const Call call = shell("cd '" + folder.path.string() +
                           "' && '" MIMICX_BINARY
-                          "' adapt a.npz --method paper --budget-samples 0 --threads 1 --out out 2>&1");
+                          "' adapt a.npz --method options --budget-samples 0 --threads 1 --out out 2>&1");
   EXPECT_EQ(call.status, 0) << call.text;
   EXPECT_NE(shell("cd '" + folder.path.string() +
-                  "' && '" MIMICX_BINARY "' adapt a.npz --method paper --options taught --out other 2>&1")
+                  "' && '" MIMICX_BINARY "' adapt a.npz --method options --options taught --out other 2>&1")
                 .status,
             0)
       << "an empty folder of that name is there";
@@ -233,7 +279,7 @@ TEST_F(Cli, AdaptTrainsNothingIfThePlanSucceeds) {
                 .status,
             0);
   EXPECT_TRUE(std::filesystem::exists(path("policy/policies/a.npz")));
-  EXPECT_EQ(mimicx("adapt --method paper " + path("a.npz")).status, 1) << "a folder of another method";
+  EXPECT_EQ(mimicx("adapt --method options " + path("a.npz")).status, 1) << "a folder of another method";
 }
 
 TEST_F(Cli, WithoutOutTheCleanMotionIsBesideItsInput) {

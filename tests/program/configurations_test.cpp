@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/file.h"
 #include "core/setting_checks.h"
 #include "fit/fit_config.h"
 
@@ -15,7 +19,33 @@ namespace {
 /// Of all configurations that train.
 std::vector<pipeline::TrainingConfig> trainings() {
   return {imitate_configuration().training, adapt_configuration().training,
-          pretrain_configuration("small").training, pretrain_configuration("paper").training};
+          pretrain_configuration("small").training, pretrain_configuration("large").training};
+}
+
+AdaptConfig printed_adaptation() {
+  AdaptConfig config = adapt_configuration();
+  use_printed_method(config);
+  return config;
+}
+
+pipeline::PretrainConfig printed_pretraining() {
+  pipeline::PretrainConfig config = pretrain_configuration("small");
+  use_printed_method(config);
+  return config;
+}
+
+/// {setting: value} that the second column has and the first has not, or has with another value.
+std::map<std::string, double> settings_changed(const std::string& from, const std::string& to) {
+  const auto column = [](const std::string& name) {
+    return static_cast<int>(std::find(kConfigurationNames.begin(), kConfigurationNames.end(), name) -
+                            kConfigurationNames.begin());
+  };
+  std::map<std::string, double> found;
+  for (const ConfigurationRow& row : configuration_rows()) {
+    const double value = row.values[column(to)];
+    if (!std::isnan(value) && row.values[column(from)] != value) found[row.name] = value;
+  }
+  return found;
 }
 
 double value(const std::string& name, int column) {
@@ -27,12 +57,15 @@ double value(const std::string& name, int column) {
 
 TEST(Configurations, AllAreCompleteAndCanBeDone) {
   for (const pipeline::TrainingConfig& training : trainings()) EXPECT_NO_THROW(check(training));
+  EXPECT_NO_THROW(check(printed_adaptation()));
+  EXPECT_NO_THROW(check(printed_pretraining().training));
   EXPECT_NO_THROW(check(plan::plan_configuration().planning));
   EXPECT_NO_THROW(check(adapt_configuration()));
 }
 
 TEST(Configurations, EverySettingOfAMethodCanBeChangedByItsNameAndChangesNoOther) {
-  for (const AdaptMethod method : {AdaptMethod::kAuto, AdaptMethod::kPlan, AdaptMethod::kPaper}) {
+  for (const AdaptMethod method :
+       {AdaptMethod::kAuto, AdaptMethod::kPlan, AdaptMethod::kOptions, AdaptMethod::kPrinted}) {
     AdaptConfig config = adapt_configuration();
     config.method = method;
     check_settings(config);
@@ -46,7 +79,7 @@ TEST(Configurations, TheDefaultsTrainOneMotionFromScratch) {
   EXPECT_EQ(imitate.training.samples, 4000000);
 }
 
-TEST(Configurations, TheTaskIsOneForAll) {
+TEST(Configurations, TheTaskIsOneForAllButTheMethodAsPrinted) {
   for (const pipeline::TrainingConfig& training : trainings())
     EXPECT_EQ(settings_of(training.tracking), settings_of(rl::tracking::TrackingConfig{}));
 }
@@ -67,22 +100,60 @@ TEST(Configurations, TableListsWhatManifestsRecord) {
   has_all(0, manifest_settings(plan::plan_configuration()), 0);
   has_all(1, manifest_settings(imitate_configuration()), 2);  // the samples and the seed besides
   has_all(2, manifest_settings(adapt_configuration()), 2);
-  has_all(3, manifest_settings(pretrain_configuration("small")), 2);
-  has_all(4, manifest_settings(pretrain_configuration("paper")), 2);
-  has_all(5, manifest_settings(teach_configuration()), 1);
-  has_all(6, settings_of(fit::FitConfig{}), 0);
+  has_all(3, manifest_settings(printed_adaptation()), 2);
+  has_all(4, manifest_settings(pretrain_configuration("small")), 2);
+  has_all(5, manifest_settings(pretrain_configuration("large")), 2);
+  has_all(6, manifest_settings(printed_pretraining()), 2);
+  has_all(7, manifest_settings(teach_configuration()), 1);
+  has_all(8, settings_of(fit::FitConfig{}), 0);
 }
 
 TEST(Configurations, PresetsDifferOnlyInTheirNetworks) {
   for (const ConfigurationRow& row : configuration_rows()) {
-    const double small = row.values[3], paper = row.values[4];
+    const double small = row.values[4], large = row.values[5];
     if (row.name.starts_with("hidden_"))
-      EXPECT_NE(small, paper) << row.name;
+      EXPECT_NE(small, large) << row.name;
     else
-      EXPECT_TRUE(small == paper || (std::isnan(small) && std::isnan(paper))) << row.name;
+      EXPECT_TRUE(small == large || (std::isnan(small) && std::isnan(large))) << row.name;
   }
-  EXPECT_EQ(pretrain_configuration("paper").training.hidden, (std::vector<int>{1024, 1024, 512}));
-  EXPECT_THROW(pretrain_configuration("large"), std::invalid_argument);
+  EXPECT_EQ(pretrain_configuration("large").training.hidden, (std::vector<int>{1536, 1024, 512}));
+  EXPECT_THROW(pretrain_configuration("huge"), std::invalid_argument);
+}
+
+TEST(Configurations, TheMethodAsPrintedDiffersInTheseSettingsAlone) {
+  const rl::tracking::TrackingConfig task;
+  std::map<std::string, double> printed = {{"fit", 0},
+                                           {"as_is", 1},
+                                           {"residual_actions", 0},
+                                           {"velocity_feed_forward", 0},
+                                           {"reward_root_position", task.reward.root_rotation},
+                                           {"reward_target", 0},
+                                           {"uniform_starts", 1},
+                                           {"sigma_start", 0.055},
+                                           {"sigma_end", 0.055},
+                                           {"penalty_weight", 0.002}};
+  EXPECT_EQ(settings_changed("pretrain small", "pretrain printed"), printed);
+  printed.insert({{"selector", 0}, {"rescue_frames", 0}, {"stall_evaluations", 0}});
+  EXPECT_EQ(settings_changed("adapt", "adapt printed"), printed);
+  const NamedValues adapt = manifest_settings(printed_adaptation());
+  EXPECT_EQ(value_of(adapt, "keypoints"), 1.0) << "Eq. 3 acts without a fit";
+  EXPECT_EQ(value_of(adapt, "reward_root_position"), value_of(adapt, "reward_root_rotation"))
+      << "w_r of Eq. 2";
+}
+
+TEST(Configurations, EverySettingOfTheMethodAsPrintedHasARowInTheDeviations) {
+  std::istringstream page(read_file(std::filesystem::path(MIMICX_SOURCE_DIR) / "docs" / "deviations.md"));
+  std::string rows;
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| ")) rows += line;
+  for (const auto& [name, value] : settings_changed("adapt", "adapt printed")) {
+    std::string argument = name;
+    std::replace(argument.begin(), argument.end(), '_', '-');
+    const bool named = rows.find(" " + name + "=") != std::string::npos ||
+                       rows.find("`" + name + "`") != std::string::npos ||
+                       rows.find("--" + argument) != std::string::npos;
+    EXPECT_TRUE(named) << name;
+  }
 }
 
 TEST(Configurations, TextAndJsonAgree) {
@@ -96,7 +167,7 @@ TEST(Configurations, TextAndJsonAgree) {
     std::string word;
     words >> word;
     EXPECT_EQ(word, row.name);
-    for (int column = 0; column < 5; ++column) {
+    for (int column = 0; column < 7; ++column) {
       words >> word;
       const nlohmann::json& settings = json.at(kConfigurationNames[column]);
       if (word == "-") {

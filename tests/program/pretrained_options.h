@@ -43,7 +43,7 @@ struct PretrainedOptions : testing::Test {
   }
   AdaptConfig adapting(const std::string& out, const std::string& options) const {
     AdaptConfig config = adapt_configuration();
-    config.method = AdaptMethod::kPaper;
+    config.method = AdaptMethod::kOptions;
     config.run.inputs = {(motions / "sway.npz").string()};
     config.run.out = folder.path / out;
     config.training = small_training();

@@ -36,7 +36,7 @@ record::SequenceEntry adapted(const std::string& name,
   AdaptConfig config = adapt_configuration();
   config.training.samples = samples;
   config.training.evaluate_iterations = 10;
-  config.method = AdaptMethod::kPaper;
+  config.method = AdaptMethod::kOptions;
   config.options = {options};
   return entry_of(config, name, [&](const record::RunContext& context) { adapt(config, context); });
 }

@@ -21,6 +21,15 @@ TEST(Preparation, ReferenceKeepsKeypointsOnlyIfFittedToThem) {
   EXPECT_FALSE(unfitted.reference.keypoints.has_value()) << "Eq. 3 would ask for a second pose";
 }
 
+TEST(Preparation, KeptKeypointsOfAnUnfittedReferenceAreThoseOfTheInput) {
+  for (const Correction correction : {Correction::kPoses, Correction::kNone}) {
+    const PreparedMotion kept = prepare_motion(kNoisy, {}, correction, 1, true);
+    ASSERT_TRUE(kept.reference.keypoints.has_value());
+    EXPECT_EQ(kept.reference.keypoints->uvc, kept.input.keypoints->uvc);
+    EXPECT_FALSE(kept.has_fit);
+  }
+}
+
 TEST(Preparation, CorrectionNoneChangesNoPose) {
   const PreparedMotion plain = prepare_motion(kNoisy, {}, Correction::kNone);
   EXPECT_EQ(plain.fitted.rotations, plain.input.rotations);

@@ -8,7 +8,7 @@
 namespace mimicx::pipeline::options {
 namespace {
 
-constexpr const char* kCount = "options.count";
+constexpr const char *kCount = "options.count", *kAbsoluteActions = "options.absolute_actions";
 
 std::string prefix_of(int k) { return "option" + std::to_string(k) + "."; }
 
@@ -40,6 +40,7 @@ std::string checksum_of(const OptionSets& sets) {
 void write_options(const std::filesystem::path& path, const OptionSet& set) {
   Npz archive;
   archive.set(kCount, NpyArray::scalar_int(static_cast<std::int64_t>(set.options.size())));
+  if (set.absolute_actions) archive.set(kAbsoluteActions, NpyArray::scalar_int(1));
   for (int k = 0; k < set.options.count(); ++k) {
     const TrainedOption& trained = set.options[k];
     const std::string prefix = prefix_of(k);
@@ -66,6 +67,7 @@ OptionSet options_from(const Npz& archive) {
   if (!(count >= 1.0 && count <= 1000.0))
     throw DataError(archive.path, kCount, "1 to 1000 options", std::to_string(count));
   OptionSet set;
+  set.absolute_actions = archive.has(kAbsoluteActions) && number_at(archive, kAbsoluteActions) != 0.0;
   for (int k = 0; k < static_cast<int>(count); ++k) {
     const std::string prefix = prefix_of(k);
     const auto whole = [&](const char* key, std::int64_t most) {

@@ -2,7 +2,8 @@
 ///
 /// `mimicx pretrain` writes `options.npz`; `mimicx adapt` reads it. Weights are 32-bit floats; optimiser
 /// states are not part of it. Members: options.count, optionK.agent.*, optionK.encoder.*,
-/// optionK.description, optionK.centre (features, SI units), optionK.motions, optionK.samples.
+/// optionK.description, optionK.centre (features, SI units), optionK.motions, optionK.samples; and
+/// options.absolute_actions, 1, only if actions are absolute.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +28,7 @@ struct TrainedOption {
 
 struct OptionSet {
   List<TrainedOption> options;
+  bool absolute_actions = false;   ///< ActionMode of all policies
   std::string checksum;            ///< of the file; empty if it was not read from one
   std::filesystem::path clusters;  ///< `clusters.json` beside that file; empty if missing
 };

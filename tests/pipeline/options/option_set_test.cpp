@@ -51,6 +51,18 @@ TEST(OptionSet, RoundTripIsExact) {
   }
 }
 
+TEST(OptionSet, OnlyAbsoluteActionsAreNamedInTheFile) {
+  const TemporaryFolder folder;
+  OptionSet set = some_set();
+  for (const bool absolute : {false, true}) {
+    set.absolute_actions = absolute;
+    write_options(folder.path / "options.npz", set);
+    EXPECT_EQ(read_npz(folder.path / "options.npz").has("options.absolute_actions"), absolute)
+        << "files of earlier versions, whose actions are residual, are the same bytes";
+    EXPECT_EQ(read_options(folder.path)->absolute_actions, absolute);
+  }
+}
+
 TEST(OptionSet, SetsAreNumberedConsecutivelyAndNamedByChecksum) {
   const TemporaryFolder folder;
   write_options(folder.path / "options.npz", some_set());
