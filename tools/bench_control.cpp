@@ -53,18 +53,18 @@ struct Problem {
   control::Trajectory plan;
   control::IterationState iterations;
 
-  explicit Problem(bool soft) : system(make(soft)), cost(control::make_cost(system, {})) {
+  explicit Problem(bool assisted) : system(make(assisted)), cost(control::make_cost(system, {})) {
     plan.x.assign(kFrames + 1, physics::lane_of(physics::in_all_lanes<control::P>(system.at(0)), 0));
     plan.u.resize(kFrames);
     control::replay_controls(system, cost, plan);
     for (int i = 0; i < 3; ++i) control::improve({system, cost}, 0.2, 1, iterations, plan);
     control::build_models({system, cost}, plan, 1, iterations.models);
   }
-  static control::System make(bool soft) {
+  static control::System make(bool assisted) {
     std::vector<physics::State<double>> reference;
     for (int t = 0; t <= kFrames; ++t) reference.push_back(swaying(t));
     control::System system = control::make_system(make_character(), {}, std::move(reference), 30.0);
-    system.soft = soft;
+    system.assisted = assisted;
     return system;
   }
 };
@@ -118,7 +118,7 @@ class BestReporter : public benchmark::ConsoleReporter {
   std::map<std::string, double> best_;
 };
 
-void register_all(Problem& hard, Problem& soft) {
+void register_all(Problem& unassisted, Problem& assisted) {
   const auto add = [](const std::string& name, auto function) {
     benchmark::RegisterBenchmark(name.c_str(), function)->MinTime(0.2)->Repetitions(5);
   };
@@ -130,29 +130,30 @@ void register_all(Problem& hard, Problem& soft) {
       });
     });
   };
-  analytic("analytic", hard);
-  analytic("analytic, soft", soft);
+  analytic("analytic", unassisted);
+  analytic("analytic, assisted", assisted);
   add("smoothed", [&](benchmark::State& s) {
     per_frame(s, [&](int t) {
-      benchmark::DoNotOptimize(control::linearise_smoothed(hard.system, hard.plan.point(t), {}));
+      benchmark::DoNotOptimize(control::linearise_smoothed(unassisted.system, unassisted.plan.point(t), {}));
     });
   });
   add("cost", [&](benchmark::State& s) {
     per_frame(s, [&](int t) {
-      const physics::State<double>& x = hard.plan.x[t];
-      benchmark::DoNotOptimize(control::state_quadratic(hard.system, hard.cost, t, x));
+      const physics::State<double>& x = unassisted.plan.x[t];
+      benchmark::DoNotOptimize(control::state_quadratic(unassisted.system, unassisted.cost, t, x));
     });
   });
   add("sweep", [&](benchmark::State& s) {
-    control::IterationState& state = hard.iterations;
+    control::IterationState& state = unassisted.iterations;
     for (auto _ : s)
-      control::sweep_back({hard.system, hard.cost, {}}, hard.plan, state.models, 0.0, state.sweep);
+      control::sweep_back({unassisted.system, unassisted.cost, {}}, unassisted.plan, state.models, 0.0,
+                          state.sweep);
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
   add("line search", [&](benchmark::State& s) {
     for (auto _ : s)
-      benchmark::DoNotOptimize(control::roll_out(hard.system, hard.cost, hard.plan,
-                                                 hard.iterations.sweep.laws, control::step_lengths()));
+      benchmark::DoNotOptimize(control::roll_out(unassisted.system, unassisted.cost, unassisted.plan,
+                                                 unassisted.iterations.sweep.laws, control::step_lengths()));
     s.SetItemsProcessed(s.iterations() * kFrames);
   });
 #ifdef MIMICX_HAVE_MUJOCO
@@ -166,7 +167,8 @@ void print_summary(const BestReporter& r) {
   const double whole = r.ms("analytic") + r.ms("cost") + r.ms("sweep") + r.ms("line search");
   for (const char* name : {"analytic", "cost", "sweep", "line search"})
     std::printf("  %-16s %8.3f %6.1f %%\n", name, r.ms(name), 100.0 * r.ms(name) / whole);
-  for (const char* name : {"analytic, soft", "smoothed"}) std::printf("  %-16s %8.3f\n", name, r.ms(name));
+  for (const char* name : {"analytic, assisted", "smoothed"})
+    std::printf("  %-16s %8.3f\n", name, r.ms(name));
   if (r.ms("mujoco") > 0.0)
     std::printf("  %-16s %8.3f, mjd_transitionFD: %.0f x analytic\n", "mujoco", r.ms("mujoco"),
                 r.ms("mujoco") / r.ms("analytic"));
@@ -178,8 +180,8 @@ void print_summary(const BestReporter& r) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  mimicx::tools::Problem hard(false), soft(true);
-  mimicx::tools::register_all(hard, soft);
+  mimicx::tools::Problem unassisted(false), assisted(true);
+  mimicx::tools::register_all(unassisted, assisted);
   mimicx::tools::BestReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   mimicx::tools::print_summary(reporter);

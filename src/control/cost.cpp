@@ -34,7 +34,7 @@ bool is_foot(std::size_t i) {
 void check(const CostWeights& w) {
   const auto bad = [](double value) { return !(value >= 0.0 && std::isfinite(value)); };
   for (double value : {w.position, w.root_rotation, w.joint_rotation, w.root_velocity, w.root_spin,
-                       w.joint_velocity, w.residual, w.change, w.help, w.help_spin})
+                       w.joint_velocity, w.residual, w.change, w.assistance, w.assistance_spin})
     if (bad(value)) raise(std::invalid_argument("weights of the cost must not be negative"));
   for (std::size_t i = 0; i < kBodies; ++i)
     if (bad(w.body_position[i]) || bad(w.body_rotation[i]))
@@ -125,10 +125,10 @@ double control_cost(const System& system, const Cost& cost, const Control& u, co
     const double value = static_cast<double>(u[k]), change = value - static_cast<double>(before[k]);
     sum += w.residual * value * value + w.change * change * change;
   }
-  if (!system.soft) return sum;
-  for (std::size_t k = 0; k < kHelp; ++k) {
+  if (!system.assisted) return sum;
+  for (std::size_t k = 0; k < kAssistance; ++k) {
     const double value = static_cast<double>(u[kDofs + k]);
-    sum += (k < 3 ? w.help : w.help_spin) * value * value;
+    sum += (k < 3 ? w.assistance : w.assistance_spin) * value * value;
   }
   return sum;
 }

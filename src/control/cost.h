@@ -4,7 +4,7 @@
 ///              + w_u ‖u_t‖²  +  w_Δ ‖u_t − u_{t−1}‖²  +  w_h ‖h_t‖²
 ///
 /// p_i are the joint centres in the world, * marks the goal, u are the residuals, h the assistive
-/// accelerations of a soft system. Distances in the world determine the place of the body. Rotations
+/// accelerations of an assisted system. Distances in the world determine the place of the body. Rotations
 /// determine what distances leave open, such as the twist of a straight limb. Velocities and changes of
 /// controls keep the motion smooth.
 #pragma once
@@ -26,8 +26,8 @@ struct CostWeights {
   double joint_velocity = 0.05;  ///< s²/rad²
   double residual = 0.02;        ///< 1/rad²
   double change = 64.0;          ///< of the residual from frame to frame, 1/rad²
-  double help = 96.0;            ///< of the assistive acceleration, s⁴/m²
-  double help_spin = 8.6;        ///< of the assistive angular acceleration, s⁴/rad²
+  double assistance = 96.0;      ///< of the assistive acceleration, s⁴/m²
+  double assistance_spin = 8.6;  ///< of the assistive angular acceleration, s⁴/rad²
   double last = 8.0;  ///< factor on the state in a window's last frame, in place of all later frames
   /// Factor of each body on its distance and its joint's rotation; the feet's distance counts twice.
   PerBody<double> body_position, body_rotation;

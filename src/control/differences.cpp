@@ -15,14 +15,14 @@ namespace {
 struct Bundle {
   State<P> x;
   Target<P> from, to;
-  Wrench<P> help;
+  Wrench<P> assistance;
   Tangent<P> delta;
 
   Bundle(const System& system, const FramePoint& point)
       : x(in_all_lanes<P>(point.x)),
         from(target_of(system, point.frame, point.before)),
         to(target_of(system, point.frame + 1, point.u)),
-        help(help_of(system, point.u)) {
+        assistance(assistance_of(system, point.u)) {
     delta.fill(P(0.0));
   }
 };
@@ -45,9 +45,9 @@ void move_target(const System& system, int frame, const Control& u, const P* mov
     out.q[body] = reference * exp_map(rotation);
   }
 }
-void move_help(const System& system, const Control& u, const P* moves, Wrench<P>& out) {
+void move_assistance(const System& system, const Control& u, const P* moves, Wrench<P>& out) {
   for (int lane = 0; lane < kLanes; ++lane)
-    set_help(
+    set_assistance(
         system, [&](int e) { return u[kDofs + e] + moves[e][lane]; }, lane, out);
 }
 
@@ -79,11 +79,12 @@ double DifferenceSteps::of(int k) const {
   if (k < kRootSpin) return velocity;
   if (k < kTangent) return spin;
   if (k < kMemory + kDofs) return residual;
-  return k < kMemory + kDofs + 3 ? help : help_spin;
+  return k < kMemory + kDofs + 3 ? assistance : assistance_spin;
 }
 
 DifferenceSteps DifferenceSteps::scaled(double f) const {
-  return {f * position, f * rotation, f * velocity, f * spin, f * residual, f * help, f * help_spin};
+  return {f * position, f * rotation,   f * velocity,       f * spin,
+          f * residual, f * assistance, f * assistance_spin};
 }
 
 FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, const DifferenceSteps& steps) {
@@ -110,9 +111,9 @@ FrameMatrix linearise_smoothed(const System& system, const FramePoint& point, co
       std::copy_n(move.begin(), kTangent, bundle.delta.begin());
       move_target(system, point.frame, point.before, move.data() + kTangent, bundle.from);
       move_target(system, point.frame + 1, point.u, move.data() + kMemory, bundle.to);
-      if (system.soft) move_help(system, point.u, move.data() + kMemory + kDofs, bundle.help);
+      if (system.assisted) move_assistance(system, point.u, move.data() + kMemory + kDofs, bundle.assistance);
       retract(bundle.x, bundle.delta);
-      advance(system, bundle.from, bundle.to, bundle.help, bundle.x, *scratch);
+      advance(system, bundle.from, bundle.to, bundle.assistance, bundle.x, *scratch);
       sides[side] = bundle.x;
     }
     half_difference(sides[0], sides[1], kLanes, first, ends);

@@ -1,8 +1,8 @@
 /// Smoothed derivatives of a control frame, with perturbed characters in the lanes of packs.
 ///
-///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, help)
+///     x_{t+1} ⊖ x̄_{t+1} ≈ F (x_t ⊖ x̄_t, u_{t−1} − ū_{t−1}, u_t − ū_t, assistance)
 ///
-/// F has 122 rows and 122 + 55 + 55 columns, and 6 more for the assistive forces of a soft system.
+/// F has 122 rows and 122 + 55 + 55 columns, and 6 more for the assistive forces of an assisted system.
 ///
 /// All coordinates move at once, along ± the rows of a Hadamard matrix; F is the least-squares fit, which for
 /// orthogonal rows is a product. It averages F over a neighbourhood in which contacts open and close, which
@@ -23,13 +23,13 @@ inline constexpr int kMemory = kTangent + kDofs;  ///< entries of z = (x, previo
 
 /// Step sizes of each kind of coordinate.
 struct DifferenceSteps {
-  double position = 1.5e-3;  ///< m
-  double rotation = 3e-3;    ///< rad
-  double velocity = 1.5e-2;  ///< m/s
-  double spin = 3e-2;        ///< rad/s
-  double residual = 1.5e-2;  ///< rad
-  double help = 0.45;        ///< m/s²
-  double help_spin = 1.5;    ///< rad/s²
+  double position = 1.5e-3;      ///< m
+  double rotation = 3e-3;        ///< rad
+  double velocity = 1.5e-2;      ///< m/s
+  double spin = 3e-2;            ///< rad/s
+  double residual = 1.5e-2;      ///< rad
+  double assistance = 0.45;      ///< m/s²
+  double assistance_spin = 1.5;  ///< rad/s²
 
   /// Of column `k` of F.
   double of(int k) const;

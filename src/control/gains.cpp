@@ -63,7 +63,7 @@ PushResult test_pushes(const System& system, const Cost& cost, const Trajectory&
       random.emplace_back(test.seed,
                           std::initializer_list<std::uint64_t>{static_cast<std::uint64_t>(done + lane)});
     RollConfig config;
-    config.lost = test.lost;
+    config.failure_distance = test.failure_distance;
     config.disturbance = [&](int frame, State<P>& x) {
       if (frame % test.every != test.every / 2) return;
       for (int lane = 0; lane < kLanes; ++lane) {

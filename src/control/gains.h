@@ -33,11 +33,11 @@ struct PushTest {
   double speed = 0.1;  ///< change of the pelvis' velocity by one push, m/s
   int every = 30;      ///< frames between pushes; the first after half of that
   int trials = 16;
-  double lost = 0.5;  ///< distance of a body beyond which a trial has failed, m
+  double failure_distance = 0.5;  ///< distance of a body beyond which a trial has failed, m
   std::uint64_t seed = 1;
 };
 struct PushResult {
-  int followed = 0;        ///< trials that stayed within `lost` to the end
+  int followed = 0;        ///< trials that stayed within `failure_distance` to the end
   double frames_kept = 0;  ///< mean of the frames before that
 };
 

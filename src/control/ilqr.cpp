@@ -35,7 +35,7 @@ void stage_cost(const ControlProblem& problem, const Trajectory& trajectory, int
     out.H(u + k, w + k) = -2.0 * weights.change;
   }
   for (int k = kDofs; k < controls; ++k) {
-    const double weight = k < kDofs + 3 ? weights.help : weights.help_spin;
+    const double weight = k < kDofs + 3 ? weights.assistance : weights.assistance_spin;
     out.g[u + k] = 2.0 * weight * static_cast<double>(now[k]);
     out.H(u + k, u + k) = 2.0 * weight;
   }
@@ -169,7 +169,7 @@ Iteration improve(const ControlProblem& problem, double trusted, int threads, It
   if (!sweep.positive) return failed();
   const Array<float, kLanes> alpha = step_lengths();
   RollConfig config;
-  config.lost = trusted;
+  config.failure_distance = trusted;
   const Fan fan = roll_out(problem.system, problem.cost, trajectory, sweep.laws, alpha, config);
   int lane = 0;
   if (!trajectory.gaps.empty()) {

@@ -24,18 +24,19 @@ FrameMatrix linearise(const System& system, const FramePoint& point, Linearisati
     frame.from_residual[k] = static_cast<double>(point.before[k]);
     frame.to_residual[k] = static_cast<double>(point.u[k]);
   }
-  const double inertia = system.mass * kHelpRadius * kHelpRadius;
-  const auto help = [&](std::size_t k) { return static_cast<double>(point.u[kDofs + k]); };
-  if (system.soft)
-    frame.help = {{inertia * help(3), inertia * help(4), inertia * help(5)},
-                  {system.mass * help(0), system.mass * help(1), system.mass * help(2)}};
+  const double inertia = system.mass * kAssistanceRadius * kAssistanceRadius;
+  const auto assistance = [&](std::size_t k) { return static_cast<double>(point.u[kDofs + k]); };
+  if (system.assisted)
+    frame.assistance = {
+        {inertia * assistance(3), inertia * assistance(4), inertia * assistance(5)},
+        {system.mass * assistance(0), system.mass * assistance(1), system.mass * assistance(2)}};
   frame.substeps = system.substeps;
-  differentiate_frame(system.exact_model, frame, system.soft, scratch.frame, scratch.derivative);
+  differentiate_frame(system.exact_model, frame, system.assisted, scratch.frame, scratch.derivative);
   FrameMatrix F = std::move(scratch.derivative.F);
-  if (system.soft) {  // F has moment before force there, and no accelerations
-    const Eigen::Matrix<float, kTangent, kHelp> help = F.rightCols<kHelp>();
-    F.middleCols<3>(kFrameColumns) = static_cast<float>(system.mass) * help.rightCols<3>();
-    F.rightCols<3>() = static_cast<float>(inertia) * help.leftCols<3>();
+  if (system.assisted) {  // F has moment before force there, and no accelerations
+    const Eigen::Matrix<float, kTangent, kAssistance> assistance = F.rightCols<kAssistance>();
+    F.middleCols<3>(kFrameColumns) = static_cast<float>(system.mass) * assistance.rightCols<3>();
+    F.rightCols<3>() = static_cast<float>(inertia) * assistance.leftCols<3>();
   }
   if (scratch.derivative.wrong || !F.allFinite()) F.setZero();
   return F;

@@ -34,28 +34,29 @@ HorizonResult better_of(HorizonResult lost, HorizonResult again) {
   return again.ending != Ending::kLost || again.motion.size() > lost.motion.size() ? again : lost;
 }
 
-List<Array<float, kHelp>> help_in(const Trajectory& motion) {
-  List<Array<float, kHelp>> help;
-  for (const Control& u : motion.u) std::copy_n(u.begin() + kDofs, kHelp, help.emplace_back().begin());
-  return help;
+List<Array<float, kAssistance>> assistance_in(const Trajectory& motion) {
+  List<Array<float, kAssistance>> assistance;
+  for (const Control& u : motion.u)
+    std::copy_n(u.begin() + kDofs, kAssistance, assistance.emplace_back().begin());
+  return assistance;
 }
 
 /// The cost with assistive forces weighted by the factor `price`.
 Cost with_price(const Cost& cost, double price) {
   Cost out = cost;
-  out.weights.help *= price;
-  out.weights.help_spin *= price;
+  out.weights.assistance *= price;
+  out.weights.assistance_spin *= price;
   return out;
 }
 
 /// A plan with assistive forces, and the factor on their weight.
-struct SoftPlan {
+struct AssistedPlan {
   HorizonResult found;
   double price;
 };
 
 /// Plans with assistive forces at their weight; if that fails, at a hundredth of it.
-SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
+AssistedPlan plan_with_assistance(const Attempt& attempt, const Cost& cost) {
   constexpr double kCheap = 0.01;
   HorizonResult found = attempt.run(cost, 1);
   if (found.ending != Ending::kLost) return {std::move(found), 1.0};
@@ -66,13 +67,13 @@ SoftPlan plan_softly(const Attempt& attempt, const Cost& cost) {
 /// from the motion of the previous stage and follows it instead of the reference, so that the motion leaves
 /// the reference only as far as the body needs. If a stage fails, the factor becomes its square root. The
 /// stages end when the smallest factor fails.
-Trajectory stiffen(const Attempt& soft, const Cost& cost, Trajectory motion, double price) {
+Trajectory stiffen(const Attempt& assisted, const Cost& cost, Trajectory motion, double price) {
   constexpr double kDear = 4.0;
-  double factor = soft.config.stiffening;
+  double factor = assisted.config.stiffening;
   const double least = std::min(1.5, factor);
   while (price < kDear && factor >= least) {
-    const Cost dearer = with_goal(soft.system, with_price(cost, price * factor), motion.x);
-    HorizonResult stage = soft.run(dearer, 2, motion);
+    const Cost dearer = with_goal(assisted.system, with_price(cost, price * factor), motion.x);
+    HorizonResult stage = assisted.run(dearer, 2, motion);
     if (stage.ending == Ending::kStopped) break;
     if (stage.ending == Ending::kLost) {
       factor = std::sqrt(factor);
@@ -95,23 +96,23 @@ HorizonResult plan_gently(const Attempt& attempt, const Cost& cost) {
   return attempt.run(gentle, attempt.config.horizon.backtracks);
 }
 
-/// Plans in stages with assistive forces, then a hard plan that follows the last stage. @return the hard
-/// plan, or the first state alone if the first stage did not reach the end
-HorizonResult plan_soft_to_hard(const Attempt& hard, const Cost& cost) {
-  System soft_system = hard.system;
-  soft_system.soft = true;
-  const Attempt soft{soft_system, hard.config, hard.control, hard.plan};
-  SoftPlan first = plan_softly(soft, cost);
-  hard.plan.soft_help = help_in(first.found.motion);
+/// Plans in stages with assistive forces, then an unassisted plan that follows the last stage. @return the
+/// unassisted plan, or the first state alone if the first stage did not reach the end
+HorizonResult plan_in_stages(const Attempt& unassisted, const Cost& cost) {
+  System assisted_system = unassisted.system;
+  assisted_system.assisted = true;
+  const Attempt assisted{assisted_system, unassisted.config, unassisted.control, unassisted.plan};
+  AssistedPlan first = plan_with_assistance(assisted, cost);
+  unassisted.plan.stage_assistance = assistance_in(first.found.motion);
   if (first.found.ending != Ending::kFollowed) {
     first.found.motion = {};
-    first.found.motion.x = {as_floats(hard.system.at(0))};
+    first.found.motion.x = {as_floats(unassisted.system.at(0))};
     return std::move(first.found);
   }
-  Trajectory stiff = stiffen(soft, cost, std::move(first.found.motion), first.price);
+  Trajectory stiff = stiffen(assisted, cost, std::move(first.found.motion), first.price);
   for (Control& u : stiff.u) std::fill(u.begin() + kDofs, u.end(), 0.0f);
-  HorizonResult found = hard.run(with_goal(hard.system, cost, stiff.x), 4, stiff);
-  hard.plan.by_way_of_help = found.ending == Ending::kFollowed;
+  HorizonResult found = unassisted.run(with_goal(unassisted.system, cost, stiff.x), 4, stiff);
+  unassisted.plan.by_assisted_stages = found.ending == Ending::kFollowed;
   return found;
 }
 
@@ -120,7 +121,7 @@ void fill(const System& system, const Trajectory& motion, Plan& plan) {
   plan.cost = motion.cost;
   plan.worst_distance = motion.worst;
   for (const Control& u : motion.u) std::copy_n(u.begin(), kDofs, plan.residuals.emplace_back().begin());
-  if (system.soft) plan.help = help_in(motion);
+  if (system.assisted) plan.assistance = assistance_in(motion);
 }
 
 }  // namespace
@@ -129,16 +130,16 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   const Cost cost = make_cost(system, config.weights, config.certainty);
   Plan plan;
   const Attempt attempt{system, config, control, plan};
-  HorizonResult found =
-      system.soft ? plan_softly(attempt, cost).found : attempt.run(cost, config.horizon.backtracks);
-  Loss loss{found.lost_frame, found.lost_body, found.lost_distance};
-  if (found.ending == Ending::kLost && config.soft_to_hard && !system.soft)
-    found = better_of(std::move(found), plan_soft_to_hard(attempt, cost));
-  if (found.ending == Ending::kLost && !system.soft)
+  HorizonResult found = system.assisted ? plan_with_assistance(attempt, cost).found
+                                        : attempt.run(cost, config.horizon.backtracks);
+  Failure failure{found.lost_frame, found.lost_body, found.lost_distance};
+  if (found.ending == Ending::kLost && config.assisted_stages && !system.assisted)
+    found = better_of(std::move(found), plan_in_stages(attempt, cost));
+  if (found.ending == Ending::kLost && !system.assisted)
     found = better_of(std::move(found), plan_gently(attempt, cost));
   if (found.ending == Ending::kLost) {
-    loss.frame = std::max(loss.frame, found.lost_frame);
-    plan.loss = loss;
+    failure.frame = std::max(failure.frame, found.lost_frame);
+    plan.failure = failure;
   }
   plan.ending = found.ending;
   replay_controls(system, cost, found.motion);  // cost and distances with respect to the reference
@@ -146,12 +147,12 @@ Plan make_plan(const System& system, const PlanConfig& config, const PlanControl
   return plan;
 }
 
-List<Vector6d> wrenches_of(const List<Array<float, kHelp>>& help, double mass) {
+List<Vector6d> wrenches_of(const List<Array<float, kAssistance>>& assistance, double mass) {
   List<Vector6d> wrenches;
-  for (const Array<float, kHelp>& row : help) {
+  for (const Array<float, kAssistance>& row : assistance) {
     Vector6d& wrench = wrenches.emplace_back();
     for (int k = 0; k < 3; ++k) {
-      wrench[k] = mass * kHelpRadius * kHelpRadius * static_cast<double>(row[3 + k]);
+      wrench[k] = mass * kAssistanceRadius * kAssistanceRadius * static_cast<double>(row[3 + k]);
       wrench[3 + k] = mass * static_cast<double>(row[k]);
     }
   }
@@ -165,7 +166,8 @@ Trajectory trajectory_of(const Plan& plan) {
     Control& u = out.u.emplace_back();
     u.fill(0.0f);
     std::copy(plan.residuals[t].begin(), plan.residuals[t].end(), u.begin());
-    if (!plan.help.empty()) std::copy(plan.help[t].begin(), plan.help[t].end(), u.begin() + kDofs);
+    if (!plan.assistance.empty())
+      std::copy(plan.assistance[t].begin(), plan.assistance[t].end(), u.begin() + kDofs);
   }
   out.cost = plan.cost;
   out.worst = plan.worst_distance;

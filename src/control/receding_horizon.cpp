@@ -96,7 +96,7 @@ void solve_window(const Task& task, bool first, Window& window, HorizonResult& r
 void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) {
   int t = 0, body = 0;
   double distance = 0.0;
-  while (t < plan.size() && distance <= task.config.lost) {
+  while (t < plan.size() && distance <= task.config.failure_distance) {
     ++t;
     const int frame = plan.begin + t;
     const BodyPoses poses = poses_of(task.problem.system, plan.x[t]);
@@ -108,7 +108,7 @@ void note_loss(const Task& task, const Trajectory& plan, HorizonResult& result) 
       body = static_cast<int>(i);
     }
   }
-  const int frame = plan.begin + t + (distance > task.config.lost ? 0 : 1);
+  const int frame = plan.begin + t + (distance > task.config.failure_distance ? 0 : 1);
   if (frame < result.lost_frame) return;
   result.lost_frame = frame;
   result.lost_body = body;
@@ -167,7 +167,7 @@ HorizonResult follow_in_windows(const ControlProblem& problem, const HorizonConf
     window.plan = first_guess(task, motion, window.plan, n, guess);
     solve_window(task, motion.size() == earliest, window, result);
     const int planned = window.plan.size();
-    if (planned < std::min(n, 2 * config.commit) || !(window.plan.worst <= config.lost)) {
+    if (planned < std::min(n, 2 * config.commit) || !(window.plan.worst <= config.failure_distance)) {
       note_loss(task, window.plan, result);
       if (!search.next(config, begin, earliest, end, result)) {
         result.ending = Ending::kLost;

@@ -19,12 +19,12 @@ struct HorizonConfig {
   double easy_cost = 0.02;  ///< per frame; a window of less cost needs one iteration only
   int iterations = 3;       ///< at most, for a window below `hard_cost` per frame
   double hard_cost = 0.5;
-  int hard_iterations = 8;  ///< at most, for the first window and windows above `hard_cost`
-  double stop = 0.03;       ///< iterations end below this relative decrease of the cost
-  double trusted = 0.2;     ///< limit of bodies' distances for closing gaps (`improve`), m
-  double lost = 0.35;       ///< a window fails beyond this distance of a body, m
-  int back = 20;            ///< frames to go back after a failure
-  int backtracks = 12;      ///< at most, in the whole motion
+  int hard_iterations = 8;         ///< at most, for the first window and windows above `hard_cost`
+  double stop = 0.03;              ///< iterations end below this relative decrease of the cost
+  double trusted = 0.2;            ///< limit of bodies' distances for closing gaps (`improve`), m
+  double failure_distance = 0.35;  ///< a window fails beyond this distance of a body, m
+  int back = 20;                   ///< frames to go back after a failure
+  int backtracks = 12;             ///< at most, in the whole motion
   /// Limit of linearised frames per frame of the motion, over all iterations. A motion that is followed takes
   /// 4 to 20.
   double budget = 25;

@@ -12,7 +12,7 @@ List<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajecto
   const auto scratch = std::make_unique<Data<P>>();
   State<P> x, expected;
   Target<P> from{}, to{};
-  Wrench<P> help = help_of(system, Control{});
+  Wrench<P> assistance = assistance_of(system, Control{});
   for (int first = 0; first < n; first += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const int t = std::min(first + lane, n - 1), frame = trajectory.begin + t;
@@ -23,9 +23,9 @@ List<Eigen::VectorXd> find_gaps(const System& system, const Trajectory& trajecto
       set_lane(expected, lane, trajectory.x[t + 1]);
       set_target(system, frame, entries(trajectory.previous(t), 0), lane, from);
       set_target(system, frame + 1, entries(trajectory.u[t], 0), lane, to);
-      if (system.soft) set_help(system, entries(trajectory.u[t], kDofs), lane, help);
+      if (system.assisted) set_assistance(system, entries(trajectory.u[t], kDofs), lane, assistance);
     }
-    advance(system, from, to, help, x, *scratch);
+    advance(system, from, to, assistance, x, *scratch);
     const Tangent<P> d = difference(x, expected);
     for (int lane = 0; lane < std::min(kLanes, n - first); ++lane) {
       Eigen::VectorXd& gap = gaps[first + lane + 1];

@@ -32,17 +32,17 @@ Target<P> target_of(const System& system, int frame, const Control& u) {
   return in_all_lanes<P>(lane_of(out, 0));
 }
 
-Wrench<P> help_of(const System& system, const Control& u) {
+Wrench<P> assistance_of(const System& system, const Control& u) {
   Wrench<P> out;
   const auto entry = [&](int k) { return u[kDofs + k]; };
-  for (int lane = 0; lane < kLanes; ++lane) set_help(system, entry, lane, out);
+  for (int lane = 0; lane < kLanes; ++lane) set_assistance(system, entry, lane, out);
   return out;
 }
 
-MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to, const Wrench<P>& help,
-                  State<P>& x, Data<P>& scratch) {
-  return advance_interval<P>(system.model, {from, to, system.substeps, system.soft ? &help : nullptr}, x,
-                             scratch);
+MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to,
+                  const Wrench<P>& assistance, State<P>& x, Data<P>& scratch) {
+  return advance_interval<P>(
+      system.model, {from, to, system.substeps, system.assisted ? &assistance : nullptr}, x, scratch);
 }
 
 }  // namespace mimicx::control

@@ -6,9 +6,9 @@
 /// byte. During the interval the PD target moves from the old target to the new one, so the next state
 /// depends on the previous control, too:
 ///     x_{t+1} = f_t(x_t, u_{t−1}, u_t).
-/// A *soft* system has six more controls: assistive forces on the pelvis (`help` of physics/step.h), given as
-/// accelerations. With them a plan can follow a motion that no body can perform; cost.h penalises them. A
-/// *hard* system, and so its plan, has none.
+/// An *assisted* system has six more controls: assistive forces on the pelvis (`assistance` of
+/// physics/step.h), given as accelerations. With them a plan can follow a motion that no body can perform;
+/// cost.h penalises them. An *unassisted* system, and so its plan, has none.
 #pragma once
 
 #include "core/containers.h"
@@ -22,14 +22,14 @@ using namespace physics;  // states, targets and lanes are the simulator's
 
 using P = Pack<kLanes>;
 
-inline constexpr int kHelp = 6;  ///< assistive acceleration (m/s²), angular acceleration (rad/s²)
-inline constexpr int kMaxControls = kDofs + kHelp;  ///< of a soft system; a hard one has kDofs
+inline constexpr int kAssistance = 6;  ///< assistive acceleration (m/s²), angular acceleration (rad/s²)
+inline constexpr int kMaxControls = kDofs + kAssistance;  ///< of an assisted system; else kDofs
 
 /// Radius of gyration that converts the assistive angular acceleration to a moment, m: about that of a body.
-inline constexpr double kHelpRadius = 0.3;
+inline constexpr double kAssistanceRadius = 0.3;
 
 /// u_t: rotation vectors (angles for hinges) on the reference's joints, rad, in the order of first_dof; then
-/// the assistive accelerations in world axes, linear and angular, zero in a hard system.
+/// the assistive accelerations in world axes, linear and angular, zero in an unassisted system.
 using Control = Array<float, kMaxControls>;
 
 struct System {
@@ -40,11 +40,11 @@ struct System {
   int substeps = 8;                   ///< physics steps per frame
   double max_residual = 2.5;          ///< residuals beyond are clamped, rad
   bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity
-  bool soft = false;                  ///< has assistive forces
+  bool assisted = false;              ///< has assistive forces
   List<State<double>> reference;      ///< [frames]
 
   int frames() const { return static_cast<int>(reference.size()); }
-  int controls() const { return soft ? kMaxControls : kDofs; }
+  int controls() const { return assisted ? kMaxControls : kDofs; }
   const State<double>& at(int frame) const { return reference[frame]; }
 };
 
@@ -70,21 +70,21 @@ void set_target(const System& system, int frame, const Entry& entry, int lane, T
 /// The same in all lanes.
 Target<P> target_of(const System& system, int frame, const Control& u);
 
-/// The assistive wrench on the pelvis, in one lane: f = m a, n = m r² α, r = kHelpRadius.
+/// The assistive wrench on the pelvis, in one lane: f = m a, n = m r² α, r = kAssistanceRadius.
 /// @param entry  maps 0 … 5 to an entry of (a, α)
 template <class Entry>
-void set_help(const System& system, const Entry& entry, int lane, Wrench<P>& out) {
-  const double m = system.mass, moment = m * kHelpRadius * kHelpRadius;
+void set_assistance(const System& system, const Entry& entry, int lane, Wrench<P>& out) {
+  const double m = system.mass, moment = m * kAssistanceRadius * kAssistanceRadius;
   const auto number = [&](int k) { return static_cast<double>(entry(k)); };
   set_lane(out.f, lane, Vector3d(m * Vector3d(number(0), number(1), number(2))));
   set_lane(out.n, lane, Vector3d(moment * Vector3d(number(3), number(4), number(5))));
 }
 /// The same in all lanes.
-Wrench<P> help_of(const System& system, const Control& u);
+Wrench<P> assistance_of(const System& system, const Control& u);
 
-/// Simulates one control frame, in every lane. @param help  ignored in a hard system
+/// Simulates one control frame, in every lane. @param assistance  ignored in an unassisted system
 /// @return mask of the failed lanes
-MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to, const Wrench<P>& help,
-                  State<P>& x, Data<P>& scratch);
+MaskOf<P> advance(const System& system, const Target<P>& from, const Target<P>& to,
+                  const Wrench<P>& assistance, State<P>& x, Data<P>& scratch);
 
 }  // namespace mimicx::control

@@ -53,7 +53,7 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
   const auto scratch = std::make_unique<Data<P>>();
   State<P> x = in_all_lanes<P>(nominal.x[0]);
   Target<P> from = target_of(system, nominal.begin, nominal.before), to{};
-  Wrench<P> help = help_of(system, Control{});
+  Wrench<P> assistance = assistance_of(system, Control{});
   LaneControls before;
   for (int k = 0; k < kMaxControls; ++k) before.row(k).setConstant(nominal.before[k]);
   LaneMemory dz = LaneMemory::Zero();
@@ -67,11 +67,11 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
     for (int lane = 0; lane < kLanes; ++lane) {
       set_target(
           system, frame + 1, [&](int dof) { return u(dof, lane); }, lane, to);
-      if (system.soft)
-        set_help(
-            system, [&](int e) { return u(kDofs + e, lane); }, lane, help);
+      if (system.assisted)
+        set_assistance(
+            system, [&](int e) { return u(kDofs + e, lane); }, lane, assistance);
     }
-    const MaskOf<P> wrong = advance(system, from, to, help, x, *scratch);
+    const MaskOf<P> wrong = advance(system, from, to, assistance, x, *scratch);
     const LaneCost now = state_cost(system, cost, frame + 1, x, *scratch);
     const double weight = t + 1 == n ? cost.last_weight(frame + 1) : 1.0;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -81,7 +81,8 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
       fan.cost[lane] +=
           broken ? kInfinity : value + control_cost(system, cost, lane_of(u, lane), lane_of(before, lane));
       fan.worst[lane] = std::max(fan.worst[lane], broken ? kInfinity : distance);
-      if (!(fan.worst[lane] <= config.lost)) fan.frames_kept[lane] = std::min(fan.frames_kept[lane], t);
+      if (!(fan.worst[lane] <= config.failure_distance))
+        fan.frames_kept[lane] = std::min(fan.frames_kept[lane], t);
     }
     from = to;
     before = u;

@@ -42,14 +42,14 @@ struct Fan {
   List<LaneControls> u;              ///< [n]
   Array<double, kLanes> cost{};      ///< infinite if the simulation went wrong
   Array<double, kLanes> worst{};     ///< largest distance of a body, m; infinite likewise
-  Array<int, kLanes> frames_kept{};  ///< frames until a body is farther than `lost` from its goal
+  Array<int, kLanes> frames_kept{};  ///< frames until a body is farther than `failure_distance` from its goal
 };
 
 /// Called before the step that starts at a frame; may change the lanes' states (pushes).
 using Disturbance = std::function<void(int frame, State<P>& x)>;
 
 struct RollConfig {
-  double lost = 0.5;  ///< distance of a body beyond which a lane has failed, m
+  double failure_distance = 0.5;  ///< distance of a body beyond which a lane has failed, m
   Disturbance disturbance;
 };
 

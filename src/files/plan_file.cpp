@@ -35,13 +35,13 @@ void for_each_number(PlanType& plan, const Add& add) {
   add("iterations", plan.iterations);
   add("linearised_frames", plan.linearised);
   add("backtracks", plan.backtracks);
-  add("by_way_of_help", plan.by_way_of_help);
+  add("by_way_of_help", plan.by_assisted_stages);
 }
-template <class LossType, class Add>
-void for_each_loss_number(LossType& loss, const Add& add) {
-  add("lost_frame", loss.frame);
-  add("lost_body", loss.body);
-  add("lost_distance", loss.distance);
+template <class FailureType, class Add>
+void for_each_failure_number(FailureType& failure, const Add& add) {
+  add("lost_frame", failure.frame);
+  add("lost_body", failure.body);
+  add("lost_distance", failure.distance);
 }
 
 control::Ending ending_of(const Npz& npz) {
@@ -66,8 +66,8 @@ void write_plan(const std::filesystem::path& path, const StoredPlan& stored) {
   add_states("reference_", stored.reference, Precision::kFloat64, npz);
   npz.set("ending", NpyArray::scalar_text(std::string(kEndings[static_cast<std::size_t>(plan.ending)])));
   for_each_number(plan, add);
-  if (plan.loss) for_each_loss_number(*plan.loss, add);
-  if (!plan.soft_help.empty()) add_rows("soft_help", plan.soft_help, npz);
+  if (plan.failure) for_each_failure_number(*plan.failure, add);
+  if (!plan.stage_assistance.empty()) add_rows("soft_help", plan.stage_assistance, npz);
   npz.set("input_checksum", NpyArray::scalar_text(stored.input_checksum));
   add("fps", stored.fps);
   for (const auto& [name, number] : simulation_numbers(stored.simulation)) add(name, number);
@@ -118,11 +118,11 @@ StoredPlan plan_from(const Npz& npz) {
   plan.ending = ending_of(npz);
   for_each_number(plan, read);
   if (npz.has("lost_frame")) {
-    for_each_loss_number(plan.loss.emplace(), read);
-    if (plan.loss->body < -1 || plan.loss->body >= kBodies)
-      throw DataError(npz.path, "lost_body", "the number of a body", std::to_string(plan.loss->body));
+    for_each_failure_number(plan.failure.emplace(), read);
+    if (plan.failure->body < -1 || plan.failure->body >= kBodies)
+      throw DataError(npz.path, "lost_body", "the number of a body", std::to_string(plan.failure->body));
   }
-  if (npz.has("soft_help")) read_rows(npz, "soft_help", rows_of(npz, "soft_help"), plan.soft_help);
+  if (npz.has("soft_help")) read_rows(npz, "soft_help", rows_of(npz, "soft_help"), plan.stage_assistance);
   stored.input_checksum = read_text(npz, "input_checksum");
   read("fps", stored.fps);
   stored.simulation = read_simulation(npz);

@@ -17,14 +17,16 @@ namespace mimicx::judge {
 /// Without frames if the reference has fewer than 3.
 audit::PoseNeeds needs_of(const motion::Reference& reference);
 
-/// Frames that the assisted stage reached, mean and largest force, acceleration and moment of its help, and
-/// the frame of the largest force. Empty without help. @param help  moment and force, N·m, N
-NamedValues help_values(const PerFrame<Vector6d>& help, double mass);
+/// Frames that the assisted stage reached, mean and largest force, acceleration and moment of its assistance,
+/// and the frame of the largest force. Empty without assistance. @param assistance  moment and force, N·m, N
+NamedValues assistance_values(const PerFrame<Vector6d>& assistance, double mass);
 
-/// "with help the body passes frames 0-21: at most 310 N (4.4 m/s2) at frame 5 and 90 N (1.3 m/s2) on average
-/// push the pelvis, at most 120 N m turn it". Empty if there was no help in these frames.
-std::string help_in_words(const PerFrame<Vector6d>& help, double mass, int first, int last);
+/// "with assistive forces the body passes frames 0-21: at most 310 N (4.4 m/s2) at frame 5 and 90 N (1.3
+/// m/s2) on average push the pelvis, at most 120 N m turn it". Empty if there was no assistance in these
+/// frames.
+std::string assistance_in_words(const PerFrame<Vector6d>& assistance, double mass, int first, int last);
 
-record::FrameFeasibility frame_feasibility(const audit::PoseNeeds& needs, const PerFrame<Vector6d>& help);
+record::FrameFeasibility frame_feasibility(const audit::PoseNeeds& needs,
+                                           const PerFrame<Vector6d>& assistance);
 
 }  // namespace mimicx::judge

@@ -19,7 +19,7 @@ template <class T>
 MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const IntervalInput<T>& input, State<T>& state,
                            Data<T>& d, Applied<T>* applied, const SubstepWatcher<T>& watch) {
   using Real = RealOf<T>;
-  const auto& [from, to, substeps, help] = input;
+  const auto& [from, to, substeps, assistance] = input;
   Target<T> target{};
   State<T> before;
   MaskOf<T> wrong = T(0.0) > T(1.0);
@@ -30,7 +30,7 @@ MaskOf<T> advance_interval(const Model<RealOf<T>>& model, const IntervalInput<T>
       target.omega[i] = add_scaled(from.omega[i], s, to.omega[i] - from.omega[i]);
     }
     if (watch) before = state;
-    wrong = wrong | step(model, target, state, d, applied, help);
+    wrong = wrong | step(model, target, state, d, applied, assistance);
     if (watch) watch(before, target, d, state);
   }
   return wrong;

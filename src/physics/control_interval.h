@@ -16,10 +16,10 @@ using SubstepWatcher = std::function<void(const State<T>& before, const Target<T
 /// What drives the character during one interval. Refers to its parts.
 template <class T>
 struct IntervalInput {
-  const Target<T>& from;            ///< at the start
-  const Target<T>& to;              ///< at the end
-  int substeps;                     ///< physics steps, ≥ 1
-  const Wrench<T>* help = nullptr;  ///< if not null, `help` of `step`, constant
+  const Target<T>& from;                  ///< at the start
+  const Target<T>& to;                    ///< at the end
+  int substeps;                           ///< physics steps, ≥ 1
+  const Wrench<T>* assistance = nullptr;  ///< if not null, `assistance` of `step`, constant
 };
 
 /// Does the physics steps of an interval. Step k = 1 … substeps aims at the share k / substeps of the way

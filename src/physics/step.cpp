@@ -34,12 +34,12 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, cons
 
 template <class T>
 void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target, const State<T>& state,
-                         Data<T>& d, const Wrench<T>* help) {
+                         Data<T>& d, const Wrench<T>* assistance) {
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
-  if (help != nullptr) {
-    d.bias[kPelvis].n -= help->n;
-    d.bias[kPelvis].f -= help->f;
+  if (assistance != nullptr) {
+    d.bias[kPelvis].n -= assistance->n;
+    d.bias[kPelvis].f -= assistance->f;
   }
   zero_self_contact(d);
   if (model.config.self_contact) add_self_contact(model, d);
@@ -63,8 +63,8 @@ void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target,
 
 template <class T>
 MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& state, Data<T>& d,
-               Applied<T>* applied, const Wrench<T>* help) {
-  solve_accelerations(model, target, state, d, help);
+               Applied<T>* applied, const Wrench<T>* assistance) {
+  solve_accelerations(model, target, state, d, assistance);
   if (applied != nullptr) record_applied(model, d, *applied);
   integrate(model, d, state);
   return gone_wrong(model, state);

@@ -18,19 +18,19 @@ void forward_dynamics(const Model<RealOf<T>>& model, const State<T>& state, cons
 
 /// One physics step towards `target`.
 /// @param applied  if not null, the torques and forces that acted are added to it
-/// @param help  if not null, an assistive wrench on the pelvis, about its joint centre in world axes, which
-///        no body can exert on itself: for planning with penalised assistive forces (src/control). It is not
-///        in `applied`, so that an audit finds it unexplained.
+/// @param assistance  if not null, an assistive wrench on the pelvis, about its joint centre in world axes,
+///        which no body can exert on itself: for planning with penalised assistive forces (src/control). It
+///        is not in `applied`, so that an audit finds it unexplained.
 /// @return mask of the failed lanes (`gone_wrong` of integration.h): their state must not be used; other
 ///         lanes are not affected
 template <class T>
 MaskOf<T> step(const Model<RealOf<T>>& model, const Target<T>& target, State<T>& state, Data<T>& d,
-               Applied<T>* applied = nullptr, const Wrench<T>* help = nullptr);
+               Applied<T>* applied = nullptr, const Wrench<T>* assistance = nullptr);
 
 /// `step` without the integration: accelerations and applied forces at `state`.
 template <class T>
 void solve_accelerations(const Model<RealOf<T>>& model, const Target<T>& target, const State<T>& state,
-                         Data<T>& d, const Wrench<T>* help = nullptr);
+                         Data<T>& d, const Wrench<T>* assistance = nullptr);
 
 /// Adds the torques and forces of the last solve to `applied`.
 template <class T>

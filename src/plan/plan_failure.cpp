@@ -11,7 +11,7 @@ namespace {
 
 /// Frames before the failure that are searched for its cause: toppling takes most of a second.
 constexpr int kFramesBefore = 30;
-/// Frames after the failure whose help is also counted: a body that only just passes falls there.
+/// Frames after the failure whose assistance is also counted: a body that only just passes falls there.
 constexpr int kFramesAfter = 15;
 
 template <class... Args>
@@ -36,15 +36,17 @@ std::string needs_in_words(const audit::PoseNeeds& needs, int first, int last) {
 
 }  // namespace
 
-std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& needs,
-                          const PerFrame<Vector6d>& help) {
-  std::string text = print("the plan is lost at frame %d (%.2f s)", loss.frame, loss.frame / needs.fps);
-  if (loss.body >= 0)
-    text += print(": the %s is %.2f m from its reference", body_in_words(loss.body).c_str(), loss.distance);
+std::string failure_in_words(const control::Failure& failure, const audit::PoseNeeds& needs,
+                             const PerFrame<Vector6d>& assistance) {
+  std::string text = print("the plan fails at frame %d (%.2f s)", failure.frame, failure.frame / needs.fps);
+  if (failure.body >= 0)
+    text +=
+        print(": the %s is %.2f m from its reference", body_in_words(failure.body).c_str(), failure.distance);
   if (needs.frames.empty()) return text;
-  const int first = std::max(loss.frame - kFramesBefore, 0);
-  text += "; " + needs_in_words(needs, first, std::min(loss.frame, needs.frames.count() - 1));
-  const std::string helped = judge::help_in_words(help, needs.mass, first, loss.frame + kFramesAfter);
+  const int first = std::max(failure.frame - kFramesBefore, 0);
+  text += "; " + needs_in_words(needs, first, std::min(failure.frame, needs.frames.count() - 1));
+  const std::string helped =
+      judge::assistance_in_words(assistance, needs.mass, first, failure.frame + kFramesAfter);
   return helped.empty() ? text : text + "; " + helped;
 }
 

@@ -8,11 +8,11 @@
 
 namespace mimicx::plan {
 
-/// "the plan is lost at frame 132 (4.40 s): the left foot is 0.41 m from its reference; …". Then the
+/// "the plan fails at frame 132 (4.40 s): the left foot is 0.41 m from its reference; …". Then the
 /// infeasible stretches of the reference within the second before (audit/pose_verdict.h), and the assistive
 /// force that was needed to pass them (reference_needs.h). If the reference is feasible there, only the
 /// search failed, and the message says so.
-std::string loss_in_words(const control::Loss& loss, const audit::PoseNeeds& needs,
-                          const PerFrame<Vector6d>& help);
+std::string failure_in_words(const control::Failure& failure, const audit::PoseNeeds& needs,
+                             const PerFrame<Vector6d>& assistance);
 
 }  // namespace mimicx::plan

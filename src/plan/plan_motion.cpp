@@ -90,7 +90,7 @@ NamedValues numbers_of_plan(const control::Plan& plan) {
           {"iterations", static_cast<double>(plan.iterations)},
           {"linearised_frames", static_cast<double>(plan.linearised)},
           {"backtracks", static_cast<double>(plan.backtracks)},
-          {"by_way_of_help", plan.by_way_of_help ? 1.0 : 0.0}};
+          {"by_way_of_help", plan.by_assisted_stages ? 1.0 : 0.0}};
 }
 
 record::SequenceEnding ending_of(const control::Plan& plan) {
@@ -149,8 +149,8 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
   const control::Plan& plan = stored->plan;
   made.ending = ending_of(plan);
   made.plan = numbers_of_plan(plan);
-  made.help = control::wrenches_of(plan.soft_help, reference.character.total_mass());
-  if (plan.loss) made.reason = loss_in_words(*plan.loss, job.needs, made.help);
+  made.assistance = control::wrenches_of(plan.stage_assistance, reference.character.total_mass());
+  if (plan.failure) made.reason = failure_in_words(*plan.failure, job.needs, made.assistance);
   if (made.ending == record::SequenceEnding::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);

@@ -40,10 +40,10 @@ void visit_settings(MotionPlanConfig& config, const auto& visit) {
         "the same of the first window and of those above plan_hard_cost");
   visit("plan_hard_cost", h.hard_cost, 0, 1e9, "cost per frame above which a window gets more iterations");
   visit("plan_stop", h.stop, 0, 1, "relative decrease of the cost under which iterations end");
-  visit("plan_lost", h.lost, 1e-3, 10, "distance of a body at which a window fails, m");
+  visit("plan_lost", h.failure_distance, 1e-3, 10, "distance of a body at which a window fails, m");
   visit("plan_back", h.back, 1, 1000, "frames to go back after a window that failed");
   visit("plan_budget", h.budget, 0, 1e6, "linearised frames per frame of the motion, at most");
-  visit("plan_soft_to_hard", config.soft_to_hard, 0, 1,
+  visit("plan_soft_to_hard", config.assisted_stages, 0, 1,
         "1: where the plan fails, plan with assistive forces first");
   visit("plan_stiffening", config.stiffening, 1.1, 1e9,
         "factor on the price of assistive forces from stage to stage");

@@ -76,7 +76,7 @@ run::SimulatedSequence plan_or_fine_tune(const AdaptConfig& config, const motion
   kept.training_seconds = trained.training_seconds;
   kept.samples = trained.samples;
   kept.plan = plan.plan;
-  kept.help = plan.help;
+  kept.assistance = plan.assistance;
   for (const record::SequenceEnding ending : {plan.ending, trained.ending})
     if (ending == record::SequenceEnding::kLimitSeconds) kept.ending = ending;
   if (!keep_plan && !plan.reason.empty()) kept.notes.push_back(plan.reason);

@@ -36,7 +36,7 @@ void write_feasibility(const std::filesystem::path& path, const FrameFeasibility
   Npz npz;
   set_wrenches("need", feasibility.need, feasibility, npz);
   npz.set("wrong", NpyArray::from_text(feasibility.wrong));
-  if (!feasibility.help.empty()) set_wrenches("help", feasibility.help, feasibility, npz);
+  if (!feasibility.assistance.empty()) set_wrenches("help", feasibility.assistance, feasibility, npz);
   npz.set("mass", NpyArray::scalar(feasibility.mass));
   write_npz(path, npz);
 }
@@ -54,7 +54,7 @@ FrameFeasibility feasibility_from(const Npz& npz) {
   if (wrong.type != NpyArray::Type::kText || wrong.text.size() != all.need.size())
     throw DataError(npz.path, "wrong", "a word per frame", "something else");
   all.wrong = PerFrame<std::string>(wrong.text);
-  if (npz.has("help")) all.help = wrenches_of(npz, "help");
+  if (npz.has("help")) all.assistance = wrenches_of(npz, "help");
   return all;
 }
 

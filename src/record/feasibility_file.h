@@ -18,10 +18,11 @@ struct FrameFeasibility {
   double mass = 0.0;            ///< of the body, kg
   PerFrame<Vector6d> need;      ///< external moment about the centre of mass and force, N·m, N, world axes
   PerFrame<std::string> wrong;  ///< "feasible", or the fault in one word
-  PerFrame<Vector6d> help;  ///< assistive moment and force on the pelvis until the next frame, N·m, N, world
-                            ///< axes, of the frames that the assisted stage reached; empty without one
+  /// Assistive moment and force on the pelvis until the next frame, N·m, N, world axes, of the frames that
+  /// the assisted stage reached; empty without one.
+  PerFrame<Vector6d> assistance;
 
-  /// Of the body's mass under a need or help, m/s².
+  /// Of the body's mass under a need or assistance, m/s².
   double acceleration(const Vector6d& wrench) const { return wrench.tail<3>().norm() / mass; }
 };
 

@@ -171,7 +171,7 @@ void add_feasibility(const std::filesystem::path& file, ReportClip& clip) {
   const record::FrameFeasibility all = record::read_feasibility(file);
   clip.needs = report_needs(all.need, all.mass);
   clip.wrong = all.wrong;
-  clip.help = report_needs(all.help, all.mass);
+  clip.assistance = report_needs(all.assistance, all.mass);
 }
 
 void add_ground(const ClipFiles& files, ReportClip& clip) {

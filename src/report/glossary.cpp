@@ -82,7 +82,8 @@ Table plan_words() {
       {"iterations", {"steps of the planner", "", ""}},
       {"linearised_frames", {"frames whose derivatives were computed", "", ""}},
       {"backtracks", {"stretches that were planned again", "", ""}},
-      {"by_way_of_help", {"found with assistive forces", "", "1: by way of a plan with assistive forces"}},
+      {"by_way_of_help",
+       {"found by assisted stages", "", "1: by plans with assistive forces, reduced to zero"}},
   };
 }
 
@@ -154,14 +155,14 @@ Table feasibility_words() {
       {"over_torque_share", {"share of frames with a joint over its bound", "", ""}},
       {"torque_max_share", {"largest torque, in parts of the joint's bound", "", ""}},
       {"lowest_mm", {"lowest point over the floor", "mm", ""}},
-      {"help_frames", {"frames that were planned with help", "", "by a plan's assisted stage"}},
-      {"help_force_mean_N", {"help, on average", "N", "assistive force on the pelvis"}},
-      {"help_force_max_N", {"help, at most", "N", ""}},
-      {"help_accel_mean_m_s2", {"help by the body's mass, on average", "m/s²", ""}},
-      {"help_accel_max_m_s2", {"help by the body's mass, at most", "m/s²", ""}},
-      {"help_moment_mean_Nm", {"moment of the help, on average", "N·m", ""}},
-      {"help_moment_max_Nm", {"moment of the help, at most", "N·m", ""}},
-      {"help_worst_frame", {"the help is largest at frame", "", ""}},
+      {"help_frames", {"frames that were planned with assistive forces", "", "by a plan's assisted stage"}},
+      {"help_force_mean_N", {"assistive force, on average", "N", "on the pelvis"}},
+      {"help_force_max_N", {"assistive force, at most", "N", ""}},
+      {"help_accel_mean_m_s2", {"assistive force by the body's mass, on average", "m/s²", ""}},
+      {"help_accel_max_m_s2", {"assistive force by the body's mass, at most", "m/s²", ""}},
+      {"help_moment_mean_Nm", {"assistive moment, on average", "N·m", ""}},
+      {"help_moment_max_Nm", {"assistive moment, at most", "N·m", ""}},
+      {"help_worst_frame", {"assistive force is largest at frame", "", ""}},
   };
 }
 

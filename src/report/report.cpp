@@ -127,7 +127,7 @@ std::string clip_json(const ReportClip& clip) {
   if (!clip.needs.force.empty()) {
     json["needs"] = to_json(clip.needs);
     json["needs"]["wrong"] = clip.wrong;
-    if (!clip.help.force.empty()) json["help"] = to_json(clip.help);
+    if (!clip.assistance.force.empty()) json["help"] = to_json(clip.assistance);
   }
   return without_ends(json.dump());
 }

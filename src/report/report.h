@@ -89,7 +89,7 @@ struct ReportClip {
   std::vector<ReportBars> bars;
   ReportNeeds needs;               ///< external forces by the poses; may be empty
   std::vector<std::string> wrong;  ///< the fault of each of these frames, in a word
-  ReportNeeds help;                ///< of a plan's assisted stage; may be empty, and shorter than the motion
+  ReportNeeds assistance;          ///< of a plan's assisted stage; may be empty, and shorter than the motion
   std::vector<ReportChart> charts, training;
   std::vector<ReportFact> facts;
   std::vector<std::string> notes;  ///< one line each

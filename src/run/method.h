@@ -71,9 +71,9 @@ struct SimulatedSequence {
   NamedValues policy = {};  ///< how well the policy acts that the plan taught; or empty
   std::optional<files::StoredPolicy> taught = {};  ///< that policy, for the run to write
   std::vector<rl::Agent> agents = {};              ///< of a training
-  PerFrame<Vector6d> help =
-      {};                   ///< remaining assistive moment and force of a plan's assisted stage; or empty
-  std::string reason = {};  ///< why it is no success, or may be none, if the method knows
+  /// Remaining assistive moment and force of a plan's assisted stage; or empty.
+  PerFrame<Vector6d> assistance = {};
+  std::string reason = {};              ///< why it is no success, or may be none, if the method knows
   std::vector<std::string> notes = {};  ///< for the manifest
 };
 

@@ -43,7 +43,7 @@ void judge_sequence(const motion::Reference& reference, const physics::Simulatio
   entry.method = made.method;
   entry.plan = made.plan;
   entry.policy = made.policy;
-  append(entry.feasibility, judge::help_values(made.help, reference.character.total_mass()));
+  append(entry.feasibility, judge::assistance_values(made.assistance, reference.character.total_mass()));
   entry.samples = made.samples;
   entry.ending = made.ending;
   entry.arrangement = made.arrangement;
@@ -76,7 +76,7 @@ void write_sequence(const record::RunFolder& folder, bool substeps,
   files::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
   if (!motion.needs.frames.empty())
     record::write_feasibility(with_parents(folder.feasibility(entry.name)),
-                              judge::frame_feasibility(motion.needs, made.help));
+                              judge::frame_feasibility(motion.needs, made.assistance));
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
   files::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);

@@ -164,7 +164,7 @@ control::PushResult test_pushes(const std::shared_ptr<const rl::tracking::Tracki
       for (int lane = 0; lane < kLanes; ++lane) pack.act(lane, actions[lane].data());
       pack.advance(*scratch);
       for (int lane = 0; lane < kLanes; ++lane)
-        if (!(pack.worst_distance(lane) <= test.lost)) kept[lane] = std::min(kept[lane], t);
+        if (!(pack.worst_distance(lane) <= test.failure_distance)) kept[lane] = std::min(kept[lane], t);
     }
     for (int lane = 0; lane < std::min(kLanes, test.trials - done); ++lane) {
       result.followed += kept[lane] == n ? 1 : 0;

@@ -92,17 +92,17 @@ TEST(Cost, UncertaintyReducesTheWeightOfItsBodyAlone) {
   EXPECT_EQ(s.cost.tangent_weight(5, kRootRotation), s.cost.weights.root_rotation);
 }
 
-TEST(Cost, AssistiveForcesCostOnlyInASoftSystem) {
+TEST(Cost, AssistiveForcesCostOnlyInAnAssistedSystem) {
   WalkingScene s;
   Control u{}, before{};
   u[3] = 0.5f;
   before[3] = 0.2f;
   u[kDofs + 1] = 2.0f;
   const CostWeights& w = s.cost.weights;
-  const double hard = w.residual * 0.25 + w.change * 0.09;
-  EXPECT_NEAR(control_cost(s.system, s.cost, u, before), hard, 1e-6);
-  s.system.soft = true;
-  EXPECT_NEAR(control_cost(s.system, s.cost, u, before), hard + 4.0 * w.help, 1e-6);
+  const double unassisted = w.residual * 0.25 + w.change * 0.09;
+  EXPECT_NEAR(control_cost(s.system, s.cost, u, before), unassisted, 1e-6);
+  s.system.assisted = true;
+  EXPECT_NEAR(control_cost(s.system, s.cost, u, before), unassisted + 4.0 * w.assistance, 1e-6);
 }
 
 TEST(Cost, RejectsWeightsWithoutAMinimum) {

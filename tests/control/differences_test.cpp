@@ -32,19 +32,19 @@ State<double> frame_in_double(const System& system, const Model<double>& model, 
     }
     return out;
   };
-  Eigen::Matrix<double, 6, 1> help;
-  for (int k = 0; k < kHelp; ++k)
-    help[k] = static_cast<double>(point.u[static_cast<std::size_t>(kDofs + k)]) +
-              (column == kMemory + kDofs + k ? step : 0.0);
-  const double inertia = system.mass * kHelpRadius * kHelpRadius;
-  const Wrench<double> wrench{from_eigen(Vector3d(inertia * help.tail<3>())),
-                              from_eigen(Vector3d(system.mass * help.head<3>()))};
+  Eigen::Matrix<double, 6, 1> assistance;
+  for (int k = 0; k < kAssistance; ++k)
+    assistance[k] = static_cast<double>(point.u[static_cast<std::size_t>(kDofs + k)]) +
+                    (column == kMemory + kDofs + k ? step : 0.0);
+  const double inertia = system.mass * kAssistanceRadius * kAssistanceRadius;
+  const Wrench<double> wrench{from_eigen(Vector3d(inertia * assistance.tail<3>())),
+                              from_eigen(Vector3d(system.mass * assistance.head<3>()))};
   State<double> x = point.x;
   retract(x, delta);
   const auto data = std::make_unique<Data<double>>();
   const Target<double> from = target(point.frame, point.before, kTangent),
                        to = target(point.frame + 1, point.u, kMemory);
-  advance_interval<double>(model, {from, to, system.substeps, system.soft ? &wrench : nullptr}, x, *data);
+  advance_interval<double>(model, {from, to, system.substeps, system.assisted ? &wrench : nullptr}, x, *data);
   return x;
 }
 
@@ -76,7 +76,7 @@ struct SquattingScene {
 
   explicit SquattingScene(double height) {
     Random random(45);
-    system.soft = true;
+    system.assisted = true;
     point.x.p_root.z += height;
     for (std::size_t k = 0; k < kDofs; ++k) {
       point.before[k] = static_cast<float>(0.02 * random.normal());
@@ -97,13 +97,13 @@ TEST(Differences, SmoothedAgreeWithDoubleInTheAir) {
   EXPECT_LT(median_error(F, exact, kMemory, kMemory + kMaxControls), 0.02);
 }
 
-TEST(Differences, HardSystemsHaveNoColumnsForAssistiveForces) {
+TEST(Differences, UnassistedSystemsHaveNoColumnsForAssistiveForces) {
   SquattingScene s(0.0);
-  const FrameMatrix soft = linearise_smoothed(s.system, s.point, {});
-  s.system.soft = false;
+  const FrameMatrix assisted = linearise_smoothed(s.system, s.point, {});
+  s.system.assisted = false;
   s.point.u[kDofs + 1] = s.point.u[kDofs + 5] = 0.0f;
   EXPECT_EQ(linearise_smoothed(s.system, s.point, {}).cols(), kMemory + kDofs);
-  EXPECT_EQ(soft.cols(), kMemory + kMaxControls);
+  EXPECT_EQ(assisted.cols(), kMemory + kMaxControls);
 }
 
 }  // namespace

@@ -68,15 +68,15 @@ Quat<T> between(const Quat<T>& a, const Quat<T>& b, T s) {
   return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
 
-/// Puts the help on the pelvis, between the two parts of a step where the forces on bodies are summed.
+/// Puts the assistance on the pelvis, between the two parts of a step where the forces on bodies are summed.
 template <class T>
-struct WithHelp : StepParts {
-  Wrench<T> help;
+struct WithAssistance : StepParts {
+  Wrench<T> assistance;
 
-  explicit WithHelp(const Wrench<T>& wrench) : help(wrench) {}
+  explicit WithAssistance(const Wrench<T>& wrench) : assistance(wrench) {}
   void after_rigid_bodies(Data<T>& d) {
-    d.bias[0].n -= help.n;
-    d.bias[0].f -= help.f;
+    d.bias[0].n -= assistance.n;
+    d.bias[0].f -= assistance.f;
   }
 };
 
@@ -90,7 +90,7 @@ State<T> simulate(const Model<double>& model, const ControlFrame& frame, int col
     w[k] = frame.from_residual[k];
     u[k] = frame.to_residual[k];
   }
-  Wrench<T> help = {spread<T>(frame.help.n), spread<T>(frame.help.f)};
+  Wrench<T> assistance = {spread<T>(frame.assistance.n), spread<T>(frame.assistance.f)};
   if (column < kTangent)
     move(state, column, h);
   else if (column < kTangent + kDofs)
@@ -98,10 +98,11 @@ State<T> simulate(const Model<double>& model, const ControlFrame& frame, int col
   else if (column < kFrameColumns)
     u[column - kTangent - kDofs] += h;
   else
-    (column < kFrameColumns + 3 ? help.n : help.f) += times(h, kUnit[(column - kFrameColumns) % 3]);
+    (column < kFrameColumns + 3 ? assistance.n : assistance.f) +=
+        times(h, kUnit[(column - kFrameColumns) % 3]);
   const Target<T> from = turned(frame.from, w), to = turned(frame.to, u);
   Data<T> d;
-  WithHelp<T> parts(help);
+  WithAssistance<T> parts(assistance);
   Target<T> target;
   for (int k = 1; k <= frame.substeps; ++k) {
     const T s(static_cast<double>(k) / frame.substeps);
@@ -121,7 +122,7 @@ State<double> simulate_frame(const Model<double>& model, const ControlFrame& fra
 }
 
 Eigen::MatrixXd exact_derivative(const Model<double>& model, const ControlFrame& frame) {
-  Eigen::MatrixXd F(kTangent, kFrameColumnsWithHelp);
+  Eigen::MatrixXd F(kTangent, kFrameColumnsWithAssistance);
   const auto slope = [](const Vec3<test::Dual>& v) { return Vec3<double>{v.x.d, v.y.d, v.z.d}; };
   for (int column = 0; column < F.cols(); ++column) {
     const State<test::Dual> end = simulate(model, frame, column, test::Dual(0.0, 1.0));
@@ -142,7 +143,7 @@ Eigen::MatrixXd exact_derivative(const Model<double>& model, const ControlFrame&
 }
 
 Eigen::MatrixXd central_differences(const Model<double>& model, const ControlFrame& frame, double h) {
-  Eigen::MatrixXd F(kTangent, kFrameColumnsWithHelp);
+  Eigen::MatrixXd F(kTangent, kFrameColumnsWithAssistance);
   const auto apart = [&](int column, double e) {
     const Tangent<double> d =
         difference(simulate(model, frame, column, e), simulate(model, frame, column, -e));

@@ -13,7 +13,7 @@ Eigen::MatrixXd exact_derivative(const Model<double>& model, const ControlFrame&
 /// @param h  for positions (m) and rotations (rad); velocities and residuals move ten times as far
 Eigen::MatrixXd central_differences(const Model<double>& model, const ControlFrame& frame, double h);
 
-/// The state at the end of a frame whose start, residuals or help is moved by h along column `column`.
+/// The state at the end of a frame whose start, residuals or assistance is moved by h along column `column`.
 State<double> simulate_frame(const Model<double>& model, const ControlFrame& frame, int column, double h);
 
 }  // namespace mimicx::control

@@ -46,7 +46,7 @@ TEST(Gains, WithoutPushesThePlanIsFollowed) {
   const Walk walk;
   const auto gains = feedback_gains(walk.system, walk.cost, walk.motion, {}, {.threads = 2});
   const PushResult still = test_pushes(walk.system, walk.cost, walk.motion, gains,
-                                       {.speed = 0.0, .lost = 1.01 * walk.motion.worst});
+                                       {.speed = 0.0, .failure_distance = 1.01 * walk.motion.worst});
   EXPECT_EQ(still.followed, 16);
 }
 

@@ -38,8 +38,8 @@ TEST_P(Followed, WithinTwoMillimetresAndReplayedByteForByte) {
   const motion::Reference reference = synthetic_reference(GetParam(), 501, 75);
   const Plan plan = make_plan(system_of(reference), {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kFollowed);
-  EXPECT_FALSE(plan.loss);
-  EXPECT_TRUE(plan.soft_help.empty());
+  EXPECT_FALSE(plan.failure);
+  EXPECT_TRUE(plan.stage_assistance.empty());
   ASSERT_EQ(plan.states.size(), 75u);
   const rl::tracking::TrackingRollout rollout = replay(reference, plan);
   ASSERT_EQ(rollout.poses.size(), 75u);
@@ -78,19 +78,19 @@ TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
   const System system = balloon();
   const Plan plan = make_plan(system, {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kLost);
-  ASSERT_TRUE(plan.loss);
-  EXPECT_GT(plan.loss->frame, 20);
-  EXPECT_LT(plan.loss->frame, 45);
-  EXPECT_GE(plan.loss->body, 0);
-  EXPECT_GT(plan.loss->distance, 0.05);
+  ASSERT_TRUE(plan.failure);
+  EXPECT_GT(plan.failure->frame, 20);
+  EXPECT_LT(plan.failure->frame, 45);
+  EXPECT_GE(plan.failure->body, 0);
+  EXPECT_GT(plan.failure->distance, 0.05);
   // In the air the assistive force is about the weight; standing needs none.
   const double weight = 9.81 * system.mass;
-  const List<Vector6d> help = wrenches_of(plan.soft_help, system.mass);
-  ASSERT_EQ(help.size(), 59u);
-  EXPECT_GT(help[plan.loss->frame].tail<3>().norm(), 0.8 * weight);
-  EXPECT_LT(help[plan.loss->frame].tail<3>().norm(), 3.0 * weight);
-  EXPECT_LT(help[5].tail<3>().norm(), 0.1 * weight);
-  EXPECT_FALSE(plan.by_way_of_help);
+  const List<Vector6d> assistance = wrenches_of(plan.stage_assistance, system.mass);
+  ASSERT_EQ(assistance.size(), 59u);
+  EXPECT_GT(assistance[plan.failure->frame].tail<3>().norm(), 0.8 * weight);
+  EXPECT_LT(assistance[plan.failure->frame].tail<3>().norm(), 3.0 * weight);
+  EXPECT_LT(assistance[5].tail<3>().norm(), 0.1 * weight);
+  EXPECT_FALSE(plan.by_assisted_stages);
   EXPECT_GT(plan.states.size(), 10u);
   EXPECT_LT(plan.states.size(), 60u);
   EXPECT_EQ(plan.residuals.size() + 1, plan.states.size());
@@ -121,22 +121,22 @@ TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   EXPECT_EQ(plan.residuals, by_root.residuals);
   EXPECT_GT(plan.linearised, by_root.linearised) << "the stage that was lost";
   EXPECT_EQ(plan.ending, Ending::kFollowed);
-  EXPECT_TRUE(plan.by_way_of_help);
-  EXPECT_FALSE(plan.loss);
+  EXPECT_TRUE(plan.by_assisted_stages);
+  EXPECT_FALSE(plan.failure);
   EXPECT_EQ(plan.states.size(), 60u);
   EXPECT_LT(plan.worst_distance, 0.35);
 }
 
 // The assistive acceleration is that of the reference plus gravity.
-TEST(Plan, SoftPlanFollowsAnInfeasibleReference) {
+TEST(Plan, AssistedPlanFollowsAnInfeasibleReference) {
   System system = balloon();
-  system.soft = true;
+  system.assisted = true;
   const Plan plan = make_plan(system, {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kFollowed);
-  ASSERT_EQ(plan.help.size(), 59u);
+  ASSERT_EQ(plan.assistance.size(), 59u);
   EXPECT_LT(plan.worst_distance, 0.35);
-  EXPECT_NEAR(static_cast<double>(plan.help[45][2]), 11.81, 1.0);
-  EXPECT_LT(std::abs(static_cast<double>(plan.help[5][2])), 1.0);
+  EXPECT_NEAR(static_cast<double>(plan.assistance[45][2]), 11.81, 1.0);
+  EXPECT_LT(std::abs(static_cast<double>(plan.assistance[5][2])), 1.0);
 }
 
 TEST(Plan, StopsOnRequest) {

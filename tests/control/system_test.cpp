@@ -73,7 +73,7 @@ TEST(System, AsFloatsRoundsEveryNumber) {
   }
 }
 
-TEST(System, AssistiveForceAcceleratesThePelvisOnlyInASoftSystem) {
+TEST(System, AssistiveForceAcceleratesThePelvisOnlyInAnAssistedSystem) {
   System system = system_of(synthetic_reference("stand", 501, 5));
   const auto scratch = std::make_unique<Data<P>>();
   const auto after = [&](float push) {
@@ -81,11 +81,11 @@ TEST(System, AssistiveForceAcceleratesThePelvisOnlyInASoftSystem) {
     u[kDofs] = push;
     State<P> x = in_all_lanes<P>(system.at(0));
     const Target<P> to = target_of(system, 1, u);
-    advance(system, to, to, help_of(system, u), x, *scratch);
+    advance(system, to, to, assistance_of(system, u), x, *scratch);
     return lane_of(x, 0);
   };
   EXPECT_EQ(after(0.0f).v_root.x, after(5.0f).v_root.x);
-  system.soft = true;
+  system.assisted = true;
   // Both feet are on the floor, so the pelvis gains less than a free body would (5 m/s² · 1/30 s).
   const double gained = after(5.0f).v_root.x - after(0.0f).v_root.x;
   EXPECT_GT(gained, 0.05);

@@ -50,10 +50,10 @@ struct PlanFile : testing::Test {
 TEST_F(PlanFile, RoundTripIsExact) {
   StoredPlan plan = planned(8);
   plan.plan.ending = control::Ending::kLost;
-  plan.plan.loss = control::Loss{5, kLeftFoot, 0.41};
-  plan.plan.soft_help = {{{0.5f, 1.0f / 3.0f, 0.0f, -2.0f, 0.0f, 0.0f}},
-                         {{0.0f, 0.0f, 9.5f, 0.0f, 0.1f, 0.0f}}};
-  plan.plan.by_way_of_help = true;
+  plan.plan.failure = control::Failure{5, kLeftFoot, 0.41};
+  plan.plan.stage_assistance = {{{0.5f, 1.0f / 3.0f, 0.0f, -2.0f, 0.0f, 0.0f}},
+                                {{0.0f, 0.0f, 9.5f, 0.0f, 0.1f, 0.0f}}};
+  plan.plan.by_assisted_stages = true;
   const StoredPlan back = written(plan);
   EXPECT_EQ(back.input_checksum, plan.input_checksum);
   EXPECT_EQ(back.fps, plan.fps);
@@ -67,18 +67,18 @@ TEST_F(PlanFile, RoundTripIsExact) {
   EXPECT_EQ(back.plan.iterations, plan.plan.iterations);
   EXPECT_EQ(back.plan.linearised, plan.plan.linearised);
   EXPECT_EQ(back.plan.backtracks, plan.plan.backtracks);
-  ASSERT_TRUE(back.plan.loss);
-  EXPECT_EQ(back.plan.loss->frame, 5);
-  EXPECT_EQ(back.plan.loss->body, kLeftFoot);
-  EXPECT_EQ(back.plan.loss->distance, 0.41);
-  EXPECT_EQ(back.plan.soft_help, plan.plan.soft_help);
-  EXPECT_TRUE(back.plan.by_way_of_help);
+  ASSERT_TRUE(back.plan.failure);
+  EXPECT_EQ(back.plan.failure->frame, 5);
+  EXPECT_EQ(back.plan.failure->body, kLeftFoot);
+  EXPECT_EQ(back.plan.failure->distance, 0.41);
+  EXPECT_EQ(back.plan.stage_assistance, plan.plan.stage_assistance);
+  EXPECT_TRUE(back.plan.by_assisted_stages);
 }
 
 TEST_F(PlanFile, RepeatsThePlanWithOnlyTheBodyAdded) {
   const StoredPlan stored = written(planned(8));
-  EXPECT_FALSE(stored.plan.loss);
-  EXPECT_TRUE(stored.plan.soft_help.empty());
+  EXPECT_FALSE(stored.plan.failure);
+  EXPECT_TRUE(stored.plan.stage_assistance.empty());
   const control::System system =
       control::make_system(make_character(), stored.simulation, stored.reference, stored.fps);
   const auto scratch = std::make_unique<physics::Data<control::P>>();
@@ -89,7 +89,7 @@ TEST_F(PlanFile, RepeatsThePlanWithOnlyTheBodyAdded) {
     control::Control u{};
     std::copy(stored.plan.residuals[t].begin(), stored.plan.residuals[t].end(), u.begin());
     const physics::Target<control::P> to = control::target_of(system, static_cast<int>(t) + 1, u);
-    control::advance(system, from, to, control::help_of(system, {}), x, *scratch);
+    control::advance(system, from, to, control::assistance_of(system, {}), x, *scratch);
     states.push_back(physics::lane_of(x, 0));
     from = to;
   }
@@ -99,7 +99,7 @@ TEST_F(PlanFile, RepeatsThePlanWithOnlyTheBodyAdded) {
 // Numbers that the field cannot hold, that are no body's, or that no simulation can have.
 TEST_F(PlanFile, RejectsImpossibleNumbers) {
   StoredPlan plan = planned(4);
-  plan.plan.loss = control::Loss{2, kLeftFoot, 0.41};
+  plan.plan.failure = control::Failure{2, kLeftFoot, 0.41};
   written(plan);
   const Npz sound = read_npz(file);
   const auto refusal = [&](const std::string& name, double value) -> std::string {
@@ -142,7 +142,7 @@ TEST_F(PlanFile, GainsRoundTripExactlyAndRejectOtherShapes) {
 
 TEST_F(PlanFile, DamagedFileNamesTheMember) {
   StoredPlan plan = planned(4);
-  plan.plan.soft_help.resize(3);
+  plan.plan.stage_assistance.resize(3);
   const double one = 1.0;
   for (const char* member : {"residuals", "q", "v", "reference_q", "reference_v", "ending", "cost", "fps",
                              "soft_help", "physics_rate", "input_checksum"}) {

@@ -58,9 +58,9 @@ Npz plan_file() {
   plan.reference = rl::tracking::simulator_states(rl::tracking::swaying_reference(3));
   plan.plan.states = plan.reference;
   plan.plan.residuals.resize(2);
-  plan.plan.soft_help.resize(2);
+  plan.plan.stage_assistance.resize(2);
   plan.plan.ending = control::Ending::kLost;
-  plan.plan.loss = control::Loss{1, kLeftFoot, 0.41};
+  plan.plan.failure = control::Failure{1, kLeftFoot, 0.41};
   return written([&](const auto& path) { files::write_plan(path, plan); });
 }
 
@@ -75,7 +75,7 @@ Npz feasibility_file() {
   record::FrameFeasibility all;
   all.mass = 70.0;
   all.need.assign(2, Vector6d::Constant(0.25));
-  all.help.assign(1, Vector6d::Constant(0.5));
+  all.assistance.assign(1, Vector6d::Constant(0.5));
   all.wrong = PerFrame<std::string>(std::vector<std::string>{"feasible", "floats"});
   return written([&](const auto& path) { record::write_feasibility(path, all); });
 }

@@ -109,10 +109,10 @@ TEST(ControlInterval, AssistiveForceEqualToTheWeightMakesTheBodyFloat) {
   Snapshot snapshot = standing(stiffened(character));
   snapshot.p_root.z() += 0.5;
   const auto s = std::make_unique<Simulation<double>>(stiffened(character), SimulationConfig{}, snapshot);
-  Wrench<double> help{zero3<double>(), {0.0, 0.0, character.total_mass() * kGravity}};
+  Wrench<double> assistance{zero3<double>(), {0.0, 0.0, character.total_mass() * kGravity}};
   const Vector3d before = to_eigen(s->state.p_root);
   // One interval only: the centre of mass is in front of the pelvis, and its moment turns the body.
-  advance_interval<double>(s->model, {s->target, s->target, 8, &help}, s->state, s->data);
+  advance_interval<double>(s->model, {s->target, s->target, 8, &assistance}, s->state, s->data);
   EXPECT_LT((to_eigen(s->state.p_root) - before).norm(), 5e-4);  // a free fall: 6e-3
   EXPECT_LT(std::abs(s->state.v_root.z), 0.02);                  // a free fall: 0.33
 }

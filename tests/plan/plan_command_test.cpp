@@ -208,9 +208,9 @@ TEST_F(PlanMotions, FailedPlanSaysWhereAndWhyAndOthersFinish) {
   EXPECT_EQ(lost.output, "rejected/lean.npz");
   EXPECT_LT(value_of(lost.plan, "frames"), 45);
   for (const char* words :
-       {"the plan is lost at frame ", ": the ", " is 0.", " m from its reference",
+       {"the plan fails at frame ", ": the ", " is 0.", " m from its reference",
         "the reference is not feasible there: frames ", "the body tips over; ", " N m would have to hold it",
-        "; with help the body passes frames 0-", " N m turn it", "limit 0.5 m"})
+        "; with assistive forces the body passes frames 0-", " N m turn it", "limit 0.5 m"})
     EXPECT_NE(lost.reason.find(words), std::string::npos) << words << ": " << lost.reason;
   EXPECT_EQ(lost.reason.find('_'), std::string::npos) << "names of our own: " << lost.reason;
   EXPECT_GT(value_of(lost.feasibility, "infeasible_share"), 0.1);
@@ -225,22 +225,22 @@ TEST_F(PlanMotions, WritesFeasibilityToFileManifestAndReport) {
   const record::FrameFeasibility lost = record::read_feasibility(made.feasibility("lean"));
   const record::SequenceEntry says = entry("run", 0);
   ASSERT_EQ(lost.need.size(), 45u);
-  double need = 0.0, help = 0.0;
+  double need = 0.0, assistance = 0.0;
   for (const Vector6d& w : lost.need) need = std::max(need, w.tail<3>().norm());
-  for (const Vector6d& w : lost.help) help = std::max(help, lost.acceleration(w));
+  for (const Vector6d& w : lost.assistance) assistance = std::max(assistance, lost.acceleration(w));
   EXPECT_EQ(need, value_of(says.feasibility, "force_max_N"));
-  EXPECT_EQ(help, value_of(says.feasibility, "help_accel_max_m_s2"));
-  EXPECT_EQ(lost.help.size(), value_of(says.feasibility, "help_frames"));
+  EXPECT_EQ(assistance, value_of(says.feasibility, "help_accel_max_m_s2"));
+  EXPECT_EQ(lost.assistance.size(), value_of(says.feasibility, "help_frames"));
   EXPECT_EQ(lost.wrong.at(22), "tips");
-  // To lean needs the weight on the arm by which the centre of mass is beside the feet, and so does the soft
-  // stage.
+  // To lean needs the weight on the arm by which the centre of mass is beside the feet, and so does the
+  // assisted stage.
   const double weight = kGravity * lost.mass;
   EXPECT_GT(lost.need.at(22).head<3>().norm(), 0.2 * weight);
-  EXPECT_GT(lost.help.at(22).norm(), 0.1 * weight);
+  EXPECT_GT(lost.assistance.at(22).norm(), 0.1 * weight);
 
   const record::FrameFeasibility done = record::read_feasibility(made.feasibility("stand"));
   EXPECT_EQ(done.need.size(), 20u);
-  EXPECT_TRUE(done.help.empty());
+  EXPECT_TRUE(done.assistance.empty());
   EXPECT_TRUE(std::isnan(value_of(entry("run", 1).feasibility, "help_frames")));
   for (const std::string& word : done.wrong) EXPECT_EQ(word, "feasible");
   const std::string page = read_file(made.report());
@@ -248,7 +248,7 @@ TEST_F(PlanMotions, WritesFeasibilityToFileManifestAndReport) {
   EXPECT_NE(page.find("\"tips\""), std::string::npos);
 }
 
-// Its first half second needs half of its weight from outside. Hard plans lose it.
+// Its first half second needs half of its weight from outside. Plans without assistance fail there.
 TEST_F(PlanMotions, FollowsAnInfeasibleReferenceByAssistiveForces) {
   const auto dance = std::filesystem::path(MIMICX_SHARED_DIR) / "motions/deepmimic/humanoid3d_dance_a.txt";
   if (!std::filesystem::exists(dance)) GTEST_SKIP() << "no real motions beside the source tree";
@@ -261,7 +261,7 @@ TEST_F(PlanMotions, FollowsAnInfeasibleReferenceByAssistiveForces) {
   EXPECT_TRUE(followed.ok) << followed.reason;
   EXPECT_EQ(value_of(followed.plan, "by_way_of_help"), 1.0);
   EXPECT_GT(value_of(followed.feasibility, "help_force_max_N"), 100.0);
-  // What is written has no help: its own forces explain it.
+  // What is written has no assistance: its own forces explain it.
   EXPECT_LT(value_of(followed.audit, "root_force_max_N"), 10.0);
   for (const std::string& note : followed.notes) EXPECT_EQ(note.find("audit"), std::string::npos) << note;
 }

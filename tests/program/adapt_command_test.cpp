@@ -446,7 +446,7 @@ TEST_F(Adapt, FallingStudentIsPolishedByPpo) {
 /// Plans that are given up at once.
 AdaptConfig hopeless(AdaptConfig config) {
   config.method = AdaptMethod::kAuto;
-  config.plan.horizon.lost = 1e-9;
+  config.plan.horizon.failure_distance = 1e-9;
   config.plan.horizon.backtracks = 0;
   return config;
 }

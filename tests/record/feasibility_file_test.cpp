@@ -18,7 +18,7 @@ FrameFeasibility example() {
     wrench << 1.0 / 3.0, 0.0, -t, 0.0, 3.0 * t, 4.0 * t;
     all.need.push_back(wrench);
     all.wrong.emplace_back(t == 0 ? "feasible" : "hovers");
-    if (t < 2) all.help.push_back(-wrench);
+    if (t < 2) all.assistance.push_back(-wrench);
   }
   return all;
 }
@@ -28,16 +28,16 @@ struct FeasibilityFile : testing::Test {
   std::filesystem::path file = folder.path / "f.npz";
 };
 
-TEST_F(FeasibilityFile, RoundTripIsExactWithAndWithoutHelp) {
+TEST_F(FeasibilityFile, RoundTripIsExactWithAndWithoutAssistance) {
   FrameFeasibility all = example();
-  for (int help : {2, 0}) {
-    all.help.resize(help);
+  for (int assistance : {2, 0}) {
+    all.assistance.resize(assistance);
     write_feasibility(file, all);
     const FrameFeasibility back = read_feasibility(file);
     EXPECT_EQ(back.mass, all.mass);
     EXPECT_EQ(back.need, all.need);
     EXPECT_EQ(back.wrong, all.wrong);
-    EXPECT_EQ(back.help, all.help);
+    EXPECT_EQ(back.assistance, all.assistance);
   }
 }
 

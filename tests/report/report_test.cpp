@@ -115,7 +115,7 @@ TEST(Report, ReferenceNeedsAreThereForAllFramesOrNone) {
   EXPECT_EQ(data["needs"]["moment"][2], 1.0);
   EXPECT_EQ(data["needs"]["bar"][2], 0.01);
   EXPECT_EQ(data["needs"]["wrong"], (std::vector<std::string>{"hovers", "feasible", "</script>"}));
-  clip.help = {{100.0}, {1.5}, {3.0}, {0.3}};
+  clip.assistance = {{100.0}, {1.5}, {3.0}, {0.3}};
   data = nlohmann::json::parse(clip_json(clip));
   EXPECT_EQ(data["help"]["force"].size(), 1u);
 }

@@ -84,7 +84,7 @@ TEST(Teacher, ImportanceIsSymmetricPositiveWithUnitMeanDiagonal) {
 
 TEST(Teacher, PlanThatCannotBeRepeatedGivesNoTeacher) {
   TeacherConfig impatient;
-  impatient.horizon.lost = 1e-9;
+  impatient.horizon.failure_distance = 1e-9;
   impatient.horizon.backtracks = 0;
   EXPECT_FALSE(make_teacher(short_squat(), plan_of_squat(), impatient, {}, {}));
 }

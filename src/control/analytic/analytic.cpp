@@ -63,7 +63,7 @@ void roll_out_substeps(const Model<double>& model, const ControlFrame& frame, Da
   tables.resize(frame.substeps);
   for (int k = 1; k <= frame.substeps; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(frame.substeps);
-    if (tabulate_step(model, target_at(from, to, share), frame.help, state, data, tables[k - 1]))
+    if (tabulate_step(model, target_at(from, to, share), frame.assistance, state, data, tables[k - 1]))
       wrong = true;
   }
 }
@@ -71,7 +71,7 @@ void roll_out_substeps(const Model<double>& model, const ControlFrame& frame, Da
 template <class T>
 void clear(AdjointData<T>& d) {
   const Vec3<T> zero = zero3<T>();
-  d.state.p = d.state.v = d.help.n = d.help.f = zero;
+  d.state.p = d.state.v = d.assistance.n = d.assistance.f = zero;
   d.state.turn.fill(zero);
   d.state.spin.fill(zero);
   d.from.fill(T(0.0));
@@ -124,18 +124,18 @@ void write_block(const AdjointData<T>& d, int first, int lanes, FrameDerivative<
     put_column(kTangent + kDofs + dof, d.to[dof]);
   }
   if (out.F.cols() == kFrameColumns) return;
-  three(kFrameColumns, d.help.n);
-  three(kFrameColumns + 3, d.help.f);
+  three(kFrameColumns, d.assistance.n);
+  three(kFrameColumns + 3, d.assistance.f);
 }
 
 }  // namespace
 
 template <class T>
-void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_help,
+void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_assistance,
                          FrameScratch<T>& scratch, FrameDerivative<T>& out) {
   if (frame.substeps < 1) raise(std::invalid_argument("a control frame needs at least one physics step"));
   roll_out_substeps(model, frame, scratch.data, scratch.substeps, out.end, out.wrong);
-  const int columns = with_help ? kFrameColumnsWithHelp : kFrameColumns;
+  const int columns = with_assistance ? kFrameColumnsWithAssistance : kFrameColumns;
   out.F.resize(kTangent, columns);
   AdjointData<T>& d = scratch.adjoint;
   for (int first = 0; first < kTangent; first += ScalarTraits<T>::kSize) {

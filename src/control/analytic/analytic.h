@@ -23,7 +23,7 @@ namespace mimicx::control {
 /// Columns of a frame's derivative: the state's tangent, the residuals of the old target, those of the new
 /// one; then, if requested, the assistive wrench on the pelvis.
 inline constexpr int kFrameColumns = kTangent + 2 * kDofs;
-inline constexpr int kFrameColumnsWithHelp = kFrameColumns + 6;
+inline constexpr int kFrameColumnsWithAssistance = kFrameColumns + 6;
 
 /// One control frame. The PD target moves from one end to the other as in `advance_interval`; at the ends it
 /// is the reference turned by residuals: q* = q_reference · exp(residual), a rotation vector per ball joint
@@ -32,14 +32,14 @@ struct ControlFrame {
   State<double> start;
   Target<double> from, to;                              ///< references at the two ends
   Array<double, kDofs> from_residual{}, to_residual{};  ///< rad
-  /// Moment (N·m) and force (N) on the pelvis, about its joint centre in world axes: `help` of `step`.
-  Wrench<double> help = {zero3<double>(), zero3<double>()};
+  /// Moment (N·m) and force (N) on the pelvis, about its joint centre in world axes: `assistance` of `step`.
+  Wrench<double> assistance = {zero3<double>(), zero3<double>()};
   int substeps = 8;
 };
 
 template <class T>
 struct FrameDerivative {
-  /// d end / d (start, from_residual, to_residual [, help: moment, force]), [122][232 or 238].
+  /// d end / d (start, from_residual, to_residual [, assistance: moment, force]), [122][232 or 238].
   Eigen::Matrix<RealOf<T>, kTangent, Eigen::Dynamic, Eigen::RowMajor> F;
   State<double> end;   ///< of the nominal motion
   bool wrong = false;  ///< the nominal motion failed (`step`): F and end must not be used
@@ -55,10 +55,10 @@ struct FrameScratch {
 
 /// Differentiates one control frame. A row does not depend on the lane it is computed in, nor on its
 /// neighbours.
-/// @param with_help  also by the assistive wrench
+/// @param with_assistance  also by the assistive wrench
 /// @throws std::invalid_argument for fewer than one physics step
 template <class T>
-void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_help,
+void differentiate_frame(const Model<double>& model, const ControlFrame& frame, bool with_assistance,
                          FrameScratch<T>& scratch, FrameDerivative<T>& out);
 
 }  // namespace mimicx::control

@@ -290,14 +290,15 @@ template <class T>
 void root_adjoint(const SubstepTable<RealOf<T>>& table, AdjointData<T>& d) {
   const BodyTable<RealOf<T>>& root = table.body[0];
   const Vec3<T> n = d.sum_alpha[0], f = d.sum_a[0];
-  const Vec3<T> theta = add_cross(add_cross(d.theta[0], n, wide<T>(table.help_n)), f, wide<T>(table.help_f));
+  const Vec3<T> theta =
+      add_cross(add_cross(d.theta[0], n, wide<T>(table.assistance_n)), f, wide<T>(table.assistance_f));
   d.state.turn[0] = add_transpose_times(d.state.turn[0], wide<T>(root.R), theta);
   if (root.placed) {
     d.state.p += d.p[0];
     d.state.v += d.v[0];
   }
-  d.help.n += n;
-  d.help.f += f;
+  d.assistance.n += n;
+  d.assistance.f += f;
 }
 
 /// Derivatives by the residuals of the targets, from those by joint torques.

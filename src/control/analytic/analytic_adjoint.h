@@ -23,7 +23,7 @@ template <class T>
 struct AdjointData {
   StateAdjoint<T> state;
   Array<T, kDofs> from, to;  ///< residuals of the old and the new target
-  Wrench<T> help;            ///< on the pelvis
+  Wrench<T> assistance;      ///< on the pelvis
 
   PerBody<Vec3<T>> theta, p, v;       ///< of the body, world, where `placed`
   PerBody<Vec3<T>> w;                 ///< angular velocity of the body

@@ -151,21 +151,21 @@ struct Solves {
 }  // namespace
 
 template <class Real>
-bool tabulate_step(const Model<double>& model, const StepTarget& target, const Wrench<double>& help,
+bool tabulate_step(const Model<double>& model, const StepTarget& target, const Wrench<double>& assistance,
                    State<double>& state, Data<double>& d, SubstepTable<Real>& out) {
   compute_kinematics(model, state, d);
   compute_rigid_bodies(model, d);
   d.self_wrench.fill({zero3<double>(), zero3<double>()});
   if (model.config.self_contact) add_self_contact(model, d);
-  d.bias[0].n -= help.n;
-  d.bias[0].f -= help.f;
+  d.bias[0].n -= assistance.n;
+  d.bias[0].f -= assistance.f;
   detect_ground(model, d);
   compute_joint_torques(model, state, target.target, d);
   use_pd_law(model, d);
 
   out.dt = static_cast<Real>(model.dt);
-  put(out.help_n, help.n);
-  put(out.help_f, help.f);
+  put(out.assistance_n, assistance.n);
+  put(out.assistance_f, assistance.f);
   tabulate_bodies(model, d, state, out);
   tabulate_self_contact(model, d, out.pairs);
   Solves<Real> solves{model, d, out, {}, {}};

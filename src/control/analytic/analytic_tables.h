@@ -97,7 +97,7 @@ struct SubstepTable {
   Array<Vec3<Real>, kDofs> drive_from, drive_to;  ///< torque by residual of the old and the new target
   List<LawTable<Real>> law;
   List<SelfPairTable<Real>> pairs;
-  Vec3<Real> help_n, help_f;  ///< external wrench on the pelvis
+  Vec3<Real> assistance_n, assistance_f;  ///< external wrench on the pelvis
   List<SolveTable<Real>> solves;
   int solve_count;  ///< entries of `solves` in use; the others keep their memory
 

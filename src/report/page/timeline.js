@@ -57,7 +57,7 @@ function show_timeline() {
   $('band').style.height = `${band.row * (clip.help ? 2 : 1)}px`;
   const kind_shown = kinds.filter((k) => k.words.some((w) => clip.needs.wrong.includes(w)));
   const keys = [{colour: '--feasible', name: 'feasible'}, ...kind_shown];
-  if (clip.help) keys.push({colour: '--truth', name: 'help in the plan\'s assisted stage (lower row)'});
+  if (clip.help) keys.push({colour: '--truth', name: 'assistive force in the plan\'s assisted stage (lower row)'});
   $('need-key').replaceChildren('a full bar is half the weight or more:', ...keys.flatMap((k) => {
     const swatch = make('i');
     swatch.style.background = `var(${k.colour})`;
@@ -78,7 +78,7 @@ function need_in_words(frame) {
   text += word === 'feasible' ? 'the reference is feasible' : `the reference is not feasible (${word})`;
   text += `; ${amount(clip.needs, frame)} would be needed from outside`;
   if (!clip.help || frame >= clip.help.force.length) return text;
-  return text + `; in the assisted stage ${amount(clip.help, frame)} helped the pelvis`;
+  return text + `; in the assisted stage ${amount(clip.help, frame)} assisted the pelvis`;
 }
 
 function draw_band() {

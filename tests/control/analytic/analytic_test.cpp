@@ -181,7 +181,7 @@ TEST(AnalyticDerivative, IsExactUnderAssistiveForces) {
   const Character character = make_character();
   const Model<double> model = make_model<double>(character);
   ControlFrame frame = on_the_floor(character, random, 0.5, {0.5, 0.0, 0.0});
-  frame.help = {{20.0, -15.0, 10.0}, {50.0, 80.0, -120.0}};
+  frame.assistance = {{20.0, -15.0, 10.0}, {50.0, 80.0, -120.0}};
   expect_exact("help", model, frame);
 }
 
@@ -205,7 +205,7 @@ TEST(AnalyticDerivative, NominalMotionMatchesTheSimulator) {
   const Model<double> model = make_model<double>(make_character());
   for (int trial = 0; trial < 4; ++trial) {
     ControlFrame frame = frame_of(random_snapshot(random, 1.5, 2.0, 0.9), random, 0.3);
-    frame.help.f.z = 100.0;
+    frame.assistance.f.z = 100.0;
     Target<double> from = frame.from, to = frame.to;
     for (int i = 1; i < kBodies; ++i) {
       const auto turned = [&](const Quat<double>& q, const Array<double, kDofs>& r) {
@@ -217,7 +217,7 @@ TEST(AnalyticDerivative, NominalMotionMatchesTheSimulator) {
     }
     State<double> x = frame.start;
     Data<double> data;
-    advance_interval<double>(model, {from, to, frame.substeps, &frame.help}, x, data);
+    advance_interval<double>(model, {from, to, frame.substeps, &frame.assistance}, x, data);
     const Tangent<double> apart = difference(Derived(model, frame).derivative.end, x);
     for (double a : apart) EXPECT_LT(std::abs(a), 1e-9);
   }
