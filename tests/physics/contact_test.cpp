@@ -106,10 +106,10 @@ TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
                      std::to_string(passes));
         const SceneReport r = run(scene, rate, passes);
         EXPECT_FALSE(r.wrong);
-        EXPECT_LT(r.energy_ratio, 1.0005);
+        EXPECT_LT(r.energy_ratio, 1.01);
         EXPECT_LT(r.deepest, kOthers * (rate < 240.0 ? 0.11 : rate < 480.0 ? 0.045 : 0.03));
         if (scene == Scene::kStand) continue;  // without a policy it tips over in the last second
-        EXPECT_LT(r.kinetic, 20.0) << "of 500 J and more; one character may still roll";
+        EXPECT_LT(r.kinetic, 1.0) << "of 500 J and more; a single character may still roll over";
         EXPECT_NEAR(r.load, 1.0, 0.02);
       }
 }
