@@ -95,7 +95,8 @@ SceneReport run(Scene scene, double rate, int passes) {
 bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || passes < 3; }
 
 // The oracles: joints start at their targets and the floor only takes energy, so the energy of the start is
-// never exceeded; what has fallen comes to rest, and then the floor carries its weight.
+// not exceeded, but for the integrator's error; what has fallen comes to rest, and then the floor carries its
+// weight.
 TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
   constexpr double kOthers = kLanes == 8 ? 1.0 : 1.2;  // packs of another size have other worst cases
   for (Scene scene : {Scene::kStand, Scene::kFall, Scene::kDrop, Scene::kThrow})
