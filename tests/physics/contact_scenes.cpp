@@ -1,5 +1,6 @@
 #include "physics/contact_scenes.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace mimicx::physics {
@@ -59,7 +60,7 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
   for (int lane = 0; lane < kLanes; ++lane)
     set_lane(snapshot_of(scene, c, static_cast<std::uint64_t>(lane)), lane, s->state, s->target);
   SceneReport report;
-  Array<double, kLanes> first{};
+  Array<double, kLanes> first{}, last{};
   double normal = 0, pull = 0, beyond = 0, late = 0;
   const int steps = static_cast<int>(3 * rate), late_steps = static_cast<int>(0.5 * rate);
   for (int k = 0; k < steps; ++k) {
@@ -68,7 +69,7 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
       const Energy e = energy(c, s->data, lane, o.gravity);
       const double now = e.kinetic + e.potential;
       double& start = first[lane];
-      if (k + 1 == steps) report.kinetic = std::max(report.kinetic, e.kinetic);
+      last[lane] = e.kinetic;
       if (k == 0) start = now;
       report.energy_ratio = std::max(report.energy_ratio, now / start);
       for (int n = 0; n < s->data.ground_count; ++n) {
@@ -85,6 +86,8 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
   }
   report.outside_cone = beyond / normal;
   report.adhesion = pull / normal;
+  std::nth_element(last.begin(), last.begin() + kLanes / 2, last.end());
+  report.kinetic = last[kLanes / 2];
   double mass = 0;
   for (const double m : c.mass) mass += m;
   report.load = late / (late_steps * kLanes * mass * o.gravity);

@@ -19,7 +19,7 @@ struct SceneReport {
   double outside_cone = 0;  ///< impulse of friction beyond μ f_n, share of the normal impulse
   double adhesion = 0;      ///< impulse pulling on the ground, share of the normal impulse
   double deepest = 0;       ///< m under z = 0, of any point at any time
-  double kinetic = 0;       ///< largest kinetic energy of a lane at the end, J
+  double kinetic = 0;       ///< at the end, median of the lanes, J
   double load = 0;          ///< vertical force of the floor in the last half second, mean of all lanes, share
                             ///< of the weight
 

@@ -95,7 +95,8 @@ SceneReport run(Scene scene, double rate, int passes) {
 bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || passes < 3; }
 
 // The oracles: joints start at their targets and the floor only takes energy, so the energy of the start is
-// never exceeded; what has fallen comes to rest, and then the floor carries its weight.
+// not exceeded, but for the integrator's error; what has fallen comes to rest, and then the floor carries its
+// weight.
 TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
   constexpr double kOthers = kLanes == 8 ? 1.0 : 1.2;  // packs of another size have other worst cases
   for (Scene scene : {Scene::kStand, Scene::kFall, Scene::kDrop, Scene::kThrow})
@@ -106,10 +107,10 @@ TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
                      std::to_string(passes));
         const SceneReport r = run(scene, rate, passes);
         EXPECT_FALSE(r.wrong);
-        EXPECT_LT(r.energy_ratio, 1.0005);
+        EXPECT_LT(r.energy_ratio, 1.01);
         EXPECT_LT(r.deepest, kOthers * (rate < 240.0 ? 0.11 : rate < 480.0 ? 0.045 : 0.03));
         if (scene == Scene::kStand) continue;  // without a policy it tips over in the last second
-        EXPECT_LT(r.kinetic, 20.0) << "of 500 J and more; one character may still roll";
+        EXPECT_LT(r.kinetic, 1.0) << "of 500 J and more; a single character may still roll over";
         EXPECT_NEAR(r.load, 1.0, 0.02);
       }
 }

@@ -48,13 +48,12 @@ struct FeatureKind {
   std::string_view name;
   int first;    ///< index of its first entry
   int entries;  ///< 1, or one per body
-  double
-      unit;  ///< that of an entry is this times √entries, so that all entries together weigh as much as one
+  double unit;  ///< of an entry: this times √entries, so that all of a kind together weigh as much as one
 };
 
 inline constexpr int kFeatureKindCount = 5;
-/// The unit is the geometric mean of two standard deviations of an entry: that over the 112 synthetic motions
-/// of the options' training, and that over 17 real clips (docs/method.md §6).
+/// The unit is about the geometric mean of two standard deviations of an entry: that over the 112 synthetic
+/// motions of the options' training, and that over 17 real clips (docs/method.md §6).
 inline constexpr std::array<FeatureKind, kFeatureKindCount> kFeatureKinds = {{
     {"root_height", kRootHeight, 1, 0.08},                    // m
     {"root_turning", kRootTurning, 1, 0.1},                   // rad²/s²
