@@ -188,7 +188,7 @@ std::string format_clusters(const Clusters& clusters) {
                         {{"radius", s.radius},
                          {"clusters", s.clusters ? record::Json(*s.clusters) : record::Json(nullptr)},
                          {"seed", s.seed}}},
-                       {"units", named(feature_units())},
+                       {"units", named(clusters.units)},
                        {"tree", record::Json::array()},
                        {"clusters", record::Json::array()}};
   for (const ClusterBranch& b : clusters.tree)
@@ -224,9 +224,8 @@ Clusters read_clusters(const std::vector<std::filesystem::path>& paths) {
 Clusters parse_clusters(const std::string& text, const std::filesystem::path& path) {
   try {
     const record::Json json = record::Json::parse(text);
-    if (unnamed(json.at("units")) != feature_units())
-      throw DataError(path.string(), "units", "the units of this program's features", "others");
     Clusters out;
+    out.units = unnamed(json.at("units"));
     const record::Json& settings = json.at("settings");
     out.settings.radius = settings.at("radius");
     if (!settings.at("clusters").is_null()) out.settings.clusters = settings.at("clusters").get<int>();

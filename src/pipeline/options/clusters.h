@@ -4,10 +4,10 @@
 /// k-means (kmeans.h). One option policy is trained per cluster. Clusters are numbered from 0, the calmer
 /// branch of every split first, independent of the order of the input.
 ///
-/// The file is JSON: {"settings", "units", "tree", "clusters"}; distances and diameters are in the features'
-/// units, centres in SI units under the features' names, features of the members in SI units, in the order of
-/// "units". A program with other features or units rejects the file, because its distances would have another
-/// meaning.
+/// The file is JSON: {"settings", "units", "tree", "clusters"}; distances and diameters are in the units of
+/// the features that the file names, centres in SI units under the features' names, features of the members
+/// in SI units, in the order of "units". A program with other features rejects the file. One with other units
+/// reads it: what it compares itself, in SI units, it scales itself.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,8 @@ struct ClusterBranch {
 };
 
 struct Clusters {
-  ClusterConfig settings;           ///< with the final `radius`
+  ClusterConfig settings;                  ///< with the final `radius`
+  MotionFeatures units = feature_units();  ///< of radius and diameters; joined parts may have others
   std::vector<ClusterBranch> tree;  ///< depth first; [0] is the root, and every other one without a parent
   List<MotionCluster> clusters;     ///< by number
 };
@@ -75,7 +76,7 @@ std::string format_kind_shares(const Clusters& clusters);
 std::string format_clusters(const Clusters& clusters);
 /// Writes a temporary file and renames it, so that a reader sees the old file or the new one.
 void write_clusters(const std::filesystem::path& path, const Clusters& clusters);
-/// @throws DataError for a file that holds no clusters, or clusters of other features or units
+/// @throws DataError for a file that holds no clusters, or clusters of other features
 Clusters read_clusters(const std::filesystem::path& path);
 /// Several files, joined; one file, unchanged.
 Clusters read_clusters(const std::vector<std::filesystem::path>& paths);

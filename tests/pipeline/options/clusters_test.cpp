@@ -12,6 +12,7 @@
 #include "core/temporary_folder.h"
 #include "motion/prepare/prepare.h"
 #include "pipeline/options/cluster_words.h"
+#include "record/json.h"
 #include "synth/data_set.h"
 
 namespace mimicx::pipeline::options {
@@ -198,13 +199,30 @@ TEST(Clusters, OlderFilesReadWithoutMemberFeatures) {
   EXPECT_THROW(read_clusters(folder.path / "c.json"), DataError);
 }
 
-TEST(Clusters, RejectFilesOfOtherUnits) {
+/// The file with another text in place of the first unit and its name.
+std::string with_first_unit(const std::string& file, const std::string& text) {
+  const auto unit = file.find("\"root_height\": ");
+  return file.substr(0, unit) + text + file.substr(file.find(',', unit));
+}
+
+// Files of earlier programs: their distances stay in their units, and motions are compared in today's.
+TEST(Clusters, FilesOfOtherUnitsKeepThem) {
+  TemporaryFolder folder;
+  const Clusters today = cluster_motions(some_motions(), three());
+  const std::string text = with_first_unit(format_clusters(today), "\"root_height\": 7.5");
+  std::ofstream(folder.path / "c.json") << text;
+  const Clusters back = read_clusters(folder.path / "c.json");
+  EXPECT_EQ(back.units[kRootHeight], 7.5);
+  EXPECT_EQ(record::Json::parse(format_clusters(back)), record::Json::parse(text));
+  for (const auto& m : some_motions())
+    EXPECT_EQ(nearest_cluster(back, m.features), nearest_cluster(today, m.features)) << m.name;
+}
+
+TEST(Clusters, RejectFilesOfOtherFeatures) {
   TemporaryFolder folder;
   const auto path = folder.path / "c.json";
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
-  std::string text = format_clusters(cluster_motions(some_motions(), three()));
-  const auto unit = text.find("\"root_height\": ");
-  write(text.substr(0, unit) + "\"root_height\": 7" + text.substr(text.find(',', unit)));
+  write(with_first_unit(format_clusters(cluster_motions(some_motions(), three())), "\"shoe_size\": 7"));
   EXPECT_THROW(read_clusters(path), DataError);
   for (const char* bad : {"", "{}", "nonsense", "[1, 2]"}) {
     write(bad);
