@@ -1,8 +1,11 @@
 #include "control/cost.h"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
+#include "control/centroidal_momentum.h"
+#include "control/sole_slip.h"
 #include "core/error.h"
 
 namespace mimicx::control {
@@ -34,12 +37,44 @@ bool is_foot(std::size_t i) {
 void check(const CostWeights& w) {
   const auto bad = [](double value) { return !(value >= 0.0 && std::isfinite(value)); };
   for (double value : {w.position, w.root_rotation, w.joint_rotation, w.root_velocity, w.root_spin,
-                       w.joint_velocity, w.residual, w.change, w.assistance, w.assistance_spin})
+                       w.joint_velocity, w.com_velocity, w.angular_momentum, w.slip, w.torque, w.residual,
+                       w.change, w.assistance, w.assistance_spin})
     if (bad(value)) raise(std::invalid_argument("weights of the cost must not be negative"));
   for (std::size_t i = 0; i < kBodies; ++i)
     if (bad(w.body_position[i]) || bad(w.body_rotation[i]))
       raise(std::invalid_argument("factors of bodies must not be negative"));
   if (!(w.residual > 0.0)) raise(std::invalid_argument("the weight of residuals must be positive"));
+}
+
+Vector6d vector_of(const CentroidalMomentum<double>& momentum) {
+  Vector6d out;
+  out << to_eigen(momentum.linear), to_eigen(momentum.angular);
+  return out;
+}
+
+/// Adds the momentum's term, a square of rank six, and the soles' terms.
+void add_velocity_terms(const System& system, const Cost& cost, int frame, const State<double>& x,
+                        StateQuadratic& out) {
+  const auto d = std::make_unique<Data<double>>();
+  update_kinematics(system.exact_model, x, *d);
+  const auto add = [&](const auto& J, const auto& error, const auto& weight) {
+    out.value += error.dot(weight.cwiseProduct(error));
+    out.gradient += 2.0 * (J.transpose() * weight.cwiseProduct(error));
+    const Eigen::MatrixXd rooted = (2.0 * weight).cwiseSqrt().asDiagonal() * J;
+    out.hessian.selfadjointView<Eigen::Lower>().rankUpdate(rooted.transpose());
+  };
+  Vector6d weight;
+  for (int k = 0; k < 6; ++k) weight[k] = cost.momentum_weight(frame, k);
+  if (!weight.isZero(0.0))
+    add(centroidal_jacobian(system.exact_model, *d),
+        Vector6d(vector_of(centroidal_momentum(system.exact_model, *d)) - cost.momentum[frame]), weight);
+  Eigen::Matrix<double, 2 * kFootPoints, 1> slip, slip_weight;
+  const auto velocities = sole_velocities(system, *d);
+  for (int point = 0; point < kFootPoints; ++point) {
+    slip.segment<2>(2 * point) = to_eigen(velocities[point]).head<2>();
+    slip_weight.segment<2>(2 * point).setConstant(cost.slip_weight(frame, point));
+  }
+  if (!slip_weight.isZero(0.0)) add(sole_slip_jacobian(system, *d), slip, slip_weight);
 }
 
 }  // namespace
@@ -63,15 +98,12 @@ CostWeights::CostWeights() {
 }
 
 double Cost::position_weight(int frame, int body) const {
-  const double sure = certainty.empty() ? 1.0 : static_cast<double>(certainty[frame][body]);
-  return sure * weights.position * weights.body_position[body];
+  return static_cast<double>(factors[frame].certainty[body]) * weights.position * weights.body_position[body];
 }
 
 double Cost::tangent_weight(int frame, int k) const {
   if (k < kRootRotation) return 0.0;
-  const auto sure = [&](int body) {
-    return certainty.empty() ? 1.0 : static_cast<double>(certainty[frame][body]);
-  };
+  const auto sure = [&](int body) { return static_cast<double>(factors[frame].certainty[body]); };
   if (k < kRootVelocity) {
     const int body = k < kJointRotation ? 0 : dofs()[k - kJointRotation].body;
     return sure(body) * weights.body_rotation[body] *
@@ -81,21 +113,43 @@ double Cost::tangent_weight(int frame, int k) const {
   return sure(dofs()[k - kJointVelocity].body) * weights.joint_velocity;
 }
 
-Cost make_cost(const System& system, const CostWeights& weights, List<Certainty> certainty) {
+double Cost::momentum_weight(int frame, int k) const {
+  return static_cast<double>(factors[frame].momentum) *
+         (k < 3 ? weights.com_velocity : weights.angular_momentum);
+}
+
+double Cost::slip_weight(int frame, int point) const {
+  constexpr double kPointsPerFoot = kFootPoints / 2;
+  return weights.slip / kPointsPerFoot * static_cast<double>(factors[frame].stance[point]);
+}
+
+Cost make_cost(const System& system, const CostWeights& weights, List<FrameFactors> factors) {
   check(weights);
-  if (!certainty.empty() && certainty.size() != system.reference.size())
-    raise(std::invalid_argument("certainty and reference must have the same number of frames"));
+  if (factors.empty()) factors.resize(system.reference.size());
+  if (factors.size() != system.reference.size())
+    raise(std::invalid_argument("factors and reference must have the same number of frames"));
   Cost cost;
   cost.weights = weights;
-  cost.certainty = std::move(certainty);
+  cost.factors = std::move(factors);
+  for (int k = 0; k < kDofs; ++k) {
+    const int body = dofs()[k].body;
+    const double kp = system.exact_model.kp[body], per_mass = kp / system.mass;
+    cost.elastic[k] = weights.torque * per_mass * per_mass;
+    cost.lead[k] = system.exact_model.kd[body] / kp;
+  }
   return with_goal(system, cost, system.reference);
 }
 
 Cost with_goal(const System& system, const Cost& cost, List<State<double>> goal) {
   if (goal.size() != system.reference.size())
     raise(std::invalid_argument("goal and reference must have the same number of frames"));
-  Cost out{cost.weights, std::move(goal), {}, cost.certainty};
-  for (const State<double>& x : out.goal) out.p_WB.push_back(poses_of(system, x).p_WB);
+  Cost out{cost.weights, std::move(goal), {}, {}, cost.factors, cost.elastic, cost.lead};
+  const auto kinematics = std::make_unique<Data<double>>();
+  for (const State<double>& x : out.goal) {
+    out.p_WB.push_back(poses_of(system, x).p_WB);
+    update_kinematics(system.exact_model, x, *kinematics);
+    out.momentum.push_back(vector_of(centroidal_momentum(system.exact_model, *kinematics)));
+  }
   return out;
 }
 
@@ -115,7 +169,33 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
     const P& e = d[k];
     out.cost += P(cost.tangent_weight(frame, k)) * e * e;
   }
+  const auto square_of = [](const Vec3<P>& a, const Eigen::Vector3d& b) {
+    const Vec3<P> e = a - Vec3<P>{P(b.x()), P(b.y()), P(b.z())};
+    return dot(e, e);
+  };
+  if (cost.momentum_weight(frame, 0) > 0.0 || cost.momentum_weight(frame, 3) > 0.0) {
+    const CentroidalMomentum<P> now = centroidal_momentum(system.model, scratch);
+    const Vector6d& goal = cost.momentum[frame];
+    out.cost += P(cost.momentum_weight(frame, 0)) * square_of(now.linear, goal.head<3>()) +
+                P(cost.momentum_weight(frame, 3)) * square_of(now.angular, goal.tail<3>());
+  }
+  if (cost.weights.slip > 0.0) {
+    const Array<Vec3<P>, kFootPoints> velocities = sole_velocities(system, scratch);
+    for (int point = 0; point < kFootPoints; ++point) {
+      const Vec3<P>& v = velocities[point];
+      out.cost += P(cost.slip_weight(frame, point)) * fma(v.x, v.x, v.y * v.y);
+    }
+  }
   return out;
+}
+
+Array<double, kDofs> target_distances(const System& system, const Cost& cost, int frame,
+                                      const State<double>& x, const Control& u) {
+  const Tangent<double> d = difference(x, system.at(frame));
+  Array<double, kDofs> e;
+  for (int k = 0; k < kDofs; ++k)
+    e[k] = static_cast<double>(u[k]) - d[kJointRotation + k] - cost.lead[k] * d[kJointVelocity + k];
+  return e;
 }
 
 double control_cost(const System& system, const Cost& cost, const Control& u, const Control& before) {
@@ -146,18 +226,16 @@ StateQuadratic state_quadratic(const System& system, const Cost& cost, int frame
   out.value = error.dot(weight.cwiseProduct(error));
   out.gradient = Eigen::VectorXd::Zero(kTangent);
   out.gradient.head(kPositions) = 2.0 * weighted.transpose() * error;
-  out.position_hessian = 2.0 * J.transpose() * weighted;
-  out.velocity_hessian.resize(kPositions);
+  out.hessian = Eigen::MatrixXd::Zero(kTangent, kTangent);
+  out.hessian.topLeftCorner(kPositions, kPositions) = 2.0 * J.transpose() * weighted;
   const Tangent<double> d = difference(x, cost.goal[frame]);
   for (int k = kRootRotation; k < kTangent; ++k) {
     const double w = cost.tangent_weight(frame, k), e = d[k];
     out.value += w * e * e;
     out.gradient[k] += 2.0 * w * e;
-    if (k < kPositions)
-      out.position_hessian(k, k) += 2.0 * w;
-    else
-      out.velocity_hessian[k - kPositions] = 2.0 * w;
+    out.hessian(k, k) += 2.0 * w;
   }
+  add_velocity_terms(system, cost, frame, x, out);
   return out;
 }
 

@@ -40,7 +40,7 @@ List<Eigen::MatrixXf> feedback_gains(const System& system, const Cost& cost, con
     const Trajectory block = piece(motion, first, last);
     build_models(problem, block, control.threads, models, [&](int k) {
       const int t = first + k;
-      if (t == n - 1) sweep.value = last_value(models.back().cost);
+      if (t == n - 1) sweep.value = last_value(problem, block, models.back().cost);
       const SweepResult step = sweep_frame(problem, motion, t, models[k], sweep, law);
       if (curvature) {
         const Eigen::MatrixXd Quu = sweep.stage.H.bottomRightCorner(system.controls(), system.controls());

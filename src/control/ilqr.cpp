@@ -11,6 +11,25 @@
 namespace mimicx::control {
 namespace {
 
+/// Adds the cost of the torques at frame t of a trajectory, a function of z = (x, w).
+template <class Matrix>
+void add_torques(const ControlProblem& problem, const Trajectory& trajectory, int t, double factor, Matrix& H,
+                 Eigen::VectorXd& g) {
+  const Cost& cost = problem.cost;
+  if (!(cost.weights.torque > 0.0)) return;
+  const Array<double, kDofs> e =
+      target_distances(problem.system, cost, trajectory.begin + t, trajectory.x[t], trajectory.previous(t));
+  for (int k = 0; k < kDofs; ++k) {
+    const double weight = 2.0 * factor * cost.elastic[k];
+    const Array<int, 3> at = {kJointRotation + k, kJointVelocity + k, kTangent + k};
+    const Array<double, 3> by = {-1.0, -cost.lead[k], 1.0};  // derivatives of e_k
+    for (int i = 0; i < 3; ++i) {
+      g[at[i]] += weight * by[i] * e[k];
+      for (int j = 0; j < 3; ++j) H(at[i], at[j]) += weight * by[i] * by[j];
+    }
+  }
+}
+
 /// The part of a frame's cost that is quadratic in (x, w, u).
 void stage_cost(const ControlProblem& problem, const Trajectory& trajectory, int t,
                 const StateQuadratic& state, StageCost& out) {
@@ -21,8 +40,7 @@ void stage_cost(const ControlProblem& problem, const Trajectory& trajectory, int
   out.g.setZero(kMemory + controls);
   if (t > 0) {  // the first state is fixed
     out.g.head(kTangent) = state.gradient;
-    out.H.topLeftCorner(kPositions, kPositions) = state.position_hessian;
-    out.H.diagonal().segment(kPositions, kPositions) = state.velocity_hessian;
+    out.H.topLeftCorner(kTangent, kTangent) = state.hessian;
   }
   const Control& now = trajectory.u[t];
   const Control& before = trajectory.previous(t);
@@ -39,6 +57,7 @@ void stage_cost(const ControlProblem& problem, const Trajectory& trajectory, int
     out.g[u + k] = 2.0 * weight * static_cast<double>(now[k]);
     out.H(u + k, u + k) = 2.0 * weight;
   }
+  if (t > 0) add_torques(problem, trajectory, t, 1.0, out.H, out.g);
 }
 
 }  // namespace
@@ -67,11 +86,13 @@ void build_models(const ControlProblem& problem, const Trajectory& trajectory, i
   });
 }
 
-ValueFunction last_value(const StateQuadratic& last) {
+ValueFunction last_value(const ControlProblem& problem, const Trajectory& trajectory,
+                         const StateQuadratic& last) {
   ValueFunction value{Eigen::MatrixXd::Zero(kMemory, kMemory), Eigen::VectorXd::Zero(kMemory)};
-  value.V.topLeftCorner(kPositions, kPositions) = last.position_hessian;
-  value.V.diagonal().segment(kPositions, kPositions) = last.velocity_hessian;
+  value.V.topLeftCorner(kTangent, kTangent) = last.hessian.selfadjointView<Eigen::Lower>();
   value.v.head(kTangent) = last.gradient;
+  const int n = trajectory.size();
+  add_torques(problem, trajectory, n, problem.cost.last_weight(trajectory.begin + n), value.V, value.v);
   return value;
 }
 
@@ -101,7 +122,7 @@ struct BackwardSweep {
       out.laws.resize(n);
       out.positive = true;
       out.decrease = 0;
-      state.value = last_value(models[n].cost);
+      state.value = last_value(problem, trajectory, models[n].cost);
     }
     if (!out.positive) return;
     const SweepResult step = sweep_frame(problem, trajectory, t, models[t], state, out.laws[t]);

@@ -48,8 +48,9 @@ struct SweepState {
   RiccatiScratch<float> scratch = {};
 };
 
-/// The value of a trajectory's last state.
-ValueFunction last_value(const StateQuadratic& last);
+/// The value of a trajectory's last state. @param last  the model of its cost
+ValueFunction last_value(const ControlProblem& problem, const Trajectory& trajectory,
+                         const StateQuadratic& last);
 
 /// One frame backwards: the law at frame t of the trajectory. @param state  after frame t + 1
 SweepResult sweep_frame(const ControlProblem& problem, const Trajectory& trajectory, int t,

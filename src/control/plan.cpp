@@ -127,7 +127,7 @@ void fill(const System& system, const Trajectory& motion, Plan& plan) {
 }  // namespace
 
 Plan make_plan(const System& system, const PlanConfig& config, const PlanControl& control) {
-  const Cost cost = make_cost(system, config.weights, config.certainty);
+  const Cost cost = make_cost(system, config.weights, config.factors);
   Plan plan;
   const Attempt attempt{system, config, control, plan};
   HorizonResult found = system.assisted ? plan_with_assistance(attempt, cost).found

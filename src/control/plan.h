@@ -25,7 +25,7 @@ namespace mimicx::control {
 
 struct PlanConfig {
   CostWeights weights;
-  List<Certainty> certainty;  ///< [frames], or empty
+  List<FrameFactors> factors;  ///< [frames], or empty (make_cost)
   HorizonConfig horizon;
   bool assisted_stages = true;  ///< if planning fails, plan again with assistive forces
   double stiffening = 8.0;      ///< factor on the cost of assistive forces per stage, initially

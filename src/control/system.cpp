@@ -16,6 +16,10 @@ System make_system(const Character& character, const SimulationConfig& config, L
   System system;
   system.model = make_model<float>(character, config);
   system.exact_model = make_model<double>(character, config);
+  for (int k = 0; k < kFootPoints; ++k) {
+    const ContactPoint& point = character.contact_points[k];
+    system.sole[k] = {point.body, sole_point(point)};
+  }
   system.mass = character.total_mass();
   system.fps = fps;
   system.substeps = static_cast<int>(std::lround(substeps));

@@ -32,16 +32,23 @@ inline constexpr double kAssistanceRadius = 0.3;
 /// the assistive accelerations in world axes, linear and angular, zero in an unassisted system.
 using Control = Array<float, kMaxControls>;
 
+/// A point of a sole, fixed to its body.
+struct SolePoint {
+  int body;
+  Vector3d p_B;  ///< m
+};
+
 struct System {
   Model<float> model;
-  Model<double> exact_model;          ///< the same for the analytic derivatives
-  double mass = 0;                    ///< of the whole character, kg
-  double fps = 30;                    ///< frames per second
-  int substeps = 8;                   ///< physics steps per frame
-  double max_residual = 2.5;          ///< residuals beyond are clamped, rad
-  bool velocity_feed_forward = true;  ///< PD damps towards the reference's joint velocity
-  bool assisted = false;              ///< has assistive forces
-  List<State<double>> reference;      ///< [frames]
+  Model<double> exact_model;           ///< the same for the analytic derivatives
+  Array<SolePoint, kFootPoints> sole;  ///< left foot, then right (character.h)
+  double mass = 0;                     ///< of the whole character, kg
+  double fps = 30;                     ///< frames per second
+  int substeps = 8;                    ///< physics steps per frame
+  double max_residual = 2.5;           ///< residuals beyond are clamped, rad
+  bool velocity_feed_forward = true;   ///< PD damps towards the reference's joint velocity
+  bool assisted = false;               ///< has assistive forces
+  List<State<double>> reference;       ///< [frames]
 
   int frames() const { return static_cast<int>(reference.size()); }
   int controls() const { return assisted ? kMaxControls : kDofs; }

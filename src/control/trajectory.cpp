@@ -73,9 +73,10 @@ Fan roll_out(const System& system, const Cost& cost, const Trajectory& nominal,
     }
     const MaskOf<P> wrong = advance(system, from, to, assistance, x, *scratch);
     const LaneCost now = state_cost(system, cost, frame + 1, x, *scratch);
+    const auto torques = torque_cost(system, cost, frame + 1, x, [&](int k, int lane) { return u(k, lane); });
     const double weight = t + 1 == n ? cost.last_weight(frame + 1) : 1.0;
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double value = weight * static_cast<double>(now.cost[lane]);
+      const double value = weight * (static_cast<double>(now.cost[lane]) + torques[lane]);
       const double distance = std::sqrt(static_cast<double>(now.worst[lane]));
       const bool broken = wrong[lane] != 0 || !std::isfinite(value);
       fan.cost[lane] +=

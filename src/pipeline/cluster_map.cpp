@@ -53,7 +53,7 @@ void add_clip(const record::RunFolder& folder, const record::SequenceEntry& entr
   if (entry.output.empty() || !std::filesystem::exists(file)) return;
   try {
     const motion::PreparationConfig as_it_is{
-        .separate = false, .level_feet = false, .ground = false, .bridge_flagged = false};
+        .separate = false, .level_feet = false, .ground = false, .plant = false, .bridge_flagged = false};
     const options::MotionFeatures features =
         options::motion_features(motion::prepare_reference(motion::read_clip(file), as_it_is, nullptr));
     map.clips.push_back({map.place(features), options::nearest_cluster(clusters, features), "", row});

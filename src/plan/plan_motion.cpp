@@ -4,12 +4,11 @@
 #include <optional>
 
 #include "control/gains.h"
-#include "core/elementary.h"
 #include "core/file.h"
 #include "core/units.h"
 #include "files/plan_file.h"
-#include "motion/prepare/limb_glitches.h"
 #include "plan/plan_failure.h"
+#include "plan/reference_factors.h"
 #include "run/method.h"
 
 namespace mimicx::plan {
@@ -54,7 +53,7 @@ void leave_gains(const motion::Reference& reference, const control::PlanConfig& 
   std::filesystem::remove(file);
   if (!watch.job.gains || stored.plan.ending != control::Ending::kFollowed) return;
   const control::System system = system_of(reference, stored);
-  const control::Cost cost = control::make_cost(system, config.weights, config.certainty);
+  const control::Cost cost = control::make_cost(system, config.weights, config.factors);
   List<Eigen::MatrixXf> curvature;
   files::StoredGains feedback;
   feedback.gains = control::feedback_gains(system, cost, control::trajectory_of(stored.plan), {},
@@ -107,33 +106,13 @@ record::SequenceEnding ending_of(const control::Plan& plan) {
 
 }  // namespace
 
-List<control::Certainty> certainty_of(const motion::Reference& reference, double plausible) {
-  if (plausible == 0.0) return {};
-  control::Certainty sure;
-  sure.fill(1.0f);
-  List<control::Certainty> certainty(reference.frames.size(), sure);
-  for (int t = 1; t + 1 < reference.size(); ++t) {
-    Array<double, kLimbs> a;
-    for (int limb = 0; limb < kLimbs; ++limb) a[limb] = motion::limb_acceleration(reference.poses, limb, t);
-    for (int body = 0; body < kBodies; ++body) {
-      const double excess = a[kLimbOf[body]] * reference.fps * reference.fps / plausible;
-      const auto c = static_cast<float>(excess > 1.0 ? pow(excess, -4) : 1.0);
-      for (int near : {t - 1, t, t + 1}) certainty[near][body] = std::min(certainty[near][body], c);
-    }
-  }
-  for (int t = 0; t < reference.size(); ++t)
-    if (reference.flagged[t])
-      for (float& c : certainty[t]) c = std::min(c, kBridged);
-  return certainty;
-}
-
 run::SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                      const run::SequenceJob& job, control::Plan* planned) {
   run::SimulatedSequence made;
   made.method = "plan";
   run::JobWatch watch{job};
   control::PlanConfig settings = config.plan;
-  settings.certainty = certainty_of(reference, config.plan.plausible_acceleration);
+  settings.factors = factors_of(reference, job.needs, config.plan);
   std::optional<files::StoredPlan> stored = finished_plan(job);
   if (!stored) {
     stored = make(reference, config.simulation, settings, watch);

@@ -10,7 +10,8 @@ namespace mimicx::plan {
 /// (plan_motion.h).
 struct MotionPlanConfig : control::PlanConfig {
   double plausible_acceleration =
-      300.0;  ///< a₀ of the certainty, m/s²; 0: the reference is certain everywhere
+      300.0;                   ///< a₀ of the certainty, m/s²; 0: the reference is certain everywhere
+  double feasible_need = 0.1;  ///< f₀ of the momentum's factor, body weights
 };
 
 /// Everything that a plan depends on.
@@ -28,6 +29,13 @@ void visit_settings(MotionPlanConfig& config, const auto& visit) {
   visit("plan_root_velocity", w.root_velocity, 0, 1e9, "weight of the pelvis' velocity, s²/m²");
   visit("plan_root_spin", w.root_spin, 0, 1e9, "weight of the pelvis' angular velocity, s²/rad²");
   visit("plan_joint_velocity", w.joint_velocity, 0, 1e9, "weight of a joint's velocity, s²/rad²");
+  visit("plan_com_velocity", w.com_velocity, 0, 1e9, "weight of the centre of mass' velocity, s²/m²");
+  visit("plan_angular_momentum", w.angular_momentum, 0, 1e9,
+        "weight of the angular momentum about the centre of mass, per mass, s²/m⁴");
+  visit("plan_slip", w.slip, 0, 1e9, "weight of the velocity of standing soles, s²/m²");
+  visit("plan_torque", w.torque, 0, 1e9, "weight of the joints' elastic torques per mass, s⁴/m⁴");
+  visit("plan_feasible_need", config.feasible_need, 1e-6, 1e9,
+        "external force of a frame, in body weights, at which its momentum counts a quarter");
   visit("plan_residual", w.residual, 1e-9, 1e9, "weight of a control, 1/rad²");
   visit("plan_change", w.change, 0, 1e9, "weight of a control's change per frame, 1/rad²");
   visit("plan_last", w.last, 1, 1e9, "factor on the state's cost in a window's last frame");

@@ -64,6 +64,7 @@ Table preparation_words() {
       {"hinge_residual_mean_mm", {"moved by knees and elbows as hinges, on average", "mm", ""}},
       {"hinge_residual_max_mm", {"moved by knees and elbows as hinges, at most", "mm", ""}},
       {"arms_moved_mm", {"arms moved out of the body by", "mm", ""}},
+      {"feet_planted_mm", {"joints moved to plant the feet by", "mm", ""}},
       {"foot_level_deg", {"feet turned level by", "°", ""}},
       {"flagged_frames", {"implausible frames that were bridged", "", ""}},
       {"limb_frames", {"frames with a limb that was bridged", "", ""}},

@@ -8,9 +8,11 @@
 #include "motion/prepare/arm_separation.h"
 #include "motion/prepare/feet.h"
 #include "motion/prepare/floor_correction.h"
+#include "motion/prepare/foot_planting.h"
 #include "motion/prepare/glitches.h"
 #include "motion/prepare/hinge.h"
 #include "motion/prepare/limb_glitches.h"
+#include "motion/prepare/stance.h"
 #include "motion/resample.h"
 #include "motion/surface_points.h"
 
@@ -136,6 +138,8 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
     if (r.foot_level_deg > 0.0) forward(out);
   }
   if (config.ground) align_with_floor(r.foot_level_deg > 0.0, clip.on_floor, out, r);
+  out.stance = find_stance(out.character, out.poses, out.fps);
+  if (config.ground && config.plant) r.feet_planted_mm = kMm * plant_feet(out);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;

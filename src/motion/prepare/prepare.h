@@ -18,10 +18,11 @@ struct PreparationReport {
   double hinge_residual_mean_mm = 0, hinge_residual_max_mm = 0;  ///< docs/method.md §2
   /// Distance of the joint positions from those of the input, on the body of the clip.
   double change_mean_mm = 0, change_max_mm = 0;
-  double arms_moved_mm = 0;   ///< largest distance by which separate_arms moved a joint
-  double foot_level_deg = 0;  ///< largest constant rotation by which level_feet turned a sole or toes
-  int flagged_frames = 0;     ///< frames of glitches (glitches.h)
-  int limb_frames = 0;        ///< frames of glitches of single limbs (limb_glitches.h), summed over the limbs
+  double arms_moved_mm = 0;    ///< largest distance by which separate_arms moved a joint
+  double feet_planted_mm = 0;  ///< largest distance by which plant_feet moved a joint
+  double foot_level_deg = 0;   ///< largest constant rotation by which level_feet turned a sole or toes
+  int flagged_frames = 0;      ///< frames of glitches (glitches.h)
+  int limb_frames = 0;  ///< frames of glitches of single limbs (limb_glitches.h), summed over the limbs
   std::vector<std::string> notes;
 };
 
@@ -30,6 +31,7 @@ struct PreparationConfig {
   bool separate = true;        ///< move arms out of the body
   bool level_feet = true;      ///< remove a constant error in the pitch and roll of standing feet
   bool ground = true;          ///< align with the floor
+  bool plant = true;           ///< put standing feet on one place of the floor, if `ground`
   bool bridge_flagged = true;  ///< interpolate over implausible frames
 };
 

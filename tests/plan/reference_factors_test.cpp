@@ -1,6 +1,8 @@
-#include "plan/plan_motion.h"
+#include "plan/reference_factors.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "motion/prepare/prepare.h"
 #include "motion/synthetic_clip.h"
@@ -18,7 +20,8 @@ TEST(Certainty, OrdinaryMotionIsCertain) {
   ASSERT_EQ(certainty.count(), reference.size());
   for (const control::Certainty& frame : certainty)
     for (float c : frame) EXPECT_EQ(c, 1.0f);
-  EXPECT_TRUE(certainty_of(reference, 0.0).empty());
+  for (const control::Certainty& frame : certainty_of(reference, 0.0))
+    for (float c : frame) EXPECT_EQ(c, 1.0f);
 }
 
 // A foot that is d away for one frame has accelerations of d, 2 d and d times the square of the frame rate.
@@ -47,6 +50,18 @@ TEST(Certainty, BridgedFramesAreUncertain) {
     EXPECT_EQ(certainty[20][body], kBridged);
     EXPECT_EQ(certainty[21][body], 1.0f);
   }
+}
+
+TEST(MomentumFactors, FallWithTheForceThatAFrameNeeds) {
+  audit::PoseNeeds needs;
+  needs.weight = 700.0;
+  needs.fps = 30.0;
+  needs.frames.resize(20);
+  needs.frames[10].force = Vector3d(0.0, 0.0, 140.0);  // a fifth of the weight
+  const List<float> factors = momentum_factors(needs, 20, 0.1);
+  for (int t = 0; t < 20; ++t)
+    EXPECT_NEAR(factors[t], std::abs(t - 10) <= 3 ? 1.0 / 25.0 : 1.0, 1e-6) << t;  // (1 + 2²)⁻²
+  for (float m : momentum_factors({}, 5, 0.1)) EXPECT_EQ(m, 1.0f);
 }
 
 }  // namespace

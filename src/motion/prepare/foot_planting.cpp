@@ -1,0 +1,240 @@
+#include "motion/prepare/foot_planting.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/so3.h"
+#include "motion/prepare/stance.h"
+
+namespace mimicx::motion {
+namespace {
+
+constexpr double kSigmaHeight = 0.001;                            ///< m, of a standing point
+constexpr double kSigmaSlip = 0.0003;                             ///< m per frame, of a standing point
+constexpr double kSigmaDepth = 0.002;                             ///< m, of a point below the floor
+constexpr double kSigmaPlace = 0.02, kSigmaHeightOfPelvis = 0.1;  ///< m, of the pelvis
+constexpr double kSigmaPlaceBend = 0.0005;  ///< m, second difference at 30 frames per second
+constexpr double kSigmaTurn = 0.15;         ///< rad, of a joint
+constexpr double kSigmaTurnBend = 0.01;     ///< rad, second difference at 30 frames per second
+constexpr double kSigmaAside = 0.03;        ///< m, horizontal place of knees and ankles
+constexpr double kPlantedHeight = 0.003, kPlantedSlip = 0.001;  ///< m, m per frame: nothing to correct
+constexpr int kIterations = 6;
+constexpr double kLargestStep = 0.2, kSmallestStep = 1e-4;  ///< m and rad, of one unknown in one iteration
+
+/// Unknowns of a frame: place of the pelvis (3), then per leg hip (3), knee (1), ankle (3) and the toes'
+/// bend (1).
+constexpr int kPlace = 3, kLegUnknowns = 8, kUnknowns = kPlace + 2 * kLegUnknowns;
+using Correction = Eigen::Matrix<double, kUnknowns, 1>;
+using PointJacobian = Eigen::Matrix<double, 3, kUnknowns>;
+
+/// A joint of a leg with its unknowns.
+struct Turn {
+  int body, first, count;
+};
+constexpr Array<Turn, 8> kTurns = {{{{kLeftHip, 3, 3},
+                                     {kLeftKnee, 6, 1},
+                                     {kLeftAnkle, 7, 3},
+                                     {kLeftFoot, 10, 1},
+                                     {kRightHip, 11, 3},
+                                     {kRightKnee, 14, 1},
+                                     {kRightAnkle, 15, 3},
+                                     {kRightFoot, 18, 1}}}};
+
+Vector3d axis_of(int body) { return is_hinge(body) ? hinge_axis(body) : Vector3d::UnitX(); }
+
+ReferenceFrame corrected(const ReferenceFrame& frame, const Correction& c) {
+  ReferenceFrame out = frame;
+  out.p_root += c.head<kPlace>();
+  for (const Turn& turn : kTurns) {
+    const Vector3d by =
+        turn.count == 3 ? Vector3d(c.segment<3>(turn.first)) : Vector3d(c[turn.first] * axis_of(turn.body));
+    out.q[turn.body] = frame.q[turn.body] * exp_map(by);
+  }
+  return out;
+}
+
+/// d p / d c of a point that is fixed to a body of a leg. Turns are small: exp(c + δ) ≈ exp(c) exp(δ).
+PointJacobian point_jacobian(const BodyPoses& poses, int body, const Vector3d& p) {
+  PointJacobian J = PointJacobian::Zero();
+  J.leftCols<kPlace>().setIdentity();
+  for (const Turn& turn : kTurns) {
+    int above = body;
+    while (above > turn.body) above = kParents[above];
+    if (above != turn.body) continue;
+    const Vector3d arm = p - poses.p_WB[turn.body];
+    const Matrix3d R = poses.q_WB[turn.body].toRotationMatrix();
+    if (turn.count == 1) J.col(turn.first) = (R * axis_of(turn.body)).cross(arm);
+    for (int k = 0; turn.count == 3 && k < 3; ++k) J.col(turn.first + k) = R.col(k).cross(arm);
+  }
+  return J;
+}
+
+/// Normal equations of one iteration: blocks on the diagonal, of neighbours, and of the frames after them.
+struct Equations {
+  using Block = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+  PerFrame<Block> diagonal, next, second;
+  Eigen::VectorXd rhs;
+
+  explicit Equations(int frames)
+      : diagonal(frames, Block::Zero()),
+        next(frames, Block::Zero()),
+        second(frames, Block::Zero()),
+        rhs(Eigen::VectorXd::Zero(frames * kUnknowns)) {}
+
+  auto right(int t) { return rhs.segment<kUnknowns>(t * kUnknowns); }
+
+  /// A residual of one frame.
+  void add(int t, const Eigen::RowVectorXd& J, double residual, double sigma) {
+    const double weight = 1.0 / (sigma * sigma);
+    diagonal[t] += weight * J.transpose() * J;
+    right(t) -= weight * residual * J.transpose();
+  }
+  /// A residual of the difference of two neighbours: J' c' − J c.
+  void add(int t, const Eigen::RowVectorXd& J, const Eigen::RowVectorXd& J_next, double residual,
+           double sigma) {
+    const double weight = 1.0 / (sigma * sigma);
+    add(t, -J, residual, sigma);
+    add(t + 1, J_next, residual, sigma);
+    next[t] -= weight * J_next.transpose() * J;
+  }
+  /// Second differences of all unknowns.
+  void add_bend(const PerFrame<Correction>& c, int t, const Correction& sigma) {
+    const Correction weight = sigma.cwiseProduct(sigma).cwiseInverse();
+    const Correction residual = weight.cwiseProduct(c[t] - 2.0 * c[t + 1] + c[t + 2]);
+    const Array<double, 3> share = {1.0, -2.0, 1.0};
+    for (int i = 0; i < 3; ++i) {
+      right(t + i) -= share[i] * residual;
+      diagonal[t + i].diagonal() += share[i] * share[i] * weight;
+    }
+    next[t].diagonal() -= 2.0 * weight;
+    next[t + 1].diagonal() -= 2.0 * weight;
+    second[t].diagonal() += weight;
+  }
+
+  Eigen::VectorXd solve() const {
+    const int frames = diagonal.count();
+    std::vector<Eigen::Triplet<double>> entries;  // the lower triangle
+    const auto put = [&](int row, int column, const Block& block) {
+      for (int j = 0; j < kUnknowns; ++j)
+        for (int i = row == column ? j : 0; i < kUnknowns; ++i)
+          if (block(i, j) != 0.0)
+            entries.emplace_back(row * kUnknowns + i, column * kUnknowns + j, block(i, j));
+    };
+    for (int t = 0; t < frames; ++t) {
+      put(t, t, diagonal[t]);
+      if (t + 1 < frames) put(t + 1, t, next[t]);
+      if (t + 2 < frames) put(t + 2, t, second[t]);
+    }
+    Eigen::SparseMatrix<double> A(rhs.size(), rhs.size());
+    A.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor(
+        A);
+    return factor.solve(rhs);
+  }
+};
+
+constexpr Array<int, 4> kKneesAndAnkles = {kLeftKnee, kLeftAnkle, kRightKnee, kRightAnkle};
+
+/// Points of the legs with their derivatives.
+struct Legs {
+  SolePositions sole;
+  Array<PointJacobian, kFootPoints> sole_J;
+  Array<Vector3d, kKneesAndAnkles.size()> joint;
+  Array<PointJacobian, kKneesAndAnkles.size()> joint_J;
+};
+
+Legs legs_of(const Character& character, const ReferenceFrame& frame) {
+  const BodyPoses poses = forward_kinematics(character, frame.p_root, frame.q);
+  Legs legs;
+  legs.sole = sole_positions(character, poses);
+  for (int k = 0; k < kFootPoints; ++k)
+    legs.sole_J[k] = point_jacobian(poses, character.contact_points[k].body, legs.sole[k]);
+  for (std::size_t k = 0; k < kKneesAndAnkles.size(); ++k) {
+    const int body = kKneesAndAnkles[k];
+    legs.joint[k] = poses.p_WB[body];
+    legs.joint_J[k] = point_jacobian(poses, body, legs.joint[k]);
+  }
+  return legs;
+}
+
+/// The same size for all unknowns of a kind.
+Correction sizes(double place, double turn) {
+  Correction out = Correction::Constant(turn);
+  out.head<kPlace>().setConstant(place);
+  return out;
+}
+
+Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Correction>& c) {
+  const int frames = reference.size();
+  const double rate = 900.0 / (reference.fps * reference.fps);
+  const Correction size = sizes(kSigmaPlace, kSigmaTurn),
+                   bend = rate * sizes(kSigmaPlaceBend, kSigmaTurnBend);
+  Equations equations(frames);
+  Legs before;
+  for (int t = 0; t < frames; ++t) {
+    const Legs now = legs_of(reference.character, corrected(reference.frames[t], c[t]));
+    for (int i = 0; i < kUnknowns; ++i) equations.add(t, Correction::Unit(i).transpose(), c[t][i], size[i]);
+    if (t + 2 < frames) equations.add_bend(c, t, bend);
+    for (std::size_t k = 0; k < kKneesAndAnkles.size(); ++k)
+      for (int axis = 0; axis < 2; ++axis)
+        equations.add(t, now.joint_J[k].row(axis),
+                      (now.joint[k] - reference.poses[t].p_WB[kKneesAndAnkles[k]])[axis], kSigmaAside);
+    for (int k = 0; k < kFootPoints; ++k) {
+      const bool stands = reference.stance[t][k];
+      const Vector3d& p = now.sole[k];
+      if (stands || p.z() < 0.0)
+        equations.add(t, now.sole_J[k].row(2), p.z(), stands ? kSigmaHeight : kSigmaDepth);
+      if (t == 0 || !stands || !reference.stance[t - 1][k]) continue;
+      for (int axis = 0; axis < 2; ++axis)
+        equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
+                      kSigmaSlip);
+    }
+    before = now;
+  }
+  return equations.solve();
+}
+
+/// Whether every standing point is on the floor and stays where it is.
+bool is_planted(const Reference& reference) {
+  SolePositions before;
+  for (int t = 0; t < reference.size(); ++t) {
+    const SolePositions p = sole_positions(reference.character, reference.poses[t]);
+    for (int k = 0; k < kFootPoints; ++k) {
+      if (!reference.stance[t][k]) continue;
+      if (std::abs(p[k].z()) > kPlantedHeight) return false;
+      if (t > 0 && reference.stance[t - 1][k] && (p[k] - before[k]).head<2>().norm() > kPlantedSlip)
+        return false;
+    }
+    before = p;
+  }
+  return true;
+}
+
+}  // namespace
+
+double plant_feet(Reference& reference) {
+  if (is_planted(reference)) return 0.0;
+  const int frames = reference.size();
+  PerFrame<Correction> c(frames, Correction::Zero());
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Eigen::VectorXd step = step_of(reference, c);
+    const double largest = step.cwiseAbs().maxCoeff();
+    const double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestStep));
+    for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);
+    if (largest < kSmallestStep) break;
+  }
+  double moved = 0.0;
+  for (int t = 0; t < frames; ++t) {
+    reference.frames[t] = corrected(reference.frames[t], c[t]);
+    const BodyPoses now =
+        forward_kinematics(reference.character, reference.frames[t].p_root, reference.frames[t].q);
+    for (int body = 0; body < kBodies; ++body)
+      moved = std::max(moved, (now.p_WB[body] - reference.poses[t].p_WB[body]).norm());
+    reference.poses[t] = now;
+  }
+  return moved;
+}
+
+}  // namespace mimicx::motion

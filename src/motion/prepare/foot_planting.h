@@ -1,0 +1,20 @@
+/// Planting of the feet: a standing foot becomes one place on the floor.        docs/method.md, "Repairs"
+///
+/// References hover over the floor by millimetres to centimetres and slide on it. A simulated body that
+/// follows them gets no support where it needs it, touches down late, and slides itself. So the legs and the
+/// place of the pelvis are corrected, over the whole motion at once, until every standing point of the soles
+/// (stance.h) is on the floor and stays there, no point is below it, and the corrections are small and
+/// smooth.
+///
+/// What it does not do: it does not decide who stands (stance.h), and does not change the trunk's rotation,
+/// arms and head.
+#pragma once
+
+#include "motion/reference.h"
+
+namespace mimicx::motion {
+
+/// Corrects `frames` and `poses` by the motion's `stance`. @return largest distance that a joint moved, m
+double plant_feet(Reference& reference);
+
+}  // namespace mimicx::motion

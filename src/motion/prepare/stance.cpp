@@ -1,0 +1,118 @@
+#include "motion/prepare/stance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace mimicx::motion {
+namespace {
+
+constexpr double kLow = 0.025, kHigh = 0.035;     ///< m
+constexpr double kSlow = 0.10, kFast = 0.15;      ///< m/s, over the floor
+constexpr double kLevel = 0.04, kRising = 0.06;   ///< m/s, up or down
+constexpr double kSkating = 1.0, kLeaving = 0.3;  ///< m/s: a part that carries the body is no faster
+constexpr double kFlight = 0.6;    ///< downward acceleration of a body that nothing carries, in g
+constexpr double kParabola = 0.1;  ///< s
+constexpr int kFewestFrames = 3;
+constexpr int kPointsPerPart = 2;  ///< inner and outer
+
+/// Height (m), speed over the floor and vertical speed (m/s) of a part of a foot: of the middle of its
+/// points.
+struct PartMotion {
+  PerFrame<double> height, speed, rise;
+};
+
+PartMotion motion_of(const PerFrame<SolePositions>& p, int first, double fps) {
+  const auto middle = [&](int t) { return Vector3d(0.5 * (p[t][first] + p[t][first + 1])); };
+  PartMotion out;
+  for (int t = 0; t < p.count(); ++t) {
+    const int before = std::max(t - 1, 0), after = std::min(t + 1, p.count() - 1);
+    const double seconds = std::max(after - before, 1) / fps;
+    out.height.push_back(middle(t).z());
+    const Vector3d moved = middle(after) - middle(before);
+    out.speed.push_back(moved.head<2>().norm() / seconds);
+    out.rise.push_back(std::abs(moved.z()) / seconds);
+  }
+  return out;
+}
+
+PerFrame<bool> standing(const PartMotion& part) {
+  const int frames = part.height.count();
+  PerFrame<bool> stands(frames, false);
+  for (int t = 0; t < frames;) {
+    if (!(part.height[t] < kLow && part.speed[t] < kSlow && part.rise[t] < kLevel)) {
+      ++t;
+      continue;
+    }
+    const auto goes_on = [&](int k) {
+      return part.height[k] < kHigh && part.speed[k] < kFast && part.rise[k] < kRising;
+    };
+    int first = t, last = t;
+    while (first > 0 && !stands[first - 1] && goes_on(first - 1)) --first;
+    while (last + 1 < frames && goes_on(last + 1)) ++last;
+    if (last - first + 1 >= kFewestFrames) std::fill(stands.begin() + first, stands.begin() + last + 1, true);
+    t = last + 1;
+  }
+  return stands;
+}
+
+/// Frames in which the floor carries a share of the weight: by the acceleration of the centre of mass, that
+/// of the least-squares parabola over 2m + 1 frames (audit/pose_needs.h says why).
+PerFrame<bool> carried(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
+  const int frames = poses.count(), m = std::max(2, static_cast<int>(kParabola * fps));
+  PerFrame<double> z;
+  for (const BodyPoses& frame : poses) z.push_back(center_of_mass(character, frame).z());
+  PerFrame<bool> out(frames, true);
+  double norm = 0.0;
+  const double mean = m * (m + 1) / 3.0;
+  for (int j = -m; j <= m; ++j) norm += j * j * (j * j - mean);
+  for (int t = 0; t < frames; ++t) {
+    double second = 0.0;
+    const int middle = std::clamp(t, std::min(m, frames - 1), std::max(frames - 1 - m, 0));
+    for (int j = -m; j <= m; ++j) second += (j * j - mean) * z[std::clamp(middle + j, 0, frames - 1)];
+    const double acceleration = 2.0 * second / norm * fps * fps;
+    out[t] = acceleration > -kFlight * kGravity;
+  }
+  return out;
+}
+
+}  // namespace
+
+SolePositions sole_positions(const Character& character, const BodyPoses& poses) {
+  SolePositions p;
+  for (int k = 0; k < kFootPoints; ++k) {
+    const ContactPoint& point = character.contact_points[k];
+    p[k] = poses.p_WB[point.body] + poses.q_WB[point.body] * sole_point(point);
+  }
+  return p;
+}
+
+PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
+  PerFrame<SolePositions> p;
+  for (const BodyPoses& frame : poses) p.push_back(sole_positions(character, frame));
+  PerFrame<Stance> stance(poses.size());
+  List<PartMotion> parts;
+  for (int first = 0; first < kFootPoints; first += kPointsPerPart) {
+    parts.push_back(motion_of(p, first, fps));
+    const PerFrame<bool> stands = standing(parts.back());
+    for (int t = 0; t < stands.count(); ++t)
+      for (int k = first; k < first + kPointsPerPart; ++k) stance[t][k] = stands[t];
+  }
+  const PerFrame<bool> is_carried = carried(character, poses, fps);
+  for (int t = 0; t < stance.count(); ++t) {
+    if (!is_carried[t] || std::find(stance[t].begin(), stance[t].end(), true) != stance[t].end()) continue;
+    const auto unlikely = [&](const PartMotion& part) {
+      return part.height[t] / kLow + part.speed[t] / kSlow + part.rise[t] / kLevel;
+    };
+    int best = 0;
+    for (int k = 1; k < parts.count(); ++k)
+      if (unlikely(parts[k]) < unlikely(parts[best])) best = k;
+    if (parts[best].height[t] > kHigh || parts[best].speed[t] > kSkating || parts[best].rise[t] > kLeaving)
+      continue;
+    for (int k = 0; k < kPointsPerPart; ++k) stance[t][kPointsPerPart * best + k] = true;
+  }
+  return stance;
+}
+
+}  // namespace mimicx::motion

@@ -1,0 +1,23 @@
+/// Stance: which parts of the feet stand, frame by frame.
+///
+/// Heel, ball and toes of a foot are decided each for themselves: a foot that strikes with its heel or pushes
+/// off with its toes stands with that part alone. A part begins to stand when it is low and slow, and goes on
+/// as long as it is not clearly high or fast (hysteresis), so that noise does not lift it for single frames.
+///
+/// What it does not do: only the floor z = 0 carries feet; a motion must have been put on it
+/// (floor_correction.h).
+#pragma once
+
+#include "motion/reference.h"
+
+namespace mimicx::motion {
+
+/// World positions of the points of the soles, m (character.h).
+using SolePositions = Array<Vector3d, kFootPoints>;
+SolePositions sole_positions(const Character& character, const BodyPoses& poses);
+
+/// A part begins to stand under 30 mm and 0.25 m/s, and ends over 50 mm or 0.4 m/s; it stands for three
+/// frames or not at all. Both points of a part have the same answer.
+PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
+
+}  // namespace mimicx::motion

@@ -1,0 +1,106 @@
+// Standing feet become one place on the floor.
+#include "motion/prepare/foot_planting.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "motion/prepare/prepare.h"
+#include "motion/prepare/stance.h"
+#include "motion/synthetic_clip.h"
+
+namespace mimicx::motion {
+namespace {
+
+Reference exact(const std::string& kind) {
+  return prepare_reference(test::synthetic_clip(kind, 3), {}, nullptr);
+}
+
+void move_pelvis(Reference& reference, const std::function<Vector3d(int)>& by) {
+  for (int t = 0; t < reference.size(); ++t) {
+    reference.frames[t].p_root += by(t);
+    reference.poses[t] =
+        forward_kinematics(reference.character, reference.frames[t].p_root, reference.frames[t].q);
+  }
+}
+
+/// Largest height and largest horizontal step of the standing points, m.
+struct Faults {
+  double height = 0, slip = 0;
+};
+Faults faults_of(const Reference& reference) {
+  Faults worst;
+  SolePositions before;
+  for (int t = 0; t < reference.size(); ++t) {
+    const SolePositions p = sole_positions(reference.character, reference.poses[t]);
+    for (int k = 0; k < kFootPoints; ++k) {
+      if (!reference.stance[t][k]) continue;
+      worst.height = std::max(worst.height, std::abs(p[k].z()));
+      if (t > 0 && reference.stance[t - 1][k])
+        worst.slip = std::max(worst.slip, (p[k] - before[k]).head<2>().norm());
+    }
+    before = p;
+  }
+  return worst;
+}
+
+double largest_distance(const Reference& a, const Reference& b) {
+  double largest = 0.0;
+  for (int t = 0; t < a.size(); ++t)
+    for (int body = 0; body < kBodies; ++body)
+      largest = std::max(largest, (a.poses[t].p_WB[body] - b.poses[t].p_WB[body]).norm());
+  return largest;
+}
+
+TEST(FootPlanting, PlantedMotionStaysUnchanged) {
+  for (const char* kind : {"walk", "squat", "stand"}) {
+    Reference reference = exact(kind);
+    const Reference before = reference;
+    EXPECT_LT(plant_feet(reference), 0.002) << kind;
+    EXPECT_LT(largest_distance(before, reference), 0.002) << kind;
+  }
+}
+
+// The whole body hovers 15 mm over the floor and drifts sideways by 60 mm/s.
+TEST(FootPlanting, PutsHoveringAndSlidingFeetOnOnePlace) {
+  for (const char* kind : {"walk", "squat"}) {
+    const Reference truth = exact(kind);
+    Reference reference = truth;
+    move_pelvis(reference, [](int t) { return Vector3d(0.0, 0.02 * std::sin(0.1 * t), 0.015); });
+    const Faults before = faults_of(reference);
+    const double moved = plant_feet(reference);
+    const Faults after = faults_of(reference);
+    EXPECT_GT(before.height, 0.014) << kind;
+    EXPECT_GT(before.slip, 0.0018) << kind;
+    EXPECT_LT(after.height, 0.003) << kind;
+    EXPECT_LT(after.slip, 0.0008) << kind;
+    EXPECT_LT(moved, 0.06) << kind;
+    EXPECT_LT(largest_distance(truth, reference), 0.05) << kind;
+  }
+}
+
+TEST(FootPlanting, TrunkArmsAndHeadKeepTheirRotations) {
+  Reference reference = exact("walk");
+  const Reference before = reference;
+  move_pelvis(reference, [](int t) { return Vector3d(0.0, 0.02 * std::sin(0.1 * t), 0.015); });
+  plant_feet(reference);
+  for (int t = 0; t < reference.size(); ++t)
+    for (int body : {kPelvis, kSpine1, kSpine3, kHead, kLeftShoulder, kRightElbow})
+      EXPECT_TRUE(reference.frames[t].q[body].isApprox(before.frames[t].q[body], 0.0)) << t << ", " << body;
+}
+
+TEST(FootPlanting, LowersAPelvisSmoothly) {
+  Reference reference = exact("walk");
+  move_pelvis(reference, [](int) { return Vector3d(0.0, 0.0, 0.02); });
+  const Reference before = reference;
+  plant_feet(reference);
+  for (int t = 1; t + 1 < reference.size(); ++t) {
+    const auto change = [&](int k) { return reference.frames[k].p_root.z() - before.frames[k].p_root.z(); };
+    EXPECT_LT(std::abs(change(t - 1) - 2.0 * change(t) + change(t + 1)), 0.001) << t;
+  }
+}
+
+}  // namespace
+}  // namespace mimicx::motion
