@@ -1,6 +1,7 @@
 // One motion's way through the rooms, with its shapes and some of its numbers, for docs/architecture.md:
-//   mimicx adapt --method options data/synthetic/test/noisy/walk_1.npz --budget-samples 1200000 --out
-//   out/walk walkthrough data/synthetic/test/noisy/walk_1.npz data/options out/walk
+//   mimicx adapt --method options --options trained data/synthetic/test/noisy/walk_1.npz
+//     --budget-samples 1200000 --out out/walk
+//   walkthrough data/synthetic/test/noisy/walk_1.npz data/options out/walk
 // Reads, fits and prepares the motion, lets the options of the folder act on it, follows one frame through
 // state, action and reward, makes one iteration of joint fine-tuning, and lists the files that the run left.
 #include <cmath>

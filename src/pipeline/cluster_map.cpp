@@ -30,7 +30,7 @@ constexpr double kWorthSaying = 0.1;  ///< smaller parts of a direction's square
 /// "more speed across the floor, less height of the hips", the largest part first.
 std::string words_of(const Eigen::VectorXd& direction) {
   std::vector<std::pair<double, std::string>> parts;
-  for (std::size_t k = 0; k < options::kFeatureKinds.size(); ++k) {
+  for (int k = 0; k < options::kFeatureKindCount; ++k) {
     const auto part = direction.segment(options::kFeatureKinds[k].first, options::kFeatureKinds[k].entries);
     if (part.squaredNorm() >= kWorthSaying)
       parts.emplace_back(part.squaredNorm(),

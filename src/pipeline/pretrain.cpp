@@ -64,10 +64,9 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
 record::Json settings_json(const PretrainConfig& config) {
   record::Json settings = record::Json::object();
   for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
-  const bool fit = run::correction_of(config.fit, config.as_is) == run::Correction::kKeypoints;
-  settings["fit"] = fit;
-  settings["as_is"] = config.as_is;
-  settings["keypoints"] = fit || config.unfitted_keypoints;
+  for (const auto& [name, value] :
+       run::correction_settings(config.fit, config.as_is, config.unfitted_keypoints))
+    settings[name] = value != 0.0;
   settings["encoder"] = config.use_encoder;
   settings["encoder_steps"] = config.encoder.steps;
   settings["cluster_radius"] = config.clusters.radius;

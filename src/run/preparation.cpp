@@ -51,6 +51,13 @@ Correction correction_of(bool fit, bool as_is) {
   return fit ? Correction::kKeypoints : Correction::kPoses;
 }
 
+NamedValues correction_settings(bool fit, bool as_is, bool keep_keypoints) {
+  const bool fitted = correction_of(fit, as_is) == Correction::kKeypoints;
+  return {{"fit", fitted ? 1.0 : 0.0},
+          {"as_is", as_is ? 1.0 : 0.0},
+          {"keypoints", fitted || keep_keypoints ? 1.0 : 0.0}};
+}
+
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
                               Correction correction, int threads, bool keep_keypoints) {
   PreparedMotion motion;

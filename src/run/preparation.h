@@ -41,6 +41,10 @@ enum class Correction {
 /// @param as_is  correct nothing, regardless of `fit`
 Correction correction_of(bool fit, bool as_is);
 
+/// How motions are corrected, as manifests list it, 0 or 1: `fit`, whether they are moved onto their
+/// keypoints; `as_is`; `keypoints`, whether Eq. 3 sees keypoints.
+NamedValues correction_settings(bool fit, bool as_is, bool keep_keypoints);
+
 /// @param threads         do not influence the result
 /// @param keep_keypoints  an unfitted reference keeps its keypoints for Eq. 3
 /// @throws DataError as reading, fitting and preparing do

@@ -325,10 +325,7 @@ class ParallelRun {
 }  // namespace
 
 NamedValues manifest_settings(const RunConfig& config) {
-  const bool fit = correction_of(config.fit, config.as_is) == Correction::kKeypoints;
-  return {{"fit", fit ? 1.0 : 0.0},
-          {"as_is", config.as_is ? 1.0 : 0.0},
-          {"keypoints", fit || config.unfitted_keypoints ? 1.0 : 0.0}};
+  return correction_settings(config.fit, config.as_is, config.unfitted_keypoints);
 }
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,

@@ -33,7 +33,7 @@ TEST_F(Cli, FailurePrintsItsMotionAndTheNextStep) {
   const Call call = mimicx(command);
   ASSERT_EQ(call.status, 1) << call.text;
   EXPECT_TRUE(std::regex_search(call.text, std::regex("fails at frame [0-9]+"))) << "which frame\n"
-                                                                                << call.text;
+                                                                                 << call.text;
   EXPECT_TRUE(says(call, " m from its reference")) << "which body\n" << call.text;
   EXPECT_TRUE(says(call, "the body hovers")) << "what it asks for\n" << call.text;
   EXPECT_TRUE(says(call, "rejected motion: " + path("run/rejected/a.npz"))) << call.text;

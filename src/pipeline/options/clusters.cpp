@@ -177,7 +177,7 @@ std::string format_kind_shares(const Clusters& clusters) {
   for (int kind = 0; kind < kFeatureKindCount; ++kind) {
     char share[16];
     std::snprintf(share, sizeof share, " %.1f %%", 100.0 * shares[kind]);
-    line += (kind > 0 ? ", " : " ") + std::string(kFeatureKinds[static_cast<std::size_t>(kind)].name) + share;
+    line += (kind > 0 ? ", " : " ") + std::string(kFeatureKinds[kind].name) + share;
   }
   return line + '\n';
 }

@@ -103,7 +103,7 @@ Array<double, kFeatureKindCount> kind_shares(const List<MotionFeatures>& motions
   Array<double, kFeatureKindCount> shares{};
   double all = 0.0;
   for (int i = 0; i < kFeatureKindCount; ++i) {
-    const FeatureKind& kind = kFeatureKinds[static_cast<std::size_t>(i)];
+    const FeatureKind& kind = kFeatureKinds[i];
     for (int k = kind.first; k < kind.first + kind.entries; ++k) {
       double mean = 0.0;
       for (const MotionFeatures& motion : motions) mean += motion[k] / motions.count();

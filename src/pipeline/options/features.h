@@ -23,7 +23,6 @@
 /// What it does not do: the features do not depend on the place, heading or order of a motion's parts.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 
@@ -54,13 +53,13 @@ struct FeatureKind {
 inline constexpr int kFeatureKindCount = 5;
 /// The unit is about the geometric mean of two standard deviations of an entry: that over the 112 synthetic
 /// motions of the options' training, and that over 17 real clips (docs/method.md §6).
-inline constexpr std::array<FeatureKind, kFeatureKindCount> kFeatureKinds = {{
+inline constexpr Array<FeatureKind, kFeatureKindCount> kFeatureKinds = {{{
     {"root_height", kRootHeight, 1, 0.08},                    // m
     {"root_turning", kRootTurning, 1, 0.1},                   // rad²/s²
     {"planar_velocity", kPlanarVelocity, kBodies, 0.45},      // m²/s²
     {"vertical_velocity", kVerticalVelocity, kBodies, 0.13},  // m²/s²
     {"acceleration", kAcceleration, kBodies, 23.0},           // m²/s⁴
-}};
+}}};
 
 /// "root_height", …, "acceleration.right_wrist".
 const Array<std::string, kFeatures>& feature_names();

@@ -59,8 +59,7 @@ motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config) {
   for (const Vector3d& trans : truth.trans) motion.p_root.push_back(trans + rest);
 
   const Character body = make_character(truth.betas);
-  const EstimatedMotion exact = motion;
-  const SeenMotion seen{body, exact.p_root, exact.q, truth.fps};
+  const SeenMotion seen{body, motion.p_root, motion.q, truth.fps};
   motion::Keypoints keypoints = detect_keypoints(seen, camera, config.keypoints, preset, config.seed);
   const CameraPath told = turned_camera(erroneous_camera(camera, config.camera, config.seed, truth.fps),
                                         preset.camera_turn * config.camera.tilt, config.seed);
@@ -74,7 +73,7 @@ motion::Clip add_noise(const motion::Clip& truth, const NoiseConfig& config) {
   const double taller = standing_height(mistaken) - standing_height(body);  // its feet stay on the floor
   for (Vector3d& p_root : motion.p_root) p_root.z() += taller;
   skate(mistaken, poses, preset.skate, config.seed, truth.fps, motion);
-  put_on_floor(preset, mistaken, seen, motion);
+  put_on_floor(preset, mistaken, body, poses, motion);
 
   motion::Clip noisy = motion::to_clip(truth.name, truth.fps, mistaken, motion.p_root, motion.q);
   noisy.gender = truth.gender;

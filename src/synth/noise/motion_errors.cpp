@@ -112,15 +112,14 @@ void disturb_place(const NoisePreset& p, std::uint64_t seed, double fps, const C
   for (int t = 0; t < motion.p_root.count(); ++t) motion.p_root[t] += offset + wobble[t];
 }
 
-void put_on_floor(const NoisePreset& p, const Character& mistaken, const SeenMotion& truth,
-                  EstimatedMotion& motion) {
+void put_on_floor(const NoisePreset& p, const Character& mistaken, const Character& body,
+                  const PerFrame<BodyPoses>& truth, EstimatedMotion& motion) {
   const std::vector<motion::SurfacePoint> points = motion::surface_points(mistaken),
-                                          true_points = motion::surface_points(truth.character);
+                                          true_points = motion::surface_points(body);
   for (int t = 0; t < motion.frames(); ++t) {
     const double height = motion::lowest_height(points,
                                                 forward_kinematics(mistaken, motion.p_root[t], motion.q[t])),
-                 true_height = motion::lowest_height(
-                     true_points, forward_kinematics(truth.character, truth.p_root[t], truth.q[t]));
+                 true_height = motion::lowest_height(true_points, truth[t]);
     motion.p_root[t].z() += p.height_offset - p.snap * (height - true_height);
   }
 }

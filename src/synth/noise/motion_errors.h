@@ -5,7 +5,8 @@
 #pragma once
 
 #include "synth/noise/estimated_motion.h"
-#include "synth/noise/keypoint_noise.h"
+#include "synth/noise/hand_held_camera.h"
+#include "synth/noise/noise_preset.h"
 
 namespace mimicx::synth {
 
@@ -20,8 +21,8 @@ void disturb_place(const NoisePreset& preset, std::uint64_t seed, double fps, co
                    EstimatedMotion& motion);
 
 /// The estimator's floor: removes a share of the error of the lowest surface point's height, and adds a mean
-/// error. @param mistaken  the body that moves  @param truth  the motion and body without errors
-void put_on_floor(const NoisePreset& preset, const Character& mistaken, const SeenMotion& truth,
-                  EstimatedMotion& motion);
+/// error. @param mistaken  the body that moves  @param body, truth  body and poses without errors
+void put_on_floor(const NoisePreset& preset, const Character& mistaken, const Character& body,
+                  const PerFrame<BodyPoses>& truth, EstimatedMotion& motion);
 
 }  // namespace mimicx::synth
