@@ -68,13 +68,13 @@ void add_velocity_terms(const System& system, const Cost& cost, int frame, const
   if (!weight.isZero(0.0))
     add(centroidal_jacobian(system.exact_model, *d),
         Vector6d(vector_of(centroidal_momentum(system.exact_model, *d)) - cost.momentum[frame]), weight);
+  if (!(cost.weights.slip > 0.0)) return;
   Eigen::Matrix<double, 2 * kFootPoints, 1> slip, slip_weight;
-  const auto velocities = sole_velocities(system, *d);
-  for (int point = 0; point < kFootPoints; ++point) {
-    slip.segment<2>(2 * point) = to_eigen(velocities[point]).head<2>();
-    slip_weight.segment<2>(2 * point).setConstant(cost.slip_weight(frame, point));
-  }
-  if (!slip_weight.isZero(0.0)) add(sole_slip_jacobian(system, *d), slip, slip_weight);
+  slip_weight.setConstant(cost.slip_weight());
+  const auto slips = sole_slip(system, *d);
+  for (int point = 0; point < kFootPoints; ++point)
+    slip.segment<2>(2 * point) = to_eigen(slips[point]).head<2>();
+  add(sole_slip_jacobian(system, *d), slip, slip_weight);
 }
 
 }  // namespace
@@ -118,9 +118,9 @@ double Cost::momentum_weight(int frame, int k) const {
          (k < 3 ? weights.com_velocity : weights.angular_momentum);
 }
 
-double Cost::slip_weight(int frame, int point) const {
+double Cost::slip_weight() const {
   constexpr double kPointsPerFoot = kFootPoints / 2;
-  return weights.slip / kPointsPerFoot * static_cast<double>(factors[frame].stance[point]);
+  return weights.slip / kPointsPerFoot;
 }
 
 Cost make_cost(const System& system, const CostWeights& weights, List<FrameFactors> factors) {
@@ -180,11 +180,7 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
                 P(cost.momentum_weight(frame, 3)) * square_of(now.angular, goal.tail<3>());
   }
   if (cost.weights.slip > 0.0) {
-    const Array<Vec3<P>, kFootPoints> velocities = sole_velocities(system, scratch);
-    for (int point = 0; point < kFootPoints; ++point) {
-      const Vec3<P>& v = velocities[point];
-      out.cost += P(cost.slip_weight(frame, point)) * fma(v.x, v.x, v.y * v.y);
-    }
+    for (const Vec3<P>& slip : sole_slip(system, scratch)) out.cost += P(cost.slip_weight()) * dot(slip, slip);
   }
   return out;
 }

@@ -1,7 +1,7 @@
 /// The cost of a plan: a sum of squares over frames, with its gradient and Gauss–Newton Hessian.
 ///
 ///     J = Σ_t  Σ_i w_i c_ti ‖p_ti − p*_ti‖²  +  Σ_k d_tk (x_t ⊖ x*_t)_k²
-///              + m_t (w_c ‖v_t − v*_t‖² + w_L ‖ℓ_t − ℓ*_t‖²)  +  2 w_s/n Σ_j s_tj ‖v_tj‖²  +  w_τ ‖K e_t/m‖²
+///              + m_t (w_c ‖v_t − v*_t‖² + w_L ‖ℓ_t − ℓ*_t‖²)  +  2 w_s/n Σ_j ‖r_tj‖²  +  w_τ ‖K e_t/m‖²
 ///              + w_u ‖u_t‖²  +  w_Δ ‖u_t − u_{t−1}‖²  +  w_h ‖h_t‖²
 ///
 /// p_i are the joint centres in the world, * marks the goal, u are the residuals, h the assistive
@@ -10,10 +10,10 @@
 /// controls keep the motion smooth.
 ///
 /// v and ℓ are the velocity of the centre of mass and the angular momentum about it per unit of mass
-/// (centroidal_momentum.h): their changes are the forces of the floor. v_j are the horizontal velocities of
+/// (centroidal_momentum.h): their changes are the forces of the floor. r_j is the slip of
 /// the n points of the soles (sole_slip.h). K e/m are the PD controllers' elastic torques per unit of mass:
-/// stiffness times the distance of a joint from its target, moved ahead by its damping. The factors c, m and
-/// s say what is known of the reference in a frame (FrameFactors).                       docs/control.md §6
+/// stiffness times the distance of a joint from its target, moved ahead by its damping. The factors c and m
+/// say what is known of the reference in a frame (FrameFactors).                       docs/control.md §6
 #pragma once
 
 #include <Eigen/Core>
@@ -31,10 +31,10 @@ struct CostWeights {
   double root_velocity = 0.5;     ///< s²/m²
   double root_spin = 0.05;        ///< s²/rad²
   double joint_velocity = 0.05;   ///< s²/rad²
-  double com_velocity = 0.0;      ///< of the centre of mass, s²/m²
-  double angular_momentum = 0.0;  ///< about the centre of mass, of its value per mass, s²/m⁴
-  double slip = 0.0;              ///< of the mean square velocity of a sole, s²/m²
-  double torque = 0.0;            ///< of the elastic torques per mass, s⁴/m⁴
+  double com_velocity = 1000.0;   ///< of the centre of mass, s²/m²
+  double angular_momentum = 1000.0;  ///< about the centre of mass, of its value per mass, s²/m⁴
+  double slip = 200.0;            ///< of the mean square slip of a sole, s²/m²
+  double torque = 0.3;            ///< of the elastic torques per mass, s⁴/m⁴
   double residual = 0.02;         ///< 1/rad²
   double change = 64.0;           ///< of the residual from frame to frame, 1/rad²
   double assistance = 96.0;       ///< of the assistive acceleration, s⁴/m²
@@ -54,7 +54,6 @@ using Certainty = PerBody<float>;
 struct FrameFactors {
   Certainty certainty;                    ///< c, 1: full confidence
   float momentum = 1.0f;                  ///< m, 1: a body can have the reference's momentum here
-  Array<float, kFootPoints> stance = {};  ///< s, 1: the point of the sole stands
 
   FrameFactors() { certainty.fill(1.0f); }
 };
@@ -76,12 +75,12 @@ struct Cost {
   double tangent_weight(int frame, int k) const;
   /// m_t w_c of v's coordinates, m_t w_L of ℓ's. @param k  0 … 5
   double momentum_weight(int frame, int k) const;
-  /// 2 w_s/n s_tj
-  double slip_weight(int frame, int point) const;
+  /// 2 w_s/n
+  double slip_weight() const;
 };
 
 /// The goal is the system's reference.
-/// @param factors  [frames], or empty: full confidence, a feasible reference, and no foot stands
+/// @param factors  [frames], or empty: full confidence and a feasible reference
 /// @throws std::invalid_argument for negative or non-finite weights, a residual weight of zero, and factors
 ///         of another length than the reference
 Cost make_cost(const System& system, const CostWeights& weights, List<FrameFactors> factors = {});

@@ -1,5 +1,8 @@
 #include "control/sole_slip.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mimicx::control {
 namespace {
 
@@ -20,44 +23,78 @@ Vector3d by_angle(const Data<double>& d, int body, const MovingPoint& point, con
   return a.cross(relative) + w.cross(a.cross(arm));
 }
 
+template <class T>
+struct PointMotion {
+  Vec3<T> p, v;
+};
+template <class T>
+PointMotion<T> motion_of(const SolePoint& point, const Data<T>& d) {
+  const Vec3<T> p_B{T(point.p_B.x()), T(point.p_B.y()), T(point.p_B.z())};
+  const Vec3<T> arm = d.R_WB[point.body] * p_B;
+  return {d.p_WB[point.body] + arm, d.v[point.body] + cross(d.w[point.body], arm)};
+}
+
+/// z₋
+template <class T>
+T lowest(const T& z, const T& rise) {
+  using std::min;
+  return fma(min(rise, T(0.0)), T(kAhead), z);
+}
+
+/// ν(z)
+template <class T>
+T nearness(const T& z) {
+  using std::max;
+  const T over = max(z, T(0.0)) * T(1.0 / kNearFloor);
+  return T(1.0) / fma(over, over, T(1.0));
+}
+/// dν/dz
+double nearness_slope(double z) {
+  const double near = nearness(z);
+  return -2.0 * std::max(z, 0.0) / (kNearFloor * kNearFloor) * near * near;
+}
+
 }  // namespace
 
 template <class T>
-Array<Vec3<T>, kFootPoints> sole_velocities(const System& system, const Data<T>& d) {
-  Array<Vec3<T>, kFootPoints> v;
+Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const Data<T>& d) {
+  Array<Vec3<T>, kFootPoints> slip;
   for (int k = 0; k < kFootPoints; ++k) {
-    const SolePoint& point = system.sole[k];
-    const Vec3<T> p_B{T(point.p_B.x()), T(point.p_B.y()), T(point.p_B.z())};
-    v[k] = d.v[point.body] + cross(d.w[point.body], d.R_WB[point.body] * p_B);
+    const auto [p, v] = motion_of(system.sole[k], d);
+    const T near = nearness(lowest(p.z, v.z));
+    slip[k] = {near * v.x, near * v.y, T(0.0)};
   }
-  return v;
+  return slip;
 }
 
 SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d) {
-  const Array<Vec3<double>, kFootPoints> velocities = sole_velocities(system, d);
   SoleSlipJacobian J = SoleSlipJacobian::Zero();
   for (int k = 0; k < kFootPoints; ++k) {
-    const SolePoint& fixed = system.sole[k];
-    const MovingPoint point{fixed.body,
-                            to_eigen(d.p_WB[fixed.body]) + to_eigen(d.q_WB[fixed.body]) * fixed.p_B,
-                            to_eigen(velocities[k])};
+    const PointMotion<double> motion = motion_of(system.sole[k], d);
+    const MovingPoint point{system.sole[k].body, to_eigen(motion.p), to_eigen(motion.v)};
+    const double z = lowest(point.p.z(), point.v.z()), near = nearness(z);
+    const Eigen::Vector2d by_height = nearness_slope(z) * point.v.head<2>();
+    const Eigen::Vector2d by_rise = point.v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();
     auto rows = J.middleRows<2>(2 * k);
-    rows.block<2, 2>(0, kRootVelocity).setIdentity();
+    rows.col(2) = by_height;
+    rows.block<2, 2>(0, kRootVelocity).diagonal().setConstant(near);
+    rows.col(kRootVelocity + 2) = by_rise;
     for (int body = point.body; body >= 0; body = kParents[body]) {
       const Matrix3d R = to_eigen(d.q_WB[body]).toRotationMatrix();
       const Vector3d arm = point.p - to_eigen(d.p_WB[body]);
       const int first = body == 0 ? kRootRotation : kJointRotation + first_dof(body);
       for (int n = 0; n < (is_hinge(body) ? 1 : 3); ++n) {
         const Vector3d a = is_hinge(body) ? Vector3d(R * hinge_axis(body)) : Vector3d(R.col(n));
-        rows.col(first + n) = by_angle(d, body, point, a).head<2>();
-        rows.col(kPositions + first + n) = a.cross(arm).head<2>();
+        const Vector3d moved = a.cross(arm), faster = by_angle(d, body, point, a);
+        rows.col(first + n) = near * faster.head<2>() + moved.z() * by_height + faster.z() * by_rise;
+        rows.col(kPositions + first + n) = near * moved.head<2>() + moved.z() * by_rise;
       }
     }
   }
   return J;
 }
 
-template Array<Vec3<double>, kFootPoints> sole_velocities(const System&, const Data<double>&);
-template Array<Vec3<P>, kFootPoints> sole_velocities(const System&, const Data<P>&);
+template Array<Vec3<double>, kFootPoints> sole_slip(const System&, const Data<double>&);
+template Array<Vec3<P>, kFootPoints> sole_slip(const System&, const Data<P>&);
 
 }  // namespace mimicx::control

@@ -14,15 +14,20 @@ namespace {
 
 constexpr int kFewestFrames = 4;  ///< needed to measure a tremor
 
-/// Puts the input on the floor as preparation does: standing feet can only be found there.
+/// Puts the input on the floor as preparation does: standing feet can only be found there. Feet below the
+/// floor do not lift the body for single frames: the fit lifts them by the legs.
 void put_on_floor(bool known, FitProblem& problem) {
   const Character character = character_of(problem, initial_state(problem));
   const std::vector<motion::SurfacePoint> points = motion::surface_points(character);
-  PerFrame<double> lowest;
-  for (int t = 0; t < problem.frames(); ++t)
-    lowest.push_back(
-        motion::lowest_height(points, forward_kinematics(character, problem.p_root[t], problem.q[t])));
-  const motion::FloorCorrection floor = motion::floor_correction(lowest, problem.fps, known);
+  const std::vector<motion::SurfacePoint> others(points.begin() + kFootPoints, points.end());
+  PerFrame<double> lowest, lowest_of_others;
+  for (int t = 0; t < problem.frames(); ++t) {
+    const BodyPoses poses = forward_kinematics(character, problem.p_root[t], problem.q[t]);
+    lowest.push_back(motion::lowest_height(points, poses));
+    lowest_of_others.push_back(motion::lowest_height(others, poses));
+  }
+  const motion::FloorCorrection floor =
+      motion::floor_correction(lowest, lowest_of_others, problem.fps, known);
   for (int t = 0; t < problem.frames(); ++t) problem.p_root[t].z() += floor.height[t];
 }
 

@@ -11,7 +11,7 @@ namespace mimicx::plan {
 struct MotionPlanConfig : control::PlanConfig {
   double plausible_acceleration =
       300.0;                   ///< a₀ of the certainty, m/s²; 0: the reference is certain everywhere
-  double feasible_need = 0.1;  ///< f₀ of the momentum's factor, body weights
+  double feasible_need = 0.3;  ///< f₀ of the momentum's factor, body weights
 };
 
 /// Everything that a plan depends on.
@@ -32,7 +32,7 @@ void visit_settings(MotionPlanConfig& config, const auto& visit) {
   visit("plan_com_velocity", w.com_velocity, 0, 1e9, "weight of the centre of mass' velocity, s²/m²");
   visit("plan_angular_momentum", w.angular_momentum, 0, 1e9,
         "weight of the angular momentum about the centre of mass, per mass, s²/m⁴");
-  visit("plan_slip", w.slip, 0, 1e9, "weight of the velocity of standing soles, s²/m²");
+  visit("plan_slip", w.slip, 0, 1e9, "weight of the mean square slip of a sole, s²/m²");
   visit("plan_torque", w.torque, 0, 1e9, "weight of the joints' elastic torques per mass, s⁴/m⁴");
   visit("plan_feasible_need", config.feasible_need, 1e-6, 1e9,
         "external force of a frame, in body weights, at which its momentum counts a quarter");

@@ -51,7 +51,6 @@ List<control::FrameFactors> factors_of(const motion::Reference& reference, const
   for (int t = 0; t < reference.size(); ++t) {
     factors[t].certainty = certainty[t];
     factors[t].momentum = momentum[t];
-    for (int k = 0; k < kFootPoints; ++k) factors[t].stance[k] = reference.stance[t][k] ? 1.0f : 0.0f;
   }
   return factors;
 }

@@ -1,5 +1,5 @@
-/// What is known of a reference, frame by frame: how certain its bodies are, how feasible its momentum is,
-/// and which points of the soles stand. These are the factors of the plan's cost (control/cost.h).
+/// What is known of a reference, frame by frame: how certain its bodies are, and how feasible its momentum
+/// is. These are the factors of the plan's cost (control/cost.h).
 #pragma once
 
 #include "audit/pose_needs.h"

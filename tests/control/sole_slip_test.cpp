@@ -1,4 +1,4 @@
-// Velocities of the soles' points and their derivatives.
+// Slip of the soles' points and its derivatives.
 #include "control/sole_slip.h"
 
 #include <gtest/gtest.h>
@@ -11,10 +11,10 @@
 namespace mimicx::control {
 namespace {
 
-Array<Vec3<double>, kFootPoints> velocities(const System& system, const State<double>& x) {
+Array<Vec3<double>, kFootPoints> slip_of(const System& system, const State<double>& x) {
   const auto d = std::make_unique<Data<double>>();
   update_kinematics(system.exact_model, x, *d);
-  return sole_velocities(system, *d);
+  return sole_slip(system, *d);
 }
 
 struct TurningWalk {
@@ -39,7 +39,7 @@ TEST(SoleSlip, JacobianMatchesDifferences) {
     retract(plus, delta);
     delta[k] = -kStep;
     retract(minus, delta);
-    const auto a = velocities(s.system, plus), b = velocities(s.system, minus);
+    const auto a = slip_of(s.system, plus), b = slip_of(s.system, minus);
     for (int point = 0; point < kFootPoints; ++point) {
       const Vector3d expected = (to_eigen(a[point]) - to_eigen(b[point])) / (2.0 * kStep);
       EXPECT_LT((J.block<2, 1>(2 * point, k) - expected.head<2>()).norm(), 1e-8) << point << ", " << k;
@@ -68,7 +68,7 @@ TEST(SoleSlip, VelocitiesAreRatesOfThePositions) {
     return p;
   };
   const auto ahead = positions(kStep), behind = positions(-kStep);
-  const auto v = velocities(s.system, s.x);
+  const auto v = slip_of(s.system, s.x);
   for (int k = 0; k < kFootPoints; ++k)
     EXPECT_LT((to_eigen(v[k]) - (ahead[k] - behind[k]) / (2.0 * kStep)).norm(), 1e-5) << k;
 }

@@ -46,7 +46,8 @@ PerFrame<double> smooth_cover(const PerFrame<double>& need) {
 
 }  // namespace
 
-FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known) {
+FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<double>& lifted, double fps,
+                                 bool known) {
   FloorCorrection out;
   out.shift = known ? 0.0 : -nearest_rank(lowest, kSupportShare);
   const int radius = static_cast<int>(0.5 * kSupportWindow * fps);
@@ -56,7 +57,7 @@ FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, boo
   drift = smoothed(drift, kSupportSmoothing * fps);
   PerFrame<double> need(lowest.size());
   for (int t = 0; t < lowest.count(); ++t)
-    need[t] = std::max(0.0, -(lowest[t] + out.shift + drift[t]) - kPenetrationAllowed);
+    need[t] = std::max(0.0, -(lifted[t] + out.shift + drift[t]) - kPenetrationAllowed);
   const PerFrame<double> lift = smooth_cover(need);
   for (int t = 0; t < lowest.count(); ++t) out.height.push_back(out.shift + drift[t] + lift[t]);
   return out;

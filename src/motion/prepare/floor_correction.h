@@ -20,7 +20,13 @@ struct FloorCorrection {
 /// Jumps keep their height: the first two steps average over more than a second, and the third only removes
 /// penetration.
 /// @param lowest  height of the lowest surface point per frame, m
+/// @param lifted  the same of the points that step 3 lifts
 /// @param known   the floor is known to be at 0: no constant shift
-FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known = false);
+FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<double>& lifted, double fps,
+                                 bool known);
+/// The same where step 3 lifts every point.
+inline FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known = false) {
+  return floor_correction(lowest, lowest, fps, known);
+}
 
 }  // namespace mimicx::motion

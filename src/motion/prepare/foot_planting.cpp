@@ -11,11 +11,14 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kSigmaHeight = 0.001;                            ///< m, of a standing point
+constexpr double kSigmaHeight = 0.0005;                           ///< m, of a standing point
 constexpr double kSigmaSlip = 0.0003;                             ///< m per frame, of a standing point
-constexpr double kSigmaDepth = 0.002;                             ///< m, of a point below the floor
+constexpr double kSigmaDepth = 0.0005;                            ///< m, of a point below the floor
+constexpr double kClearance = 0.02, kClearanceSpeed = 0.5;        ///< m of a swinging point, at m/s and above
+constexpr double kSigmaClearance = 0.003;                         ///< m
+constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
 constexpr double kSigmaPlace = 0.02, kSigmaHeightOfPelvis = 0.1;  ///< m, of the pelvis
-constexpr double kSigmaPlaceBend = 0.0005;  ///< m, second difference at 30 frames per second
+constexpr double kSigmaPlaceBend = 0.00025;  ///< m, second difference at 30 frames per second
 constexpr double kSigmaTurn = 0.15;         ///< rad, of a joint
 constexpr double kSigmaTurnBend = 0.01;     ///< rad, second difference at 30 frames per second
 constexpr double kSigmaAside = 0.03;        ///< m, horizontal place of knees and ankles
@@ -159,6 +162,7 @@ Legs legs_of(const Character& character, const ReferenceFrame& frame) {
   return legs;
 }
 
+constexpr double kSigmaToeBend = 0.05;
 /// The same size for all unknowns of a kind.
 Correction sizes(double place, double turn) {
   Correction out = Correction::Constant(turn);
@@ -166,11 +170,32 @@ Correction sizes(double place, double turn) {
   return out;
 }
 
-Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Correction>& c) {
+/// Heights that the points of the soles keep at least, m: 0 of standing points; a swinging one keeps a
+/// clearance in proportion to its speed over the floor, up to kClearance.
+PerFrame<Array<double, kFootPoints>> clearances(const Reference& reference) {
+  const int frames = reference.size();
+  PerFrame<SolePositions> p;
+  for (const BodyPoses& frame : reference.poses) p.push_back(sole_positions(reference.character, frame));
+  PerFrame<Array<double, kFootPoints>> out(frames);
+  for (int t = 0; t < frames; ++t)
+    for (int k = 0; k < kFootPoints; ++k) {
+      const int first = std::max(t - kSmoothed, 0), last = std::min(t + kSmoothed, frames - 1);
+      double path = 0.0;
+      for (int i = first; i < last; ++i) path += (p[i + 1][k] - p[i][k]).head<2>().norm();
+      const double speed = path * reference.fps / std::max(last - first, 1);
+      out[t][k] = reference.stance[t][k] ? 0.0 : kClearance * std::min(1.0, speed / kClearanceSpeed);
+    }
+  return out;
+}
+
+Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Array<double, kFootPoints>>& clearance,
+                        const PerFrame<Correction>& c) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
-  const Correction size = sizes(kSigmaPlace, kSigmaTurn),
-                   bend = rate * sizes(kSigmaPlaceBend, kSigmaTurnBend);
+  const Correction size = sizes(kSigmaPlace, kSigmaTurn);
+  Correction bend = sizes(kSigmaPlaceBend, kSigmaTurnBend);
+  bend[10] = bend[18] = kSigmaToeBend;
+  bend *= rate;
   Equations equations(frames);
   Legs before;
   for (int t = 0; t < frames; ++t) {
@@ -186,6 +211,8 @@ Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Correction>& 
       const Vector3d& p = now.sole[k];
       if (stands || p.z() < 0.0)
         equations.add(t, now.sole_J[k].row(2), p.z(), stands ? kSigmaHeight : kSigmaDepth);
+      if (p.z() < clearance[t][k])
+        equations.add(t, now.sole_J[k].row(2), p.z() - clearance[t][k], kSigmaClearance);
       if (t == 0 || !stands || !reference.stance[t - 1][k]) continue;
       for (int axis = 0; axis < 2; ++axis)
         equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
@@ -217,9 +244,10 @@ bool is_planted(const Reference& reference) {
 double plant_feet(Reference& reference) {
   if (is_planted(reference)) return 0.0;
   const int frames = reference.size();
+  const auto clearance = clearances(reference);
   PerFrame<Correction> c(frames, Correction::Zero());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Eigen::VectorXd step = step_of(reference, c);
+    const Eigen::VectorXd step = step_of(reference, clearance, c);
     const double largest = step.cwiseAbs().maxCoeff();
     const double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestStep));
     for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);

@@ -73,12 +73,17 @@ void forward(Reference& reference) {
 
 /// Puts the reference on the floor and reports by how much it moved.
 /// @param bend   the feet were levelled: toes are bent, and toes of feet that do not stand are ignored first
+/// @param plant  feet are planted afterwards: only the rest of the body is lifted out of the floor
 /// @param known  the floor is known to be z = 0: no constant shift
-void align_with_floor(bool bend, bool known, Reference& reference, PreparationReport& report) {
+void align_with_floor(bool bend, bool plant, bool known, Reference& reference, PreparationReport& report) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
+  const std::vector<SurfacePoint> lifted(points.begin() + (plant ? kFootPoints : 0), points.end());
   PerFrame<double> moved(reference.frames.size(), 0.0);
   const auto align = [&](const PerFrame<double>& lowest) {
-    const FloorCorrection floor = floor_correction(lowest, reference.fps, known);
+    PerFrame<double> others;
+    for (const BodyPoses& pose : reference.poses) others.push_back(lowest_height(lifted, pose));
+    const FloorCorrection floor =
+        floor_correction(lowest, plant ? others : lowest, reference.fps, known);
     report.floor_shift_mm += kMm * floor.shift;
     for (int t = 0; t < reference.size(); ++t) {
       reference.frames[t].p_root.z() += floor.height[t];
@@ -137,7 +142,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
     r.foot_level_deg = level_feet(out);
     if (r.foot_level_deg > 0.0) forward(out);
   }
-  if (config.ground) align_with_floor(r.foot_level_deg > 0.0, clip.on_floor, out, r);
+  if (config.ground) align_with_floor(r.foot_level_deg > 0.0 || config.plant, config.plant, clip.on_floor, out, r);
   out.stance = find_stance(out.character, out.poses, out.fps);
   if (config.ground && config.plant) r.feet_planted_mm = kMm * plant_feet(out);
   differentiate(out.frames, out.fps);

@@ -21,8 +21,10 @@ TEST(Feet, ExactMotionsStayUnchanged) {
   for (const std::string& kind : synth::synthetic_kinds()) {
     synth::SynthConfig config;
     config.kind = kind;
+    PreparationConfig without_planting;  // foot_planting_test.cpp
+    without_planting.plant = false;
     PreparationReport report;
-    prepare_reference(synth::synthesize(config), {}, &report);
+    prepare_reference(synth::synthesize(config), without_planting, &report);
     EXPECT_EQ(report.foot_level_deg, 0.0) << kind;
     EXPECT_LT(report.change_max_mm, 0.5) << kind;
   }

@@ -126,10 +126,10 @@ TEST(Prepare, RealClipsComeOutOnTheFloorAndLittleChanged) {
     PreparationReport report;
     const Reference r = prepare_reference(read_clip(entry.path()), {}, &report);
     EXPECT_EQ(report.flagged_frames, 0) << entry.path();
-    EXPECT_LT(report.change_mean_mm, 30.0) << entry.path();  // floor and levelled feet
+    EXPECT_LT(report.change_mean_mm, 40.0) << entry.path();  // floor, levelled and planted feet
     EXPECT_LT(report.hinge_residual_mean_mm, 2.0) << entry.path();
     const Metrics m = evaluate_motion(sample_motion(r.character, r.poses, r.fps), nullptr);
-    EXPECT_LT(m.gp_max.value, 2.0) << entry.path();
+    EXPECT_LT(m.gp_max.value, 2.5) << entry.path();
     EXPECT_NEAR(ranked(lowest_of(r), 15), 0.0, 0.01) << entry.path();
   }
 }

@@ -73,7 +73,7 @@ TEST(Stance, NothingStandsInFlight) {
 // Heights that tremble about the limit at which a foot begins to stand.
 TEST(Stance, NoiseDoesNotLiftAStandingFoot) {
   ExactMotion motion("stand");
-  motion.move([](int t) { return Vector3d(0.0, 0.0, t % 4 < 2 ? 0.023 : 0.027); });
+  motion.move([](int t) { return Vector3d(0.0, 0.0, t % 4 < 2 ? 0.024 : 0.026); });
   for (const Stance& stance : motion.stance())
     EXPECT_EQ(std::count(stance.begin(), stance.end(), true), kFootPoints);
 }
