@@ -24,9 +24,9 @@ struct PairedMotion {
 struct Pair {
   std::filesystem::path truth, motion;
 };
-/// @param rate  frames/s to which both are resampled; 0: as they are
+/// At their own rates.
 /// @throws DataError for a missing truth, and a file that cannot be read
-PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read, double rate = 0.0);
+PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read);
 
 /// The files of a folder, or a single file, by name: the path in the folder without suffix (files/inputs.h);
 /// "walk" also for walk.clean.bvh.

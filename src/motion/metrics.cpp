@@ -187,6 +187,11 @@ const std::vector<MetricDefinition>& metric_definitions() {
        &Metrics::float_gt},
       {"Jitter", "10 m/s^3", "mean norm of the third difference of joint positions", &Metrics::jitter},
       {"SelfPen", "mm", "mean overlap of the capsule pairs that collide, per frame", &Metrics::self_pen},
+      {"slip", "mm/frame", "speed of the soles' material point at the centre of pressure, by its load",
+       &Metrics::slip},
+      {"slip_share", "%", "share of the loaded feet and frames that slip by more than 3 mm/frame",
+       &Metrics::slip_share},
+      {"chatter", "% BW", "RMS of the floor's vertical force beyond its low-pass of 6 Hz", &Metrics::chatter},
   };
   return definitions;
 }

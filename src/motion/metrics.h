@@ -44,6 +44,7 @@ struct Metrics {
   MetricValue mrpe, gmpjpe, mpjpe, pa_mpjpe, vel, accel;         // against the truth
   MetricValue fs, fs_0, gp, gp_max, floating, jitter, self_pen;  // of the motion alone
   MetricValue fs_gt, float_gt;                                   // of the motion where the truth has contact
+  MetricValue slip, slip_share, chatter;  // of the floor's forces: judge/force_metrics.h, else NaN
 };
 
 struct MetricDefinition {
