@@ -7,20 +7,6 @@
 namespace mimicx::judge {
 namespace {
 
-std::vector<BodyPoses> simulated_poses(const Character& character,
-                                       const rl::tracking::TrackingRollout& rollout) {
-  std::vector<BodyPoses> poses;
-  for (const auto& pose : rollout.poses)
-    poses.push_back(forward_kinematics(character, pose.frame.p_root, pose.frame.q));
-  return poses;
-}
-
-audit::FloorWrenches ground_of(const rl::tracking::TrackingRollout& rollout) {
-  audit::FloorWrenches ground;
-  for (const rl::tracking::ActingForces& forces : rollout.forces) ground.push_back(forces.ground);
-  return ground;
-}
-
 /// The first `frames` frames.
 motion::MotionSamples head_of(motion::MotionSamples samples, std::size_t frames) {
   samples.joints.resize(frames);
@@ -36,6 +22,19 @@ motion::MotionSamples samples_at(const motion::Clip& clip, double rate) {
                                rate);
 }
 
+PerFrame<BodyPoses> poses_of(const Character& character, const rl::tracking::TrackingRollout& rollout) {
+  PerFrame<BodyPoses> poses;
+  for (const auto& pose : rollout.poses)
+    poses.push_back(forward_kinematics(character, pose.frame.p_root, pose.frame.q));
+  return poses;
+}
+
+audit::FloorWrenches ground_of(const rl::tracking::TrackingRollout& rollout) {
+  audit::FloorWrenches ground;
+  for (const rl::tracking::ActingForces& forces : rollout.forces) ground.push_back(forces.ground);
+  return ground;
+}
+
 NamedValues named_values(const motion::Metrics& metrics) {
   NamedValues values;
   for (const auto& definition : motion::metric_definitions())
@@ -45,7 +44,7 @@ NamedValues named_values(const motion::Metrics& metrics) {
 
 Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   const Character& character = reference.character;
-  const PerFrame<BodyPoses> poses = simulated_poses(character, rollout);
+  const PerFrame<BodyPoses> poses = poses_of(character, rollout);
   const motion::MotionSamples simulated = motion::sample_motion(character, poses, reference.fps);
   const motion::MotionSamples asked = motion::sample_motion(character, reference.poses, reference.fps);
   const motion::MotionSamples same_length = head_of(asked, simulated.joints.size());

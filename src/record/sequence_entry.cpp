@@ -24,6 +24,21 @@ Json checksums_json(const FileChecksums& files) {
   return json;
 }
 
+Json worse_json(const std::vector<Worsening>& worse) {
+  Json json = Json::array();
+  for (const Worsening& w : worse)
+    json.push_back({{"measure", w.measure}, {"numbers", w.numbers}, {"frames", w.frames}, {"why", w.why}});
+  return json;
+}
+
+std::vector<Worsening> worse_of(const Json& json) {
+  std::vector<Worsening> worse;
+  for (const Json& w : json.elements())
+    worse.push_back({w.at("measure").get<std::string>(), w.at("numbers").get<std::string>(),
+                     w.at("frames").get<std::vector<std::array<int, 2>>>(), w.at("why").get<std::string>()});
+  return worse;
+}
+
 SequenceEnding ending_of(const std::string& name) {
   const auto found = std::find(kEndings.begin(), kEndings.end(), name);
   if (found == kEndings.end()) throw JsonError("an ending '" + name + "'");
@@ -31,6 +46,16 @@ SequenceEnding ending_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::string in_words(const Worsening& worsening) {
+  std::string text = worsening.measure + " " + worsening.numbers + ", most at frames";
+  const char* between = " ";
+  for (const auto& [first, last] : worsening.frames) {
+    text += between + std::to_string(first) + (last > first ? "-" + std::to_string(last) : "");
+    between = ", ";
+  }
+  return text + ": " + worsening.why;
+}
 
 Json to_json(const NamedValues& values) {
   Json json = Json::object();
@@ -67,6 +92,7 @@ Json to_json(const SequenceEntry& e) {
           {"metrics_before", to_json(e.metrics_before)},
           {"ok_before", e.ok_before},
           {"metrics", to_json(e.metrics)},
+          {"worse", worse_json(e.worse)},
           {"audit", to_json(e.audit)},
           {"preparation", to_json(e.preparation)},
           {"feasibility", to_json(e.feasibility)},
@@ -99,6 +125,7 @@ SequenceEntry entry_of(const Json& json) {
   e.ok_before = json.at("ok_before");
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
+  if (json.contains("worse")) e.worse = worse_of(json.at("worse"));      // as above
   if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // as above
   e.preparation = named_values(json.at("preparation"));
   if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above

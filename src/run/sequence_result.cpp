@@ -7,6 +7,7 @@
 #include "files/motion_output.h"
 #include "judge/reference_needs.h"
 #include "judge/scores.h"
+#include "judge/worsening.h"
 #include "motion/clip_file.h"
 #include "run/file_integrity.h"
 
@@ -38,8 +39,9 @@ void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry
     entry.notes.push_back("the reference is not feasible: " + verdict.words);
 }
 
-void judge_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry) {
+  const motion::Reference& reference = motion.reference;
   entry.method = made.method;
   entry.plan = made.plan;
   entry.policy = made.policy;
@@ -59,6 +61,9 @@ void judge_sequence(const motion::Reference& reference, const physics::Simulatio
   entry.metrics = after.values;
   entry.ok = after.success;
   entry.reason = after.reason;
+  if (entry.ok)
+    entry.worse = judge::worsenings({motion.input, reference, motion.needs, entry.input_metrics}, made.after,
+                                    entry.metrics);
   if (!made.reason.empty()) {
     if (entry.ok)
       entry.notes.push_back(made.reason);

@@ -17,8 +17,8 @@ struct JudgedMotion : PreparedMotion {
 /// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
 
-/// Writes scores and audit of the method's result into the entry.
-void judge_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+/// Writes scores and audit of the method's result into the entry, whose `input_metrics` are known.
+void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry);
 
 /// Writes fit, reference, feasibility, simulated motion, taught policy and, on request, physics steps. The

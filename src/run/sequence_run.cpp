@@ -152,7 +152,7 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   done.timing.training_seconds = made.training_seconds;
   done.interrupted = made.interrupted;
   if (!made.interrupted) {
-    judge_sequence(motion.reference, run.method.simulation, made, entry);
+    judge_sequence(motion, run.method.simulation, made, entry);
     write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, entry);
     if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
       report::write_clip_script(run.folder, entry, report::report_metrics(false));

@@ -35,15 +35,15 @@ void push(const BodyPoses& poses, int body, const Vector3d& p, const Vector3d& f
 }
 
 /// The whole motion moves by `step` in each frame, and may be lifted.
-PerFrame<BodyPoses> moved(PerFrame<BodyPoses> poses, const Vector3d& step,
-                          const Vector3d& lift = Vector3d::Zero()) {
+PerFrame<BodyPoses> shifted_by(PerFrame<BodyPoses> poses, const Vector3d& step,
+                               const Vector3d& lift = Vector3d::Zero()) {
   for (int t = 0; t < poses.count(); ++t)
     for (Vector3d& p : poses[t].p_WB) p += t * step + lift;
   return poses;
 }
 
 TEST(Slip, IsTheSpeedOfAUniformSlide) {
-  const PerFrame<BodyPoses> poses = moved(standing(10), {0.003, 0.004, 0.0});
+  const PerFrame<BodyPoses> poses = shifted_by(standing(10), {0.003, 0.004, 0.0});
   FloorWrenches ground = no_wrenches(10);
   for (int t = 1; t < 10; ++t) push(poses[t], kLeftAnkle, {0.1, 0.2, 0.0}, {30.0, -50.0, 400.0}, ground[t]);
   const Slip slip = slip_of(poses, ground, kWeight, 30.0);
@@ -97,7 +97,7 @@ TEST(Slip, FeetCountByTheirLoad) {
 }
 
 TEST(Slip, UnloadedFeetDoNotCount) {
-  const PerFrame<BodyPoses> poses = moved(standing(5), {0.02, 0.0, 0.0});
+  const PerFrame<BodyPoses> poses = shifted_by(standing(5), {0.02, 0.0, 0.0});
   FloorWrenches ground = no_wrenches(5);
   for (int t = 1; t < 5; ++t)
     push(poses[t], kLeftAnkle, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.049 * kWeight}, ground[t]);
@@ -129,7 +129,7 @@ TEST(BestFloorForces, CarryABodyThatStands) {
 TEST(BestFloorForces, SlidingBodySlipsAtItsSpeedAtAnyHeight) {
   const Character c = make_character();
   for (const double height : {0.0, 0.6, -0.3}) {
-    const auto poses = moved(standing(12), {0.004, 0.0, 0.0}, {0.0, 0.0, height});
+    const auto poses = shifted_by(standing(12), {0.004, 0.0, 0.0}, {0.0, 0.0, height});
     const Slip slip = slip_of_poses(c, poses);
     EXPECT_NEAR(slip.mean, 4.0, 1e-6) << height;
     EXPECT_EQ(slip.share, 100.0) << height;
