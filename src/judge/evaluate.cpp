@@ -11,6 +11,7 @@
 #include "judge/force_metrics.h"
 #include "judge/scores.h"
 #include "record/json.h"
+#include "record/run_folder.h"
 
 namespace mimicx::judge {
 namespace {
@@ -86,6 +87,9 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
     pairs.begin()->second.truth = truth;
   else
     for (const auto& [name, path] : named_motions(truth)) pairs[name].truth = path;
+  std::erase_if(pairs, [](const auto& pair) {
+    return pair.second.truth.empty() && record::RunFolder::is_part_name(pair.first);
+  });
   return pairs;
 }
 

@@ -33,7 +33,8 @@ PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read);
 std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path);
 
 /// Truths and motions by name. A truth and a motion that are both given as files are a pair, whatever their
-/// names. Entries may lack either. @throws DataError if there is no motion
+/// names. Parts of a motion that failed as a whole (record/run_folder.h) are left out if they have no truth
+/// of their own. Other entries may lack either. @throws DataError if there is no motion
 std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions);
 
 struct EvaluatedMotion {

@@ -17,6 +17,9 @@ namespace mimicx::motion {
 /// Success requires that no body is ever farther than this from its reference, m.
 inline constexpr double kMaxBodyDistance = 0.5;
 
+/// Success requires an MPJPE of at most this, m.
+inline constexpr double kMaxMeanDistance = 0.06;
+
 /// Of motions that are scored, frames/s: distances and slides per frame depend on it.
 inline constexpr double kMetricRate = 30.0;
 

@@ -6,6 +6,7 @@
 
 #include "core/containers.h"
 #include "record/former_settings.h"
+#include "record/run_folder.h"
 #include "record/utf8_names.h"
 
 namespace mimicx::record {
@@ -57,6 +58,17 @@ std::string in_words(const Worsening& worsening) {
   return text + ": " + worsening.why;
 }
 
+std::string parts_in_words(const SequenceEntry& entry) {
+  std::string text;
+  int k = 0;
+  for (const auto& [first, last] : entry.parts) {
+    text += k == 0 ? "followed in part, as motions of their own: frames " : ", frames ";
+    text += std::to_string(first) + "-" + std::to_string(last) + " in " +
+            RunFolder::motion_name(RunFolder::part_name(entry.name, ++k), true);
+  }
+  return text;
+}
+
 Json to_json(const NamedValues& values) {
   Json json = Json::object();
   for (const auto& [name, value] : values) json[name] = number(value);
@@ -76,6 +88,7 @@ Json to_json(const SequenceEntry& e) {
           {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
           {"status", e.ok ? "ok" : "failed"},
           {"reason", e.reason},
+          {"parts", e.parts},
           {"method", e.method},
           {"ending", kEndings[static_cast<int>(e.ending)]},
           {"frames", e.frames},
@@ -109,6 +122,7 @@ SequenceEntry entry_of(const Json& json) {
   if (!json.at("output").is_null()) e.output = from_utf8(json.at("output").get<std::string>());
   e.ok = json.at("status") == "ok";
   e.reason = json.at("reason").get<std::string>();
+  if (json.contains("parts")) e.parts = json.at("parts").get<std::vector<std::array<int, 2>>>();  // as below
   e.method = current_method(json.value("method", "").get<std::string>());
   e.ending = ending_of(json.at("ending").get<std::string>());
   e.frames = json.at("frames");

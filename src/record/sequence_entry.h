@@ -45,6 +45,8 @@ struct SequenceEntry {
   FileChecksums files;         ///< that the sequence left, to detect missing and changed ones
   bool ok = false;
   std::string reason;  ///< why it failed
+  /// {first, last} frame of every part that was followed (RunFolder::part, from 1 on); empty for a success.
+  std::vector<std::array<int, 2>> parts;
   std::string method;  ///< what made the motion: imitate, plan, policy, options or printed
   SequenceEnding ending = SequenceEnding::kNone;
   int frames = 0;
@@ -74,6 +76,9 @@ struct SequenceEntry {
   /// Whether the same command keeps this result instead of repeating the work.
   bool finished() const { return !output.empty() && ending != SequenceEnding::kLimitSeconds; }
 };
+
+/// "followed in part, as motions of their own: frames 0-60 in motions/walk.part1.npz, …"; empty without parts
+std::string parts_in_words(const SequenceEntry& entry);
 
 /// A member per value; null for NaN.
 Json to_json(const NamedValues& values);

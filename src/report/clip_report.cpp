@@ -269,6 +269,11 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   const Seen* input = files.find(Who::kInput);
   clip.bars = bars_of(input ? &input->measured : nullptr, files.find(Who::kCleaned)->measured, clip.ground,
                       clip.weight);
+  if (!entry.parts.empty()) {
+    ReportBars bars{"followed in part", "these frames are motions of their own", false, {}};
+    for (const auto& [first, last] : entry.parts) bars.spans.push_back({first, last});
+    clip.bars.push_back(bars);
+  }
   for (const record::Worsening& worse : entry.worse) {
     ReportBars bars{
         "more " + worse.measure, "worse than the input, " + worse.numbers + ": " + worse.why, true, {}};
@@ -336,6 +341,7 @@ ReportedClip report_clip(const record::RunFolder& folder, const record::Sequence
     made.clip.fps = entry.fps > 0.0 ? entry.fps : made.clip.fps;
     made.clip.facts = facts_of(entry);
     made.clip.notes = entry.notes;
+    if (!entry.parts.empty()) made.clip.notes.push_back(parts_in_words(entry));
     for (const record::Worsening& worse : entry.worse)
       made.clip.notes.push_back("worse than the input: " + in_words(worse));
     if (!entry.arrangement.empty()) made.clip.notes.push_back(arrangement_note(entry.arrangement));

@@ -132,6 +132,7 @@ std::vector<std::string> what_next(const record::SequenceEntry& entry, const rec
   if (entry.ok || entry.output.empty()) return {};
   std::vector<std::string> lines = {"rejected motion: " + (folder.root / entry.output).string() +
                                     "; beside its reference in " + folder.report().string()};
+  if (!entry.parts.empty()) lines.push_back(parts_in_words(entry));
   double infeasible = 0.0;
   for (const auto& [name, value] : entry.feasibility)
     if (name == "infeasible_share") infeasible = value;

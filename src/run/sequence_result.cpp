@@ -29,6 +29,20 @@ std::filesystem::path with_parents(const std::filesystem::path& file) {
   return file;
 }
 
+/// Writes the parts and removes those of an earlier result.
+void write_parts(const record::RunFolder& folder, const motion::Clip& input, const List<FollowedPart>& parts,
+                 record::SequenceEntry& entry) {
+  for (int k = 1; k <= record::kMostParts; ++k) std::filesystem::remove(folder.part(entry.name, k));
+  motion::Clip body = input;  // members of the input begin at its first frame: parts have none
+  body.passthrough.clear();
+  entry.parts.clear();
+  for (const FollowedPart& part : parts) {
+    entry.parts.push_back({part.first, part.first + part.reference.size() - 1});
+    files::write_simulated(with_parents(folder.part(entry.name, static_cast<int>(entry.parts.size()))), body,
+                           part.reference, part.rollout);
+  }
+}
+
 }  // namespace
 
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry) {
@@ -75,7 +89,8 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
 
 void write_sequence(const record::RunFolder& folder, bool substeps,
                     const physics::SimulationConfig& simulation, const JudgedMotion& motion,
-                    const SimulatedSequence& made, record::SequenceEntry& entry) {
+                    const SimulatedSequence& made, const List<FollowedPart>& parts,
+                    record::SequenceEntry& entry) {
   files::write_input(with_parents(folder.input(entry.name)), motion.input);
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
   files::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
@@ -85,6 +100,7 @@ void write_sequence(const record::RunFolder& folder, bool substeps,
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
   files::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
+  write_parts(folder, motion.input, parts, entry);
   std::filesystem::remove(folder.substeps(entry.name));
   if (substeps)
     audit::write_substeps(
