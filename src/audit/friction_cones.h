@@ -16,8 +16,9 @@ struct Floor {
 
 /// Sets the forces of the pushes so that they come nearest to `wanted` = (moment about `center`, N·m; force,
 /// N). 1 N·m counts as much as 1 N.
+/// @param prices  weight of the squared forces of each push, times `small_forces`; empty: 1
 /// @return the rest of `wanted`
 Vector6d fit_cone_forces(const Floor& floor, const Vector3d& center, const Vector6d& wanted,
-                         List<Push>& pushes);
+                         List<Push>& pushes, const List<double>& prices = {});
 
 }  // namespace mimicx::audit

@@ -74,6 +74,8 @@ PoseFile judge_poses(const std::string& path, const PoseFilesConfig& config) {
     }
     file.needs = needs_of_poses(character, poses, clip.fps, config.needs);
     file.verdict = verdict_on(file.needs);
+    file.slip = slip_of(poses, best_floor_forces(character, poses, clip.fps), file.needs.weight, clip.fps);
+    file.slip.speed.clear();
     if (!config.frames) file.needs.frames.clear();
   } catch (const std::exception& error) {
     file.failure = one_line(error.what());
@@ -117,13 +119,14 @@ std::string format_poses(const PoseFile& file) {
 std::string poses_csv_head() {
   std::string line = "file,floor_shift_mm";
   for (const std::string& name : value_names()) line += ',' + name;
-  return line + ",longest_wrong,joints_over,words\n";
+  return line + ",slip,slip_share,longest_wrong,joints_over,words\n";
 }
 
 std::string poses_csv_row(const PoseFile& file) {
   const bool good = file.failure.empty();
   std::string line = field(file.path) + ',' + (good ? number(kMm * file.floor_shift) : "");
   for (const std::string& name : value_names()) line += ',' + number(value_of(file.verdict.values, name));
+  line += ',' + number(file.slip.mean) + ',' + number(file.slip.share);
   line += ',' + (good ? std::string(name_of(file.verdict.longest.wrong)) : "left out");
   return line + ',' + file.verdict.joints_over + ',' + field(good ? file.verdict.words : file.failure) + '\n';
 }
@@ -156,6 +159,8 @@ std::string poses_json(const std::vector<PoseFile>& files) {
   for (const PoseFile& file : files) {
     record::Json summary = record::Json::object();
     for (const auto& [name, value] : file.verdict.values) summary[name] = record::number(value);
+    summary["slip"] = record::number(file.slip.mean);
+    summary["slip_share"] = record::number(file.slip.share);
     list.push_back({{"file", file.path},
                     {"failure", file.failure},
                     {"floor_shift_mm", kMm * file.floor_shift},

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "audit/pose_verdict.h"
+#include "audit/slip.h"
 #include "import/motion_file.h"
 
 namespace mimicx::audit {
@@ -29,6 +30,7 @@ struct PoseFile {
   double floor_shift = 0.0;  ///< upward shift, m
   PoseVerdict verdict;
   PoseNeeds needs;  ///< without frames unless requested
+  Slip slip;        ///< with the best floor forces; without speeds
 };
 
 /// @return with a failure if the file cannot be judged

@@ -33,6 +33,18 @@ RawNeed raw_need(const Character& c, const PerFrame<BodyPoses>& poses, int t, do
   return need;
 }
 
+/// Of the frames 1 … n − 2; the first and the last have none.
+PerFrame<RawNeed> raw_needs(const Character& c, const PerFrame<BodyPoses>& poses, double fps) {
+  PerFrame<RawNeed> raw(poses.count());
+  for (int t = 1; t + 1 < poses.count(); ++t) raw[t] = raw_need(c, poses, t, fps);
+  return raw;
+}
+
+/// The m of the header.
+int half_window(double fps, const PoseNeedsConfig& config) {
+  return std::max(1, static_cast<int>(std::lround(config.window * fps)));
+}
+
 FramePoints frame_points(const Character& c, const BodyPoses& poses) {
   FramePoints points;
   points.center = center_of_mass(c, poses);
@@ -106,17 +118,28 @@ void require_usable(const PerFrame<BodyPoses>& poses, double fps, const PoseNeed
 
 }  // namespace
 
+PerFrame<Vector6d> wanted_wrenches(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                                   const PoseNeedsConfig& config) {
+  require_usable(poses, fps, config);
+  const int n = poses.count(), m = half_window(fps, config);
+  const PerFrame<RawNeed> raw = raw_needs(character, poses, fps);
+  PerFrame<Vector6d> wanted(n);
+  for (int t = 1; t + 1 < n; ++t) wanted[t] = smoothed(raw, t, m).wrench;
+  wanted[0] = wanted[1];
+  wanted[n - 1] = wanted[n - 2];
+  return wanted;
+}
+
 PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
                          const PoseNeedsConfig& config) {
   require_usable(poses, fps, config);
-  const int n = poses.count(), m = std::max(1, static_cast<int>(std::lround(config.window * fps)));
+  const int n = poses.count(), m = half_window(fps, config);
   PoseNeeds needs;
   needs.mass = character.total_mass();
   needs.weight = kGravity * needs.mass;
   needs.fps = fps;
   needs.frames.resize(n);
-  PerFrame<RawNeed> raw(n);
-  for (int t = 1; t + 1 < n; ++t) raw[t] = raw_need(character, poses, t, fps);
+  const PerFrame<RawNeed> raw = raw_needs(character, poses, fps);
   PerFrame<FramePoints> points;
   for (const BodyPoses& frame : poses) points.push_back(frame_points(character, frame));
   for (int t = 1; t + 1 < n; ++t)

@@ -46,6 +46,12 @@ struct PoseNeeds {
   PerFrame<PoseNeed> frames;  ///< the first and the last have the needs of their neighbours
 };
 
+/// Moment about the centre of mass and force that the whole body needs from outside beside gravity, floor
+/// forces included, smoothed as above, N·m, N. The first and the last have those of their neighbours.
+/// @throws std::invalid_argument as `needs_of_poses`
+PerFrame<Vector6d> wanted_wrenches(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                                   const PoseNeedsConfig& config = {});
+
 /// @throws std::invalid_argument for fewer than 3 frames, or a setting out of range
 PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
                          const PoseNeedsConfig& config = {});

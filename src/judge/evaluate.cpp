@@ -8,23 +8,34 @@
 #include "core/error.h"
 #include "core/number_text.h"
 #include "files/inputs.h"
+#include "judge/force_metrics.h"
 #include "judge/scores.h"
 #include "record/json.h"
+#include "record/run_folder.h"
 
 namespace mimicx::judge {
 namespace {
 
-motion::MotionSamples samples_of(const motion::Clip& clip, double rate) {
-  return samples_at(clip, rate > 0.0 ? rate : clip.fps);
+motion::MotionSamples samples_of(const motion::Clip& clip) { return samples_at(clip, clip.fps); }
+
+/// @throws DataError
+void require_truth(const Pair& pair) {
+  if (pair.truth.empty())
+    throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
 }
 
 EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const import::ReadConfig& read) {
   EvaluatedMotion result;
   result.name = name;
   try {
-    const PairedMotion pair = read_pair(files, read, motion::kMetricRate);
-    result.frames = pair.evaluated.frames();
-    result.metrics = motion::evaluate_motion(pair.evaluated, &pair.truth);
+    require_truth(files);
+    const motion::Clip clip = import::read_motion(files.motion, read);
+    const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
+                                truth =
+                                    samples_at(import::read_motion(files.truth, read), motion::kMetricRate);
+    result.frames = evaluated.frames();
+    result.metrics = motion::evaluate_motion(evaluated, &truth);
+    judge_clip(clip, result.metrics);
     result.ok = true;
   } catch (const std::exception& error) {
     result.reason = error.what();
@@ -76,14 +87,16 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
     pairs.begin()->second.truth = truth;
   else
     for (const auto& [name, path] : named_motions(truth)) pairs[name].truth = path;
+  std::erase_if(pairs, [](const auto& pair) {
+    return pair.second.truth.empty() && record::RunFolder::is_part_name(pair.first);
+  });
   return pairs;
 }
 
-PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read, double rate) {
-  if (pair.truth.empty())
-    throw DataError(pair.motion.string(), "", "the truth of " + pair.motion.stem().string(), "no file");
-  return {samples_of(import::read_motion(pair.motion, read), rate),
-          samples_of(import::read_motion(pair.truth, read), rate)};
+PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read) {
+  require_truth(pair);
+  return {samples_of(import::read_motion(pair.motion, read)),
+          samples_of(import::read_motion(pair.truth, read))};
 }
 
 Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions,

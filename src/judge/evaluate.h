@@ -24,16 +24,17 @@ struct PairedMotion {
 struct Pair {
   std::filesystem::path truth, motion;
 };
-/// @param rate  frames/s to which both are resampled; 0: as they are
+/// At their own rates.
 /// @throws DataError for a missing truth, and a file that cannot be read
-PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read, double rate = 0.0);
+PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read);
 
 /// The files of a folder, or a single file, by name: the path in the folder without suffix (files/inputs.h);
 /// "walk" also for walk.clean.bvh.
 std::map<std::string, std::filesystem::path> named_motions(const std::filesystem::path& path);
 
 /// Truths and motions by name. A truth and a motion that are both given as files are a pair, whatever their
-/// names. Entries may lack either. @throws DataError if there is no motion
+/// names. Parts of a motion that failed as a whole (record/run_folder.h) are left out if they have no truth
+/// of their own. Other entries may lack either. @throws DataError if there is no motion
 std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std::filesystem::path& motions);
 
 struct EvaluatedMotion {

@@ -1,18 +1,11 @@
 #include "judge/scores.h"
 
 #include "core/units.h"
+#include "judge/force_metrics.h"
 #include "motion/resample.h"
 
 namespace mimicx::judge {
 namespace {
-
-std::vector<BodyPoses> simulated_poses(const Character& character,
-                                       const rl::tracking::TrackingRollout& rollout) {
-  std::vector<BodyPoses> poses;
-  for (const auto& pose : rollout.poses)
-    poses.push_back(forward_kinematics(character, pose.frame.p_root, pose.frame.q));
-  return poses;
-}
 
 /// The first `frames` frames.
 motion::MotionSamples head_of(motion::MotionSamples samples, std::size_t frames) {
@@ -29,6 +22,19 @@ motion::MotionSamples samples_at(const motion::Clip& clip, double rate) {
                                rate);
 }
 
+PerFrame<BodyPoses> poses_of(const Character& character, const rl::tracking::TrackingRollout& rollout) {
+  PerFrame<BodyPoses> poses;
+  for (const auto& pose : rollout.poses)
+    poses.push_back(forward_kinematics(character, pose.frame.p_root, pose.frame.q));
+  return poses;
+}
+
+audit::FloorWrenches ground_of(const rl::tracking::TrackingRollout& rollout) {
+  audit::FloorWrenches ground;
+  for (const rl::tracking::ActingForces& forces : rollout.forces) ground.push_back(forces.ground);
+  return ground;
+}
+
 NamedValues named_values(const motion::Metrics& metrics) {
   NamedValues values;
   for (const auto& definition : motion::metric_definitions())
@@ -38,12 +44,14 @@ NamedValues named_values(const motion::Metrics& metrics) {
 
 Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   const Character& character = reference.character;
-  const motion::MotionSamples simulated =
-      motion::sample_motion(character, simulated_poses(character, rollout), reference.fps);
+  const PerFrame<BodyPoses> poses = poses_of(character, rollout);
+  const motion::MotionSamples simulated = motion::sample_motion(character, poses, reference.fps);
   const motion::MotionSamples asked = motion::sample_motion(character, reference.poses, reference.fps);
   const motion::MotionSamples same_length = head_of(asked, simulated.joints.size());
   Scores scores;
-  scores.values = named_values(motion::evaluate_motion(simulated, &same_length));
+  motion::Metrics metrics = motion::evaluate_motion(simulated, &same_length);
+  judge_forces({character, poses, ground_of(rollout), reference.fps}, metrics);
+  scores.values = named_values(metrics);
   const motion::Success success = motion::judge_success(simulated, asked);
   scores.values.emplace_back("max_distance_mm", kMm * success.max_distance_m);
   scores.success = success.success;
@@ -52,11 +60,16 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
 }
 
 NamedValues score_input(const motion::Clip& input, const motion::Reference& reference) {
-  const motion::MotionSamples raw = samples_at(input, reference.fps);
-  if (raw.frames() != reference.size()) return named_values(motion::evaluate_motion(raw, nullptr));
+  const Character character = motion::character_of(input);
+  const PerFrame<BodyPoses> poses = motion::poses_of(motion::resampled(input, reference.fps));
+  const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps);
+  const bool same_length = raw.frames() == reference.size();
   const motion::MotionSamples prepared =
-      motion::sample_motion(motion::character_of(input), reference.poses, reference.fps);
-  return named_values(motion::evaluate_motion(raw, &prepared));
+      same_length ? motion::sample_motion(character, reference.poses, reference.fps)
+                  : motion::MotionSamples{};
+  motion::Metrics metrics = motion::evaluate_motion(raw, same_length ? &prepared : nullptr);
+  judge_poses(character, poses, reference.fps, metrics);
+  return named_values(metrics);
 }
 
 }  // namespace mimicx::judge

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "audit/slip.h"
 #include "core/named_values.h"
 #include "motion/metrics.h"
 #include "motion/reference.h"
@@ -12,6 +13,10 @@ namespace mimicx::judge {
 
 /// A clip at `rate` frames/s, as the metrics take it.
 motion::MotionSamples samples_at(const motion::Clip& clip, double rate);
+
+/// Of a simulated motion: its poses, and the floor's forces on it.
+PerFrame<BodyPoses> poses_of(const Character& character, const rl::tracking::TrackingRollout& rollout);
+audit::FloorWrenches ground_of(const rl::tracking::TrackingRollout& rollout);
 
 /// By name, in the order of the tables.
 NamedValues named_values(const motion::Metrics& metrics);

@@ -14,7 +14,6 @@ namespace mimicx::motion {
 namespace {
 
 constexpr double kStaticMotion = 0.010;  ///< m/frame; a slower foot point of the truth stands
-constexpr double kMaxMpjpe = 60.0;       ///< mm
 
 using Joints = PerBody<Vector3d>;
 
@@ -187,6 +186,11 @@ const std::vector<MetricDefinition>& metric_definitions() {
        &Metrics::float_gt},
       {"Jitter", "10 m/s^3", "mean norm of the third difference of joint positions", &Metrics::jitter},
       {"SelfPen", "mm", "mean overlap of the capsule pairs that collide, per frame", &Metrics::self_pen},
+      {"slip", "mm/frame", "speed of the soles' material point at the centre of pressure, by its load",
+       &Metrics::slip},
+      {"slip_share", "%", "share of the loaded feet and frames that slip by more than 3 mm/frame",
+       &Metrics::slip_share},
+      {"chatter", "% BW", "RMS of the floor's vertical force beyond its low-pass of 6 Hz", &Metrics::chatter},
   };
   return definitions;
 }
@@ -229,7 +233,7 @@ Success judge_success(const MotionSamples& simulated, const MotionSamples& refer
   else if (!(s.max_distance_m <= kMaxBodyDistance))
     s.reason = "the " + body_in_words(worst_body) + " was " + rounded(s.max_distance_m, 2) +
                " m from its reference at frame " + std::to_string(worst_frame) + " (limit 0.5 m)";
-  else if (!(s.mpjpe_mm <= kMaxMpjpe))
+  else if (!(s.mpjpe_mm <= kMm * kMaxMeanDistance))
     s.reason = "the joints are " + rounded(s.mpjpe_mm, 1) +
                " mm from the reference's on average (MPJPE, limit 60 mm)";
   s.success = s.reason.empty();

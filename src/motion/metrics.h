@@ -17,6 +17,9 @@ namespace mimicx::motion {
 /// Success requires that no body is ever farther than this from its reference, m.
 inline constexpr double kMaxBodyDistance = 0.5;
 
+/// Success requires an MPJPE of at most this, m.
+inline constexpr double kMaxMeanDistance = 0.06;
+
 /// Of motions that are scored, frames/s: distances and slides per frame depend on it.
 inline constexpr double kMetricRate = 30.0;
 
@@ -44,6 +47,7 @@ struct Metrics {
   MetricValue mrpe, gmpjpe, mpjpe, pa_mpjpe, vel, accel;         // against the truth
   MetricValue fs, fs_0, gp, gp_max, floating, jitter, self_pen;  // of the motion alone
   MetricValue fs_gt, float_gt;                                   // of the motion where the truth has contact
+  MetricValue slip, slip_share, chatter;  // of the floor's forces: judge/force_metrics.h, else NaN
 };
 
 struct MetricDefinition {

@@ -2,6 +2,7 @@
 
 #include "core/setting.h"
 #include "plan/plan_motion.h"
+#include "plan/plan_parts.h"
 
 namespace mimicx::plan {
 
@@ -26,6 +27,9 @@ record::RunOutcome plan_motions(const PlanMotionsConfig& config, const record::R
                                                   const run::SequenceJob& job) {
     return plan_sequence(reference, planning, job);
   };
+  method.parts = [&planning = config.planning](
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& lost,
+                     const run::SequenceJob& job) { return followed_parts(reference, planning, lost, job); };
   return run::run_sequences(config.run, method, context);
 }
 

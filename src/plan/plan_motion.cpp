@@ -106,6 +106,12 @@ record::SequenceEnding ending_of(const control::Plan& plan) {
 
 }  // namespace
 
+rl::tracking::TrackingRollout planned_rollout(const motion::Reference& reference,
+                                              const physics::SimulationConfig& simulation,
+                                              const control::PlanConfig& settings, run::JobWatch& watch) {
+  return replay(reference, make(reference, simulation, settings, watch), false);
+}
+
 run::SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                      const run::SequenceJob& job, control::Plan* planned) {
   run::SimulatedSequence made;

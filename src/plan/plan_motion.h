@@ -17,4 +17,10 @@ namespace mimicx::plan {
 run::SimulatedSequence plan_sequence(const motion::Reference& reference, const PlanningConfig& config,
                                      const run::SequenceJob& job, control::Plan* planned = nullptr);
 
+/// Plans a reference and simulates it. Meaningless if the watch stopped it.
+/// @param settings  with the factors of this reference
+rl::tracking::TrackingRollout planned_rollout(const motion::Reference& reference,
+                                              const physics::SimulationConfig& simulation,
+                                              const control::PlanConfig& settings, run::JobWatch& watch);
+
 }  // namespace mimicx::plan

@@ -9,6 +9,7 @@
 #include "pipeline/fine_tune.h"
 #include "plan/plan_command.h"
 #include "plan/plan_motion.h"
+#include "plan/plan_parts.h"
 #include "teaching/teach_motion.h"
 
 namespace mimicx::program {
@@ -120,6 +121,11 @@ run::Method adaptation_of(const AdaptConfig& config) {
   method.simulate = [&config, plan_first](const motion::Reference& reference, const run::SequenceJob& job) {
     return plan_first ? plan_or_fine_tune(config, reference, job) : options_method(config, reference, job);
   };
+  if (plan_first)
+    method.parts = [&config](const motion::Reference& reference, const rl::tracking::TrackingRollout& lost,
+                             const run::SequenceJob& job) {
+      return plan::followed_parts(reference, planning_of(config), lost, job);
+    };
   return method;
 }
 

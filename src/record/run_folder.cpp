@@ -12,6 +12,12 @@ void RunFolder::create() const {
   for (const char* part : {"motions", "references"}) make_folder(root / part);
 }
 
+bool RunFolder::is_part_name(const std::string& name) {
+  for (int k = 1; k <= kMostParts; ++k)
+    if (name.ends_with(part_name("", k)) && name.size() > part_name("", k).size()) return true;
+  return false;
+}
+
 bool holds_run(const std::filesystem::path& folder) {
   return is_own_file(folder / "manifest.json", "{\n \"run\"") ||
          is_own_file(folder / "shards" / "run.json", "{\n \"run\"");
@@ -20,6 +26,23 @@ bool holds_run(const std::filesystem::path& folder) {
 std::string unique_name(const std::string& wanted, const std::set<std::string>& taken) {
   std::string name = wanted;
   for (int n = 2; taken.contains(name); ++n) name = wanted + "-" + std::to_string(n);
+  return name;
+}
+
+void reserve_motion_name(const std::string& name, std::set<std::string>& taken) {
+  taken.insert(name);
+  for (int k = 1; k <= kMostParts; ++k) taken.insert(RunFolder::part_name(name, k));
+}
+
+std::string unique_motion_name(const std::string& wanted, std::set<std::string>& taken) {
+  const auto is_taken = [&taken](const std::string& name) {
+    bool found = taken.contains(name);
+    for (int k = 1; k <= kMostParts; ++k) found = found || taken.contains(RunFolder::part_name(name, k));
+    return found;
+  };
+  std::string name = wanted;
+  for (int n = 2; is_taken(name); ++n) name = wanted + "-" + std::to_string(n);
+  reserve_motion_name(name, taken);
   return name;
 }
 

@@ -7,6 +7,7 @@
 ///     DIR/report/NAME.js         data of a motion for the report, where there are too many for one file
 ///     DIR/clusters.json          clusters of the trained options, for the report
 ///     DIR/motions/NAME.npz       simulated motions: the clean set
+///     DIR/motions/NAME.part1.npz …  what was followed of a motion that is no success
 ///     DIR/rejected/NAME.npz      simulated motions that are no success (docs/metrics.md)
 ///     DIR/inputs/NAME.npz        the inputs as they were read, in our world
 ///     DIR/references/NAME.npz    prepared references, which the characters follow
@@ -38,6 +39,9 @@
 
 namespace mimicx::record {
 
+/// Most parts of a motion that are written.
+inline constexpr int kMostParts = 9;
+
 struct RunFolder {
   std::filesystem::path root;
   std::filesystem::path records = {};  ///< of a shard: the folder of its manifest, journal and times
@@ -51,6 +55,10 @@ struct RunFolder {
     return root / "report" / (name + ".js");
   }
   std::filesystem::path input(const std::string& name) const { return root / "inputs" / (name + ".npz"); }
+  /// @param k  1 … kMostParts
+  std::filesystem::path part(const std::string& name, int k) const {
+    return root / motion_name(part_name(name, k), true);
+  }
   std::filesystem::path reference(const std::string& name) const {
     return root / "references" / (name + ".npz");
   }
@@ -77,25 +85,33 @@ struct RunFolder {
 
   /// Every file of a sequence but its part of the report and its clean copy, whose suffix is the input's.
   std::vector<std::filesystem::path> files_of(const std::string& name) const {
-    return {root / motion_name(name, true),
-            root / motion_name(name, false),
-            input(name),
-            reference(name),
-            feasibility(name),
-            fit(name),
-            substeps(name),
-            plan(name),
-            gains(name),
-            policy(name),
-            log(name),
-            falls(name),
-            checkpoint(name)};
+    std::vector<std::filesystem::path> files = {root / motion_name(name, true),
+                                                root / motion_name(name, false),
+                                                input(name),
+                                                reference(name),
+                                                feasibility(name),
+                                                fit(name),
+                                                substeps(name),
+                                                plan(name),
+                                                gains(name),
+                                                policy(name),
+                                                log(name),
+                                                falls(name),
+                                                checkpoint(name)};
+    for (int k = 1; k <= kMostParts; ++k) files.push_back(part(name, k));
+    return files;
   }
+
+  /// "walk.part1"
+  static std::string part_name(const std::string& name, int k) { return name + ".part" + std::to_string(k); }
 
   /// Relative to the folder, as the manifest names it.
   static std::string motion_name(const std::string& name, bool success) {
     return (success ? "motions/" : "rejected/") + name + ".npz";
   }
+
+  /// Whether a name is that of a part of some motion.
+  static bool is_part_name(const std::string& name);
 
   bool is_part() const { return !records.empty(); }
   const std::filesystem::path& record_root() const { return is_part() ? records : root; }
@@ -111,6 +127,11 @@ bool holds_run(const std::filesystem::path& folder);
 /// A unique name: the second one of the same name gets a number ("walk", "walk-2").
 /// @param taken  names in use
 std::string unique_name(const std::string& wanted, const std::set<std::string>& taken);
+
+/// Adds the name of a motion and those of its parts.
+void reserve_motion_name(const std::string& name, std::set<std::string>& taken);
+/// A unique name of a motion, whose parts have unique names, too; reserved.
+std::string unique_motion_name(const std::string& wanted, std::set<std::string>& taken);
 
 /// 64-bit FNV-1a, the same on every machine. Not cryptographic.
 std::uint64_t fnv1a(std::string_view bytes);

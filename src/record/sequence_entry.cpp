@@ -6,6 +6,7 @@
 
 #include "core/containers.h"
 #include "record/former_settings.h"
+#include "record/run_folder.h"
 #include "record/utf8_names.h"
 
 namespace mimicx::record {
@@ -24,6 +25,21 @@ Json checksums_json(const FileChecksums& files) {
   return json;
 }
 
+Json worse_json(const std::vector<Worsening>& worse) {
+  Json json = Json::array();
+  for (const Worsening& w : worse)
+    json.push_back({{"measure", w.measure}, {"numbers", w.numbers}, {"frames", w.frames}, {"why", w.why}});
+  return json;
+}
+
+std::vector<Worsening> worse_of(const Json& json) {
+  std::vector<Worsening> worse;
+  for (const Json& w : json.elements())
+    worse.push_back({w.at("measure").get<std::string>(), w.at("numbers").get<std::string>(),
+                     w.at("frames").get<std::vector<std::array<int, 2>>>(), w.at("why").get<std::string>()});
+  return worse;
+}
+
 SequenceEnding ending_of(const std::string& name) {
   const auto found = std::find(kEndings.begin(), kEndings.end(), name);
   if (found == kEndings.end()) throw JsonError("an ending '" + name + "'");
@@ -31,6 +47,27 @@ SequenceEnding ending_of(const std::string& name) {
 }
 
 }  // namespace
+
+std::string in_words(const Worsening& worsening) {
+  std::string text = worsening.measure + " " + worsening.numbers + ", most at frames";
+  const char* between = " ";
+  for (const auto& [first, last] : worsening.frames) {
+    text += between + std::to_string(first) + (last > first ? "-" + std::to_string(last) : "");
+    between = ", ";
+  }
+  return text + ": " + worsening.why;
+}
+
+std::string parts_in_words(const SequenceEntry& entry) {
+  std::string text;
+  int k = 0;
+  for (const auto& [first, last] : entry.parts) {
+    text += k == 0 ? "followed in part, as motions of their own: frames " : ", frames ";
+    text += std::to_string(first) + "-" + std::to_string(last) + " in " +
+            RunFolder::motion_name(RunFolder::part_name(entry.name, ++k), true);
+  }
+  return text;
+}
 
 Json to_json(const NamedValues& values) {
   Json json = Json::object();
@@ -51,6 +88,7 @@ Json to_json(const SequenceEntry& e) {
           {"output", e.output.empty() ? Json(nullptr) : Json(to_utf8(e.output))},
           {"status", e.ok ? "ok" : "failed"},
           {"reason", e.reason},
+          {"parts", e.parts},
           {"method", e.method},
           {"ending", kEndings[static_cast<int>(e.ending)]},
           {"frames", e.frames},
@@ -67,6 +105,7 @@ Json to_json(const SequenceEntry& e) {
           {"metrics_before", to_json(e.metrics_before)},
           {"ok_before", e.ok_before},
           {"metrics", to_json(e.metrics)},
+          {"worse", worse_json(e.worse)},
           {"audit", to_json(e.audit)},
           {"preparation", to_json(e.preparation)},
           {"feasibility", to_json(e.feasibility)},
@@ -83,6 +122,7 @@ SequenceEntry entry_of(const Json& json) {
   if (!json.at("output").is_null()) e.output = from_utf8(json.at("output").get<std::string>());
   e.ok = json.at("status") == "ok";
   e.reason = json.at("reason").get<std::string>();
+  if (json.contains("parts")) e.parts = json.at("parts").get<std::vector<std::array<int, 2>>>();  // as below
   e.method = current_method(json.value("method", "").get<std::string>());
   e.ending = ending_of(json.at("ending").get<std::string>());
   e.frames = json.at("frames");
@@ -99,6 +139,7 @@ SequenceEntry entry_of(const Json& json) {
   e.ok_before = json.at("ok_before");
   e.input_metrics = named_values(json.at("input_metrics"));
   e.metrics = named_values(json.at("metrics"));
+  if (json.contains("worse")) e.worse = worse_of(json.at("worse"));      // as above
   if (json.contains("audit")) e.audit = named_values(json.at("audit"));  // as above
   e.preparation = named_values(json.at("preparation"));
   if (json.contains("feasibility")) e.feasibility = named_values(json.at("feasibility"));  // as above

@@ -27,6 +27,16 @@ enum class SequenceEnding {
   kLost,          ///< a plan that does not
 };
 
+/// A measure in which the result is worse than the input (judge/worsening.h).
+struct Worsening {
+  std::string measure;                     ///< "sliding"
+  std::string numbers;                     ///< "0.4 -> 0.9 mm a frame"
+  std::vector<std::array<int, 2>> frames;  ///< first and last of the stretches with the most of it
+  std::string why;                         ///< "its reference slides, too"
+};
+/// "sliding 0.4 -> 0.9 mm a frame, most at frames 31-40, 77: its reference slides, too"
+std::string in_words(const Worsening& worsening);
+
 struct SequenceEntry {
   std::string name;            ///< key of the sequence's files in the folder
   std::string input;           ///< as given on the command line
@@ -35,6 +45,8 @@ struct SequenceEntry {
   FileChecksums files;         ///< that the sequence left, to detect missing and changed ones
   bool ok = false;
   std::string reason;  ///< why it failed
+  /// {first, last} frame of every part that was followed (RunFolder::part, from 1 on); empty for a success.
+  std::vector<std::array<int, 2>> parts;
   std::string method;  ///< what made the motion: imitate, plan, policy, options or printed
   SequenceEnding ending = SequenceEnding::kNone;
   int frames = 0;
@@ -46,15 +58,16 @@ struct SequenceEntry {
   double reward_after = std::numeric_limits<double>::quiet_NaN();
   /// {first frame, option} of every stretch of one option; empty for a training from scratch.
   std::vector<std::array<int, 2>> arrangement;
-  NamedValues plan;            ///< how it was planned; empty where nothing was planned
-  NamedValues policy;          ///< how the plan taught a policy, and how well that acts unaided; or empty
-  NamedValues fit;             ///< what the keypoint fit did; empty without one
-  NamedValues input_metrics;   ///< of the unprepared input, against the prepared reference
-  NamedValues metrics;         ///< of the simulated motion, against the prepared reference
-  NamedValues metrics_before;  ///< of the simulated motion before training
-  bool ok_before = false;      ///< whether the motion was a success before training
-  NamedValues audit;           ///< of the simulated motion: forces that remain unexplained (audit.h)
-  NamedValues preparation;     ///< what preparation did to the input
+  NamedValues plan;              ///< how it was planned; empty where nothing was planned
+  NamedValues policy;            ///< how the plan taught a policy, and how well that acts unaided; or empty
+  NamedValues fit;               ///< what the keypoint fit did; empty without one
+  NamedValues input_metrics;     ///< of the unprepared input, against the prepared reference
+  NamedValues metrics;           ///< of the simulated motion, against the prepared reference
+  std::vector<Worsening> worse;  ///< measures in which a success is worse than its input
+  NamedValues metrics_before;    ///< of the simulated motion before training
+  bool ok_before = false;        ///< whether the motion was a success before training
+  NamedValues audit;             ///< of the simulated motion: forces that remain unexplained (audit.h)
+  NamedValues preparation;       ///< what preparation did to the input
   /// What the prepared reference needs from outside (audit/pose_verdict.h); empty under 3 frames.
   NamedValues feasibility;
   std::vector<std::string> decisions;  ///< what reading the input decided
@@ -63,6 +76,9 @@ struct SequenceEntry {
   /// Whether the same command keeps this result instead of repeating the work.
   bool finished() const { return !output.empty() && ending != SequenceEnding::kLimitSeconds; }
 };
+
+/// "followed in part, as motions of their own: frames 0-60 in motions/walk.part1.npz, …"; empty without parts
+std::string parts_in_words(const SequenceEntry& entry);
 
 /// A member per value; null for NaN.
 Json to_json(const NamedValues& values);

@@ -118,9 +118,9 @@ std::vector<ReportChart> charts_of(const ChartSources& sources) {
       over_motions(sources, {"lowest point over the floor", "mm", "under 0: in the floor"},
                    &MotionCurves::lowest, false),
       over_motions(sources,
-                   {"speed of what touches the floor", "mm/frame",
-                    "FS of the frame; no line where nothing touches the floor"},
-                   &MotionCurves::slide, false),
+                   {"sliding", "mm/frame",
+                    "slip of the feet that carry the body, by their load; no line where none does"},
+                   &MotionCurves::slip, false),
       over_motions(sources, {"acceleration of the joints", "m/s²", "mean over the joints"},
                    &MotionCurves::acceleration, false),
       unexplained_chart(sources),
@@ -175,14 +175,14 @@ std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotio
   std::vector<ReportBars> bars;
   if (input) {
     const Flaws flaws = flaws_of(*input, cleaned);
-    bars.push_back({"sinks", "the input's lowest point is deeper than 5 mm", true, spans_of(flaws.sinks)});
-    bars.push_back({"floats", "the input's lowest point is higher than 5 mm where the cleaned motion stands",
-                    true, spans_of(flaws.floats)});
     bars.push_back(
-        {"slides",
-         "a foot of the input moves 5 mm or more to the next frame where that of the cleaned motion stands",
-         true, spans_of(flaws.slides)});
-    bars.push_back({"shakes",
+        {"input sinks", "the input's lowest point is deeper than 5 mm", true, spans_of(flaws.sinks)});
+    bars.push_back({"input floats",
+                    "the input's lowest point is higher than 5 mm where the cleaned motion stands", true,
+                    spans_of(flaws.floats)});
+    bars.push_back({"input slides", "feet of the input that carry the body slip by more than 3 mm in a frame",
+                    true, spans_of(flaws.slides)});
+    bars.push_back({"input shakes",
                     "the input's joints accelerate 2 m/s² or more beyond those of the cleaned motion", true,
                     spans_of(flaws.shakes)});
   }

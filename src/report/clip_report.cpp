@@ -7,9 +7,11 @@
 
 #include "audit/audit_file.h"
 #include "audit/body_loads.h"
+#include "audit/slip.h"
 #include "core/npz/npz.h"
 #include "core/units.h"
 #include "files/archive_members.h"
+#include "files/recorded_forces.h"
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
 #include "motion/resample.h"
@@ -69,10 +71,16 @@ struct Seen {
   MeasuredMotion measured;
 };
 
-Seen seen(Who who, const motion::Clip& clip, double fps) {
+/// @param forces  recorded with the clip at the same rate; none: the best ones for its poses
+Seen seen(Who who, const motion::Clip& clip, double fps,
+          const std::optional<files::RecordedForces>& forces = std::nullopt) {
   const motion::Clip at_rate = motion::resampled(clip, fps);
   Seen s{{who, motion::character_of(at_rate), motion::poses_of(at_rate), {}}, {}};
-  s.measured = measured(motion::sample_motion(s.motion.character, s.motion.poses, fps));
+  const Character& character = s.motion.character;
+  const audit::FloorWrenches ground =
+      forces ? forces->ground : audit::best_floor_forces(character, s.motion.poses, fps);
+  s.measured = measured(motion::sample_motion(character, s.motion.poses, fps),
+                        audit::slip_of(s.motion.poses, ground, kGravity * character.total_mass(), fps).speed);
   for (const auto& surface : s.measured.samples.surface) s.motion.support.push_back(support_of(surface));
   return s;
 }
@@ -101,7 +109,8 @@ ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntr
     files.motions.push_back(seen(Who::kInput, *files.input, entry.fps));
   }
   files.motions.push_back(seen(Who::kReference, motion::read_clip(folder.reference(entry.name)), entry.fps));
-  files.motions.push_back(seen(Who::kCleaned, files.cleaned, entry.fps));
+  files.motions.push_back(
+      seen(Who::kCleaned, files.cleaned, entry.fps, files::recorded_forces(files.cleaned)));
   if (truth.empty()) return files;
   try {
     files.motions.push_back(seen(Who::kTruth, import::read_motion(truth), entry.fps));
@@ -260,6 +269,17 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   const Seen* input = files.find(Who::kInput);
   clip.bars = bars_of(input ? &input->measured : nullptr, files.find(Who::kCleaned)->measured, clip.ground,
                       clip.weight);
+  if (!entry.parts.empty()) {
+    ReportBars bars{"followed in part", "these frames are motions of their own", false, {}};
+    for (const auto& [first, last] : entry.parts) bars.spans.push_back({first, last});
+    clip.bars.push_back(bars);
+  }
+  for (const record::Worsening& worse : entry.worse) {
+    ReportBars bars{
+        "more " + worse.measure, "worse than the input, " + worse.numbers + ": " + worse.why, true, {}};
+    for (const auto& [first, last] : worse.frames) bars.spans.push_back({first, last});
+    clip.bars.push_back(bars);
+  }
   for (const Seen& s : files.motions) clip.motions.push_back(s.motion);
   add_feasibility(folder.feasibility(entry.name), clip);
   if (!was_trained(entry)) return;
@@ -279,7 +299,8 @@ std::vector<ReportMetric> report_metrics(bool truth) {
       "of "
       "the cleaned motion, beyond its recorded forces";
   metrics.push_back({kRootForce, force, kPhysics});
-  for (const char* name : {"Float", "GP", "FS", "FS_gt", "Jitter", "SelfPen", "GP_max", "FS_0"})
+  for (const char* name :
+       {"slip", "slip_share", "FS_gt", "Float", "GP", "Jitter", "chatter", "FS", "SelfPen", "GP_max", "FS_0"})
     metrics.push_back({name, words_of_metric(name), kPhysics});
   const auto have = [&metrics](const std::string& key) {
     return std::any_of(metrics.begin(), metrics.end(), [&](const auto& m) { return m.key == key; });
@@ -320,6 +341,9 @@ ReportedClip report_clip(const record::RunFolder& folder, const record::Sequence
     made.clip.fps = entry.fps > 0.0 ? entry.fps : made.clip.fps;
     made.clip.facts = facts_of(entry);
     made.clip.notes = entry.notes;
+    if (!entry.parts.empty()) made.clip.notes.push_back(parts_in_words(entry));
+    for (const record::Worsening& worse : entry.worse)
+      made.clip.notes.push_back("worse than the input: " + in_words(worse));
     if (!entry.arrangement.empty()) made.clip.notes.push_back(arrangement_note(entry.arrangement));
     return made;
   };

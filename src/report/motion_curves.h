@@ -16,9 +16,10 @@ namespace mimicx::report {
 struct MotionCurves {
   std::vector<double> pelvis_height;  ///< m
   std::vector<double> lowest;         ///< of the surface over the floor, mm
-  std::vector<double> slide;          ///< FS of the frame and the next one, mm/frame; NaN without contact
-  std::vector<double> acceleration;   ///< mean over the joints of |Δ²p| fps², m/s²; NaN at both ends
+  std::vector<double> slip;          ///< of the loaded feet (audit/slip.h), mm in 1/30 s; NaN: none is loaded
+  std::vector<double> acceleration;  ///< mean over the joints of |Δ²p| fps², m/s²; NaN at both ends
 };
+/// All but the slip, which needs forces.
 MotionCurves curves_of(const motion::MotionSamples& motion);
 
 /// A motion with its curves.
@@ -26,7 +27,8 @@ struct MeasuredMotion {
   motion::MotionSamples samples;
   MotionCurves curves;
 };
-MeasuredMotion measured(motion::MotionSamples samples);
+/// @param slip  a value per frame
+MeasuredMotion measured(motion::MotionSamples samples, std::vector<double> slip);
 
 /// Mean distance of the joints of two motions over their common frames, mm.
 std::vector<double> joint_distances(const motion::MotionSamples& a, const motion::MotionSamples& b);
@@ -43,8 +45,7 @@ std::vector<Span> spans_of(const std::vector<bool>& frames);
 struct Flaws {
   std::vector<bool> sinks;   ///< lowest point deeper than 5 mm
   std::vector<bool> floats;  ///< lowest point above 5 mm while the cleaned motion touches the floor
-  std::vector<bool>
-      slides;  ///< a foot's points move 5 mm or more to the next frame while the cleaned ones stand
+  std::vector<bool> slides;  ///< loaded feet slip by more than audit::kVisibleSlip
   std::vector<bool> shakes;  ///< the joints' mean acceleration is 2 m/s² or more above the cleaned one's
 };
 /// @param input, cleaned  at one frame rate; frames behind the end of either have no flaw

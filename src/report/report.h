@@ -55,7 +55,7 @@ struct ReportChart {
 /// A row of the timeline.
 struct ReportBars {
   std::string name, meaning;
-  bool flaw = false;  ///< whether it is a flaw of the input; else a contact
+  bool flaw = false;  ///< of the input, or of a result that is worse; else a contact
   std::vector<Span> spans;
 };
 

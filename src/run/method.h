@@ -77,6 +77,20 @@ struct SimulatedSequence {
   std::vector<std::string> notes = {};  ///< for the manifest
 };
 
+/// A stretch of a motion that failed as a whole (`Method::parts`).
+struct FollowedPart {
+  int first = 0;                ///< frame of the whole reference
+  motion::Reference reference;  ///< its frames
+  rl::tracking::TrackingRollout rollout;
+};
+
+struct FollowedParts {
+  List<FollowedPart> parts;  ///< at most record::kMostParts, in the order of time
+  bool interrupted = false;  ///< the job's context requested a stop: the parts are incomplete
+  bool timed_out = false;    ///< the same of the job's seconds
+  double seconds = 0.0;
+};
+
 /// A way to make the humanoid follow a motion, with everything that its results depend on.
 struct Method {
   std::string name;  ///< imitate, plan, options, printed or auto
@@ -86,6 +100,10 @@ struct Method {
   std::string options;                   ///< checksums of the trained options; empty without
   physics::SimulationConfig simulation;  ///< under which it simulates, for the audit
   std::function<SimulatedSequence(const motion::Reference&, const SequenceJob&)> simulate;
+  /// What can be followed of a motion whose result, the roll-out, is no success; may be empty.
+  std::function<FollowedParts(const motion::Reference&, const rl::tracking::TrackingRollout&,
+                              const SequenceJob&)>
+      parts = {};
 };
 
 }  // namespace mimicx::run

@@ -1,32 +1,17 @@
 #include "run/run_messages.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "core/quantile.h"
+#include "judge/headline.h"
 #include "record/progress.h"
 
 namespace mimicx::run {
 namespace {
 
 constexpr std::size_t kFailuresNamed = 5;
-
-/// A visible fault, and the metric that measures it.
-struct Fault {
-  const char* name;
-  const char* metric;
-  const char* unit;
-  double scale;  ///< from the metric's unit to that one
-  int decimals;
-  double visible;  ///< smaller values, in that unit, are not mentioned
-};
-
-constexpr std::array<Fault, 4> kFaults = {{{"sliding", "FS_gt", "mm a frame", 1.0, 1, 0.05},
-                                           {"sinking", "GP", "mm", 1.0, 1, 0.05},
-                                           {"floating", "Float_gt", "mm", 1.0, 1, 0.05},
-                                           {"jitter", "Jitter", "m/s^3", 10.0, 0, 5.0}}};
 
 std::string format(const char* how, double number) {
   char text[64];
@@ -35,7 +20,7 @@ std::string format(const char* how, double number) {
 }
 
 /// "sliding 1.7 -> 0.2 mm a frame"; empty if neither value is visible.
-std::string change(const Fault& fault, double before, double after) {
+std::string change(const judge::Headline& fault, double before, double after) {
   before *= fault.scale;
   after *= fault.scale;
   if (!std::isfinite(after)) return {};
@@ -106,10 +91,16 @@ std::string result_line(const record::SequenceEntry& entry) {
   if (!entry.reason.empty()) line += ", " + entry.reason;
   const double distance = value_of(entry.metrics, "gMPJPE");
   if (std::isfinite(distance)) line += format(", %.1f mm from the reference", distance);
-  for (const Fault& fault : kFaults) {
+  for (const judge::Headline& fault : judge::kHeadlines) {
+    if (!fault.always) continue;
     const std::string words =
         change(fault, value_of(entry.input_metrics, fault.metric), value_of(entry.metrics, fault.metric));
     if (entry.ok && !words.empty()) line += ", " + words;
+  }
+  const char* before = "; worse than the input: ";
+  for (const record::Worsening& worse : entry.worse) {
+    line += before + worse.measure + " (" + worse.why + ")";
+    before = ", ";
   }
   return line;
 }
@@ -124,7 +115,8 @@ std::vector<std::string> summary(const std::vector<record::SequenceEntry>& entri
   if (!distances.empty())
     lines.push_back(format("  in the median %.1f mm from the reference, ", median(distances)) +
                     format("at most %.1f mm", *std::max_element(distances.begin(), distances.end())));
-  for (const Fault& fault : kFaults) {
+  for (const judge::Headline& fault : judge::kHeadlines) {
+    if (!fault.always) continue;
     const std::string words =
         change(fault, middle(successes(entries, &record::SequenceEntry::input_metrics, fault.metric)),
                middle(successes(entries, &record::SequenceEntry::metrics, fault.metric)));
@@ -140,6 +132,7 @@ std::vector<std::string> what_next(const record::SequenceEntry& entry, const rec
   if (entry.ok || entry.output.empty()) return {};
   std::vector<std::string> lines = {"rejected motion: " + (folder.root / entry.output).string() +
                                     "; beside its reference in " + folder.report().string()};
+  if (!entry.parts.empty()) lines.push_back(parts_in_words(entry));
   double infeasible = 0.0;
   for (const auto& [name, value] : entry.feasibility)
     if (name == "infeasible_share") infeasible = value;

@@ -10,8 +10,8 @@
 namespace mimicx::run {
 
 /// "walk: ok, 12 mm from the reference, sliding 1.7 -> 0.2 mm a frame", or why it failed. The distance is
-/// gMPJPE; the changes from the input to the result are FS_gt, GP, Float_gt and Jitter of docs/metrics.md, if
-/// either value is visible.
+/// gMPJPE; the changes from the input to the result are those of judge/headline.h, if either value is
+/// visible. Measures that became worse follow, with frames and cause.
 std::string result_line(const record::SequenceEntry& entry);
 
 /// At most eight lines on the motions of a run: how many succeeded, median improvements, which failed. @param

@@ -44,14 +44,14 @@ std::map<std::string, std::string> sequence_names(const std::vector<std::string>
   std::set<std::string> taken;
   for (const record::SequenceEntry& entry : manifest.sequences) {
     names[entry.input] = entry.name;
-    taken.insert(entry.name);
+    record::reserve_motion_name(entry.name, taken);
   }
   for (const std::string& input : inputs) {
     if (names.contains(input)) continue;
     const auto found = wanted.find(input);
     const std::string name =
         found == wanted.end() ? std::filesystem::path(input).stem().string() : found->second;
-    taken.insert(names[input] = record::unique_name(name, taken));
+    names[input] = record::unique_motion_name(name, taken);
   }
   return names;
 }

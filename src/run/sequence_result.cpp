@@ -7,6 +7,7 @@
 #include "files/motion_output.h"
 #include "judge/reference_needs.h"
 #include "judge/scores.h"
+#include "judge/worsening.h"
 #include "motion/clip_file.h"
 #include "run/file_integrity.h"
 
@@ -28,6 +29,20 @@ std::filesystem::path with_parents(const std::filesystem::path& file) {
   return file;
 }
 
+/// Writes the parts and removes those of an earlier result.
+void write_parts(const record::RunFolder& folder, const motion::Clip& input, const List<FollowedPart>& parts,
+                 record::SequenceEntry& entry) {
+  for (int k = 1; k <= record::kMostParts; ++k) std::filesystem::remove(folder.part(entry.name, k));
+  motion::Clip body = input;  // members of the input begin at its first frame: parts have none
+  body.passthrough.clear();
+  entry.parts.clear();
+  for (const FollowedPart& part : parts) {
+    entry.parts.push_back({part.first, part.first + part.reference.size() - 1});
+    files::write_simulated(with_parents(folder.part(entry.name, static_cast<int>(entry.parts.size()))), body,
+                           part.reference, part.rollout);
+  }
+}
+
 }  // namespace
 
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry) {
@@ -38,8 +53,9 @@ void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry
     entry.notes.push_back("the reference is not feasible: " + verdict.words);
 }
 
-void judge_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry) {
+  const motion::Reference& reference = motion.reference;
   entry.method = made.method;
   entry.plan = made.plan;
   entry.policy = made.policy;
@@ -59,6 +75,9 @@ void judge_sequence(const motion::Reference& reference, const physics::Simulatio
   entry.metrics = after.values;
   entry.ok = after.success;
   entry.reason = after.reason;
+  if (entry.ok)
+    entry.worse = judge::worsenings({motion.input, reference, motion.needs, entry.input_metrics}, made.after,
+                                    entry.metrics);
   if (!made.reason.empty()) {
     if (entry.ok)
       entry.notes.push_back(made.reason);
@@ -70,7 +89,8 @@ void judge_sequence(const motion::Reference& reference, const physics::Simulatio
 
 void write_sequence(const record::RunFolder& folder, bool substeps,
                     const physics::SimulationConfig& simulation, const JudgedMotion& motion,
-                    const SimulatedSequence& made, record::SequenceEntry& entry) {
+                    const SimulatedSequence& made, const List<FollowedPart>& parts,
+                    record::SequenceEntry& entry) {
   files::write_input(with_parents(folder.input(entry.name)), motion.input);
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
   files::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
@@ -80,6 +100,7 @@ void write_sequence(const record::RunFolder& folder, bool substeps,
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
   files::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
+  write_parts(folder, motion.input, parts, entry);
   std::filesystem::remove(folder.substeps(entry.name));
   if (substeps)
     audit::write_substeps(

@@ -17,14 +17,16 @@ struct JudgedMotion : PreparedMotion {
 /// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
 
-/// Writes scores and audit of the method's result into the entry.
-void judge_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
+/// Writes scores and audit of the method's result into the entry, whose `input_metrics` are known.
+void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry);
 
-/// Writes fit, reference, feasibility, simulated motion, taught policy and, on request, physics steps. The
-/// entry gets their names and checksums.
+/// Writes fit, reference, feasibility, simulated motion, followed parts, taught policy and, on request,
+/// physics steps. The entry gets their names and checksums.
+/// @param parts  of a motion that is no success
 void write_sequence(const record::RunFolder& folder, bool substeps,
                     const physics::SimulationConfig& simulation, const JudgedMotion& motion,
-                    const SimulatedSequence& made, record::SequenceEntry& entry);
+                    const SimulatedSequence& made, const List<FollowedPart>& parts,
+                    record::SequenceEntry& entry);
 
 }  // namespace mimicx::run

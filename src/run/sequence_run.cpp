@@ -134,6 +134,15 @@ struct Done {
   record::Timing timing;     ///< of this time
 };
 
+/// What can be followed of a motion that is no success.
+FollowedParts parts_of(const Method& method, const motion::Reference& reference,
+                       const SimulatedSequence& made, const SequenceJob& job,
+                       const record::SequenceEntry& entry) {
+  if (entry.ok || !method.parts || entry.ending == record::SequenceEnding::kLimitSeconds) return {};
+  return method.parts(reference, made.after,
+                      after_seconds(job, made.planning_seconds + made.training_seconds));
+}
+
 /// Prepare → simulate → judge and write.
 void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done& done) {
   const RunState& run = worker.run;
@@ -145,15 +154,24 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
     entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
                           " samples; one begun with more would explore longer, and be another");
   entry.input_metrics = judge::score_input(motion.input, motion.reference);
-  const SimulatedSequence made = run.method.simulate(
-      motion.reference, {entry.name, entry.input_checksum, run.folder, run.config.substeps, run.config.gains,
-                         worker.threads, run.config.limit_seconds, motion.needs, worker.context});
+  const SequenceJob job{
+      entry.name,     entry.input_checksum,     run.folder,   run.config.substeps, run.config.gains,
+      worker.threads, run.config.limit_seconds, motion.needs, worker.context};
+  const SimulatedSequence made = run.method.simulate(motion.reference, job);
   done.timing.planning_seconds = made.planning_seconds;
   done.timing.training_seconds = made.training_seconds;
   done.interrupted = made.interrupted;
   if (!made.interrupted) {
-    judge_sequence(motion.reference, run.method.simulation, made, entry);
-    write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, entry);
+    judge_sequence(motion, run.method.simulation, made, entry);
+    const FollowedParts found = parts_of(run.method, motion.reference, made, job, entry);
+    done.timing.planning_seconds += found.seconds;
+    done.interrupted = found.interrupted;
+    if (found.timed_out) entry.ending = record::SequenceEnding::kLimitSeconds;
+    if (!done.interrupted)
+      write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, found.parts,
+                     entry);
+  }
+  if (!done.interrupted) {
     if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
       report::write_clip_script(run.folder, entry, report::report_metrics(false));
   }

@@ -57,6 +57,9 @@ TEST_F(CliPoses, WritesARowPerMotionAndFrameAndSkipsFailures) {
   EXPECT_EQ(cell(3, "longest_wrong"), "hovers");
   EXPECT_NEAR(std::stod(cell(3, "force_mean_N")), std::stod(cell(3, "weight_N")),
               0.05 * std::stod(cell(3, "weight_N")));
+  for (const int row : {2, 3, 4})
+    EXPECT_LT(std::stod(cell(row, "slip")), 0.2) << "exact motions hardly slide, in the air neither";
+  EXPECT_EQ(cell(1, "slip_share"), "");
   EXPECT_LT(std::stod(cell(4, "infeasible_share")), 0.1) << "the BVH of an exact walk";
   const auto frames = split(read_file(path("f.csv")), '\n');
   const int expected =

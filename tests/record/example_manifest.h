@@ -31,6 +31,8 @@ inline Manifest example_manifest() {
   e.audit = {{"root_force_max_N", 12.25}};
   e.preparation = {{"floor_shift_mm", -12.5}};
   e.feasibility = {{"infeasible_share", 0.25}};
+  e.parts = {{0, 60}, {90, 149}};
+  e.worse = {{"sliding", "0.4 -> 0.9 mm a frame", {{31, 40}, {77, 77}}, "its reference slides, too"}};
   e.notes = {"a note"};
   m.put(e);
   return m;

@@ -11,7 +11,8 @@ namespace {
 
 MeasuredMotion standing_reference(int frames) {
   const motion::Clip clip = motion::standing_clip(frames);
-  return measured(motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps));
+  return measured(motion::sample_motion(motion::character_of(clip), motion::poses_of(clip), clip.fps),
+                  std::vector<double>(static_cast<std::size_t>(frames), 0.0));
 }
 
 const ReportBars& row(const std::vector<ReportBars>& bars, const std::string& name) {
@@ -113,7 +114,7 @@ TEST(Bars, ContactFollowsFootHeightWithoutForces) {
   ASSERT_EQ(bars.size(), 6u);
   EXPECT_EQ(row(bars, "left foot").spans.size(), 1u);
   EXPECT_TRUE(row(bars, "right foot").spans.empty());
-  EXPECT_TRUE(row(bars, "floats").flaw);
+  EXPECT_TRUE(row(bars, "input floats").flaw);
   EXPECT_FALSE(row(bars, "left foot").flaw);
 }
 

@@ -47,29 +47,12 @@ TEST(MotionCurves, FallingBodyHasParabolicCurves) {
   }
 }
 
-TEST(MotionCurves, SlideOfAGlidingBodyIsItsSpeed) {
-  const MotionCurves curves = curves_of(moved([](int t) { return Vector3d(0.003 * t, 0.004 * t, 0.0); }));
-  for (std::size_t t = 0; t + 1 < kCurveFrames; ++t) EXPECT_NEAR(curves.slide[t], 5.0, 1e-9);
-  EXPECT_TRUE(std::isnan(curves.slide.back()));
-}
-
-TEST(MotionCurves, NoContactHasNoSlide) {
-  for (const double slide : curves_of(moved([](int t) { return Vector3d(0.1 * t, 0.0, 0.02); })).slide)
-    EXPECT_TRUE(std::isnan(slide));
-}
-
-/// The mean of the curve is the metric of docs/metrics.md, where every pair of frames has a contact.
-TEST(MotionCurves, MeanSlideIsTheMetric) {
-  const motion::MotionSamples glide =
-      moved([](int t) { return Vector3d(0.002 * t * t, 0.001 * t, 0.001 * (t % 3)); });
-  double sum = 0.0;
-  const MotionCurves curves = curves_of(glide);
-  for (std::size_t t = 0; t + 1 < kCurveFrames; ++t) sum += curves.slide[t];
-  EXPECT_NEAR(sum / (kCurveFrames - 1), motion::evaluate_motion(glide, nullptr).fs.value, 1e-9);
+std::vector<double> no_slip(const motion::MotionSamples& motion) {
+  return std::vector<double>(motion.surface.size(), 0.0);
 }
 
 Flaws flaws(const motion::MotionSamples& input, const motion::MotionSamples& cleaned) {
-  return flaws_of(measured(input), measured(cleaned));
+  return flaws_of(measured(input, no_slip(input)), measured(cleaned, no_slip(cleaned)));
 }
 
 TEST(Flaws, CleanedMotionHasNone) {
@@ -90,11 +73,16 @@ TEST(Flaws, EachIsFoundInItsFramesOnly) {
   const Flaws afloat = flaws(moved([](int) { return Vector3d(0.0, 0.0, 0.02); }), still);
   EXPECT_EQ(count_true(afloat.floats), kCurveFrames);
   EXPECT_EQ(count_true(afloat.sinks), 0);
-  // 6 mm to the next frame during frames 4 … 7, at one speed: accelerations at the two ends alone, 5.4 m/s².
-  const Flaws slid =
-      flaws(moved([](int t) { return Vector3d(0.006 * std::clamp(t - 4, 0, 4), 0.0, 0.0); }), still);
+  std::vector<double> slip = no_slip(still);
+  for (std::size_t t = 4; t < 8; ++t) slip[t] = 3.1;
+  slip[8] = 3.0;
+  slip[9] = std::nan("");
+  const Flaws slid = flaws_of(measured(still, slip), measured(still, no_slip(still)));
   for (int t = 0; t < kCurveFrames; ++t) EXPECT_EQ(slid.slides[static_cast<std::size_t>(t)], third(t)) << t;
-  EXPECT_EQ(count_true(slid.shakes), 2);
+  // 6 mm to the next frame during frames 4 … 7, at one speed: accelerations at the two ends alone, 5.4 m/s².
+  const Flaws glided =
+      flaws(moved([](int t) { return Vector3d(0.006 * std::clamp(t - 4, 0, 4), 0.0, 0.0); }), still);
+  EXPECT_EQ(count_true(glided.shakes), 2);
   const Flaws shaken =
       flaws(moved([&](int t) { return Vector3d(third(t) && t % 2 == 0 ? 0.004 : 0.0, 0.0, 0.0); }), still);
   EXPECT_EQ(spans_of(shaken.shakes).size(), 1u);

@@ -14,8 +14,8 @@ record::SequenceEntry walk_entry() {
   entry.ok = true;
   entry.frames = 150;
   entry.fps = 30.0;
-  entry.input_metrics = {{"FS_gt", 1.7}, {"GP", 0.0}, {"Float_gt", std::nan("")}, {"Jitter", 9.0}};
-  entry.metrics = {{"gMPJPE", 12.04}, {"FS_gt", 0.2}, {"GP", 0.01}, {"Float_gt", 3.0}, {"Jitter", 0.4}};
+  entry.input_metrics = {{"slip", 1.7}, {"GP", 0.0}, {"Float_gt", std::nan("")}, {"Jitter", 9.0}};
+  entry.metrics = {{"gMPJPE", 12.04}, {"slip", 0.2}, {"GP", 0.01}, {"Float_gt", 3.0}, {"Jitter", 0.4}};
   return entry;
 }
 
@@ -23,7 +23,7 @@ record::SequenceEntry fallen(const std::string& name) {
   record::SequenceEntry entry;
   entry.name = name;
   entry.reason = "it falls at 2.1 s";
-  entry.metrics = {{"gMPJPE", 800.0}, {"FS_gt", 4.0}};
+  entry.metrics = {{"gMPJPE", 800.0}, {"slip", 4.0}};
   return entry;
 }
 
@@ -31,6 +31,18 @@ TEST(ResultLine, ListsImprovementsAndOmitsInvisibleFaults) {
   EXPECT_EQ(result_line(walk_entry()),
             "walk: ok, 12.0 mm from the reference, sliding 1.7 -> 0.2 mm a frame, floating 3.0 mm, "
             "jitter 90 -> 4 m/s^3");
+}
+
+TEST(ResultLine, TellsWhatBecameWorseAndWhy) {
+  record::SequenceEntry entry = walk_entry();
+  entry.worse = {{"sliding", "0.4 -> 0.9 mm a frame", {{31, 40}, {77, 77}}, "its reference slides, too"},
+                 {"sinking", "0.0 -> 0.1 mm", {{3, 4}}, "the input hangs over the floor"}};
+  EXPECT_TRUE(
+      result_line(entry).ends_with("; worse than the input: sliding (its reference slides, too), "
+                                   "sinking (the input hangs over the floor)"))
+      << result_line(entry);
+  EXPECT_EQ(in_words(entry.worse[0]),
+            "sliding 0.4 -> 0.9 mm a frame, most at frames 31-40, 77: its reference slides, too");
 }
 
 TEST(ResultLine, GivesTheReasonOfAFailure) {
@@ -58,7 +70,7 @@ TEST(Summary, CountsFailuresAndExcludesThemFromMedians) {
 TEST(Summary, HasAtMostEightLines) {
   std::vector<record::SequenceEntry> entries(3, walk_entry());
   for (record::SequenceEntry& entry : entries)
-    entry.input_metrics = {{"FS_gt", 2.0}, {"GP", 2.0}, {"Float_gt", 2.0}, {"Jitter", 2.0}};
+    entry.input_metrics = {{"slip", 2.0}, {"GP", 2.0}, {"Float_gt", 2.0}, {"Jitter", 2.0}};
   for (int k = 0; k < 9; ++k) entries.push_back(fallen("fall_" + std::to_string(k)));
   const std::vector<std::string> lines = summary(entries, 1.0, "report.html");
   EXPECT_EQ(lines.size(), 8u);

@@ -22,7 +22,7 @@ function bar_row(bars) {
   }
   const frames = bars.spans.reduce((sum, [first, last]) => sum + last - first + 1, 0);
   const label = make('span', {className: 'label', title: `${bars.meaning}: ${frames} of ${player.frames} frames`},
-                     bars.flaw ? `input ${bars.name}` : bars.name);
+                     bars.name);
   track.onclick = (e) => go_to_frame(frame_at(e, track));
   return [label, track];
 }
