@@ -65,6 +65,8 @@ Table preparation_words() {
       {"hinge_residual_max_mm", {"moved by knees and elbows as hinges, at most", "mm", ""}},
       {"arms_moved_mm", {"arms moved out of the body by", "mm", ""}},
       {"feet_planted_mm", {"joints moved to plant the feet by", "mm", ""}},
+      {"range_frames", {"frames with a joint beyond its range", "", ""}},
+      {"range_deg", {"joints beyond their ranges, turned inside, by at most", "°", ""}},
       {"foot_level_deg", {"feet turned level by", "°", ""}},
       {"flagged_frames", {"implausible frames that were bridged", "", ""}},
       {"limb_frames", {"frames with a limb that was bridged", "", ""}},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "character/body_words.h"
 #include "core/units.h"
 #include "motion/prepare/arm_separation.h"
 #include "motion/prepare/feet.h"
@@ -11,6 +12,7 @@
 #include "motion/prepare/foot_planting.h"
 #include "motion/prepare/glitches.h"
 #include "motion/prepare/hinge.h"
+#include "motion/prepare/joint_ranges.h"
 #include "motion/prepare/limb_glitches.h"
 #include "motion/prepare/stance.h"
 #include "motion/resample.h"
@@ -23,6 +25,7 @@ constexpr double kOddFloorShift = 1.0;  ///< m
 constexpr double kOddSpeed = 10.0;      ///< m/s, mean of the pelvis
 constexpr double kUpright = 0.3;        ///< vertical component of the pelvis' up axis
 constexpr double kOddLyingShare = 0.8;
+constexpr double kToldRange = 1.0;  ///< degrees beyond a range; less is not worth a line
 
 std::string text(const char* format, double value) {
   char buffer[200];
@@ -69,6 +72,21 @@ void forward(Reference& reference) {
   reference.poses.clear();
   for (const ReferenceFrame& f : reference.frames)
     reference.poses.push_back(forward_kinematics(reference.character, f.p_root, f.q));
+}
+
+/// Brings joints into their ranges; says so where they were clearly outside.
+void bring_into_ranges(Reference& reference, PreparationReport& report) {
+  const RangeReport found = turn_into_ranges(reference);
+  if (found.frames == 0) return;
+  forward(reference);
+  report.range_frames = found.frames;
+  report.range_deg = found.farthest / kDegree;
+  if (report.range_deg < kToldRange) return;
+  char note[200];
+  std::snprintf(note, sizeof note,
+                "joints were beyond their ranges in %d frames, by up to %.0f degrees (%s): turned inside",
+                found.frames, report.range_deg, body_in_words(found.body).c_str());
+  report.notes.emplace_back(note);
 }
 
 /// Puts the reference on the floor and reports by how much it moved.
@@ -132,6 +150,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   const Distance hinge = distance_mm(poses_of(bridged), out.poses);
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
+  if (config.ranges) bring_into_ranges(out, r);
   if (config.separate) r.arms_moved_mm = kMm * separate_arms(out);
   if (config.level_feet) {
     r.foot_level_deg = level_feet(out);
@@ -140,11 +159,12 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   if (config.ground) align_with_floor(r.foot_level_deg > 0.0, clip.on_floor, out, r);
   out.stance = find_stance(out.character, out.poses, out.fps);
   if (config.ground && config.plant) r.feet_planted_mm = kMm * plant_feet(out);
+  if (config.ranges && turn_into_ranges(out).frames > 0) forward(out);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;
   r.change_max_mm = change.max;
-  r.notes = input.warnings;
+  r.notes.insert(r.notes.begin(), input.warnings.begin(), input.warnings.end());
   note_oddities(out.poses, out.fps, r.floor_shift_mm / kMm, r.notes);
   if (report) *report = r;
   return out;
