@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "character/joint_range.h"
 #include "core/so3.h"
+#include "core/units.h"
 #include "motion/prepare/stance.h"
 
 namespace mimicx::motion {
@@ -15,10 +17,11 @@ constexpr double kSigmaHeight = 0.001;                            ///< m, of a s
 constexpr double kSigmaSlip = 0.0003;                             ///< m per frame, of a standing point
 constexpr double kSigmaDepth = 0.002;                             ///< m, of a point below the floor
 constexpr double kSigmaPlace = 0.02, kSigmaHeightOfPelvis = 0.1;  ///< m, of the pelvis
-constexpr double kSigmaPlaceBend = 0.0005;  ///< m, second difference at 30 frames per second
-constexpr double kSigmaTurn = 0.15;         ///< rad, of a joint
-constexpr double kSigmaTurnBend = 0.01;     ///< rad, second difference at 30 frames per second
-constexpr double kSigmaAside = 0.03;        ///< m, horizontal place of knees and ankles
+constexpr double kSigmaPlaceBend = 0.0005;     ///< m, second difference at 30 frames per second
+constexpr double kSigmaTurn = 0.15;            ///< rad, of a joint
+constexpr double kSigmaTurnBend = 0.01;        ///< rad, second difference at 30 frames per second
+constexpr double kSigmaAside = 0.03;           ///< m, horizontal place of knees and ankles
+constexpr double kSigmaRange = 0.3 * kDegree;  ///< of a joint beyond its range
 constexpr double kPlantedHeight = 0.003, kPlantedSlip = 0.001;  ///< m, m per frame: nothing to correct
 constexpr int kIterations = 6;
 constexpr double kLargestStep = 0.2, kSmallestStep = 1e-4;  ///< m and rad, of one unknown in one iteration
@@ -166,6 +169,20 @@ Correction sizes(double place, double turn) {
   return out;
 }
 
+/// Joints of the legs stay inside their ranges.
+void add_ranges(const Character& character, const ReferenceFrame& corrected, int t, Equations& equations) {
+  for (const Turn& turn : kTurns) {
+    const RangeDistance range = range_distance(character.joint[turn.body], turn.body, corrected.q[turn.body]);
+    if (range.excess <= 0.0) continue;
+    Correction J = Correction::Zero();
+    if (turn.count == 3)
+      J.segment<3>(turn.first) = range.slope;
+    else
+      J[turn.first] = range.slope.dot(axis_of(turn.body));
+    equations.add(t, J.transpose(), range.excess, kSigmaRange);
+  }
+}
+
 Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Correction>& c) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
@@ -174,7 +191,9 @@ Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Correction>& 
   Equations equations(frames);
   Legs before;
   for (int t = 0; t < frames; ++t) {
-    const Legs now = legs_of(reference.character, corrected(reference.frames[t], c[t]));
+    const ReferenceFrame frame = corrected(reference.frames[t], c[t]);
+    const Legs now = legs_of(reference.character, frame);
+    add_ranges(reference.character, frame, t, equations);
     for (int i = 0; i < kUnknowns; ++i) equations.add(t, Correction::Unit(i).transpose(), c[t][i], size[i]);
     if (t + 2 < frames) equations.add_bend(c, t, bend);
     for (std::size_t k = 0; k < kKneesAndAnkles.size(); ++k)
