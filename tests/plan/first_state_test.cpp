@@ -1,0 +1,100 @@
+// A plan starts at rest with the ranges of its joints and with its self contacts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "audit/audit.h"
+#include "control/plan.h"
+#include "motion/prepare/prepare.h"
+#include "rl/tracking/tracking_rollout.h"
+#include "synth/synthesize.h"
+
+namespace mimicx::plan {
+namespace {
+
+constexpr int kFrames = 30;
+
+motion::Clip standing() {
+  synth::SynthConfig config;
+  config.kind = "stand";
+  config.seed = 501;
+  motion::Clip clip = synth::synthesize(config);
+  clip.rotations.resize(kFrames);
+  clip.trans.resize(kFrames);
+  return clip;
+}
+
+/// The thigh is turned outwards, farther than a hip can, as noise may leave it.
+motion::Clip with_a_hip_past_its_range() {
+  motion::Clip clip = standing();
+  for (auto& frame : clip.rotations)
+    frame[kLeftHip] = log_map(exp_map(frame[kLeftHip]) * exp_map(Vector3d(0.0, 1.6, 0.0)));
+  return clip;
+}
+
+/// What acted in the first five frames of the plan of a clip.
+struct Start {
+  bool followed = false;
+  double from_nowhere = 0;  ///< N, force that nothing explains
+  double power = 0;         ///< W, of all joints
+  double range = 0;         ///< N·m, torque of a range
+  double self_contact = 0;  ///< N
+};
+
+Start start_of(const motion::Clip& clip, const motion::PreparationConfig& preparation) {
+  constexpr int kFirst = 5;
+  const motion::Reference reference = motion::prepare_reference(clip, preparation, nullptr);
+  control::PlanConfig config;
+  config.assisted_stages = false;
+  config.horizon.backtracks = 1;
+  const control::Plan plan = control::make_plan(
+      control::make_system(reference.character, {}, rl::tracking::simulator_states(reference), reference.fps),
+      config, {.threads = 2});
+  Start start;
+  start.followed = plan.ending == control::Ending::kFollowed;
+  const rl::tracking::TrackingConfig tracking;
+  std::size_t t = 0;
+  const auto rollout = rl::tracking::roll_out(
+      rl::tracking::make_tracking_clip(reference, tracking), tracking, [&](int, const float*, float* action) {
+        if (t < plan.residuals.size())
+          std::copy(plan.residuals[t].begin(), plan.residuals[t].end(), action);
+        else
+          std::fill(action, action + kDofs, 0.0f);
+        ++t;
+      });
+  audit::SimulatedFrames simulated;
+  simulated.character = reference.character;
+  for (int k = 0; k <= kFirst; ++k) {
+    simulated.frames.push_back(rollout.poses[static_cast<std::size_t>(k)].frame);
+    simulated.forces.push_back(rollout.forces[static_cast<std::size_t>(k)]);
+    for (int body = 0; body < kBodies; ++body) {
+      start.range = std::max(start.range, simulated.forces.back().range_torque[body].norm());
+      start.self_contact =
+          std::max(start.self_contact, simulated.forces.back().self_contact[body].tail<3>().norm());
+    }
+  }
+  for (const audit::AuditRow& row : audit::audit_frames(simulated, {}).rows) {
+    start.from_nowhere = std::max(start.from_nowhere, row.root.tail<3>().norm());
+    start.power = std::max(start.power, std::abs(row.power));
+  }
+  std::printf("  measured: %s, %.2f N from nowhere, %.0f W, %.1f N·m of ranges, %.1f N of self contact\n",
+              start.followed ? "followed" : "lost", start.from_nowhere, start.power, start.range,
+              start.self_contact);
+  return start;
+}
+
+TEST(FirstState, RestsInTheRangesOfItsJoints) {
+  motion::PreparationConfig without;
+  without.ranges = without.plant = false;
+  const Start thrown = start_of(with_a_hip_past_its_range(), without),
+              rests = start_of(with_a_hip_past_its_range(), {});
+  EXPECT_GT(thrown.range, 100.0);
+  EXPECT_TRUE(rests.followed);
+  EXPECT_LT(rests.from_nowhere, 1.0);
+  EXPECT_LT(rests.power, 100.0);
+  EXPECT_LT(rests.range, 1.0);
+}
+
+}  // namespace
+}  // namespace mimicx::plan
