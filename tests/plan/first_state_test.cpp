@@ -6,6 +6,7 @@
 
 #include "audit/audit.h"
 #include "control/plan.h"
+#include "core/units.h"
 #include "motion/prepare/prepare.h"
 #include "rl/tracking/tracking_rollout.h"
 #include "synth/synthesize.h"
@@ -36,10 +37,11 @@ motion::Clip with_a_hip_past_its_range() {
 /// What acted in the first five frames of the plan of a clip.
 struct Start {
   bool followed = false;
-  double from_nowhere = 0;  ///< N, force that nothing explains
-  double power = 0;         ///< W, of all joints
-  double range = 0;         ///< N·m, torque of a range
-  double self_contact = 0;  ///< N
+  double from_nowhere = 0;             ///< N, force that nothing explains
+  double power = 0;                    ///< W, of all joints
+  double range = 0;                    ///< N·m, torque of a range
+  double self_contact = 0;             ///< N
+  double lightest = 10, heaviest = 0;  ///< vertical force of the floor, body weights
 };
 
 Start start_of(const motion::Clip& clip, const motion::PreparationConfig& preparation) {
@@ -68,19 +70,27 @@ Start start_of(const motion::Clip& clip, const motion::PreparationConfig& prepar
   for (int k = 0; k <= kFirst; ++k) {
     simulated.frames.push_back(rollout.poses[static_cast<std::size_t>(k)].frame);
     simulated.forces.push_back(rollout.forces[static_cast<std::size_t>(k)]);
+    double floor = 0.0;
     for (int body = 0; body < kBodies; ++body) {
+      floor += simulated.forces.back().ground[body][5] / (kGravity * reference.character.total_mass());
       start.range = std::max(start.range, simulated.forces.back().range_torque[body].norm());
-      start.self_contact =
-          std::max(start.self_contact, simulated.forces.back().self_contact[body].tail<3>().norm());
+      if (k == 1)
+        start.self_contact =
+            std::max(start.self_contact, simulated.forces.back().self_contact[body].tail<3>().norm());
     }
+    if (k == 0) continue;  // no force belongs to the first state
+    start.lightest = std::min(start.lightest, floor);
+    start.heaviest = std::max(start.heaviest, floor);
   }
   for (const audit::AuditRow& row : audit::audit_frames(simulated, {}).rows) {
     start.from_nowhere = std::max(start.from_nowhere, row.root.tail<3>().norm());
     start.power = std::max(start.power, std::abs(row.power));
   }
-  std::printf("  measured: %s, %.2f N from nowhere, %.0f W, %.1f N·m of ranges, %.1f N of self contact\n",
-              start.followed ? "followed" : "lost", start.from_nowhere, start.power, start.range,
-              start.self_contact);
+  std::printf(
+      "  measured: %s, %.2f N from nowhere, %.0f W, %.1f N·m of ranges, %.1f N of self contact, "
+      "%.3f to %.3f of the weight\n",
+      start.followed ? "followed" : "lost", start.from_nowhere, start.power, start.range, start.self_contact,
+      start.lightest, start.heaviest);
   return start;
 }
 
@@ -94,6 +104,25 @@ TEST(FirstState, RestsInTheRangesOfItsJoints) {
   EXPECT_LT(rests.from_nowhere, 1.0);
   EXPECT_LT(rests.power, 100.0);
   EXPECT_LT(rests.range, 1.0);
+}
+
+// The soles are at the height at which they carry the weight, to within a tenth of a millimetre.
+TEST(FirstState, RestsOnTheFloor) {
+  const Start start = start_of(standing(), {});
+  EXPECT_GT(start.lightest, 0.97);
+  EXPECT_LT(start.heaviest, 1.03);
+}
+
+// A forearm is in the pelvis, by as much as a reference may keep.
+TEST(FirstState, RestsInItsSelfContacts) {
+  motion::Clip clip = standing();
+  for (auto& frame : clip.rotations) frame[kLeftShoulder] += 0.3 * Vector3d(0, -0.35, -1);
+  motion::PreparationConfig without;
+  without.separate = false;
+  const Start pushed = start_of(clip, without), rests = start_of(clip, {});
+  EXPECT_GT(pushed.self_contact, 100.0);
+  EXPECT_LT(rests.self_contact, 0.5 * pushed.self_contact);
+  EXPECT_LT(rests.power, 0.5 * pushed.power);
 }
 
 }  // namespace
