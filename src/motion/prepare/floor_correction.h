@@ -23,4 +23,7 @@ struct FloorCorrection {
 /// @param known   the floor is known to be at 0: no constant shift
 FloorCorrection floor_correction(const PerFrame<double>& lowest, double fps, bool known = false);
 
+/// The third step alone: heights to add.
+PerFrame<double> lift_over_floor(const PerFrame<double>& lowest);
+
 }  // namespace mimicx::motion

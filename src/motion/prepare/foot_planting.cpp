@@ -21,7 +21,8 @@ constexpr double kSigmaPlaceBend = 0.0005;     ///< m, second difference at 30 f
 constexpr double kSigmaTurn = 0.15;            ///< rad, of a joint
 constexpr double kSigmaTurnBend = 0.01;        ///< rad, second difference at 30 frames per second
 constexpr double kSigmaAside = 0.03;           ///< m, horizontal place of knees and ankles
-constexpr double kSigmaRange = 0.3 * kDegree;  ///< of a joint beyond its range
+constexpr double kSigmaRange = 0.1 * kDegree;  ///< of a joint beyond its range, less the margin
+constexpr double kInsideRange = 0.2 * kDegree;
 constexpr double kPlantedHeight = 0.003, kPlantedSlip = 0.001;  ///< m, m per frame: nothing to correct
 constexpr int kIterations = 6;
 constexpr double kLargestStep = 0.2, kSmallestStep = 1e-4;  ///< m and rad, of one unknown in one iteration
@@ -173,13 +174,13 @@ Correction sizes(double place, double turn) {
 void add_ranges(const Character& character, const ReferenceFrame& corrected, int t, Equations& equations) {
   for (const Turn& turn : kTurns) {
     const RangeDistance range = range_distance(character.joint[turn.body], turn.body, corrected.q[turn.body]);
-    if (range.excess <= 0.0) continue;
+    if (range.excess <= -kInsideRange) continue;
     Correction J = Correction::Zero();
     if (turn.count == 3)
       J.segment<3>(turn.first) = range.slope;
     else
       J[turn.first] = range.slope.dot(axis_of(turn.body));
-    equations.add(t, J.transpose(), range.excess, kSigmaRange);
+    equations.add(t, J.transpose(), range.excess + kInsideRange, kSigmaRange);
   }
 }
 
