@@ -67,6 +67,8 @@ Table preparation_words() {
       {"feet_planted_mm", {"joints moved to plant the feet by", "mm", ""}},
       {"range_frames", {"frames with a joint beyond its range", "", ""}},
       {"range_deg", {"joints beyond their ranges, turned inside, by at most", "°", ""}},
+      {"passages", {"passages of limbs through the body, led around it", "", ""}},
+      {"passages_left", {"passages of limbs through the body that are left", "", ""}},
       {"foot_level_deg", {"feet turned level by", "°", ""}},
       {"flagged_frames", {"implausible frames that were bridged", "", ""}},
       {"limb_frames", {"frames with a limb that was bridged", "", ""}},

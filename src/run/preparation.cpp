@@ -17,6 +17,8 @@ NamedValues values_of(const motion::PreparationReport& r) {
           {"feet_planted_mm", r.feet_planted_mm},
           {"range_frames", static_cast<double>(r.range_frames)},
           {"range_deg", r.range_deg},
+          {"passages", static_cast<double>(r.passages)},
+          {"passages_left", static_cast<double>(r.passages_left)},
           {"foot_level_deg", r.foot_level_deg},
           {"flagged_frames", static_cast<double>(r.flagged_frames)},
           {"limb_frames", static_cast<double>(r.limb_frames)}};
@@ -41,6 +43,7 @@ NamedValues values_of(const fit::FitReport& r) {
 
 motion::PreparationConfig preparing(Correction correction) {
   motion::PreparationConfig config;
+  config.sees = correction == Correction::kKeypoints;
   if (correction == Correction::kNone)
     config.ranges = config.separate = config.level_feet = config.ground = config.plant = config.bridge_flagged = false;
   return config;

@@ -7,6 +7,7 @@
 #include "audit/audit.h"
 #include "control/plan.h"
 #include "core/units.h"
+#include "motion/passing_hand.h"
 #include "motion/prepare/prepare.h"
 #include "rl/tracking/tracking_rollout.h"
 #include "synth/synthesize.h"
@@ -34,18 +35,18 @@ motion::Clip with_a_hip_past_its_range() {
   return clip;
 }
 
-/// What acted in the first five frames of the plan of a clip.
+/// What acted in the first frames of the plan of a clip.
 struct Start {
   bool followed = false;
   double from_nowhere = 0;             ///< N, force that nothing explains
   double power = 0;                    ///< W, of all joints
   double range = 0;                    ///< N·m, torque of a range
-  double self_contact = 0;             ///< N
+  double self_contact = 0;             ///< N, in the first frame
+  double hardest = 0;                  ///< N, self contact in any frame
   double lightest = 10, heaviest = 0;  ///< vertical force of the floor, body weights
 };
 
-Start start_of(const motion::Clip& clip, const motion::PreparationConfig& preparation) {
-  constexpr int kFirst = 5;
+Start start_of(const motion::Clip& clip, const motion::PreparationConfig& preparation, int first = 5) {
   const motion::Reference reference = motion::prepare_reference(clip, preparation, nullptr);
   control::PlanConfig config;
   config.assisted_stages = false;
@@ -67,16 +68,16 @@ Start start_of(const motion::Clip& clip, const motion::PreparationConfig& prepar
       });
   audit::SimulatedFrames simulated;
   simulated.character = reference.character;
-  for (int k = 0; k <= kFirst; ++k) {
+  for (int k = 0; k <= first; ++k) {
     simulated.frames.push_back(rollout.poses[static_cast<std::size_t>(k)].frame);
     simulated.forces.push_back(rollout.forces[static_cast<std::size_t>(k)]);
     double floor = 0.0;
     for (int body = 0; body < kBodies; ++body) {
       floor += simulated.forces.back().ground[body][5] / (kGravity * reference.character.total_mass());
       start.range = std::max(start.range, simulated.forces.back().range_torque[body].norm());
-      if (k == 1)
-        start.self_contact =
-            std::max(start.self_contact, simulated.forces.back().self_contact[body].tail<3>().norm());
+      const double contact = simulated.forces.back().self_contact[body].tail<3>().norm();
+      if (k == 1) start.self_contact = std::max(start.self_contact, contact);
+      start.hardest = std::max(start.hardest, contact);
     }
     if (k == 0) continue;  // no force belongs to the first state
     start.lightest = std::min(start.lightest, floor);
@@ -87,10 +88,11 @@ Start start_of(const motion::Clip& clip, const motion::PreparationConfig& prepar
     start.power = std::max(start.power, std::abs(row.power));
   }
   std::printf(
-      "  measured: %s, %.2f N from nowhere, %.0f W, %.1f N·m of ranges, %.1f N of self contact, "
+      "  measured: %s, %.2f N from nowhere, %.0f W, %.1f N·m of ranges, %.1f N of self contact (later %.0f "
+      "N), "
       "%.3f to %.3f of the weight\n",
       start.followed ? "followed" : "lost", start.from_nowhere, start.power, start.range, start.self_contact,
-      start.lightest, start.heaviest);
+      start.hardest, start.lightest, start.heaviest);
   return start;
 }
 
@@ -123,6 +125,17 @@ TEST(FirstState, RestsInItsSelfContacts) {
   EXPECT_GT(pushed.self_contact, 100.0);
   EXPECT_LT(rests.self_contact, 0.5 * pushed.self_contact);
   EXPECT_LT(rests.power, 0.5 * pushed.power);
+}
+
+// The whole plan of a reference that was led around the head, and of one that goes through it.
+TEST(PassingHand, IsNotPushedByTheHead) {
+  const motion::Clip clip = test::clip_with_passing_hand();
+  motion::PreparationConfig without;
+  without.separate = false;
+  const Start through = start_of(clip, without, 89), around = start_of(clip, {}, 89);
+  EXPECT_GT(through.hardest, 150.0);
+  EXPECT_TRUE(around.followed);
+  EXPECT_LT(around.hardest, 0.4 * through.hardest);
 }
 
 }  // namespace

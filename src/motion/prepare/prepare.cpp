@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "character/body_words.h"
 #include "core/units.h"
@@ -14,6 +15,7 @@
 #include "motion/prepare/hinge.h"
 #include "motion/prepare/joint_ranges.h"
 #include "motion/prepare/limb_glitches.h"
+#include "motion/prepare/self_passage.h"
 #include "motion/prepare/stance.h"
 #include "motion/resample.h"
 #include "motion/surface_points.h"
@@ -89,6 +91,39 @@ void bring_into_ranges(Reference& reference, PreparationReport& report) {
   report.notes.emplace_back(note);
 }
 
+/// Brings joints into their ranges that later steps turned out of them.
+void turn_back_into_ranges(bool ground, Reference& reference) {
+  if (turn_into_ranges(reference).frames == 0) return;
+  forward(reference);
+  if (!ground) return;
+  const std::vector<SurfacePoint> points = surface_points(reference.character);
+  PerFrame<double> lowest;
+  for (const BodyPoses& pose : reference.poses) lowest.push_back(lowest_height(points, pose));
+  const PerFrame<double> lift = lift_over_floor(lowest);
+  for (int t = 0; t < reference.size(); ++t) reference.frames[t].p_root.z() += lift[t];
+  forward(reference);
+}
+
+/// Leads limbs around the body; says where.
+void lead_around(bool sees, Reference& reference, PreparationReport& report) {
+  std::optional<Keypoints> unseen;
+  if (!sees) unseen.swap(reference.keypoints);
+  const PassageReport found = lead_limbs_around(reference);
+  if (!sees) unseen.swap(reference.keypoints);
+  report.passages = found.passages - found.remaining;
+  report.passages_left = found.remaining;
+  if (found.passages == 0) return;
+  char note[200];
+  std::snprintf(
+      note, sizeof note,
+      "limbs pass through the body %d times, first at %.2f s (%s through %s): led around it by up to "
+      "%.0f mm%s",
+      found.passages, found.first_frame / reference.fps, body_in_words(found.limb_body).c_str(),
+      body_in_words(found.obstacle).c_str(), kMm * found.moved,
+      found.remaining == 0 ? "" : "; not everywhere was a way found");
+  report.notes.emplace_back(note);
+}
+
 /// Puts the reference on the floor and reports by how much it moved.
 /// @param bend   the feet were levelled: toes are bent, and toes of feet that do not stand are ignored first
 /// @param known  the floor is known to be z = 0: no constant shift
@@ -151,6 +186,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
   if (config.ranges) bring_into_ranges(out, r);
+  if (config.separate) lead_around(config.sees, out, r);
   if (config.separate) r.arms_moved_mm = kMm * separate_arms(out);
   if (config.level_feet) {
     r.foot_level_deg = level_feet(out);
@@ -159,7 +195,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   if (config.ground) align_with_floor(r.foot_level_deg > 0.0, clip.on_floor, out, r);
   out.stance = find_stance(out.character, out.poses, out.fps);
   if (config.ground && config.plant) r.feet_planted_mm = kMm * plant_feet(out);
-  if (config.ranges && turn_into_ranges(out).frames > 0) forward(out);
+  if (config.ranges) turn_back_into_ranges(config.ground, out);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;
