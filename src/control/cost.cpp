@@ -180,7 +180,8 @@ LaneCost state_cost(const System& system, const Cost& cost, int frame, const Sta
                 P(cost.momentum_weight(frame, 3)) * square_of(now.angular, goal.tail<3>());
   }
   if (cost.weights.slip > 0.0) {
-    for (const Vec3<P>& slip : sole_slip(system, scratch)) out.cost += P(cost.slip_weight()) * dot(slip, slip);
+    for (const Vec3<P>& slip : sole_slip(system, scratch))
+      out.cost += P(cost.slip_weight()) * dot(slip, slip);
   }
   return out;
 }

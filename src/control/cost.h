@@ -25,20 +25,20 @@ namespace mimicx::control {
 
 /// The weights of the cost.
 struct CostWeights {
-  double position = 1600.0;       ///< of a body's distance, 1/m²
-  double root_rotation = 10.0;    ///< 1/rad²
-  double joint_rotation = 1.0;    ///< 1/rad²
-  double root_velocity = 0.5;     ///< s²/m²
-  double root_spin = 0.05;        ///< s²/rad²
-  double joint_velocity = 0.05;   ///< s²/rad²
-  double com_velocity = 1000.0;   ///< of the centre of mass, s²/m²
+  double position = 1600.0;          ///< of a body's distance, 1/m²
+  double root_rotation = 10.0;       ///< 1/rad²
+  double joint_rotation = 1.0;       ///< 1/rad²
+  double root_velocity = 0.5;        ///< s²/m²
+  double root_spin = 0.05;           ///< s²/rad²
+  double joint_velocity = 0.05;      ///< s²/rad²
+  double com_velocity = 1000.0;      ///< of the centre of mass, s²/m²
   double angular_momentum = 1000.0;  ///< about the centre of mass, of its value per mass, s²/m⁴
-  double slip = 200.0;            ///< of the mean square slip of a sole, s²/m²
-  double torque = 0.3;            ///< of the elastic torques per mass, s⁴/m⁴
-  double residual = 0.02;         ///< 1/rad²
-  double change = 64.0;           ///< of the residual from frame to frame, 1/rad²
-  double assistance = 96.0;       ///< of the assistive acceleration, s⁴/m²
-  double assistance_spin = 8.6;   ///< of the assistive angular acceleration, s⁴/rad²
+  double slip = 200.0;               ///< of the mean square slip of a sole, s²/m²
+  double torque = 0.3;               ///< of the elastic torques per mass, s⁴/m⁴
+  double residual = 0.02;            ///< 1/rad²
+  double change = 64.0;              ///< of the residual from frame to frame, 1/rad²
+  double assistance = 96.0;          ///< of the assistive acceleration, s⁴/m²
+  double assistance_spin = 8.6;      ///< of the assistive angular acceleration, s⁴/rad²
   double last = 8.0;  ///< factor on the state in a window's last frame, in place of all later frames
   /// Factor of each body on its distance and its joint's rotation; the feet's distance counts twice.
   PerBody<double> body_position, body_rotation;
@@ -52,8 +52,8 @@ using Certainty = PerBody<float>;
 
 /// What is known of one frame of the reference: factors in [0, 1] on weights of the cost.
 struct FrameFactors {
-  Certainty certainty;                    ///< c, 1: full confidence
-  float momentum = 1.0f;                  ///< m, 1: a body can have the reference's momentum here
+  Certainty certainty;    ///< c, 1: full confidence
+  float momentum = 1.0f;  ///< m, 1: a body can have the reference's momentum here
 
   FrameFactors() { certainty.fill(1.0f); }
 };

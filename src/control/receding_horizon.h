@@ -14,10 +14,10 @@
 namespace mimicx::control {
 
 struct HorizonConfig {
-  int horizon = 16;         ///< frames of a window
-  int commit = 8;           ///< frames committed from it
-  double easy_cost = 0.2;   ///< per frame; a window of less cost needs one iteration only
-  int iterations = 2;       ///< at most, for a window below `hard_cost` per frame
+  int horizon = 16;        ///< frames of a window
+  int commit = 8;          ///< frames committed from it
+  double easy_cost = 0.2;  ///< per frame; a window of less cost needs one iteration only
+  int iterations = 2;      ///< at most, for a window below `hard_cost` per frame
   double hard_cost = 0.5;
   int hard_iterations = 8;         ///< at most, for the first window and windows above `hard_cost`
   double stop = 0.03;              ///< iterations end below this relative decrease of the cost

@@ -74,7 +74,8 @@ SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d)
     const MovingPoint point{system.sole[k].body, to_eigen(motion.p), to_eigen(motion.v)};
     const double z = lowest(point.p.z(), point.v.z()), near = nearness(z);
     const Eigen::Vector2d by_height = nearness_slope(z) * point.v.head<2>();
-    const Eigen::Vector2d by_rise = point.v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();
+    const Eigen::Vector2d by_rise =
+        point.v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();
     auto rows = J.middleRows<2>(2 * k);
     rows.col(2) = by_height;
     rows.block<2, 2>(0, kRootVelocity).diagonal().setConstant(near);

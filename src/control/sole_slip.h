@@ -14,7 +14,7 @@
 
 namespace mimicx::control {
 
-inline constexpr double kNearFloor = 0.005;    ///< h, m
+inline constexpr double kNearFloor = 0.005;   ///< h, m
 inline constexpr double kAhead = 1.0 / 30.0;  ///< Δ, s
 
 /// r of every sole point, m/s, world; z is zero. @param kinematics  of the state (`update_kinematics`)

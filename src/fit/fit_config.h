@@ -47,6 +47,7 @@ struct FitConfig {
   double root_bend = 0.0006;  ///< m per frame²
 
   // The result.
+  double range_sigma = 1.0;           ///< degrees, of a joint beyond its range
   double acceleration_sigma = 0.012;  ///< m per frame², of every joint
   double floor_sigma = 0.02;          ///< m, height of a foot point that stands
   double slip_sigma = 0.003;          ///< m per frame, of a foot point that stands
@@ -91,6 +92,7 @@ void visit_settings(FitConfig& f, const auto& visit) {
         "sigma of the input's pelvis position, m");
   visit("fit_prior_frames", f.prior_frames, 1e-9, 1e6,
         "frames at 30 fps over which the input's error stays the same");
+  visit("fit_range_sigma", f.range_sigma, 1e-9, 1e6, "sigma of a joint beyond its range, degrees");
   visit("fit_slip_sigma", f.slip_sigma, 1e-9, 1e6,
         "sigma of the speed of a standing foot point, m per frame");
   visit("fit_balance_frames", f.balance_frames, 0, 1e6,

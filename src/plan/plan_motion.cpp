@@ -135,10 +135,11 @@ run::SimulatedSequence plan_sequence(const motion::Reference& reference, const P
   made.ending = ending_of(plan);
   made.plan = numbers_of_plan(plan);
   made.assistance = control::wrenches_of(plan.stage_assistance, reference.character.total_mass());
-  if (plan.failure) made.reason = failure_in_words(*plan.failure, job.needs, made.assistance);
   if (made.ending == record::SequenceEnding::kLimitSeconds)
     made.reason = "the plan was stopped at frame " + std::to_string(plan.states.size() - 1);
   made.after = replay(reference, *stored, job.substeps);
+  if (plan.failure)
+    made.reason = failure_in_words(*plan.failure, job.needs, made.assistance, made.after.forces);
   if (planned) *planned = std::move(stored->plan);
   return made;
 }

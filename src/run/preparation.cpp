@@ -15,6 +15,10 @@ NamedValues values_of(const motion::PreparationReport& r) {
           {"change_max_mm", r.change_max_mm},
           {"arms_moved_mm", r.arms_moved_mm},
           {"feet_planted_mm", r.feet_planted_mm},
+          {"range_frames", static_cast<double>(r.range_frames)},
+          {"range_deg", r.range_deg},
+          {"passages", static_cast<double>(r.passages)},
+          {"passages_left", static_cast<double>(r.passages_left)},
           {"foot_level_deg", r.foot_level_deg},
           {"flagged_frames", static_cast<double>(r.flagged_frames)},
           {"limb_frames", static_cast<double>(r.limb_frames)}};
@@ -39,8 +43,9 @@ NamedValues values_of(const fit::FitReport& r) {
 
 motion::PreparationConfig preparing(Correction correction) {
   motion::PreparationConfig config;
+  config.sees = correction == Correction::kKeypoints;
   if (correction == Correction::kNone)
-    config.separate = config.level_feet = config.ground = config.plant = config.bridge_flagged = false;
+    config.ranges = config.separate = config.level_feet = config.ground = config.plant = config.bridge_flagged = false;
   return config;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "character/joint_range.h"
 #include "physics/joints.h"
 #include "physics/test_states.h"
 
@@ -207,6 +208,29 @@ TEST(TorqueBound, LeavesUnsaturatedJointsToTheImplicitLaw) {
   const Vector3d omega = end.omega[kLeftShoulder];
   const Vector3d expected = j.kp * (phi - dt * omega) - j.kd * omega;
   EXPECT_LT((lane_of(s.applied.joint_torque[kLeftShoulder], 0) - expected).norm(), 1e-9);
+}
+
+// The spring of a joint at rest is its stiffness times the distance that fits and references are kept within.
+TEST(JointRange, SpringPushesByTheDistanceFromTheRange) {
+  Random random(11, {});
+  const Character character = make_character(random_betas(random));
+  const auto model = make_model<double>(character);
+  int outside = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Snapshot s = random_snapshot(random, 1.2, 0.0, 2.0);
+    State<double> state;
+    Target<double> target;
+    set_lane(s, 0, state, target);
+    Data<double> d;
+    update_kinematics(model, state, d);
+    for (int b = 1; b < kBodies; ++b) {
+      compute_range(model, state, b, d);
+      const double excess = range_distance(character.joint[b], b, s.q[b]).excess;
+      outside += excess > 0.0 ? 1 : 0;
+      EXPECT_NEAR(norm(d.tau_range[b]), model.config.limit_stiffness * std::max(excess, 0.0), 1e-8) << b;
+    }
+  }
+  EXPECT_GT(outside, 50);
 }
 
 /// The joint's rotation to the centre of its range and back, hinges about their axis.

@@ -163,6 +163,7 @@ FitProblem make_problem(const motion::Clip& clip, const FitConfig& config) {
     problem.beta_sigma = clip.body_model == "mimicx" ? told_shape(config) : shapes_of_people(config, problem);
   problem.rest_joints = clip.rest_joints;
   const Character character = character_of(clip);
+  problem.joint = character.joint;
   const auto input = motion::joint_rotations(clip);
   problem.q = motion::to_hinges(character, input);
   for (const Vector3d& trans : clip.trans) problem.p_root.push_back(trans + motion::rest_pelvis(clip));

@@ -65,6 +65,7 @@ struct FitProblem {
   std::optional<RestJoints> rest_joints;  ///< of the clip, where known: the shape does not change then
   PerFrame<Vector3d> p_root;              ///< [frames] of the input, m
   PerFrame<PerBody<Quaterniond>> q;       ///< [frames] of the input, knees and elbows hinges
+  PerBody<JointParameters> joint;         ///< their ranges
   PerBody<ShapeJacobian> offset_by_beta;  ///< of Character::joint_offset (affine in β)
   Array<FitFootPoint, kFootPoints> foot_points;
   std::vector<FitPoint> points;         ///< [K]

@@ -10,6 +10,7 @@
 #include "fit/least_squares/detection_rows.h"
 #include "fit/least_squares/error_levels.h"
 #include "fit/least_squares/projection.h"
+#include "fit/least_squares/range_term.h"
 
 namespace mimicx::fit {
 namespace {
@@ -298,6 +299,7 @@ NormalEquations linearise(const FitProblem& problem, const FitState& state,
     terms.priors(t, system);
     terms.smoothness(t, system);
     terms.standing(t, system);
+    add_ranges(problem, motion[t], t, system);
   }
   terms.slipping(system);
   if (problem.penalises_acceleration) terms.acceleration(system);

@@ -14,9 +14,10 @@ constexpr double kSigmaOverlap = 0.003;  ///< m
 constexpr double kSigmaTurn = 0.5;       ///< rad
 constexpr double kSigmaBend = 0.02;      ///< rad, second difference at 30 frames per second
 constexpr int kIterations = 12;
-constexpr double kLargestStep = 0.2;    ///< rad, of one unknown in one iteration
-constexpr double kSmallestStep = 1e-4;  ///< rad: below, it has converged
-constexpr double kTouching = 1e-6;      ///< m: axes that cross have no direction apart
+constexpr double kLargestStep = 0.2;         ///< rad, of one unknown in one iteration
+constexpr double kSmallestStep = 1e-4;       ///< rad: below, it has converged
+constexpr double kOverlapGrows = 1.0 / 3.0;  ///< s
+constexpr double kTouching = 1e-6;           ///< m: axes that cross have no direction apart
 
 /// Unknowns of a frame: shoulder (3) and elbow (1) of the left arm, then of the right one.
 constexpr int kUnknowns = 8;
@@ -60,14 +61,13 @@ Eigen::Matrix<double, 3, kUnknowns> point_jacobian(const BodyPoses& poses, int b
   return J;
 }
 
-List<Overlap> find_overlaps(const Character& character, const BodyPoses& poses) {
+List<Overlap> find_overlaps(const Character& character, const BodyPoses& poses, double allowed) {
   List<Overlap> found;
   for (const auto& [a, b] : character.self_pairs) {
     if (!is_of_arm(a) && !is_of_arm(b)) continue;
     const SegmentPair near = closest_points(character, poses, a, b);
     const Vector3d apart = near.a - near.b;
-    const double excess =
-        character.capsule[a].radius + character.capsule[b].radius - apart.norm() - kAllowedOverlap;
+    const double excess = character.capsule[a].radius + character.capsule[b].radius - apart.norm() - allowed;
     if (excess <= 0.0 || apart.norm() < kTouching) continue;
     const Vector3d n = apart.normalized();
     found.push_back(
@@ -128,7 +128,8 @@ PerFrame<Turns> solve_turns(const Reference& reference) {
     for (int t = 0; t < frames; ++t) {
       equations.add(c, t, {1.0}, 1.0 / (kSigmaTurn * kSigmaTurn));
       if (t + 2 < frames) equations.add(c, t, {1.0, -2.0, 1.0}, 1.0 / (bend * bend));
-      for (const Overlap& overlap : find_overlaps(reference.character, poses_with(reference, t, c[t])))
+      for (const Overlap& overlap : find_overlaps(reference.character, poses_with(reference, t, c[t]),
+                                                  allowed_overlap(t, reference.fps)))
         equations.add(t, overlap);
     }
     const Eigen::VectorXd step = equations.solve();
@@ -141,12 +142,17 @@ PerFrame<Turns> solve_turns(const Reference& reference) {
 }
 
 bool has_overlap(const Reference& reference) {
-  return std::any_of(reference.poses.begin(), reference.poses.end(), [&](const BodyPoses& poses) {
-    return !find_overlaps(reference.character, poses).empty();
-  });
+  for (int t = 0; t < reference.size(); ++t)
+    if (!find_overlaps(reference.character, reference.poses[t], allowed_overlap(t, reference.fps)).empty())
+      return true;
+  return false;
 }
 
 }  // namespace
+
+double allowed_overlap(int frame, double fps) {
+  return kAllowedOverlap * std::min(1.0, frame / (kOverlapGrows * fps));
+}
 
 double separate_arms(Reference& reference) {
   if (!has_overlap(reference)) return 0.0;

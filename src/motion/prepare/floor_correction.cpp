@@ -46,6 +46,12 @@ PerFrame<double> smooth_cover(const PerFrame<double>& need) {
 
 }  // namespace
 
+PerFrame<double> lift_over_floor(const PerFrame<double>& lowest) {
+  PerFrame<double> need;
+  for (double z : lowest) need.push_back(std::max(0.0, -z - kPenetrationAllowed));
+  return smooth_cover(need);
+}
+
 FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<double>& lifted, double fps,
                                  bool known) {
   FloorCorrection out;
@@ -55,10 +61,9 @@ FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<
     return std::clamp(-nearest_rank(w, kSupportShare) - out.shift, -kMaxDrift, kMaxDrift);
   });
   drift = smoothed(drift, kSupportSmoothing * fps);
-  PerFrame<double> need(lowest.size());
-  for (int t = 0; t < lowest.count(); ++t)
-    need[t] = std::max(0.0, -(lifted[t] + out.shift + drift[t]) - kPenetrationAllowed);
-  const PerFrame<double> lift = smooth_cover(need);
+  PerFrame<double> moved;
+  for (int t = 0; t < lowest.count(); ++t) moved.push_back(lifted[t] + out.shift + drift[t]);
+  const PerFrame<double> lift = lift_over_floor(moved);
   for (int t = 0; t < lowest.count(); ++t) out.height.push_back(out.shift + drift[t] + lift[t]);
   return out;
 }

@@ -29,4 +29,7 @@ inline FloorCorrection floor_correction(const PerFrame<double>& lowest, double f
   return floor_correction(lowest, lowest, fps, known);
 }
 
+/// The third step alone: heights to add.
+PerFrame<double> lift_over_floor(const PerFrame<double>& lowest);
+
 }  // namespace mimicx::motion

@@ -5,23 +5,28 @@
 #include <cmath>
 #include <vector>
 
+#include "character/joint_range.h"
 #include "core/so3.h"
+#include "core/units.h"
 #include "motion/prepare/stance.h"
 
 namespace mimicx::motion {
 namespace {
 
-constexpr double kSigmaHeight = 0.0005;                           ///< m, of a standing point
-constexpr double kSigmaSlip = 0.0003;                             ///< m per frame, of a standing point
-constexpr double kSigmaDepth = 0.0005;                            ///< m, of a point below the floor
-constexpr double kClearance = 0.02, kClearanceSpeed = 0.5;        ///< m of a swinging point, at m/s and above
-constexpr double kSigmaClearance = 0.003;                         ///< m
+constexpr double kSigmaHeight = 0.0005;                     ///< m, of a standing point
+constexpr double kSigmaSlip = 0.0003;                       ///< m per frame, of a standing point
+constexpr double kSigmaDepth = 0.0005;                      ///< m, of a point below the floor
+constexpr double kClearance = 0.02, kClearanceSpeed = 0.5;  ///< m of a swinging point, at m/s and above
+constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
 constexpr double kSigmaPlace = 0.02, kSigmaHeightOfPelvis = 0.1;  ///< m, of the pelvis
-constexpr double kSigmaPlaceBend = 0.00025;  ///< m, second difference at 30 frames per second
-constexpr double kSigmaTurn = 0.15;         ///< rad, of a joint
-constexpr double kSigmaTurnBend = 0.01;     ///< rad, second difference at 30 frames per second
-constexpr double kSigmaAside = 0.03;        ///< m, horizontal place of knees and ankles
+constexpr double kSigmaPlaceBend = 0.00025;    ///< m, second difference at 30 frames per second
+constexpr double kSigmaTurn = 0.15;            ///< rad, of a joint
+constexpr double kSigmaTurnBend = 0.01;        ///< rad, second difference at 30 frames per second
+constexpr double kSigmaToeBend = 0.05;         ///< rad, the same of the toes
+constexpr double kSigmaAside = 0.03;           ///< m, horizontal place of knees and ankles
+constexpr double kSigmaRange = 0.1 * kDegree;  ///< of a joint beyond its range, less the margin
+constexpr double kInsideRange = 0.2 * kDegree;
 constexpr double kPlantedHeight = 0.003, kPlantedSlip = 0.001;  ///< m, m per frame: nothing to correct
 constexpr int kIterations = 6;
 constexpr double kLargestStep = 0.2, kSmallestStep = 1e-4;  ///< m and rad, of one unknown in one iteration
@@ -162,12 +167,25 @@ Legs legs_of(const Character& character, const ReferenceFrame& frame) {
   return legs;
 }
 
-constexpr double kSigmaToeBend = 0.05;
 /// The same size for all unknowns of a kind.
 Correction sizes(double place, double turn) {
   Correction out = Correction::Constant(turn);
   out.head<kPlace>().setConstant(place);
   return out;
+}
+
+/// Joints of the legs stay inside their ranges.
+void add_ranges(const Character& character, const ReferenceFrame& corrected, int t, Equations& equations) {
+  for (const Turn& turn : kTurns) {
+    const RangeDistance range = range_distance(character.joint[turn.body], turn.body, corrected.q[turn.body]);
+    if (range.excess <= -kInsideRange) continue;
+    Correction J = Correction::Zero();
+    if (turn.count == 3)
+      J.segment<3>(turn.first) = range.slope;
+    else
+      J[turn.first] = range.slope.dot(axis_of(turn.body));
+    equations.add(t, J.transpose(), range.excess + kInsideRange, kSigmaRange);
+  }
 }
 
 /// Heights that the points of the soles keep at least, m: 0 of standing points; a swinging one keeps a
@@ -194,12 +212,15 @@ Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Array<double,
   const double rate = 900.0 / (reference.fps * reference.fps);
   const Correction size = sizes(kSigmaPlace, kSigmaTurn);
   Correction bend = sizes(kSigmaPlaceBend, kSigmaTurnBend);
-  bend[10] = bend[18] = kSigmaToeBend;
+  for (const Turn& turn : kTurns)
+    if (turn.body == kLeftFoot || turn.body == kRightFoot) bend[turn.first] = kSigmaToeBend;
   bend *= rate;
   Equations equations(frames);
   Legs before;
   for (int t = 0; t < frames; ++t) {
-    const Legs now = legs_of(reference.character, corrected(reference.frames[t], c[t]));
+    const ReferenceFrame frame = corrected(reference.frames[t], c[t]);
+    const Legs now = legs_of(reference.character, frame);
+    add_ranges(reference.character, frame, t, equations);
     for (int i = 0; i < kUnknowns; ++i) equations.add(t, Correction::Unit(i).transpose(), c[t][i], size[i]);
     if (t + 2 < frames) equations.add_bend(c, t, bend);
     for (std::size_t k = 0; k < kKneesAndAnkles.size(); ++k)

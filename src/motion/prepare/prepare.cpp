@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
+#include "character/body_words.h"
 #include "core/units.h"
 #include "motion/prepare/arm_separation.h"
 #include "motion/prepare/feet.h"
@@ -11,7 +13,9 @@
 #include "motion/prepare/foot_planting.h"
 #include "motion/prepare/glitches.h"
 #include "motion/prepare/hinge.h"
+#include "motion/prepare/joint_ranges.h"
 #include "motion/prepare/limb_glitches.h"
+#include "motion/prepare/self_passage.h"
 #include "motion/prepare/stance.h"
 #include "motion/resample.h"
 #include "motion/surface_points.h"
@@ -23,6 +27,7 @@ constexpr double kOddFloorShift = 1.0;  ///< m
 constexpr double kOddSpeed = 10.0;      ///< m/s, mean of the pelvis
 constexpr double kUpright = 0.3;        ///< vertical component of the pelvis' up axis
 constexpr double kOddLyingShare = 0.8;
+constexpr double kToldRange = 1.0;  ///< degrees beyond a range; less is not worth a line
 
 std::string text(const char* format, double value) {
   char buffer[200];
@@ -71,6 +76,54 @@ void forward(Reference& reference) {
     reference.poses.push_back(forward_kinematics(reference.character, f.p_root, f.q));
 }
 
+/// Brings joints into their ranges; says so where they were clearly outside.
+void bring_into_ranges(Reference& reference, PreparationReport& report) {
+  const RangeReport found = turn_into_ranges(reference);
+  if (found.frames == 0) return;
+  forward(reference);
+  report.range_frames = found.frames;
+  report.range_deg = found.farthest / kDegree;
+  if (report.range_deg < kToldRange) return;
+  char note[200];
+  std::snprintf(note, sizeof note,
+                "joints were beyond their ranges in %d frames, by up to %.0f degrees (%s): turned inside",
+                found.frames, report.range_deg, body_in_words(found.body).c_str());
+  report.notes.emplace_back(note);
+}
+
+/// Brings joints into their ranges that later steps turned out of them.
+void turn_back_into_ranges(bool ground, Reference& reference) {
+  if (turn_into_ranges(reference).frames == 0) return;
+  forward(reference);
+  if (!ground) return;
+  const std::vector<SurfacePoint> points = surface_points(reference.character);
+  PerFrame<double> lowest;
+  for (const BodyPoses& pose : reference.poses) lowest.push_back(lowest_height(points, pose));
+  const PerFrame<double> lift = lift_over_floor(lowest);
+  for (int t = 0; t < reference.size(); ++t) reference.frames[t].p_root.z() += lift[t];
+  forward(reference);
+}
+
+/// Leads limbs around the body; says where.
+void lead_around(bool sees, Reference& reference, PreparationReport& report) {
+  std::optional<Keypoints> unseen;
+  if (!sees) unseen.swap(reference.keypoints);
+  const PassageReport found = lead_limbs_around(reference);
+  if (!sees) unseen.swap(reference.keypoints);
+  report.passages = found.passages - found.remaining;
+  report.passages_left = found.remaining;
+  if (found.passages == 0) return;
+  char note[200];
+  std::snprintf(
+      note, sizeof note,
+      "limbs pass through the body %d times, first at %.2f s (%s through %s): led around it by up to "
+      "%.0f mm%s",
+      found.passages, found.first_frame / reference.fps, body_in_words(found.limb_body).c_str(),
+      body_in_words(found.obstacle).c_str(), kMm * found.moved,
+      found.remaining == 0 ? "" : "; not everywhere was a way found");
+  report.notes.emplace_back(note);
+}
+
 /// Puts the reference on the floor and reports by how much it moved.
 /// @param bend   the feet were levelled: toes are bent, and toes of feet that do not stand are ignored first
 /// @param plant  feet are planted afterwards: only the rest of the body is lifted out of the floor
@@ -82,8 +135,7 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
   const auto align = [&](const PerFrame<double>& lowest) {
     PerFrame<double> others;
     for (const BodyPoses& pose : reference.poses) others.push_back(lowest_height(lifted, pose));
-    const FloorCorrection floor =
-        floor_correction(lowest, plant ? others : lowest, reference.fps, known);
+    const FloorCorrection floor = floor_correction(lowest, plant ? others : lowest, reference.fps, known);
     report.floor_shift_mm += kMm * floor.shift;
     for (int t = 0; t < reference.size(); ++t) {
       reference.frames[t].p_root.z() += floor.height[t];
@@ -137,19 +189,23 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   const Distance hinge = distance_mm(poses_of(bridged), out.poses);
   r.hinge_residual_mean_mm = hinge.mean;
   r.hinge_residual_max_mm = hinge.max;
+  if (config.ranges) bring_into_ranges(out, r);
+  if (config.separate) lead_around(config.sees, out, r);
   if (config.separate) r.arms_moved_mm = kMm * separate_arms(out);
   if (config.level_feet) {
     r.foot_level_deg = level_feet(out);
     if (r.foot_level_deg > 0.0) forward(out);
   }
-  if (config.ground) align_with_floor(r.foot_level_deg > 0.0 || config.plant, config.plant, clip.on_floor, out, r);
+  if (config.ground)
+    align_with_floor(r.foot_level_deg > 0.0 || config.plant, config.plant, clip.on_floor, out, r);
   out.stance = find_stance(out.character, out.poses, out.fps);
   if (config.ground && config.plant) r.feet_planted_mm = kMm * plant_feet(out);
+  if (config.ranges) turn_back_into_ranges(config.ground, out);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);
   r.change_mean_mm = change.mean;
   r.change_max_mm = change.max;
-  r.notes = input.warnings;
+  r.notes.insert(r.notes.begin(), input.warnings.begin(), input.warnings.end());
   note_oddities(out.poses, out.fps, r.floor_shift_mm / kMm, r.notes);
   if (report) *report = r;
   return out;

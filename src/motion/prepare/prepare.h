@@ -20,6 +20,10 @@ struct PreparationReport {
   double change_mean_mm = 0, change_max_mm = 0;
   double arms_moved_mm = 0;    ///< largest distance by which separate_arms moved a joint
   double feet_planted_mm = 0;  ///< largest distance by which plant_feet moved a joint
+  int range_frames = 0;        ///< frames with a joint beyond its range (joint_ranges.h)
+  double range_deg = 0;        ///< largest distance of a joint beyond its range
+  int passages = 0;            ///< of limbs through the body that were led around it (self_passage.h)
+  int passages_left = 0;       ///< for which no way around was found
   double foot_level_deg = 0;   ///< largest constant rotation by which level_feet turned a sole or toes
   int flagged_frames = 0;      ///< frames of glitches (glitches.h)
   int limb_frames = 0;  ///< frames of glitches of single limbs (limb_glitches.h), summed over the limbs
@@ -28,15 +32,17 @@ struct PreparationReport {
 
 struct PreparationConfig {
   double fps = 30.0;
-  bool separate = true;        ///< move arms out of the body
+  bool ranges = true;          ///< bring joints inside their ranges
+  bool separate = true;        ///< lead limbs around the body, and move arms out of it
+  bool sees = true;            ///< keypoints help to decide where a limb goes around the body
   bool level_feet = true;      ///< remove a constant error in the pitch and roll of standing feet
   bool ground = true;          ///< align with the floor
   bool plant = true;           ///< put standing feet on one place of the floor, if `ground`
   bool bridge_flagged = true;  ///< interpolate over implausible frames
 };
 
-/// Resamples the clip, bridges implausible frames, turns knees and elbows into hinges, levels the feet, puts
-/// the motion on the floor and differentiates it.
+/// Resamples the clip, bridges implausible frames, turns knees and elbows into hinges, brings joints into
+/// their ranges, levels the feet, puts the motion on the floor and differentiates it.
 /// @param report  may be null
 /// @throws DataError for fewer than 2 frames or non-finite values.
 Reference prepare_reference(const Clip& clip, const PreparationConfig& config, PreparationReport* report);

@@ -11,6 +11,16 @@ namespace {
 using namespace test;
 using Eigen::MatrixXd;
 
+/// Distance of a joint beyond its range, rad; below 0 inside.                       docs/physics.md §3
+double beyond(const FitProblem& problem, const FitState& state, int t, int body) {
+  const JointParameters& j = problem.joint[body];
+  const Vector3d centre = is_hinge(body) ? Vector3d(j.centre.x() * hinge_axis(body)) : j.centre;
+  const Quaterniond x = exp_map(centre).conjugate() * rotations_of(problem, state, t)[body];
+  const Vector3d chord = (2.0 * (0.5 * j.half_range.array()).sin()).matrix();
+  const Vector3d s = (x.w() < 0.0 ? -2.0 : 2.0) * x.vec().cwiseQuotient(chord);
+  return (s.norm() - 1.0) / (s.cwiseQuotient(chord) / s.norm()).norm();
+}
+
 /// All residuals of the fit, written down once more: each divided by its σ, its kernel's weight frozen at
 /// `weights_at`.
 VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState& weights_at,
@@ -71,6 +81,9 @@ VectorXd residuals(const FitProblem& problem, const FitState& s, const FitState&
             kernel((frozen.feet[t + 1][i] - frozen.feet[t][i]).squaredNorm(), 5 * o.slip_sigma) /
                 o.slip_sigma);
     }
+    for (int b = 1; b < kBodies; ++b)
+      if (beyond(problem, weights_at, t, b) > 0.0)
+        r.push_back(beyond(problem, s, t, b) / (degree * o.range_sigma));
     for (std::size_t b = 0; b < kBodies && t + 2 < frames; ++b) {
       const auto bent = [&](const test::Moved& at) {
         return Vector3d(at.motion[t].poses.p_WB[b] - 2 * at.motion[t + 1].poses.p_WB[b] +
@@ -127,12 +140,19 @@ double mismatch(const MatrixXd& a, const MatrixXd& b) {
 TEST(FitTerms, NormalEquationsMatchADenseAssemblyByFiniteDifferences) {
   FitProblem problem = test::random_problem(3, 4, {});
   for (Vector3d& p : problem.p_root) p.z() -= 0.02;  // some foot points below the floor, some above
+  for (int b = 1; b < kBodies; b += 3)               // some joints inside their ranges, some beyond them
+    problem.joint[b].half_range = is_hinge(b) ? Vector3d::Constant(0.1) : Vector3d(0.1, 0.3, 0.15);
   FitState state = test::random_state(problem, 3, 0.01);
   state.g[kLead] = 0.0;  // the derivatives leave out how a correction changes the velocity
   const test::Moved m = test::move(problem, state);
   Contacts contacts(4);
   for (std::size_t t = 0; t < 4; ++t)
     for (std::size_t i = 0; i < kFootPoints; ++i) contacts[t][i] = (t + i) % 3 != 0;
+  int outside = 0;
+  for (int t = 0; t < 4; ++t)
+    for (int b = 1; b < kBodies; ++b) outside += beyond(problem, state, t, b) > 0.0 ? 1 : 0;
+  ASSERT_GT(outside, 8);
+  ASSERT_LT(outside, 40);
   const auto compare = [&](bool with_globals) {
     const Dense found = dense_of(linearise(problem, state, m.motion, m.feet, contacts));
     const auto at = [&](const FitState& s) { return residuals(problem, s, state, contacts); };

@@ -71,6 +71,26 @@ TEST(Separation, ReferenceWithoutOverlapStaysByteIdentical) {
       EXPECT_EQ(without.frames[t].q[body].coeffs(), with.frames[t].q[body].coeffs());
 }
 
+// A forearm that is 30 mm deep in the pelvis all the time: the first frame is free, later ones are left
+// alone.
+TEST(Separation, StartsWithoutAnOverlap) {
+  Clip clip = standing();
+  for (auto& frame : clip.rotations) frame[kLeftShoulder] += 0.3 * Vector3d(0, -0.35, -1);
+  Reference reference = prepared(clip, false);
+  const auto deepest_at = [](Reference r, int t) {
+    r.poses = {r.poses[t]};
+    return deepest(r);
+  };
+  ASSERT_GT(deepest_at(reference, 0), 0.015);
+  ASSERT_LT(deepest(reference), kAllowedOverlap);
+  const Reference before = reference;
+  EXPECT_GT(separate_arms(reference), 0.01);
+  EXPECT_LT(deepest_at(reference, 0), 0.004);
+  for (int t = 25; t < reference.size(); ++t)
+    for (int body = 0; body < kBodies; ++body)
+      EXPECT_LT((reference.poses[t].p_WB[body] - before.poses[t].p_WB[body]).norm(), 0.002) << t;
+}
+
 TEST(Separation, ElbowsStayHinges) {
   const Reference reference = prepared(with_arm_inside(standing(), 0.45), true);
   for (const ReferenceFrame& frame : reference.frames) {
