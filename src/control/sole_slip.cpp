@@ -34,21 +34,21 @@ PointMotion<T> motion_of(const SolePoint& point, const Data<T>& d) {
   return {d.p_WB[point.body] + arm, d.v[point.body] + cross(d.w[point.body], arm)};
 }
 
-/// z₋
+/// z + Δ min(0, v_z)
 template <class T>
-T lowest(const T& z, const T& rise) {
+T height_ahead(const T& z, const T& rise) {
   using std::min;
   return fma(min(rise, T(0.0)), T(kAhead), z);
 }
 
-/// ν(z)
+/// ν of the height ahead
 template <class T>
 T nearness(const T& z) {
   using std::max;
   const T over = max(z, T(0.0)) * T(1.0 / kNearFloor);
   return T(1.0) / fma(over, over, T(1.0));
 }
-/// dν/dz
+/// Its derivative
 double nearness_slope(double z) {
   const double near = nearness(z);
   return -2.0 * std::max(z, 0.0) / (kNearFloor * kNearFloor) * near * near;
@@ -61,7 +61,7 @@ Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const Data<T>& d) {
   Array<Vec3<T>, kFootPoints> slip;
   for (int k = 0; k < kFootPoints; ++k) {
     const auto [p, v] = motion_of(system.sole[k], d);
-    const T near = nearness(lowest(p.z, v.z));
+    const T near = nearness(height_ahead(p.z, v.z));
     slip[k] = {near * v.x, near * v.y, T(0.0)};
   }
   return slip;
@@ -72,7 +72,7 @@ SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d)
   for (int k = 0; k < kFootPoints; ++k) {
     const PointMotion<double> motion = motion_of(system.sole[k], d);
     const MovingPoint point{system.sole[k].body, to_eigen(motion.p), to_eigen(motion.v)};
-    const double z = lowest(point.p.z(), point.v.z()), near = nearness(z);
+    const double z = height_ahead(point.p.z(), point.v.z()), near = nearness(z);
     const Eigen::Vector2d by_height = nearness_slope(z) * point.v.head<2>();
     const Eigen::Vector2d by_rise =
         point.v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();

@@ -32,7 +32,6 @@ struct WalkingScene {
     List<FrameFactors> all(12);
     for (int t = 0; t < all.count(); ++t) {
       for (int i = 0; i < kBodies; ++i) all[t].certainty[i] = static_cast<float>((t + i) % 3) * 0.5f;
-      for (int k = 0; k < kFootPoints; ++k) all[t].stance[k] = static_cast<float>((t + k) % 5) * 0.25f;
       all[t].momentum = 0.5f;
     }
     return all;

@@ -36,7 +36,7 @@ TEST(Gains, SoftenedGainsWithstandMoreThanStiffGains) {
   stiff.change = walk.cost.weights.change;
   const auto followed = [&](const GainConfig& config) {
     const auto gains = feedback_gains(walk.system, walk.cost, walk.motion, config, {.threads = 2});
-    return test_pushes(walk.system, walk.cost, walk.motion, gains, {.speed = 0.15}).followed;
+    return test_pushes(walk.system, walk.cost, walk.motion, gains, {.speed = 0.25}).followed;
   };
   EXPECT_GE(followed({}), followed(stiff) + 3);
 }

@@ -24,32 +24,46 @@ struct TurningWalk {
     Random random(45);
     retract(x, random_tangent<double>(random, 0.3));
   }
+  Array<Vector3d, kFootPoints> soles(const State<double>& at) const {
+    const BodyPoses poses = poses_of(system, at);
+    Array<Vector3d, kFootPoints> p;
+    for (int k = 0; k < kFootPoints; ++k)
+      p[k] = poses.p_WB[system.sole[k].body] + poses.q_WB[system.sole[k].body] * system.sole[k].p_B;
+    return p;
+  }
+  /// Moves the body up or down.
+  void put(int point, double height) { x.p_root.z += height - soles(x)[point].z(); }
 };
 
 TEST(SoleSlip, JacobianMatchesDifferences) {
-  const TurningWalk s;
+  TurningWalk s;
   const auto d = std::make_unique<Data<double>>();
-  update_kinematics(s.system.exact_model, s.x, *d);
-  const SoleSlipJacobian J = sole_slip_jacobian(s.system, *d);
-  constexpr double kStep = 1e-5;
-  for (int k = 0; k < kTangent; ++k) {
-    State<double> plus = s.x, minus = s.x;
-    Tangent<double> delta{};
-    delta[k] = kStep;
-    retract(plus, delta);
-    delta[k] = -kStep;
-    retract(minus, delta);
-    const auto a = slip_of(s.system, plus), b = slip_of(s.system, minus);
-    for (int point = 0; point < kFootPoints; ++point) {
-      const Vector3d expected = (to_eigen(a[point]) - to_eigen(b[point])) / (2.0 * kStep);
-      EXPECT_LT((J.block<2, 1>(2 * point, k) - expected.head<2>()).norm(), 1e-8) << point << ", " << k;
+  constexpr double kStep = 1e-6;
+  for (int point = 0; point < kFootPoints; ++point) {
+    s.put(point, 0.003 * (point % 3));
+    update_kinematics(s.system.exact_model, s.x, *d);
+    const SoleSlipJacobian J = sole_slip_jacobian(s.system, *d);
+    for (int k = 0; k < kTangent; ++k) {
+      State<double> plus = s.x, minus = s.x;
+      Tangent<double> delta{};
+      delta[k] = kStep;
+      retract(plus, delta);
+      delta[k] = -kStep;
+      retract(minus, delta);
+      const auto a = slip_of(s.system, plus), b = slip_of(s.system, minus);
+      for (int i = 0; i < kFootPoints; ++i) {
+        const Vector3d expected = (to_eigen(a[i]) - to_eigen(b[i])) / (2.0 * kStep);
+        EXPECT_LT((J.block<2, 1>(2 * i, k) - expected.head<2>()).norm(), 1e-4) << i << ", " << k;
+      }
     }
   }
 }
 
-// The rate of change of the points' positions, by a small step of the pose along its velocities.
-TEST(SoleSlip, VelocitiesAreRatesOfThePositions) {
-  const TurningWalk s;
+// The rate of change of the positions of points below the floor, by a small step of the pose along its
+// velocities.
+TEST(SoleSlip, OnTheFloorItIsTheRateOfThePositions) {
+  TurningWalk s;
+  s.x.p_root.z -= 1.0;
   constexpr double kStep = 1e-6;
   const auto positions = [&](double time) {
     State<double> x = s.x;
@@ -61,16 +75,31 @@ TEST(SoleSlip, VelocitiesAreRatesOfThePositions) {
     for (int k = 0; k < kDofs; ++k)
       delta[kJointRotation + k] = time * dofs()[k].axis.dot(to_eigen(s.x.omega[dofs()[k].body]));
     retract(x, delta);
-    const BodyPoses poses = poses_of(s.system, x);
-    Array<Vector3d, kFootPoints> p;
-    for (int k = 0; k < kFootPoints; ++k)
-      p[k] = poses.p_WB[s.system.sole[k].body] + poses.q_WB[s.system.sole[k].body] * s.system.sole[k].p_B;
-    return p;
+    return s.soles(x);
   };
   const auto ahead = positions(kStep), behind = positions(-kStep);
-  const auto v = slip_of(s.system, s.x);
-  for (int k = 0; k < kFootPoints; ++k)
-    EXPECT_LT((to_eigen(v[k]) - (ahead[k] - behind[k]) / (2.0 * kStep)).norm(), 1e-5) << k;
+  const auto slip = slip_of(s.system, s.x);
+  for (int k = 0; k < kFootPoints; ++k) {
+    const Vector3d rate = (ahead[k] - behind[k]) / (2.0 * kStep);
+    EXPECT_LT((to_eigen(slip[k]) - Vector3d(rate.x(), rate.y(), 0.0)).norm(), 1e-5) << k;
+  }
+}
+
+// A body that moves as a whole at 1 m/s: half of the slip is left at h, and all of it where the point will be
+// below the floor a frame later.
+TEST(SoleSlip, FadesWithHeightAndLooksAheadOfAFallingFoot) {
+  TurningWalk s;
+  for (int body = 0; body < kBodies; ++body) s.x.omega[body] = {0.0, 0.0, 0.0};
+  const auto slip_at = [&](double height, double rise) {
+    s.put(0, height);
+    s.x.v_root = {1.0, 0.0, rise};
+    return slip_of(s.system, s.x)[0].x;
+  };
+  EXPECT_NEAR(slip_at(kNearFloor, 0.0), 0.5, 1e-5);
+  EXPECT_NEAR(slip_at(kNearFloor, 0.5), 0.5, 1e-5);
+  EXPECT_NEAR(slip_at(0.02, 0.0), 1.0 / 17.0, 1e-5);
+  EXPECT_NEAR(slip_at(0.02, -0.02 / kAhead), 1.0, 1e-5);
+  EXPECT_EQ(slip_at(-0.001, 0.0), 1.0);
 }
 
 }  // namespace

@@ -91,6 +91,37 @@ TEST(FootPlanting, TrunkArmsAndHeadKeepTheirRotations) {
       EXPECT_TRUE(reference.frames[t].q[body].isApprox(before.frames[t].q[body], 0.0)) << t << ", " << body;
 }
 
+// The right foot of a person who stands is dragged 0.3 m forward over the floor within half a second.
+TEST(FootPlanting, ADraggedFootSteps) {
+  Reference reference = exact("stand");
+  const int first = 20, last = 35;
+  const auto share = [&](int t) { return std::clamp(double(t - first) / (last - first), 0.0, 1.0); };
+  for (int t = 0; t < reference.size(); ++t) {
+    const double angle = 0.35 * share(t);  // of the thigh; the pelvis sinks so that the foot stays low
+    reference.frames[t].q[kRightHip] = exp_map(Vector3d(-angle, 0, 0)) * reference.frames[t].q[kRightHip];
+    reference.frames[t].q[kRightAnkle] = reference.frames[t].q[kRightAnkle] * exp_map(Vector3d(angle, 0, 0));
+    BodyPoses poses =
+        forward_kinematics(reference.character, reference.frames[t].p_root, reference.frames[t].q);
+    double low = 1.0;
+    const SolePositions p = sole_positions(reference.character, poses);
+    for (int k = kFootPoints / 2; k < kFootPoints; ++k) low = std::min(low, p[k].z());
+    reference.frames[t].p_root.z() -= low;
+    reference.poses[t] =
+        forward_kinematics(reference.character, reference.frames[t].p_root, reference.frames[t].q);
+  }
+  reference.stance = find_stance(reference.character, reference.poses, reference.fps);
+  const int middle = (first + last) / 2;
+  const auto lowest = [&] {
+    const SolePositions p = sole_positions(reference.character, reference.poses[middle]);
+    double low = 1.0;
+    for (int k = kFootPoints / 2; k < kFootPoints; ++k) low = std::min(low, p[k].z());
+    return low;
+  };
+  ASSERT_LT(lowest(), 1e-9);
+  plant_feet(reference);
+  EXPECT_GT(lowest(), 0.012);
+}
+
 TEST(FootPlanting, LowersAPelvisSmoothly) {
   Reference reference = exact("walk");
   move_pelvis(reference, [](int) { return Vector3d(0.0, 0.0, 0.02); });
