@@ -75,19 +75,39 @@ class Unpickler(pickle._Unpickler):  # the one in Python: joblib's arrays stand 
     dispatch = {**pickle._Unpickler.dispatch, pickle.BUILD[0]: load_build}
 
 
+def is_pickled(file):
+    """Whether an array in .npy format is a pickle; the file then stands at it."""
+    version = np.lib.format.read_magic(file)
+    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    return read(file)[2].hasobject
+
+
 def load_npy(path):
-    """An array, or the dictionary that np.save pickled into one."""
+    """An array, or the dictionary or list that np.save pickled into one."""
     with open(path, "rb") as file:
-        version = np.lib.format.read_magic(file)
-        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        if not read(file)[2].hasobject:
+        if not is_pickled(file):
             return np.load(path, allow_pickle=False)
-        return Unpickler(file).load().item()
+        array = Unpickler(file).load()
+        return array.item() if array.ndim == 0 else list(array)
+
+
+def load_npz(path):
+    """{name: array, or what np.savez pickled into one}"""
+    out = {}
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            if not name.endswith(".npy"):
+                continue
+            content = archive.read(name)
+            file = io.BytesIO(content)
+            array = Unpickler(file).load() if is_pickled(file) else np.lib.format.read_array(io.BytesIO(content))
+            out[name[:-4]] = array.item() if array.dtype == object and array.ndim == 0 else array
+    return out
 
 
 def load(path):
     if path.endswith(".npz"):
-        return dict(np.load(path, allow_pickle=False))
+        return load_npz(path)
     if path.endswith(".npy"):
         return load_npy(path)
     if not zipfile.is_zipfile(path):
