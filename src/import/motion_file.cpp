@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
@@ -344,7 +345,11 @@ MotionFormat recognise(const std::string& bytes) {
 }
 
 motion::Clip read_motion(const std::filesystem::path& path, const ReadConfig& config) {
-  return motion_from(read_file(path), path, config);
+  try {
+    return motion_from(read_file(path), path, config);
+  } catch (const std::bad_alloc& error) {
+    throw DataError(path.string(), "", "a motion that fits into memory", reason_of(error));
+  }
 }
 
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,

@@ -12,6 +12,7 @@
 #include "import/evidence/length_unit.h"
 #include "import/evidence/sides.h"
 #include "import/evidence/up_axis.h"
+#include "import/retarget/retarget_contacts.h"
 #include "import/retarget/retarget_floor.h"
 #include "import/retarget/retarget_solve.h"
 #include "import/world_transform.h"
@@ -227,6 +228,19 @@ std::string residuals_line(const RetargetReport& report) {
   return line;
 }
 
+/// A warning of joints of the limbs that are far from the skeleton's.
+void warn_of_residuals(const RetargetReport& report, motion::Clip& clip) {
+  constexpr double kFar = 60.0;  // mm
+  std::string far;
+  for (const int b :
+       {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})
+    if (report.residual_mm[b] > kFar)
+      far += (far.empty() ? "" : ", ") + body_in_words(b) + sentence(" %.0f mm", report.residual_mm[b]);
+  if (!far.empty())
+    clip.warnings.push_back("our body cannot take the skeleton's proportions: joints are off by " + far +
+                            " on average");
+}
+
 /// Handles a skeleton that `write_bvh` wrote: its joints are the bodies, its offsets those of some β.
 /// @return false for another skeleton
 bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
@@ -281,6 +295,8 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   solve(character, calibration, source.frames, report.leg_ratio, clip);
   level_soles(source.neutral_stands, calibration, clip);
   solve(character, calibration, source.frames, report.leg_ratio, clip);
+  if (has_other_legs(character, lengths[kThigh], lengths[kShank]))
+    keep_contacts(character, source.frames, report.leg_ratio, clip);
   report.lift = put_on_floor(clip);
   report.neutral = source.neutral_name;
   measure(clip, source, report.lift, report);
@@ -291,6 +307,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
             "average",
       report.leg_ratio, report.mean_residual_mm));
   clip.decisions.push_back(residuals_line(report));
+  warn_of_residuals(report, clip);
   std::string missing;
   for (const std::string& name : report.unmapped) missing += (missing.empty() ? "" : ", ") + name;
   if (!missing.empty()) clip.warnings.emplace_back("no joint for " + missing + ": kept in the rest pose");

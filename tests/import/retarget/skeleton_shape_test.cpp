@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "import/retarget/retarget.h"
+#include "import/retarget/joint_names.h"
 #include "import/retarget/skeletons.h"
 #include "import/world_transform.h"
 #include "synth/synthesize.h"
