@@ -70,7 +70,7 @@ int fit(const FitArguments& a) {
       print(outputs[i].lexically_relative(a.out).replace_extension().generic_string(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
-      std::cerr << file << ": left out: " << error.what() << '\n';
+      std::cerr << file << ": left out: " << reason_of(error) << '\n';
       all_good = false;
     }
   }
