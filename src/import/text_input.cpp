@@ -100,7 +100,13 @@ std::string_view TextInput::word() {
   const std::size_t begin = at_;
   const auto is_mark = [&](char c) { return marks_.find(c) != std::string_view::npos; };
   if (at_ < text_.size() && is_mark(text_[at_])) return text_.substr(at_++, 1);
-  while (at_ < text_.size() && !is_space(text_[at_]) && !is_mark(text_[at_])) ++at_;
+  while (at_ < text_.size() && !is_space(text_[at_]) && !is_mark(text_[at_])) {
+    // The second byte of a character in Shift-JIS or GBK may be that of a mark, such as '{'.
+    const bool leads =
+        static_cast<unsigned char>(text_[at_]) >= 0x81 && sequence_length(text_.substr(at_)) == 0;
+    const bool follows = at_ + 1 < text_.size() && static_cast<unsigned char>(text_[at_ + 1]) >= 0x40;
+    at_ += leads && follows ? 2 : 1;
+  }
   return text_.substr(begin, at_ - begin);
 }
 

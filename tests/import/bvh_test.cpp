@@ -190,6 +190,13 @@ TEST(Bvh, NumbersTooNearToZeroAreZero) {
             Vector3d(0, 0, 3));
 }
 
+TEST(Bvh, BracesInsideCharactersOfShiftJisAreNone) {
+  const std::string bones = "\x83{\x81[\x83\x93";  // ボーン, whose second byte is '{'
+  const SkeletonMotion motion = parse_bvh(replaced(kSmall, "Chest", bones), "a");
+  EXPECT_EQ(motion.joints[1].name, "\\x83{\\x81[\\x83\\x93");
+  EXPECT_EQ(motion.joints.size(), 3u);
+}
+
 TEST(Bvh, LongNamesStayWhole) {
   const std::string name(300, 'n');
   EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", name), "a").joints[1].name, name);

@@ -230,7 +230,7 @@ std::string residuals_line(const RetargetReport& report) {
 
 /// A warning of joints of the limbs that are far from the skeleton's.
 void warn_of_residuals(const RetargetReport& report, motion::Clip& clip) {
-  constexpr double kFar = 60.0;  // mm
+  constexpr double kFar = 80.0;  // mm
   std::string far;
   for (const int b :
        {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})

@@ -26,7 +26,7 @@ constexpr std::array<LegJoints, 2> kSides = {
     {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}, {kRightHip, kRightKnee, kRightAnkle, kRightFoot}}};
 
 /// Height of the floor under the skeleton, m.
-double floor_of(const PerFrame<Landmarks>& frames) {
+double floor_under(const PerFrame<Landmarks>& frames) {
   std::vector<double> lowest;
   for (const Landmarks& pose : frames) {
     double low = pose.p[kLeftAnkle].z() - kSole;
@@ -101,7 +101,7 @@ void keep_contacts(const Character& character, const PerFrame<Landmarks>& frames
                    motion::Clip& clip) {
   PerFrame<BodyPoses> poses = motion::poses_of(clip);
   const std::vector<double> shifts =
-      eased(knee_shifts(frames, poses, clip.fps, floor_of(frames), leg_ratio), clip.fps);
+      eased(knee_shifts(frames, poses, clip.fps, floor_under(frames), leg_ratio), clip.fps);
   double most = 0.0;
   for (int t = 0; t < poses.count(); ++t) {
     BodyPoses& pose = poses[t];
