@@ -8,7 +8,7 @@ RESULTS, recognised by what is in it (docs/formats.md, "Results of video estimat
 
     GVHMR (hmr4d_results.pt), GEM (smpl_params.pt), WHAM (wham_output.pkl), PromptHMR (results.pkl),
     TRAM (a folder with camera.npy and hps/), SLAHMR (..._world_results.npz), TRACE (.npz), ROMP (video_results.npz),
-    4DHumans and PHALP (tracks, .pkl), PHC (.pkl), Multi-HMR (a pickled list), SAM 3D Body (a pickled list), MDM (results.npy)
+    4DHumans and PHALP (tracks, .pkl), PHC (.pkl), Multi-HMR and SAM 3D Body (pickled lists), MDM (results.npy)
 
 Every person gets a file, and every piece of a person's track that has no gap: OUT.npz where there is but one, else
 OUT_person2.npz or OUT_person2_from310.npz (frame of the video). All people of a result are in one world: same origin,
@@ -108,7 +108,7 @@ class Positions(Track):
     """One person of whom joint positions (T, 22, 3) are known, y up."""
 
     def __init__(self, positions, frames=None, fps=None):
-        self.positions, self.model, self.intrinsics, self.fps = np.asarray(positions, float), "joint positions", None, fps
+        self.positions, self.model, self.fps = np.asarray(positions, float), "joint positions", fps
         self.frames = np.arange(len(self.positions)) if frames is None else np.asarray(frames, int).reshape(-1)
 
 
@@ -180,8 +180,8 @@ def prompthmr(data):
 
 
 def slahmr(data):
-    """{person: Track}. SMPL-H, (P, T, ...), in the world of the first camera; the floor plane, where there is one, tells
-    up, else the camera's y axis points down."""
+    """{person: Track}. SMPL-H, (P, T, ...), in the world of the first camera; the floor plane, where there is one,
+    tells up, else the camera's y axis points down."""
     trans = np.asarray(data["trans"], float)
     people, frames = trans.shape[:2]
     pose = np.concatenate([np.reshape(data["root_orient"], (people, frames, 3)),
@@ -287,7 +287,7 @@ def phalp(data, size):
             if size or picture is not None and np.size(picture) == 2:
                 w, h = size or (picture[1], picture[0])
                 place[2] *= np.hypot(w, h) / (5000 / 256 * max(w, h))
-            turns = np.concatenate([np.reshape(body["global_orient"], (-1, 3, 3)), np.reshape(body["body_pose"], (-1, 3, 3))])
+            turns = np.concatenate([np.reshape(body[part], (-1, 3, 3)) for part in ("global_orient", "body_pose")])
             rows.setdefault(person, []).append((frame, vectors(turns).reshape(-1), place, np.ravel(body["betas"])[:10]))
     return {person: before_camera("smpl", np.stack([r[1] for r in seen]), np.stack([r[2] for r in seen]) + J0["smpl"],
                                   np.stack([r[3] for r in seen]), frames=[r[0] for r in seen])
@@ -304,33 +304,36 @@ def multihmr(data):
     """{person: Track}: rotvec (53, 3) without eyes, shape, transl_pelvis; people are followed from frame to frame."""
     tracks = followed({frame: [(np.ravel(one["transl_pelvis"])[:3].astype(float), one) for one in people]
                        for frame, people in frames_of(data).items()})
-    return {person: before_camera("smplx", np.stack([np.reshape(one["rotvec"], (-1, 3))[:22].reshape(-1) for _, one in rows]),
-                                  np.stack([np.ravel(one["transl_pelvis"])[:3] for _, one in rows]),
-                                  np.stack([np.ravel(one["shape"])[:10] for _, one in rows]), frames=[f for f, _ in rows])
-            for person, rows in tracks.items()}
+    out = {}
+    for person, rows in tracks.items():
+        pose = np.stack([np.reshape(one["rotvec"], (-1, 3))[:22].reshape(-1) for _, one in rows])
+        pelvis = np.stack([np.ravel(one["transl_pelvis"])[:3] for _, one in rows])
+        betas = np.stack([np.ravel(one["shape"])[:10] for _, one in rows])
+        out[person] = before_camera("smplx", pose, pelvis, betas, frames=[frame for frame, _ in rows])
+    return out
 
 
 def sam3d(data):
-    """{person: Positions} from the 70 keypoints of MHR; the joints of the trunk lie on the line between hips and neck."""
+    """{person: Positions} from the 70 keypoints of MHR; joints of the trunk lie on the line between hips and neck."""
     def joints(one):
         p = (np.asarray(one["pred_keypoints_3d"], float).reshape(70, 3) + np.ravel(one["pred_cam_t"])) @ DOWN_TO_UP.T
         mid = lambda *k: p[list(k)].mean(0)
         pelvis, neck = mid(9, 10), p[69]
         line = lambda share: pelvis + share * (neck - pelvis)
-        return np.stack([line(0.1), p[9], p[10], line(0.3), p[11], p[12], line(0.55), p[13], p[14], line(0.75), mid(15, 16),
-                         mid(18, 19), neck, 0.6 * line(0.9) + 0.4 * p[5], 0.6 * line(0.9) + 0.4 * p[6], mid(3, 4), p[5], p[6],
-                         p[7], p[8], p[62], p[41]])
+        collars = [0.6 * line(0.9) + 0.4 * p[shoulder] for shoulder in (5, 6)]
+        return np.stack([line(0.1), p[9], p[10], line(0.3), p[11], p[12], line(0.55), p[13], p[14], line(0.75),
+                         mid(15, 16), mid(18, 19), neck, *collars, mid(3, 4), p[5], p[6], p[7], p[8], p[62], p[41]])
     seen = {frame: [(joints(one)[0], joints(one)) for one in people] for frame, people in frames_of(data).items()}
     return {person: Positions(np.stack([j for _, j in rows]), [f for f, _ in rows])
             for person, rows in followed(seen).items()}
 
 
 def mdm(data):
-    """{sample: Positions} of motion (N, 22, 3, T), each cut to its length; 20 fps."""
+    """{sample, from 0: Positions} of motion (N, 22, 3, T), each cut to its length; 20 fps."""
     motion, lengths = np.asarray(data["motion"], float), np.ravel(data["lengths"]).astype(int)
     if motion.ndim != 4 or motion.shape[1:3] != (22, 3):
         raise ValueError(f"motion of shape {motion.shape}: joint positions (N, 22, 3, T) are read")
-    return {k + 1: Positions(one.transpose(2, 0, 1)[:max(1, min(n, one.shape[2]))], fps=20.0)
+    return {k: Positions(one.transpose(2, 0, 1)[:max(1, min(n, one.shape[2]))], fps=20.0)
             for k, (one, n) in enumerate(zip(motion, lengths))}
 
 
@@ -352,7 +355,8 @@ def unwrapped(data):
     """What is in an archive: objects of no dimension as they are, and a single one for itself."""
     if not isinstance(data, dict):
         return data
-    inner = {k: v.item() if isinstance(v, np.ndarray) and v.dtype == object and v.ndim == 0 else v for k, v in data.items()}
+    inner = {name: one.item() if isinstance(one, np.ndarray) and one.dtype == object and one.ndim == 0 else one
+             for name, one in data.items()}
     for name in ("outputs", "results"):
         if set(inner) <= {name, "imgpaths"} and isinstance(inner.get(name), dict):
             return inner[name]

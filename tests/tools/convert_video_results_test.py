@@ -497,8 +497,8 @@ def check_positions_of_mdm_and_sam3d():
     np.save("results.npy", {"motion": motion, "lengths": np.array([60, 41]), "text": ["a", "b"], "num_samples": 2})
     run = subprocess.run([sys.executable, TOOL, "results.npy", "mdm"], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
-    for sample, length in ((1, 60), (2, 41)):
-        assert np.allclose(np.load(f"mdm_person{sample}.npy"), motion[sample - 1].transpose(2, 0, 1)[:length], atol=1e-6)
+    for sample, length in ((0, 60), (1, 41)):
+        assert np.allclose(np.load(f"mdm_person{sample}.npy"), motion[sample].transpose(2, 0, 1)[:length], atol=1e-6)
     points, place_ = random.normal(size=(FRAMES, 70, 3)), np.array([0.1, 0.2, 4.0])
     with open("sam3d.pkl", "wb") as file:
         pickle.dump([[{"pred_keypoints_3d": p, "pred_cam_t": place_}] for p in 0.1 * points], file)
