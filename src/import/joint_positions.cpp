@@ -40,7 +40,8 @@ struct Layout {
 /// The layout of (T, J, 3), (J, 3, T), (T, 263), each also with dimensions of one in front. The first 22 of
 /// 24, 52 and 55 joints, SMPL's, SMPL-H's and SMPL-X's, are ours.
 std::optional<Layout> layout_of(std::vector<std::size_t> shape) {
-  while (shape.size() > 2 && shape[0] == 1) shape.erase(shape.begin());
+  while (shape.size() > 3 && shape[0] == 1) shape.erase(shape.begin());
+  if (shape.size() == 3 && shape[0] == 1 && shape[2] == kHumanMl3dFeatures) shape.erase(shape.begin());
   const auto known = [](std::size_t joints) {
     return joints == kBodies || joints == 24 || joints == 52 || joints == 55;
   };
