@@ -217,10 +217,15 @@ void read_betas(const Npz& npz, Clip& clip) {
   const std::string key = found_among(kBetaNames, npz);
   if (key.empty()) return;
   const Member betas(npz, key);
-  const auto& shape = betas.array.shape;
+  std::vector<std::size_t> shape =
+      betas.array.shape;  // without dimensions of one between the first and the last
+  while (shape.size() > 2 && shape[1] == 1) shape.erase(shape.begin() + 1);
   const bool per_frame = shape.size() == 2 && shape[0] == clip.rotations.size() && shape[0] > 1;
-  if (shape.size() != 1 && !(shape.size() == 2 && (shape[0] == 1 || per_frame)))
-    betas.fail("one row of shape parameters", betas.shape());
+  if (shape.size() != 1 && !(shape.size() == 2 && (shape[0] == 1 || per_frame))) {
+    if (clip.body_model == "mimicx") betas.fail("one row of shape parameters", betas.shape());
+    clip.warnings.push_back("betas of " + betas.shape() + " are not used");
+    return;
+  }
   const std::size_t count = std::min<std::size_t>(shape.back(), kBetas);
   std::copy_n(betas.values.begin(), count, clip.betas.begin());
   for (const double b : clip.betas)

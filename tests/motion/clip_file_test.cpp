@@ -299,6 +299,20 @@ TEST(ClipFile, WhatIsNotUsedNeedNotBeFinite) {
   EXPECT_TRUE(std::isnan(back.at("betas").to_double()[12]));
 }
 
+TEST(ClipFile, OddMembersThatAreNotNeededDoNotCostTheMotion) {
+  Npz npz = amass();
+  npz.set("gender", NpyArray::from_text({"male", "male", "male"}));
+  const std::vector<double> zeros(3 * 2 * 10, 0.0);
+  npz.set("betas", NpyArray::from_double({3, 1, 10}, zeros.data()));
+  EXPECT_TRUE(read(npz).warnings.empty());
+  EXPECT_EQ(read(npz).gender, "male");
+  npz.set("gender", NpyArray::from_text({"male", "female"}));
+  npz.set("betas", NpyArray::from_double({3, 2, 10}, zeros.data()));
+  EXPECT_EQ(read(npz).gender, "neutral");
+  ASSERT_EQ(read(npz).warnings.size(), 1u);
+  EXPECT_NE(read(npz).warnings[0].find("betas of shape (3, 2, 10)"), std::string::npos);
+}
+
 TEST(ClipFile, SaysWhatIsMissingAndWhatWasFound) {
   Npz npz;
   npz.set("cam", test::counted(3, 3));

@@ -80,6 +80,14 @@ def check_plain_pickle():
     check_gvhmr("results.pkl")
 
 
+def check_compressed_pickles():
+    import bz2, gzip, lzma, zlib
+    for module in (zlib, gzip, bz2, lzma):
+        with open("results.pkl", "wb") as file:
+            file.write(module.compress(pickle.dumps(GVHMR)))
+        check_gvhmr("results.pkl")
+
+
 def check_torch_zip():
     """A .pt file by the layout that torch.save writes: data.pkl and one file per storage."""
     class FloatStorage:
@@ -546,7 +554,7 @@ def check_refusals():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for check in (check_plain_pickle, check_torch_zip, check_joblib, check_several_people, check_tram,
+    for check in (check_plain_pickle, check_compressed_pickles, check_torch_zip, check_joblib, check_several_people, check_tram,
                   check_a_static_camera, check_a_camera_path, check_gem, check_prompthmr, check_slahmr, check_trace, check_romp,
                   check_phalp, check_phc, check_multihmr, check_positions_of_mdm_and_sam3d,
                   check_many_results_and_nothing_overwritten, check_which_file_is_wrong_and_how, check_refusals):
