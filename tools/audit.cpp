@@ -6,6 +6,7 @@
 #include "audit/pose_files.h"
 #include "commands.h"
 #include "core/npz/npz.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/outputs.h"
 #include "record/progress.h"

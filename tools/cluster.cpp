@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "program/configurations.h"
 #include "record/outputs.h"

@@ -6,9 +6,10 @@
 
 RESULTS, recognised by what is in it (docs/formats.md, "Results of video estimators"):
 
-    GVHMR (hmr4d_results.pt), GEM (smpl_params.pt), WHAM (wham_output.pkl), PromptHMR (results.pkl),
+    GVHMR (hmr4d_results.pt), GEM (smpl_params.pt), WHAM (wham_output.pkl), PromptHMR (results.pkl), VIBE (.pkl),
     TRAM (a folder with camera.npy and hps/), SLAHMR (..._world_results.npz), TRACE (.npz), ROMP (video_results.npz),
-    4DHumans and PHALP (tracks, .pkl), PHC (.pkl), Multi-HMR and SAM 3D Body (pickled lists), MDM (results.npy)
+    4DHumans and PHALP (tracks, .pkl), PHC and AIST++ (.pkl), Multi-HMR and SAM 3D Body
+    (pickled lists), MDM (results.npy)
 
 Every person gets a file, and every piece of a person's track that has no gap: OUT.npz where there is but one, else
 OUT_person2.npz or OUT_person2_from310.npz (frame of the video). All people of a result are in one world: same origin,
@@ -162,6 +163,28 @@ def phc(data):
     track = Track("smpl", pose, root, pelvis, pelvis, np.ravel(data.get("beta", np.zeros(10)))[:10])
     track.fps = float(data["fps"]) if "fps" in data else None
     return track
+
+
+def aist(data):
+    """AIST++'s motions: y up; smpl_trans is in the unit of smpl_scaling; 60 fps."""
+    pose = np.asarray(data["smpl_poses"], float).reshape(len(data["smpl_poses"]), -1)
+    scale = float(np.ravel(data.get("smpl_scaling", 1.0))[0])
+    pelvis = np.asarray(data["smpl_trans"], float) / scale + J0["smpl"]
+    track = Track("smpl", pose, pose[:, :3], pelvis, pelvis, np.zeros(10))
+    track.fps = 60.0
+    return track
+
+
+def vibe(data, size):
+    """Poses in front of the camera; orig_cam (s_x, s_y, t_x, t_y) is of a weak perspective in the picture, whose size and
+    diagonal as focal length give the depth."""
+    if not size:
+        raise ValueError("VIBE's camera needs the size of the picture: --size W H")
+    pose, camera = np.asarray(data["pose"], float), np.asarray(data["orig_cam"], float)
+    depth = np.hypot(*size) / (camera[:, 0] * size[0] / 2)
+    place = np.stack([camera[:, 2], camera[:, 3], depth], 1)
+    return before_camera("smpl", pose, place + J0["smpl"], np.asarray(data["betas"], float)[:, :10],
+                         frames=data.get("frame_ids"))
 
 
 def prompthmr(data):
@@ -337,7 +360,7 @@ def mdm(data):
             for k, (one, n) in enumerate(zip(motion, lengths))}
 
 
-RESULTS = ("results of GVHMR, GEM, WHAM, PromptHMR, TRAM (the folder of a video), SLAHMR, TRACE, ROMP, PHALP, PHC, "
+RESULTS = ("results of GVHMR, GEM, WHAM, VIBE, PromptHMR, TRAM (the folder of a video), SLAHMR, TRACE, ROMP, PHALP, PHC, AIST++, "
            "Multi-HMR, SAM 3D Body or MDM")
 
 
@@ -393,6 +416,8 @@ def tracks_of(path, size=None):
         return {0: checked(path, gvhmr, data)}
     if "pose_world" in data:
         return {0: checked(path, wham, data)}
+    if "smpl_poses" in data and "smpl_trans" in data:
+        return {0: checked(path, aist, data)}
     for make, names in ((prompthmr, ("people",)), (mdm, ("motion", "lengths")),
                         (trace, ("smpl_thetas", "world_trans", "track_ids")), (slahmr, ("trans", "root_orient", "pose_body"))):
         if set(names) <= set(data) and (make is not slahmr or np.ndim(data["trans"]) == 3):
@@ -410,6 +435,8 @@ def tracks_of(path, size=None):
         return {person: checked(path, phc, one) for person, one in data.items()}
     if "smpl" in first and "camera" in first:
         return checked(path, lambda d: phalp(d, size), data)
+    if "orig_cam" in first and "pose" in first:
+        return {person: checked(path, lambda one: vibe(one, size), one) for person, one in data.items()}
     if "pose_world" not in first:
         raise Wrong(path, RESULTS, "dictionaries of " + (", ".join(str(key) for key in list(first)[:6]) or "nothing"))
     return {person: checked(path, wham, one) for person, one in data.items()}

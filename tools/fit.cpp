@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/folder_lock.h"
 #include "record/outputs.h"

@@ -6,6 +6,7 @@
 
 #include "command_line_numbers.h"
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/shard.h"
 #include "run/run_outputs.h"

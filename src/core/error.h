@@ -6,8 +6,6 @@
 /// Rooms that are part of a bare build (docs/porting.md) call `raise(error)` instead of `throw error`.
 #pragma once
 
-#include <exception>
-#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -24,11 +22,6 @@ class DataError : public std::runtime_error {
       : std::runtime_error(path + (place.empty() ? "" : ": " + place) + ": expected " + expected +
                            ", found " + found) {}
 };
-
-/// What an error says to a user: the standard library's own names of errors in words.
-inline std::string reason_of(const std::exception& error) {
-  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "not enough memory" : error.what();
-}
 
 #ifdef __cpp_exceptions
 /// Throws it.

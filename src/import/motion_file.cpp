@@ -10,6 +10,7 @@
 
 #include "core/file.h"
 #include "core/npz/npy_header.h"
+#include "core/reason.h"
 #include "import/body_model.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"

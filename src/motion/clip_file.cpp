@@ -201,6 +201,15 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
   return columns == 72 ? "smpl" : columns == 156 ? "smplh" : "smplx";
 }
 
+/// AIST++'s smpl_trans is in the unit of smpl_scaling, which is the size of the body in it; 1 in other files.
+double scaling_of(const Npz& npz) {
+  if (!npz.has("smpl_scaling")) return 1.0;
+  const Member scaling(npz, "smpl_scaling");
+  if (scaling.values.empty() || !(scaling.values[0] > 0.0 && std::isfinite(scaling.values[0])))
+    scaling.fail("a positive number", "another one");
+  return scaling.values[0];
+}
+
 /// Variants such as "smplx_locked_head" count as their base model.
 std::string read_body_model(const Npz& npz, const std::string& from_layout) {
   for (const char* key : {"body_model", "surface_model_type"}) {
@@ -459,14 +468,16 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
   trans.expect_finite_columns(3);
   if (trans.rows() != frames)
     trans.fail(std::to_string(frames) + " frames as in the rotations", trans.shape());
+  const double unit = scaling_of(npz);
   for (std::size_t t = 0; t < frames; ++t)
-    clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t));
+    clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t) / unit);
   clip.fps = read_fps(npz, config.fps, clip);
   read_rest_joints(npz, clip);
   read_betas(npz, clip);
   if (npz.has("gender")) clip.gender = member_text(npz, "gender").value_or("neutral");
 
-  Names used = {"rest_joints", "gender", "joint_names", "joints", "body_model", "surface_model_type"};
+  Names used = {"rest_joints",        "gender",      "joint_names", "joints", "body_model",
+                "surface_model_type", "smpl_scaling"};
   for (const Names& names : {kPoses, kRoot, kBody, kTrans, kRates, kBetaNames})
     used.insert(used.end(), names.begin(), names.end());
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {

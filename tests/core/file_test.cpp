@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/archives.h"
+#include "core/reason.h"
 
 namespace mimicx {
 namespace {

@@ -252,6 +252,18 @@ TEST(ClipFile, ReadsTheNamesOfOtherPrograms) {
   EXPECT_EQ(to_matrix(to_npz(clip).at("poses")).cols(), 72) << "the hands come back";
 }
 
+TEST(ClipFile, AistPlacesAreInTheUnitOfTheirScaling) {
+  Npz npz;
+  npz.set("smpl_poses", amass().at("poses"));
+  npz.set("smpl_trans", amass().at("trans"));
+  npz.set("smpl_scaling", NpyArray::scalar(4.0));
+  const Clip clip = clip_from(npz, "a", {60.0, {}});
+  EXPECT_EQ(clip.trans[1], Vector3d(read(amass()).trans[1] / 4.0));
+  EXPECT_FALSE(to_npz(clip).has("smpl_scaling")) << "it holds no more";
+  npz.set("smpl_scaling", NpyArray::scalar(0.0));
+  EXPECT_THROW(clip_from(npz, "a", {60.0, {}}), DataError);
+}
+
 TEST(ClipFile, JointsOfThreeNumbersAreTheFlatLayout) {
   const Npz usual = amass();
   Npz npz = usual;

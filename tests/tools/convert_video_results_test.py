@@ -490,6 +490,22 @@ def check_phc():
     assert out["mocap_framerate"] == 25
 
 
+def check_aist_and_vibe():
+    world, camera = place(SMPL_J0)
+    pose = np.hstack([POSE22, np.zeros((FRAMES, 6))])
+    out = written({"smpl_poses": pose, "smpl_trans": 93.0 * world, "smpl_scaling": np.array([93.0])}, "aist.pkl")
+    expect_motion(out, SMPL_J0)
+    assert out["mocap_framerate"] == 60
+    size = (1920.0, 1080.0)
+    near = camera - camera.min(0) + [0.1, 0.1, 3.0]  # in front of the camera
+    scale = np.hypot(*size) / (near[:, 2] * size[0] / 2)
+    person = {"pose": np.hstack([BELOW, pose[:, 3:]]), "betas": np.zeros((FRAMES, 10)), "frame_ids": np.arange(FRAMES),
+              "orig_cam": np.stack([scale, scale, near[:, 0], near[:, 1]], 1)}
+    out = written({1: person}, "vibe.pkl", "--size", "1920", "1080")
+    assert np.allclose(out["trans"] + SMPL_J0, (near + SMPL_J0) @ DOWN.T @ Y_TO_Z.T, atol=1e-6)
+    assert convert("vibe.pkl")[0] == 1 and "--size" in convert("vibe.pkl")[1]
+
+
 def check_multihmr():
     pelvis = (GLOBAL["transl"] + J0) @ DOWN.T
     pelvis = np.cumsum(np.diff(pelvis, axis=0, prepend=0) * 0.05, axis=0)  # near enough from frame to frame to be followed
@@ -556,7 +572,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for check in (check_plain_pickle, check_compressed_pickles, check_torch_zip, check_joblib, check_several_people, check_tram,
                   check_a_static_camera, check_a_camera_path, check_gem, check_prompthmr, check_slahmr, check_trace, check_romp,
-                  check_phalp, check_phc, check_multihmr, check_positions_of_mdm_and_sam3d,
+                  check_phalp, check_phc, check_aist_and_vibe, check_multihmr, check_positions_of_mdm_and_sam3d,
                   check_many_results_and_nothing_overwritten, check_which_file_is_wrong_and_how, check_refusals):
         check()
         print(check.__name__, "ok")
