@@ -6,10 +6,12 @@
 #include "audit/pose_files.h"
 #include "commands.h"
 #include "core/npz/npz.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/outputs.h"
 #include "record/progress.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
@@ -27,26 +29,26 @@ void claim_outputs(const AuditArguments& a, const std::vector<std::string>& inpu
   record::Outputs outputs(inputs, a.force);
   outputs.claim(a.csv, audit::poses_csv_head());
   outputs.claim(a.frames_csv, audit::pose_frames_csv_head());
-  outputs.claim(a.json, record::kJsonOpening);
+  if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
 }
 
 int audit_forces(const AuditArguments& a, const std::vector<std::string>& inputs) {
   std::vector<audit::AuditedFile> files;
   bool all_good = true;
-  std::cout << audit::audit_table_head();
+  table_stream(a.json) << audit::audit_table_head();
   for (const std::string& path : inputs) {
     try {
       files.push_back({path, audit::audit_file(path, false, a.config.read)});
       for (const audit::Audit& audit : files.back().audits) {
-        std::cout << audit::format_audit(path, audit);
+        table_stream(a.json) << audit::format_audit(path, audit);
         all_good = all_good && audit.failures.empty();
       }
     } catch (const std::exception& error) {
-      std::cerr << path << ": left out: " << error.what() << '\n';
+      std::cerr << path << ": left out: " << reason_of(error) << '\n';
       all_good = false;
     }
   }
-  if (!a.json.empty()) write_file_atomically(a.json, audit::audit_json(files));
+  if (!a.json.empty()) write_json(a.json, audit::audit_json(files));
   return all_good ? kAllGood : kSomeFailed;
 }
 
@@ -60,11 +62,11 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs)
   std::vector<audit::PoseFile> kept;  // for the JSON
   std::size_t done = 0, failed = 0;
   double next = record::steady_seconds() + record::kProgressSeconds;
-  std::cout << audit::pose_table_head();
+  table_stream(a.json) << audit::pose_table_head();
   audit::judge_poses(inputs, config, [&](const audit::PoseFile& file) {
     ++done;
     if (file.failure.empty()) {
-      std::cout << audit::format_poses(file);
+      table_stream(a.json) << audit::format_poses(file);
     } else {
       std::cerr << file.path << ": left out: " << file.failure << '\n';
       ++failed;
@@ -78,7 +80,7 @@ int audit_poses(const AuditArguments& a, const std::vector<std::string>& inputs)
   });
   if (csv) csv->finish();
   if (frames_csv) frames_csv->finish();
-  if (!a.json.empty()) write_file_atomically(a.json, audit::poses_json(kept));
+  if (!a.json.empty()) write_json(a.json, audit::poses_json(kept));
   return failed == 0 ? kAllGood : kSomeFailed;
 }
 
@@ -105,7 +107,8 @@ void declare_audit(CommandLine& line) {
       "give. Reads every motion format");
   command.path("--csv", a->csv, "with --poses: a row per motion").needs(poses);
   command.path("--frames-csv", a->frames_csv, "with --poses: a row per frame").needs(poses);
-  command.path("--json", a->json, "also write all values as JSON; without --poses also all rows");
+  command.path("--json", a->json,
+               "also write all values as JSON; without --poses also all rows; -: to standard output");
   command.number("--reach-mm", a->reach_mm, {0.0, 1000.0},
                  "with --poses: a point up to this far above the floor touches it");
   add_read_arguments(command, a->config.read);

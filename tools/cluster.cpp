@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "program/configurations.h"
 #include "record/outputs.h"
@@ -50,7 +51,7 @@ int cluster(const ClusterArguments& a) {
       motions.push_back(
           {names[i], pipeline::options::motion_features(motion::prepare_reference(clip, {}, nullptr))});
     } catch (const std::exception& error) {
-      std::cerr << file << ": left out: " << error.what() << '\n';
+      std::cerr << file << ": left out: " << reason_of(error) << '\n';
       all_good = false;
     }
   }

@@ -1,19 +1,27 @@
 #!/usr/bin/env python3
-"""Results of video estimators to the npz that mimicx reads: GVHMR, WHAM and TRAM, with keypoints (ViTPose's COCO-17).
+"""Results of video estimators to files that mimicx reads.
 
-    convert_video_results.py hmr4d_results.pt OUT.npz [--keypoints vitpose.pt --static]                    GVHMR
-    convert_video_results.py wham_output.pkl OUT.npz [--keypoints tracking_results.pth --slam slam_results.pth
-                                                      --size W H]                                          WHAM
-    convert_video_results.py results/VIDEO OUT.npz [--keypoints K.npy]      TRAM: a folder with camera.npy and hps/
+    convert_video_results.py RESULTS OUT.npz             one result
+    convert_video_results.py RESULTS RESULTS ... FOLDER  several, each into FOLDER under its own name
+
+RESULTS, recognised by what is in it (docs/formats.md, "Results of video estimators"):
+
+    GVHMR (hmr4d_results.pt), GEM (smpl_params.pt), WHAM (wham_output.pkl), PromptHMR (results.pkl), VIBE (.pkl),
+    TRAM (a folder with camera.npy and hps/), SLAHMR (..._world_results.npz), TRACE (.npz), ROMP (video_results.npz),
+    4DHumans and PHALP (tracks, .pkl), PHC and AIST++ (.pkl), Multi-HMR and SAM 3D Body
+    (pickled lists), MDM (results.npy)
 
 Every person gets a file, and every piece of a person's track that has no gap: OUT.npz where there is but one, else
-OUT_person2.npz or OUT_person2_from310.npz (frame of the video). Pieces shorter than --shortest frames are left out.
+OUT_person2.npz or OUT_person2_from310.npz (frame of the video). All people of a result are in one world: same origin,
+same axes, same floor. Pieces shorter than --shortest frames are left out. A file that is there is never overwritten.
 
-Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in a pickle. GVHMR and WHAM tell no camera,
-but where the motion is in the world (y up) and where in front of the camera. What takes one to the other is the camera
-of a frame, with all errors of both; the keypoint fit needs better. --static makes one camera of all frames, --slam
-lays the camera's path, which both estimators leave beside their results, through them; --moving takes them as they are.
-TRAM tells its camera. WHAM keeps no focal length: --size gives the picture's diagonal, which is what it assumes.
+Needs NumPy alone, and pickled_arrays.py beside it, which never runs what is in a pickle. GVHMR, GEM and WHAM tell no
+camera, but where the motion is in the world (y up) and where in front of the camera. What takes one to the other is the
+camera of a frame, with all errors of both; the keypoint fit needs better. --static makes one camera of all frames,
+--slam lays the camera's path, which the estimators leave beside their results, through them; --moving takes them as
+they are. TRAM and PromptHMR tell their camera. WHAM keeps no focal length: --size gives the picture's diagonal, which
+is what it assumes. ROMP, PHALP, Multi-HMR and SAM 3D Body tell places in front of the camera alone: it is taken to
+stand level and still.
 """
 import argparse
 import glob
@@ -25,7 +33,9 @@ import numpy as np
 from pickled_arrays import load
 
 J0 = {"smplx": np.array([0.003, -0.351, 0.012]), "smpl": np.array([-0.002, -0.223, 0.028])}  # rest pelvis, m
+J0["smplh"] = J0["smpl"]
 MID_HIP = np.array([-0.001, -0.086, -0.016])  # of SMPL at rest, from its pelvis, m
+DOWN_TO_UP = np.diag([1.0, -1, -1])  # of a camera's axes (y down, z forward) to y up
 Y_TO_Z = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]])
 COCO17 = ["nose"] + [side + part for part in ("eye", "ear", "shoulder", "elbow", "wrist", "hip", "knee", "ankle")
                      for side in ("left_", "right_")]
@@ -90,12 +100,34 @@ class Track:
 
     def pieces(self):
         """First and last + 1 of every run of frames without a gap."""
-        breaks = np.flatnonzero(np.diff(self.frames) != 1) + 1
+        gaps = np.diff(self.frames) != 1
+        breaks = np.flatnonzero(gaps) + 1
         return list(zip([0, *breaks], [*breaks, len(self.frames)]))
 
 
+class Positions(Track):
+    """One person of whom joint positions (T, 22, 3) are known, y up."""
+
+    def __init__(self, positions, frames=None, fps=None):
+        self.positions, self.model, self.fps = np.asarray(positions, float), "joint positions", fps
+        self.frames = np.arange(len(self.positions)) if frames is None else np.asarray(frames, int).reshape(-1)
+
+
+def turned(root, pelvis, turn):
+    """Rotation vectors and places in a world that is turned."""
+    return vectors(turn @ matrices(np.asarray(root, float))), np.asarray(pelvis, float) @ turn.T
+
+
+def before_camera(model, pose, pelvis, betas, intrinsics=None, frames=None):
+    """A track of a person whose place is known in front of the camera alone, which stands level and still."""
+    pose, pelvis = np.asarray(pose, float), np.asarray(pelvis, float)
+    root, place = turned(pose[:, :3], pelvis, DOWN_TO_UP)
+    return Track(model, np.hstack([root, pose[:, 3:]]), pose[:, :3], place, pelvis, betas, intrinsics, frames)
+
+
 def gvhmr(data):
-    world, camera = data["smpl_params_global"], data["smpl_params_incam"]
+    kind = "smpl_params" if "smpl_params_global" in data else "body_params"  # GVHMR's and GEM's
+    world, camera = data[kind + "_global"], data[kind + "_incam"]
     pose = np.hstack([world["global_orient"], world["body_pose"]])
     return Track("smplx", pose, camera["global_orient"], world["transl"] + J0["smplx"], camera["transl"] + J0["smplx"],
                  world["betas"], data.get("K_fullimg"))
@@ -123,7 +155,213 @@ def tram(data, camera):
                  frames)
 
 
-RESULTS = "results of GVHMR (hmr4d_results.pt), WHAM (wham_output.pkl) or TRAM (the folder of a video)"
+def phc(data):
+    """PHC's motions: z up, SMPL's trans."""
+    pose = np.asarray(data["pose_aa"], float).reshape(len(data["pose_aa"]), -1)
+    root, pelvis = turned(pose[:, :3], np.asarray(data["trans_orig"], float) + J0["smpl"], Y_TO_Z.T)
+    pose = np.hstack([root, pose[:, 3:]])
+    track = Track("smpl", pose, root, pelvis, pelvis, np.ravel(data.get("beta", np.zeros(10)))[:10])
+    track.fps = float(data["fps"]) if "fps" in data else None
+    return track
+
+
+def aist(data):
+    """AIST++'s motions: y up; smpl_trans is in the unit of smpl_scaling; 60 fps."""
+    pose = np.asarray(data["smpl_poses"], float).reshape(len(data["smpl_poses"]), -1)
+    scale = float(np.ravel(data.get("smpl_scaling", 1.0))[0])
+    pelvis = np.asarray(data["smpl_trans"], float) / scale + J0["smpl"]
+    track = Track("smpl", pose, pose[:, :3], pelvis, pelvis, np.zeros(10))
+    track.fps = 60.0
+    return track
+
+
+def vibe(data, size):
+    """Poses in front of the camera; orig_cam (s_x, s_y, t_x, t_y) is of a weak perspective in the picture, whose size and
+    diagonal as focal length give the depth."""
+    if not size:
+        raise ValueError("VIBE's camera needs the size of the picture: --size W H")
+    pose, camera = np.asarray(data["pose"], float), np.asarray(data["orig_cam"], float)
+    depth = np.hypot(*size) / (camera[:, 0] * size[0] / 2)
+    place = np.stack([camera[:, 2], camera[:, 3], depth], 1)
+    return before_camera("smpl", pose, place + J0["smpl"], np.asarray(data["betas"], float)[:, :10],
+                         frames=data.get("frame_ids"))
+
+
+def prompthmr(data):
+    """{person: Track}. World y up; smplx_world and smplx_cam hold pose (T, 165), shape and SMPL-X's trans."""
+    out = {}
+    for name, person in data["people"].items():
+        world, camera = person["smplx_world"], person.get("smplx_cam", person["smplx_world"])
+        calibration = data.get("camera", {})
+        intrinsics = None
+        if "img_focal" in calibration:
+            focal, center = float(np.ravel(calibration["img_focal"])[0]), np.ravel(calibration["img_center"])
+            intrinsics = np.array([[focal, 0, center[0]], [0, focal, center[1]], [0, 0, 1]])
+        out[name] = Track("smplx", world["pose"], np.asarray(camera["pose"])[:, :3], world["trans"] + J0["smplx"],
+                          camera["trans"] + J0["smplx"], world["shape"], intrinsics, person.get("frames"))
+    return out
+
+
+def slahmr(data):
+    """{person: Track}. SMPL-H, (P, T, ...), in the world of the first camera; the floor plane, where there is one,
+    tells up, else the camera's y axis points down."""
+    trans = np.asarray(data["trans"], float)
+    people, frames = trans.shape[:2]
+    pose = np.concatenate([np.reshape(data["root_orient"], (people, frames, 3)),
+                           np.reshape(data["pose_body"], (people, frames, -1))], 2).astype(float)
+    turn = DOWN_TO_UP
+    if "floor_plane" in data and np.size(data["floor_plane"]) >= 3:
+        normal = np.ravel(data["floor_plane"])[:3] / np.linalg.norm(np.ravel(data["floor_plane"])[:3])
+        heads = np.einsum("tij,j->ti", matrices(pose[..., :3].reshape(-1, 3)), [0, 1.0, 0]).mean(0)
+        normal = normal if normal @ heads > 0 else -normal
+        side = np.cross(normal, [0, 0, 1.0])
+        side /= np.linalg.norm(side)
+        turn = np.stack([side, normal, np.cross(side, normal)])
+    out = {}
+    for p in range(people):
+        root, pelvis = turned(pose[p, :, :3], trans[p] + J0["smpl"], turn)
+        betas = np.reshape(data["betas"], (-1, np.shape(data["betas"])[-1])) if "betas" in data else np.zeros((1, 10))
+        out[p + 1] = Track("smplh", np.hstack([root, pose[p, :, 3:66]]), pose[p, :, :3], pelvis, trans[p] + J0["smpl"],
+                           betas[min(p, len(betas) - 1)])
+    return out
+
+
+def trace(data):
+    """{person: Track}: a row per person and frame. World: that of the first camera, y down."""
+    who = np.ravel(data["track_ids"]).astype(int)
+    frames = np.array([np.sum(who[:k] == one) for k, one in enumerate(who)])  # where the rows do not say theirs
+    if "reorganize_idx" in data:
+        frames = np.ravel(data["reorganize_idx"]).astype(int)
+    thetas = np.asarray(data["smpl_thetas"], float).reshape(len(who), -1)
+    out = {}
+    for person in sorted(set(who.tolist())):
+        rows = np.flatnonzero(who == person)
+        rows = rows[np.argsort(frames[rows], kind="stable")]
+        root, pelvis = turned(np.asarray(data["world_global_rots"], float)[rows].reshape(-1, 3),
+                              np.asarray(data["world_trans"], float)[rows].reshape(-1, 3) + J0["smpl"], DOWN_TO_UP)
+        out[person] = Track("smpl", np.hstack([root, thetas[rows, 3:]]), thetas[rows, :3], pelvis,
+                            np.asarray(data["cam_trans"], float)[rows].reshape(-1, 3) + J0["smpl"],
+                            np.asarray(data["smpl_betas"], float)[rows][:, :10], frames=frames[rows])
+    return out
+
+
+def followed(seen):
+    """{person: [(frame, thing)]} of {frame: [(place, thing)]}: each thing follows the nearest of the frame before."""
+    out, last = {}, {}
+    for frame in sorted(seen):
+        free = dict(last)
+        for place, thing in seen[frame]:
+            near = min(free, key=lambda k: np.linalg.norm(free[k] - place), default=None)
+            if near is None or np.linalg.norm(free[near] - place) > 1.0:  # m
+                near = len(out) + 1
+                out[near] = []
+            free.pop(near, None)
+            out[near].append((frame, thing))
+            last[near] = place
+    return out
+
+
+def romp(data):
+    """{person: Track} of a video's frames, {name: arrays of its people}, or lists of people; the names are those of
+    simple-romp and of ROMP's first version. People without track_ids are followed."""
+    def together(people):
+        """The arrays of a frame's people, where each stands for itself."""
+        if isinstance(people, dict):
+            return people
+        return {name: np.stack([np.asarray(one[name]) for one in people]) for name in (people[0] if people else {})}
+
+    frames_people = {name: together(people) for name, people in data.items()}
+    seen, named = {}, all("track_ids" in one for one in frames_people.values() if one)
+    for frame, name in enumerate(sorted(frames_people)):
+        one = frames_people[name]
+        if not one:
+            continue
+        thetas = np.asarray(one.get("smpl_thetas", one.get("poses")), float).reshape(-1, 72)
+        places = np.asarray(one.get("cam_trans", one.get("trans")), float).reshape(-1, 3)
+        betas = np.asarray(one.get("smpl_betas", one.get("betas")), float).reshape(len(thetas), -1)[:, :10]
+        ids = np.ravel(one["track_ids"]) if named else [None] * len(thetas)
+        seen[frame] = [(places[k], (ids[k], thetas[k], places[k], betas[k])) for k in range(len(thetas))]
+    tracks = {}
+    if named:
+        for frame, people in seen.items():
+            for _, thing in people:
+                tracks.setdefault(int(thing[0]), []).append((frame, thing))
+    else:
+        tracks = followed(seen)
+    return {person: before_camera("smpl", np.stack([t[1] for _, t in rows]),
+                                  np.stack([t[2] for _, t in rows]) + J0["smpl"], np.stack([t[3] for _, t in rows]),
+                                  frames=[f for f, _ in rows]) for person, rows in tracks.items()}
+
+
+def phalp(data, size):
+    """{person: Track} of {frame: lists by person}. The place is that of a camera of 5000/256 of the picture's longer
+    side as focal length: the depth is brought to that of the picture's diagonal, which is nearer to real ones."""
+    rows = {}
+    for frame, name in enumerate(sorted(data)):
+        one = data[name]
+        ids = one.get("tid", one.get("tracked_ids", []))
+        for k, person in enumerate(np.ravel(ids).astype(int).tolist()):
+            body, place = one["smpl"][k], np.asarray(one["camera"][k], float).reshape(3)
+            if not isinstance(body, dict):
+                continue
+            picture = one.get("size", size)
+            if picture is not None and len(picture) and np.ndim(picture[0]):
+                picture = picture[k]
+            if size or picture is not None and np.size(picture) == 2:
+                w, h = size or (picture[1], picture[0])
+                place[2] *= np.hypot(w, h) / (5000 / 256 * max(w, h))
+            turns = np.concatenate([np.reshape(body[part], (-1, 3, 3)) for part in ("global_orient", "body_pose")])
+            rows.setdefault(person, []).append((frame, vectors(turns).reshape(-1), place, np.ravel(body["betas"])[:10]))
+    return {person: before_camera("smpl", np.stack([r[1] for r in seen]), np.stack([r[2] for r in seen]) + J0["smpl"],
+                                  np.stack([r[3] for r in seen]), frames=[r[0] for r in seen])
+            for person, seen in rows.items()}
+
+
+def frames_of(data):
+    """{frame: [people]} of a list of frames, or of a dictionary by frames; a single person may stand without a list."""
+    items = enumerate(data) if isinstance(data, list) else enumerate(data[k] for k in sorted(data))
+    return {frame: list(one) if isinstance(one, (list, tuple)) else [one] for frame, one in items}
+
+
+def multihmr(data):
+    """{person: Track}: rotvec (53, 3) without eyes, shape, transl_pelvis; people are followed from frame to frame."""
+    tracks = followed({frame: [(np.ravel(one["transl_pelvis"])[:3].astype(float), one) for one in people]
+                       for frame, people in frames_of(data).items()})
+    out = {}
+    for person, rows in tracks.items():
+        pose = np.stack([np.reshape(one["rotvec"], (-1, 3))[:22].reshape(-1) for _, one in rows])
+        pelvis = np.stack([np.ravel(one["transl_pelvis"])[:3] for _, one in rows])
+        betas = np.stack([np.ravel(one["shape"])[:10] for _, one in rows])
+        out[person] = before_camera("smplx", pose, pelvis, betas, frames=[frame for frame, _ in rows])
+    return out
+
+
+def sam3d(data):
+    """{person: Positions} from the 70 keypoints of MHR; joints of the trunk lie on the line between hips and neck."""
+    def joints(one):
+        p = (np.asarray(one["pred_keypoints_3d"], float).reshape(70, 3) + np.ravel(one["pred_cam_t"])) @ DOWN_TO_UP.T
+        mid = lambda *k: p[list(k)].mean(0)
+        pelvis, neck = mid(9, 10), p[69]
+        line = lambda share: pelvis + share * (neck - pelvis)
+        collars = [0.6 * line(0.9) + 0.4 * p[shoulder] for shoulder in (5, 6)]
+        return np.stack([line(0.1), p[9], p[10], line(0.3), p[11], p[12], line(0.55), p[13], p[14], line(0.75),
+                         mid(15, 16), mid(18, 19), neck, *collars, mid(3, 4), p[5], p[6], p[7], p[8], p[62], p[41]])
+    seen = {frame: [(joints(one)[0], joints(one)) for one in people] for frame, people in frames_of(data).items()}
+    return {person: Positions(np.stack([j for _, j in rows]), [f for f, _ in rows])
+            for person, rows in followed(seen).items()}
+
+
+def mdm(data):
+    """{sample, from 0: Positions} of motion (N, 22, 3, T), each cut to its length; 20 fps."""
+    motion, lengths = np.asarray(data["motion"], float), np.ravel(data["lengths"]).astype(int)
+    if motion.ndim != 4 or motion.shape[1:3] != (22, 3):
+        raise ValueError(f"motion of shape {motion.shape}: joint positions (N, 22, 3, T) are read")
+    return {k: Positions(one.transpose(2, 0, 1)[:max(1, min(n, one.shape[2]))], fps=20.0)
+            for k, (one, n) in enumerate(zip(motion, lengths))}
+
+
+RESULTS = ("results of GVHMR, GEM, WHAM, VIBE, PromptHMR, TRAM (the folder of a video), SLAHMR, TRACE, ROMP, PHALP, PHC, AIST++, "
+           "Multi-HMR, SAM 3D Body or MDM")
 
 
 def checked(path, make, *data):
@@ -131,12 +369,33 @@ def checked(path, make, *data):
     try:
         return make(*data)
     except KeyError as error:
-        raise Wrong(path, f"{error} in {RESULTS}", kind_of(data[0])) from error
+        raise Wrong(path, f"a member {error} in {RESULTS}", kind_of(data[0])) from error
     except (IndexError, TypeError, AttributeError, ValueError) as error:
         raise Wrong(path, RESULTS, f"{kind_of(data[0])} ({error})") from error
 
 
-def tracks_of(path):
+def unwrapped(data):
+    """What is in an archive: objects of no dimension as they are, and a single one for itself."""
+    if not isinstance(data, dict):
+        return data
+    inner = {name: one.item() if isinstance(one, np.ndarray) and one.dtype == object and one.ndim == 0 else one
+             for name, one in data.items()}
+    for name in ("outputs", "results"):
+        if set(inner) <= {name, "imgpaths"} and isinstance(inner.get(name), dict):
+            return inner[name]
+    return inner
+
+
+def is_about(data, *names):
+    """Whether the people of a list of frames, or of a dictionary by frames, have these members."""
+    try:
+        people = next((one for one in frames_of(data).values() if one), [])
+    except TypeError:
+        return False
+    return bool(people) and all(isinstance(one, dict) and set(names) <= set(one) for one in people)
+
+
+def tracks_of(path, size=None):
     """{person: Track}"""
     if os.path.isdir(path):
         files = sorted(glob.glob(os.path.join(path, "hps", "*.npy")), key=lambda f: (len(f), f))
@@ -145,16 +404,41 @@ def tracks_of(path):
         camera = read(os.path.join(path, "camera.npy"), "TRAM's camera")
         return {os.path.basename(f)[:-4].split("_")[-1]: checked(f, tram, read(f, "TRAM's person"), camera)
                 for f in files}
-    data = read(path, RESULTS)
+    data = unwrapped(read(path, RESULTS))
+    if isinstance(data, list) and is_about(data, "rotvec", "transl_pelvis", "shape"):
+        return checked(path, multihmr, data)
+    if isinstance(data, list) and is_about(data, "pred_keypoints_3d", "pred_cam_t"):
+        return checked(path, sam3d, data)
     if not isinstance(data, dict):
         raise Wrong(path, RESULTS, kind_of(data) + (
             ": keypoints? They go behind --keypoints" if np.ndim(data) == 3 and np.shape(data)[2] == 3 else ""))
-    if "smpl_params_global" in data:
+    if "smpl_params_global" in data or "body_params_global" in data:
         return {0: checked(path, gvhmr, data)}
     if "pose_world" in data:
         return {0: checked(path, wham, data)}
+    if "smpl_poses" in data and "smpl_trans" in data:
+        return {0: checked(path, aist, data)}
+    for make, names in ((prompthmr, ("people",)), (mdm, ("motion", "lengths")),
+                        (trace, ("smpl_thetas", "world_trans", "track_ids")), (slahmr, ("trans", "root_orient", "pose_body"))):
+        if set(names) <= set(data) and (make is not slahmr or np.ndim(data["trans"]) == 3):
+            return checked(path, make, data)
+    if is_about(data, "rotvec", "transl_pelvis", "shape"):
+        return checked(path, multihmr, data)
+    if is_about(data, "pred_keypoints_3d", "pred_cam_t"):
+        return checked(path, sam3d, data)
+    if is_about(data, "smpl_thetas", "cam_trans") or is_about(data, "poses", "trans", "betas"):
+        return checked(path, romp, data)
     if not data or not all(isinstance(one, dict) for one in data.values()):
         raise Wrong(path, RESULTS, kind_of(data))
+    first = next(iter(data.values()))
+    if "pose_aa" in first and "trans_orig" in first:
+        return {person: checked(path, phc, one) for person, one in data.items()}
+    if "smpl" in first and "camera" in first:
+        return checked(path, lambda d: phalp(d, size), data)
+    if "orig_cam" in first and "pose" in first:
+        return {person: checked(path, lambda one: vibe(one, size), one) for person, one in data.items()}
+    if "pose_world" not in first:
+        raise Wrong(path, RESULTS, "dictionaries of " + (", ".join(str(key) for key in list(first)[:6]) or "nothing"))
     return {person: checked(path, wham, one) for person, one in data.items()}
 
 
@@ -240,7 +524,7 @@ def motion_of(track, first, last, points, intrinsics, options):
     pose, model = track.pose[first:last], track.model
     root, pelvis = matrices(pose[:, :3]), track.pelvis[first:last] @ Y_TO_Z.T
     out = {"poses": np.hstack([vectors(Y_TO_Z @ root), pose[:, 3:]]), "trans": pelvis - J0[model],
-           "betas": track.betas[0], "mocap_framerate": options.fps, "body_model": model, "gender": "neutral"}
+           "betas": track.betas[0], "mocap_framerate": getattr(track, "fps", None) or options.fps, "body_model": model, "gender": "neutral"}
     if points is None:
         return out
     turn = matrices(track.root_camera[first:last]) @ root.transpose(0, 2, 1) @ Y_TO_Z.T
@@ -261,10 +545,51 @@ def intrinsics_of(track, size, parser):
     return np.array([[focal, 0, size[0] / 2], [0, focal, size[1] / 2], [0, 0, 1]])
 
 
+def a_rate(text):
+    rate = float(text)
+    if not 0.1 <= rate <= 2000:  # false for nan
+        raise argparse.ArgumentTypeError(f"{text}: frames per second, 0.1 to 2000, are expected")
+    return rate
+
+
+def files_of(results, base, options, parser):
+    """[(file, what is in it, members or positions)] of one result; no file for what is left out."""
+    tracks = tracks_of(results, options.size)
+    if options.person is not None:
+        tracks = {person: track for person, track in tracks.items() if str(person) == options.person}
+    data = read(options.keypoints, "keypoints (T, K, 3)") if options.keypoints else None
+    files = []
+    for person, track in tracks.items():
+        positions = isinstance(track, Positions)
+        if options.keypoints and positions:
+            parser.error("--keypoints are for results with SMPL's parameters")
+        points = keypoints_of(options.keypoints, data, person, track.frames) if options.keypoints else None
+        intrinsics = intrinsics_of(track, options.size, parser) if options.keypoints else None
+        pieces = track.pieces()
+        for first, last in pieces:
+            begin, end = track.frames[first], track.frames[last - 1]
+            what = f"person {person}, frames {begin} to {end}"
+            if last - first < options.shortest and (len(tracks) > 1 or len(pieces) > 1) and not (positions and track.fps):
+                files.append(("", f"{what}: left out, shorter than {options.shortest} frames", None))
+                continue
+            name = base + (f"_person{person}" if len(tracks) > 1 else "") + (
+                f"_from{begin}" if len(pieces) > 1 else "") + (".npy" if positions else ".npz")
+            if positions:
+                fps = track.fps or options.fps or 30.0
+                hint = "" if fps == 20.0 else f"; read it with: mimicx ... --fps {fps:g}"
+                files.append((name, f"{what}, {track.model}{hint}", track.positions[first:last]))
+            else:
+                files.append((name, f"{what}, {track.model}" + (", with keypoints" if options.keypoints else ""),
+                              motion_of(track, first, last, points, intrinsics, options)))
+    if not any(name for name, _, _ in files):
+        raise Wrong(results, "a person" + (f" called {options.person}" if options.person is not None else ""), "none")
+    return files
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results")
-    parser.add_argument("out")
+    parser.add_argument("results", nargs="+")
+    parser.add_argument("out", help="a file; a folder for several results")
     parser.add_argument("--keypoints", help="(T, K, 3): u, v, confidence, of one person's track or of the whole video; "
                         ".npy, .npz, .pt or pickle; or WHAM's tracking_results.pth")
     parser.add_argument("--size", nargs=2, type=float, metavar=("W", "H"), help="of the picture, pixels")
@@ -275,31 +600,34 @@ def main():
     camera.add_argument("--moving", action="store_true", help="it moved, and nothing else is known")
     parser.add_argument("--shortest", type=int, default=30, metavar="FRAMES", help="pieces that are shorter are left "
                         "out (default: 30)")
-    parser.add_argument("--fps", type=float, default=30.0, help="of the video")
+    parser.add_argument("--fps", type=a_rate, default=30.0, help="of the video (default: 30)")
     a = parser.parse_args()
-    tracks = tracks_of(a.results)
-    if a.person is not None:
-        tracks = {person: track for person, track in tracks.items() if str(person) == a.person}
-    if a.keypoints and not (a.static or a.slam or a.moving or os.path.isdir(a.results)):
+    if a.keypoints and len(a.results) > 1:
+        parser.error("--keypoints belong to one result")
+    if a.keypoints and not (a.static or a.slam or a.moving or os.path.isdir(a.results[0])):
         parser.error("--keypoints needs a camera: --static where it stood still, --slam FILE, or else --moving")
-    data, written = read(a.keypoints, "keypoints (T, K, 3)") if a.keypoints else None, 0
-    for person, track in tracks.items():
-        points = keypoints_of(a.keypoints, data, person, track.frames) if a.keypoints else None
-        intrinsics = intrinsics_of(track, a.size, parser) if a.keypoints else None
-        pieces = track.pieces()
-        for first, last in pieces:
-            begin, end = track.frames[first], track.frames[last - 1]
-            what = f"person {person}, frames {begin} to {end}"
-            if last - first < a.shortest and (len(tracks) > 1 or len(pieces) > 1):
-                print(f"{what}: left out, shorter than {a.shortest} frames")
-                continue
-            name = a.out.removesuffix(".npz") + (f"_person{person}" if len(tracks) > 1 else "") + (
-                f"_from{begin}" if len(pieces) > 1 else "") + ".npz"
-            np.savez(name, **motion_of(track, first, last, points, intrinsics, a))
-            written += 1
-            print(f"{name}: {what}, {track.model}" + (", with keypoints" if a.keypoints else ""))
-    if not written:
-        raise Wrong(a.results, "a person" + (f" called {a.person}" if a.person is not None else ""), "none")
+    into_folder = len(a.results) > 1 or os.path.isdir(a.out)
+    files = []
+    for results in a.results:
+        stem = os.path.splitext(os.path.basename(os.path.abspath(results)))[0]
+        base = os.path.join(a.out, stem) if into_folder else a.out.removesuffix(".npz").removesuffix(".npy")
+        files += files_of(results, base, a, parser)
+    names = [name for name, _, _ in files if name]
+    for name in names:
+        if os.path.exists(name) or names.count(name) > 1:
+            raise Wrong(name, "a name that is free", "a file, which is not overwritten" if os.path.exists(name)
+                        else "two results of that name")
+    if into_folder:
+        os.makedirs(a.out, exist_ok=True)
+    for name, what, content in files:
+        if content is None:
+            print(what)
+            continue
+        if isinstance(content, dict):
+            np.savez(name, **content)
+        else:
+            np.save(name, content.astype(np.float32))
+        print(f"{name}: {what}")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/folder_lock.h"
 #include "record/outputs.h"
@@ -56,7 +57,7 @@ int corrupt(const CorruptArguments& a) {
       run::tell_decisions(file, synth::corrupt_file(file, names[i], a.out, config), std::cerr);
       ++written;
     } catch (const std::exception& error) {
-      std::cerr << file << ": left out: " << error.what() << '\n';
+      std::cerr << file << ": left out: " << reason_of(error) << '\n';
     }
   }
   std::cout << a.out.string() << ": " << written << " motions, each as truth and as a noisy estimate\n";

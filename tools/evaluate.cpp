@@ -9,6 +9,7 @@
 #include "judge/evaluate_protocol.h"
 #include "record/outputs.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
@@ -44,27 +45,28 @@ int evaluate_published(const EvaluateArguments& a) {
       all_good = false;
     }
   }
-  std::cout << judge::format_protocol(tables);
-  if (!a.json.empty()) write_file_atomically(a.json, judge::protocol_json(tables));
+  table_stream(a.json) << judge::format_protocol(tables);
+  if (!a.json.empty()) write_json(a.json, judge::protocol_json(tables));
   return all_good ? kAllGood : kSomeFailed;
 }
 
 int evaluate(const EvaluateArguments& a) {
-  record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
+  if (!is_standard_output(a.json))
+    record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
   if (!a.protocol.empty()) return evaluate_published(a);
   if (a.motions.size() > 1) {
     const judge::Comparison comparison = judge::compare_folders(a.truth, a.motions, a.read);
-    std::cout << judge::format_comparison(comparison);
+    table_stream(a.json) << judge::format_comparison(comparison);
     for (const std::string& failure : comparison.failures) std::cerr << failure << '\n';
     const bool none = comparison.evaluations.front().motions.empty();
     if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
-    if (!a.json.empty()) write_file_atomically(a.json, judge::comparison_json(comparison));
+    if (!a.json.empty()) write_json(a.json, judge::comparison_json(comparison));
     return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
   const judge::Evaluation evaluation = judge::evaluate_folders(a.truth, a.motions.front(), a.read);
-  std::cout << judge::format_evaluation(evaluation);
+  table_stream(a.json) << judge::format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
-  if (!a.json.empty()) write_file_atomically(a.json, judge::evaluation_json(evaluation));
+  if (!a.json.empty()) write_json(a.json, judge::evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
   return std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; }) ? kAllGood
                                                                                        : kSomeFailed;
@@ -87,7 +89,8 @@ void declare_evaluate(CommandLine& line) {
       .required();
   command.one_of("--protocol", a->protocol, motion::protocol_names(),
                  "use the metrics of a published protocol instead, docs/metrics.md");
-  command.path("--json", a->json, "also write every value, its count and its definition as JSON");
+  command.path("--json", a->json,
+               "also write every value, its count and its definition as JSON; -: to standard output");
   add_read_arguments(command, a->read);
   add_force(command, a->force);
   command.action([a] { return evaluate(*a); });

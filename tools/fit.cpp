@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/folder_lock.h"
 #include "record/outputs.h"
@@ -70,7 +71,7 @@ int fit(const FitArguments& a) {
       print(outputs[i].lexically_relative(a.out).replace_extension().generic_string(), report);
       for (const std::string& note : report.notes) std::cerr << file << ": " << note << '\n';
     } catch (const std::exception& error) {
-      std::cerr << file << ": left out: " << error.what() << '\n';
+      std::cerr << file << ": left out: " << reason_of(error) << '\n';
       all_good = false;
     }
   }

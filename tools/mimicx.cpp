@@ -1,7 +1,6 @@
 /// `mimicx`: one binary, a subcommand per task (commands.h).
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -46,7 +45,7 @@ bool is_told() {
 int main(int argc, char** argv) {
   mimicx::tools::occupy_standard_streams();
   const mimicx::tools::ShownControls messages(std::cerr);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe does not end the work; it is reported below
+  mimicx::tools::handle_signals();
   try {
     const int status = mimicx::tools::run(argc, argv);
     if (mimicx::tools::is_told()) return status;

@@ -1,13 +1,18 @@
 """Reads arrays out of pickles without running what is in them: only arrays, numbers, text, lists and dictionaries are
-made, anything else is refused. Plain pickles, joblib's uncompressed ones, pickles in .npy and torch's zip files (.pt),
+made, anything else is refused. Plain pickles, joblib's, compressed or not, pickles in .npy and torch's zip files (.pt),
 without torch or joblib; .npz and .npy too. Needs NumPy alone. Used by convert_video_results.py.
 """
+import bz2
+import gzip
 import io
+import lzma
 import pickle
 import zipfile
+import zlib
 
 import numpy as np
 
+MOST_BYTES = 1 << 31  # of a compressed file, and of what is in it
 STORAGES = {"FloatStorage": "<f4", "DoubleStorage": "<f8", "HalfStorage": "<f2", "LongStorage": "<i8",
             "IntStorage": "<i4", "ByteStorage": "u1", "BoolStorage": "?"}
 
@@ -75,24 +80,58 @@ class Unpickler(pickle._Unpickler):  # the one in Python: joblib's arrays stand 
     dispatch = {**pickle._Unpickler.dispatch, pickle.BUILD[0]: load_build}
 
 
+def is_pickled(file):
+    """Whether an array in .npy format is a pickle; the file then stands at it."""
+    version = np.lib.format.read_magic(file)
+    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    return read(file)[2].hasobject
+
+
 def load_npy(path):
-    """An array, or the dictionary that np.save pickled into one."""
+    """An array, or the dictionary or list that np.save pickled into one."""
     with open(path, "rb") as file:
-        version = np.lib.format.read_magic(file)
-        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        if not read(file)[2].hasobject:
+        if not is_pickled(file):
             return np.load(path, allow_pickle=False)
-        return Unpickler(file).load().item()
+        array = Unpickler(file).load()
+        return array.item() if array.ndim == 0 else list(array)
+
+
+def load_npz(path):
+    """{name: array, or what np.savez pickled into one}"""
+    out = {}
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            if not name.endswith(".npy"):
+                continue
+            content = archive.read(name)
+            file = io.BytesIO(content)
+            array = Unpickler(file).load() if is_pickled(file) else np.lib.format.read_array(io.BytesIO(content))
+            out[name[:-4]] = array.item() if array.dtype == object and array.ndim == 0 else array
+    return out
+
+
+def unpacked(file):
+    """The file, or what joblib has compressed into it."""
+    start = file.read(6)
+    file.seek(0)
+    for magic, module in ((b"x\x01", zlib), (b"x\x5e", zlib), (b"x\x9c", zlib), (b"x\xda", zlib), (b"\x1f\x8b", gzip), (b"BZh", bz2),
+                          (b"\xfd7zXZ", lzma), (b"\x5d\0\0", lzma)):
+        if start.startswith(magic):
+            content = module.decompress(file.read(MOST_BYTES))
+            if len(content) > MOST_BYTES:
+                raise pickle.UnpicklingError(f"more than {MOST_BYTES} bytes")
+            return io.BytesIO(content)
+    return file
 
 
 def load(path):
     if path.endswith(".npz"):
-        return dict(np.load(path, allow_pickle=False))
+        return load_npz(path)
     if path.endswith(".npy"):
         return load_npy(path)
     if not zipfile.is_zipfile(path):
         with open(path, "rb") as file:
-            return Unpickler(file).load()
+            return Unpickler(unpacked(file)).load()
     archive = zipfile.ZipFile(path)
     index = next(n for n in archive.namelist() if n.endswith("data.pkl"))
     return Unpickler(archive.open(index),

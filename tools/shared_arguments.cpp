@@ -17,6 +17,10 @@ void add_read_arguments(Command& command, import::ReadConfig& read) {
   command.existing("--smplx", read.smplx, "your SMPLX_NEUTRAL.npz: gives SMPL-X betas their joints");
   command.existing("--joint-map", read.joint_map,
                    "more joint names for BVH skeletons: a text file, docs/formats.md");
+  command.text(
+      "--root", [&read](const std::string& name) { read.root = name; }, "NAME",
+      "of a BVH with several skeletons: name or number of the one to read");
+  command.number("--person", read.person, kFromOne, "of an npz with several people: which one, from 1");
   command.flag("--verbose", read.verbose, "print all decisions about a file, not three lines of them");
 }
 

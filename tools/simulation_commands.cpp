@@ -6,10 +6,12 @@
 
 #include "command_line_numbers.h"
 #include "commands.h"
+#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/shard.h"
 #include "run/run_outputs.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
@@ -20,7 +22,7 @@ volatile std::sig_atomic_t interrupted = 0;
 void catch_interrupts() {
   const auto handle = [](int signal) {
     interrupted = 1;
-    std::signal(signal, SIG_DFL);
+    std::signal(signal, end_by);
   };
   std::signal(SIGINT, handle);
   std::signal(SIGTERM, handle);
@@ -67,9 +69,11 @@ void for_each_setting(const std::vector<std::string>& settings,
 
 void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more) {
   command.files("FILE", run.inputs, "motions and folders of them");
-  command.path("--out", run.out,
-               "folder of the run; the same command continues it; default: NAME.mimicx beside "
-               "every input, with its clean motion as NAME.clean.EXT");
+  command.path(
+      "--out", run.out,
+      "folder of the run; the same command continues it; default: NAME.mimicx beside "
+      "every input, with its clean motion as NAME.clean.EXT. Its clean/ is for trainers and viewers of "
+      "SMPL bodies: the inputs' own formats and body models; its motions/ has our body and the forces");
   add_read_arguments(command, run.read);
   command.choice("--rate", run.input_rate, {{"30", false}, {"input", true}},
                  "frame rate of the clean copies in the inputs' own formats");
@@ -183,7 +187,7 @@ record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& con
       if (outcome == record::RunOutcome::kInterrupted) return outcome;
       if (outcome != record::RunOutcome::kAllGood) all = outcome;
     } catch (const std::exception& error) {  // its folder cannot be created or read, or holds another run
-      context.messages << file.string() << ": left out: " << error.what() << '\n';
+      context.messages << file.string() << ": left out: " << reason_of(error) << '\n';
       all = record::RunOutcome::kSomeFailed;
     }
   }

@@ -1,8 +1,10 @@
 /// Safe standard streams: closed ones are occupied, and control characters in file names are escaped.
 #pragma once
 
+#include <filesystem>
 #include <ostream>
 #include <streambuf>
+#include <string>
 
 namespace mimicx::tools {
 
@@ -10,6 +12,20 @@ namespace mimicx::tools {
 /// opened file would get its number, and messages would be written into it. Printing to such a stream still
 /// fails.
 void occupy_standard_streams();
+
+/// Removes unfinished files, then ends the program as the signal does by itself. A handler of signals.
+void end_by(int signal);
+
+/// Sets the handlers of signals: a closed pipe or a limit of file sizes is an error of writing, which is
+/// reported; an interrupt leaves no temporary file.
+void handle_signals();
+
+/// Whether an output is standard output: "-".
+bool is_standard_output(const std::filesystem::path& path);
+/// Where a table is printed beside JSON at `json`: standard output; standard error where the JSON is there.
+std::ostream& table_stream(const std::filesystem::path& json);
+/// Writes JSON to a file, or to standard output.
+void write_json(const std::filesystem::path& path, const std::string& text);
 
 /// While it lives, control characters to a stream are escaped (`\x1b`), because file names may hold any. Line
 /// ends, tabs and the sequences of `record::Progress` pass.

@@ -1,6 +1,10 @@
 #include "core/file.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <system_error>
 
 namespace mimicx {
@@ -46,18 +50,58 @@ void make_folder(const std::filesystem::path& path) {
   if (error) throw DataError(path.string(), "", "a folder that can be made", error.message());
 }
 
+namespace {
+
+/// Names of the files that are being written; a slot is free where it is null.
+std::array<std::atomic<const char*>, 64> unfinished{};
+
+void remember(const char* name) {
+  for (auto& slot : unfinished) {
+    const char* none = nullptr;
+    if (slot.compare_exchange_strong(none, name)) return;
+  }
+}
+
+void forget(const char* name) {
+  for (auto& slot : unfinished) {
+    const char* mine = name;
+    if (slot.compare_exchange_strong(mine, nullptr)) return;
+  }
+}
+
+/// A number that no other program has that starts at another moment.
+std::string own_number() {
+  static const auto start = std::chrono::system_clock::now().time_since_epoch().count();
+  static std::atomic<unsigned> count = 0;
+  return std::to_string(start) + "-" + std::to_string(count++);
+}
+
+}  // namespace
+
+void remove_unfinished_files() {
+  for (const auto& slot : unfinished)
+    if (const char* name = slot.load()) std::remove(name);
+}
+
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
-  temporary_ += ".mimicx-tmp";  // a name that no user's file has
+  temporary_ += "." + own_number() + ".mimicx-tmp";  // a name that no user's file has
+  name_ = temporary_.string();
+  remember(name_.c_str());
   errno = 0;
   out_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!out_) throw not_writable(path_, last_error());
+  if (out_) return;
+  const std::error_code error = last_error();
+  forget(name_.c_str());
+  throw not_writable(path_, error);
 }
 
 AtomicFile::~AtomicFile() {
-  if (temporary_.empty()) return;
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (!temporary_.empty()) {
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::remove(temporary_, ignored);
+  }
+  forget(name_.c_str());
 }
 
 void AtomicFile::write(std::string_view content) {

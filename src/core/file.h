@@ -22,7 +22,8 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t max_byte
 void make_folder(const std::filesystem::path& path);
 
 /// A file that is written under a temporary name beside `path` and renamed when it is complete: a reader sees
-/// either the old file or the new one. Without `finish` the destructor removes the temporary file.
+/// either the old file or the new one. Without `finish` the destructor removes the temporary file. Two
+/// programs that write the same file use different temporary names: the later one's file stays, whole.
 class AtomicFile {
  public:
   /// @throws DataError when `path` cannot be written
@@ -37,8 +38,13 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_, temporary_;
+  std::string name_;  ///< of the temporary file, for `remove_unfinished_files`
   std::ofstream out_;
 };
+
+/// Removes the temporary files of all AtomicFiles that are being written. Only for the handler of a signal
+/// that then ends the program: it takes no lock and no memory.
+void remove_unfinished_files();
 
 /// Writes text or bytes by an AtomicFile.
 /// @throws DataError if `path` cannot be written; the temporary file is removed

@@ -10,11 +10,16 @@
 namespace mimicx {
 
 #ifdef __cpp_lib_to_chars
-
 std::optional<double> number_from(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (end != text.data() + text.size()) return std::nullopt;
+  if (error ==
+      std::errc::result_out_of_range) {  // too far from 0, or too near to it: from_chars does not tell
+    value = std::strtod(std::string(text).c_str(), nullptr);
+    return std::isinf(value) ? std::nullopt : std::optional(value);
+  }
+  if (error != std::errc()) return std::nullopt;
   return value;
 }
 
@@ -33,7 +38,7 @@ std::optional<double> number_from(std::string_view text) {
   char* end = nullptr;
   errno = 0;
   const double value = std::strtod(copy.c_str(), &end);
-  const bool too_far = errno == ERANGE && (std::isinf(value) || value == 0.0);
+  const bool too_far = errno == ERANGE && std::isinf(value);
   if (too_far || end != copy.c_str() + copy.size()) return std::nullopt;
   return value;
 }

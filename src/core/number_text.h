@@ -9,7 +9,8 @@
 namespace mimicx {
 
 /// The double nearest to a decimal number, "inf" or "nan". None unless the whole text is such a number; none
-/// also for a leading "+" or space, a hexadecimal form, and numbers outside the range of a double.
+/// also for a leading "+" or space, a hexadecimal form, and numbers too large for a double. Numbers too near
+/// to 0 become it, or a subnormal.
 std::optional<double> number_from(std::string_view text);
 
 /// The fewest digits that read back as the same number.

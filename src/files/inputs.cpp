@@ -57,7 +57,7 @@ class Folder {
     if (!seen_.insert(whole_path(folder)).second) return;  // links may be circular
     std::error_code error;
     std::filesystem::directory_iterator at(folder, error);
-    if (error) skipped_.push_back(inside(folder));
+    if (error) files_.push_back({folder.string(), inside(folder)});  // reading it reports the error
     for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
       const std::filesystem::path path = at->path();
       std::error_code none;
@@ -82,6 +82,20 @@ class Folder {
   std::vector<std::string> skipped_;
 };
 
+/// A path as it would be typed from here: without detours, "./" and slashes at its end, and relative where it
+/// is below the current folder. So results do not depend on how it was typed.
+std::string tidy(const std::string& typed) {
+  std::filesystem::path path = std::filesystem::path(typed).lexically_normal();
+  if (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  if (path.is_absolute() && !error) {
+    const std::filesystem::path relative = path.lexically_relative(here);
+    if (!relative.empty() && relative != "." && *relative.begin() != "..") path = relative;
+  }
+  return path.empty() ? typed : path.string();
+}
+
 /// Every file once, as it was spelled first.
 std::vector<MotionInput> each_once(const std::vector<MotionInput>& files) {
   std::vector<MotionInput> once;
@@ -96,7 +110,8 @@ std::vector<MotionInput> each_once(const std::vector<MotionInput>& files) {
 std::vector<MotionInput> find_motions(const std::vector<std::string>& inputs,
                                       const std::filesystem::path& out, std::ostream* messages) {
   std::vector<MotionInput> files;
-  for (const std::string& input : inputs) {
+  for (const std::string& typed : inputs) {
+    const std::string input = tidy(typed);
     const MotionInput itself{input, std::filesystem::path(input).stem().string()};
     std::error_code error;
     const bool is_folder = std::filesystem::is_directory(input, error);

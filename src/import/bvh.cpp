@@ -1,11 +1,13 @@
 #include "import/bvh.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
 #include "core/number_text.h"
 #include "core/units.h"
+#include "import/evidence/frame_rate.h"
 #include "import/text_input.h"
 
 namespace mimicx::import {
@@ -29,14 +31,7 @@ struct Hierarchy {
 };
 
 /// BVH keywords are found in any case.
-bool is_word(std::string_view word, std::string_view keyword) {
-  if (word.size() != keyword.size()) return false;
-  for (std::size_t i = 0; i < word.size(); ++i)
-    if (std::tolower(static_cast<unsigned char>(word[i])) !=
-        std::tolower(static_cast<unsigned char>(keyword[i])))
-      return false;
-  return true;
-}
+bool is_word(std::string_view word, std::string_view keyword) { return equal_but_for_case(word, keyword); }
 
 double bounded_number(TextInput& in, const std::string& what) {
   const double value = in.number(what);
@@ -53,7 +48,7 @@ std::string joint_name(TextInput& in) {
     if (!name.empty()) name += ' ';
     name += word;
   }
-  return printable(name);
+  return escaped_name(name);
 }
 
 void read_channels(TextInput& in, Hierarchy& out) {
@@ -68,7 +63,8 @@ void read_channels(TextInput& in, Hierarchy& out) {
   }
 }
 
-/// Reads from ROOT to its closing brace. It does not recurse, because deep files could overflow the stack.
+/// Reads the skeletons, from the first ROOT to the last closing brace. It does not recurse, because deep
+/// files could overflow the stack.
 Hierarchy read_hierarchy(TextInput& in) {
   Hierarchy out;
   std::vector<std::size_t> open;  ///< joints whose closing brace is still to come
@@ -89,8 +85,12 @@ Hierarchy read_hierarchy(TextInput& in) {
   if (const std::string_view word = in.word(); !is_word(word, "HIERARCHY")) in.fail("'HIERARCHY'", word);
   if (const std::string_view word = in.word(); !is_word(word, "ROOT")) in.fail("'ROOT'", word);
   begin_joint(false);
-  while (!open.empty()) {
+  while (!open.empty() || is_word(in.peek(), "ROOT")) {
     const std::string_view word = in.word();
+    if (open.empty()) {
+      begin_joint(false);
+      continue;
+    }
     const bool end_site = out.joints[open.back()].end_site;
     if (is_word(word, "OFFSET")) {
       for (int axis = 0; axis < 3; ++axis)
@@ -99,7 +99,7 @@ Hierarchy read_hierarchy(TextInput& in) {
       read_channels(in, out);
     } else if (is_word(word, "JOINT") && !end_site) {
       begin_joint(false);
-    } else if (is_word(word, "End") && !end_site) {
+    } else if ((is_word(word, "End") || is_word(word, "EndSite")) && !end_site) {
       begin_joint(true);
     } else if (word == "}") {
       open.pop_back();
@@ -111,21 +111,53 @@ Hierarchy read_hierarchy(TextInput& in) {
   return out;
 }
 
-double read_fps(TextInput& in, SkeletonMotion& motion) {
-  in.expect("Frame");
-  in.expect("Time:");
-  const std::string text = printable(in.peek());
-  const double time = in.number("the frame time");
-  if (!(time >= 1.0 / kMaxFps && time <= 10.0)) in.fail("a frame time between 0.0005 and 10 s", text);
-  const double fps = 1.0 / time, whole = whole_rate(fps);
-  if (fps == whole) return fps;
-  char sentence[96];
-  std::snprintf(sentence, sizeof sentence, "frame time %s s: %.0f frames per second", text.c_str(), whole);
-  motion.decisions.push_back(sentence);
-  return whole;
+double read_fps(TextInput& in, const std::optional<double>& given, SkeletonMotion& motion) {
+  in.label("Frame Time");
+  const std::string text(in.word_on_line());
+  double time = 0.0;
+  const bool sound = parse_number(text, time) && time >= 1.0 / kMaxFps && time <= 10.0;
+  if (!sound && given) {
+    motion.decisions.push_back("frame time '" + printable(text) + "' gives no frame rate: --fps gives it");
+    return *given;
+  }
+  if (text.empty()) in.fail_with("the frame time", "the end of the line (--fps gives a frame rate)");
+  if (!sound) in.fail("a frame time between 0.0005 and 10 s (--fps gives a frame rate)", text);
+  const double fps = rate_of_frame_time(text, time);
+  if (fps != 1.0 / time)
+    motion.decisions.push_back("frame time " + printable(text) + " s: " + rate_text(fps) +
+                               " frames per second");
+  return fps;
 }
 
-void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, SkeletonMotion& motion) {
+/// Adds the OFFSETs of the joints below the roots to their position channels, where these would else put most
+/// of the joints that have them at their parents: displacements, not positions.
+void add_offsets(const Hierarchy& hierarchy, SkeletonMotion& motion) {
+  constexpr double kSmall = 0.1;  ///< of the OFFSET
+  std::vector<std::array<bool, 3>> moved(hierarchy.joints.size(), {false, false, false});
+  for (const Channel& c : hierarchy.channels)
+    if (!c.rotation && hierarchy.joints[c.joint].parent >= 0)
+      moved[c.joint][static_cast<std::size_t>(c.axis)] = true;
+  int fallen = 0, others = 0;  // joints that would be at their parents, and that would not
+  for (std::size_t j = 0; j < moved.size(); ++j) {
+    if (moved[j] != std::array{true, true, true} || hierarchy.joints[j].offset.isZero()) continue;
+    double mean = 0.0;
+    for (const auto& frame : motion.translation)
+      mean += frame[static_cast<int>(j)].norm() / static_cast<double>(motion.translation.size());
+    ++(mean < kSmall * hierarchy.joints[j].offset.norm() ? fallen : others);
+  }
+  if (fallen <= others) return;
+  for (auto& frame : motion.translation)
+    for (std::size_t j = 0; j < moved.size(); ++j)
+      for (int axis = 0; axis < 3; ++axis)
+        if (moved[j][static_cast<std::size_t>(axis)])
+          frame[static_cast<int>(j)][axis] += hierarchy.joints[j].offset[axis];
+  motion.decisions.emplace_back("position channels: displacements, added to the OFFSET of " +
+                                std::to_string(fallen) +
+                                " joints, which they would else put at their parents");
+}
+
+void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, double angle_unit,
+                SkeletonMotion& motion) {
   const std::size_t count = hierarchy.channels.size();
   auto& translation = motion.translation.emplace_back();
   for (const SkeletonJoint& joint : hierarchy.joints) translation.push_back(joint.offset);
@@ -140,11 +172,13 @@ void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, Sk
       in.fail_with(place, in.peek().empty() ? "the end of the file" : "the end of the line");
     }
     const Channel& channel = hierarchy.channels[c];
-    if (channel.rotation)
+    if (channel.rotation) {
+      motion.largest_angle = std::max(motion.largest_angle, std::abs(value));
       rotation[channel.joint] =
-          rotation[channel.joint] * rotation_about(Vector3d::Unit(channel.axis), kDegree * value);
-    else
+          rotation[channel.joint] * rotation_about(Vector3d::Unit(channel.axis), angle_unit * value);
+    } else {
       translation[channel.joint][channel.axis] = value;
+    }
   }
   if (const std::string_view word = in.word_on_line(); !word.empty())
     in.fail_with(std::to_string(count) + " numbers in a frame", "more");
@@ -152,17 +186,18 @@ void read_frame(TextInput& in, const Hierarchy& hierarchy, std::size_t frame, Sk
 
 }  // namespace
 
-SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& path) {
+SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& path, const BvhConfig& config) {
   TextInput in(text, path.string(), "{}");
+  in.skip_comments();
   const Hierarchy hierarchy = read_hierarchy(in);
   SkeletonMotion motion;
   motion.name = path.stem().string();
   motion.path = path.string();
   motion.joints = hierarchy.joints;
   if (const std::string_view word = in.word(); !is_word(word, "MOTION")) in.fail("'MOTION'", word);
-  in.expect("Frames:");
+  in.label("Frames");
   const std::size_t frames = in.integer("the number of frames", 1, kMaxJointFrames / hierarchy.joints.size());
-  motion.fps = read_fps(in, motion);
+  motion.fps = read_fps(in, config.fps, motion);
   // Check the declared size before allocating: every number takes at least two bytes.
   if (frames > (in.bytes_left() + 1) / (2 * hierarchy.channels.size()))
     in.fail_with(
@@ -170,13 +205,20 @@ SkeletonMotion parse_bvh(std::string_view text, const std::filesystem::path& pat
         "only " + std::to_string(in.bytes_left()) + " bytes");
   motion.translation.reserve(frames);
   motion.rotation.reserve(frames);
-  for (std::size_t t = 0; t < frames; ++t) read_frame(in, hierarchy, t, motion);
+  for (std::size_t t = 0; t < frames; ++t)
+    read_frame(in, hierarchy, t, config.radians ? 1.0 : kDegree, motion);
+  add_offsets(hierarchy, motion);
+  if (std::none_of(hierarchy.channels.begin(), hierarchy.channels.end(),
+                   [](const Channel& c) { return !c.rotation; }))
+    motion.warnings.emplace_back("no joint has position channels: the body stays where it is");
   if (!in.peek().empty())
     motion.warnings.push_back("the file declares " + std::to_string(frames) +
                               " frames but has more: the rest is not read");
   return motion;
 }
 
-SkeletonMotion read_bvh(const std::filesystem::path& path) { return parse_bvh(read_text(path), path); }
+SkeletonMotion read_bvh(const std::filesystem::path& path, const BvhConfig& config) {
+  return parse_bvh(read_text(path), path, config);
+}
 
 }  // namespace mimicx::import

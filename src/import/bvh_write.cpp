@@ -72,7 +72,7 @@ std::string format_bvh(const motion::Clip& clip) {
   std::vector<int> order;
   write_joint(character, kPelvis, 0, out, order);
   char line[64];
-  std::snprintf(line, sizeof line, "MOTION\nFrames: %d\nFrame Time: %.9g\n", clip.frames(), 1.0 / clip.fps);
+  std::snprintf(line, sizeof line, "MOTION\nFrames: %d\nFrame Time: %.12f\n", clip.frames(), 1.0 / clip.fps);
   out += line;
   PerBody<Vector3d> angles;
   angles.fill(Vector3d::Zero());

@@ -6,6 +6,7 @@
 
 #include "core/number_text.h"
 #include "core/quantile.h"
+#include "import/evidence/frame_rate.h"
 #include "import/text_input.h"
 
 namespace mimicx::import {
@@ -139,12 +140,13 @@ void set_fps(std::vector<double> durations, SkeletonMotion& motion) {
   if (*longest > 1.01 * duration || *shortest < 0.99 * duration)
     motion.warnings.push_back("frames have different durations: all are taken to last " +
                               std::to_string(duration) + " s");
-  motion.fps = whole_rate(1.0 / duration);
+  motion.fps = rate_of_frame_time(text_of(duration), duration);
 }
 
 }  // namespace
 
-SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path) {
+SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path,
+                               const std::optional<double>& fps) {
   TextInput in(text, path.string(), "{}[],:\"");
   SkeletonMotion motion;
   motion.name = path.stem().string();
@@ -169,7 +171,10 @@ SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::pat
   if (const std::string_view rest = in.word(); !rest.empty())
     in.fail_with("nothing after the closing brace", "'" + printable(rest) + "'");
   if (durations.empty()) throw DataError(motion.path, "", "a list of Frames", "none");
-  set_fps(durations, motion);
+  if (fps)
+    motion.fps = *fps;
+  else
+    set_fps(durations, motion);
   return motion;
 }
 

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "import/retarget/skeleton.h"
@@ -22,6 +23,8 @@ namespace mimicx::import {
 /// @throws DataError naming file and line
 SkeletonMotion read_deepmimic(const std::filesystem::path& path);
 /// The same from text in memory. @param path  for messages; its stem is the motion's name
-SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path);
+/// @param fps  the frame rate, whatever the durations say; none: that of the file
+SkeletonMotion parse_deepmimic(std::string_view text, const std::filesystem::path& path,
+                               const std::optional<double>& fps = {});
 
 }  // namespace mimicx::import

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "character/body_words.h"
 #include "character/character.h"
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/quantile.h"
 
 namespace mimicx::import {
 namespace {
@@ -25,6 +28,63 @@ PerFrame<Positions> positions_of(const Eigen::MatrixXd& rows) {
     for (int b = 0; b < kBodies; ++b) p[b] = rows.row(t).segment<3>(3 * b);
   }
   return frames;
+}
+
+/// How an array has the joints or features of every frame.
+struct Layout {
+  bool features = false;
+  std::size_t frames = 0, joints = kBodies;
+  bool frames_last = false;  ///< (joints, 3, frames)
+};
+
+/// The layout of (T, J, 3), (J, 3, T), (T, 263), each also with dimensions of one in front. The first 22 of
+/// 24, 52 and 55 joints, SMPL's, SMPL-H's and SMPL-X's, are ours.
+std::optional<Layout> layout_of(std::vector<std::size_t> shape) {
+  while (shape.size() > 3 && shape[0] == 1) shape.erase(shape.begin());
+  if (shape.size() == 3 && shape[0] == 1 && shape[2] == kHumanMl3dFeatures) shape.erase(shape.begin());
+  const auto known = [](std::size_t joints) {
+    return joints == kBodies || joints == 24 || joints == 52 || joints == 55;
+  };
+  if (shape.size() == 2 && shape[1] == kHumanMl3dFeatures) return Layout{true, shape[0], kBodies, false};
+  if (shape.size() != 3) return std::nullopt;
+  if (shape[2] == 3 && known(shape[1])) return Layout{false, shape[0], shape[1], false};
+  if (shape[1] == 3 && known(shape[0])) return Layout{false, shape[2], shape[0], true};
+  return std::nullopt;
+}
+
+/// A row per frame: features, or the positions of our joints.
+Eigen::MatrixXd rows_of(const NpyArray& array, const Layout& layout) {
+  const std::vector<double> values = array.to_double();
+  const Eigen::Index frames = static_cast<Eigen::Index>(layout.frames),
+                     columns =
+                         static_cast<Eigen::Index>(layout.features ? kHumanMl3dFeatures : 3 * layout.joints);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::MatrixXd all =
+      layout.frames_last
+          ? Eigen::MatrixXd(Eigen::Map<const RowMajor>(values.data(), columns, frames).transpose())
+          : Eigen::MatrixXd(Eigen::Map<const RowMajor>(values.data(), frames, columns));
+  return layout.features ? all : Eigen::MatrixXd(all.leftCols(3 * kBodies));
+}
+
+/// Throws where the bones change their lengths from frame to frame, as they do where the numbers are
+/// rotations.
+void require_bones(const PerFrame<Positions>& frames, const std::string& path) {
+  constexpr double kMostChange = 0.3;  // of the mean, root mean square, in the median over the bones
+  std::vector<double> changes;
+  for (int b = 1; b < kBodies; ++b) {
+    double sum = 0.0, squares = 0.0;
+    for (const Positions& p : frames) {
+      const double length = (p[b] - p[kParents[b]]).norm();
+      sum += length;
+      squares += length * length;
+    }
+    const double n = static_cast<double>(frames.size()), mean = sum / n;
+    changes.push_back(mean > 0.0 ? std::sqrt(std::max(0.0, squares / n - mean * mean)) / mean : 0.0);
+  }
+  if (median(changes) > kMostChange)
+    throw DataError(path, "", "joint positions, whose bones keep their lengths",
+                    "lengths that change by " + std::to_string(std::lround(100.0 * median(changes))) +
+                        " % (rotations? normalised numbers?)");
 }
 
 /// The root's heading and place are sums over the frames before; the joints stand in its heading.
@@ -132,21 +192,20 @@ PerJoint<SkeletonJoint> joints_of(const Character& character, const PerFrame<Pos
 
 }  // namespace
 
-bool is_positions(const std::vector<std::size_t>& shape) {
-  return (shape.size() == 3 && shape[1] == kBodies && shape[2] == 3) ||
-         (shape.size() == 2 && shape[1] == kHumanMl3dFeatures);
-}
+bool is_positions(const std::vector<std::size_t>& shape) { return layout_of(shape).has_value(); }
 
 SkeletonMotion skeleton_of_positions(const NpyArray& array, const std::string& name,
                                      const std::string& path) {
-  const bool features = array.shape.size() == 2;
-  if (array.type == NpyArray::Type::kText || array.shape[0] == 0)
+  const Layout layout = layout_of(array.shape).value();
+  const bool features = layout.features;
+  if (array.type == NpyArray::Type::kText || layout.frames == 0)
     throw DataError(path, "", "at least one frame of numbers", "none");
-  const Eigen::MatrixXd rows = to_matrix(array);
+  const Eigen::MatrixXd rows = rows_of(array, layout);
   for (Eigen::Index t = 0; t < rows.rows(); ++t)
     if (!rows.row(t).allFinite() || rows.row(t).cwiseAbs().maxCoeff() > 1e7)
       throw DataError(path, "frame " + std::to_string(t), "finite numbers within ±1e7", "one that is not");
   const PerFrame<Positions> frames = features ? positions_of_features(rows, path) : positions_of(rows);
+  require_bones(frames, path);
   const Character character = make_character();
   SkeletonMotion motion;
   motion.name = name;

@@ -5,7 +5,6 @@
 
 #include "core/elementary.h"
 #include "core/quantile.h"
-#include "import/world_transform.h"
 
 namespace mimicx::import {
 namespace {
@@ -50,6 +49,18 @@ Landmarks landmarks_of(const SkeletonPose& pose, const JointMap& map) {
     out.p[b] = joint < 0 ? out.p[parent] : pose.p[joint];
     out.q[b] = joint < 0 ? out.q[parent] : pose.q[joint];
   }
+  return out;
+}
+
+PerFrame<Landmarks> landmarks_of(const SkeletonMotion& motion, const JointMap& map) {
+  PerFrame<Landmarks> out;
+  for (int t = 0; t < motion.frames(); ++t) out.push_back(landmarks_of(pose_of(motion, t), map));
+  return out;
+}
+
+PerFrame<Landmarks> landmarks_of(const PerFrame<BodyPoses>& poses) {
+  PerFrame<Landmarks> out;
+  for (const BodyPoses& pose : poses) out.push_back({pose.p_WB, pose.q_WB});
   return out;
 }
 
@@ -104,37 +115,6 @@ bool starts_with_t_pose(const PerFrame<Landmarks>& frames) {
   const double first = steps[0];
   constexpr double kJump = 0.05;  // rad in the mean over the bodies: three degrees
   return first > kJump && first > 5.0 * median(steps);
-}
-
-std::optional<char> up_of(const PerFrame<Landmarks>& poses) {
-  Vector3d sum = Vector3d::Zero();
-  std::size_t count = 0;
-  for (const Landmarks& pose : poses) {
-    if (!has_straight_legs(pose)) continue;
-    sum += (pose.between(kLeftShoulder, kRightShoulder) - pose.between(kLeftAnkle, kRightAnkle)).normalized();
-    ++count;
-  }
-  if (20 * count < poses.size() || count == 0) return std::nullopt;
-  const double most = sum.cwiseAbs().maxCoeff() / static_cast<double>(count);
-  if (most < 0.7) return std::nullopt;
-  return axis_letter(sum);
-}
-
-std::optional<Unit> unit_of(double length) {
-  // CMU's recordings are in inches divided by 0.45.
-  constexpr std::array<Unit, 5> kUnits = {{{"metres", 1.0},
-                                           {"centimetres", 0.01},
-                                           {"millimetres", 0.001},
-                                           {"inches", 0.0254},
-                                           {"inches / 0.45", 0.0254 / 0.45}}};
-  constexpr double kHumanLeg = 0.784, kShortest = 0.45, kLongest = 1.2;
-  std::optional<Unit> best;
-  const auto distance = [&](const Unit& unit) { return std::abs(log(unit.metres * length / kHumanLeg)); };
-  for (const Unit& unit : kUnits)
-    if (unit.metres * length > kShortest && unit.metres * length < kLongest &&
-        (!best || distance(unit) < distance(*best)))
-      best = unit;
-  return best;
 }
 
 }  // namespace mimicx::import

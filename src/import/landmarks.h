@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "import/retarget/joint_names.h"
@@ -30,6 +29,11 @@ Landmarks landmarks_of(const SkeletonPose& pose, const JointMap& map);
 /// The landmarks turned, then scaled.
 Landmarks transformed(const Landmarks& landmarks, const Quaterniond& turn, double scale);
 
+/// Every frame of a skeleton's motion.
+PerFrame<Landmarks> landmarks_of(const SkeletonMotion& motion, const JointMap& map);
+/// The joints of a motion on our body.
+PerFrame<Landmarks> landmarks_of(const PerFrame<BodyPoses>& poses);
+
 /// Mean length of a leg, hip to knee to ankle, over the poses.
 double leg_length(const PerFrame<Landmarks>& poses);
 
@@ -44,18 +48,5 @@ bool is_t_pose(const Landmarks& pose);
 
 /// Whether the first frame is a T-pose and the second one a jump away from it.
 bool starts_with_t_pose(const PerFrame<Landmarks>& frames);
-
-/// The up axis: along which the body stands in the poses with straight legs under the trunk. None where there
-/// are few such poses or they differ. 'x', 'y', 'z', or capitals for the negative axes.
-std::optional<char> up_of(const PerFrame<Landmarks>& poses);
-
-/// A unit of length.
-struct Unit {
-  const char* name;
-  double metres;
-};
-/// The unit in which a leg of `length` file units has a human length (0.45 to 1.2 m); none where no known
-/// unit gives one.
-std::optional<Unit> unit_of(double length);
 
 }  // namespace mimicx::import

@@ -4,19 +4,27 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
 #include "core/file.h"
 #include "core/npz/npy_header.h"
+#include "core/reason.h"
 #include "import/body_model.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"
 #include "import/clip_checks.h"
+#include "import/content_words.h"
 #include "import/deepmimic.h"
+#include "import/evidence/angle_unit.h"
+#include "import/evidence/frame_rate.h"
+#include "import/evidence/translation_unit.h"
+#include "import/evidence/up_axis.h"
 #include "import/joint_positions.h"
 #include "import/motionx.h"
 #include "import/plausibility.h"
+#include "import/retarget/person.h"
 #include "import/retarget/retarget.h"
 #include "import/world_transform.h"
 #include "motion/clip_file.h"
@@ -27,8 +35,11 @@ namespace {
 constexpr double kOddRate = 1.25;  ///< factor between the file's frame rate and that of a fall
 constexpr std::string_view kHierarchy = "hierarchy";  // in any case
 constexpr std::size_t kHeaderBytes = 1024;            ///< an npy header fits in
-constexpr std::size_t kFirstBytes = 64;               ///< bytes that identify a format
+constexpr std::size_t kFirstBytes = 1024;             ///< bytes that identify a format
 constexpr double kFarthest = 1e5;  ///< m from the origin: farther, differences of places lose their meaning
+constexpr const char* kMotions = "a motion (npz, npy, BVH or DeepMimic)";
+constexpr const char* kConverter =
+    "tools/convert_video_results.py converts results of video estimators, and MDM's results.npy";
 constexpr double kFloorWorthSaying = 0.05;  ///< m
 
 void require_sense(const ReadConfig& o) {
@@ -76,14 +87,17 @@ void settle_scale(const ReadConfig& o, bool believed, motion::Clip& clip) {
     return;
   }
   if (believed) return;
-  const double before = support_speed(clip), scale = detect_scale(clip);
-  if (scale == 1.0) return;
-  scale_world(scale, clip);
-  clip.decisions.push_back("scale: the translation is taken to be in " +
-                           std::string(scale == 0.01 ? "centimetres" : "millimetres") +
-                           " (read as metres, the slower foot would move at " + short_number(before) +
-                           " m/s; now it moves at " + short_number(support_speed(clip)) +
-                           "; --scale overrides)");
+  const TranslationUnit unit = decide_translation_unit(clip);
+  if (unit.metres != 1.0) {
+    clip.decisions.push_back("scale: the translation is taken to be in " + unit.name +
+                             " (read as metres, the slower foot would move at " +
+                             short_number(support_speed(clip)) + " m/s; now it moves at " +
+                             short_number(unit.support_speed) + " m/s; --scale overrides)");
+    scale_world(unit.metres, clip);
+  }
+  if (!unit.near.empty())
+    clip.warnings.push_back("the translation may be in " + unit.near + ", not in " + unit.name +
+                            ": --scale " + short_number(unit.near_metres));
 }
 
 /// The file's axis that is `axis` now, after the reader has turned `custom` to z.
@@ -103,25 +117,17 @@ void settle_up(const ReadConfig& o, bool believed, char custom, motion::Clip& cl
     return;
   }
   if (believed) return;
-  const UpAxis found = detect_up(clip);
-  const char up = found.sure ? in_file(found.axis, custom) : custom;
-  const std::string along = " (the body stands along it: " + short_number(found.along) + ")";
-  turn_up(up);
-  if (!found.sure)
-    clip.decisions.push_back("up axis: " + axis_name(up) +
-                             ", the default of the format (the body lies, crawls or turns over)");
-  else if (found.axis == 'Z')
-    clip.decisions.push_back("up axis: upside down, turned over" + along + "; --up overrides");
-  else
-    clip.decisions.push_back("up axis: " + axis_name(up) + (up == 'z' ? "" : ", turned to z") + along +
-                             (up == custom ? "" : "; --up overrides"));
-}
-
-/// The frame rate next to `fps` of those in use, where one is within a tenth; else 0.
-double usual_rate(double fps) {
-  for (const double rate : {20.0, 24.0, 25.0, 30.0, 50.0, 60.0, 90.0, 100.0, 120.0, 200.0, 240.0, 250.0})
-    if (std::abs(fps / rate - 1.0) < 0.1) return rate;
-  return 0.0;
+  UpDecision found = decide_up(landmarks_of(motion::poses_of(clip)), std::nullopt, 'z');
+  const bool upside_down = found.axis == 'Z';
+  found.axis = in_file(found.axis, custom);
+  found.second = in_file(found.second, custom);
+  turn_up(found.axis);
+  clip.decisions.push_back("up axis: " +
+                           (upside_down
+                                ? std::string("upside down, turned over")
+                                : axis_name(found.axis) + (found.axis == 'z' ? "" : ", turned to z")) +
+                           " (" + found.why + (found.axis == custom ? ")" : "); --up overrides"));
+  if (found.is_near()) clip.warnings.push_back(near_up_warning(found));
 }
 
 /// Whether another frame rate adds no inhuman speeds to a motion.
@@ -133,30 +139,32 @@ bool is_plausible_at(double fps, const motion::Clip& clip) {
 
 void settle_fps(const ReadConfig& o, bool believed, motion::Clip& clip) {
   if (o.fps) {
-    clip.decisions.push_back("frame rate: " + short_number(*o.fps) + " fps, as asked for (the file says " +
-                             short_number(clip.fps) + ")");
+    clip.decisions.push_back("frame rate: " + rate_text(*o.fps) + " fps, as asked for" +
+                             (clip.fps == *o.fps ? "" : " (the file says " + rate_text(clip.fps) + ")"));
     clip.fps = *o.fps;
     return;
   }
   if (believed) return;
   const std::optional<FallRate> fall = rate_from_flights(clip);
   const double factor = fall ? fall->fps / clip.fps : 1.0, usual = fall ? usual_rate(fall->fps) : 0.0;
-  const std::string given = "frame rate: " + short_number(clip.fps) + " fps, as given";
-  if (!fall) return clip.decisions.push_back(given);
-  const std::string falls = std::to_string(fall->flights) + (fall->flights == 1 ? " flight" : " flights") +
-                            ", in which the body falls with " + short_number(fall->acceleration) +
-                            " m/s² at the file's rate";
-  if (!(std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0))
-    return clip.decisions.push_back(given + " (" + falls + ")");
-  if (fall->agreed && is_plausible_at(usual, clip)) {
-    clip.decisions.push_back("frame rate: " + short_number(usual) + " fps, not " + short_number(clip.fps) +
-                             " (" + falls + "; --fps overrides)");
+  const std::string given = "frame rate: " + rate_text(clip.fps) + " fps, as given";
+  const std::string falls = !fall ? ""
+                                  : std::to_string(fall->flights) +
+                                        (fall->flights == 1 ? " flight" : " flights") +
+                                        ", in which the body falls with " + short_number(fall->acceleration) +
+                                        " m/s² at the file's rate";
+  const bool other = fall && std::max(factor, 1.0 / factor) > kOddRate && usual > 0.0;
+  if (other && fall->agreed && is_plausible_at(usual, clip)) {
+    clip.decisions.push_back("frame rate: " + rate_text(usual) + " fps, not " + rate_text(clip.fps) + " (" +
+                             falls + "; --fps overrides)");
     clip.fps = usual;
     return;
   }
-  clip.decisions.push_back(given);
-  clip.warnings.push_back("the frame rate may be " + short_number(usual) + " fps, not " +
-                          short_number(clip.fps) + " (" + falls + "): --fps " + short_number(usual));
+  clip.decisions.push_back(given + (fall && !other ? " (" + falls + ")" : ""));
+  if (other && fall->clear)
+    clip.warnings.push_back("the frame rate may be " + rate_text(usual) + " fps, not " + rate_text(clip.fps) +
+                            " (" + falls + "): --fps " + rate_text(usual));
+  for (const std::string& odd : odd_rate_warnings(clip.fps, clip.frames())) clip.warnings.push_back(odd);
 }
 
 void settle_floor(const ReadConfig& o, bool believed, motion::Clip& clip) {
@@ -195,7 +203,7 @@ std::string unit_name(double metres) {
 /// Summary of the decisions about a foreign skeleton, in three lines.
 std::vector<std::string> summary_of(const std::string& format, const RetargetReport& report, bool standard,
                                     double fps) {
-  const std::string rate = short_number(fps) + " frames per second, ";
+  const std::string rate = rate_text(fps) + " frames per second, ";
   if (report.own) return {format + " of this program: " + rate + "y up, metres"};
   return {format + ": " + rate + axis_name(report.up) + " up, " + unit_name(report.scale),
           std::string(standard ? "standard body" : "body shape fitted") + ", joints " +
@@ -219,6 +227,26 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   return clip;
 }
 
+/// The skeleton of the person in a BVH, with its rotations in the unit in which they are.
+SkeletonMotion read_skeleton(const std::string& bytes, const std::filesystem::path& path,
+                             const ReadConfig& o) {
+  const auto parse = [&](bool radians) {
+    return person_of(parse_bvh(bytes, path, {o.fps, radians}), o.root, o.joint_map);
+  };
+  SkeletonMotion motion = parse(false);
+  if (!may_be_radians(motion.largest_angle)) return motion;
+  SkeletonMotion other = parse(true);
+  const JointMap map = map_joints(motion, o.joint_map);
+  const AngleUnit unit =
+      decide_angle_unit(landmarks_of(motion, map), landmarks_of(other, map), motion.largest_angle);
+  const std::string largest = "no rotation of the file exceeds " + short_number(motion.largest_angle);
+  if (unit == AngleUnit::kUnsure) motion.warnings.push_back(largest + ", read as degrees: are they radians?");
+  if (unit != AngleUnit::kRadians) return motion;
+  other.warnings.push_back("rotations are taken to be radians, not degrees (" + largest +
+                           "; as degrees the body would hardly bend)");
+  return other;
+}
+
 /// The shape in an npy header; empty where it is damaged.
 std::vector<std::size_t> header_shape(const std::string& bytes) {
   try {
@@ -238,31 +266,36 @@ bool is_pickled(const std::string& bytes, const std::filesystem::path& path) {
 motion::Clip read_any(const std::string& bytes, const std::filesystem::path& path, const ReadConfig& o) {
   const std::string name = path.stem().string();
   if (is_pickled(bytes, path))
-    throw DataError(path.string(), "", "a motion (npz, npy, BVH or DeepMimic)",
-                    "a Python pickle: tools/convert_video_results.py converts results of GVHMR, WHAM and "
-                    "TRAM");
+    throw DataError(path.string(), "", kMotions, "a Python pickle: " + std::string(kConverter));
   switch (recognise(bytes)) {
     case MotionFormat::kNpz: {
-      motion::Clip clip = motion::clip_from(parse_npz(bytes, path.string()), name);
+      motion::Clip clip = motion::clip_from(parse_npz(bytes, path.string()), name, {o.fps, o.person});
       clip.decisions.insert(clip.decisions.begin(), "format: AMASS-like npz, body model " + clip.body_model);
       return clip;
     }
     case MotionFormat::kNpy: {
       const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-      const NpyArray array = parse_npy(data, bytes.size(), path.string(), "");
+      const NpyArray array = [&] {
+        try {
+          return parse_npy(data, bytes.size(), path.string(), "");
+        } catch (const UnsupportedArray& why) {
+          if (bytes.find("'descr': '|O'") == std::string::npos) throw;
+          throw DataError(path.string(), "", kMotions,
+                          "an object array, a Python pickle: " + std::string(kConverter));
+        }
+      }();
       if (!is_positions(array.shape)) return motionx_from(array, name, path.string(), !o.scale);
       return retargeted(skeleton_of_positions(array, name, path.string()),
                         array.shape.size() == 2 ? "HumanML3D features" : "joint positions", o);
     }
     case MotionFormat::kBvh:
-      return retargeted(parse_bvh(bytes, path), "BVH", o);
+      return retargeted(read_skeleton(bytes, path, o), "BVH", o);
     case MotionFormat::kDeepMimic:
-      return retargeted(parse_deepmimic(bytes, path), "DeepMimic", o);
+      return retargeted(parse_deepmimic(bytes, path, o.fps), "DeepMimic", o);
     case MotionFormat::kUnknown:
       break;
   }
-  throw DataError(path.string(), "", "a motion (npz, npy, BVH or DeepMimic)",
-                  bytes.empty() ? "an empty file" : "other content");
+  throw DataError(path.string(), "", kMotions, content_in_words(bytes));
 }
 
 /// The first bytes of a file. None for a pipe, because opening it would wait for a writer.
@@ -294,14 +327,18 @@ std::string ReadConfig::text() const {
   if (standard_body) add("body=standard");
   if (!smplx.empty()) add("smplx=" + smplx.string());
   if (!joint_map.empty()) add("joint_map=" + joint_map.string());
+  if (!root.empty()) add("root=" + root);
+  if (person) add("person=" + std::to_string(*person));
   return out;
 }
 
 MotionFormat recognise(const std::string& bytes) {
   if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06")) return MotionFormat::kNpz;
   if (bytes.starts_with("\x93NUMPY")) return MotionFormat::kNpy;
-  const std::size_t bom = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0,
-                    start = bytes.find_first_not_of(" \t\r\n", bom);
+  const std::size_t bom = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  std::size_t start = bytes.find_first_not_of(" \t\r\n", bom);
+  while (start != std::string::npos && (bytes[start] == '#' || bytes.compare(start, 2, "//") == 0))
+    start = bytes.find_first_not_of(" \t\r\n", bytes.find_first_of("\r\n", start));
   if (start == std::string::npos) return MotionFormat::kUnknown;
   if (bytes[start] == '{') return MotionFormat::kDeepMimic;
   if (lower_case(bytes.substr(start, kHierarchy.size())) == kHierarchy) return MotionFormat::kBvh;
@@ -309,7 +346,11 @@ MotionFormat recognise(const std::string& bytes) {
 }
 
 motion::Clip read_motion(const std::filesystem::path& path, const ReadConfig& config) {
-  return motion_from(read_file(path), path, config);
+  try {
+    return motion_from(read_file(path), path, config);
+  } catch (const std::bad_alloc& error) {
+    throw DataError(path.string(), "", "a motion that fits into memory", reason_of(error));
+  }
 }
 
 motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& path,
@@ -347,7 +388,10 @@ bool holds_positions(const std::filesystem::path& path) {
 
 bool is_motion_file(const std::filesystem::path& path) {
   const std::string suffix = lower_suffix(path);
-  if (suffix == ".txt") return recognise(first_bytes(path, kFirstBytes)) == MotionFormat::kDeepMimic;
+  if (suffix == ".txt") {
+    const MotionFormat format = recognise(first_bytes(path, kFirstBytes));
+    return format == MotionFormat::kDeepMimic || format == MotionFormat::kBvh;
+  }
   return is_written(suffix);
 }
 

@@ -27,7 +27,9 @@ struct ReadConfig {
   bool standard_body = false;       ///< ignore the file's body shape
   std::filesystem::path smplx;      ///< licensed SMPL-X model: joints of the body where betas are SMPL-X's
   std::filesystem::path joint_map;  ///< more joint names for foreign skeletons
-  bool verbose = false;             ///< print all decisions instead of a summary
+  std::string root;  ///< of a BVH with several skeletons: name or number of the root; empty: the person's
+  std::optional<int> person;  ///< of an npz with several people, from 1
+  bool verbose = false;       ///< print all decisions instead of a summary
 
   /// All settings that differ from the default, in one line. Equal lines mean that files are read alike.
   std::string text() const;

@@ -46,6 +46,16 @@ void read_betas(const MatrixXd& values, motion::Clip& clip) {
     clip.warnings.emplace_back("betas change over time: those of the first frame are used");
 }
 
+/// Whether the supporting foot is implausibly fast, or the pelvis implausibly high (y is up), and far less in
+/// another unit.
+bool is_wrong_scale(const motion::Clip& clip, double speed, double speed_scaled) {
+  constexpr double kFastSupport = 3.0, kFarHeight = 20.0, kCalmer = 1.0 / 3.0;  // m/s, m
+  std::vector<double> heights;
+  for (const Vector3d& trans : clip.trans) heights.push_back(std::abs(trans.y()));
+  return (speed > kFastSupport || finite_quantile(heights, 0.5) > kFarHeight) &&
+         speed_scaled < kCalmer * speed;
+}
+
 /// Converts from centimetres, or undoes the scale and the mirrored axis of the AIST subset, where speeds show
 /// them. Both factors are similar; the right one gives calmer feet.
 void settle_unit(motion::Clip& clip) {

@@ -1,8 +1,10 @@
 #include "import/text_input.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -40,10 +42,26 @@ std::size_t sequence_length(std::string_view text) {
 
 std::string read_text(const std::filesystem::path& path) { return read_file(path, kMaxTextBytes); }
 
-std::string printable(std::string_view word) {
-  constexpr int kMaxCharacters = 40;
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::string escaped_name(std::string_view name) {
   std::string out;
-  for (int i = 0; i < kMaxCharacters && !word.empty(); ++i) {
+  while (!name.empty()) {
+    const std::size_t length = sequence_length(name);
+    char number[8];
+    std::snprintf(number, sizeof number, "\\x%02x", static_cast<unsigned char>(name[0]));
+    out += length == 0 ? number : name.substr(0, length);
+    name.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
+
+std::string printable(std::string_view word, std::size_t most) {
+  std::string out;
+  for (std::size_t i = 0; i < most && !word.empty(); ++i) {
     const std::size_t length = sequence_length(word);
     out += length == 0 ? "?" : word.substr(0, length);
     word.remove_prefix(std::max<std::size_t>(length, 1));
@@ -69,12 +87,26 @@ void TextInput::skip_space() {
       ++line_;
 }
 
+void TextInput::skip_comments() {
+  skip_space();
+  while (text_.substr(at_).starts_with('#') || text_.substr(at_).starts_with("//")) {
+    while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
+    skip_space();
+  }
+}
+
 std::string_view TextInput::word() {
   skip_space();
   const std::size_t begin = at_;
   const auto is_mark = [&](char c) { return marks_.find(c) != std::string_view::npos; };
   if (at_ < text_.size() && is_mark(text_[at_])) return text_.substr(at_++, 1);
-  while (at_ < text_.size() && !is_space(text_[at_]) && !is_mark(text_[at_])) ++at_;
+  while (at_ < text_.size() && !is_space(text_[at_]) && !is_mark(text_[at_])) {
+    // The second byte of a character in Shift-JIS or GBK may be that of a mark, such as '{'.
+    const bool leads =
+        static_cast<unsigned char>(text_[at_]) >= 0x81 && sequence_length(text_.substr(at_)) == 0;
+    const bool follows = at_ + 1 < text_.size() && static_cast<unsigned char>(text_[at_ + 1]) >= 0x40;
+    at_ += leads && follows ? 2 : 1;
+  }
   return text_.substr(begin, at_ - begin);
 }
 
@@ -103,6 +135,26 @@ std::string_view TextInput::quoted() {
     if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
   }
   fail_with("a closing quotation mark", "the end of the file");
+}
+
+void TextInput::label(std::string_view keyword) {
+  const std::string expected = in_quotes(std::string(keyword) + ":");
+  const std::string_view found = peek();  // for the message
+  skip_space();
+  const auto skip_blanks = [&] {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+  };
+  for (const char c : keyword) {
+    if (c == ' ') {
+      skip_blanks();
+      continue;
+    }
+    if (at_ == text_.size() || !equal_but_for_case(text_.substr(at_, 1), {&c, 1})) fail(expected, found);
+    ++at_;
+  }
+  skip_blanks();
+  if (at_ == text_.size() || text_[at_] != ':') fail(expected, found);
+  ++at_;
 }
 
 void TextInput::expect(std::string_view expected) {

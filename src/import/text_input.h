@@ -17,14 +17,24 @@ inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 30;
 /// The bytes of a file. @throws DataError when it is not a readable file, or larger than `kMaxTextBytes`
 std::string read_text(const std::filesystem::path& path);
 
-/// At most 40 characters of a word as valid UTF-8; control characters and invalid bytes become '?'.
-std::string printable(std::string_view word);
+/// At most `most` characters of a word as valid UTF-8; control characters and invalid bytes become '?'.
+std::string printable(std::string_view word, std::size_t most = 40);
+
+/// A name as valid UTF-8, whole and distinct from every other: each control character and invalid byte
+/// becomes its hexadecimal number, "\\x83". Names in another encoding (Shift-JIS, GBK) can so be compared
+/// with names of a file in the same encoding.
+std::string escaped_name(std::string_view name);
+
+/// Whether two words are equal but for upper and lower case (ASCII).
+bool equal_but_for_case(std::string_view a, std::string_view b);
 
 class TextInput {
  public:
   /// @param path  for messages @param marks  characters that are words of their own, e.g. "{}"
   TextInput(std::string_view text, std::string path, std::string_view marks = "");
 
+  /// Skips lines in front that begin with '#' or "//".
+  void skip_comments();
   /// The next word; empty at the end of the text. Its line is `line()`.
   std::string_view word();
   /// The next word if it is on the same line as the last one, else empty.
@@ -33,6 +43,9 @@ class TextInput {
   std::string_view peek();
   /// The text up to the next quotation mark, which is read as well; a backslash escapes the next character.
   std::string_view quoted();
+  /// Reads "KEYWORD:", in any case, with or without blanks around its colon; the next word is what stands
+  /// behind it. @param keyword  words divided by single blanks, between which the text may have any or none
+  void label(std::string_view keyword);
   /// Throws unless the next word is `expected`.
   void expect(std::string_view expected);
   /// The next word as a finite number. @param what  its meaning, for the message

@@ -13,6 +13,28 @@ namespace {
 constexpr int kPoseColumns = 3 * kBodies;  ///< root and 21 joints
 constexpr double kMaxFps = 2000.0;
 
+/// Names that one member has in files of different programs, the usual one first.
+using Names = std::vector<std::string>;
+const Names kPoses = {"poses", "smpl_poses", "fullpose", "full_pose", "thetas", "theta", "pose"};
+const Names kRoot = {"root_orient", "global_orient"};
+const Names kBody = {"pose_body", "body_pose"};
+const Names kTrans = {"trans", "transl", "smpl_trans", "translation"};
+const Names kRates = {"mocap_framerate", "mocap_frame_rate", "fps", "frame_rate", "framerate"};
+const Names kBetaNames = {"betas", "smpl_betas", "beta"};
+
+/// The first of the names that the archive has; empty: none.
+std::string found_among(const Names& names, const Npz& npz) {
+  for (const std::string& name : names)
+    if (npz.has(name)) return name;
+  return {};
+}
+
+std::string text_of_shape(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (std::size_t i = 0; i < shape.size(); ++i) text += (i ? ", " : "") + std::to_string(shape[i]);
+  return "shape (" + text + ")";
+}
+
 /// A member as doubles, with its place for error messages.
 struct Member {
   const Npz& npz;
@@ -27,50 +49,63 @@ struct Member {
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
     throw DataError(npz.path, key, expected, found);
   }
-  std::string shape() const {
-    std::string text = "shape (";
-    for (std::size_t i = 0; i < array.shape.size(); ++i)
-      text += (i ? ", " : "") + std::to_string(array.shape[i]);
-    return text + ")";
-  }
+  std::string shape() const { return text_of_shape(array.shape); }
   void expect_shape(const std::vector<std::size_t>& expected) const {
-    if (array.shape == expected) return;
-    std::string text = "shape (";
-    for (std::size_t i = 0; i < expected.size(); ++i) text += (i ? ", " : "") + std::to_string(expected[i]);
-    fail(text + ")", shape());
+    if (array.shape != expected) fail(text_of_shape(expected), shape());
   }
-  /// Rows of a matrix of `columns` columns, all finite.
-  std::size_t expect_rows(std::size_t columns) const {
-    if (array.shape.size() != 2 || array.shape[1] != columns)
-      fail("shape (frames, " + std::to_string(columns) + ")", shape());
-    expect_finite();
-    return array.shape[0];
+  /// Number of rows; a row may have further dimensions.
+  std::size_t rows() const { return array.shape.empty() ? 0 : array.shape[0]; }
+  /// Numbers in a row.
+  std::size_t columns() const {
+    std::size_t product = 1;
+    for (std::size_t i = 1; i < array.shape.size(); ++i) product *= array.shape[i];
+    return array.shape.size() < 2 ? 0 : product;
+  }
+  /// The first `used` of the columns are finite.
+  void expect_finite_columns(std::size_t used) const {
+    for (std::size_t r = 0; r < rows(); ++r)
+      for (std::size_t c = 0; c < used; ++c)
+        if (!std::isfinite(values[r * columns() + c])) fail_not_finite(r);
   }
   void expect_finite() const {
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i])) {
-        const std::size_t rows = array.shape.empty() ? 1 : array.shape[0];
-        fail("finite numbers", "one that is not, in row " + std::to_string(i / (values.size() / rows)));
-      }
+      if (!std::isfinite(values[i])) fail_not_finite(i / (values.size() / std::max<std::size_t>(rows(), 1)));
+  }
+  [[noreturn]] void fail_not_finite(std::size_t row) const {
+    fail("finite numbers", "one that is not, in row " + std::to_string(row));
   }
 };
 
-std::string member_text(const Npz& npz, const std::string& key) {
+/// A text; the first of several that are equal. None where the member is something else.
+std::optional<std::string> member_text(const Npz& npz, const std::string& key) {
   const NpyArray& array = npz.at(key);
-  if (array.text.size() != 1) throw DataError(npz.path, key, "one word", "something else");
+  if (array.text.empty() ||
+      std::count(array.text.begin(), array.text.end(), array.text[0]) != std::ssize(array.text))
+    return std::nullopt;
   return array.text[0];
 }
 
-double read_fps(const Npz& npz) {
-  for (const char* key : {"mocap_framerate", "mocap_frame_rate"}) {
-    if (!npz.has(key)) continue;
-    const Member fps(npz, key);
-    if (fps.values.size() != 1 || !(fps.values[0] > 0.0 && fps.values[0] <= kMaxFps))
-      fps.fail("one frame rate between 0 and 2000 Hz",
+/// The file's frame rate. Where it has several that differ, the first counts, with a warning.
+double read_fps(const Npz& npz, const std::optional<double>& given, Clip& clip) {
+  std::optional<double> rate;
+  std::string key;
+  for (const std::string& name : kRates) {
+    if (!npz.has(name) || npz.at(name).type == NpyArray::Type::kText) continue;
+    const Member fps(npz, name);
+    const bool sound = fps.values.size() == 1 && fps.values[0] > 0.0 && fps.values[0] <= kMaxFps;
+    if (!sound && !given)
+      fps.fail("one frame rate between 0 and 2000 Hz (--fps gives one)",
                fps.values.size() == 1 ? text_of(fps.values[0]) : fps.shape());
-    return fps.values[0];
+    if (!sound) continue;
+    if (rate && std::abs(fps.values[0] / *rate - 1.0) > 1e-3 && !given)
+      clip.warnings.push_back("two frame rates: " + key + " says " + text_of(*rate) + ", " + name + " says " +
+                              text_of(fps.values[0]) + "; the first is used (--fps overrides)");
+    if (!rate) rate = fps.values[0], key = name;
   }
-  throw DataError(npz.path, "", "a frame rate (mocap_framerate or mocap_frame_rate)", "neither");
+  if (!rate && !given)
+    throw DataError(npz.path, "", "a frame rate (mocap_framerate, mocap_frame_rate or fps; --fps gives one)",
+                    "none");
+  return rate ? *rate : *given;
 }
 
 /// Columns from `first` on, elements untouched.
@@ -88,14 +123,36 @@ NpyArray columns_from(const NpyArray& array, std::size_t first) {
   return out;
 }
 
-/// Keeps columns of `poses` for hands, jaw and eyes. They are written to the same columns again, even if the
-/// file also has them as named arrays. Their order does not matter here.
-void keep_other_columns(const Npz& npz, std::size_t frames, Clip& clip) {
-  if (!npz.has("poses")) return;
-  const NpyArray& poses = npz.at("poses");
-  if (poses.type == NpyArray::Type::kText || poses.shape.size() != 2 || poses.shape[0] != frames) return;
-  if (poses.shape[1] > kPoseColumns)
-    clip.passthrough.emplace_back("poses_rest", columns_from(poses, kPoseColumns));
+/// Keeps columns of the poses for hands, jaw and eyes. They are written to the same columns again, even if
+/// the file also has them as named arrays. Their order does not matter here.
+void keep_other_columns(const Member& poses, std::size_t used, Clip& clip) {
+  if (poses.columns() <= used || poses.rows() != clip.rotations.size()) return;
+  NpyArray flat = poses.array;
+  flat.shape = {poses.rows(), poses.columns()};
+  clip.passthrough.emplace_back("poses_rest", columns_from(flat, used));
+}
+
+[[noreturn]] void fail_without_rotations(const Npz& npz) {
+  std::string names;
+  for (const auto& [key, array] : npz.members()) names += (names.empty() ? "" : ", ") + key;
+  if (!npz.unsupported().empty()) {
+    names += names.empty() ? "" : ", and ";
+    for (const auto& [key, why] : npz.unsupported())
+      names += (&key == &npz.unsupported().front().first ? "" : ", ") + key;
+    names +=
+        " (pickled, or of types that are not read: tools/convert_video_results.py converts results of video "
+        "estimators)";
+  }
+  throw DataError(npz.path, "",
+                  "rotations (poses; or root_orient and pose_body; or global_orient and body_pose)",
+                  names.empty() ? "no members at all" : names);
+}
+
+/// Fails where a member has rotation matrices.
+void expect_axis_angle(const Member& member) {
+  const auto& shape = member.array.shape;
+  if (shape.size() >= 3 && shape[shape.size() - 1] == 3 && shape[shape.size() - 2] == 3 && shape.size() != 3)
+    member.fail("rotations as axis-angle", member.shape() + ", rotation matrices");
 }
 
 /// Fills the rotations; returns the body model of the layout.
@@ -103,38 +160,61 @@ std::string read_rotations(const Npz& npz, Clip& clip) {
   const auto vector_at = [](const std::vector<double>& v, std::size_t at) {
     return Vector3d(v[at], v[at + 1], v[at + 2]);
   };
-  if (npz.has("root_orient") && npz.has("pose_body")) {
-    const Member root(npz, "root_orient"), body(npz, "pose_body");
-    const std::size_t frames = root.expect_rows(3);
-    if (body.expect_rows(3 * kJoints) != frames)
-      body.fail(std::to_string(frames) + " frames as in root_orient", body.shape());
+  const std::string root_key = found_among(kRoot, npz), body_key = found_among(kBody, npz),
+                    poses_key = found_among(kPoses, npz);
+  if (!root_key.empty() && !body_key.empty()) {
+    const Member root(npz, root_key), body(npz, body_key);
+    expect_axis_angle(root);
+    expect_axis_angle(body);
+    const std::size_t frames = root.rows(), columns = body.columns();
+    if (root.columns() != 3) root.fail("shape (frames, 3)", root.shape());
+    if (columns != 3 * kJoints && columns != 3 * kJoints + 6)
+      body.fail("shape (frames, 63) or (frames, 69)", body.shape());
+    if (body.rows() != frames) body.fail(std::to_string(frames) + " frames as in " + root_key, body.shape());
+    root.expect_finite_columns(3);
+    body.expect_finite_columns(3 * kJoints);
     clip.rotations.resize(frames);
     for (std::size_t t = 0; t < frames; ++t) {
       clip.rotations[t][0] = vector_at(root.values, 3 * t);
       for (std::size_t j = 0; j < kJoints; ++j)
-        clip.rotations[t][j + 1] = vector_at(body.values, 3 * (kJoints * t + j));
+        clip.rotations[t][j + 1] = vector_at(body.values, columns * t + 3 * j);
     }
-    keep_other_columns(npz, frames, clip);
-    return "smplx";
+    if (npz.has("poses") && npz.at("poses").type != NpyArray::Type::kText)
+      keep_other_columns(Member(npz, "poses"), kPoseColumns, clip);
+    else
+      keep_other_columns(body, 3 * kJoints, clip);
+    return columns == 3 * kJoints ? "smplx" : "smpl";
   }
-  const Member poses(npz, "poses");
-  if (poses.array.shape.size() != 2) poses.fail("shape (frames, 66, 72, 156 or 165)", poses.shape());
-  const std::size_t columns = poses.array.shape[1];
+  if (poses_key.empty()) fail_without_rotations(npz);
+  const Member poses(npz, poses_key);
+  expect_axis_angle(poses);
+  const std::size_t columns = poses.columns();
+  if (columns == 0) poses.fail("shape (frames, 66, 72, 156 or 165)", poses.shape());
   if (columns != 66 && columns != 72 && columns != 156 && columns != 165)
     poses.fail("66, 72, 156 or 165 columns", std::to_string(columns));
-  clip.rotations.resize(poses.expect_rows(columns));
+  poses.expect_finite_columns(kPoseColumns);
+  clip.rotations.resize(poses.rows());
   for (std::size_t t = 0; t < clip.rotations.size(); ++t)
     for (std::size_t j = 0; j < kBodies; ++j)
       clip.rotations[t][j] = vector_at(poses.values, columns * t + 3 * j);
-  keep_other_columns(npz, clip.rotations.size(), clip);
+  keep_other_columns(poses, kPoseColumns, clip);
   return columns == 72 ? "smpl" : columns == 156 ? "smplh" : "smplx";
+}
+
+/// AIST++'s smpl_trans is in the unit of smpl_scaling, which is the size of the body in it; 1 in other files.
+double scaling_of(const Npz& npz) {
+  if (!npz.has("smpl_scaling")) return 1.0;
+  const Member scaling(npz, "smpl_scaling");
+  if (scaling.values.empty() || !(scaling.values[0] > 0.0 && std::isfinite(scaling.values[0])))
+    scaling.fail("a positive number", "another one");
+  return scaling.values[0];
 }
 
 /// Variants such as "smplx_locked_head" count as their base model.
 std::string read_body_model(const Npz& npz, const std::string& from_layout) {
   for (const char* key : {"body_model", "surface_model_type"}) {
     if (!npz.has(key)) continue;
-    const std::string name = member_text(npz, key);
+    const std::string name = member_text(npz, key).value_or("something else");
     for (const char* known : {"mimicx", "smplx", "smplh", "smpl"})
       if (name == known || name.starts_with(std::string(known) + "_")) return known;
     throw DataError(npz.path, key, "mimicx, smplx, smplh or smpl", "'" + name + "'");
@@ -143,15 +223,22 @@ std::string read_body_model(const Npz& npz, const std::string& from_layout) {
 }
 
 void read_betas(const Npz& npz, Clip& clip) {
-  if (!npz.has("betas")) return;
-  const Member betas(npz, "betas");
-  betas.expect_finite();
-  const auto& shape = betas.array.shape;
+  const std::string key = found_among(kBetaNames, npz);
+  if (key.empty()) return;
+  const Member betas(npz, key);
+  std::vector<std::size_t> shape =
+      betas.array.shape;  // without dimensions of one between the first and the last
+  while (shape.size() > 2 && shape[1] == 1) shape.erase(shape.begin() + 1);
   const bool per_frame = shape.size() == 2 && shape[0] == clip.rotations.size() && shape[0] > 1;
-  if (shape.size() != 1 && !(shape.size() == 2 && (shape[0] == 1 || per_frame)))
-    betas.fail("one row of shape parameters", betas.shape());
+  if (shape.size() != 1 && !(shape.size() == 2 && (shape[0] == 1 || per_frame))) {
+    if (clip.body_model == "mimicx") betas.fail("one row of shape parameters", betas.shape());
+    clip.warnings.push_back("betas of " + betas.shape() + " are not used");
+    return;
+  }
   const std::size_t count = std::min<std::size_t>(shape.back(), kBetas);
   std::copy_n(betas.values.begin(), count, clip.betas.begin());
+  for (const double b : clip.betas)
+    if (!std::isfinite(b)) betas.fail_not_finite(0);
   if (shape.back() > kBetas)
     clip.passthrough.emplace_back(
         "betas_rest", NpyArray::from_double({shape.back() - kBetas}, betas.values.data() + kBetas));
@@ -320,33 +407,79 @@ NpyArray rest_joints_member(const RestJoints& joints) {
   return NpyArray::from_double({kBodies, 3}, values.data());
 }
 
+/// Row `index` of the first dimension, elements untouched.
+NpyArray row_of(const NpyArray& array, std::size_t index) {
+  NpyArray out;
+  out.type = array.type;
+  out.shape.assign(array.shape.begin() + 1, array.shape.end());
+  const std::size_t width = array.bytes.size() / array.shape[0];
+  const auto begin = array.bytes.begin() + static_cast<std::ptrdiff_t>(index * width);
+  out.bytes.assign(begin, begin + static_cast<std::ptrdiff_t>(width));
+  return out;
+}
+
+/// The archive, or of one whose arrays have a dimension for people in front, (P, T, …), the part of one
+/// person.
+Npz one_person_of(const Npz& npz, const std::optional<int>& person) {
+  const std::string body = found_among(kBody, npz), trans = found_among(kTrans, npz);
+  const std::string key = body.empty() ? found_among(kPoses, npz) : body;
+  const bool may_have = !key.empty() && !trans.empty() && npz.at(trans).shape.size() == 3 &&
+                        npz.at(key).shape.size() >= 3 && npz.at(trans).shape[2] == 3;
+  const auto& shape = may_have ? npz.at(key).shape : std::vector<std::size_t>{};
+  if (!may_have || shape[0] != npz.at(trans).shape[0] || shape[1] != npz.at(trans).shape[1]) {
+    if (person && *person != 1)
+      throw DataError(npz.path, "", "people 1 to " + std::to_string(*person), "one person");
+    return npz;
+  }
+  const std::size_t people = shape[0];
+  const auto place = static_cast<std::size_t>(person.value_or(1));
+  if ((people != 1 && !person) || place > people)
+    throw DataError(npz.path, key, "one person: --person 1 to " + std::to_string(people),
+                    std::to_string(people) + " people, " + text_of_shape(shape));
+  Npz out;
+  out.path = npz.path;
+  for (const auto& [name, array] : npz.members()) {
+    const auto& s = array.shape;
+    const bool of_people = array.type != NpyArray::Type::kText && s.size() >= 2 && s[0] == people &&
+                           (s[1] == shape[1] || (s.size() == 2 && name == found_among(kBetaNames, npz)));
+    out.set(name, of_people ? row_of(array, place - 1) : array);
+  }
+  for (const auto& [name, why] : npz.unsupported()) out.set_unsupported(name, why);
+  return out;
+}
+
 }  // namespace
 
-Clip read_clip(const std::filesystem::path& path) { return clip_from(read_npz(path), path.stem().string()); }
+Clip read_clip(const std::filesystem::path& path, const ClipConfig& config) {
+  return clip_from(read_npz(path), path.stem().string(), config);
+}
 
-Clip clip_from(const Npz& npz, const std::string& name) {
+Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& config) {
+  const Npz npz = one_person_of(archive, config.person);
   Clip clip;
   clip.name = name;
   check_joint_names(npz);
-  clip.fps = read_fps(npz);
   clip.body_model = read_body_model(npz, read_rotations(npz, clip));
   const std::size_t frames = clip.rotations.size();
   if (frames == 0) throw DataError(npz.path, "", "at least one frame", "none");
-  const Member trans(npz, "trans");
-  if (trans.expect_rows(3) != frames)
+  const std::string trans_key = found_among(kTrans, npz);
+  const Member trans(npz, trans_key.empty() ? kTrans[0] : trans_key);
+  if (trans.columns() != 3) trans.fail("shape (frames, 3)", trans.shape());
+  trans.expect_finite_columns(3);
+  if (trans.rows() != frames)
     trans.fail(std::to_string(frames) + " frames as in the rotations", trans.shape());
+  const double unit = scaling_of(npz);
   for (std::size_t t = 0; t < frames; ++t)
-    clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t));
+    clip.trans.push_back(Eigen::Map<const Vector3d>(trans.values.data() + 3 * t) / unit);
+  clip.fps = read_fps(npz, config.fps, clip);
   read_rest_joints(npz, clip);
   read_betas(npz, clip);
-  if (npz.has("gender")) clip.gender = member_text(npz, "gender");
+  if (npz.has("gender")) clip.gender = member_text(npz, "gender").value_or("neutral");
 
-  std::vector<std::string> used = {"poses",           "root_orient",
-                                   "pose_body",       "trans",
-                                   "rest_joints",     "betas",
-                                   "gender",          "joint_names",
-                                   "mocap_framerate", "mocap_frame_rate",
-                                   "body_model",      "surface_model_type"};
+  Names used = {"rest_joints",        "gender",      "joint_names", "joints", "body_model",
+                "surface_model_type", "smpl_scaling"};
+  for (const Names& names : {kPoses, kRoot, kBody, kTrans, kRates, kBetaNames})
+    used.insert(used.end(), names.begin(), names.end());
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
     clip.keypoints = read_keypoints(npz, clip);
     check_keypoints(npz.path, *clip.keypoints, clip.decisions);
@@ -388,6 +521,10 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
   }
   for (const auto& [key, array] : clip.passthrough)
     if (!npz.has(key) && key != "poses_rest" && key != "betas_rest") npz.set(key, array);
+  std::vector<double> joints;
+  for (const BodyPoses& pose : poses_of(clip))
+    for (const Vector3d& p : pose.p_WB) joints.insert(joints.end(), p.data(), p.data() + 3);
+  npz.set("joints", NpyArray::from_double({frames, kBodies, 3}, joints.data()));
   for (const auto& [key, array] : extra) npz.set(key, array);
   return npz;
 }

@@ -7,24 +7,32 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "motion/clip.h"
 
 namespace mimicx::motion {
 
-/// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
-/// 165 columns); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`. Columns of `poses` past the 66th
-/// are kept as the member `poses_rest`, betas past the tenth as `betas_rest`. Keypoints that are not finite
-/// get confidence 0. Keypoints without names are taken for the body's joints if they are 22, for COCO's
-/// points if they are 17, for COCO-WholeBody's if they are 133; a decision says so.
-/// @throws DataError naming file and member.
-Clip read_clip(const std::filesystem::path& path);
-/// The same from an archive in memory.
-Clip clip_from(const Npz& npz, const std::string& name);
+struct ClipConfig {
+  std::optional<double> fps;  ///< stands in for a frame rate that the file lacks, or that is none
+  std::optional<int> person;  ///< of a file with several people, from 1; none: the only one
+};
 
-/// The members of our own motion file: the standard ones, keypoints and camera, passed-through members, and
-/// `extra`, which replaces members of the same name. `poses_rest` and `betas_rest` are appended to `poses`
-/// and `betas` again. A clip with named arrays of SMPL-X also gets `root_orient` and `pose_body`.
+/// Reads an AMASS-style npz: `root_orient` + `pose_body`, or the first 66 columns of `poses` (66, 72, 156 or
+/// 165 columns, flat or 3 by 3); `trans`; `betas`; `mocap_framerate` or `mocap_frame_rate`; or these under
+/// the other names of docs/formats.md, and with a dimension for people in front. Columns of `poses` past the
+/// 66th are kept as the member `poses_rest`, betas past the tenth as `betas_rest`; they need not be finite.
+/// Keypoints that are not finite get confidence 0. Keypoints without names are taken for the body's joints if
+/// they are 22, for COCO's points if they are 17, for COCO-WholeBody's if they are 133; a decision says so.
+/// @throws DataError naming file and member.
+Clip read_clip(const std::filesystem::path& path, const ClipConfig& config = {});
+/// The same from an archive in memory.
+Clip clip_from(const Npz& npz, const std::string& name, const ClipConfig& config = {});
+
+/// The members of our own motion file: the standard ones, the joints of its body, keypoints and camera,
+/// passed-through members, and `extra`, which replaces members of the same name. `poses_rest` and
+/// `betas_rest` are appended to `poses` and `betas` again. A clip with named arrays of SMPL-X also gets
+/// `root_orient` and `pose_body`.
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra = {});
 /// Writes them.
 void write_clip(const std::filesystem::path& path, const Clip& clip,

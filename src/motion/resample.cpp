@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kMostFrames = 300000;  ///< that a lower rate is made to: nearly three hours at 30 fps
 
+constexpr double kEnd = 0.05;  ///< frames
+
 /// A time of the output between two frames of the input.
 struct Between {
   int frame, next;
@@ -45,8 +47,9 @@ Clip resampled(const Clip& clip, double fps) {
   const int frames = clip.frames();
   const auto q = joint_rotations(clip);
   const double ratio = clip.fps / fps;
-  // The last frame is included if only rounding separates it from the end.
-  const auto count = static_cast<std::size_t>((frames - 1) / ratio + 1e-9) + 1;
+  // The last frame is included if only the rounding of a frame rate (30.0003 for 30) separates it from the
+  // end.
+  const auto count = static_cast<std::size_t>((frames - 1) / ratio + kEnd) + 1;
   if (count > std::max(kMostFrames, clip.rotations.size()))
     throw DataError(clip.name, "", "at most " + std::to_string(kMostFrames) + " frames at the new frame rate",
                     std::to_string(count) + " (is the frame rate right?)");

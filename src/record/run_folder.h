@@ -14,7 +14,7 @@
 ///     DIR/feasibility/NAME.npz   the external force that these would need, frame by frame
 ///     DIR/substeps/NAME.npz      every physics step of the result, on request
 ///     DIR/fits/NAME.npz          inputs fitted to their keypoints, where they have any
-///     DIR/clean/NAME.EXT         the clean set in the formats of its inputs, if not our own
+///     DIR/clean/NAME.EXT         the clean set in the formats and body conventions of its inputs
 ///     DIR/plans/NAME.npz         the plan that the motion was simulated from, where there was one
 ///     DIR/gains/NAME.npz         feedback gains around the plan, on request
 ///     DIR/policies/NAME.npz      a policy taught by the plan, on request

@@ -14,6 +14,7 @@
 #include "core/file.h"
 #include "core/npz/npz.h"
 #include "core/parallel.h"
+#include "core/reason.h"
 #include "files/clean_copy.h"
 #include "files/motion_output.h"
 #include "judge/reference_needs.h"
@@ -186,7 +187,7 @@ Done work_on(const Worker& worker, const std::string& input, const record::Seque
     if (!done.kept) do_sequence(worker, there, done);
   } catch (const std::exception& error) {
     done.entry.ok = false;
-    done.entry.reason = error.what();
+    done.entry.reason = reason_of(error);
     done.entry.output.clear();  // so that the same command tries again
   }
   return done;
@@ -201,12 +202,11 @@ void add_timing(RunState& run, const std::string& name, const record::Timing& no
   timing.threads = threads;
 }
 
-/// Writes a success in its input's format, unless the clean set already has it. For a failed sequence,
-/// removes an earlier copy.
+/// Writes a success in its input's format and body convention. For a failed sequence, removes an earlier
+/// copy.
 void copy_clean(const RunState& run, const record::SequenceEntry& entry) {
   const std::filesystem::path input(entry.input);
   const std::string suffix = files::clean_suffix(input);
-  if (suffix == ".npz" && !run.config.beside && !run.config.input_rate) return;
   const std::filesystem::path copy =
       run.config.beside ? copy_beside(input) : run.folder.clean(entry.name, suffix);
   if (!entry.ok) {
@@ -226,7 +226,7 @@ bool copied_clean(const RunState& run, const record::SequenceEntry& entry) {
     copy_clean(run, entry);
     return true;
   } catch (const std::exception& error) {
-    run.context.messages << "  no copy in the input's format: " << error.what() << '\n';
+    run.context.messages << "  no copy in the input's format: " << reason_of(error) << '\n';
     return false;
   }
 }

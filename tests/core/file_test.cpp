@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/archives.h"
+#include "core/reason.h"
 
 namespace mimicx {
 namespace {
@@ -21,9 +22,43 @@ TEST(WriteFile, ErrorStatesTheReasonAndLeavesNoFile) {
   const fs::path folder = scratch("taken.npz");
   fs::create_directories(folder);
   EXPECT_EQ(why(folder), folder.string() + ": expected a writable file, found Is a directory");
-  EXPECT_FALSE(fs::exists(folder.string() + ".mimicx-tmp"));
+  for (const auto& entry : fs::directory_iterator(folder.parent_path()))
+    EXPECT_NE(entry.path().extension(), ".mimicx-tmp") << entry.path();
   const fs::path nowhere = scratch("nowhere") / "file";
   EXPECT_EQ(why(nowhere), nowhere.string() + ": expected a writable file, found No such file or directory");
+}
+
+TEST(WriteFile, TwoWritersOfOneFileDoNotMix) {
+  const fs::path path = scratch("shared.csv");
+  AtomicFile first(path), second(path);
+  first.write("first,");
+  second.write("second,");
+  first.write("first");
+  second.write("second");
+  first.finish();
+  EXPECT_EQ(read_file(path), "first,first");
+  second.finish();
+  EXPECT_EQ(read_file(path), "second,second");
+}
+
+TEST(WriteFile, AnInterruptLeavesNoTemporaryFile) {
+  const fs::path folder = scratch("interrupted");
+  fs::create_directories(folder);
+  {
+    AtomicFile file(folder / "a.csv");
+    file.write("half");
+    EXPECT_FALSE(fs::is_empty(folder));
+    remove_unfinished_files();
+    EXPECT_TRUE(fs::is_empty(folder));
+  }
+  write_file_atomically(folder / "b.csv", "whole");
+  remove_unfinished_files();
+  EXPECT_EQ(read_file(folder / "b.csv"), "whole") << "what is finished stays";
+}
+
+TEST(Reason, OfTheStandardLibrarysErrorsIsInWords) {
+  EXPECT_EQ(reason_of(std::bad_alloc()), "not enough memory");
+  EXPECT_EQ(reason_of(std::runtime_error("why")), "why");
 }
 
 TEST(ReadFile, ErrorStatesTheReason) {

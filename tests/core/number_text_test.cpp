@@ -25,6 +25,9 @@ TEST(NumberText, AcceptsNumbersOnly) {
   EXPECT_EQ(number_from(".5"), 0.5);
   EXPECT_EQ(number_from("inf"), std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isnan(number_from("nan").value()));
+  EXPECT_EQ(number_from("1e-400"), 0.0);
+  EXPECT_EQ(number_from("-0.00001e-399"), 0.0);
+  EXPECT_EQ(number_from("4.9406564584124654e-324"), 4.9406564584124654e-324) << "a subnormal number";
   for (const char* text : {"", " 1", "1 ", "+1", "1,5", "0x10", "1e", "one", "1e999", "--1"})
     EXPECT_FALSE(number_from(text).has_value()) << text;
 }

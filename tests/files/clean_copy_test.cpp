@@ -39,7 +39,8 @@ TEST_F(CleanCopy, HasTheInputsBodyAtTheSimulatedPlace) {
     const std::string body =
         write_clean_copy(path("simulated.npz"), path("input.npz"), {}, false, path("copy.npz"));
     EXPECT_NE(body.find(model), std::string::npos) << body;
-    EXPECT_FALSE(read_npz(path("copy.npz")).has("joints")) << "of another body";
+    const Npz file = read_npz(path("copy.npz"));
+    EXPECT_NE(file.at("joints").to_double(), joints.to_double()) << "of another body";
     EXPECT_FALSE(read_npz(path("copy.npz")).has("joint_torques"));
     const motion::Clip copy = motion::read_clip(path("copy.npz"));
     EXPECT_EQ(copy.body_model, model);

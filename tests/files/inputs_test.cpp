@@ -72,6 +72,29 @@ TEST_F(FindMotions, ListsAFileOnce) {
   EXPECT_EQ(find_motions({path("in"), path("in/a.npz"), path("in/../in/a.npz")}).size(), 1u);
 }
 
+TEST_F(FindMotions, ReadsTextFilesThatHoldABvh) {
+  touch("in/walk.txt", "\n# saved by hand\nhierarchy\nROOT Hips\n");
+  touch("in/readme.txt", "once upon a time");
+  EXPECT_EQ(names(), std::vector<std::string>{"walk"});
+}
+
+TEST_F(FindMotions, APathDoesNotDependOnHowItIsTyped) {
+  touch("in/a.npz");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path);
+  for (const std::string& typed :
+       {std::string("in/a.npz"), std::string("./in//a.npz"), std::string("in/../in/a.npz"),
+        (std::filesystem::current_path() / "in/a.npz").string()}) {
+    const auto found = find_motions({typed});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].path, "in/a.npz") << typed;
+  }
+  for (const std::string typed : {"in", "in/", "./in"})
+    EXPECT_EQ(find_motions({typed})[0].path, "in/a.npz") << typed;
+  EXPECT_EQ(find_motions({"nothere/"})[0].path, "nothere");
+  std::filesystem::current_path(before);
+}
+
 TEST_F(FindMotions, RejectsFoldersWithoutMotionsAndPointsIntoRuns) {
   touch("in/notes.md");
   touch("run/manifest.json", "{\n \"run\": {}}");

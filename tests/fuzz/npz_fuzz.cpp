@@ -16,12 +16,19 @@ std::vector<std::string> seeds() {
   clip.keypoints = k;
   clip.body_model = "smplx";
   clip.passthrough.emplace_back("pose_hand", from_matrix(Eigen::MatrixXd::Zero(3, 90)));
-  return {plain, format_npz(motion::to_npz(clip)), format_npz(Npz{})};
+  Npz people;  // of two people, under other names
+  people.set("global_orient", NpyArray::from_double({2, 1, 3}, std::vector<double>(6, 0.5).data()));
+  people.set("body_pose", NpyArray::from_double({2, 1, 63}, std::vector<double>(126, 0.1).data()));
+  people.set("transl", NpyArray::from_double({2, 1, 3}, std::vector<double>(6, 1.0).data()));
+  people.set("fps", NpyArray::scalar(30.0));
+  return {plain, format_npz(motion::to_npz(clip)), format_npz(Npz{}), format_npz(people)};
 }
 
 void feed(const std::string& bytes) {
   try {
-    import::motion_from(bytes, "fuzz.npz");
+    import::ReadConfig config;
+    if (bytes.size() % 2 == 1) config.fps = 30.0, config.person = 1;
+    import::motion_from(bytes, "fuzz.npz", config);
   } catch (const DataError&) {
   }
 }

@@ -161,10 +161,84 @@ TEST(Bvh, AcceptsAnyWhitespaceAndCase) {
   for (int t = 0; t < 2; ++t) EXPECT_EQ(pose_of(a, t).p, pose_of(b, t).p);
 }
 
+TEST(Bvh, LabelsTakeAnyCaseAndBlanksAroundTheirColon) {
+  const SkeletonMotion whole = parse_bvh(kSmall, "a");
+  for (const auto& [from, to] : {std::pair{"Frames: 2", "Frames:2"},
+                                 {"Frames: 2", "frames :\t2"},
+                                 {"Frame Time: 0", "FRAME TIME:0"},
+                                 {"Frame Time: 0", "FrameTime:\t0"},
+                                 {"End Site", "EndSite"},
+                                 {"HIERARCHY", "# by hand\n// twice\nHIERARCHY"}}) {
+    const SkeletonMotion motion = parse_bvh(replaced(kSmall, from, to), "a");
+    EXPECT_EQ(motion.fps, whole.fps) << to;
+    EXPECT_EQ(motion.translation, whole.translation) << to;
+  }
+}
+
+TEST(Bvh, TheGivenRateStandsInForAFrameTime) {
+  for (const std::string time : {"0", "0.000000", "nan", "30", "", "soon"}) {
+    const std::string text = replaced(kSmall, "0.00833333", time);
+    expect_refusal(text, "line 18", "frame time");
+    const SkeletonMotion motion = parse_bvh(text, "a", {50.0, false});
+    EXPECT_EQ(motion.fps, 50.0) << time;
+    EXPECT_EQ(motion.frames(), 2) << time;
+  }
+}
+
+TEST(Bvh, NumbersTooNearToZeroAreZero) {
+  EXPECT_EQ(parse_bvh(replaced(kSmall, "OFFSET 1 2 3", "OFFSET 1e-400 -1e-400 3"), "a").joints[0].offset,
+            Vector3d(0, 0, 3));
+}
+
+TEST(Bvh, BracesInsideCharactersOfShiftJisAreNone) {
+  const std::string bones = "\x83{\x81[\x83\x93";  // ボーン, whose second byte is '{'
+  const SkeletonMotion motion = parse_bvh(replaced(kSmall, "Chest", bones), "a");
+  EXPECT_EQ(motion.joints[1].name, "\\x83{\\x81[\\x83\\x93");
+  EXPECT_EQ(motion.joints.size(), 3u);
+}
+
+TEST(Bvh, LongNamesStayWhole) {
+  const std::string name(300, 'n');
+  EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", name), "a").joints[1].name, name);
+}
+
+TEST(Bvh, PositionsThatWouldCollapseTheSkeletonAreAddedToTheOffset) {
+  std::string text = replaced(kSmall, "CHANNELS 3 Yrotation Xrotation Zrotation",
+                              "CHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation Zrotation");
+  text = replaced(text, "60 70 80 90", "60 0.01 0 0 70 80 90");
+  text = replaced(text, "61 71 81 91", "61 0 0 0 71 81 91");
+  const SkeletonMotion motion = parse_bvh(text, "a");
+  EXPECT_EQ(motion.translation[0][1], Vector3d(0.01, 10, 0));
+  ASSERT_FALSE(motion.decisions.empty());
+  EXPECT_NE(motion.decisions.back().find("displacements"), std::string::npos);
+}
+
+TEST(Bvh, SaysThatNothingHasAPosition) {
+  std::string text = replaced(kSmall, "CHANNELS 6 Xposition Yposition Zposition ", "CHANNELS 3 ");
+  text = replaced(text, "10 20 30 ", "");
+  text = replaced(text, "11 21 31 ", "");
+  const SkeletonMotion motion = parse_bvh(text, "a");
+  ASSERT_EQ(motion.warnings.size(), 1u);
+  EXPECT_NE(motion.warnings[0].find("no joint has position channels"), std::string::npos);
+}
+
+TEST(Bvh, ReadsSeveralSkeletons) {
+  const std::string second =
+      "ROOT Ball\n{\n OFFSET 0 0 0\n CHANNELS 3 Xposition Yposition Zposition\n}\nMOTION";
+  std::string text = replaced(kSmall, "MOTION", second);
+  text = replaced(text, "80 90", "80 90 1 2 3");
+  text = replaced(text, "81 91", "81 91 4 5 6");
+  const SkeletonMotion motion = parse_bvh(text, "a");
+  EXPECT_EQ(motion.joints.back().name, "Ball");
+  EXPECT_EQ(motion.joints.back().parent, -1);
+  EXPECT_EQ(pose_of(motion, 1).p.back(), Vector3d(4, 5, 6));
+}
+
 TEST(Bvh, AcceptsNamesWithBlanksAndInvalidText) {
   EXPECT_EQ(parse_bvh(replaced(kSmall, "JOINT Chest\n  {", "JOINT Bip01 L Thigh {"), "a").joints[1].name,
             "Bip01 L Thigh");
-  EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", "Ch\xff\xc3st\x01"), "a").joints[1].name, "Ch??st?");
+  EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", "Ch\xff\xc3st\x01"), "a").joints[1].name,
+            "Ch\\xff\\xc3st\\x01");
   EXPECT_EQ(parse_bvh(replaced(kSmall, "Chest", "\xe8\x85\xb0"), "a").joints[1].name, "\xe8\x85\xb0");
 }
 

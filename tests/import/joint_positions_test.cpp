@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "import/motion_file.h"
 #include "import/positions.h"
+#include "motion/made_motions.h"
 #include "motion/resample.h"
 #include "synth/synthesize.h"
 
@@ -101,6 +102,34 @@ TEST(JointPositions, RejectInvalidArraysInOneLine) {
     read_positions(NpyArray::from_double(positions.shape, values.data()));
   } catch (const DataError&) {
   }
+}
+
+TEST(JointPositions, OtherLayoutsOfTheSameArrayAreTheSameMotion) {
+  const NpyArray usual = test::positions_of(test::random_clip(5, 12, 0.3));
+  const std::vector<double> values = usual.to_double();
+  const SkeletonMotion want = skeleton_of_positions(usual, "a", "a.npy");
+  NpyArray batch = usual;
+  batch.shape = {1, 1, 12, kBodies, 3};
+  std::vector<double> last(values.size()), more;
+  for (std::size_t t = 0; t < 12; ++t) {
+    for (std::size_t k = 0; k < 66; ++k) last[12 * k + t] = values[66 * t + k];
+    more.insert(more.end(), values.begin() + static_cast<std::ptrdiff_t>(66 * t),
+                values.begin() + static_cast<std::ptrdiff_t>(66 * (t + 1)));
+    more.insert(more.end(), 6, 7.0);
+  }
+  for (const NpyArray& array : {batch, NpyArray::from_double({kBodies, 3, 12}, last.data()),
+                                NpyArray::from_double({12, 24, 3}, more.data())})
+    EXPECT_EQ(skeleton_of_positions(array, "a", "a.npy").translation, want.translation);
+  EXPECT_TRUE(is_positions({1, kBodies, 3})) << "one frame";
+  EXPECT_FALSE(is_positions({12, 66}));
+}
+
+TEST(JointPositions, NumbersWhoseBonesChangeTheirLengthsAreRefused) {
+  Random random(3);
+  std::vector<double> values(30 * 66);
+  for (double& value : values) value = random.normal();
+  EXPECT_THROW(skeleton_of_positions(NpyArray::from_double({30, kBodies, 3}, values.data()), "a", "a.npy"),
+               DataError);
 }
 
 }  // namespace

@@ -198,6 +198,157 @@ TEST(ClipFile, ReadsBothFrameRateKeysAndRequiresOne) {
   }
 }
 
+TEST(ClipFile, TheGivenRateStandsInForNoneAndForABadOne) {
+  Npz npz;
+  for (const char* key : {"poses", "trans"}) npz.set(key, amass().at(key));
+  EXPECT_EQ(clip_from(npz, "a", {50.0, {}}).fps, 50.0);
+  npz.set("fps", NpyArray::scalar(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(clip_from(npz, "a", {50.0, {}}).fps, 50.0);
+}
+
+TEST(ClipFile, TwoRatesThatDisagreeGiveAWarning) {
+  Npz npz = amass();
+  npz.set("mocap_framerate", NpyArray::scalar(60.0));
+  npz.set("fps", NpyArray::scalar(60.0));
+  EXPECT_TRUE(read(npz).warnings.empty());
+  npz.set("fps", NpyArray::scalar(30.0));
+  const Clip clip = read(npz);
+  EXPECT_EQ(clip.fps, 60.0);
+  ASSERT_EQ(clip.warnings.size(), 1u);
+  EXPECT_NE(clip.warnings[0].find("mocap_framerate says 60, fps says 30"), std::string::npos)
+      << clip.warnings[0];
+}
+
+TEST(ClipFile, ReadsTheNamesOfOtherPrograms) {
+  const Npz usual = amass();
+  const Clip want = read(usual);
+  const auto renamed = [&](const std::string& poses, const std::string& trans, const std::string& rate) {
+    Npz npz;
+    npz.set(poses, usual.at("poses"));
+    npz.set(trans, usual.at("trans"));
+    npz.set(rate, usual.at("mocap_framerate"));
+    return npz;
+  };
+  for (const auto& [poses, trans, rate] : {std::tuple{"smpl_poses", "smpl_trans", "fps"},
+                                           {"fullpose", "transl", "frame_rate"},
+                                           {"thetas", "translation", "framerate"},
+                                           {"pose", "trans", "mocap_frame_rate"}}) {
+    const Clip clip = read(renamed(poses, trans, rate));
+    EXPECT_EQ(clip.rotations, want.rotations) << poses;
+    EXPECT_EQ(clip.trans, want.trans) << trans;
+    EXPECT_EQ(clip.fps, want.fps) << rate;
+  }
+  Npz split;
+  const Eigen::MatrixXd poses = to_matrix(usual.at("poses"));
+  split.set("global_orient", from_matrix(poses.leftCols(3)));
+  Eigen::MatrixXd body = Eigen::MatrixXd::Constant(poses.rows(), 69, 0.25);
+  body.leftCols(63) = poses.middleCols(3, 63);
+  split.set("body_pose", from_matrix(body));
+  split.set("transl", usual.at("trans"));
+  split.set("fps", usual.at("mocap_framerate"));
+  const Clip clip = read(split);
+  EXPECT_EQ(clip.rotations, want.rotations);
+  EXPECT_EQ(clip.body_model, "smpl");
+  EXPECT_EQ(to_matrix(to_npz(clip).at("poses")).cols(), 72) << "the hands come back";
+}
+
+TEST(ClipFile, AistPlacesAreInTheUnitOfTheirScaling) {
+  Npz npz;
+  npz.set("smpl_poses", amass().at("poses"));
+  npz.set("smpl_trans", amass().at("trans"));
+  npz.set("smpl_scaling", NpyArray::scalar(4.0));
+  const Clip clip = clip_from(npz, "a", {60.0, {}});
+  EXPECT_EQ(clip.trans[1], Vector3d(read(amass()).trans[1] / 4.0));
+  EXPECT_FALSE(to_npz(clip).has("smpl_scaling")) << "it holds no more";
+  npz.set("smpl_scaling", NpyArray::scalar(0.0));
+  EXPECT_THROW(clip_from(npz, "a", {60.0, {}}), DataError);
+}
+
+TEST(ClipFile, JointsOfThreeNumbersAreTheFlatLayout) {
+  const Npz usual = amass();
+  Npz npz = usual;
+  NpyArray poses = usual.at("poses");
+  poses.shape = {poses.shape[0], poses.shape[1] / 3, 3};
+  npz.set("poses", poses);
+  EXPECT_EQ(read(npz).rotations, read(usual).rotations);
+  EXPECT_EQ(to_matrix(to_npz(read(npz)).at("poses")).cols(), to_matrix(usual.at("poses")).cols());
+  const std::vector<double> matrices(3 * 22 * 9, 0.0);
+  npz.set("poses", NpyArray::from_double({3, 22, 3, 3}, matrices.data()));
+  expect_refusal(npz, "rotation matrices");
+}
+
+TEST(ClipFile, OneOfSeveralPeopleIsRead) {
+  const Npz usual = amass();
+  const Eigen::MatrixXd poses = to_matrix(usual.at("poses")), trans = to_matrix(usual.at("trans"));
+  const auto people = [](const Eigen::MatrixXd& one, double factor) {
+    std::vector<double> values;
+    for (const double by : {1.0, factor})
+      for (Eigen::Index r = 0; r < one.rows(); ++r)
+        for (Eigen::Index c = 0; c < one.cols(); ++c) values.push_back(by * one(r, c));
+    return NpyArray::from_double(
+        {2, static_cast<std::size_t>(one.rows()), static_cast<std::size_t>(one.cols())}, values.data());
+  };
+  Npz npz;
+  npz.set("root_orient", people(poses.leftCols(3), 1.0));
+  npz.set("pose_body", people(poses.middleCols(3, 63), 1.0));
+  npz.set("trans", people(trans, 2.0));
+  expect_refusal(npz, "--person 1 to 2");
+  const Clip second = clip_from(npz, "a", {30.0, 2});
+  EXPECT_EQ(second.rotations, read(usual).rotations);
+  EXPECT_EQ(second.trans[1], Vector3d(2.0 * read(usual).trans[1]));
+  EXPECT_THROW(clip_from(npz, "a", {30.0, 3}), DataError);
+}
+
+TEST(ClipFile, WhatIsNotUsedNeedNotBeFinite) {
+  Npz npz = amass();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  npz.set("poses", with_value(test::counted(3, 156), 100, nan));
+  Eigen::MatrixXd betas = Eigen::MatrixXd::Zero(1, 16);
+  betas(0, 12) = nan;
+  npz.set("betas", from_matrix(betas));
+  const Npz back = to_npz(read(npz));
+  EXPECT_TRUE(std::isnan(to_matrix(back.at("poses"))(0, 100)));
+  EXPECT_TRUE(std::isnan(back.at("betas").to_double()[12]));
+}
+
+TEST(ClipFile, OddMembersThatAreNotNeededDoNotCostTheMotion) {
+  Npz npz = amass();
+  npz.set("gender", NpyArray::from_text({"male", "male", "male"}));
+  const std::vector<double> zeros(3 * 2 * 10, 0.0);
+  npz.set("betas", NpyArray::from_double({3, 1, 10}, zeros.data()));
+  EXPECT_TRUE(read(npz).warnings.empty());
+  EXPECT_EQ(read(npz).gender, "male");
+  npz.set("gender", NpyArray::from_text({"male", "female"}));
+  npz.set("betas", NpyArray::from_double({3, 2, 10}, zeros.data()));
+  EXPECT_EQ(read(npz).gender, "neutral");
+  ASSERT_EQ(read(npz).warnings.size(), 1u);
+  EXPECT_NE(read(npz).warnings[0].find("betas of shape (3, 2, 10)"), std::string::npos);
+}
+
+TEST(ClipFile, SaysWhatIsMissingAndWhatWasFound) {
+  Npz npz;
+  npz.set("cam", test::counted(3, 3));
+  expect_refusal(npz, "found cam");
+  npz.set_unsupported("smpl_thetas", UnsupportedArray("a", "smpl_thetas", "numbers", "a pickle"));
+  try {
+    clip_from(npz, "a");
+    ADD_FAILURE();
+  } catch (const DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("smpl_thetas (pickled"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ClipFile, EveryMotionHasItsJoints) {
+  const Clip clip = read(amass());
+  const Npz npz = to_npz(clip);
+  const std::vector<double> joints = npz.at("joints").to_double();
+  const auto poses = poses_of(clip);
+  for (int t = 0; t < poses.count(); ++t)
+    for (int b = 0; b < kBodies; ++b)
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(joints[static_cast<std::size_t>(3 * (kBodies * t + b) + axis)], poses[t].p_WB[b][axis]);
+}
+
 TEST(ClipFile, RejectsBadDataNamingMemberAndReason) {
   Npz npz;
   for (const char* key : {"poses", "mocap_framerate"}) npz.set(key, amass().at(key));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "motion/full_clip.h"
+#include "motion/made_motions.h"
 
 namespace mimicx::motion {
 namespace {
@@ -89,6 +90,15 @@ TEST(Resample, ResamplesPerFrameMembersAndKeepsTheOthers) {
     EXPECT_EQ(at(i).bytes, clip.passthrough[static_cast<std::size_t>(i)].second.bytes);
     EXPECT_EQ(at(i).shape, clip.passthrough[static_cast<std::size_t>(i)].second.shape);
   }
+}
+
+TEST(Resample, ARoundedRateLosesNoFrame) {
+  Clip clip = test::random_clip(4, 100, 0.3, 1.0 / 0.033333);
+  EXPECT_EQ(resampled(clip, 30.0).frames(), 100);
+  clip.fps = 120.001;
+  clip.rotations.resize(97);
+  clip.trans.resize(97);
+  EXPECT_EQ(resampled(clip, 30.0).frames(), 25);
 }
 
 TEST(Resample, RejectsARateThatGivesTooManyFrames) {

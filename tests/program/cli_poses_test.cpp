@@ -96,7 +96,26 @@ TEST_F(CliPoses, NeverOverwritesInputsOrLeavesPartialFiles) {
   EXPECT_EQ(nowhere.status, 1);
   EXPECT_TRUE(says(nowhere, "expected a writable file")) << nowhere.text;
   EXPECT_FALSE(std::filesystem::exists(path("x")));
-  EXPECT_FALSE(std::filesystem::exists(path("x.mimicx-tmp")));
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path))
+    EXPECT_NE(entry.path().extension(), ".mimicx-tmp") << entry.path();
+}
+
+TEST_F(CliPoses, JsonGoesToStandardOutputAndTheTableElsewhere) {
+  const std::string good = path("in/good.npz");
+  const Call call =
+      shell(std::string(MIMICX_BINARY) + " audit --poses " + good + " --json - 2>" + path("table"));
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_EQ(call.text[0], '{') << call.text.substr(0, 80);
+  EXPECT_TRUE(read_file(path("table")).find("good") != std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
+TEST_F(CliPoses, ALimitOfFileSizesEndsInALine) {
+  const std::string good = path("in/good.npz");
+  const Call call = shell("bash -c 'ulimit -f 1; " + std::string(MIMICX_BINARY) + " convert " + good + " " +
+                          path("big.csv") + "' 2>&1");
+  EXPECT_EQ(call.status, 1) << call.text;
+  EXPECT_TRUE(says(call, "big.csv: expected a writable file, found File too large")) << call.text;
 }
 
 TEST_F(CliPoses, UsesTheGivenFloorAndElseDetectsIt) {

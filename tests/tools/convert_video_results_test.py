@@ -49,6 +49,8 @@ POINTS = random.uniform(size=(FRAMES, 17, 3))
 
 
 def convert(results, *more):
+    if os.path.exists("out.npz"):
+        os.remove("out.npz")  # the tool overwrites nothing
     run = subprocess.run([sys.executable, TOOL, results, "out.npz", *more], capture_output=True, text=True)
     return run.returncode, run.stderr, dict(np.load("out.npz")) if run.returncode == 0 else None
 
@@ -76,6 +78,14 @@ def check_plain_pickle():
     with open("results.pkl", "wb") as file:
         pickle.dump(GVHMR, file)
     check_gvhmr("results.pkl")
+
+
+def check_compressed_pickles():
+    import bz2, gzip, lzma, zlib
+    for module in (zlib, gzip, bz2, lzma):
+        with open("results.pkl", "wb") as file:
+            file.write(module.compress(pickle.dumps(GVHMR)))
+        check_gvhmr("results.pkl")
 
 
 def check_torch_zip():
@@ -189,6 +199,9 @@ def check_several_people():
     dump_joblib(people, "wham_output.pkl")
     dump_joblib(tracker, "tracking_results.pth")
     more = "--keypoints", "tracking_results.pth", "--moving", "--size", "600", "800"
+    for name in os.listdir("."):
+        if name.startswith("all"):
+            os.remove(name)
     run = subprocess.run([sys.executable, TOOL, "wham_output.pkl", "all.npz", *more], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     lines = run.stdout.splitlines()
@@ -359,10 +372,182 @@ def check_which_file_is_wrong_and_how():
             (("results.pkl", "--keypoints", "points.npy", "--slam", "path.npy"), "path.npy: expected a camera's path"),
             (("half.pkl",), "half.pkl: expected results of GVHMR"),
             (("half.pkl",), "cannot be read (UnpicklingError"),
-            (("lacking.pkl",), "lacking.pkl: expected 'smpl_params_incam' in results"),
+            (("lacking.pkl",), "lacking.pkl: expected a member 'smpl_params_incam' in results"),
             (("empty",), "empty: expected results of GVHMR"), (("none.pkl",), "found no such file")):
         status, complaint, _ = convert(*arguments)
         assert status == 1 and said in complaint and len(complaint.splitlines()) == 1, (arguments, said, complaint)
+
+
+# Results of other programs, all of the motion GLOBAL in a y-up world, or before a level camera in the same place.
+Y_TO_Z = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+DOWN = np.diag([1.0, -1, -1])
+POSE22 = np.hstack([GLOBAL["global_orient"], GLOBAL["body_pose"]])
+BELOW = np.array([vector(DOWN @ rotation(r)) for r in GLOBAL["global_orient"]])  # roots before the level camera
+
+
+def expect_motion(out, j0):
+    assert np.allclose(out["trans"] + j0, (GLOBAL["transl"] + J0) @ Y_TO_Z.T, atol=1e-5), "place"
+    for t in range(FRAMES):
+        assert np.allclose(rotation(out["poses"][t, :3]), Y_TO_Z @ rotation(GLOBAL["global_orient"][t]), atol=1e-5), "root"
+    assert np.allclose(out["poses"][:, 3:66], GLOBAL["body_pose"], atol=1e-5), "pose"
+
+
+def written(content, name, *more):
+    """The members that come of a pickled result, saved as its program saves it."""
+    if name.endswith(".npz"):
+        np.savez(name, **content)
+    elif name.endswith(".npy"):
+        np.save(name, content)
+    else:
+        with open(name, "wb") as file:
+            pickle.dump(content, file)
+    status, complaint, out = convert(name, *more)
+    assert status == 0, (name, complaint)
+    return out
+
+
+def place(j0):
+    """trans of a model with this J0, in the world and before the camera."""
+    pelvis = GLOBAL["transl"] + J0
+    return pelvis - j0, pelvis @ DOWN.T - j0
+
+
+def check_gem():
+    expect_motion(written({"body_params_global": GLOBAL, "body_params_incam": INCAM, "K_fullimg": K[None]}, "gem.pkl"), J0)
+
+
+def check_prompthmr():
+    pose = np.hstack([POSE22, np.zeros((FRAMES, 99))])
+    person = {"smplx_world": {"pose": pose, "shape": GLOBAL["betas"], "trans": GLOBAL["transl"]},
+              "smplx_cam": {"pose": pose, "shape": GLOBAL["betas"], "trans": INCAM["transl"]},
+              "frames": np.arange(FRAMES), "track_id": 4}
+    out = written({"people": {4: person}, "camera": {"img_focal": 900.0, "img_center": [480, 270]}}, "phmr.pkl")
+    expect_motion(out, J0)
+    assert out["poses"].shape[1] == 165
+
+
+def check_slahmr():
+    world, _ = place(SMPL_J0)
+    world_down = (world + SMPL_J0) @ DOWN.T - SMPL_J0
+    one = {"trans": world_down, "root_orient": BELOW, "pose_body": GLOBAL["body_pose"]}
+    content = {key: np.stack([value, value]) for key, value in one.items()}
+    content["betas"] = np.zeros((2, 16))
+    np.savez("slahmr.npz", **content)
+    for name in os.listdir("."):
+        if name.startswith("out_person"):
+            os.remove(name)
+    run = subprocess.run([sys.executable, TOOL, "slahmr.npz", "out.npz", "--shortest", "1"], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    for person in (1, 2):
+        expect_motion(dict(np.load(f"out_person{person}.npz")), SMPL_J0)
+        os.remove(f"out_person{person}.npz")
+    # A tilted floor: its normal is up.
+    tilt = rotation(np.array([0.3, 0.0, 0.1]))
+    tilted = {"trans": ((world_down + SMPL_J0) @ tilt.T - SMPL_J0)[None], "pose_body": GLOBAL["body_pose"][None],
+              "root_orient": np.array([vector(tilt @ rotation(r)) for r in BELOW])[None],
+              "floor_plane": (tilt @ [0, -1.0, 0] * 1.5)[None]}
+    out = written(tilted, "tilted.npz")
+    up = np.array([rotation(r)[2, 1] for r in out["poses"][:, :3]])
+    assert np.allclose(up, [rotation(r)[1, 1] for r in GLOBAL["global_orient"]], atol=1e-5), "heads over feet as before"
+
+
+def check_trace():
+    world, camera = place(SMPL_J0)
+    outputs = {"smpl_thetas": np.hstack([BELOW, GLOBAL["body_pose"], np.zeros((FRAMES, 6))]), "cam_trans": camera,
+               "world_global_rots": BELOW, "world_trans": camera, "smpl_betas": np.zeros((FRAMES, 11)),
+               "track_ids": np.full(FRAMES, 3), "reorganize_idx": np.arange(FRAMES)}
+    expect_motion(written({"outputs": np.array(outputs, dtype=object)}, "trace.npz"), SMPL_J0)
+
+
+def check_romp():
+    _, camera = place(SMPL_J0)
+    thetas = np.hstack([BELOW, GLOBAL["body_pose"], np.zeros((FRAMES, 6))])
+    frames = {f"{t:06d}.jpg": {"smpl_thetas": thetas[t:t + 1], "cam_trans": camera[t:t + 1], "smpl_betas": np.zeros((1, 10)),
+                               "track_ids": np.array([7])} for t in range(FRAMES)}
+    expect_motion(written({"results": np.array(frames, dtype=object)}, "romp.npz"), SMPL_J0)
+
+
+def check_phalp():
+    _, camera = place(SMPL_J0)
+    size = np.array([1080, 1920])
+    deep = camera.copy()
+    deep[:, 2] *= 5000 / 256 * 1920 / np.hypot(*size)
+    frames = {f"img/{t:06d}.jpg": {
+        "tid": [2], "camera": [deep[t]], "size": [size],
+        "smpl": [{"global_orient": rotation(BELOW[t])[None], "betas": np.zeros(10),
+                  "body_pose": np.array([rotation(v) for v in GLOBAL["body_pose"][t].reshape(-1, 3)] + [np.eye(3)] * 2)}]}
+        for t in range(FRAMES)}
+    expect_motion(written(frames, "phalp.pkl"), SMPL_J0)
+
+
+def check_phc():
+    world = GLOBAL["transl"] + J0
+    roots = np.array([vector(Y_TO_Z @ rotation(r)) for r in GLOBAL["global_orient"]])
+    pose = np.hstack([roots, GLOBAL["body_pose"], np.zeros((FRAMES, 6))]).reshape(FRAMES, 24, 3)
+    out = written({"0-walk": {"pose_aa": pose, "trans_orig": world @ Y_TO_Z.T - SMPL_J0, "beta": np.zeros(16), "fps": 25}},
+                  "phc.pkl")
+    expect_motion(out, SMPL_J0)
+    assert out["mocap_framerate"] == 25
+
+
+def check_aist_and_vibe():
+    world, camera = place(SMPL_J0)
+    pose = np.hstack([POSE22, np.zeros((FRAMES, 6))])
+    out = written({"smpl_poses": pose, "smpl_trans": 93.0 * world, "smpl_scaling": np.array([93.0])}, "aist.pkl")
+    expect_motion(out, SMPL_J0)
+    assert out["mocap_framerate"] == 60
+    size = (1920.0, 1080.0)
+    near = camera - camera.min(0) + [0.1, 0.1, 3.0]  # in front of the camera
+    scale = np.hypot(*size) / (near[:, 2] * size[0] / 2)
+    person = {"pose": np.hstack([BELOW, pose[:, 3:]]), "betas": np.zeros((FRAMES, 10)), "frame_ids": np.arange(FRAMES),
+              "orig_cam": np.stack([scale, scale, near[:, 0], near[:, 1]], 1)}
+    out = written({1: person}, "vibe.pkl", "--size", "1920", "1080")
+    assert np.allclose(out["trans"] + SMPL_J0, (near + SMPL_J0) @ DOWN.T @ Y_TO_Z.T, atol=1e-6)
+    assert convert("vibe.pkl")[0] == 1 and "--size" in convert("vibe.pkl")[1]
+
+
+def check_multihmr():
+    pelvis = (GLOBAL["transl"] + J0) @ DOWN.T
+    pelvis = np.cumsum(np.diff(pelvis, axis=0, prepend=0) * 0.05, axis=0)  # near enough from frame to frame to be followed
+    frames = [[{"rotvec": np.vstack([BELOW[t], GLOBAL["body_pose"][t].reshape(-1, 3), np.zeros((31, 3))]),
+                "transl_pelvis": pelvis[t][None], "shape": np.zeros(10)}] for t in range(FRAMES)]
+    out = written(frames, "multihmr.pkl")
+    assert np.allclose(out["poses"][:, 3:66], GLOBAL["body_pose"], atol=1e-5)
+    assert np.allclose(out["trans"] + J0, pelvis @ DOWN.T @ Y_TO_Z.T, atol=1e-5)
+
+
+def check_positions_of_mdm_and_sam3d():
+    motion = random.normal(size=(2, 22, 3, 60))
+    np.save("results.npy", {"motion": motion, "lengths": np.array([60, 41]), "text": ["a", "b"], "num_samples": 2})
+    run = subprocess.run([sys.executable, TOOL, "results.npy", "mdm"], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    for sample, length in ((0, 60), (1, 41)):
+        assert np.allclose(np.load(f"mdm_person{sample}.npy"), motion[sample].transpose(2, 0, 1)[:length], atol=1e-6)
+    points, place_ = random.normal(size=(FRAMES, 70, 3)), np.array([0.1, 0.2, 4.0])
+    with open("sam3d.pkl", "wb") as file:
+        pickle.dump([[{"pred_keypoints_3d": p, "pred_cam_t": place_}] for p in 0.1 * points], file)
+    run = subprocess.run([sys.executable, TOOL, "sam3d.pkl", "sam3d"], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    out = np.load("sam3d.npy")
+    for body, point in ((1, 9), (5, 12), (7, 13), (12, 69), (16, 5), (19, 8), (20, 62), (21, 41)):
+        assert np.allclose(out[:, body], (0.1 * points[:, point] + place_) @ DOWN.T, atol=1e-6), body
+
+
+def check_many_results_and_nothing_overwritten():
+    for name in ("one.pkl", "two.pkl"):
+        with open(name, "wb") as file:
+            pickle.dump(GVHMR, file)
+    many = [sys.executable, TOOL, "one.pkl", "two.pkl", "converted"]
+    run = subprocess.run(many, capture_output=True, text=True)
+    assert run.returncode == 0 and sorted(os.listdir("converted")) == ["one.npz", "two.npz"], run.stderr
+    before = open("converted/one.npz", "rb").read()
+    os.remove("converted/two.npz")
+    run = subprocess.run(many, capture_output=True, text=True)
+    assert run.returncode == 1 and "not overwritten" in run.stderr and len(run.stderr.splitlines()) == 1, run.stderr
+    assert open("converted/one.npz", "rb").read() == before and not os.path.exists("converted/two.npz")
+    for rate in ("0", "nan", "inf", "-30", "1e9"):
+        run = subprocess.run([sys.executable, TOOL, "one.pkl", "new.npz", "--fps", rate], capture_output=True, text=True)
+        assert run.returncode == 2 and "frames per second" in run.stderr, (rate, run.stderr)
 
 
 def check_refusals():
@@ -385,7 +570,9 @@ def check_refusals():
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    for check in (check_plain_pickle, check_torch_zip, check_joblib, check_several_people, check_tram,
-                  check_a_static_camera, check_a_camera_path, check_which_file_is_wrong_and_how, check_refusals):
+    for check in (check_plain_pickle, check_compressed_pickles, check_torch_zip, check_joblib, check_several_people, check_tram,
+                  check_a_static_camera, check_a_camera_path, check_gem, check_prompthmr, check_slahmr, check_trace, check_romp,
+                  check_phalp, check_phc, check_aist_and_vibe, check_multihmr, check_positions_of_mdm_and_sam3d,
+                  check_many_results_and_nothing_overwritten, check_which_file_is_wrong_and_how, check_refusals):
         check()
         print(check.__name__, "ok")

@@ -91,6 +91,18 @@ Entry read_entry(const Bytes& bytes, std::uint64_t at) {
   return e;
 }
 
+/// Count and place of the directory from the zip64 record, whose locator is in front of the end record at
+/// `end`.
+void read_zip64_end(const Bytes& bytes, std::uint64_t end, std::uint64_t& count, std::uint64_t& at) {
+  constexpr std::uint64_t kLocatorBytes = 20, kLocator = 0x07064b50, kZip64End = 0x06064b50;
+  if (end < kLocatorBytes || bytes.number(end - kLocatorBytes, 4) != kLocator)
+    bytes.fail("", "a zip64 directory", "no locator of one (damaged)");
+  const std::uint64_t record = bytes.number(end - kLocatorBytes + 8, 8);
+  if (bytes.number(record, 4) != kZip64End) bytes.fail("", "a zip64 directory", "other content (damaged)");
+  count = bytes.number(record + 32, 8);
+  at = bytes.number(record + 48, 8);
+}
+
 std::vector<Entry> read_directory(const Bytes& bytes) {
   // The end record stands at the end of the file, before a comment of at most 65535 bytes.
   if (bytes.size() < kEndBytes)
@@ -105,10 +117,9 @@ std::vector<Entry> read_directory(const Bytes& bytes) {
   if (const std::uint64_t behind = bytes.size() - end - kEndBytes, comment = bytes.number(end + 20, 2);
       behind != comment)
     bytes.fail("", "the end of the archive behind its directory", std::to_string(behind) + " bytes more");
-  const std::uint64_t count = bytes.number(end + 10, 2), size = bytes.number(end + 12, 4);
-  std::uint64_t at = bytes.number(end + 16, 4);
-  if (count == 0xFFFF || size == kSaturated32 || at == kSaturated32)
-    bytes.fail("", "an archive under 4 GiB and 65535 members", "a zip64 directory, which is not read");
+  std::uint64_t count = bytes.number(end + 10, 2), at = bytes.number(end + 16, 4);
+  if (count == 0xFFFF || bytes.number(end + 12, 4) == kSaturated32 || at == kSaturated32)
+    read_zip64_end(bytes, end, count, at);
   std::vector<Entry> entries;
   std::uint64_t packed = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -175,6 +186,13 @@ std::vector<std::uint8_t> read_member(const Bytes& bytes, const Entry& e) {
   return out;
 }
 
+/// Whether a member is one that macOS adds beside every file: "__MACOSX/._trans.npy".
+bool is_of_finder(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  return name.starts_with("__MACOSX/") ||
+         std::string_view(name).substr(slash == std::string::npos ? 0 : slash + 1).starts_with("._");
+}
+
 }  // namespace
 
 Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_bytes,
@@ -186,7 +204,7 @@ Npz parse_npz(const std::string& data, const std::string& path, std::size_t max_
   const std::size_t most = std::min(max_bytes, std::max(kAlwaysUnpacked, kMostRatio * data.size()));
   std::size_t left = most;
   for (const Entry& e : read_directory(bytes)) {
-    if (!e.name.ends_with(".npy")) continue;
+    if (!e.name.ends_with(".npy") || is_of_finder(e.name)) continue;
     const std::string key = e.name.substr(0, e.name.size() - 4);
     if (!keys.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
     if (e.unpacked > left)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "character/body_words.h"
+#include "import/retarget/skeleton_shape.h"
 #include "import/text_input.h"
 
 namespace mimicx::import {
@@ -23,14 +24,18 @@ struct Part {
 /// Rows are searched in this order, and a joint is used for one body only.
 const std::vector<Part>& parts() {
   static const std::vector<Part> table = {
-      {kLeftHip, kRightHip, {"upleg", "upperleg", "thigh", "femur", "hip"}},
-      {kLeftKnee, kRightKnee, {"knee", "shin", "calf", "tibia", "lowerleg", "lowleg", "leg"}},
+      {kLeftHip, kRightHip, {"upleg", "upperleg", "thigh", "thighbend", "femur", "hip"}},
+      {kLeftKnee, kRightKnee, {"knee", "shin", "calf", "tibia", "lowerleg", "lowleg", "loleg", "leg"}},
       {kLeftAnkle, kRightAnkle, {"ankle", "foot"}},
       {kLeftFoot, kRightFoot, {"toebase", "toe", "toes", "toe0", "ball", "foot"}},
       {kNeck, kNeck, {"neck", "lowerneck", "neck1", "neck01"}},
       {kHead, kHead, {"head"}},
-      {kLeftShoulder, kRightShoulder, {"upperarm", "uparm", "arm", "shldr", "humerus", "shoulder"}},
-      {kLeftElbow, kRightElbow, {"elbow", "forearm", "lowerarm", "lowarm", "radius"}},
+      {kLeftShoulder,
+       kRightShoulder,
+       {"upperarm", "uparm", "uarm", "arm", "shldr", "shldrbend", "humerus", "shoulder"}},
+      {kLeftElbow,
+       kRightElbow,
+       {"elbow", "forearm", "forearmbend", "lowerarm", "lowarm", "loarm", "farm", "radius"}},
       {kLeftWrist, kRightWrist, {"wrist", "hand"}},
   };
   return table;
@@ -69,8 +74,10 @@ std::vector<std::string> split(const std::string& name, Side& side) {
 
 /// How well a joint's name matches a body; smaller is better.
 struct Match {
+  bool astray;          ///< not below the joint of the body that is above
   std::size_t word;     ///< place in the row of the table
-  std::size_t dropped;  ///< parts left out in front
+  std::size_t dropped;  ///< parts and digits left out
+  int fewer;            ///< minus the number of joints below: helpers have none
   auto operator<=>(const Match&) const = default;
 };
 
@@ -87,25 +94,61 @@ std::optional<std::size_t> word_of(const Part& part, std::string_view text, Side
                                                      : std::array<std::string_view, 2>{"right", "r"}) {
     if (text.starts_with(mark))
       if (const auto found = place(text.substr(mark.size()))) return found;
-    if (mark.size() > 1 && text.ends_with(mark))
+    if (text.ends_with(mark))
       if (const auto found = place(text.substr(0, text.size() - mark.size()))) return found;
   }
   return std::nullopt;
 }
 
-std::optional<Match> match(const Part& part, const std::string& name, Side wanted) {
+/// Whether a part of a name behind the word says nothing: a number, or what a rig calls its joints.
+bool is_idle(const std::string& part) {
+  constexpr std::array<std::string_view, 10> kIdle = {"jnt", "joint", "bone", "bind", "def",
+                                                      "bn",  "jt",    "skin", "sk",   "bend"};
+  return part.find_first_not_of("0123456789") == std::string::npos ||
+         std::find(kIdle.begin(), kIdle.end(), part) != kIdle.end();
+}
+
+/// @return place of the word, and how many parts and digits were left out; none without a match
+std::optional<std::pair<std::size_t, std::size_t>> match(const Part& part, const std::string& name,
+                                                         Side wanted) {
   Side side = kMiddle;
-  const std::vector<std::string> words = split(name, side);
-  for (std::size_t dropped = 0; dropped < words.size(); ++dropped) {
-    std::string joined;
-    for (std::size_t i = dropped; i < words.size(); ++i) joined += words[i];
-    if (const auto word = word_of(part, joined, side, wanted)) return Match{*word, dropped};
+  std::vector<std::string> words = split(name, side);
+  for (std::size_t behind = 0;; ++behind) {
+    for (std::size_t dropped = 0; dropped < words.size(); ++dropped) {
+      std::string joined;
+      for (std::size_t i = dropped; i < words.size(); ++i) joined += words[i];
+      if (const auto word = word_of(part, joined, side, wanted)) return std::pair(*word, dropped + behind);
+    }
+    if (words.empty()) return std::nullopt;
+    std::string& last = words.back();
+    if (is_idle(last))
+      words.pop_back();
+    else if (std::isdigit(static_cast<unsigned char>(last.back())))
+      last.erase(last.find_last_not_of("0123456789") + 1);
+    else
+      return std::nullopt;
   }
-  return std::nullopt;
+}
+
+bool is_below(const SkeletonMotion& motion, int joint, int above) {
+  for (; joint >= 0; joint = motion.joints[joint].parent)
+    if (joint == above) return true;
+  return false;
+}
+
+/// The body of a limb that is above another one; -1 for the first of a limb, and for neck and head.
+int above_in_limb(int body) {
+  const auto found =
+      std::find_if(kNeeded.begin(), kNeeded.end(), [&](const auto& row) { return row[0] == body; });
+  return found == kNeeded.end() || (*found)[1] == kPelvis || (*found)[1] == kSpine3 ? -1 : (*found)[1];
 }
 
 void find_by_name(const SkeletonMotion& motion, JointMap& map) {
   const auto taken = [&](int joint) { return std::find(map.begin(), map.end(), joint) != map.end(); };
+  std::vector<int> below(motion.joints.size(), 0);  // number of joints below each
+  for (std::size_t j = motion.joints.size(); j-- > 0;)
+    if (const int parent = motion.joints[j].parent; parent >= 0)
+      below[static_cast<std::size_t>(parent)] += below[j] + 1;
   for (const Part& part : parts())
     for (const Side side : part.left == part.right ? std::vector{kMiddle} : std::vector{kLeft, kRight}) {
       int& joint = map[side == kRight ? part.right : part.left];
@@ -113,11 +156,36 @@ void find_by_name(const SkeletonMotion& motion, JointMap& map) {
       std::optional<Match> best;
       for (std::size_t j = 0; j < motion.joints.size(); ++j) {
         if (motion.joints[j].end_site || taken(static_cast<int>(j))) continue;
-        const auto found = match(part, motion.joints[j].name, side);
-        if (!found || (best && *best <= *found)) continue;
+        const auto word = match(part, motion.joints[j].name, side);
+        if (!word) continue;
+        const int above = above_in_limb(side == kRight ? part.right : part.left);
+        const bool astray =
+            above >= 0 && map[above] >= 0 && !is_below(motion, static_cast<int>(j), map[above]);
+        const Match found{astray, word->first, word->second, -below[j]};
+        if (best && *best <= found) continue;
         best = found;
         joint = static_cast<int>(j);
       }
+    }
+}
+
+/// Helpers of both sides at one place are no hips or shoulders: the joint below each is.
+void step_over_helpers(const SkeletonMotion& motion, const JointMap& given, JointMap& map) {
+  if (motion.frames() == 0) return;
+  const SkeletonPose pose = pose_of(motion, 0);
+  const auto only_child = [&](int joint) {
+    int child = -1;
+    for (std::size_t j = 0; j < motion.joints.size(); ++j)
+      if (motion.joints[j].parent == joint) child = child == -1 ? static_cast<int>(j) : -2;
+    return child;
+  };
+  for (const auto& [left, right] : {std::array{kLeftHip, kRightHip}, {kLeftShoulder, kRightShoulder}})
+    while (map[left] >= 0 && map[right] >= 0 && given[left] < 0 && given[right] < 0 &&
+           (pose.p[map[left]] - pose.p[map[right]]).norm() < 1e-6 * pose.p[map[left]].norm() + 1e-9) {
+      const int l = only_child(map[left]), r = only_child(map[right]);
+      if (l < 0 || r < 0) return;
+      map[left] = l;
+      map[right] = r;
     }
 }
 
@@ -178,7 +246,7 @@ void find_by_shape(const SkeletonMotion& motion, JointMap& map) {
 }
 
 void check(const SkeletonMotion& motion, const JointMap& map) {
-  const auto joint_name = [&](int joint) { return "'" + motion.joints[joint].name + "'"; };
+  const auto joint_name = [&](int joint) { return "'" + printable(motion.joints[joint].name) + "'"; };
   std::string missing;
   for (const auto& [body, above] : kNeeded)
     if (map[body] < 0) missing += (missing.empty() ? "" : ", ") + body_in_words(body);
@@ -230,19 +298,43 @@ NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path
     if (found < 0)
       throw DataError(path.string(), place, "one of the 22 body names, e.g. left_knee",
                       "'" + printable(body) + "'");
-    names.emplace_back(found, printable(joint));
+    names.emplace_back(found, escaped_name(joint));
   }
   return names;
 }
 
-JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map) {
-  JointMap map;
-  map.fill(-1);
-  if (!user_map.empty()) apply_user_map(parse_joint_map(read_text(user_map), user_map), motion, map);
+JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map,
+                    std::vector<std::string>* told) {
+  JointMap given;
+  given.fill(-1);
+  if (!user_map.empty()) apply_user_map(parse_joint_map(read_text(user_map), user_map), motion, given);
+  JointMap map = given;
   find_by_name(motion, map);
+  step_over_helpers(motion, given, map);
   find_by_shape(motion, map);
   raise_neck(motion, map);
-  check(motion, map);
+  try {
+    check(motion, map);
+    return map;
+  } catch (const DataError&) {
+    const auto shape = map_by_shape(motion);
+    if (!shape) throw;
+    std::string said;
+    for (int b = 0; b < kBodies; ++b) {
+      map[b] = given[b] >= 0 ? given[b] : (*shape)[b];
+      if (given[b] < 0 && map[b] >= 0)
+        said += (said.empty() ? "" : ", ") + body_in_words(b) + " '" + printable(motion.joints[map[b]].name) +
+                "'";
+    }
+    find_by_shape(motion, map);
+    try {
+      check(motion, map);
+    } catch (const DataError&) {
+      map.fill(-2);
+    }
+    if (map[0] == -2) throw;
+    if (told != nullptr) told->push_back("joints are matched by the skeleton's shape, not by name: " + said);
+  }
   return map;
 }
 

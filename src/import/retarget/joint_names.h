@@ -3,15 +3,17 @@
 /// A name is split at blanks, '_', '-', '.', ':' and '|'; case does not matter. A side is a part "l", "r",
 /// "left" or "right", or a prefix or suffix of a part ("LeftUpLeg", "lShldr", "UpperArm_L"). The rest must be
 /// one of the words of the table in joint_names.cpp (docs/formats.md, "Joint names"); leading parts may be
-/// left out ("mixamorig:LeftLeg", "Bip01 L Calf"). The pelvis is the joint where the legs meet, the chest
-/// where the arms meet, a collar the joint between chest and shoulder; so spines may have any length and
-/// names.
+/// left out ("mixamorig:LeftLeg", "Bip01 L Calf"), and digits and words of rigs behind ("thigh_l_1",
+/// "l_upleg_JNT"). Of equally good names that joint counts that is below the limb's upper one and has the
+/// most joints below. The pelvis is the joint where the legs meet, the chest where the arms meet, a collar
+/// the joint between chest and shoulder; so spines may have any length and names.
 ///
 /// A user's file adds names: lines `body = joint name`, with the body names of `kBodyNames`; '#' starts a
 /// comment. Several lines for one body are tried in order, before the built-in words; names that a skeleton
 /// does not have are ignored.
 ///
-/// What it does not do: it does not guess limbs from geometry.
+/// Where names leave a needed body without a joint, or give it an impossible one, the skeleton's shape tells
+/// (skeleton_shape.h).
 #pragma once
 
 #include <array>
@@ -25,17 +27,15 @@
 
 namespace mimicx::import {
 
-/// Index of the joint of each body, -1 where there is none. Hips, knees, ankles, shoulders, elbows, wrists,
-/// pelvis and chest (spine3) always have one. The joint of a wrist or foot may be an end site.
-using JointMap = PerBody<int>;
-
 /// The user's lines: a body, and the name of a joint that may be used for it.
 using NamedJoints = std::vector<std::pair<int, std::string>>;
 /// @param path  for messages @throws DataError naming the line that is not of this form
 NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path& path);
 
 /// @param user_map  a file of additional names; empty: none
+/// @param told      gets a line where joints are matched by the skeleton's shape; null: nobody is told
 /// @throws DataError where a required body has no joint, or its joint has the wrong parent
-JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map = {});
+JointMap map_joints(const SkeletonMotion& motion, const std::filesystem::path& user_map = {},
+                    std::vector<std::string>* told = nullptr);
 
 }  // namespace mimicx::import

@@ -9,6 +9,10 @@
 #include "character/body_words.h"
 #include "core/units.h"
 #include "import/body_fit.h"
+#include "import/evidence/length_unit.h"
+#include "import/evidence/sides.h"
+#include "import/evidence/up_axis.h"
+#include "import/retarget/retarget_contacts.h"
 #include "import/retarget/retarget_floor.h"
 #include "import/retarget/retarget_solve.h"
 #include "import/world_transform.h"
@@ -33,13 +37,12 @@ struct Source {
   bool neutral_stands = true;  ///< it is a stance, not the frames that come nearest to one
 };
 
-Source read_source(const SkeletonMotion& motion, const std::filesystem::path& joint_map) {
+Source read_source(const SkeletonMotion& motion, const std::filesystem::path& joint_map, motion::Clip& clip) {
   Source source;
-  source.map = map_joints(motion, joint_map);
+  source.map = map_joints(motion, joint_map, &clip.warnings);
   for (int b = 0; b < kBodies; ++b)
     source.turns[b] = source.map[b] >= 0 && !motion.joints[source.map[b]].end_site;
-  for (int t = 0; t < motion.frames(); ++t)
-    source.frames.push_back(landmarks_of(pose_of(motion, t), source.map));
+  source.frames = landmarks_of(motion, source.map);
   return source;
 }
 
@@ -68,26 +71,25 @@ void drop_t_pose(Source& source, motion::Clip& clip) {
   clip.decisions.emplace_back("the first frame is a T-pose: removed");
 }
 
-/// Up axis of the motion; the usual one of the format where the motion does not show it.
+/// Up axis of the motion.
 char find_up(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
              motion::Clip& clip) {
-  const auto found = up_of(source.frames);
-  std::string why = "the body stands along it";
-  char up = found.value_or('y');
-  if (config.up) {
-    up = *config.up;
-    why = "given by the user";
-  } else if (motion.metric_y_up) {
-    up = 'y';
+  std::string why = "given by the user";
+  char up = config.up.value_or('y');
+  if (!config.up && motion.metric_y_up) {
     why = "defined by the format";
-  } else if (!found) {
-    why = "usual for the format; the body never stands upright";
+  } else if (!config.up) {
+    const UpDecision found = decide_up(source.frames, landmarks_of(rest_pose(motion), source.map), 'y');
+    up = found.axis;
+    why = found.why;
+    if (found.is_near()) clip.warnings.push_back(near_up_warning(found));
   }
   clip.decisions.emplace_back("up axis " + axis_name(up) + ": " + why);
   return up;
 }
 
-double find_scale(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config,
+/// Metres of the file's unit. @param up  the file's axis
+double find_scale(const SkeletonMotion& motion, const Source& source, const RetargetConfig& config, char up,
                   motion::Clip& clip) {
   const double leg = leg_length(source.frames);
   if (config.scale != 0.0) {
@@ -96,16 +98,29 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
     return config.scale;
   }
   if (motion.metric_y_up) return 1.0;
-  if (const auto unit = unit_of(leg)) {
+  std::vector<std::string> names;
+  for (const SkeletonJoint& joint : motion.joints) names.push_back(joint.name);
+  const UnitDecision unit = decide_unit(
+      unit_evidence(source.frames, rotation_to_z_up(up).conjugate() * Vector3d::UnitZ(), motion.fps, names));
+  if (unit.fits) {
     clip.decisions.push_back(
-        sentence("unit %s: legs are %.4g units, %.2f m long", unit->name, leg, unit->metres * leg));
-    return unit->metres;
+        sentence("unit %s: legs are %.4g units, %.2f m long", unit.name.c_str(), leg, unit.metres * leg));
+    if (!unit.usual)
+      clip.warnings.push_back(
+          sentence("legs of %.2f m (unit %s) are unusual, usual for this body are %.2f m: "
+                   "--scale %.3g gives it these",
+                   unit.metres * leg, unit.name.c_str(), unit.usual_leg, unit.usual_leg / leg));
+    else if (unit.is_near())
+      clip.warnings.push_back(sentence("the unit may also be %s (legs of %.2f m, not %.2f m): --scale %.6g",
+                                       unit.second.c_str(), unit.second_metres * leg, unit.metres * leg,
+                                       unit.second_metres));
+    return unit.metres;
   }
-  const BodyLengths standard = lengths_of(joint_offsets({}));
-  const double scale = standard[kThigh] + standard[kShank];
-  clip.warnings.push_back(
-      sentence("legs are %.4g units long, which fits no known unit: scaled to %.2f m", leg, scale));
-  return scale / leg;
+  clip.warnings.push_back(sentence(
+      "legs are %.4g units long, which fits no usual unit (%s: %.2f m): scaled to %.2f m; --scale %.6g "
+      "keeps that unit",
+      leg, unit.name.c_str(), unit.metres * leg, unit.usual_leg, unit.metres));
+  return unit.usual_leg / leg;
 }
 
 /// The poses in which the body is taken to be neutral, z up.
@@ -113,8 +128,11 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
                     motion::Clip& clip) {
   for (Landmarks& pose : source.neutral) pose = transformed(pose, up, scale);
   const Landmarks rest = landmarks_of(rest_pose(motion), source.map);
-  if (const auto rest_up = up_of({rest}); rest_up && is_stance(rest)) {
-    source.neutral = {transformed(rest, rotation_to_z_up(*rest_up), scale)};
+  constexpr double kAlongAnAxis = 0.7;
+  const Vector3d stands =
+      (rest.between(kLeftShoulder, kRightShoulder) - rest.between(kLeftAnkle, kRightAnkle)).normalized();
+  if (is_stance(rest) && stands.cwiseAbs().maxCoeff() > kAlongAnAxis) {
+    source.neutral = {transformed(rest, rotation_to_z_up(axis_letter(stands)), scale)};
     source.neutral_name = "the rest pose";
   } else if (source.neutral.empty()) {
     // A tenth of the frames, because a single one may belong to a gesture.
@@ -127,11 +145,8 @@ void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterni
     source.neutral_name = sentence("the %zu frames nearest to a straight stance", order.size());
   }
   clip.decisions.emplace_back("neutral pose: " + source.neutral_name);
-  int backwards = 0;
-  for (const Landmarks& pose : source.neutral)
-    for (const auto& [ankle, toes] : {std::array{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}})
-      if (source.map[toes] >= 0) backwards += pose.direction(ankle, toes).dot(pose.forward()) < 0.0 ? 1 : -1;
-  if (backwards > 0) clip.warnings.emplace_back("the toes point backwards: are left and right exchanged?");
+  if (decide_sides(source.frames, source.map[kLeftFoot] >= 0 && source.map[kRightFoot] >= 0).are_exchanged())
+    clip.warnings.emplace_back("toes point and knees bend backwards: are left and right exchanged?");
 }
 
 BodyLengths measured_lengths(const Source& source) {
@@ -213,6 +228,19 @@ std::string residuals_line(const RetargetReport& report) {
   return line;
 }
 
+/// A warning of joints of the limbs that are far from the skeleton's.
+void warn_of_residuals(const RetargetReport& report, motion::Clip& clip) {
+  constexpr double kFar = 80.0;  // mm
+  std::string far;
+  for (const int b :
+       {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle, kLeftElbow, kRightElbow, kLeftWrist, kRightWrist})
+    if (report.residual_mm[b] > kFar)
+      far += (far.empty() ? "" : ", ") + body_in_words(b) + sentence(" %.0f mm", report.residual_mm[b]);
+  if (!far.empty())
+    clip.warnings.push_back("our body cannot take the skeleton's proportions: joints are off by " + far +
+                            " on average");
+}
+
 /// Handles a skeleton that `write_bvh` wrote: its joints are the bodies, its offsets those of some β.
 /// @return false for another skeleton
 bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
@@ -245,13 +273,13 @@ bool take_own_skeleton(const SkeletonMotion& motion, motion::Clip& clip) {
 
 void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config, RetargetReport& report,
                       motion::Clip& clip) {
-  Source source = read_source(motion, config.joint_map);
+  Source source = read_source(motion, config.joint_map, clip);
   check_bones(motion, source);
   for (int b = 0; b < kBodies; ++b)
     if (source.map[b] < 0 && b != kSpine1 && b != kSpine2) report.unmapped.push_back(body_in_words(b));
   drop_t_pose(source, clip);
   report.up = find_up(motion, source, config, clip);
-  report.scale = find_scale(motion, source, config, clip);
+  report.scale = find_scale(motion, source, config, report.up, clip);
   const Quaterniond up = rotation_to_z_up(report.up);
   for (Landmarks& pose : source.frames) pose = transformed(pose, up, report.scale);
   choose_neutral(motion, source, up, report.scale, clip);
@@ -267,6 +295,8 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   solve(character, calibration, source.frames, report.leg_ratio, clip);
   level_soles(source.neutral_stands, calibration, clip);
   solve(character, calibration, source.frames, report.leg_ratio, clip);
+  if (has_other_legs(character, lengths[kThigh], lengths[kShank]))
+    keep_contacts(character, source.frames, report.leg_ratio, clip);
   report.lift = put_on_floor(clip);
   report.neutral = source.neutral_name;
   measure(clip, source, report.lift, report);
@@ -277,6 +307,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
             "average",
       report.leg_ratio, report.mean_residual_mm));
   clip.decisions.push_back(residuals_line(report));
+  warn_of_residuals(report, clip);
   std::string missing;
   for (const std::string& name : report.unmapped) missing += (missing.empty() ? "" : ", ") + name;
   if (!missing.empty()) clip.warnings.emplace_back("no joint for " + missing + ": kept in the rest pose");

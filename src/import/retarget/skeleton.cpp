@@ -1,13 +1,6 @@
 #include "import/retarget/skeleton.h"
 
-#include <cmath>
-
 namespace mimicx::import {
-
-double whole_rate(double fps) {
-  const double whole = std::round(fps);
-  return std::abs(fps - whole) < 5e-4 * fps ? whole : fps;
-}
 
 SkeletonPose pose_of(const SkeletonMotion& motion, int frame) {
   const auto& translation = motion.translation[frame];

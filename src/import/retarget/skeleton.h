@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "character/bodies.h"
 #include "core/containers.h"
 #include "core/so3.h"
 
@@ -21,7 +22,7 @@ using PerJoint = PerFrame<T>;
 
 struct SkeletonJoint {
   std::string name;  ///< printable UTF-8
-  int parent = -1;   ///< index of a joint before this one; -1 for the root, which is joint 0
+  int parent = -1;   ///< index of a joint before this one; -1 for a root; joint 0 is one
   Vector3d offset;   ///< rest position in the parent's frame, file's unit
   bool end_site = false;
 };
@@ -30,7 +31,8 @@ struct SkeletonMotion {
   std::string name;  ///< file name without folder and suffix
   std::string path;  ///< of the file, for messages
   double fps = 30.0;
-  bool metric_y_up = false;  ///< the format defines metres and y up; else retargeting detects both
+  double largest_angle = 0.0;  ///< magnitude of a rotation channel, as the file has it; 0: no channels
+  bool metric_y_up = false;    ///< the format defines metres and y up; else retargeting detects both
   PerJoint<SkeletonJoint> joints;
   PerFrame<PerJoint<Vector3d>> translation;  ///< [frames][joints] in the parent's frame, file's unit
   PerFrame<PerJoint<Quaterniond>> rotation;  ///< [frames][joints] relative to the parent
@@ -45,9 +47,10 @@ struct SkeletonMotion {
 inline constexpr std::size_t kMaxJointFrames = std::size_t{1} << 24;
 
 inline constexpr double kMaxFps = 2000.0;
-/// The rate rounded to a whole number of frames per second where that differs by less than 0.05 %, else the
-/// rate: files print frame times with few digits, 0.0083333 for 120. (29.97 and 30 differ by 0.1 %.)
-double whole_rate(double fps);
+/// Index of the joint of each body, -1 where there is none. Of `map_joints`, hips, knees, ankles, shoulders,
+/// elbows, wrists, pelvis and chest (spine3) always have one. The joint of a wrist or foot may be an end
+/// site.
+using JointMap = PerBody<int>;
 
 /// World poses of all joints, file's unit and axes.
 struct SkeletonPose {

@@ -95,6 +95,49 @@ TEST(JointNames, UnderstandsCommonNamingConventions) {
                     {"#femur", "#tibia", "#foot", "#toes", "#clavicle", "#humerus", "#radius", "#wrist"}));
 }
 
+TEST(JointNames, MarksBehindTheWordSayNothing) {
+  const Words middle = {"root", "spine_1", "spine_2", "spine_3", "neck_1", "head"};
+  for (const Words& limbs :
+       {Words{"#_thigh_JNT", "#_shin_JNT", "#_foot_JNT", "#_toe_JNT", "#_clavicle_JNT", "#_upperarm_JNT",
+              "#_forearm_JNT", "#_hand_JNT"},
+        Words{"thigh_#_1", "calf_#_1", "foot_#_1", "ball_#_1", "clavicle_#_1", "upperarm_#_1", "lowerarm_#_1",
+              "hand_#_1"},
+        Words{"#UpLeg.001", "#Leg.001", "#Foot.001", "#Toe.001", "#Shoulder.001", "#Arm.001", "#ForeArm.001",
+              "#Hand.001"},
+        Words{"thigh#", "shin#", "foot#", "toe#", "collar#", "upperarm#", "forearm#", "hand#"},
+        Words{"#ThighBend", "#Shin", "#Foot", "#Toe", "#Collar", "#ShldrBend", "#ForearmBend", "#Hand"},
+        Words{"#Thigh", "#Shin", "#Foot", "#Toe", "#Shoulder", "#UArm", "#FArm", "#Hand"},
+        Words{"UpLeg_#", "LoLeg_#", "Foot_#", "Toe_#", "Collar_#", "UpArm_#", "LoArm_#", "Hand_#"}})
+    expect_found(limbs[0], both("L", "R", middle, limbs));
+}
+
+TEST(JointNames, HelpersOfEqualNamesAreSteppedOver) {
+  // Above each hip a helper in the middle, whose name says the same.
+  SkeletonMotion motion;
+  motion.path = "made";
+  const auto add = [&](const std::string& name, int parent, const Vector3d& offset) {
+    motion.joints.push_back({name, parent, offset, false});
+    return motion.joints.count() - 1;
+  };
+  const int root = add("Hips", -1, Vector3d::Zero()), chest = add("Chest", root, Vector3d::UnitY());
+  for (const auto& [side, x] : {std::pair{std::string("Left"), 1.0}, {"Right", -1.0}}) {
+    int joint = add("__" + side + "UpLeg", root, Vector3d(0, -0.1, 0));
+    joint = add(side + "UpLeg", joint, Vector3d(x, 0, 0));
+    joint = add(side + "Leg", joint, Vector3d(0, -4, 0));
+    add(side + "Foot", joint, Vector3d(0, -4, 0));
+    joint = add(side + "Arm", chest, Vector3d(x, 0, 0));
+    joint = add(side + "ForeArm", joint, Vector3d(3 * x, 0, 0));
+    add(side + "Hand", joint, Vector3d(3 * x, 0, 0));
+  }
+  motion.translation.emplace_back();
+  motion.rotation.emplace_back(motion.joints.size(), Quaterniond::Identity());
+  for (const SkeletonJoint& joint : motion.joints) motion.translation[0].push_back(joint.offset);
+  const JointMap map = map_joints(motion);
+  EXPECT_EQ(motion.joints[map[kLeftHip]].name, "LeftUpLeg");
+  EXPECT_EQ(motion.joints[map[kRightHip]].name, "RightUpLeg");
+  EXPECT_EQ(map[kPelvis], root);
+}
+
 TEST(JointNames, PrefersTheMoreSpecificName) {
   PerBody<int> joint;
   SkeletonMotion motion = skeleton(
@@ -133,11 +176,20 @@ std::string names_refusal(const SkeletonMotion& motion, const std::filesystem::p
   return "nothing was refused";
 }
 
+/// A skeleton whose limbs do not mirror each other, so that its shape tells nothing.
+SkeletonMotion lopsided(SkeletonMotion motion) {
+  double factor = 1.0;
+  for (SkeletonJoint& joint : motion.joints) joint.offset *= (factor *= 1.2);
+  for (auto& frame : motion.translation)
+    for (int j = 0; j < motion.joints.count(); ++j) frame[j] = motion.joints[j].offset;
+  return motion;
+}
+
 TEST(JointNames, ErrorNamesTheMissingBodies) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   names[kLeftKnee] = "Thing";
-  const std::string message = names_refusal(skeleton(names, joint));
+  const std::string message = names_refusal(lopsided(skeleton(names, joint)));
   EXPECT_NE(message.find("none for left knee"), std::string::npos) << message;
   EXPECT_EQ(message.find("right knee"), std::string::npos) << message;
 }
@@ -146,7 +198,7 @@ TEST(JointNames, RejectsALimbOnTheWrongParent) {
   PerBody<int> joint;
   Names names = test::mixamo_names();
   std::swap(names[kLeftKnee], names[kLeftElbow]);
-  const std::string message = names_refusal(skeleton(names, joint));
+  const std::string message = names_refusal(lopsided(skeleton(names, joint)));
   EXPECT_NE(message.find("'mixamorig:LeftLeg', taken for left knee, below left hip"), std::string::npos)
       << message;
 }

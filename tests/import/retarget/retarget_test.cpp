@@ -167,11 +167,11 @@ TEST(Retarget, ResultDoesNotDependOnUnitOrAxes) {
 
 TEST(Retarget, ScalesAnUnknownUnitToABodyAndReportsIt) {
   test::Disguise disguise = t_pose();
-  disguise.unit = 7.0;
+  disguise.unit = 2.5e4;
   RetargetReport report;
   const motion::Clip clip = retarget(test::disguised(synthetic("stand"), disguise), {}, &report);
-  EXPECT_NEAR(report.scale, 1.0 / 7.0, 1e-3);
-  EXPECT_TRUE(warns(clip.warnings, "no known unit"));
+  EXPECT_NEAR(report.scale, 1.0 / 2.5e4, 1e-5);
+  EXPECT_TRUE(warns(clip.warnings, "no usual unit"));
 }
 
 TEST(Retarget, OptionsOverrideDetection) {
@@ -302,14 +302,54 @@ TEST(Retarget, OneFrameIsEnough) {
   EXPECT_EQ(retarget(motion).frames(), 1);
 }
 
-TEST(Landmarks, LegLengthGivesTheUnit) {
-  EXPECT_EQ(unit_of(0.8)->metres, 1.0);
-  EXPECT_EQ(unit_of(82.0)->metres, 0.01);
-  EXPECT_EQ(unit_of(790.0)->metres, 0.001);
-  EXPECT_EQ(unit_of(31.0)->metres, 0.0254);
-  EXPECT_EQ(unit_of(14.8)->metres, 0.0254 / 0.45);
-  EXPECT_FALSE(unit_of(3.0));
-  EXPECT_FALSE(unit_of(1e9));
+/// The skeleton of a motion with long thighs and short shanks, in all 88 cm, as no shape of ours has.
+SkeletonMotion long_thighed(const motion::Clip& clip) {
+  SkeletonMotion motion = test::disguised(clip, t_pose());
+  for (const auto& [joint, length] :
+       {std::pair{kLeftKnee, 49.0}, {kRightKnee, 49.0}, {kLeftAnkle, 38.0}, {kRightAnkle, 38.0}}) {
+    motion.joints[joint].offset *= length / motion.joints[joint].offset.norm();
+    for (auto& frame : motion.translation) frame[joint] = motion.joints[joint].offset;
+  }
+  return motion;
+}
+
+TEST(Retarget, AnklesKeepTheirPlacesOnLegsOfOtherProportions) {
+  const SkeletonMotion motion = long_thighed(synthetic("squat"));
+  RetargetReport report;
+  const auto poses = motion::poses_of(retarget(motion, {}, &report));
+  const JointMap map = map_joints(motion);
+  const Quaterniond up = rotation_to_z_up('y');
+  for (int t = 0; t < poses.count(); t += 5) {
+    const SkeletonPose source = pose_of(motion, t);
+    for (const auto& [hip, ankle] : {std::pair{kLeftHip, kLeftAnkle}, {kRightHip, kRightAnkle}}) {
+      const Vector3d want =
+          report.leg_ratio * report.scale * (up * (source.p[map[ankle]] - source.p[map[hip]]));
+      EXPECT_LT((poses[t].p_WB[ankle] - poses[t].p_WB[hip] - want).norm(), 0.005) << t;
+    }
+  }
+}
+
+TEST(Retarget, KneesThatKneelLieOnTheFloor) {
+  motion::Clip kneeling = test::standing_clip(40, 0.55);
+  for (auto& frame : kneeling.rotations) {
+    frame[kLeftKnee] = frame[kRightKnee] = Vector3d(1.5, 0, 0);
+    frame[kLeftAnkle] = frame[kRightAnkle] = Vector3d(0.6, 0, 0);
+    frame[kLeftShoulder] = {0, 0, -1.2};
+    frame[kRightShoulder] = {0, 0, 1.2};
+  }
+  const motion::Clip clip = retarget(long_thighed(kneeling));
+  for (const BodyPoses& pose : motion::poses_of(clip))
+    for (const int knee : {kLeftKnee, kRightKnee}) EXPECT_LT(pose.p_WB[knee].z(), 0.1);
+}
+
+TEST(Retarget, SaysWhereJointsAreFarFromTheSkeletons) {
+  SkeletonMotion motion = test::disguised(synthetic("wave"), t_pose());
+  EXPECT_FALSE(warns(retarget(motion).warnings, "cannot take the skeleton's proportions"));
+  for (const int joint : {kLeftElbow, kRightElbow}) {
+    motion.joints[joint].offset *= 1.8;
+    for (auto& frame : motion.translation) frame[joint] = motion.joints[joint].offset;
+  }
+  EXPECT_TRUE(warns(retarget(motion).warnings, "cannot take the skeleton's proportions"));
 }
 
 }  // namespace
