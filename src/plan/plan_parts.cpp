@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kShortest = 1.0;    ///< s
 constexpr double kBehindLoss = 0.5;  ///< s after a loss until the next attempt
-constexpr int kFeasibleAround = 5;   ///< frames before and behind the first one of an attempt
+constexpr int kFeasibleAround = 2;   ///< frames before and behind the first one of an attempt
 constexpr int kAttemptsInVain = 5;   ///< that gave no part
 constexpr int kBacktracks = 2;       ///< of an attempt
 

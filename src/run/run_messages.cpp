@@ -99,7 +99,9 @@ std::string result_line(const record::SequenceEntry& entry) {
   }
   const char* before = "; worse than the input: ";
   for (const record::Worsening& worse : entry.worse) {
-    line += before + worse.measure + " (" + worse.why + ")";
+    const bool told = std::any_of(judge::kHeadlines.begin(), judge::kHeadlines.end(),
+                                  [&](const auto& h) { return h.always && worse.measure == h.name; });
+    line += before + worse.measure + (told ? "" : " " + worse.numbers) + " (" + worse.why + ")";
     before = ", ";
   }
   return line;

@@ -226,6 +226,31 @@ TEST(RunReport, MetricsAgainstTheTruthAreThoseOfEvaluate) {
   EXPECT_TRUE(values(run.page(), "truth:MRPE").is_null()) << "without a truth there is no such column";
 }
 
+TEST(RunReport, ShowsWhereAClipIsWorseThanItsInputAndWhatWasFollowedInPart) {
+  Folder run(4);
+  record::SequenceEntry worse = run.manifest.sequences[0], lost = run.manifest.sequences[3];
+  worse.worse = {{"sliding", "0.4 -> 0.9 mm a frame", {{1, 2}, {5, 5}}, "its reference slides, too"}};
+  lost.parts = {{0, 2}, {4, 5}};
+  run.manifest.put(worse);
+  run.manifest.put(lost);
+  const std::string page = run.page();
+  const auto row = [&](const std::string& clip, const std::string& name) {
+    const nlohmann::json all = json_element(page, clip);
+    for (const auto& bars : all["bars"])
+      if (bars["name"] == name) return bars;
+    return nlohmann::json();
+  };
+  const nlohmann::json more = row("clip-0", "more sliding");
+  EXPECT_EQ(more["spans"], nlohmann::json::parse("[[1,2],[5,5]]"));
+  EXPECT_EQ(more["meaning"], "worse than the input, 0.4 -> 0.9 mm a frame: its reference slides, too");
+  EXPECT_EQ(row("clip-3", "followed in part")["spans"], nlohmann::json::parse("[[0,2],[4,5]]"));
+  EXPECT_NE(page.find("sliding 0.4 -> 0.9 mm a frame, most at frames 1-2, 5: its reference"),
+            std::string::npos);
+  EXPECT_NE(page.find("frames 0-2 in motions/clip 3.part1.npz, frames 4-5 in motions/clip 3.part2.npz"),
+            std::string::npos);
+  EXPECT_TRUE(row("clip-1", "more sliding").is_null());
+}
+
 TEST(RunReport, ReportsAnUnreadableTruth) {
   Folder run(1);
   ReportOptions options;
