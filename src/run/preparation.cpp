@@ -45,7 +45,8 @@ motion::PreparationConfig preparing(Correction correction) {
   motion::PreparationConfig config;
   config.sees = correction == Correction::kKeypoints;
   if (correction == Correction::kNone)
-    config.ranges = config.separate = config.level_feet = config.ground = config.plant = config.bridge_flagged = false;
+    config.ranges = config.separate = config.level_feet = config.ground = config.plant =
+        config.bridge_flagged = false;
   return config;
 }
 

@@ -21,15 +21,16 @@ constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
 constexpr double kSigmaPlace = 0.02, kSigmaHeightOfPelvis = 0.1;  ///< m, of the pelvis
 constexpr double kSigmaPlaceBend = 0.00025;    ///< m, second difference at 30 frames per second
-constexpr double kSigmaTurn = 0.15;            ///< rad, of a joint
+constexpr double kSigmaLegTurn = 0.15;         ///< rad, of a joint
 constexpr double kSigmaTurnBend = 0.01;        ///< rad, second difference at 30 frames per second
 constexpr double kSigmaToeBend = 0.05;         ///< rad, the same of the toes
 constexpr double kSigmaAside = 0.03;           ///< m, horizontal place of knees and ankles
 constexpr double kSigmaRange = 0.1 * kDegree;  ///< of a joint beyond its range, less the margin
 constexpr double kInsideRange = 0.2 * kDegree;
 constexpr double kPlantedHeight = 0.003, kPlantedSlip = 0.001;  ///< m, m per frame: nothing to correct
-constexpr int kIterations = 6;
-constexpr double kLargestStep = 0.2, kSmallestStep = 1e-4;  ///< m and rad, of one unknown in one iteration
+constexpr int kPlantingIterations = 6;
+constexpr double kLargestPlantingStep = 0.2,
+                 kSmallestStep = 1e-4;  ///< m and rad, of one unknown in one iteration
 
 /// Unknowns of a frame: place of the pelvis (3), then per leg hip (3), knee (1), ankle (3) and the toes'
 /// bend (1).
@@ -38,24 +39,24 @@ using Correction = Eigen::Matrix<double, kUnknowns, 1>;
 using PointJacobian = Eigen::Matrix<double, 3, kUnknowns>;
 
 /// A joint of a leg with its unknowns.
-struct Turn {
+struct LegTurn {
   int body, first, count;
 };
-constexpr Array<Turn, 8> kTurns = {{{{kLeftHip, 3, 3},
-                                     {kLeftKnee, 6, 1},
-                                     {kLeftAnkle, 7, 3},
-                                     {kLeftFoot, 10, 1},
-                                     {kRightHip, 11, 3},
-                                     {kRightKnee, 14, 1},
-                                     {kRightAnkle, 15, 3},
-                                     {kRightFoot, 18, 1}}}};
+constexpr Array<LegTurn, 8> kLegTurns = {{{{kLeftHip, 3, 3},
+                                           {kLeftKnee, 6, 1},
+                                           {kLeftAnkle, 7, 3},
+                                           {kLeftFoot, 10, 1},
+                                           {kRightHip, 11, 3},
+                                           {kRightKnee, 14, 1},
+                                           {kRightAnkle, 15, 3},
+                                           {kRightFoot, 18, 1}}}};
 
 Vector3d axis_of(int body) { return is_hinge(body) ? hinge_axis(body) : Vector3d::UnitX(); }
 
 ReferenceFrame corrected(const ReferenceFrame& frame, const Correction& c) {
   ReferenceFrame out = frame;
   out.p_root += c.head<kPlace>();
-  for (const Turn& turn : kTurns) {
+  for (const LegTurn& turn : kLegTurns) {
     const Vector3d by =
         turn.count == 3 ? Vector3d(c.segment<3>(turn.first)) : Vector3d(c[turn.first] * axis_of(turn.body));
     out.q[turn.body] = frame.q[turn.body] * exp_map(by);
@@ -64,10 +65,10 @@ ReferenceFrame corrected(const ReferenceFrame& frame, const Correction& c) {
 }
 
 /// d p / d c of a point that is fixed to a body of a leg. Turns are small: exp(c + δ) ≈ exp(c) exp(δ).
-PointJacobian point_jacobian(const BodyPoses& poses, int body, const Vector3d& p) {
+PointJacobian leg_jacobian(const BodyPoses& poses, int body, const Vector3d& p) {
   PointJacobian J = PointJacobian::Zero();
   J.leftCols<kPlace>().setIdentity();
-  for (const Turn& turn : kTurns) {
+  for (const LegTurn& turn : kLegTurns) {
     int above = body;
     while (above > turn.body) above = kParents[above];
     if (above != turn.body) continue;
@@ -80,12 +81,12 @@ PointJacobian point_jacobian(const BodyPoses& poses, int body, const Vector3d& p
 }
 
 /// Normal equations of one iteration: blocks on the diagonal, of neighbours, and of the frames after them.
-struct Equations {
+struct PlantingEquations {
   using Block = Eigen::Matrix<double, kUnknowns, kUnknowns>;
   PerFrame<Block> diagonal, next, second;
   Eigen::VectorXd rhs;
 
-  explicit Equations(int frames)
+  explicit PlantingEquations(int frames)
       : diagonal(frames, Block::Zero()),
         next(frames, Block::Zero()),
         second(frames, Block::Zero()),
@@ -158,11 +159,11 @@ Legs legs_of(const Character& character, const ReferenceFrame& frame) {
   Legs legs;
   legs.sole = sole_positions(character, poses);
   for (int k = 0; k < kFootPoints; ++k)
-    legs.sole_J[k] = point_jacobian(poses, character.contact_points[k].body, legs.sole[k]);
+    legs.sole_J[k] = leg_jacobian(poses, character.contact_points[k].body, legs.sole[k]);
   for (std::size_t k = 0; k < kKneesAndAnkles.size(); ++k) {
     const int body = kKneesAndAnkles[k];
     legs.joint[k] = poses.p_WB[body];
-    legs.joint_J[k] = point_jacobian(poses, body, legs.joint[k]);
+    legs.joint_J[k] = leg_jacobian(poses, body, legs.joint[k]);
   }
   return legs;
 }
@@ -175,8 +176,9 @@ Correction sizes(double place, double turn) {
 }
 
 /// Joints of the legs stay inside their ranges.
-void add_ranges(const Character& character, const ReferenceFrame& corrected, int t, Equations& equations) {
-  for (const Turn& turn : kTurns) {
+void add_ranges(const Character& character, const ReferenceFrame& corrected, int t,
+                PlantingEquations& equations) {
+  for (const LegTurn& turn : kLegTurns) {
     const RangeDistance range = range_distance(character.joint[turn.body], turn.body, corrected.q[turn.body]);
     if (range.excess <= -kInsideRange) continue;
     Correction J = Correction::Zero();
@@ -210,12 +212,12 @@ Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Array<double,
                         const PerFrame<Correction>& c) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
-  const Correction size = sizes(kSigmaPlace, kSigmaTurn);
+  const Correction size = sizes(kSigmaPlace, kSigmaLegTurn);
   Correction bend = sizes(kSigmaPlaceBend, kSigmaTurnBend);
-  for (const Turn& turn : kTurns)
+  for (const LegTurn& turn : kLegTurns)
     if (turn.body == kLeftFoot || turn.body == kRightFoot) bend[turn.first] = kSigmaToeBend;
   bend *= rate;
-  Equations equations(frames);
+  PlantingEquations equations(frames);
   Legs before;
   for (int t = 0; t < frames; ++t) {
     const ReferenceFrame frame = corrected(reference.frames[t], c[t]);
@@ -267,10 +269,10 @@ double plant_feet(Reference& reference) {
   const int frames = reference.size();
   const auto clearance = clearances(reference);
   PerFrame<Correction> c(frames, Correction::Zero());
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
     const Eigen::VectorXd step = step_of(reference, clearance, c);
     const double largest = step.cwiseAbs().maxCoeff();
-    const double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestStep));
+    const double scale = std::min(1.0, kLargestPlantingStep / std::max(largest, kSmallestStep));
     for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);
     if (largest < kSmallestStep) break;
   }

@@ -14,7 +14,7 @@ constexpr double kLevel = 0.04, kRising = 0.06;   ///< m/s, up or down
 constexpr double kSkating = 1.0, kLeaving = 0.3;  ///< m/s: a part that carries the body is no faster
 constexpr double kFlight = 0.6;    ///< downward acceleration of a body that nothing carries, in g
 constexpr double kParabola = 0.1;  ///< s
-constexpr int kFewestFrames = 3;
+constexpr int kShortestStance = 3;
 constexpr int kPointsPerPart = 2;  ///< inner and outer
 
 /// Height (m), speed over the floor and vertical speed (m/s) of a part of a foot: of the middle of its
@@ -51,7 +51,8 @@ PerFrame<bool> standing(const PartMotion& part) {
     int first = t, last = t;
     while (first > 0 && !stands[first - 1] && goes_on(first - 1)) --first;
     while (last + 1 < frames && goes_on(last + 1)) ++last;
-    if (last - first + 1 >= kFewestFrames) std::fill(stands.begin() + first, stands.begin() + last + 1, true);
+    if (last - first + 1 >= kShortestStance)
+      std::fill(stands.begin() + first, stands.begin() + last + 1, true);
     t = last + 1;
   }
   return stands;
