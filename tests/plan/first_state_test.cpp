@@ -133,7 +133,7 @@ TEST(PassingHand, IsNotPushedByTheHead) {
   motion::PreparationConfig without;
   without.separate = false;
   const Start through = start_of(clip, without, 89), around = start_of(clip, {}, 89);
-  EXPECT_GT(through.hardest, 150.0);
+  EXPECT_GT(through.hardest, 100.0);
   EXPECT_TRUE(around.followed);
   EXPECT_LT(around.hardest, 0.4 * through.hardest);
 }
