@@ -33,7 +33,7 @@ struct CostWeights {
   double joint_velocity = 0.05;      ///< s²/rad²
   double com_velocity = 1000.0;      ///< of the centre of mass, s²/m²
   double angular_momentum = 1000.0;  ///< about the centre of mass, of its value per mass, s²/m⁴
-  double slip = 200.0;               ///< of the mean square slip of a sole, s²/m²
+  double slip = 500.0;               ///< of the mean square slip of a sole, s²/m²
   double torque = 0.3;               ///< of the elastic torques per mass, s⁴/m⁴
   double residual = 0.02;            ///< 1/rad²
   double change = 64.0;              ///< of the residual from frame to frame, 1/rad²
