@@ -21,6 +21,7 @@ constexpr int kDraws = 3;                       ///< samples of the solution's e
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
 constexpr int kUnsettled = 3;          ///< iterations until the motion is on the floor
+constexpr int kFewest = 7;             ///< iterations; those after the unsettled ones find the levels
 constexpr double kLargestTurn = 0.35;  ///< rad: longest step of one joint in one iteration
 constexpr double kFarOff = 3.0;        ///< kernel widths; detections farther off count as dropped
 constexpr double kShiftToPose = 5.0;   ///< the pelvis converges more slowly than poses, and matters less
@@ -190,7 +191,7 @@ FitState iterate(FitProblem& problem, FitReport& report) {
     problem.settled = settled;
     if (levels) problem.levels = levels_of(problem, state, e.motion, found.draws);
     ++report.iterations;
-    if (report.iterations > kUnsettled && hardly_moved(before, e, problem.config.smallest_change)) break;
+    if (report.iterations >= kFewest && hardly_moved(before, e, problem.config.smallest_change)) break;
   }
   const Residual residual = residual_of(problem, state, e);
   report.residual_after = residual.rms;
