@@ -9,7 +9,10 @@
 namespace mimicx::fit {
 
 struct FitConfig {
-  int iterations = 12;      ///< of Gauss-Newton, at most; contacts, labels and levels are found anew in each
+  int iterations = 12;  ///< of Gauss-Newton, at most; contacts, labels and levels are found anew in each
+  /// m: the fit ends with a step that moves the joints by less, on average and relative to the pelvis. 0:
+  /// never.
+  double smallest_change = 0.001;
   int threads = 1;          ///< no influence on the result
   bool find_levels = true;  ///< false: `keypoint_sigma` and `confidence_power` are believed
 
@@ -47,7 +50,7 @@ struct FitConfig {
   double root_bend = 0.0006;  ///< m per frame²
 
   // The result.
-  double range_sigma = 1.0;           ///< degrees, of a joint beyond its range
+  double range_sigma = 3.0;           ///< degrees, of a joint beyond its range
   double acceleration_sigma = 0.012;  ///< m per frame², of every joint
   double floor_sigma = 0.02;          ///< m, height of a foot point that stands
   double slip_sigma = 0.003;          ///< m per frame, of a foot point that stands
@@ -67,6 +70,8 @@ struct FitConfig {
 /// core/setting.h; `mimicx fit --set` takes them.
 void visit_settings(FitConfig& f, const auto& visit) {
   visit("fit_iterations", f.iterations, 1, 1000, "iterations of Gauss-Newton, at most");
+  visit("fit_smallest_change", f.smallest_change, 0, 1,
+        "mean move of the joints by a step that ends the fit, m; 0: all iterations");
   visit("fit_find_levels", f.find_levels, 0, 1, "1: the levels of the keypoints' errors are estimated");
   visit("fit_keypoint_sigma", f.keypoint_sigma, 1e-9, 1e6, "sigma of a detection, box heights");
   visit("fit_keypoint_correlation", f.keypoint_correlation, 0, 0.99,

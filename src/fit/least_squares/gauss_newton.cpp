@@ -20,10 +20,11 @@ namespace {
 constexpr int kDraws = 3;                       ///< samples of the solution's error, for the levels
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
-constexpr int kUnsettled = 3;           ///< iterations until the motion is on the floor
-constexpr double kLargestTurn = 0.35;   ///< rad: longest step of one joint in one iteration
-constexpr double kFarOff = 3.0;         ///< kernel widths; detections farther off count as dropped
-constexpr double kSmallestStep = 1e-5;  ///< rad and m: below, the fit has converged
+constexpr int kUnsettled = 3;          ///< iterations until the motion is on the floor
+constexpr int kFewest = 7;             ///< iterations; those after the unsettled ones find the levels
+constexpr double kLargestTurn = 0.35;  ///< rad: longest step of one joint in one iteration
+constexpr double kFarOff = 3.0;        ///< kernel widths; detections farther off count as dropped
+constexpr double kShiftToPose = 5.0;   ///< the pelvis converges more slowly than poses, and matters less
 
 /// A state with its derived quantities.
 struct Evaluated {
@@ -83,18 +84,35 @@ Residual residual_of(const FitProblem& problem, const FitState& state, const Eva
   return out;
 }
 
-/// Moves the state along a Gauss-Newton step, shortened where a joint would turn too far. @return its length
-double advance(const BandSolution& step, FitState& state) {
-  double turn = 0.0, longest = 0.0;
+/// Moves the state along a Gauss-Newton step, shortened where a joint would turn too far.
+void advance(const BandSolution& step, FitState& state) {
+  double turn = 0.0;
   for (const VectorXd& x : step.x) {
     if (!x.allFinite()) throw std::domain_error("keypoint fit: a step is not finite");
     turn = std::max(turn, x.tail(kFrameUnknowns - kRootRotation).cwiseAbs().maxCoeff());
-    longest = std::max(longest, x.cwiseAbs().maxCoeff());
   }
   const double scale = std::min(1.0, kLargestTurn / std::max(turn, 1e-12));
   for (int t = 0; t < state.c.count(); ++t) state.c[t] += scale * step.x[t];
   state.g += scale * step.g;
-  return scale * longest;
+}
+
+PerFrame<PerBody<Vector3d>> positions_of(const Evaluated& e) {
+  PerFrame<PerBody<Vector3d>> positions;
+  for (const FrameKinematics& k : e.motion) positions.push_back(k.poses.p_WB);
+  return positions;
+}
+
+/// Whether a step moved the joints by less than `smallest` relative to the pelvis, means over frames, m.
+bool hardly_moved(const PerFrame<PerBody<Vector3d>>& before, const Evaluated& after, double smallest) {
+  double pose = 0.0, shift = 0.0;
+  for (int t = 0; t < before.count(); ++t) {
+    const PerBody<Vector3d>& now = after.motion[t].poses.p_WB;
+    const Vector3d root = now[kPelvis] - before[t][kPelvis];
+    shift += root.norm() / before.count();
+    for (int b = 0; b < kBodies; ++b)
+      pose += (now[b] - before[t][b] - root).norm() / (kBodies * before.count());
+  }
+  return pose < smallest && shift < kShiftToPose * smallest;
 }
 
 /// Keypoints of the clip with the sides and the camera of the fit.
@@ -166,13 +184,14 @@ FitState iterate(FitProblem& problem, FitReport& report) {
     const Contacts contacts = contacts_of(problem, e, settled);
     const bool levels = settled && problem.config.find_levels && !problem.points.empty();
     const SolutionWithDraws found = step_from(problem, state, e, contacts, levels ? kDraws : 0, random);
-    const double step = advance(found, state);
+    advance(found, state);
+    const PerFrame<PerBody<Vector3d>> before = positions_of(e);
     e = {};  // memory
     e = evaluate(problem, state);
     problem.settled = settled;
     if (levels) problem.levels = levels_of(problem, state, e.motion, found.draws);
     ++report.iterations;
-    if (step < kSmallestStep && report.iterations > kUnsettled) break;
+    if (report.iterations >= kFewest && hardly_moved(before, e, problem.config.smallest_change)) break;
   }
   const Residual residual = residual_of(problem, state, e);
   report.residual_after = residual.rms;
