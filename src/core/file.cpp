@@ -1,10 +1,19 @@
 #include "core/file.h"
 
+#if defined(__unix__) || defined(__APPLE__)
+#define MIMICX_WITH_LOCKS
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
+#include <map>
+#include <mutex>
 #include <system_error>
 
 namespace mimicx {
@@ -69,11 +78,54 @@ void forget(const char* name) {
   }
 }
 
-/// A number that no other program has that starts at another moment.
-std::string own_number() {
-  static const auto start = std::chrono::system_clock::now().time_since_epoch().count();
-  static std::atomic<unsigned> count = 0;
-  return std::to_string(start) + "-" + std::to_string(count++);
+/// Locks of the temporary files by which other writers know that they are in use. A killed program leaves its
+/// file but no lock, so that the next writer takes the same name.
+class Locks {
+ public:
+  /// @return false where another writer has the file
+  bool take(const AtomicFile* owner, const std::filesystem::path& path) {
+#ifdef MIMICX_WITH_LOCKS
+    for (;;) {
+      const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      if (file < 0) return true;  // opening it again reports the error
+      struct stat locked, there;
+      const bool free = flock(file, LOCK_EX | LOCK_NB) == 0;
+      const bool same = free && fstat(file, &locked) == 0 && stat(path.c_str(), &there) == 0 &&
+                        locked.st_ino == there.st_ino && locked.st_dev == there.st_dev;
+      if (same) {
+        const std::lock_guard guard(mutex_);
+        files_[owner] = file;
+        return true;
+      }
+      close(file);
+      if (!free) return false;  // else it was renamed meanwhile: again
+    }
+#else
+    static_cast<void>(owner), static_cast<void>(path);
+    return true;
+#endif
+  }
+  void release(const AtomicFile* owner) {
+#ifdef MIMICX_WITH_LOCKS
+    const std::lock_guard guard(mutex_);
+    if (const auto found = files_.find(owner); found != files_.end()) {
+      close(found->second);
+      files_.erase(found);
+    }
+#else
+    static_cast<void>(owner);
+#endif
+  }
+
+ private:
+#ifdef MIMICX_WITH_LOCKS
+  std::mutex mutex_;
+  std::map<const AtomicFile*, int> files_;
+#endif
+};
+Locks& locks() {
+  static Locks all;
+  return all;
 }
 
 }  // namespace
@@ -83,8 +135,12 @@ void remove_unfinished_files() {
     if (const char* name = slot.load()) std::remove(name);
 }
 
-AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), temporary_(path) {
-  temporary_ += "." + own_number() + ".mimicx-tmp";  // a name that no user's file has
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
+  for (int number = 1; temporary_.empty() || !locks().take(this, temporary_); ++number) {
+    temporary_ = path;
+    temporary_ +=
+        (number == 1 ? "" : "." + std::to_string(number)) + ".mimicx-tmp";  // no user's file has that name
+  }
   name_ = temporary_.string();
   remember(name_.c_str());
   errno = 0;
@@ -92,6 +148,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), tempora
   if (out_) return;
   const std::error_code error = last_error();
   forget(name_.c_str());
+  locks().release(this);
   throw not_writable(path_, error);
 }
 
@@ -102,6 +159,7 @@ AtomicFile::~AtomicFile() {
     std::filesystem::remove(temporary_, ignored);
   }
   forget(name_.c_str());
+  locks().release(this);
 }
 
 void AtomicFile::write(std::string_view content) {

@@ -412,7 +412,7 @@ std::string_view written_opening(const std::filesystem::path& path) {
 void write_motion(const std::filesystem::path& path, const motion::Clip& clip) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".npz")
-    motion::write_clip(path, clip);
+    motion::write_clip(path, clip, {{"joints", motion::joints_member(clip)}});
   else if (suffix == ".npy")
     write_motionx(path, clip);
   else if (suffix == ".bvh")

@@ -494,6 +494,13 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
   return clip;
 }
 
+NpyArray joints_member(const Clip& clip) {
+  std::vector<double> values;
+  for (const BodyPoses& pose : poses_of(clip))
+    for (const Vector3d& p : pose.p_WB) values.insert(values.end(), p.data(), p.data() + 3);
+  return NpyArray::from_double({clip.rotations.size(), kBodies, 3}, values.data());
+}
+
 Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>& extra) {
   Npz npz;
   const std::size_t frames = clip.rotations.size();
@@ -521,10 +528,6 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
   }
   for (const auto& [key, array] : clip.passthrough)
     if (!npz.has(key) && key != "poses_rest" && key != "betas_rest") npz.set(key, array);
-  std::vector<double> joints;
-  for (const BodyPoses& pose : poses_of(clip))
-    for (const Vector3d& p : pose.p_WB) joints.insert(joints.end(), p.data(), p.data() + 3);
-  npz.set("joints", NpyArray::from_double({frames, kBodies, 3}, joints.data()));
   for (const auto& [key, array] : extra) npz.set(key, array);
   return npz;
 }

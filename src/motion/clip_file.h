@@ -29,7 +29,10 @@ Clip read_clip(const std::filesystem::path& path, const ClipConfig& config = {})
 /// The same from an archive in memory.
 Clip clip_from(const Npz& npz, const std::string& name, const ClipConfig& config = {});
 
-/// The members of our own motion file: the standard ones, the joints of its body, keypoints and camera,
+/// Member `joints`, (frames, 22, 3): the joints of the clip's body in the world, m.
+NpyArray joints_member(const Clip& clip);
+
+/// The members of our own motion file: the standard ones, keypoints and camera,
 /// passed-through members, and `extra`, which replaces members of the same name. `poses_rest` and
 /// `betas_rest` are appended to `poses` and `betas` again. A clip with named arrays of SMPL-X also gets
 /// `root_orient` and `pose_body`.

@@ -41,8 +41,19 @@ TEST(WriteFile, TwoWritersOfOneFileDoNotMix) {
   EXPECT_EQ(read_file(path), "second,second");
 }
 
+TEST(WriteFile, TakesTheTemporaryFileOfAKilledProgram) {
+  const fs::path folder = scratch("killed");
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::ofstream(folder / "a.csv.mimicx-tmp") << "half of what was to be written";
+  write_file_atomically(folder / "a.csv", "whole");
+  EXPECT_EQ(read_file(folder / "a.csv"), "whole");
+  EXPECT_FALSE(fs::exists(folder / "a.csv.mimicx-tmp"));
+}
+
 TEST(WriteFile, AnInterruptLeavesNoTemporaryFile) {
   const fs::path folder = scratch("interrupted");
+  fs::remove_all(folder);
   fs::create_directories(folder);
   {
     AtomicFile file(folder / "a.csv");

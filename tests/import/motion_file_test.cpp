@@ -185,6 +185,13 @@ TEST(ReadMotion, TrustsOurOwnFiles) {
   EXPECT_EQ(written_and_read(clip).trans, clip.trans);
 }
 
+TEST(WriteMotion, EveryArchiveHasTheJointsOfItsBody) {
+  const motion::Clip clip = foreign("wave");
+  write_motion(scratch("joints.npz"), clip);
+  EXPECT_EQ(read_npz(scratch("joints.npz")).at("joints").to_double(),
+            motion::joints_member(clip).to_double());
+}
+
 TEST(ReadMotion, RejectsInvalidOptions) {
   const motion::Clip clip = foreign("wave");
   ReadConfig up, scale, fps;

@@ -338,10 +338,9 @@ TEST(ClipFile, SaysWhatIsMissingAndWhatWasFound) {
   }
 }
 
-TEST(ClipFile, EveryMotionHasItsJoints) {
+TEST(ClipFile, JointsAreThoseOfTheClipsBody) {
   const Clip clip = read(amass());
-  const Npz npz = to_npz(clip);
-  const std::vector<double> joints = npz.at("joints").to_double();
+  const std::vector<double> joints = joints_member(clip).to_double();
   const auto poses = poses_of(clip);
   for (int t = 0; t < poses.count(); ++t)
     for (int b = 0; b < kBodies; ++b)

@@ -46,11 +46,11 @@ struct Imitate : testing::Test {
 TEST_F(Imitate, LeavesEveryFileTheDocumentationNames) {
   run(small_run(out("run"), {stand}));
   const auto files = run::results_of(out("run"));
-  for (const char* name :
-       {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz", "references/stand.npz",
-        "feasibility/stand.npz", "training/stand.csv", "training/stand.falls.csv", "checkpoints/stand.npz"})
+  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz",
+                           "references/stand.npz", "feasibility/stand.npz", "training/stand.csv",
+                           "training/stand.falls.csv", "checkpoints/stand.npz", "clean/stand.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
-  EXPECT_EQ(files.size(), 9u);
+  EXPECT_EQ(files.size(), 10u);
   EXPECT_TRUE(std::filesystem::exists(out("run") / "timing.json"));
   const record::Table log = record::read_csv(out("run") / "training" / "stand.csv");
   EXPECT_EQ(log.rows.size(), 6u);

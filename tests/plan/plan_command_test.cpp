@@ -54,10 +54,11 @@ struct PlanMotions : testing::Test {
 TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
   EXPECT_EQ(run(planning("run", {stand})).value, record::RunOutcome::kAllGood);
   const auto files = run::results_of(out("run"));
-  for (const char* name : {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz",
-                           "references/stand.npz", "plans/stand.npz", "feasibility/stand.npz"})
+  for (const char* name :
+       {"manifest.json", "report.html", "motions/stand.npz", "inputs/stand.npz", "references/stand.npz",
+        "plans/stand.npz", "feasibility/stand.npz", "clean/stand.npz"})
     EXPECT_TRUE(files.contains(name)) << name;
-  EXPECT_EQ(files.size(), 7u);
+  EXPECT_EQ(files.size(), 8u);
   EXPECT_FALSE(std::filesystem::exists(out("run") / "training"));
   const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
   EXPECT_EQ(motion.at("joint_torques").shape, (std::vector<std::size_t>{20, 55}));

@@ -75,7 +75,7 @@ TEST_F(Cli, CorruptLeavesNoTruthInTheNoisyFile) {
     std::sort(members.begin(), members.end());
     EXPECT_EQ(members,
               (std::vector<std::string>{"betas", "body_model", "camera_extrinsics", "camera_intrinsics",
-                                        "gender", "joint_names", "joints", "keypoint_names", "keypoints_2d",
+                                        "gender", "joint_names", "keypoint_names", "keypoints_2d",
                                         "mocap_framerate", "poses", "trans"}));
     for (int t = 0; t < truth.frames(); ++t) {
       EXPECT_NE(noisy.trans[t], truth.trans[t]);
