@@ -119,7 +119,7 @@ double Cost::momentum_weight(int frame, int k) const {
 }
 
 double Cost::slip_weight() const {
-  constexpr double kPointsPerFoot = kFootPoints / 2;
+  constexpr int kPointsPerFoot = kFootPoints / 2;
   return weights.slip / kPointsPerFoot;
 }
 
