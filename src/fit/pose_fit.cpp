@@ -20,14 +20,11 @@ void put_on_floor(bool known, FitProblem& problem) {
   const Character character = character_of(problem, initial_state(problem));
   const std::vector<motion::SurfacePoint> points = motion::surface_points(character);
   const std::vector<motion::SurfacePoint> others(points.begin() + kFootPoints, points.end());
-  PerFrame<double> lowest, lowest_of_others;
-  for (int t = 0; t < problem.frames(); ++t) {
-    const BodyPoses poses = forward_kinematics(character, problem.p_root[t], problem.q[t]);
-    lowest.push_back(motion::lowest_height(points, poses));
-    lowest_of_others.push_back(motion::lowest_height(others, poses));
-  }
-  const motion::FloorCorrection floor =
-      motion::floor_correction(lowest, lowest_of_others, problem.fps, known);
+  PerFrame<BodyPoses> poses;
+  for (int t = 0; t < problem.frames(); ++t)
+    poses.push_back(forward_kinematics(character, problem.p_root[t], problem.q[t]));
+  const motion::FloorCorrection floor = motion::floor_correction(
+      motion::lowest_heights(points, poses), motion::lowest_heights(others, poses), problem.fps, known);
   for (int t = 0; t < problem.frames(); ++t) problem.p_root[t].z() += floor.height[t];
 }
 

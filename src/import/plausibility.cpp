@@ -28,30 +28,25 @@ double finite_quantile(std::vector<double> values, double share) {
   return values.empty() ? 0.0 : quantile(std::move(values), share);
 }
 
-PerFrame<double> lowest_heights(const Character& character, const PerFrame<BodyPoses>& poses) {
-  const std::vector<motion::SurfacePoint> points = motion::surface_points(character);
-  PerFrame<double> lowest;
-  for (const BodyPoses& pose : poses) lowest.push_back(motion::lowest_height(points, pose));
-  return lowest;
-}
-
 std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
 }
 
-double support_speed(const motion::Clip& clip) {
-  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+double support_speed(const PerFrame<BodyPoses>& poses, double fps) {
   std::vector<double> stillest;
   for (int t = 1; t < poses.count(); ++t)
-    stillest.push_back(
-        std::min(speed_of(poses, t, kLeftFoot, clip.fps), speed_of(poses, t, kRightFoot, clip.fps)));
+    stillest.push_back(std::min(speed_of(poses, t, kLeftFoot, fps), speed_of(poses, t, kRightFoot, fps)));
   return finite_quantile(stillest, 0.5);
 }
 
+double support_speed(const motion::Clip& clip) { return support_speed(motion::poses_of(clip), clip.fps); }
+
 double detect_floor(const motion::Clip& clip) {
-  return finite_quantile(lowest_heights(motion::character_of(clip), motion::poses_of(clip)), kFloorShare);
+  return finite_quantile(
+      motion::lowest_heights(motion::surface_points(motion::character_of(clip)), motion::poses_of(clip)),
+      kFloorShare);
 }
 
 std::vector<std::string> implausible_speeds(const motion::Clip& clip) {

@@ -20,12 +20,11 @@ std::string short_number(double value);
 /// Quantile of the finite values; 0 without any. Absurd input can give values that are not finite.
 double finite_quantile(std::vector<double> values, double share);
 
-/// Height of the body's lowest point in every frame, m.
-PerFrame<double> lowest_heights(const Character& character, const PerFrame<BodyPoses>& poses);
-
 /// Median over the frames of the speed of the slowest joint, m/s: the joint that supports the body hardly
 /// moves.
 double support_speed(const motion::Clip& clip);
+/// The same of its poses.
+double support_speed(const PerFrame<BodyPoses>& poses, double fps);
 
 /// Height of the floor: a low percentile of the heights of the body's lowest point, m.
 double detect_floor(const motion::Clip& clip);

@@ -63,4 +63,10 @@ double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& p
   return lowest_height(surface_positions(points, poses));
 }
 
+PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses) {
+  PerFrame<double> lowest;
+  for (const BodyPoses& pose : poses) lowest.push_back(lowest_height(points, pose));
+  return lowest;
+}
+
 }  // namespace mimicx::motion

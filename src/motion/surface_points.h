@@ -27,5 +27,7 @@ std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points,
 double lowest_height(const std::vector<Vector3d>& points);
 /// The same for the surface points of a posed character.
 double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
+/// The same of every frame.
+PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses);
 
 }  // namespace mimicx::motion

@@ -11,6 +11,7 @@
 #include "core/number_text.h"
 #include "core/units.h"
 #include "import/plausibility.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::import {
 namespace {
@@ -76,7 +77,7 @@ struct Flight {
 List<Flight> flights_of(const motion::Clip& clip) {
   const Character character = motion::character_of(clip);
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  const PerFrame<double> lowest = lowest_heights(character, poses);
+  const PerFrame<double> lowest = motion::lowest_heights(motion::surface_points(character), poses);
   const double floor = detect_floor(clip);
   PerFrame<double> height;
   for (const BodyPoses& pose : poses) height.push_back(center_of_mass(character, pose).z());

@@ -36,8 +36,7 @@ motion::Clip scaled(const motion::Clip& clip, double metres) {
 }
 
 /// Height of the lowest points over 0, m, along the axis along which the body stands.
-double floor_of(const motion::Clip& clip) {
-  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+double floor_of(const PerFrame<BodyPoses>& poses) {
   Vector3d along = Vector3d::Zero();
   for (const BodyPoses& pose : poses)
     along += pose.p_WB[kNeck] - 0.5 * (pose.p_WB[kLeftAnkle] + pose.p_WB[kRightAnkle]);
@@ -53,31 +52,36 @@ double floor_of(const motion::Clip& clip) {
   return finite_quantile(lowest, 0.05);
 }
 
-double costs_of(const motion::Clip& clip, const TransUnit& unit) {
-  const motion::Clip other = scaled(clip, unit.metres);
-  const double slide = support_speed(other), floor = std::abs(floor_of(other));
-  return unit.rare + log((slide + kStill) / kStill) +
-         std::min(log((floor + kAtZero) / kAtZero), kMostOfFloor) + (floor > kFar ? kOfFar : 0.0);
+/// What speaks against a unit, and the clip's support speed in it, m/s.
+struct UnitCosts {
+  double costs = 0, support_speed = 0;
+};
+UnitCosts costs_of(const motion::Clip& clip, const TransUnit& unit) {
+  const PerFrame<BodyPoses> poses = motion::poses_of(scaled(clip, unit.metres));
+  const double slide = support_speed(poses, clip.fps), floor = std::abs(floor_of(poses));
+  return {unit.rare + log((slide + kStill) / kStill) +
+              std::min(log((floor + kAtZero) / kAtZero), kMostOfFloor) + (floor > kFar ? kOfFar : 0.0),
+          slide};
 }
 
 }  // namespace
 
 TranslationUnit decide_translation_unit(const motion::Clip& clip) {
-  std::array<double, kTransUnits.size()> costs{};
-  for (std::size_t i = 0; i < kTransUnits.size(); ++i) costs[i] = costs_of(clip, kTransUnits[i]);
+  std::array<UnitCosts, kTransUnits.size()> found{};
+  for (std::size_t i = 0; i < kTransUnits.size(); ++i) found[i] = costs_of(clip, kTransUnits[i]);
   std::size_t best = 0;
   for (std::size_t i = 1; i < kTransUnits.size(); ++i)
-    if (costs[i] < costs[best]) best = i;
+    if (found[i].costs < found[best].costs) best = i;
   TranslationUnit out;
-  const bool other = costs[best] + kMostLead < costs[0];
+  const bool other = found[best].costs + kMostLead < found[0].costs;
   const std::size_t chosen = other ? best : 0;
   out.name = kTransUnits[chosen].name;
   out.metres = kTransUnits[chosen].metres;
-  out.support_speed = support_speed(scaled(clip, out.metres));
+  out.support_speed = found[chosen].support_speed;
   std::size_t next = chosen == 0 ? 1 : 0;
   for (std::size_t i = 0; i < kTransUnits.size(); ++i)
-    if (i != chosen && costs[i] < costs[next]) next = i;
-  if (costs[next] < costs[chosen] + 0.5) {
+    if (i != chosen && found[i].costs < found[next].costs) next = i;
+  if (found[next].costs < found[chosen].costs + 0.5) {
     out.near = kTransUnits[next].name;
     out.near_metres = kTransUnits[next].metres;
   }

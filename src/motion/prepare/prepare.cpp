@@ -96,10 +96,8 @@ void turn_back_into_ranges(bool ground, Reference& reference) {
   if (turn_into_ranges(reference).frames == 0) return;
   forward(reference);
   if (!ground) return;
-  const std::vector<SurfacePoint> points = surface_points(reference.character);
-  PerFrame<double> lowest;
-  for (const BodyPoses& pose : reference.poses) lowest.push_back(lowest_height(points, pose));
-  const PerFrame<double> lift = lift_over_floor(lowest);
+  const PerFrame<double> lift =
+      lift_over_floor(lowest_heights(surface_points(reference.character), reference.poses));
   for (int t = 0; t < reference.size(); ++t) reference.frames[t].p_root.z() += lift[t];
   forward(reference);
 }
@@ -130,12 +128,11 @@ void lead_around(bool sees, Reference& reference, PreparationReport& report) {
 /// @param known  the floor is known to be z = 0: no constant shift
 void align_with_floor(bool bend, bool plant, bool known, Reference& reference, PreparationReport& report) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
-  const std::vector<SurfacePoint> lifted(points.begin() + (plant ? kFootPoints : 0), points.end());
+  const std::vector<SurfacePoint> others(points.begin() + kFootPoints, points.end());
   PerFrame<double> moved(reference.frames.size(), 0.0);
   const auto align = [&](const PerFrame<double>& lowest) {
-    PerFrame<double> others;
-    for (const BodyPoses& pose : reference.poses) others.push_back(lowest_height(lifted, pose));
-    const FloorCorrection floor = floor_correction(lowest, plant ? others : lowest, reference.fps, known);
+    const FloorCorrection floor = floor_correction(
+        lowest, plant ? lowest_heights(others, reference.poses) : lowest, reference.fps, known);
     report.floor_shift_mm += kMm * floor.shift;
     for (int t = 0; t < reference.size(); ++t) {
       reference.frames[t].p_root.z() += floor.height[t];
@@ -148,9 +145,7 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
     bend_toes(reference);
     forward(reference);
   }
-  PerFrame<double> lowest;
-  for (const BodyPoses& pose : reference.poses) lowest.push_back(lowest_height(points, pose));
-  align(lowest);
+  align(lowest_heights(points, reference.poses));
   for (double height : moved)
     report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(height));
 }
