@@ -20,9 +20,6 @@ struct ReferenceFrame {
   PerBody<Vector3d> omega;  ///< [0] root; joints relative to the parent; in the body's own frame, rad/s
 };
 
-/// Which points of the soles stand in a frame (character.h).
-using Stance = Array<bool, kFootPoints>;
-
 struct Reference {
   std::string name;
   double fps = 30.0;
@@ -30,7 +27,6 @@ struct Reference {
   PerFrame<ReferenceFrame> frames;
   PerFrame<BodyPoses> poses;           ///< forward kinematics of every frame
   PerFrame<bool> flagged;              ///< frames that were implausible and are interpolated
-  PerFrame<Stance> stance;             ///< prepare/stance.h
   std::optional<Keypoints> keypoints;  ///< at the reference's frames
 
   int size() const { return frames.count(); }

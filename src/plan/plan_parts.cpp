@@ -32,7 +32,6 @@ motion::Reference stretch_of(const motion::Reference& all, int first, int count)
   some.frames = cut(all.frames, first, count);
   some.poses = cut(all.poses, first, count);
   some.flagged = cut(all.flagged, first, count);
-  some.stance = cut(all.stance, first, count);
   return some;
 }
 

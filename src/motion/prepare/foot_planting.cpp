@@ -19,7 +19,7 @@ constexpr double kSigmaDepth = 0.0005;                      ///< m, of a point b
 constexpr double kClearance = 0.02, kClearanceSpeed = 0.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
-constexpr double kSigmaPlace = 0.02, kSigmaHeightOfPelvis = 0.1;  ///< m, of the pelvis
+constexpr double kSigmaPlace = 0.02;           ///< m, of the pelvis
 constexpr double kSigmaPlaceBend = 0.00025;    ///< m, second difference at 30 frames per second
 constexpr double kSigmaLegTurn = 0.15;         ///< rad, of a joint
 constexpr double kSigmaTurnBend = 0.01;        ///< rad, second difference at 30 frames per second
@@ -192,7 +192,7 @@ void add_ranges(const Character& character, const ReferenceFrame& corrected, int
 
 /// Heights that the points of the soles keep at least, m: 0 of standing points; a swinging one keeps a
 /// clearance in proportion to its speed over the floor, up to kClearance.
-PerFrame<Array<double, kFootPoints>> clearances(const Reference& reference) {
+PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, const Reference& reference) {
   const int frames = reference.size();
   PerFrame<SolePositions> p;
   for (const BodyPoses& frame : reference.poses) p.push_back(sole_positions(reference.character, frame));
@@ -203,12 +203,13 @@ PerFrame<Array<double, kFootPoints>> clearances(const Reference& reference) {
       double path = 0.0;
       for (int i = first; i < last; ++i) path += (p[i + 1][k] - p[i][k]).head<2>().norm();
       const double speed = path * reference.fps / std::max(last - first, 1);
-      out[t][k] = reference.stance[t][k] ? 0.0 : kClearance * std::min(1.0, speed / kClearanceSpeed);
+      out[t][k] = stance[t][k] ? 0.0 : kClearance * std::min(1.0, speed / kClearanceSpeed);
     }
   return out;
 }
 
-Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Array<double, kFootPoints>>& clearance,
+Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference,
+                        const PerFrame<Array<double, kFootPoints>>& clearance,
                         const PerFrame<Correction>& c) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
@@ -230,13 +231,13 @@ Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Array<double,
         equations.add(t, now.joint_J[k].row(axis),
                       (now.joint[k] - reference.poses[t].p_WB[kKneesAndAnkles[k]])[axis], kSigmaAside);
     for (int k = 0; k < kFootPoints; ++k) {
-      const bool stands = reference.stance[t][k];
+      const bool stands = stance[t][k];
       const Vector3d& p = now.sole[k];
       if (stands || p.z() < 0.0)
         equations.add(t, now.sole_J[k].row(2), p.z(), stands ? kSigmaHeight : kSigmaDepth);
       if (p.z() < clearance[t][k])
         equations.add(t, now.sole_J[k].row(2), p.z() - clearance[t][k], kSigmaClearance);
-      if (t == 0 || !stands || !reference.stance[t - 1][k]) continue;
+      if (t == 0 || !stands || !stance[t - 1][k]) continue;
       for (int axis = 0; axis < 2; ++axis)
         equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
                       kSigmaSlip);
@@ -247,15 +248,14 @@ Eigen::VectorXd step_of(const Reference& reference, const PerFrame<Array<double,
 }
 
 /// Whether every standing point is on the floor and stays where it is.
-bool is_planted(const Reference& reference) {
+bool is_planted(const PerFrame<Stance>& stance, const Reference& reference) {
   SolePositions before;
   for (int t = 0; t < reference.size(); ++t) {
     const SolePositions p = sole_positions(reference.character, reference.poses[t]);
     for (int k = 0; k < kFootPoints; ++k) {
-      if (!reference.stance[t][k]) continue;
+      if (!stance[t][k]) continue;
       if (std::abs(p[k].z()) > kPlantedHeight) return false;
-      if (t > 0 && reference.stance[t - 1][k] && (p[k] - before[k]).head<2>().norm() > kPlantedSlip)
-        return false;
+      if (t > 0 && stance[t - 1][k] && (p[k] - before[k]).head<2>().norm() > kPlantedSlip) return false;
     }
     before = p;
   }
@@ -264,13 +264,13 @@ bool is_planted(const Reference& reference) {
 
 }  // namespace
 
-double plant_feet(Reference& reference) {
-  if (is_planted(reference)) return 0.0;
+double plant_feet(const PerFrame<Stance>& stance, Reference& reference) {
+  if (is_planted(stance, reference)) return 0.0;
   const int frames = reference.size();
-  const auto clearance = clearances(reference);
+  const auto clearance = clearances(stance, reference);
   PerFrame<Correction> c(frames, Correction::Zero());
   for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
-    const Eigen::VectorXd step = step_of(reference, clearance, c);
+    const Eigen::VectorXd step = step_of(stance, reference, clearance, c);
     const double largest = step.cwiseAbs().maxCoeff();
     const double scale = std::min(1.0, kLargestPlantingStep / std::max(largest, kSmallestStep));
     for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);

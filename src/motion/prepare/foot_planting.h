@@ -11,11 +11,12 @@
 /// arms and head.
 #pragma once
 
-#include "motion/reference.h"
+#include "motion/prepare/stance.h"
 
 namespace mimicx::motion {
 
-/// Corrects `frames` and `poses` by the motion's `stance`. @return largest distance that a joint moved, m
-double plant_feet(Reference& reference);
+/// Corrects `frames` and `poses`. @param stance  [frames] (stance.h) @return largest distance that a joint
+/// moved, m
+double plant_feet(const PerFrame<Stance>& stance, Reference& reference);
 
 }  // namespace mimicx::motion

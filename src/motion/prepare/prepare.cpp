@@ -193,8 +193,8 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   }
   if (config.ground)
     align_with_floor(r.foot_level_deg > 0.0 || config.plant, config.plant, clip.on_floor, out, r);
-  out.stance = find_stance(out.character, out.poses, out.fps);
-  if (config.ground && config.plant) r.feet_planted_mm = kMm * plant_feet(out);
+  if (config.ground && config.plant)
+    r.feet_planted_mm = kMm * plant_feet(find_stance(out.character, out.poses, out.fps), out);
   if (config.ranges) turn_back_into_ranges(config.ground, out);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);

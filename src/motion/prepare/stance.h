@@ -16,8 +16,11 @@ namespace mimicx::motion {
 using SolePositions = Array<Vector3d, kFootPoints>;
 SolePositions sole_positions(const Character& character, const BodyPoses& poses);
 
-/// A part begins to stand under 30 mm and 0.25 m/s, and ends over 50 mm or 0.4 m/s; it stands for three
-/// frames or not at all. Both points of a part have the same answer.
+/// Which points of the soles stand in a frame (character.h).
+using Stance = Array<bool, kFootPoints>;
+
+/// A part begins to stand under 25 mm, 0.10 m/s over the floor and 0.04 m/s up or down, and ends over 35 mm,
+/// 0.15 or 0.06 m/s; it stands for three frames or not at all. Both points of a part have the same answer.
 PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
 
 }  // namespace mimicx::motion
