@@ -6,23 +6,9 @@
 namespace mimicx::control {
 namespace {
 
-/// A point that is fixed to a body.
-struct MovingPoint {
-  int body;
-  Vector3d p, v;  ///< world, m, m/s
-};
-
 Vector3d spin(const Data<double>& d, int body) { return body < 0 ? Vector3d::Zero() : to_eigen(d.w[body]); }
 
-/// Derivatives of a point's velocity when the joint of `body` turns about the world axis a: the part of the
-/// velocity that is relative to the parent turns with it, and the parent's rotation moves the point
-/// elsewhere.
-Vector3d by_angle(const Data<double>& d, int body, const MovingPoint& point, const Vector3d& a) {
-  const Vector3d w = spin(d, kParents[body]), arm = point.p - to_eigen(d.p_WB[body]);
-  const Vector3d relative = point.v - to_eigen(d.v[body]) - w.cross(arm);
-  return a.cross(relative) + w.cross(a.cross(arm));
-}
-
+/// A point that is fixed to a body: world, m, m/s.
 template <class T>
 struct PointMotion {
   Vec3<T> p, v;
@@ -32,6 +18,16 @@ PointMotion<T> motion_of(const SolePoint& point, const Data<T>& d) {
   const Vec3<T> p_B{T(point.p_B.x()), T(point.p_B.y()), T(point.p_B.z())};
   const Vec3<T> arm = d.R_WB[point.body] * p_B;
   return {d.p_WB[point.body] + arm, d.v[point.body] + cross(d.w[point.body], arm)};
+}
+
+/// Derivatives of a point's velocity v when the joint of `body` turns about the world axis a: the part of the
+/// velocity that is relative to the parent turns with it, and the parent's rotation moves the point
+/// elsewhere. @param arm  from the joint to the point, m
+Vector3d by_angle(const Data<double>& d, int body, const Vector3d& arm, const Vector3d& v,
+                  const Vector3d& a) {
+  const Vector3d w = spin(d, kParents[body]);
+  const Vector3d relative = v - to_eigen(d.v[body]) - w.cross(arm);
+  return a.cross(relative) + w.cross(a.cross(arm));
 }
 
 /// z + Δ min(0, v_z)
@@ -71,22 +67,22 @@ SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d)
   SoleSlipJacobian J = SoleSlipJacobian::Zero();
   for (int k = 0; k < kFootPoints; ++k) {
     const PointMotion<double> motion = motion_of(system.sole[k], d);
-    const MovingPoint point{system.sole[k].body, to_eigen(motion.p), to_eigen(motion.v)};
-    const double z = height_ahead(point.p.z(), point.v.z()), near = nearness(z);
-    const Eigen::Vector2d by_height = nearness_slope(z) * point.v.head<2>();
+    const Vector3d p = to_eigen(motion.p), v = to_eigen(motion.v);
+    const double z = height_ahead(p.z(), v.z()), near = nearness(z);
+    const Eigen::Vector2d by_height = nearness_slope(z) * v.head<2>();
     const Eigen::Vector2d by_rise =
-        point.v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();
+        v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();
     auto rows = J.middleRows<2>(2 * k);
     rows.col(2) = by_height;
     rows.block<2, 2>(0, kRootVelocity).diagonal().setConstant(near);
     rows.col(kRootVelocity + 2) = by_rise;
-    for (int body = point.body; body >= 0; body = kParents[body]) {
+    for (int body = system.sole[k].body; body >= 0; body = kParents[body]) {
       const Matrix3d R = to_eigen(d.q_WB[body]).toRotationMatrix();
-      const Vector3d arm = point.p - to_eigen(d.p_WB[body]);
+      const Vector3d arm = p - to_eigen(d.p_WB[body]);
       const int first = body == 0 ? kRootRotation : kJointRotation + first_dof(body);
       for (int n = 0; n < (is_hinge(body) ? 1 : 3); ++n) {
         const Vector3d a = is_hinge(body) ? Vector3d(R * hinge_axis(body)) : Vector3d(R.col(n));
-        const Vector3d moved = a.cross(arm), faster = by_angle(d, body, point, a);
+        const Vector3d moved = a.cross(arm), faster = by_angle(d, body, arm, v, a);
         rows.col(first + n) = near * faster.head<2>() + moved.z() * by_height + faster.z() * by_rise;
         rows.col(kPositions + first + n) = near * moved.head<2>() + moved.z() * by_rise;
       }

@@ -36,21 +36,14 @@ struct WalkingScene {
     }
     return all;
   }
-  State<double> moved(int k, double step) const {
-    Tangent<double> delta{};
-    delta[static_cast<std::size_t>(k)] = step;
-    State<double> out = x;
-    retract(out, delta);
-    return out;
-  }
 };
 
 TEST(Cost, GradientMatchesDifferences) {
   const WalkingScene s;
   const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
   for (int k = 0; k < kTangent; ++k) {
-    const double h = 1e-5, plus = state_quadratic(s.system, s.cost, 5, s.moved(k, h)).value,
-                 minus = state_quadratic(s.system, s.cost, 5, s.moved(k, -h)).value;
+    const double h = 1e-5, plus = state_quadratic(s.system, s.cost, 5, moved(s.x, k, h)).value,
+                 minus = state_quadratic(s.system, s.cost, 5, moved(s.x, k, -h)).value;
     EXPECT_NEAR(exact.gradient[k], (plus - minus) / (2 * h), 1e-6 * (1.0 + std::abs(exact.gradient[k]))) << k;
   }
 }
@@ -63,8 +56,8 @@ TEST(Cost, HessianAtTheReferenceMatchesDifferences) {
   const StateQuadratic exact = state_quadratic(s.system, s.cost, 5, s.x);
   const double h = 1e-4;
   for (int k = 0; k < kTangent; ++k) {
-    const Eigen::VectorXd column = (state_quadratic(s.system, s.cost, 5, s.moved(k, h)).gradient -
-                                    state_quadratic(s.system, s.cost, 5, s.moved(k, -h)).gradient) /
+    const Eigen::VectorXd column = (state_quadratic(s.system, s.cost, 5, moved(s.x, k, h)).gradient -
+                                    state_quadratic(s.system, s.cost, 5, moved(s.x, k, -h)).gradient) /
                                    (2 * h);
     for (int i = 0; i < kTangent; ++i) {
       const double expected = exact.hessian(std::max(i, k), std::min(i, k));

@@ -41,4 +41,12 @@ Tangent<T> random_tangent(Random& random, double size) {
   return delta;
 }
 
+/// A state that is moved along coordinate k.
+inline State<double> moved(State<double> x, int k, double step) {
+  Tangent<double> delta{};
+  delta[k] = step;
+  retract(x, delta);
+  return x;
+}
+
 }  // namespace mimicx::control

@@ -44,13 +44,7 @@ TEST(SoleSlip, JacobianMatchesDifferences) {
     update_kinematics(s.system.exact_model, s.x, *d);
     const SoleSlipJacobian J = sole_slip_jacobian(s.system, *d);
     for (int k = 0; k < kTangent; ++k) {
-      State<double> plus = s.x, minus = s.x;
-      Tangent<double> delta{};
-      delta[k] = kStep;
-      retract(plus, delta);
-      delta[k] = -kStep;
-      retract(minus, delta);
-      const auto a = slip_of(s.system, plus), b = slip_of(s.system, minus);
+      const auto a = slip_of(s.system, moved(s.x, k, kStep)), b = slip_of(s.system, moved(s.x, k, -kStep));
       for (int i = 0; i < kFootPoints; ++i) {
         const Vector3d expected = (to_eigen(a[i]) - to_eigen(b[i])) / (2.0 * kStep);
         EXPECT_LT((J.block<2, 1>(2 * i, k) - expected.head<2>()).norm(), 1e-4) << i << ", " << k;
