@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis; joints below it do not change
 constexpr double kStraightWeight = 0.06;           ///< pull to SMPL's own swivel, in units of sin²α
-constexpr double kStraightFrom = 15.0 * kDegree;   ///< the pull fades out …
-constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and is gone: above, the conversion is exact
+constexpr double kStraightFrom = 15.0 * kDegree;   ///< a limb bent by less is straight …
+constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and one bent by more is not: its conversion is exact
 
 struct Limb {
   int upper, hinge, end;
@@ -50,11 +50,11 @@ double smooth_step(double x) {
 /// The swivel between the exact one (the limb is bent) and 0 (it is straight).  docs/method.md, "Hinges", (3)
 /// @param bend, hinged_bend  angle between the bones in the SMPL motion and at the hinge's angle, rad
 double blended_swivel(double exact, double bend, double hinged_bend) {
-  const double pull =
-      kStraightWeight * (1.0 - smooth_step((bend - kStraightFrom) / (kStraightUntil - kStraightFrom)));
+  const double straight = 1.0 - smooth_step((bend - kStraightFrom) / (kStraightUntil - kStraightFrom));
   const double size = sin(bend) * sin(hinged_bend);
   const auto [sine, cosine] = sin_cos(exact);
-  return atan2(size * sine, size * cosine + pull);
+  const double flexing = cosine < 0.0 ? (1.0 - straight) * cosine : cosine;
+  return atan2(size * sine, size * flexing + straight * kStraightWeight);
 }
 
 /// One limb of one frame.  docs/method.md, "Hinges", (2)
