@@ -31,8 +31,8 @@ std::string sentence(const char* format, Values... values) {
 struct Source {
   JointMap map;
   PerBody<bool> turns{};
-  PerFrame<Landmarks> frames;   ///< first in the file's unit and axes, then z up and in metres
-  PerFrame<Landmarks> neutral;  ///< neutral poses for the calibration, in the units of `frames`
+  PerFrame<Landmarks> frames;  ///< first in the file's unit and axes, then z up and in metres
+  NeutralPoses neutral;        ///< in the units of `frames`
   std::string neutral_name;
   bool neutral_stands = true;  ///< it is a stance, not the frames that come nearest to one
 };
@@ -65,7 +65,7 @@ void check_bones(const SkeletonMotion& motion, const Source& source) {
 
 void drop_t_pose(Source& source, motion::Clip& clip) {
   if (!starts_with_t_pose(source.frames)) return;
-  source.neutral = {source.frames[0]};
+  source.neutral.body = {source.frames[0]};
   source.neutral_name = "the T-pose of the first frame";
   source.frames.erase(source.frames.begin());
   clip.decisions.emplace_back("the first frame is a T-pose: removed");
@@ -123,26 +123,39 @@ double find_scale(const SkeletonMotion& motion, const Source& source, const Reta
   return unit.usual_leg / leg;
 }
 
+/// The tenth of the frames with the smallest values: a single frame may belong to a gesture.
+PerFrame<Landmarks> least_tenth(const PerFrame<Landmarks>& frames, const auto& value) {
+  std::vector<std::pair<double, int>> order;
+  for (int t = 0; t < frames.count(); ++t) order.emplace_back(value(frames[t]), t);
+  std::sort(order.begin(), order.end());
+  PerFrame<Landmarks> least;
+  for (std::size_t i = 0; i < (order.size() + 9) / 10; ++i) least.push_back(frames[order[i].second]);
+  return least;
+}
+
 /// The poses in which the body is taken to be neutral, z up.
 void choose_neutral(const SkeletonMotion& motion, Source& source, const Quaterniond& up, double scale,
                     motion::Clip& clip) {
-  for (Landmarks& pose : source.neutral) pose = transformed(pose, up, scale);
+  for (Landmarks& pose : source.neutral.body) pose = transformed(pose, up, scale);
   const Landmarks rest = landmarks_of(rest_pose(motion), source.map);
   constexpr double kAlongAnAxis = 0.7;
   const Vector3d stands =
       (rest.between(kLeftShoulder, kRightShoulder) - rest.between(kLeftAnkle, kRightAnkle)).normalized();
   if (is_stance(rest) && stands.cwiseAbs().maxCoeff() > kAlongAnAxis) {
-    source.neutral = {transformed(rest, rotation_to_z_up(axis_letter(stands)), scale)};
+    source.neutral.body = {transformed(rest, rotation_to_z_up(axis_letter(stands)), scale)};
     source.neutral_name = "the rest pose";
-  } else if (source.neutral.empty()) {
-    // A tenth of the frames, because a single one may belong to a gesture.
-    std::vector<std::pair<double, int>> order;
-    for (int t = 0; t < source.frames.count(); ++t) order.emplace_back(bend_of(source.frames[t]), t);
-    std::sort(order.begin(), order.end());
-    order.resize((order.size() + 9) / 10);
-    for (const auto& [bend, t] : order) source.neutral.push_back(source.frames[t]);
+  } else if (source.neutral.body.empty()) {
+    const auto height = [&](int ankle, int toes) {
+      return [ankle, toes = source.map[toes] >= 0 ? toes : ankle](const Landmarks& pose) {
+        return pose.p[ankle].z() + pose.p[toes].z();
+      };
+    };
+    source.neutral.body = least_tenth(source.frames, bend_of);
+    // A runner's legs are straight in the air. Soles are level where the feet are low.
+    source.neutral.left_foot = least_tenth(source.frames, height(kLeftAnkle, kLeftFoot));
+    source.neutral.right_foot = least_tenth(source.frames, height(kRightAnkle, kRightFoot));
     source.neutral_stands = false;
-    source.neutral_name = sentence("the %zu frames nearest to a straight stance", order.size());
+    source.neutral_name = sentence("the %zu frames nearest to a straight stance", source.neutral.body.size());
   }
   clip.decisions.emplace_back("neutral pose: " + source.neutral_name);
   if (decide_sides(source.frames, source.map[kLeftFoot] >= 0 && source.map[kRightFoot] >= 0).are_exchanged())
@@ -167,11 +180,11 @@ BodyLengths measured_lengths(const Source& source) {
   if (source.turns[kLeftFoot] && source.turns[kRightFoot])
     lengths[kFootLength] = limb(kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot);
   lengths[kHipWidth] = mean(source.frames, kLeftHip, kRightHip);
-  lengths[kShoulderWidth] = mean(source.neutral, kLeftShoulder, kRightShoulder);
-  for (const Landmarks& pose : source.neutral)
+  lengths[kShoulderWidth] = mean(source.neutral.body, kLeftShoulder, kRightShoulder);
+  for (const Landmarks& pose : source.neutral.body)
     lengths[kTrunk] +=
         (pose.between(kLeftShoulder, kRightShoulder) - pose.between(kLeftHip, kRightHip)).norm() /
-        static_cast<double>(source.neutral.size());
+        static_cast<double>(source.neutral.body.size());
   return lengths;
 }
 

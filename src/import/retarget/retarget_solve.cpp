@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/elementary.h"
 
@@ -102,23 +103,31 @@ void solve_trunk(const Character& character, const Vector3d& direction, JointRot
 
 }  // namespace
 
-Calibration calibrate(const Character& character, const PerFrame<Landmarks>& neutral,
-                      const PerBody<bool>& turns, const JointMap& map, const Twists& twists) {
+Calibration calibrate(const Character& character, const NeutralPoses& neutral, const PerBody<bool>& turns,
+                      const JointMap& map, const Twists& twists) {
   Calibration out;
   out.turns = turns;
-  PerBody<Eigen::Vector4d> sum;
-  sum.fill(Eigen::Vector4d::Zero());
-  for (const Landmarks& pose : neutral) {
-    const JointRotations q = neutral_rotations(character, pose, map, twists);
-    for (int b = 0; b < kBodies; ++b) {
-      const Eigen::Vector4d q_JB = (pose.q[b].conjugate() * q[b]).coeffs();
-      sum[b] += sum[b].dot(q_JB) < 0.0 ? Eigen::Vector4d(-q_JB) : q_JB;
+  const auto take_means = [&](const PerFrame<Landmarks>& poses, const std::vector<int>& bodies) {
+    PerBody<Eigen::Vector4d> sum;
+    sum.fill(Eigen::Vector4d::Zero());
+    for (const Landmarks& pose : poses) {
+      const JointRotations q = neutral_rotations(character, pose, map, twists);
+      for (const int b : bodies) {
+        const Eigen::Vector4d q_JB = (pose.q[b].conjugate() * q[b]).coeffs();
+        sum[b] += sum[b].dot(q_JB) < 0.0 ? Eigen::Vector4d(-q_JB) : q_JB;
+      }
     }
+    for (const int b : bodies) out.q_JB[b] = Quaterniond(sum[b]).normalized();
+  };
+  std::vector<int> all(kBodies);
+  std::iota(all.begin(), all.end(), 0);
+  take_means(neutral.body, all);
+  if (!neutral.left_foot.empty()) take_means(neutral.left_foot, {kLeftAnkle, kLeftFoot});
+  if (!neutral.right_foot.empty()) take_means(neutral.right_foot, {kRightAnkle, kRightFoot});
+  for (const Landmarks& pose : neutral.body)
     out.p_JS += pose.q[kSpine3].conjugate() *
                 (pose.between(kLeftShoulder, kRightShoulder) - pose.p[kSpine3]) /
-                static_cast<double>(neutral.size());
-  }
-  for (int b = 0; b < kBodies; ++b) out.q_JB[b] = Quaterniond(sum[b]).normalized();
+                static_cast<double>(neutral.body.size());
   return out;
 }
 

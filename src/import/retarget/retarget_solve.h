@@ -35,14 +35,19 @@ struct Calibration {
 /// planes in which they bend. Index: kLeftHip, kRightHip, kLeftShoulder, kRightShoulder; others 0.
 using Twists = PerBody<double>;
 
+/// Poses for the calibration, z up, m.
+struct NeutralPoses {
+  PerFrame<Landmarks> body;
+  PerFrame<Landmarks> left_foot, right_foot;  ///< the sole of this foot is level; empty: those of `body`
+};
+
 /// The rotation of each body in the frame of its joint, as a mean over neutral poses. In a neutral pose a
 /// body is assumed to be turned from the T-pose by the smallest rotation that gives its bone's direction, and
 /// soles are assumed to be level.
-/// @param neutral  neutral poses, z up, m
 /// @param turns    bodies whose joint has rotations
 /// @param twists   of thighs and upper arms, in addition to the smallest rotation
-Calibration calibrate(const Character& character, const PerFrame<Landmarks>& neutral,
-                      const PerBody<bool>& turns, const JointMap& map, const Twists& twists = {});
+Calibration calibrate(const Character& character, const NeutralPoses& neutral, const PerBody<bool>& turns,
+                      const JointMap& map, const Twists& twists = {});
 
 /// The twists, within ±90°, for which the hinges of knees and elbows fit the motion of the lower bones best.
 /// Limbs that hardly bend get twists near 0. Resolution: a tenth of a degree.

@@ -219,6 +219,29 @@ TEST(Retarget, StandsOnTheFloor) {
   }
 }
 
+/// A runner's legs are straight in the air only, where the feet point down.
+TEST(Retarget, FeetAreCalibratedWhereTheyAreLow) {
+  constexpr double kCrouch = 0.9, kPointed = 1.4;  // rad
+  motion::Clip original;
+  original.fps = 30.0;
+  for (int t = 0; t < 60; ++t) {
+    const bool flies = t < 20;
+    auto& rotations = original.rotations.emplace_back();
+    rotations.fill(Vector3d::Zero());
+    rotations[0] = log_map(rotation_to_z_up('y'));
+    for (const int hip : {kLeftHip, kRightHip}) rotations[hip].x() = flies ? 0.0 : -0.5 * kCrouch;
+    for (const int knee : {kLeftKnee, kRightKnee}) rotations[knee].x() = flies ? 0.0 : kCrouch;
+    for (const int ankle : {kLeftAnkle, kRightAnkle})
+      rotations[ankle].x() = flies ? kPointed : -0.5 * kCrouch;
+    original.trans.emplace_back(0.02 * t, 0.0, flies ? 1.2 : 0.85);
+  }
+  const motion::Clip clip = retarget(test::disguised(original, along_x()));
+  const auto poses = motion::poses_of(clip), truth = motion::poses_of(original);
+  for (std::size_t t = 0; t < poses.size(); ++t)
+    for (const int body : {kLeftAnkle, kRightAnkle, kLeftFoot, kRightFoot})
+      EXPECT_LT(poses[t].q_WB[body].angularDistance(truth[t].q_WB[body]), 0.15) << t;
+}
+
 TEST(Retarget, DropsALeadingTPoseFrame) {
   const motion::Clip original = synthetic("walk");
   for (const test::Disguise& disguise : {t_pose(), along_x()}) {
