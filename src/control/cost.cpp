@@ -94,6 +94,7 @@ BodyPoses poses_of(const System& system, const State<double>& x) {
 
 CostWeights::CostWeights() {
   body_rotation.fill(1.0);
+  body_rotation[kLeftFoot] = body_rotation[kRightFoot] = 6.0;
   for (std::size_t i = 0; i < kBodies; ++i) body_position[i] = is_foot(i) ? 2.0 : 1.0;
 }
 
