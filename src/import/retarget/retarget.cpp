@@ -311,6 +311,7 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   if (has_other_legs(character, lengths[kThigh], lengths[kShank]))
     keep_contacts(character, source.frames, report.leg_ratio, clip);
   report.lift = put_on_floor(clip);
+  bend_hands(clip);
   report.neutral = source.neutral_name;
   measure(clip, source, report.lift, report);
   clip.decisions.push_back(sentence(

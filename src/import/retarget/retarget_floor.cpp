@@ -35,6 +35,32 @@ std::optional<Vector3d> standing_up(const PerFrame<BodyPoses>& poses, int ankle,
   return up.normalized();
 }
 
+bool never_turns(const motion::Clip& clip, int body) {
+  constexpr double kNever = 0.5 * kDegree;
+  return std::all_of(clip.rotations.begin(), clip.rotations.end(), [&](const auto& frame) {
+    return (frame[body] - clip.rotations[0][body]).norm() < kNever;
+  });
+}
+
+/// The smallest bend of a hand about the axis of its extension that keeps its points above the floor.
+/// @param points  of the hand, in its frame
+double least_bend(const std::vector<Vector3d>& points, const Vector3d& wrist, const Quaterniond& hand,
+                  const Vector3d& axis) {
+  constexpr double kMost = 90.0 * kDegree;
+  constexpr int kSteps = 90;
+  const auto lowest = [&](double angle) {
+    const Quaterniond bent = hand * exp_map(angle * axis);
+    double z = wrist.z();
+    for (const Vector3d& p : points) z = std::min(z, (wrist + bent * p).z());
+    return z;
+  };
+  double best = 0.0, highest = lowest(0.0);
+  for (int step = 1; step <= kSteps && highest < 0.0; ++step)
+    for (const double angle : {step * kMost / kSteps, -step * kMost / kSteps})
+      if (const double z = lowest(angle); highest < 0.0 && z > highest) best = angle, highest = z;
+  return best;
+}
+
 Vector3d mirrored(const Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -93,6 +119,31 @@ double put_on_floor(motion::Clip& clip) {
   std::snprintf(text, sizeof text, "floor: moved %.3f m %s", std::abs(lift), lift < 0.0 ? "down" : "up");
   clip.decisions.emplace_back(text);
   return lift;
+}
+
+void bend_hands(motion::Clip& clip) {
+  const auto surface = motion::surface_points(make_character(clip.usable_betas()));
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+  double most = 0.0;
+  for (const int wrist : {kLeftWrist, kRightWrist}) {
+    if (!never_turns(clip, wrist)) continue;
+    std::vector<Vector3d> hand;
+    for (const motion::SurfacePoint& point : surface)
+      if (point.body == wrist) hand.push_back(point.p_B);
+    // The back of the hand is +y in the T-pose: extension is positive about +z on the left.
+    const Vector3d axis = (is_right(wrist) ? -1.0 : 1.0) * Vector3d::UnitZ();
+    for (int t = 0; t < poses.count(); ++t) {
+      const double bend = least_bend(hand, poses[t].p_WB[wrist], poses[t].q_WB[wrist], axis);
+      Vector3d& rotation = clip.rotations[t][wrist];
+      if (bend != 0.0) rotation = log_map(exp_map(rotation) * exp_map(bend * axis));
+      most = std::max(most, std::abs(bend));
+    }
+  }
+  if (most == 0.0) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "hands bent by up to %.0f degrees, so that they lie on the floor",
+                most / kDegree);
+  clip.decisions.emplace_back(text);
 }
 
 }  // namespace mimicx::import

@@ -20,4 +20,9 @@ void level_soles(bool neutral_stands, Calibration& calibration, motion::Clip& cl
 /// @return height added, m
 double put_on_floor(motion::Clip& clip);
 
+/// Hands that never turn against their forearms were not recorded; they lie in the forearm's line and pierce
+/// the floor where a person pushes with the palms. Bends each such hand at the wrist, by at most 90°, until
+/// it lies on the floor z = 0. `clip` gets a decision.
+void bend_hands(motion::Clip& clip);
+
 }  // namespace mimicx::import
