@@ -13,10 +13,10 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kSigmaHeight = 0.0005;                     ///< m, of a standing point
-constexpr double kSigmaSlip = 0.0003;                       ///< m per frame, of a standing point
+constexpr double kSigmaHeight = 0.001;                      ///< m, of a standing point
+constexpr double kSigmaSlip = 0.0006;                       ///< m per frame, of a standing point
 constexpr double kSigmaDepth = 0.0005;                      ///< m, of a point below the floor
-constexpr double kClearance = 0.02, kClearanceSpeed = 0.5;  ///< m of a swinging point, at m/s and above
+constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
 constexpr double kSigmaPlace = 0.02;           ///< m, of the pelvis
