@@ -21,8 +21,7 @@ std::string read_text(const std::filesystem::path& path);
 std::string printable(std::string_view word, std::size_t most = 40);
 
 /// A name as valid UTF-8, whole and distinct from every other: each control character and invalid byte
-/// becomes its hexadecimal number, "\\x83". Names in another encoding (Shift-JIS, GBK) can so be compared
-/// with names of a file in the same encoding.
+/// becomes its hexadecimal number, "\\x83". Names in another encoding (Shift-JIS, GBK) can so be compared.
 std::string escaped_name(std::string_view name);
 
 /// Whether two words are equal but for upper and lower case (ASCII).

@@ -9,6 +9,7 @@
 #include "core/elementary.h"
 #include "core/quantile.h"
 #include "core/units.h"
+#include "import/evidence/cadence.h"
 #include "import/evidence/falls.h"
 
 namespace mimicx::import {
@@ -45,6 +46,7 @@ constexpr double kOrdinary = 3.0;   ///< log-likelihood by which an ordinary bod
 constexpr double kFits = 3.0;       ///< spreads
 constexpr double kShortestLeg = 0.28, kLongestLeg = 1.3;  ///< m, of people
 constexpr double kFallSpread = 0.2;                       ///< of the logarithm of the leg that a fall gives
+constexpr double kWalkSpread = 0.26;                      ///< the same, of a walk
 
 /// The usual logarithm of a leg of a body of these proportions, and its spread.
 std::pair<double, double> usual_leg(double trunk_to_leg) {
@@ -65,6 +67,7 @@ UnitEvidence unit_evidence(const PerFrame<Landmarks>& poses, const Vector3d& up,
   evidence.trunk = median(trunks);
   if (const std::vector<double> falls = falls_along(poses, up); !falls.empty())
     evidence.fall_leg = kGravity / (median(falls) * fps * fps);
+  evidence.walk_leg = walking_leg(poses, up, fps);
   evidence.names = std::move(names);
   return evidence;
 }
@@ -79,6 +82,10 @@ UnitDecision decide_unit(const UnitEvidence& evidence) {
       const double fall = (leg - log(*evidence.fall_leg)) / kFallSpread;
       sum += std::max(-0.5 * fall * fall, -kOrdinary);  // the frame rate may be wrong
     }
+    if (evidence.walk_leg) {
+      const double fast = std::max(0.0, (leg - log(*evidence.walk_leg)) / kWalkSpread);
+      sum += std::max(-0.5 * fast * fast, -kOrdinary);
+    }
     for (const Signature& signature : kSignatures)
       if (signature.unit == std::string_view(unit.name) &&
           std::any_of(evidence.names.begin(), evidence.names.end(), [&](const std::string& name) {
@@ -91,17 +98,24 @@ UnitDecision decide_unit(const UnitEvidence& evidence) {
   for (const Unit& unit : kUnits) order.emplace_back(likelihood(unit), &unit);
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  const Unit &best = *order[0].second, &second = *order[1].second;
+  const auto fits = [&](const Unit& unit) {
+    const double leg = unit.metres * evidence.leg;
+    return leg > kShortestLeg && leg < kLongestLeg;
+  };
+  const Unit& best = *order[0].second;
   UnitDecision out;
   out.name = best.name;
   out.metres = best.metres;
   out.usual_leg = exp(usual);
-  const double leg = best.metres * evidence.leg;
-  out.fits = leg > kShortestLeg && leg < kLongestLeg;
-  out.usual = std::abs(log(leg) - usual) < kFits * spread;
-  out.second = second.name;
-  out.second_metres = second.metres;
-  out.lead = order[0].first - order[1].first;
+  out.fits = fits(best);
+  out.usual = std::abs(log(best.metres * evidence.leg) - usual) < kFits * spread;
+  const auto second =
+      std::find_if(order.begin() + 1, order.end(), [&](const auto& other) { return fits(*other.second); });
+  if (second != order.end()) {
+    out.second = second->second->name;
+    out.second_metres = second->second->metres;
+    out.lead = order[0].first - second->first;
+  }
   return out;
 }
 

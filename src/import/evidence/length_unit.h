@@ -2,8 +2,8 @@
 ///
 /// Each unit in use gets a sum of log-likelihoods (natural logarithms, by rough estimates): how common the
 /// unit is, how usual the length of the legs would be for the body's proportions (children have long trunks
-/// for their legs), how fast the body falls, and names of joints by which an exporter is known. How often it
-/// is right: docs/formats.md, "What reading decides".
+/// for their legs), how fast the body falls, whether it steps faster than such legs walk, and names of joints
+/// by which an exporter is known. How often it is right: docs/formats.md, "What reading decides".
 #pragma once
 
 #include <optional>
@@ -19,6 +19,7 @@ struct UnitEvidence {
   double leg = 0.0;                ///< hip to knee to ankle, file units, > 0
   double trunk = 0.0;              ///< middle of the hips to middle of the shoulders, file units
   std::optional<double> fall_leg;  ///< length of the leg with which the body falls with g, m
+  std::optional<double> walk_leg;  ///< length of the leg that walks with these steps, m
   std::vector<std::string> names;  ///< of the joints
 };
 /// @param up  unit vector in the file @param fps  of the file
@@ -31,11 +32,11 @@ struct UnitDecision {
   bool fits = false;    ///< people have legs of that length; else no unit in use fits
   bool usual = false;   ///< legs of that length are usual for the proportions
   double usual_leg;     ///< m, what legs of a body of these proportions measure
-  std::string second;   ///< the unit that is likely next
+  std::string second;   ///< the unit that is likely next among those that fit; empty: none
   double second_metres = 1.0;
-  double lead = 0.0;  ///< of the logarithms
+  double lead = 0.0;  ///< of the logarithms, over the second
 
-  bool is_near() const { return lead < 1.5; }
+  bool is_near() const { return !second.empty() && lead < 2.5; }
 };
 UnitDecision decide_unit(const UnitEvidence& evidence);
 

@@ -5,7 +5,7 @@
 namespace mimicx::import {
 namespace {
 
-constexpr double kBent = 0.9;  ///< cosine between thigh and shank: 26°
+constexpr double kBentCosine = 0.9;  ///< cosine between thigh and shank: 26°
 
 }  // namespace
 
@@ -19,7 +19,7 @@ SidesDecision decide_sides(const PerFrame<Landmarks>& poses, bool has_toes) {
       const Vector3d forward = pose.forward();
       if (has_toes)
         out.toes += pose.direction(ankle, toes).dot(forward) / (2.0 * static_cast<double>(poses.size()));
-      if (pose.direction(hip, knee).dot(pose.direction(knee, ankle)) > kBent) continue;
+      if (pose.direction(hip, knee).dot(pose.direction(knee, ankle)) > kBentCosine) continue;
       ++bent;
       const Vector3d middle = 0.5 * (pose.p[hip] + pose.p[ankle]);
       out.knees += (pose.p[knee] - middle).dot(forward) > 0.0 ? 1.0 : -1.0;

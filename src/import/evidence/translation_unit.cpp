@@ -7,7 +7,10 @@
 
 #include "core/elementary.h"
 #include "core/quantile.h"
+#include "import/evidence/up_axis.h"
+#include "import/landmarks.h"
 #include "import/plausibility.h"
+#include "import/world_transform.h"
 
 namespace mimicx::import {
 namespace {
@@ -35,18 +38,14 @@ motion::Clip scaled(const motion::Clip& clip, double metres) {
   return out;
 }
 
-/// Height of the lowest points over 0, m, along the axis along which the body stands.
+/// Height of the lowest points over 0, m, along the axis that is then likeliest to be up.
 double floor_of(const PerFrame<BodyPoses>& poses) {
-  Vector3d along = Vector3d::Zero();
-  for (const BodyPoses& pose : poses)
-    along += pose.p_WB[kNeck] - 0.5 * (pose.p_WB[kLeftAnkle] + pose.p_WB[kRightAnkle]);
-  int axis = 0;
-  along.cwiseAbs().maxCoeff(&axis);
-  const double sign = along[axis] < 0.0 ? -1.0 : 1.0;
+  const char axis = decide_up(landmarks_of(poses), std::nullopt, 'z').axis;
+  const Vector3d up = rotation_to_z_up(axis).conjugate() * Vector3d::UnitZ();
   std::vector<double> lowest;
   for (const BodyPoses& pose : poses) {
-    double low = sign * pose.p_WB[0][axis];
-    for (const Vector3d& p : pose.p_WB) low = std::min(low, sign * p[axis]);
+    double low = pose.p_WB[0].dot(up);
+    for (const Vector3d& p : pose.p_WB) low = std::min(low, p.dot(up));
     lowest.push_back(low);
   }
   return finite_quantile(lowest, 0.05);

@@ -1,5 +1,7 @@
 #include "import/retarget/joint_names.h"
 
+#include <iconv.h>
+
 #include <algorithm>
 #include <cctype>
 #include <optional>
@@ -266,11 +268,35 @@ void check(const SkeletonMotion& motion, const JointMap& map) {
   }
 }
 
+/// A UTF-8 name in another encoding, as a joint of a file in this encoding is called here; empty: the name
+/// cannot be written in it.
+std::string encoded_name(std::string name, const char* encoding) {
+  const iconv_t converter = iconv_open(encoding, "UTF-8");
+  if (converter == reinterpret_cast<iconv_t>(-1)) return {};
+  std::string out(2 * name.size(), '\0');
+  char *from = name.data(), *to = out.data();
+  std::size_t bytes = name.size(), room = out.size();
+  const bool exact = iconv(converter, &from, &bytes, &to, &room) == 0;
+  iconv_close(converter);
+  out.resize(out.size() - room);
+  return exact ? escaped_name(out) : "";
+}
+
+/// The ways in which a file may spell a name.
+std::vector<std::string> spellings(const std::string& name) {
+  std::vector<std::string> out = {name};
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c >= 0x80; }))
+    for (const char* encoding : {"CP932", "GBK"})  // CP932: Shift-JIS
+      if (const std::string other = encoded_name(name, encoding); !other.empty()) out.push_back(other);
+  return out;
+}
+
 /// The first joint of the skeleton that the user names for a body.
 void apply_user_map(const NamedJoints& names, const SkeletonMotion& motion, JointMap& map) {
   for (const auto& [body, joint] : names)
-    for (std::size_t j = 0; j < motion.joints.size() && map[body] < 0; ++j)
-      if (motion.joints[j].name == joint) map[body] = static_cast<int>(j);
+    for (const std::string& spelling : spellings(joint))
+      for (std::size_t j = 0; j < motion.joints.size() && map[body] < 0; ++j)
+        if (motion.joints[j].name == spelling) map[body] = static_cast<int>(j);
 }
 
 }  // namespace
@@ -278,7 +304,8 @@ void apply_user_map(const NamedJoints& names, const SkeletonMotion& motion, Join
 NamedJoints parse_joint_map(const std::string& text, const std::filesystem::path& path) {
   NamedJoints names;
   std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size(); ++number) {
+  const std::size_t first = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // behind a byte order mark
+  for (std::size_t begin = first; begin < text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string line = text.substr(begin, end - begin);
     begin = end + 1;

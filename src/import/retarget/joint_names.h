@@ -10,7 +10,7 @@
 ///
 /// A user's file adds names: lines `body = joint name`, with the body names of `kBodyNames`; '#' starts a
 /// comment. Several lines for one body are tried in order, before the built-in words; names that a skeleton
-/// does not have are ignored.
+/// does not have are ignored. A name in UTF-8 is that of a joint in Shift-JIS or GBK, too.
 ///
 /// Where names leave a needed body without a joint, or give it an impossible one, the skeleton's shape tells
 /// (skeleton_shape.h).

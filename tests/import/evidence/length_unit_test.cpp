@@ -7,7 +7,7 @@ namespace {
 
 UnitDecision decide(double leg, double trunk_to_leg = 0.64, std::optional<double> fall_leg = {},
                     std::vector<std::string> names = {}) {
-  return decide_unit({leg, trunk_to_leg * leg, fall_leg, std::move(names)});
+  return decide_unit({leg, trunk_to_leg * leg, fall_leg, {}, std::move(names)});
 }
 
 TEST(LengthUnit, AdultsTellTheirUnitByTheirLegs) {
@@ -36,6 +36,26 @@ TEST(LengthUnit, ASmallAdultIsNotMadeAGiantOfInches) {
   EXPECT_EQ(small.name, "centimetres");
   EXPECT_TRUE(small.fits);
   EXPECT_FALSE(small.usual);
+}
+
+TEST(LengthUnit, ASmallPersonInAnotherUnitIsNamed) {
+  const UnitDecision found = decide(9.754);
+  EXPECT_EQ(found.name, "decimetres");
+  EXPECT_EQ(found.second, "inches / 0.45");
+  EXPECT_TRUE(found.is_near()) << found.lead;
+}
+
+TEST(LengthUnit, QuickStepsTellShortLegs) {
+  // A child with legs of 0.41 m takes 2.5 steps a second; an adult would not with legs of 0.90 m.
+  const UnitEvidence child{16.0, 0.68 * 16.0, {}, 0.41, {}};
+  EXPECT_EQ(decide_unit(child).name, "inches");
+  UnitEvidence still = child;
+  still.walk_leg.reset();
+  EXPECT_EQ(decide_unit(still).name, "inches / 0.45");
+  // Slow steps tell nothing: anybody may walk slowly.
+  UnitEvidence slow = child;
+  slow.walk_leg = 3.0;
+  EXPECT_EQ(decide_unit(slow).lead, decide_unit(still).lead);
 }
 
 TEST(LengthUnit, NoUnitFitsLegsOfThreeAndAHalfUnits) {

@@ -32,6 +32,19 @@ TEST(TranslationUnit, AWalkTellsItsUnit) {
   }
 }
 
+TEST(TranslationUnit, ACrawlTellsItsUnitWhereverTheOriginIs) {
+  // The floor is at 0; a wall from which the trunk points away is no floor.
+  motion::Clip crawl = made("crawl", 0.1);
+  constexpr int kFirst = 138, kLast = 361;  // on hands and knees
+  crawl.trans.assign(crawl.trans.begin() + kFirst, crawl.trans.begin() + kLast);
+  crawl.rotations.assign(crawl.rotations.begin() + kFirst, crawl.rotations.begin() + kLast);
+  for (const double metres : {-1.0, 0.0, 1.0}) {
+    motion::Clip moved = crawl;
+    for (Vector3d& trans : moved.trans) trans.x() += metres / 0.1;
+    EXPECT_EQ(decide_translation_unit(moved).name, "decimetres") << metres;
+  }
+}
+
 TEST(TranslationUnit, ASkaterKeepsTheWay) {
   // Upright without a step, at 5 m/s: in millimetres the feet would rest, but the floor would be at −0.9 m.
   motion::Clip clip = test::standing_clip(90, test::standing_height());

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "import/retarget/skeletons.h"
+#include "import/text_input.h"
 
 namespace mimicx::import {
 namespace {
@@ -222,6 +223,18 @@ TEST(JointNames, UserMapNamesJoints) {
   const JointMap map = map_joints(motion, path);
   EXPECT_EQ(map[kLeftKnee], joint[kLeftKnee]);
   EXPECT_EQ(map[kHead], joint[kHead]);
+}
+
+TEST(JointNames, AMapInUtf8NamesJointsInShiftJisAndGbk) {
+  PerBody<int> joint;
+  Names names = test::mixamo_names();
+  names[kLeftKnee] = escaped_name("\x8d\xb6\x82\xd0\x82\xb4");  // 左ひざ in Shift-JIS
+  names[kHead] = escaped_name("\xcd\xb7");                      // 头 in GBK
+  const SkeletonMotion motion = skeleton(names, joint);
+  const JointMap map = map_joints(motion, write_map("\xef\xbb\xbfleft_knee = 左ひざ\nhead = 头\n"));
+  EXPECT_EQ(map[kLeftKnee], joint[kLeftKnee]);
+  EXPECT_EQ(map[kHead], joint[kHead]);
+  EXPECT_EQ(map_joints(motion, write_map("left_knee = 左ひざ\nhead = 首\n"))[kHead], -1);
 }
 
 TEST(JointNames, ReportsErrorsOfAJointMapWithTheirLine) {
