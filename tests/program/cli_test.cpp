@@ -33,6 +33,16 @@ TEST_F(Cli, VersionNamesTheInstructionSetAndTheArithmetic) {
       << call.text;
 }
 
+TEST_F(Cli, VersionAndManifestNameTheCommit) {
+  const Call git =
+      shell("cd '" MIMICX_SOURCE_DIR "' && git describe --always --abbrev=12 --exclude='*' 2>&1");
+  std::string commit = git.status == 0 ? git.text.substr(0, 12) : "unknown";
+  EXPECT_TRUE(says(mimicx("--version"), std::string(MIMICX_VERSION) + " (" + commit)) << commit;
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  EXPECT_EQ(mimicx("plan " + path("a.npz") + " --out " + path("out") + " --no-fit").status, 0);
+  EXPECT_TRUE(read_file(path("out/manifest.json")).find("\"commit\": \"" + commit) != std::string::npos);
+}
+
 TEST_F(Cli, WrongUsageIsStatusTwo) {
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   const std::string a = path("a.npz"), out = " --out " + path("out");
