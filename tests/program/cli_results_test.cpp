@@ -35,7 +35,7 @@ TEST_F(CliResults, EveryCommandPrintsThemAsJson) {
                 .get<int>(),
             64);
   EXPECT_TRUE(said("cluster " + a + " " + b + " --out " + path("c.json") + " --json -").contains("clusters"));
-  const Json run = said("plan " + a + " --no-fit --out " + path("run") + " --json -");
+  Json run = said("plan " + a + " --no-fit --out " + path("run") + " --json -");
   EXPECT_EQ(run["runs"].elements().size(), 1U);
   EXPECT_EQ(run["runs"].elements()[0].at("sequences").elements()[0].at("status").get<std::string>(), "ok");
   EXPECT_EQ(run["runs"].elements()[0].at("folder").get<std::string>(), path("run"));
@@ -60,9 +60,9 @@ TEST_F(CliResults, EvaluateFailsAboveALimit) {
   const Call above = mimicx(evaluate + " --fail-above MPJPE=-1");
   EXPECT_EQ(above.status, 1);
   EXPECT_TRUE(says(above, "MPJPE is 0, above -1")) << above.text;
-  const Call missing = mimicx(evaluate + " --fail-above slip=1");  // the poses have no forces
+  const Call missing = mimicx(evaluate + " --fail-above chatter=1");  // the poses have no forces
   EXPECT_EQ(missing.status, 1);
-  EXPECT_TRUE(says(missing, "slip has no value")) << missing.text;
+  EXPECT_TRUE(says(missing, "chatter has no value")) << missing.text;
   EXPECT_EQ(mimicx(evaluate + " " + b + " --fail-above MPJPE=1").status, 1);  // b has no truth of its name
   for (const char* wrong : {"MPJPE", "MPJPE=", "beauty=1", "=1"}) {
     const Call call = mimicx(evaluate + " --fail-above " + wrong);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/build.h"
+#include "core/file.h"
 #include "core/npz/npz.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"
