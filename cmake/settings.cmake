@@ -41,6 +41,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   endif()
 endif()
 
+# The shared library holds the rooms, and shows nothing of them (docs/library.md). Hidden functions are inlined as without
+# -fPIC.
+if(NOT MIMICX_BARE AND NOT EMSCRIPTEN)
+  list(APPEND MIMICX_OWN_OPTIONS -fPIC -fvisibility=hidden)
+endif()
+
 if(MIMICX_FUZZ)
   # The libraries, too: what libFuzzer does not see covered it cannot look for.
   set(MIMICX_FUZZ_OPTIONS -fsanitize=fuzzer-no-link,address,undefined,float-cast-overflow -fno-sanitize-recover=all)

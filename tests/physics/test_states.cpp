@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "physics/standing_state.h"
+
 namespace mimicx::physics {
 
 Vector3d random_vector(Random& random) {
@@ -44,19 +46,8 @@ double lowest_point(const Character& character, const Snapshot& s) {
 
 Snapshot standing(const Character& character) {
   Snapshot s;
-  s.omega.fill(Vector3d::Zero());
+  read_lane(standing_state(character), 0, s);
   s.target_omega.fill(Vector3d::Zero());
-  s.q.fill(Quaterniond::Identity());
-  s.q[0] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
-  const double bend = 0.3;  // hip and ankle undo what the knee flexes: trunk upright, soles flat
-  for (const int hip : {kLeftHip, kRightHip}) s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
-  for (const int knee : {kLeftKnee, kRightKnee}) s.q[knee] = exp_map(Vector3d(bend, 0, 0));
-  for (const int ankle : {kLeftAnkle, kRightAnkle}) s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
-  s.q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.25));
-  s.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.25));
-  s.q[kLeftElbow] = exp_map(0.3 * hinge_axis(kLeftElbow));
-  s.q[kRightElbow] = exp_map(0.3 * hinge_axis(kRightElbow));
-  s.p_root.z() -= lowest_point(character, s);
   s.target_q = s.q;
   return s;
 }
