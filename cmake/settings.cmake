@@ -12,23 +12,39 @@ elseif(NOT MIMICX_BARE)
   find_package(OpenMP REQUIRED COMPONENTS CXX)
 endif()
 
+# What whoever compiles our headers needs, too: C++20, the instruction set, Eigen's settings. Every room's target carries
+# it; our warnings it does not (MIMICX_OWN_OPTIONS).
 add_library(mimicx_settings INTERFACE)
-target_include_directories(mimicx_settings INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_compile_features(mimicx_settings INTERFACE cxx_std_20)
+target_include_directories(mimicx_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+  $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/mimicx>)
+if(NOT PROJECT_IS_TOP_LEVEL)  # <mimicx/physics/step.h>, as installed
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/mimicx SYMBOLIC)
+  target_include_directories(mimicx_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
+endif()
 target_link_libraries(mimicx_settings INTERFACE Eigen3::Eigen)
+
+# Of our own code alone.
 # -Wno-psabi: packs wider than a target's registers pass between functions of one build alone.
-target_compile_options(mimicx_settings INTERFACE -Wall -Wextra -Wconversion -Werror -Wno-psabi)
+set(MIMICX_OWN_OPTIONS -Wall -Wextra -Wconversion -Werror -Wno-psabi)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports Eigen's vectorised temporaries as maybe uninitialised, and copies inside its own strings as out of
   # bounds (its bug 105329); the other analyses stay on.
-  target_compile_options(mimicx_settings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict
-    -Wno-stringop-overflow)
+  list(APPEND MIMICX_OWN_OPTIONS -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
   if(NOT MIMICX_FOR_CLANG_TIDY)  # it collects no garbage before it has taken 1 GB: a tenth of the time
-    target_compile_options(mimicx_settings INTERFACE "SHELL:--param ggc-min-heapsize=1048576")
+    list(APPEND MIMICX_OWN_OPTIONS "SHELL:--param ggc-min-heapsize=1048576")
   endif()
   if(MIMICX_TARGET STREQUAL "x86-64-v4")
     # Its AVX-512 intrinsics spell "undefined" as a variable initialised by itself.
-    target_compile_options(mimicx_settings INTERFACE -Wno-uninitialized)
+    list(APPEND MIMICX_OWN_OPTIONS -Wno-uninitialized)
   endif()
+endif()
+
+# The shared library holds the rooms, and shows nothing of them (docs/library.md). Hidden functions are inlined as without
+# -fPIC.
+if(NOT MIMICX_BARE AND NOT EMSCRIPTEN)
+  list(APPEND MIMICX_OWN_OPTIONS -fPIC -fvisibility=hidden)
 endif()
 
 if(MIMICX_FUZZ)
@@ -40,7 +56,7 @@ endif()
 
 # Bits depend on these: no contraction behind our back (fused operations are written out), no
 # fast-math, one fixed instruction set instead of -march=native.
-target_compile_options(mimicx_settings INTERFACE -ffp-contract=off -fno-math-errno)
+target_compile_options(mimicx_settings INTERFACE -Wno-psabi -ffp-contract=off -fno-math-errno)
 if(MIMICX_TARGET STREQUAL "x86-64-v3")
   target_compile_options(mimicx_settings INTERFACE -march=x86-64-v3)
 elseif(MIMICX_TARGET STREQUAL "x86-64-v4")
@@ -92,7 +108,7 @@ option(MIMICX_UNITY "Compile several files of a room as one" ON)
 # along, the level of optimisation, too: files with options of their own do without.
 set(MIMICX_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <filesystem> <functional> <map>
   <memory> <optional> <set> <span> <stdexcept> <string> <vector>)
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cpp CONTENT "// Compiles the common headers.\n")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/common_headers.cpp CONTENT "// Compiles the common headers.\n")
 
 # MuJoCo is an optional second engine for tests and benchmarks (Debian: libmujoco-dev).
 if(MIMICX_WITH_MUJOCO AND NOT MIMICX_CORE_ONLY AND NOT MIMICX_BARE)
@@ -120,7 +136,7 @@ function(mimicx_compile target level)
     set(files 6)
     list(APPEND headers <gtest/gtest.h>)
   endif()
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimise}>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimise}> ${MIMICX_OWN_OPTIONS})
   if(MIMICX_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
   endif()
@@ -128,10 +144,10 @@ function(mimicx_compile target level)
     return()
   endif()
   if(NOT TARGET mimicx_${level}_headers)
-    add_library(mimicx_${level}_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cpp)
+    add_library(mimicx_${level}_headers OBJECT ${PROJECT_BINARY_DIR}/common_headers.cpp)
     target_link_libraries(mimicx_${level}_headers PRIVATE mimicx_settings OpenMP::OpenMP_CXX
       $<$<STREQUAL:${level},test>:GTest::gtest_main>)
-    target_compile_options(mimicx_${level}_headers PRIVATE $<$<CONFIG:Release>:${optimise}>)
+    target_compile_options(mimicx_${level}_headers PRIVATE $<$<CONFIG:Release>:${optimise}> ${MIMICX_OWN_OPTIONS})
     target_precompile_headers(mimicx_${level}_headers PRIVATE ${headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM mimicx_${level}_headers)
@@ -146,11 +162,14 @@ function(mimicx_sources out)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# mimicx_library(NAME [FOLDERS...] [EXCEPT...] [DEPENDS LIBS...]): a room, one static library.
+# mimicx_library(NAME [FOLDERS...] [EXCEPT...] [DEPENDS LIBS...]): a room, one static library; mimicx::NAME for others.
 function(mimicx_library name)
   cmake_parse_arguments(ARG "" "" "FOLDERS;EXCEPT;DEPENDS" ${ARGN})
   mimicx_sources(sources FOLDERS ${ARG_FOLDERS} EXCEPT ${ARG_EXCEPT})
   add_library(mimicx_${name} STATIC ${sources})
+  add_library(mimicx::${name} ALIAS mimicx_${name})
+  set_target_properties(mimicx_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY MIMICX_ROOMS mimicx_${name})
   target_link_libraries(mimicx_${name} PUBLIC mimicx_settings ${ARG_DEPENDS})
   if(name IN_LIST MIMICX_HOT_ROOMS)
     mimicx_compile(mimicx_${name} hot)

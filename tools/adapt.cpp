@@ -1,5 +1,6 @@
 #include "program/adapt_command.h"
 
+#include <iostream>
 #include <memory>
 
 #include "commands.h"
@@ -30,7 +31,8 @@ pipeline::options::OptionSets read_sets(const std::vector<std::string>& given, p
   if (given.empty()) places = shipped_sets();
   if (places.empty())
     throw UsageError(
-        "found no data/options beside the program: name trained options with --options, or take --method "
+        "found no trained options beside the program or in MIMICX_DATA: name trained options with --options, "
+        "or take --method "
         "plan");
   pipeline::options::OptionSets sets;
   for (const std::filesystem::path& place : places) {
@@ -45,16 +47,23 @@ pipeline::options::OptionSets read_sets(const std::vector<std::string>& given, p
 }  // namespace
 
 int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& options,
-                  const std::vector<std::string>& settings) {
-  if (config.method == program::AdaptMethod::kPlan)
+                  const RunArguments& more) {
+  using program::AdaptMethod;
+  if (config.method == AdaptMethod::kAuto && options.empty() && !config.teaching.teach &&
+      shipped_sets().empty()) {
+    std::cerr
+        << "no trained options are installed (MIMICX_DATA): motions are planned alone, as by --method plan\n";
+    config.method = AdaptMethod::kPlan;
+  }
+  if (config.method == AdaptMethod::kPlan)
     config.run.map = pipeline::run_map(shipped_clusters());
   else
     config.options = read_sets(options, config.method);
-  if (config.teaching.teach && config.method != program::AdaptMethod::kAuto)
+  if (config.teaching.teach && config.method != AdaptMethod::kAuto)
     throw UsageError("--policy: expected --method auto, whose plan teaches it, found another one");
-  apply_settings(settings, config);
+  apply_settings(more.settings, config);
   return with_context(config.run.quiet, [&](const record::RunContext& context) {
-    return run_inputs(config.run, context, [&] { return program::adapt(config, context); });
+    return run_inputs(config.run, more.json, context, [&] { return program::adapt(config, context); });
   });
 }
 
@@ -95,7 +104,7 @@ void declare_adapt(CommandLine& line) {
   add_arrangement_arguments(command, a->config.arrangement);
   command.action([a] {
     take_shard(a->more.shard, a->config.run);
-    return adapt_motions(a->config, a->options, a->more.settings);
+    return adapt_motions(a->config, a->options, a->more);
   });
 }
 

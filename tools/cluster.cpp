@@ -7,19 +7,21 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/file.h"
 #include "core/reason.h"
 #include "files/inputs.h"
 #include "program/configurations.h"
 #include "record/outputs.h"
 #include "run/preparation.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct ClusterArguments {
   std::vector<std::string> inputs;
-  std::filesystem::path out;
+  std::filesystem::path out, json;
   pipeline::options::ClusterConfig config{program::pretrain_configuration("small").clusters.radius,
                                           std::nullopt, 0};
   import::ReadConfig read;
@@ -39,7 +41,9 @@ int cluster(const ClusterArguments& a) {
   std::vector<pipeline::options::NamedFeatures> motions;
   const std::vector<files::MotionInput> inputs = sorted_motions(a.inputs);
   const std::vector<std::string> files = files::paths_of(inputs), names = files::unique_names(inputs);
-  record::Outputs(files, a.force).claim(a.out, record::kJsonOpening);
+  record::Outputs outputs(files, a.force);
+  outputs.claim(a.out, record::kJsonOpening);
+  if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
   if (import::lower_suffix(a.out) != ".json")
     throw UsageError("--out: expected a file that ends in .json, found " + a.out.string());
   bool all_good = true;
@@ -63,9 +67,11 @@ int cluster(const ClusterArguments& a) {
     throw UsageError(error.what());
   }
   pipeline::options::write_clusters(a.out, clusters);
-  std::printf("%zu clusters, no two motions of one farther apart than %.2f\n%s\n%s", clusters.clusters.size(),
-              clusters.settings.radius, pipeline::options::format_kind_shares(clusters).c_str(),
-              pipeline::options::format_cluster_tree(clusters).c_str());
+  if (!a.json.empty()) write_json(a.json, read_file(a.out));
+  std::fprintf(table_file(a.json), "%zu clusters, no two motions of one farther apart than %.2f\n%s\n%s",
+               clusters.clusters.size(), clusters.settings.radius,
+               pipeline::options::format_kind_shares(clusters).c_str(),
+               pipeline::options::format_cluster_tree(clusters).c_str());
   return all_good ? kAllGood : kSomeFailed;
 }
 
@@ -78,6 +84,7 @@ void declare_cluster(CommandLine& line) {
                              "mimicx cluster DIR --out clusters.json --clusters 5   # exactly five");
   command.files("FILE", a->inputs, "motions and folders of them");
   command.path("--out", a->out, "where to write the clusters: .json").required();
+  add_json(command, a->json);
   add_read_arguments(command, a->read);
   add_cluster_arguments(command, a->config);
   add_seed(command, a->config.seed);

@@ -9,16 +9,19 @@
 #include "core/reason.h"
 #include "files/inputs.h"
 #include "record/folder_lock.h"
+#include "record/json.h"
 #include "record/outputs.h"
+#include "record/utf8_names.h"
 #include "run/preparation.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct CorruptArguments {
   std::vector<std::string> inputs, noise;
-  std::filesystem::path out;
+  std::filesystem::path out, json;
   std::string camera = "perturbed", keypoints = "22";
   synth::CorruptConfig config;
   bool force = false;
@@ -49,18 +52,24 @@ int corrupt(const CorruptArguments& a) {
   record::Outputs outputs(files::paths_of(inputs), a.force);
   for (const std::string& name : names)
     for (const char* part : {"truth", "noisy"}) outputs.claim(a.out / part / (name + ".npz"));
+  if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
   const record::FolderLock lock(a.out);
   std::size_t written = 0;
+  record::Json motions = record::Json::array();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::string& file = inputs[i].path;
     try {
       run::tell_decisions(file, synth::corrupt_file(file, names[i], a.out, config), std::cerr);
       ++written;
+      motions.push_back(record::to_utf8(names[i]));
     } catch (const std::exception& error) {
       std::cerr << file << ": left out: " << reason_of(error) << '\n';
     }
   }
-  std::cout << a.out.string() << ": " << written << " motions, each as truth and as a noisy estimate\n";
+  table_stream(a.json) << a.out.string() << ": " << written
+                       << " motions, each as truth and as a noisy estimate\n";
+  if (!a.json.empty())
+    write_json(a.json, record::document({{"folder", record::to_utf8(a.out.string())}, {"motions", motions}}));
   return written == names.size() ? kAllGood : kSomeFailed;
 }
 
@@ -83,6 +92,7 @@ void declare_corrupt(CommandLine& line) {
                  "how well the camera is known; moving: hand-held, its track has drift");
   command.one_of("--keypoints", a->keypoints, {"22", "coco17", "coco133", "none"},
                  "which points are detected; none: no camera either");
+  add_json(command, a->json);
   add_seed(command, a->config.seed);
   add_read_arguments(command, a->config.read);
   add_force(command, a->force);

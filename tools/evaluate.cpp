@@ -1,13 +1,17 @@
 #include "judge/evaluate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "command_line_numbers.h"
 #include "commands.h"
 #include "core/npz/npz.h"
 #include "judge/evaluate_protocol.h"
 #include "record/outputs.h"
+#include "record/table.h"
 #include "shared_arguments.h"
 #include "standard_streams.h"
 
@@ -17,7 +21,8 @@ namespace {
 struct EvaluateArguments {
   std::filesystem::path truth, json;
   std::vector<std::string> motions;
-  std::string protocol;  ///< empty: our own metrics
+  std::string protocol;                 ///< empty: our own metrics
+  std::vector<std::string> fail_above;  ///< NAME=VALUE each
   import::ReadConfig read;
   bool force = false;
 };
@@ -29,6 +34,47 @@ std::vector<std::string> files_to_read(const EvaluateArguments& a) {
   for (const std::string& path : named)
     for (const auto& [name, file] : judge::named_motions(path)) files.push_back(file.string());
   return files;
+}
+
+/// A gate: the mean of a metric must not be above this.
+struct Limit {
+  const motion::MetricDefinition* metric;
+  double most;
+};
+
+/// @throws UsageError for a text that is no NAME=VALUE of a metric
+std::vector<Limit> limits_of(const std::vector<std::string>& texts) {
+  std::vector<Limit> limits;
+  for (const std::string& text : texts) {
+    const auto equals = std::min(text.find('='), text.size() - 1);
+    const std::optional<double> most = number_of(text.substr(equals + 1));
+    const motion::MetricDefinition* metric = nullptr;
+    std::string names;
+    for (const motion::MetricDefinition& d : motion::metric_definitions()) {
+      names += (names.empty() ? "" : ", ") + std::string(d.name);
+      if (d.name == text.substr(0, equals)) metric = &d;
+    }
+    if (!most || metric == nullptr)
+      throw UsageError("--fail-above: expected NAME=VALUE with a NAME of " + names + ", found '" + text +
+                       "'");
+    limits.push_back({metric, *most});
+  }
+  return limits;
+}
+
+/// Whether all means are within the limits; those that are not are told. A metric without a value is not.
+bool holds(const judge::Evaluation& evaluation, const std::string& folder, const std::vector<Limit>& limits) {
+  bool all = true;
+  for (const Limit& limit : limits) {
+    const double mean = judge::mean_of(evaluation, *limit.metric);
+    if (mean <= limit.most) continue;
+    std::cerr << folder << ": " << limit.metric->name << ' '
+              << (std::isfinite(mean) ? "is " + record::format_number(mean) + ", above "
+                                      : "has no value to be within ")
+              << record::format_number(limit.most) << '\n';
+    all = false;
+  }
+  return all;
 }
 
 int evaluate_published(const EvaluateArguments& a) {
@@ -54,6 +100,7 @@ int evaluate(const EvaluateArguments& a) {
   if (!is_standard_output(a.json))
     record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
   if (!a.protocol.empty()) return evaluate_published(a);
+  const std::vector<Limit> limits = limits_of(a.fail_above);
   if (a.motions.size() > 1) {
     const judge::Comparison comparison = judge::compare_folders(a.truth, a.motions, a.read);
     table_stream(a.json) << judge::format_comparison(comparison);
@@ -61,15 +108,18 @@ int evaluate(const EvaluateArguments& a) {
     const bool none = comparison.evaluations.front().motions.empty();
     if (none) std::cerr << "no motion is in all of these folders and in " << a.truth.string() << '\n';
     if (!a.json.empty()) write_json(a.json, judge::comparison_json(comparison));
-    return none || !comparison.failures.empty() ? kSomeFailed : kAllGood;
+    const bool within = holds(comparison.evaluations.back(), comparison.labels.back(), limits);
+    return none || !within || !comparison.failures.empty() ? kSomeFailed : kAllGood;
   }
   const judge::Evaluation evaluation = judge::evaluate_folders(a.truth, a.motions.front(), a.read);
   table_stream(a.json) << judge::format_evaluation(evaluation);
   for (const auto& name : evaluation.unmatched) std::cerr << "no motion for the truth " << name << '\n';
   if (!a.json.empty()) write_json(a.json, judge::evaluation_json(evaluation));
   const auto& scored = evaluation.motions;
-  return std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; }) ? kAllGood
-                                                                                       : kSomeFailed;
+  const bool within = holds(evaluation, a.motions.front(), limits);
+  return within && std::all_of(scored.begin(), scored.end(), [](const auto& m) { return m.ok; })
+             ? kAllGood
+             : kSomeFailed;
 }
 
 }  // namespace
@@ -87,8 +137,14 @@ void declare_evaluate(CommandLine& line) {
              "that "
              "all of them have")
       .required();
-  command.one_of("--protocol", a->protocol, motion::protocol_names(),
-                 "use the metrics of a published protocol instead, docs/metrics.md");
+  const Option gate = command.texts("--fail-above", a->fail_above, "NAME=VALUE",
+                                    "exit with status 1 where the mean of this metric is above the value, or "
+                                    "is missing; of several --motions "
+                                    "the last one's; repeatable");
+  command
+      .one_of("--protocol", a->protocol, motion::protocol_names(),
+              "use the metrics of a published protocol instead, docs/metrics.md")
+      .excludes(gate);
   command.path("--json", a->json,
                "also write every value, its count and its definition as JSON; -: to standard output");
   add_read_arguments(command, a->read);

@@ -17,7 +17,8 @@ int imitate_motions(ImitateArguments a) {
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.training);
   return with_context(a.config.run.quiet, [&](const record::RunContext& context) {
-    return run_inputs(a.config.run, context, [&] { return pipeline::imitate(a.config, context); });
+    return run_inputs(a.config.run, a.more.json, context,
+                      [&] { return pipeline::imitate(a.config, context); });
   });
 }
 

@@ -6,14 +6,20 @@
 #include "import/motion_file.h"
 #include "motion/keypoint_names.h"
 #include "motion/prepare/prepare.h"
+#include "record/json.h"
+#include "record/outputs.h"
+#include "record/utf8_names.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct InfoArguments {
   std::filesystem::path file;
+  std::filesystem::path json;
   import::ReadConfig read;
+  bool force = false;
 };
 
 /// Number of keypoints that the fit can use.
@@ -28,51 +34,88 @@ std::string name_of_member(const std::string& key) {
   return key == "betas_rest" ? "betas[10:]" : key;
 }
 
-void describe_file(const motion::Clip& clip) {
-  for (const auto& decision : clip.decisions) std::printf("decided      %s\n", decision.c_str());
-  std::printf("frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
-  std::printf("body model   %s, gender %s\n", clip.body_model.c_str(), clip.gender.c_str());
-  std::printf("betas       ");
-  for (double b : clip.betas) std::printf(" %g", b);
-  std::printf("\n");
+void describe_file(std::FILE* out, const motion::Clip& clip) {
+  for (const auto& decision : clip.decisions) std::fprintf(out, "decided      %s\n", decision.c_str());
+  std::fprintf(out, "frames       %d at %g fps, %.2f s\n", clip.frames(), clip.fps, clip.frames() / clip.fps);
+  std::fprintf(out, "body model   %s, gender %s\n", clip.body_model.c_str(), clip.gender.c_str());
+  std::fprintf(out, "betas       ");
+  for (double b : clip.betas) std::fprintf(out, " %g", b);
+  std::fprintf(out, "\n");
   if (clip.keypoints)
-    std::printf("keypoints    %zu per frame, %td of them with a place on the body, %s camera\n",
-                clip.keypoints->names.size(), usable_among(clip.keypoints->names),
-                clip.keypoints->extrinsics.size() > 1 ? "moving" : "static");
+    std::fprintf(out, "keypoints    %zu per frame, %td of them with a place on the body, %s camera\n",
+                 clip.keypoints->names.size(), usable_among(clip.keypoints->names),
+                 clip.keypoints->extrinsics.size() > 1 ? "moving" : "static");
   else
-    std::printf("keypoints    none\n");
+    std::fprintf(out, "keypoints    none\n");
   if (!clip.passthrough.empty()) {
-    std::printf("passed on   ");
-    for (const auto& [key, array] : clip.passthrough) std::printf(" %s", name_of_member(key).c_str());
-    std::printf("\n");
+    std::fprintf(out, "passed on   ");
+    for (const auto& [key, array] : clip.passthrough) std::fprintf(out, " %s", name_of_member(key).c_str());
+    std::fprintf(out, "\n");
   }
 }
 
 /// @param told  warnings of the file, which preparation repeats
-void describe_preparation(const motion::Reference& reference, const motion::PreparationReport& report,
-                          const std::vector<std::string>& told) {
-  std::printf("prepared     %d frames at %g fps\n", reference.size(), reference.fps);
-  std::printf("  floor      moved by %.1f mm, at most %.1f mm in a frame\n", report.floor_shift_mm,
-              report.max_floor_shift_mm);
-  std::printf("  hinges     joints moved by %.2f mm on average, %.2f mm at most\n",
-              report.hinge_residual_mean_mm, report.hinge_residual_max_mm);
-  std::printf("  change     %.1f mm on average, %.1f mm at most\n", report.change_mean_mm,
-              report.change_max_mm);
-  std::printf("  feet       levelled by %.1f degrees\n", report.foot_level_deg);
-  std::printf("  flagged    %d frames\n", report.flagged_frames);
+void describe_preparation(std::FILE* out, const motion::Reference& reference,
+                          const motion::PreparationReport& report, const std::vector<std::string>& told) {
+  std::fprintf(out, "prepared     %d frames at %g fps\n", reference.size(), reference.fps);
+  std::fprintf(out, "  floor      moved by %.1f mm, at most %.1f mm in a frame\n", report.floor_shift_mm,
+               report.max_floor_shift_mm);
+  std::fprintf(out, "  hinges     joints moved by %.2f mm on average, %.2f mm at most\n",
+               report.hinge_residual_mean_mm, report.hinge_residual_max_mm);
+  std::fprintf(out, "  change     %.1f mm on average, %.1f mm at most\n", report.change_mean_mm,
+               report.change_max_mm);
+  std::fprintf(out, "  feet       levelled by %.1f degrees\n", report.foot_level_deg);
+  std::fprintf(out, "  flagged    %d frames\n", report.flagged_frames);
   for (const auto& note : report.notes)
     if (std::find(told.begin(), told.end(), note) == told.end())
-      std::printf("  note       %s\n", note.c_str());
+      std::fprintf(out, "  note       %s\n", note.c_str());
+}
+
+std::string info_json(const std::string& file, const motion::Clip& clip, const motion::Reference& reference,
+                      const motion::PreparationReport& report) {
+  using record::Json, record::number;
+  Json keypoints(nullptr), passed_on = Json::array();
+  if (clip.keypoints)
+    keypoints = {{"count", clip.keypoints->names.size()},
+                 {"usable", usable_among(clip.keypoints->names)},
+                 {"moving_camera", clip.keypoints->extrinsics.size() > 1}};
+  for (const auto& [key, array] : clip.passthrough) passed_on.push_back(name_of_member(key));
+  return record::document({{"file", record::to_utf8(file)},
+                           {"frames", clip.frames()},
+                           {"fps", number(clip.fps)},
+                           {"body_model", clip.body_model},
+                           {"gender", clip.gender},
+                           {"betas", clip.betas},
+                           {"keypoints", keypoints},
+                           {"passed_on", passed_on},
+                           {"decisions", clip.decisions},
+                           {"warnings", clip.warnings},
+                           {"prepared",
+                            {{"frames", reference.size()},
+                             {"fps", number(reference.fps)},
+                             {"floor_shift_mm", number(report.floor_shift_mm)},
+                             {"max_floor_shift_mm", number(report.max_floor_shift_mm)},
+                             {"hinge_residual_mean_mm", number(report.hinge_residual_mean_mm)},
+                             {"hinge_residual_max_mm", number(report.hinge_residual_max_mm)},
+                             {"change_mean_mm", number(report.change_mean_mm)},
+                             {"change_max_mm", number(report.change_max_mm)},
+                             {"foot_level_deg", number(report.foot_level_deg)},
+                             {"flagged_frames", report.flagged_frames},
+                             {"notes", report.notes}}}});
 }
 
 int info(const InfoArguments& a) {
+  if (!is_standard_output(a.json))
+    record::Outputs({a.file.string()}, a.force).claim(a.json, record::kJsonOpening);
+  std::FILE* out = table_file(a.json);
   const motion::Clip clip = import::read_motion(a.file, a.read);
-  describe_file(clip);
-  for (const auto& warning : clip.warnings) std::printf("warning      %s\n", warning.c_str());
+  describe_file(out, clip);
+  for (const auto& warning : clip.warnings) std::fprintf(out, "warning      %s\n", warning.c_str());
   if (clip.frames() < 2) throw DataError(a.file.string(), "", "at least 2 frames to prepare it", "1");
   motion::PreparationReport report;
   const motion::Reference reference = motion::prepare_reference(clip, {}, &report);
-  describe_preparation(reference, report, clip.warnings);
+  describe_preparation(out, reference, report, clip.warnings);
+  if (!a.json.empty()) write_json(a.json, info_json(a.file.string(), clip, reference, report));
   return kAllGood;
 }
 
@@ -85,7 +128,9 @@ void declare_info(CommandLine& line) {
                "mimicx info clip.bvh           # axes, unit, frame rate, floor, body\n"
                "mimicx info clip.bvh --up z    # with a known up axis");
   command.file("FILE", a->file, "motion");
+  add_json(command, a->json);
   add_read_arguments(command, a->read);
+  add_force(command, a->force);
   command.action([a] { return info(*a); });
 }
 

@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "core/build.h"
+#include "record/commit.h"
 #include "record/outputs.h"
 #include "standard_streams.h"
 
@@ -21,8 +22,8 @@ int run(int argc, char** argv) {
       "mimicx", "Physically plausible human motion from noisy motion.",
       "mimicx adapt clip.bvh            # clip.clean.bvh beside it, after seconds\n"
       "mimicx adapt DIR --out out/run   # every motion in a folder; a report, forces and scores",
-      std::string("mimicx ") + MIMICX_VERSION + ", built for " + MIMICX_TARGET + ", arithmetic " +
-          kArithmetic,
+      std::string("mimicx ") + MIMICX_VERSION + " (" + record::commit() + "), built for " + MIMICX_TARGET +
+          ", arithmetic " + kArithmetic,
       "Exit status: 0 success, 1 some inputs failed (the others are done), 2 wrong usage, 130 interrupted.");
   for (const auto declare :
        {declare_run,     declare_plan,        declare_pretrain,      declare_teach,   declare_adapt,

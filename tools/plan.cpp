@@ -20,7 +20,8 @@ int plan(PlanArguments a) {
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.planning);
   return with_context(a.config.run.quiet, [&](const record::RunContext& context) {
-    return run_inputs(a.config.run, context, [&] { return plan::plan_motions(a.config, context); });
+    return run_inputs(a.config.run, a.more.json, context,
+                      [&] { return plan::plan_motions(a.config, context); });
   });
 }
 

@@ -11,9 +11,12 @@
 #include "import/motion_file.h"
 #include "picture/picture.h"
 #include "picture/png.h"
+#include "record/json.h"
 #include "record/outputs.h"
+#include "record/utf8_names.h"
 #include "run/preparation.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
@@ -22,7 +25,7 @@ constexpr int kMostPixels = 8192;  ///< along an edge: limits the memory of a pi
 
 struct RenderArguments {
   std::vector<std::string> files;
-  std::filesystem::path out;
+  std::filesystem::path out, json;
   std::vector<double> at;
   std::vector<std::string> labels;
   picture::PictureConfig picture;
@@ -64,7 +67,9 @@ void claim_picture(const RenderArguments& a) {
   const std::string suffix = a.out.extension().string();
   if (suffix != ".png")
     throw UsageError(a.out.string() + ": pictures and animations are written as .png, not '" + suffix + "'");
-  record::Outputs(a.files, a.force).claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
+  record::Outputs outputs(a.files, a.force);
+  outputs.claim(a.out, picture::kPngOpening, picture::kPngOpeningAt);
+  if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
 }
 
 /// Folder and name, because motions in several folders often have the same names.
@@ -120,9 +125,14 @@ int render(const RenderArguments& a) {
   }
   make_folder(a.out.parent_path());
   picture::write_picture(a.out, motions, layout, config.rate, a.threads);
-  std::printf("%s: %d x %d pixels, %d moments from %.2f to %.2f s\n", a.out.string().c_str(),
-              layout.size.width, layout.size.height, layout.moments.count(), layout.moments.front(),
-              layout.moments.back());
+  std::fprintf(table_file(a.json), "%s: %d x %d pixels, %d moments from %.2f to %.2f s\n",
+               a.out.string().c_str(), layout.size.width, layout.size.height, layout.moments.count(),
+               layout.moments.front(), layout.moments.back());
+  if (!a.json.empty())
+    write_json(a.json, record::document({{"picture", record::to_utf8(a.out.string())},
+                                         {"width", layout.size.width},
+                                         {"height", layout.size.height},
+                                         {"moments_s", std::vector<double>(layout.moments)}}));
   return kAllGood;
 }
 
@@ -169,6 +179,7 @@ void declare_render(CommandLine& line) {
   command.choice<files::Skin>("--skin", a->skin,
                               {{"mannequin", files::Skin::kMannequin}, {"shapes", files::Skin::kShapes}},
                               "a smooth skin, or the simulator's collision shapes");
+  add_json(command, a->json);
   add_read_arguments(command, a->read);
   add_threads(command, a->threads);
   add_force(command, a->force);

@@ -8,18 +8,21 @@
 #include "pipeline/cluster_map.h"
 #include "record/folder_lock.h"
 #include "record/journal.h"
+#include "record/json.h"
 #include "record/outputs.h"
+#include "record/utf8_names.h"
 #include "report/run_report.h"
 #include "shared_arguments.h"
 #include "shipped_options.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct ReportArguments {
-  std::filesystem::path run, truth;
+  std::filesystem::path run, truth, json;
   std::vector<std::string> options;
-  bool times = false;
+  bool times = false, force = false;
 };
 
 /// `clusters.json` of a set of options, or beside a file of them.
@@ -41,7 +44,9 @@ int report(const ReportArguments& a) {
   record::Manifest manifest = record::read_manifest(folder.manifest());
   std::vector<record::Timing> timings;
   record::replay_journal(folder.journal(), manifest, timings);
-  record::Outputs({}, false).claim_own(folder.report());
+  record::Outputs outputs({}, a.force);
+  outputs.claim_own(folder.report());
+  if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
   report::ReportOptions options;
   options.times = a.times;
   std::vector<std::filesystem::path> clusters;
@@ -55,7 +60,10 @@ int report(const ReportArguments& a) {
     all_good = false;
   }
   report::write_report(folder, manifest, options);
-  std::cout << folder.report().string() << '\n';
+  if (!a.json.empty())
+    write_json(a.json, record::document({{"report", record::to_utf8(folder.report().string())},
+                                         {"motions", manifest.sequences.size()}}));
+  table_stream(a.json) << folder.report().string() << '\n';
   return all_good ? kAllGood : kSomeFailed;
 }
 
@@ -76,6 +84,8 @@ void declare_report(CommandLine& line) {
       "default: those of the run");
   command.flag("--times", a->times,
                "also show how long the work took; the report's bytes then differ from run to run");
+  add_json(command, a->json);
+  add_force(command, a->force);
   command.action([a] { return report(*a); });
 }
 

@@ -33,6 +33,10 @@ void add_force(Command& command, bool& force) {
   command.flag("--force", force, "overwrite files that this program did not write; never inputs");
 }
 
+void add_json(Command& command, std::filesystem::path& json) {
+  command.path("--json", json, "also write the results as JSON; -: to standard output");
+}
+
 void add_seed(Command& command, std::uint64_t& seed) {
   command.number("--seed", seed, kFromZero, "seed of all random numbers");
 }

@@ -18,6 +18,9 @@ void add_threads(Command& command, int& threads);
 /// --force.
 void add_force(Command& command, bool& force);
 
+/// --json: a file for the results; "-" is standard output.
+void add_json(Command& command, std::filesystem::path& json);
+
 /// --seed; the default is the present value.
 void add_seed(Command& command, std::uint64_t& seed);
 

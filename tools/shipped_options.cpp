@@ -1,7 +1,10 @@
 #include "shipped_options.h"
 
+#include <cstdlib>
 #include <optional>
 #include <system_error>
+
+#include "commands.h"
 
 namespace mimicx::tools {
 namespace {
@@ -9,15 +12,23 @@ namespace {
 constexpr const char* kTrained = "trained";  ///< by `mimicx pretrain`; in the folder itself
 constexpr const char* kTaught = "taught";    ///< by plans; in the folder of this name
 
-/// data/options of the source tree that holds this program, or of the working folder.
+constexpr const char* kOptionsFile = "options.npz";
+
+/// The folder of the sets: in MIMICX_DATA where that is set; else beside the program or in a folder above it,
+/// as in a source tree (data/options) or as installed (share/mimicx/options).
+/// @throws UsageError where MIMICX_DATA holds none
 std::optional<std::filesystem::path> shipped_options() {
-  const std::filesystem::path relative = std::filesystem::path("data") / "options";
+  if (const char* data = std::getenv("MIMICX_DATA"); data != nullptr && *data != '\0') {
+    const std::filesystem::path options = std::filesystem::path(data) / "options";
+    if (std::filesystem::exists(options / kOptionsFile)) return options;
+    throw UsageError(std::string("MIMICX_DATA: expected a folder with options/options.npz, found ") + data);
+  }
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   for (std::filesystem::path at = program.parent_path(); !error && at != at.root_path();
        at = at.parent_path())
-    if (std::filesystem::exists(at / relative / "options.npz")) return at / relative;
-  if (std::filesystem::exists(relative / "options.npz")) return relative;
+    for (const char* place : {"data/options", "share/mimicx/options"})
+      if (std::filesystem::exists(at / place / kOptionsFile)) return at / place;
   return std::nullopt;
 }
 

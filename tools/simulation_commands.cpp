@@ -6,9 +6,14 @@
 
 #include "command_line_numbers.h"
 #include "commands.h"
+#include "core/file.h"
 #include "core/reason.h"
 #include "files/inputs.h"
+#include "record/json.h"
+#include "record/outputs.h"
+#include "record/run_folder.h"
 #include "record/shard.h"
+#include "record/utf8_names.h"
 #include "run/run_outputs.h"
 #include "shared_arguments.h"
 #include "standard_streams.h"
@@ -94,6 +99,7 @@ void add_run_arguments(Command& command, run::RunConfig& run, RunArguments& more
                  "time limit per motion: ends its plan or training early; the result then depends on the "
                  "machine, and the manifest says so");
   add_settings(command, more.settings);
+  add_json(command, more.json);
 }
 
 void take_shard(const std::string& asked, run::RunConfig& run) try {
@@ -166,14 +172,37 @@ int with_context(bool quiet, const std::function<record::RunOutcome(const record
   }
 }
 
-record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& context,
+namespace {
+
+/// The manifest of a finished run as JSON, with its folder.
+record::Json results_of(const std::filesystem::path& folder) {
+  record::Json manifest = record::Json::parse(read_file(record::RunFolder{folder}.manifest()));
+  manifest["folder"] = record::to_utf8(folder.string());
+  return manifest;
+}
+
+}  // namespace
+
+record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& json,
+                              const record::RunContext& context,
                               const std::function<record::RunOutcome()>& once) {
+  if (!json.empty() && run.shard)
+    throw UsageError(
+        "--json: a shard has a part of the results; `mimicx merge` joins them, whose --json counts them");
+  record::Json runs = record::Json::array();
   const std::vector<files::MotionInput> inputs = files::find_motions(run.inputs, run.out, &context.messages);
   const std::vector<std::string> files = files::paths_of(inputs);
+  if (!is_standard_output(json)) record::Outputs(files, run.force).claim(json, record::kJsonOpening);
+  const auto tell = [&](record::RunOutcome outcome) {
+    if (!json.empty()) write_json(json, record::document({{"runs", runs}}));
+    return outcome;
+  };
   if (!run.out.empty()) {
     for (const files::MotionInput& input : inputs) run.names[input.path] = input.name;
     run.inputs = files;
-    return once();
+    const record::RunOutcome outcome = once();
+    if (!json.empty()) runs.push_back(results_of(run.out));
+    return tell(outcome);
   }
   record::RunOutcome all = record::RunOutcome::kAllGood;
   run.beside = true;
@@ -184,14 +213,15 @@ record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& con
     run.out = file.parent_path() / (file.stem().string() + ".mimicx");
     try {
       const record::RunOutcome outcome = once();
-      if (outcome == record::RunOutcome::kInterrupted) return outcome;
+      if (!json.empty()) runs.push_back(results_of(run.out));
+      if (outcome == record::RunOutcome::kInterrupted) return tell(outcome);
       if (outcome != record::RunOutcome::kAllGood) all = outcome;
     } catch (const std::exception& error) {  // its folder cannot be created or read, or holds another run
       context.messages << file.string() << ": left out: " << reason_of(error) << '\n';
       all = record::RunOutcome::kSomeFailed;
     }
   }
-  return all;
+  return tell(all);
 }
 
 }  // namespace mimicx::tools

@@ -32,6 +32,7 @@ void apply_settings(const std::vector<std::string>& settings, Config& config) {
 /// Arguments of a run over motions beside its configuration.
 struct RunArguments {
   std::vector<std::string> settings;  ///< NAME=NUMBER each
+  std::filesystem::path json;         ///< for the results; "-": standard output; empty: none
   std::string shard;                  ///< I/N or "whole"; empty: by the environment
 };
 /// The arguments of every run over motions.
@@ -60,14 +61,16 @@ int with_context(bool quiet, const std::function<record::RunOutcome(const record
 /// Runs all inputs in the given folder; without one, each input in its own folder beside it (NAME.mimicx),
 /// with its clean motion beside it (NAME.clean.EXT).
 /// @param run   its inputs and folder are set for each run
-/// @param once  does the run that `run` describes
-record::RunOutcome run_inputs(run::RunConfig& run, const record::RunContext& context,
+/// @param once  does the run that `run` describes @param json  file for the manifests of all runs; may be
+/// empty
+record::RunOutcome run_inputs(run::RunConfig& run, const std::filesystem::path& json,
+                              const record::RunContext& context,
                               const std::function<record::RunOutcome()>& once);
 
 /// @param options  sets of options to start from, in the order in which they are tried: a file, a folder with
 /// options.npz, or the name of a shipped set each; empty: all shipped ones
 int adapt_motions(program::AdaptConfig config, const std::vector<std::string>& options,
-                  const std::vector<std::string>& settings);
+                  const RunArguments& more);
 int pretrain_options(pipeline::PretrainConfig config, const std::vector<std::string>& settings);
 
 }  // namespace mimicx::tools

@@ -63,6 +63,10 @@ std::ostream& table_stream(const std::filesystem::path& json) {
   return is_standard_output(json) ? std::cerr : std::cout;
 }
 
+std::FILE* table_file(const std::filesystem::path& json) {
+  return is_standard_output(json) ? stderr : stdout;
+}
+
 void write_json(const std::filesystem::path& path, const std::string& text) {
   if (is_standard_output(path))
     std::cout << text;

@@ -1,6 +1,7 @@
 /// Safe standard streams: closed ones are occupied, and control characters in file names are escaped.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <ostream>
 #include <streambuf>
@@ -24,6 +25,8 @@ void handle_signals();
 bool is_standard_output(const std::filesystem::path& path);
 /// Where a table is printed beside JSON at `json`: standard output; standard error where the JSON is there.
 std::ostream& table_stream(const std::filesystem::path& json);
+/// The same for std::fprintf.
+std::FILE* table_file(const std::filesystem::path& json);
 /// Writes JSON to a file, or to standard output.
 void write_json(const std::filesystem::path& path, const std::string& text);
 

@@ -7,9 +7,11 @@
 #include "character/body_words.h"
 #include "commands.h"
 #include "record/folder_lock.h"
+#include "record/json.h"
 #include "record/outputs.h"
 #include "record/progress.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 #include "synth/data_set.h"
 
 namespace mimicx::tools {
@@ -19,6 +21,7 @@ struct SynthArguments {
   std::filesystem::path out;  ///< folder of a set; empty: no set is written
   std::filesystem::path
       data_set;  ///< folder for the project's own test and training split; empty: not written
+  std::filesystem::path json;
   synth::SynthSetConfig set;
   bool force = false;
   bool report = false;  ///< print the forces and torques that each motion demands
@@ -40,27 +43,40 @@ void write_set(const SynthArguments& a, std::size_t total) {
     std::cerr << index + 1 << " of " << total << " motions\n";
     next += record::kProgressSeconds;
   });
-  std::cout << a.out.string() << ": " << total << " motions, each as truth and as a noisy estimate\n";
+  table_stream(a.json) << a.out.string() << ": " << total
+                       << " motions, each as truth and as a noisy estimate\n";
 }
 
 /// Residuals in parts of the weight W, torques in parts of their limits.
-void print_report(const std::vector<synth::SynthConfig>& clips) {
-  std::printf("%-20s %7s %18s %20s %26s %12s\n", "motion", "seconds", "root force, % W", "root moment, mm W",
-              "worst torque, % of limit", "frames over");
-  std::printf("%-20s %7s %9s %8s %11s %8s\n", "", "", "mean", "max", "mean", "max");
+record::Json print_report(std::FILE* out, const std::vector<synth::SynthConfig>& clips) {
+  record::Json rows = record::Json::array();
+  std::fprintf(out, "%-20s %7s %18s %20s %26s %12s\n", "motion", "seconds", "root force, % W",
+               "root moment, mm W", "worst torque, % of limit", "frames over");
+  std::fprintf(out, "%-20s %7s %9s %8s %11s %8s\n", "", "", "mean", "max", "mean", "max");
   for (const synth::SynthConfig& options : clips) {
     const motion::Clip clip = synth::synthesize(options);
     const audit::Feasibility f = audit::feasibility(clip);
     const std::string worst = body_in_words(f.worst_joint);
-    std::printf("%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-14s %4d\n", clip.name.c_str(),
-                (clip.frames() - 1) / clip.fps, 100.0 * f.mean_force, 100.0 * f.max_force,
-                1e3 * f.mean_moment, 1e3 * f.max_moment, 100.0 * f.worst_torque, worst.c_str(),
-                f.frames_over_limit);
+    std::fprintf(out, "%-20s %7.1f %9.2f %8.2f %11.2f %8.1f %19.0f %-14s %4d\n", clip.name.c_str(),
+                 (clip.frames() - 1) / clip.fps, 100.0 * f.mean_force, 100.0 * f.max_force,
+                 1e3 * f.mean_moment, 1e3 * f.max_moment, 100.0 * f.worst_torque, worst.c_str(),
+                 f.frames_over_limit);
+    rows.push_back({{"motion", clip.name},
+                    {"seconds", record::number((clip.frames() - 1) / clip.fps)},
+                    {"mean_root_force", record::number(f.mean_force)},
+                    {"max_root_force", record::number(f.max_force)},
+                    {"mean_root_moment_m", record::number(f.mean_moment)},
+                    {"max_root_moment_m", record::number(f.max_moment)},
+                    {"worst_torque", record::number(f.worst_torque)},
+                    {"worst_joint", worst},
+                    {"frames_over_limit", f.frames_over_limit}});
   }
+  return rows;
 }
 
 void claim_set(const SynthArguments& a) {
   record::Outputs outputs({}, a.force);
+  if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
   const auto claim = [&](const std::filesystem::path& directory, const synth::SynthSetConfig& set) {
     for (const synth::SynthConfig& clip : synth::clips_of_set(set))
       for (const char* part : {"truth", "noisy"})
@@ -91,10 +107,15 @@ int synth(SynthArguments a) {
   if (!a.out.empty()) write_set(a, clips.size());
   if (!a.data_set.empty()) {
     synth::write_synthetic_data(a.data_set);
-    std::cout << a.data_set.string() << ": test and train, " << synth::basic_kinds().size()
-              << " motions each, as truth and as a noisy estimate\n";
+    table_stream(a.json) << a.data_set.string() << ": test and train, " << synth::basic_kinds().size()
+                         << " motions each, as truth and as a noisy estimate\n";
   }
-  if (a.report) print_report(clips);
+  if (!a.report && a.json.empty()) return kAllGood;
+  record::Json names = record::Json::array();
+  for (const synth::SynthConfig& clip : clips) names.push_back(synth::name_of(clip));
+  record::Json result = {{"motions", a.data_set.empty() ? names : record::Json::array()}};
+  if (a.report) result["demands"] = print_report(table_file(a.json), clips);
+  if (!a.json.empty()) write_json(a.json, record::document(result));
   return kAllGood;
 }
 
@@ -129,6 +150,7 @@ void declare_synth(CommandLine& line) {
             "write the project's own small set, test/ and train/, to this folder instead")
       .excludes(out);
   add_force(command, a->force);
+  add_json(command, a->json);
   command.flag("--report", a->report,
                "print the forces and torques that each motion of the set demands; --out is then optional");
   command.action([a] { return synth(*a); });

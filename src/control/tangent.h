@@ -7,7 +7,7 @@
 ///     0 …   2  root position, world, m
 ///     3 …   5  root rotation, body's frame, rad
 ///     6 …  60  joint rotations, child's frame, rad: one number about the axis of a hinge, three for a ball,
-///              in the order of first_dof (character/character.h)
+///              in the order of first_dof (character/bodies.h)
 ///    61 …  63  root velocity, world, m/s
 ///    64 …  66  root angular velocity, body's frame, rad/s
 ///    67 … 121  joint velocities, child's frame, rad/s, in the same order
@@ -23,7 +23,9 @@ using namespace physics;  // states, targets and lanes are the simulator's
 
 inline constexpr int kPositions = 6 + kDofs;     ///< coordinates of the pose
 inline constexpr int kTangent = 2 * kPositions;  ///< coordinates of the state
-inline constexpr int kRootRotation = 3;          ///< first coordinate of each block
+// The first coordinate of each block.
+inline constexpr int kRootPosition = 0;
+inline constexpr int kRootRotation = 3;
 inline constexpr int kJointRotation = 6;
 inline constexpr int kRootVelocity = kPositions;
 inline constexpr int kRootSpin = kPositions + 3;

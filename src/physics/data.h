@@ -9,20 +9,29 @@
 
 namespace mimicx::physics {
 
-/// Generalised coordinates and velocities.
+/// No rotation, for every body.
+template <class T>
+PerBody<Quat<T>> unrotated() {
+  PerBody<Quat<T>> q;
+  q.fill({T(1.0), T(0.0), T(0.0), T(0.0)});
+  return q;
+}
+
+/// Generalised coordinates and velocities. As constructed: the T-pose at rest, the pelvis at the origin,
+/// facing up (standing_state.h has one that stands).
 template <class T>
 struct State {
-  Vec3<T> p_root;          ///< pelvis joint in world, m
-  Vec3<T> v_root;          ///< its velocity in world, m/s
-  PerBody<Quat<T>> q;      ///< [0] pelvis in world; joint rotations relative to the parent
-  PerBody<Vec3<T>> omega;  ///< [0] pelvis; joints relative to the parent; in the body's own frame, rad/s
+  Vec3<T> p_root{};                     ///< pelvis joint in world, m
+  Vec3<T> v_root{};                     ///< its velocity in world, m/s
+  PerBody<Quat<T>> q = unrotated<T>();  ///< [0] pelvis in world; joint rotations relative to the parent
+  PerBody<Vec3<T>> omega{};  ///< [0] pelvis; joints relative to the parent; in the body's own frame, rad/s
 };
 
 /// Target of the PD controllers during one physics step.
 template <class T>
 struct Target {
-  PerBody<Quat<T>> q;      ///< joint rotations relative to the parent; entry 0 unused
-  PerBody<Vec3<T>> omega;  ///< feed-forward of the joint velocity, child's frame, rad/s
+  PerBody<Quat<T>> q = unrotated<T>();  ///< joint rotations relative to the parent; entry 0 unused
+  PerBody<Vec3<T>> omega{};             ///< feed-forward of the joint velocity, child's frame, rad/s
 };
 
 /// A contact point in contact with the floor during one step. Names as in docs/physics.md §4.

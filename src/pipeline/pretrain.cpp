@@ -13,6 +13,7 @@
 #include "core/setting.h"
 #include "files/inputs.h"
 #include "pipeline/options_folder.h"
+#include "record/commit.h"
 #include "record/folder_lock.h"
 #include "record/json.h"
 #include "record/run_folder.h"
@@ -228,7 +229,8 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
     return *outcome;
   }
   folder.create();
-  write_file_atomically(folder.manifest(), record::Json({{"run", record}}).dump(1) + "\n");
+  write_file_atomically(folder.manifest(),
+                        record::Json({{"run", record}, {"commit", record::commit()}}).dump(1) + "\n");
 
   const Motions motions = read_motions(inputs, config, context);
   if (motions.references.empty()) throw std::invalid_argument("no motion could be read");
@@ -257,6 +259,7 @@ record::RunOutcome pretrain(const PretrainConfig& config, const record::RunConte
   options::write_options(config.out / "options.npz", set);
   write_file_atomically(folder.manifest(),
                         record::Json({{"run", record},
+                                      {"commit", record::commit()},
                                       {"inputs", motions.record},
                                       {"options", trained},
                                       {"checksum", record::file_checksum(config.out / "options.npz")}})

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "record/commit.h"
 #include "record/former_settings.h"
 #include "record/sequence_entry.h"
 #include "record/table.h"
@@ -107,7 +108,7 @@ Manifest run_of(const Json& run) {
 }
 
 std::string format_manifest(const Manifest& manifest) {
-  const Json json = {{"run", run_json(manifest)}, {"sequences", Json::array()}};
+  const Json json = {{"run", run_json(manifest)}, {"commit", commit()}, {"sequences", Json::array()}};
   std::string text = json.dump(1);
   if (manifest.sequences.empty()) return text + "\n";
   text.resize(

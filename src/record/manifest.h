@@ -1,8 +1,8 @@
 /// `manifest.json`: the settings of a run, and its result for every input.
 ///
-/// One object: {"run": settings, "sequences": [...]}. Numbers are written so that they read back as the same
-/// bits; a missing value (NaN) is null. Nothing in it depends on the machine's speed, the number of threads
-/// or the folder's location; times are in timing.json (timing.h).
+/// One object: {"run": settings, "commit": of the program that wrote it, "sequences": [...]}. Numbers are
+/// written so that they read back as the same bits; a missing value (NaN) is null. Nothing in it depends on
+/// the machine's speed, the number of threads or the folder's location; times are in timing.json (timing.h).
 #pragma once
 
 #include <cstdint>

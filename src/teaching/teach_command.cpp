@@ -10,6 +10,7 @@
 #include "pipeline/options/features.h"
 #include "pipeline/options/option_set.h"
 #include "pipeline/options_folder.h"
+#include "record/commit.h"
 #include "record/folder_lock.h"
 #include "record/utf8_names.h"
 #include "teaching/plan_teachers.h"
@@ -125,7 +126,8 @@ record::RunOutcome teach(const TeachConfig& config, const record::RunContext& co
     return outcome;
   }
   folder.create();
-  write_file_atomically(folder.manifest(), record::Json({{"run", record}}).dump(1) + "\n");
+  write_file_atomically(folder.manifest(),
+                        record::Json({{"run", record}, {"commit", record::commit()}}).dump(1) + "\n");
   const std::vector<std::string> names = names_of(motions);
   const pipeline::options::Clusters clusters = cluster(config, motions, names);
   rl::tracking::TrackingConfig task;
@@ -157,6 +159,7 @@ record::RunOutcome teach(const TeachConfig& config, const record::RunContext& co
   pipeline::options::write_options(config.out / "options.npz", set);
   write_file_atomically(folder.manifest(),
                         record::Json({{"run", record},
+                                      {"commit", record::commit()},
                                       {"inputs", record::Json::array()},
                                       {"options", taught},
                                       {"checksum", record::file_checksum(config.out / "options.npz")}})

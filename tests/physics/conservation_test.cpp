@@ -172,19 +172,19 @@ TEST(Step, RneaWithRecordedWrenchesGivesTheRecordedTorques) {
     Random random(32, {trial});
     const Character character = make_character(random_betas(random));
     Simulation<double> s(character, {}, random_snapshot(random, 1.5, 4.0, 0.9));
-    const test::BookModel book = test::make_book_model(character, s.model.config.gravity);
+    const trees::Tree tree = trees::humanoid(character, s.model.config.gravity);
     for (int k = 0; k < 240; ++k) {
       Snapshot before;
       read_lane(s.state, 0, before);
       s.advance();
-      test::BookForces forces;
+      trees::TreeForces forces(kBodies);
       for (int i = 0; i < kBodies; ++i) {
         forces[i].head<3>() = lane_of(s.applied.ground[i].n, 0) + lane_of(s.applied.self[i].n, 0);
         forces[i].tail<3>() = lane_of(s.applied.ground[i].f, 0) + lane_of(s.applied.self[i].f, 0);
       }
-      const Eigen::VectorXd expected = book_torque(s.applied.joint_torque);
-      const Eigen::VectorXd tau = test::book_inverse_dynamics(
-          book, book_position(before), book_velocity(before), book_acceleration(before, s.data), forces);
+      const Eigen::VectorXd expected = tree_torque(s.applied.joint_torque);
+      const Eigen::VectorXd tau =
+          trees::inverse_dynamics(tree, tree_state(before), tree_acceleration(before, s.data), forces);
       double scale = 100.0;  // N·m; impacts are much larger
       for (const Vector6d& f : forces) scale = std::max(scale, f.norm());
       ASSERT_LT((tau - expected).cwiseAbs().maxCoeff(), 1e-9 * scale) << "trial " << trial << " step " << k;

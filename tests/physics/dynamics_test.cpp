@@ -38,44 +38,42 @@ struct Trial {
 TEST(Aba, AccelerationsSatisfyRneaOnRandomShapesAndStates) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
+    const trees::Tree tree = trees::humanoid(t.character, t.config.gravity);
     const Eigen::VectorXd tau =
-        test::book_inverse_dynamics(book, book_position(t.snapshot), book_velocity(t.snapshot),
-                                    book_acceleration(t.snapshot, t.data), test::no_forces());
-    EXPECT_LT(relative_difference(tau, book_torque(t.tau)), 1e-9) << "trial " << n;
+        trees::inverse_dynamics(tree, tree_state(t.snapshot), tree_acceleration(t.snapshot, t.data));
+    EXPECT_LT(relative_difference(tau, tree_torque(t.tau)), 1e-9) << "trial " << n;
   }
 }
 
 TEST(Aba, AgreesWithCompositeInertiasAndCholesky) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
-    const Eigen::VectorXd qdd = test::book_forward_dynamics_dense(
-        book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), test::no_forces());
-    EXPECT_LT(relative_difference(book_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
+    const trees::Tree tree = trees::humanoid(t.character, t.config.gravity);
+    const Eigen::VectorXd qdd =
+        trees::dense_forward_dynamics(tree, tree_state(t.snapshot), tree_torque(t.tau));
+    EXPECT_LT(relative_difference(tree_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
   }
 }
 
 TEST(Aba, AgreesWithTheLiteralDenseAlgorithm) {
   for (std::uint64_t n = 0; n < kTrials; ++n) {
     const Trial t(n);
-    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
-    const Eigen::VectorXd qdd = test::book_forward_dynamics_aba(
-        book, book_position(t.snapshot), book_velocity(t.snapshot), book_torque(t.tau), test::no_forces());
-    EXPECT_LT(relative_difference(book_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
+    const trees::Tree tree = trees::humanoid(t.character, t.config.gravity);
+    const Eigen::VectorXd qdd = trees::forward_dynamics(tree, tree_state(t.snapshot), tree_torque(t.tau));
+    EXPECT_LT(relative_difference(tree_acceleration(t.snapshot, t.data), qdd), 1e-9) << "trial " << n;
   }
 }
 
 // An independent check of the oracle: its inertia matrix gives the kinetic energy of bodies whose velocities
 // are differences of positions.
-TEST(BookOracle, MassMatrixMatchesKineticEnergyByDifferences) {
+TEST(TreeDynamics, MassMatrixMatchesKineticEnergyByDifferences) {
   Random random(8);
   const Character character = make_character(random_betas(random));
   const Snapshot s = random_snapshot(random, 2.5, 3.0, 1.0);
-  test::BookModel book = test::make_book_model(character, kGravity);
-  for (test::BookBody& body : book.body) body.armature = 0.0;
-  const Eigen::VectorXd qd = book_velocity(s);
-  const double energy = 0.5 * qd.dot(test::book_mass_matrix(book, book_position(s)) * qd);
+  trees::Tree tree = trees::humanoid(character, kGravity);
+  for (trees::TreeBody& body : tree.body) body.armature = 0.0;
+  const Eigen::VectorXd qd = tree_velocity(s);
+  const double energy = 0.5 * qd.dot(trees::mass_matrix(tree, tree_state(s)) * qd);
 
   const double h = 1e-5;
   const auto moved = [&](double t) {

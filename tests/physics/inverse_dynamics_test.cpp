@@ -11,9 +11,9 @@ namespace mimicx::physics {
 namespace {
 
 /// Forces in the coordinates of the oracle.
-Eigen::VectorXd book_forces(const MotionState& m, const RequiredForces& forces) {
+Eigen::VectorXd tree_forces(const MotionState& m, const RequiredForces& forces) {
   const Quaterniond to_pelvis = m.q[0].conjugate();
-  return book_vector(to_pelvis * forces.root.head<3>(), to_pelvis * forces.root.tail<3>(), forces.joint);
+  return tree_vector(to_pelvis * forces.root.head<3>(), to_pelvis * forces.root.tail<3>(), forces.joint);
 }
 
 /// The snapshot's pose at rest.
@@ -36,10 +36,11 @@ TEST(InverseDynamics, EqualsTheDenseOracleOnRandomShapesStatesAndWrenches) {
     const BodyWrenches wrenches = random_wrenches(random);
     const Quaterniond to_pelvis = s.q[0].conjugate();
     const Eigen::VectorXd qdd =
-        book_vector(m.omega_d[0], to_pelvis * m.a_root - s.omega[0].cross(to_pelvis * s.v_root), m.omega_d);
-    const Eigen::VectorXd expected = test::book_inverse_dynamics(
-        test::make_book_model(c, kGravity), book_position(s), book_velocity(s), qdd, wrenches);
-    const Eigen::VectorXd found = book_forces(m, inverse_dynamics(c, kGravity, m, wrenches));
+        tree_vector(m.omega_d[0], to_pelvis * m.a_root - s.omega[0].cross(to_pelvis * s.v_root), m.omega_d);
+    const Eigen::VectorXd expected =
+        trees::inverse_dynamics(trees::humanoid(c, kGravity), tree_state(s), qdd,
+                                trees::TreeForces(wrenches.begin(), wrenches.end()));
+    const Eigen::VectorXd found = tree_forces(m, inverse_dynamics(c, kGravity, m, wrenches));
     EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
   }
 }
@@ -112,8 +113,8 @@ Vector3d moved_point(const Character& c, const Snapshot& s, const ContactPoint& 
 /// Jacobian of a contact point, 3 × 61, by differences.
 Eigen::Matrix3Xd point_jacobian(const Character& c, const Snapshot& s, const ContactPoint& point) {
   constexpr double h = 1e-6;
-  Eigen::Matrix3Xd J(3, test::kBookDofs);
-  for (int dof = 0; dof < test::kBookDofs; ++dof)
+  Eigen::Matrix3Xd J(3, kTreeDofs);
+  for (int dof = 0; dof < kTreeDofs; ++dof)
     J.col(dof) = (moved_point(c, s, point, dof, h) - moved_point(c, s, point, dof, -h)) / (2.0 * h);
   return J;
 }
@@ -128,7 +129,7 @@ TEST(Kinematics, PointVelocitiesAreTheJacobianOfDifferencesTimesTheRates) {
     const int b = point.body;
     const Vector3d arm = lane_of(simulation.data.q_WB[b], 0) * point.p_B;
     const Vector3d v = lane_of(simulation.data.v[b], 0) + lane_of(simulation.data.w[b], 0).cross(arm);
-    EXPECT_LT((v - point_jacobian(c, s, point) * book_velocity(s)).norm(), 1e-7) << point.body;
+    EXPECT_LT((v - point_jacobian(c, s, point) * tree_velocity(s)).norm(), 1e-7) << point.body;
   }
 }
 
@@ -146,7 +147,7 @@ TEST(InverseDynamics, PointForceNeedsTheTransposedJacobian) {
     wrenches.fill(Vector6d::Zero());
     wrenches[b].head<3>() = (poses.q_WB[b] * point.p_B).cross(force);
     wrenches[b].tail<3>() = force;
-    const Eigen::VectorXd held = book_forces(m, inverse_dynamics(c, 0.0, m, wrenches));
+    const Eigen::VectorXd held = tree_forces(m, inverse_dynamics(c, 0.0, m, wrenches));
     EXPECT_LT((held + point_jacobian(c, s, point).transpose() * force).norm(), 1e-6 * force.norm());
   }
 }

@@ -7,9 +7,9 @@
 namespace mimicx::physics {
 namespace {
 
-/// The oracle's velocity coordinates as a linear function of MuJoCo's: qd_book = P qd_mujoco.
+/// The oracle's velocity coordinates as a linear function of MuJoCo's: qd_tree = P qd_mujoco.
 Eigen::MatrixXd coordinates(const test::MujocoCharacter& mujoco, const Snapshot& s) {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(test::kBookDofs, test::kBookDofs);
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(kTreeDofs, kTreeDofs);
   P.block<3, 3>(0, 3).setIdentity();
   P.block<3, 3>(3, 0) = s.q[0].toRotationMatrix().transpose();
   int dof = 6;
@@ -44,20 +44,19 @@ TEST(Mujoco, MassMatrixAndBiasForcesAgreeWithTheOracle) {
     mjModel& m = t.mujoco->model();
     mjData& d = t.mujoco->data();
     mj_forward(&m, &d);
-    Eigen::Matrix<double, -1, -1, Eigen::RowMajor> M(test::kBookDofs, test::kBookDofs);
+    Eigen::Matrix<double, -1, -1, Eigen::RowMajor> M(kTreeDofs, kTreeDofs);
     mj_fullM(&m, M.data(), d.qM);
     const Eigen::MatrixXd P = coordinates(*t.mujoco, t.snapshot);
-    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
-    const test::BookPosition q = book_position(t.snapshot);
-    EXPECT_LT(matrix_difference(P.transpose() * test::book_mass_matrix(book, q) * P, M), 1e-8);
+    const trees::Tree tree = trees::humanoid(t.character, t.config.gravity);
+    const trees::TreeState state = tree_state(t.snapshot);
+    EXPECT_LT(matrix_difference(P.transpose() * trees::mass_matrix(tree, state) * P, M), 1e-8);
 
     // At zero acceleration in MuJoCo's coordinates the pelvis' spatial acceleration is −ω × v.
-    const Eigen::VectorXd qd = book_velocity(t.snapshot);
-    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(test::kBookDofs);
+    const Eigen::VectorXd qd = tree_velocity(t.snapshot);
+    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(kTreeDofs);
     qdd.segment<3>(3) = -qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
-    const Eigen::VectorXd bias =
-        P.transpose() * test::book_inverse_dynamics(book, q, qd, qdd, test::no_forces());
-    EXPECT_LT(matrix_difference(bias, Eigen::Map<Eigen::VectorXd>(d.qfrc_bias, test::kBookDofs)), 1e-8);
+    const Eigen::VectorXd bias = P.transpose() * trees::inverse_dynamics(tree, state, qdd);
+    EXPECT_LT(matrix_difference(bias, Eigen::Map<Eigen::VectorXd>(d.qfrc_bias, kTreeDofs)), 1e-8);
   }
 }
 
@@ -73,15 +72,15 @@ TEST(Mujoco, ForwardDynamicsAgreesWithTheSimulator) {
     }
     const Eigen::MatrixXd P = coordinates(*t.mujoco, t.snapshot);
     mjData& d = t.mujoco->data();
-    Eigen::Map<Eigen::VectorXd>(d.qfrc_applied, test::kBookDofs) = P.transpose() * book_torque(tau);
+    Eigen::Map<Eigen::VectorXd>(d.qfrc_applied, kTreeDofs) = P.transpose() * tree_torque(tau);
     mj_forward(&t.mujoco->model(), &d);
 
     Simulation<double> s(t.character, t.config, t.snapshot);
     forward_dynamics(s.model, s.state, tau, s.data);
-    Eigen::VectorXd ours = book_acceleration(t.snapshot, s.data);
-    const Eigen::VectorXd qd = book_velocity(t.snapshot);
+    Eigen::VectorXd ours = tree_acceleration(t.snapshot, s.data);
+    const Eigen::VectorXd qd = tree_velocity(t.snapshot);
     ours.segment<3>(3) += qd.segment<3>(0).eval().head<3>().cross(qd.segment<3>(3).head<3>());
-    const Eigen::VectorXd theirs = P * Eigen::Map<Eigen::VectorXd>(d.qacc, test::kBookDofs);
+    const Eigen::VectorXd theirs = P * Eigen::Map<Eigen::VectorXd>(d.qacc, kTreeDofs);
     EXPECT_LT(matrix_difference(ours, theirs), 1e-8) << "trial " << n;
   }
 }
@@ -98,7 +97,7 @@ TEST(Mjcf, OpensWithoutWarningsForEveryShape) {
     test::MujocoCharacter mujoco(make_character(betas), {});  // throws on any message of MuJoCo
     mj_forward(&mujoco.model(), &mujoco.data());
     EXPECT_EQ(mujoco.model().nq, 7 + 17 * 4 + 4);
-    EXPECT_EQ(mujoco.model().nv, test::kBookDofs);
+    EXPECT_EQ(mujoco.model().nv, kTreeDofs);
     for (int k = 0; k < 20; ++k) mj_step(&mujoco.model(), &mujoco.data());
     for (int kind = 0; kind < mjNWARNING; ++kind) EXPECT_EQ(mujoco.data().warning[kind].number, 0);
   }
@@ -162,9 +161,9 @@ TEST(Mujoco, MomentumAgreesWithTheSumOverTheBodies) {
     Random random(56, {n});
     const MotionState state = random_motion(t.snapshot, random);
     // The first six rows of H q̇ are the momentum of the whole about the pelvis, in its axes.
-    const test::BookModel book = test::make_book_model(t.character, t.config.gravity);
-    const Eigen::MatrixXd H = test::book_mass_matrix(book, book_position(t.snapshot));
-    const Eigen::VectorXd h = H * book_velocity(t.snapshot);
+    const trees::Tree tree = trees::humanoid(t.character, t.config.gravity);
+    const Eigen::MatrixXd H = trees::mass_matrix(tree, tree_state(t.snapshot));
+    const Eigen::VectorXd h = H * tree_velocity(t.snapshot);
     const test::MujocoMomentum theirs = test::mujoco_momentum(*t.mujoco, state);
     const Vector3d linear_B = h.segment<3>(3), angular_B = h.segment<3>(0);
     const Vector3d linear = t.snapshot.q[0] * linear_B;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "physics/rest_poses.h"
+#include "physics/standing_state.h"
 
 namespace mimicx::physics {
 namespace {
@@ -43,6 +44,32 @@ SoleMotion stand(const Character& c, const Snapshot& pose, double rate, int sole
   std::printf("  measured: %d points at %.0f Hz: soles %.2f .. %.2f mm, fastest creep %.3f mm/s\n",
               sole_points, rate, kMm * motion.lowest, kMm * motion.highest, kMm * motion.creep);
   return motion;
+}
+
+TEST(Standing, StateIsAPoseAsConstructed) {
+  const Character c = make_character();
+  Simulation<double> s(c, {});
+  s.state = State<double>();
+  s.target = Target<double>();
+  s.state.p_root.z = 2.0;
+  for (int i = 0; i < kBodies; ++i) EXPECT_EQ(s.state.q[i].w, 1.0) << i;
+  EXPECT_FALSE(s.advance());
+  EXPECT_NEAR(s.state.v_root.z, -kGravity / 240.0,
+              1e-3);  // it falls; a pelvis of no rotation would stay finite, too
+  EXPECT_NEAR(lane_of(s.state.q[kLeftKnee], 0).norm(), 1.0, 1e-12);
+}
+
+TEST(Standing, StandingStateHasItsSolesOnTheFloorAndATargetThatHoldsIt) {
+  const Character c = stiffened(make_character({1.0}));
+  Simulation<double> s(c, {});
+  s.state = standing_state(c);
+  s.target = target_at(s.state);
+  double lowest = 1.0;
+  for (const Vector3d& point : contact_positions(c, s)) lowest = std::min(lowest, point.z());
+  EXPECT_NEAR(lowest, 0.0, 1e-12);
+  const double height = s.state.p_root.z;
+  for (int k = 0; k < 60; ++k) EXPECT_FALSE(s.advance());
+  EXPECT_NEAR(s.state.p_root.z, height, 0.02);
 }
 
 TEST(Standing, SolesStayWithinAMillimetreOfTheFloorAndDoNotCreep) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "physics/standing_state.h"
+
 namespace mimicx::physics {
 
 Vector3d random_vector(Random& random) {
@@ -44,19 +46,8 @@ double lowest_point(const Character& character, const Snapshot& s) {
 
 Snapshot standing(const Character& character) {
   Snapshot s;
-  s.omega.fill(Vector3d::Zero());
+  read_lane(standing_state(character), 0, s);
   s.target_omega.fill(Vector3d::Zero());
-  s.q.fill(Quaterniond::Identity());
-  s.q[0] = exp_map(Vector3d(std::numbers::pi / 2, 0, 0));
-  const double bend = 0.3;  // hip and ankle undo what the knee flexes: trunk upright, soles flat
-  for (const int hip : {kLeftHip, kRightHip}) s.q[hip] = exp_map(Vector3d(-0.5 * bend, 0, 0));
-  for (const int knee : {kLeftKnee, kRightKnee}) s.q[knee] = exp_map(Vector3d(bend, 0, 0));
-  for (const int ankle : {kLeftAnkle, kRightAnkle}) s.q[ankle] = exp_map(Vector3d(-0.5 * bend, 0, 0));
-  s.q[kLeftShoulder] = exp_map(Vector3d(0, 0, -1.25));
-  s.q[kRightShoulder] = exp_map(Vector3d(0, 0, 1.25));
-  s.q[kLeftElbow] = exp_map(0.3 * hinge_axis(kLeftElbow));
-  s.q[kRightElbow] = exp_map(0.3 * hinge_axis(kRightElbow));
-  s.p_root.z() -= lowest_point(character, s);
   s.target_q = s.q;
   return s;
 }
@@ -139,16 +130,18 @@ BodyWrenches random_wrenches(Random& random) {
   return wrenches;
 }
 
-test::BookPosition book_position(const Snapshot& s) {
-  test::BookPosition position;
-  position.p_root = s.p_root;
-  for (int i = 0; i < kBodies; ++i) position.R[i] = s.q[i].toRotationMatrix();
-  return position;
+trees::TreeState tree_state(const Snapshot& s) {
+  trees::TreeState state;
+  for (const Quaterniond& q : s.q) state.R.push_back(q.toRotationMatrix());
+  state.p.assign(kBodies, Vector3d::Zero());
+  state.p[kPelvis] = s.p_root;
+  state.qd = tree_velocity(s);
+  return state;
 }
 
-Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
+Eigen::VectorXd tree_vector(const Vector3d& angular, const Vector3d& linear,
                             const PerBody<Vector3d>& joints) {
-  Eigen::VectorXd out(test::kBookDofs);
+  Eigen::VectorXd out(kTreeDofs);
   out.segment<3>(0) = angular;
   out.segment<3>(3) = linear;
   int dof = 6;
@@ -164,24 +157,24 @@ Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear,
   return out;
 }
 
-Eigen::VectorXd book_velocity(const Snapshot& s) {
-  return book_vector(s.omega[0], s.q[0].conjugate() * s.v_root, s.omega);
+Eigen::VectorXd tree_velocity(const Snapshot& s) {
+  return tree_vector(s.omega[0], s.q[0].conjugate() * s.v_root, s.omega);
 }
 
-Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d) {
+Eigen::VectorXd tree_acceleration(const Snapshot& s, const Data<double>& d) {
   const Matrix3d R = s.q[0].toRotationMatrix();
   const BodyPoses poses = forward_kinematics(Character{}, s.p_root, s.q);
   PerBody<Vector3d> joints;
   for (int i = 0; i < kBodies; ++i) joints[i] = poses.q_WB[i].conjugate() * to_eigen(d.qdd[i]);
   // The spatial acceleration differs from the classical one by ω × v.                  RBDA §2.11
-  return book_vector(R.transpose() * to_eigen(d.a_w[0]),
+  return tree_vector(R.transpose() * to_eigen(d.a_w[0]),
                      R.transpose() * to_eigen(d.a_v[0]) - s.omega[0].cross(R.transpose() * s.v_root), joints);
 }
 
-Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau) {
+Eigen::VectorXd tree_torque(const PerBody<Vec3<double>>& tau) {
   PerBody<Vector3d> joints;
   for (int i = 0; i < kBodies; ++i) joints[i] = to_eigen(tau[i]);
-  return book_vector(Vector3d::Zero(), Vector3d::Zero(), joints);
+  return tree_vector(Vector3d::Zero(), Vector3d::Zero(), joints);
 }
 
 }  // namespace mimicx::physics

@@ -1,14 +1,14 @@
 /// States for the tests: one character in plain doubles, and conversions to and from the simulator's lanes
-/// and the oracle.
+/// and the tree of src/trees.
 #pragma once
 
 #include <initializer_list>
 
 #include "core/random.h"
-#include "oracles/book_dynamics.h"
 #include "physics/inverse_dynamics.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
+#include "trees/tree_dynamics.h"
 
 namespace mimicx::physics {
 
@@ -42,15 +42,17 @@ BodyWrenches random_wrenches(Random& random);
 /// Height of the lowest contact point (its sphere's lowest point), m.
 double lowest_point(const Character& character, const Snapshot& s);
 
-test::BookPosition book_position(const Snapshot& s);
-/// The oracle's coordinates of six numbers of the root and one vector per joint (entry 0 unused), child's
+/// Degrees of freedom of the character as a tree: 6 of the pelvis and 55 of the joints.
+inline constexpr int kTreeDofs = 6 + kDofs;
+trees::TreeState tree_state(const Snapshot& s);
+/// The tree's coordinates of six numbers of the root and one vector per joint (entry 0 unused), child's
 /// frame.
-Eigen::VectorXd book_vector(const Vector3d& angular, const Vector3d& linear, const PerBody<Vector3d>& joints);
-Eigen::VectorXd book_velocity(const Snapshot& s);
-/// Generalised acceleration that the simulator found, in the oracle's coordinates.
-Eigen::VectorXd book_acceleration(const Snapshot& s, const Data<double>& d);
-/// Torques of the joints (entry 0 unused, child's frame) as the oracle's generalised forces.
-Eigen::VectorXd book_torque(const PerBody<Vec3<double>>& tau);
+Eigen::VectorXd tree_vector(const Vector3d& angular, const Vector3d& linear, const PerBody<Vector3d>& joints);
+Eigen::VectorXd tree_velocity(const Snapshot& s);
+/// Generalised acceleration that the simulator found, in the tree's coordinates.
+Eigen::VectorXd tree_acceleration(const Snapshot& s, const Data<double>& d);
+/// Torques of the joints (entry 0 unused, child's frame) as the tree's generalised forces.
+Eigen::VectorXd tree_torque(const PerBody<Vec3<double>>& tau);
 
 template <class T>
 void set_lane(const Snapshot& s, int lane, State<T>& state, Target<T>& target) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/build.h"
+#include "core/file.h"
 #include "core/npz/npz.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"
@@ -31,6 +32,16 @@ TEST_F(Cli, VersionNamesTheInstructionSetAndTheArithmetic) {
   EXPECT_EQ(call.status, 0);
   EXPECT_TRUE(says(call, std::string("built for ") + MIMICX_TARGET + ", arithmetic " + kArithmetic))
       << call.text;
+}
+
+TEST_F(Cli, VersionAndManifestNameTheCommit) {
+  const Call git =
+      shell("cd '" MIMICX_SOURCE_DIR "' && git describe --always --abbrev=12 --exclude='*' 2>&1");
+  std::string commit = git.status == 0 ? git.text.substr(0, 12) : "unknown";
+  EXPECT_TRUE(says(mimicx("--version"), std::string(MIMICX_VERSION) + " (" + commit)) << commit;
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  EXPECT_EQ(mimicx("plan " + path("a.npz") + " --out " + path("out") + " --no-fit").status, 0);
+  EXPECT_TRUE(read_file(path("out/manifest.json")).find("\"commit\": \"" + commit) != std::string::npos);
 }
 
 TEST_F(Cli, WrongUsageIsStatusTwo) {

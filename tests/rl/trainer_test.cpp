@@ -103,7 +103,7 @@ struct ThreeSteps : toy::ToyEnvironment<toy::DoubleIntegrator> {
   std::vector<int> ages = std::vector<int>(8, 0);
 
   void step(int group, const Eigen::Ref<const nn::Matrix<float>>& actions, StepResult& result) {
-    ToyEnvironment::step(group, actions, result);
+    TaskEnvironment::step(group, actions, result);
     for (int i = 0; i < group_size(); ++i) {
       int& age = ages[static_cast<std::size_t>(i)];
       result.truncated[i] = false;

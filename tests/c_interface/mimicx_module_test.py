@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""python/mimicx.py over the built library.
+  mimicx_module_test.py MODULE LIBRARY PROGRAM MOTION.npz      status 77 where NumPy is not there
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("mimicx module: Skipped: no NumPy here")
+    sys.exit(77)
+
+MODULE, LIBRARY, PROGRAM, MOTION = (str(pathlib.Path(word).resolve()) for word in sys.argv[1:5])
+os.environ["MIMICX_LIBRARY"] = LIBRARY
+sys.path.insert(0, str(pathlib.Path(MODULE).parent))
+sys.dont_write_bytecode = True
+import mimicx  # noqa: E402
+
+FILE = dict(np.load(MOTION))
+N = 30
+
+
+def beginning(**more):
+    return mimicx.clean(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], fps=30, body_model="mimicx", **more)
+
+
+class Cleaning(unittest.TestCase):
+    def test_a_file_gives_the_bytes_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            small = pathlib.Path(folder, "small.npz")
+            np.savez(small, poses=FILE["poses"][:N], trans=FILE["trans"][:N], betas=FILE["betas"], mocap_framerate=30.0,
+                     body_model="mimicx")
+            subprocess.run([PROGRAM, "plan", str(small), "--out", folder + "/run", "--quiet"], check=True)
+            motion = mimicx.load(small)
+            self.assertTrue(motion.clean())
+            self.assertEqual(motion.bytes(".npz"), pathlib.Path(folder, "run/motions/small.npz").read_bytes())
+            run = mimicx.Run(folder + "/run")
+            (entry, arrays), = run.motions()
+            np.testing.assert_array_equal(arrays["poses"], motion["poses"])
+            self.assertEqual(entry["metrics"], motion.record["metrics"])
+            stretches = mimicx.RunMotions(folder + "/run", frames=10, stride=5)
+            self.assertEqual(len(stretches), 5)
+            self.assertEqual(stretches[4]["ground_wrenches"].shape, (10, 22, 6))
+            np.testing.assert_array_equal(stretches[1]["trans"], arrays["trans"][5:15].astype(np.float32))
+
+    def test_arrays_are_cleaned_and_outlive_the_motion(self):
+        told = []
+        result = beginning(progress=told.append, threads=1)
+        self.assertTrue(result.followed)
+        self.assertTrue(told and all(isinstance(text, str) for text in told))
+        torques = result["joint_torques"]
+        self.assertEqual(torques.shape, (N, 55))
+        del result
+        self.assertTrue(np.isfinite(torques).all())
+        other = mimicx.clean(FILE["poses"][:N].reshape(N, 22, 3), FILE["trans"][:N], FILE["betas"], body_model="mimicx")
+        np.testing.assert_array_equal(other["joint_torques"], torques)
+        self.assertLess(other.metrics["slip"], 1.0)
+
+    def test_keypoints_by_name_are_fitted(self):
+        names, points = FILE["keypoint_names"], FILE["keypoints_2d"][:N]
+        extrinsics = FILE["camera_extrinsics"]
+        result = beginning(keypoints={str(n): points[:, k] for k, n in enumerate(names)},
+                           camera=(FILE["camera_intrinsics"], extrinsics if extrinsics.ndim == 2 else extrinsics[:N]))
+        self.assertIn("residual_after_percent", result.record["fit"])
+        self.assertNotIn("residual_after_percent", beginning(fit=False).record.get("fit", {}))
+
+    def test_progress_stops_it_and_its_errors_come_out(self):
+        with self.assertRaises(KeyboardInterrupt):
+            beginning(progress=lambda doing: True)
+
+        def broken(doing):
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError):
+            beginning(progress=broken)
+
+    def test_errors_have_the_library_s_words(self):
+        with self.assertRaisesRegex(mimicx.Error, "colour"):
+            mimicx.Motion(colour=1)
+        with self.assertRaisesRegex(mimicx.Error, "trans"):
+            mimicx.clean(FILE["poses"][:N], FILE["trans"][:N - 1])
+        with self.assertRaisesRegex(KeyError, "wings"):
+            mimicx.load(MOTION)["wings"]
+
+    def test_poses_are_audited(self):
+        found = mimicx.audit(FILE["poses"][:N], FILE["trans"][:N], FILE["betas"], body_model="mimicx")
+        self.assertEqual(found[0]["evidence"], "poses alone")
+
+
+class Simulating(unittest.TestCase):
+    def test_it_stands_and_is_pushed(self):
+        body = mimicx.Simulator()
+        height = body.root_position[2]
+        body.step(24)
+        self.assertAlmostEqual(body.root_position[2], height, delta=0.02)
+        self.assertGreater(body.ground_wrenches[:, 5].sum(), 300)
+        body.push[3] = 200
+        x = body.root_position[0]
+        body.step(24)
+        self.assertGreater(body.root_position[0], x + 0.005)
+        body.stand()
+        self.assertEqual(body.root_position[2], height)
+
+    def test_arrays_outlive_the_simulator(self):
+        place = mimicx.Simulator().root_position
+        np.testing.assert_array_less([0, 0, 0.5], place + [1, 1, 0])
+
+    def test_settings_and_shapes_are_checked(self):
+        with self.assertRaisesRegex(mimicx.Error, "friction"):
+            mimicx.Simulator(friction=-1)
+        with self.assertRaises(ValueError):
+            mimicx.Simulator(betas=[1, 2])
+        body = mimicx.Simulator(betas=np.eye(10)[0], gravity=0)
+        body.target_rotations[4] = 0
+        with self.assertRaisesRegex(mimicx.Error, "left_knee"):
+            body.step()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
