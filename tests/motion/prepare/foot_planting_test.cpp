@@ -120,7 +120,7 @@ TEST(FootPlanting, ADraggedFootSteps) {
   const int middle = (first + last) / 2;
   ASSERT_LT(lowest(reference.poses[middle]), 1e-9);
   plant_feet(stance, reference);
-  EXPECT_GT(lowest(reference.poses[middle]), 0.012);
+  EXPECT_GT(lowest(reference.poses[middle]), 0.006);  // of 20 mm, at 0.56 of 1.5 m/s
 }
 
 TEST(FootPlanting, LowersAPelvisSmoothly) {
