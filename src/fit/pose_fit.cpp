@@ -59,6 +59,13 @@ double slip_of(const FitProblem& problem) {
   return steps.empty() ? 0.0 : median(steps) * problem.fps / kReferenceFps;
 }
 
+/// The prior of a motion whose feet slide little: it is as exact as they are.
+void trust(double share, FitConfig& config) {
+  constexpr double kLeast = 0.05;
+  config.joint_sigma *= std::max(share, kLeast);
+  config.root_rotation_sigma *= std::max(share, kLeast);
+}
+
 }  // namespace
 
 motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitReport* report) {
@@ -67,9 +74,10 @@ motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitRep
   if (clip.frames() < kFewestFrames) return clip;
   motion::require_usable(clip, kFewestFrames);
   FitProblem problem = problem_of(clip, config);
-  motion::Clip fitted = problem.penalises_acceleration || slip_of(problem) >= config.pose_slip
-                            ? solved(clip, problem, r)
-                            : clip;
+  const double slip = slip_of(problem);
+  if (!problem.penalises_acceleration) trust(std::min(slip / config.pose_slip, 1.0), problem.config);
+  motion::Clip fitted =
+      problem.penalises_acceleration || slip >= kStandingSlip ? solved(clip, problem, r) : clip;
   if (report) *report = r;
   return fitted;
 }

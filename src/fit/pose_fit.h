@@ -17,10 +17,13 @@ namespace mimicx::fit {
 
 /// A motion trembles if the white noise of its joint rotations is above this, degrees per axis.
 inline constexpr double kTremor = 0.3;
+/// Feet that slide by less stand, m per frame at 30 fps.
+inline constexpr double kStandingSlip = 0.0001;
 
 /// Plants the feet of a motion that slides, and smooths a motion that trembles, as those of single-frame
-/// estimators do. Keypoints and shape do not change. A motion that does neither (`kTremor`,
-/// FitConfig::pose_slip), or with fewer than 4 frames, is returned unchanged. Deterministic.
+/// estimators do. The less it slides the more its poses are believed (FitConfig::pose_slip). Keypoints and
+/// shape do not change. A motion that does neither (`kTremor`, `kStandingSlip`), or with fewer than 4 frames,
+/// is returned unchanged. Deterministic.
 /// @param report  may be null
 /// @throws DataError for values that are not finite
 motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitReport* report);

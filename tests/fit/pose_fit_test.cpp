@@ -94,6 +94,18 @@ TEST(FitPoses, SmoothsATremblingMotion) {
   }
 }
 
+TEST(FitPoses, TheLessAMotionSlidesTheLessItsPosesChange) {
+  const motion::Clip truth = truth_of("squat");
+  double before = 0.0;
+  for (const double speed : {0.0005, 0.001, 0.003}) {
+    motion::Clip slid = sliding(truth, speed);
+    for (int t = 0; t < slid.frames(); ++t) slid.rotations[t][kLeftHip].y() += 0.05;  // the foot turns
+    const double changed = against(slid, fit_poses(slid, {}, nullptr)).pa_mpjpe.value;
+    EXPECT_GT(changed, before);
+    before = changed;
+  }
+}
+
 TEST(FitPoses, CleanMotionStaysByteIdentical) {
   for (const char* kind : {"walk", "jog", "kick", "punch", "jump", "side_step"}) {
     const motion::Clip truth = truth_of(kind);
