@@ -6,7 +6,6 @@
 #include "audit/substeps.h"
 #include "files/motion_output.h"
 #include "judge/reference_needs.h"
-#include "judge/scores.h"
 #include "judge/worsening.h"
 #include "motion/clip_file.h"
 #include "run/file_integrity.h"
@@ -76,7 +75,7 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
   entry.ok = after.success;
   entry.reason = after.reason;
   if (entry.ok)
-    entry.worse = judge::worsenings({motion.input, reference, motion.needs, entry.input_metrics}, made.after,
+    entry.worse = judge::worsenings({motion.input, reference, motion.needs, motion.input_scores}, made.after,
                                     entry.metrics);
   if (!made.reason.empty()) {
     if (entry.ok)

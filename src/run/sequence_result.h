@@ -2,6 +2,7 @@
 #pragma once
 
 #include "audit/pose_needs.h"
+#include "judge/scores.h"
 #include "record/manifest.h"
 #include "record/run_folder.h"
 #include "run/method.h"
@@ -9,15 +10,16 @@
 
 namespace mimicx::run {
 
-/// A prepared motion with the external wrench that its reference would need.
+/// A prepared motion, the external wrench that its reference would need, and the scores of its input.
 struct JudgedMotion : PreparedMotion {
   audit::PoseNeeds needs;
 };
+  judge::InputScores input_scores;
 
 /// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
 
-/// Writes scores and audit of the method's result into the entry, whose `input_metrics` are known.
+/// Writes scores and audit of the method's result into the entry.
 void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry);
 

@@ -110,12 +110,14 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
   const RunState& run = worker.run;
   JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}};
+  motion.input_scores = judge::score_input(motion.input, motion.reference);
   motion.needs = judge::needs_of(motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
+  entry.input_metrics = motion.input_scores.values;
   entry.notes = motion.notes;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;
@@ -154,7 +156,6 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   if (there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
     entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
                           " samples; one begun with more would explore longer, and be another");
-  entry.input_metrics = judge::score_input(motion.input, motion.reference);
   const SequenceJob job{
       entry.name,     entry.input_checksum,     run.folder,   run.config.substeps, run.config.gains,
       worker.threads, run.config.limit_seconds, motion.needs, worker.context};
