@@ -46,8 +46,7 @@ struct Worker {
 };
 
 PreparedMotion prepared(const RunConfig& config, const std::string& input, int threads) {
-  return prepare_motion(input, config.read, correction_of(config.fit, config.as_is), threads,
-                        config.unfitted_keypoints);
+  return prepare_motion(input, config.read, config.correction, threads);
 }
 
 /// Remakes damaged input, fit and reference files of a finished sequence; reports other damaged files.
@@ -343,9 +342,7 @@ class ParallelRun {
 
 }  // namespace
 
-NamedValues manifest_settings(const RunConfig& config) {
-  return correction_settings(config.fit, config.as_is, config.unfitted_keypoints);
-}
+NamedValues manifest_settings(const RunConfig& config) { return settings_of(config.correction); }
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context) {
