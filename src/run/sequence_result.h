@@ -7,14 +7,15 @@
 #include "record/run_folder.h"
 #include "run/method.h"
 #include "run/preparation.h"
+#include "run/run_state.h"
 
 namespace mimicx::run {
 
 /// A prepared motion, the external wrench that its reference would need, and the scores of its input.
 struct JudgedMotion : PreparedMotion {
   audit::PoseNeeds needs;
-};
   judge::InputScores input_scores;
+};
 
 /// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
@@ -26,9 +27,7 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
 /// Writes fit, reference, feasibility, simulated motion, followed parts, taught policy and, on request,
 /// physics steps. The entry gets their names and checksums.
 /// @param parts  of a motion that is no success
-void write_sequence(const record::RunFolder& folder, bool substeps,
-                    const physics::SimulationConfig& simulation, const JudgedMotion& motion,
-                    const SimulatedSequence& made, const List<FollowedPart>& parts,
-                    record::SequenceEntry& entry);
+void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
+                    const List<FollowedPart>& parts, record::SequenceEntry& entry);
 
 }  // namespace mimicx::run

@@ -108,16 +108,16 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
 /// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
   const RunState& run = worker.run;
-  JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}};
-  motion.input_scores = judge::score_input(motion.input, motion.reference);
+  JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}, {}};
   motion.needs = judge::needs_of(motion.reference);
+  motion.input_scores = judge::score_input(motion.input, motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
-  entry.input_metrics = motion.input_scores.values;
   entry.notes = motion.notes;
+  entry.input_metrics = motion.input_scores.values;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;
   if (run.config.quiet) return motion;
@@ -168,9 +168,7 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
     done.timing.planning_seconds += found.seconds;
     done.interrupted = found.interrupted;
     if (found.timed_out) entry.ending = record::SequenceEnding::kLimitSeconds;
-    if (!done.interrupted)
-      write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, found.parts,
-                     entry);
+    if (!done.interrupted) write_sequence(run, motion, made, found.parts, entry);
   }
   if (!done.interrupted) {
     if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
