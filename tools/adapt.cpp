@@ -94,7 +94,7 @@ void declare_adapt(CommandLine& line) {
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--budget-samples");
   add_fit_arguments(command, a->config.run);
-  add_unfitted_keypoints(command, a->config.run.unfitted_keypoints);
+  add_unfitted_keypoints(command, a->config.run.correction.unfitted_keypoints);
   add_gains_argument(command, a->config.run);
   command.texts(
       "--options", a->options, "SET",

@@ -8,9 +8,9 @@
 #include <system_error>
 
 #include "command_line_numbers.h"
+#include "command_text.h"
 #include "commands.h"
 #include "record/table.h"
-#include "text.h"
 
 namespace mimicx::tools {
 namespace {

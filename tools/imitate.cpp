@@ -32,9 +32,10 @@ void declare_imitate(CommandLine& line) {
       "mimicx imitate DIR --fit --samples 3M --out out/run   # a folder, fitted to keypoints first");
   add_run_arguments(command, a->config.run, a->more);
   add_training_arguments(command, a->config.training, "--samples");
-  command.flag("--fit", a->config.run.fit, "first fit motions to their keypoints, if they have any");
-  add_as_is(command, a->config.run.as_is);
-  add_unfitted_keypoints(command, a->config.run.unfitted_keypoints);
+  command.flag("--fit", a->config.run.correction.fit,
+               "first fit motions to their keypoints, if they have any");
+  add_as_is(command, a->config.run.correction.as_is);
+  add_unfitted_keypoints(command, a->config.run.correction.unfitted_keypoints);
   command.action([a] { return imitate_motions(*a); });
 }
 

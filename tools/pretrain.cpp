@@ -54,10 +54,10 @@ void declare_pretrain(CommandLine& line) {
   add_threads(command, a->config.threads);
   command.flag("--encoder", a->config.use_encoder,
                "policies observe their reference through a denoising encoder (default)", "--no-encoder");
-  command.flag("--fit", a->config.fit, "first fit motions to their keypoints, if they have any (default)",
-               "--no-fit");
-  add_as_is(command, a->config.as_is);
-  add_unfitted_keypoints(command, a->config.unfitted_keypoints);
+  command.flag("--fit", a->config.correction.fit,
+               "first fit motions to their keypoints, if they have any (default)", "--no-fit");
+  add_as_is(command, a->config.correction.as_is);
+  add_unfitted_keypoints(command, a->config.correction.unfitted_keypoints);
   add_settings(command, a->settings);
   command.action([a] { return pretrain_options(a->config, a->settings); });
 }

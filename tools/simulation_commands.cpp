@@ -130,12 +130,12 @@ void add_unfitted_keypoints(Command& command, bool& unfitted_keypoints) {
 }
 
 void add_fit_arguments(Command& command, run::RunConfig& run) {
-  command.flag("--fit", run.fit,
+  command.flag("--fit", run.correction.fit,
                "first fit motions to their keypoints, if they have any (default); --no-fit: ignore "
                "keypoints and correct the motion by its feet, the floor and balance alone, as for "
                "files without keypoints",
                "--no-fit");
-  add_as_is(command, run.as_is);
+  add_as_is(command, run.correction.as_is);
 }
 
 void add_gains_argument(Command& command, run::RunConfig& run) {

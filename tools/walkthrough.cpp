@@ -239,7 +239,7 @@ void walk(const std::filesystem::path& file, const std::filesystem::path& option
           const record::RunFolder& folder) {
   heading("the file", "what is in it");
   list_members(file);
-  const run::PreparedMotion motion = run::prepare_motion(file, {}, run::Correction::kKeypoints);
+  const run::PreparedMotion motion = run::prepare_motion(file, {}, {.fit = true});
   heading("import", "read_motion");
   std::printf("  %d frames at %.0f fps, body model %s\n", motion.input.frames(), motion.input.fps,
               motion.input.body_model.c_str());

@@ -59,7 +59,7 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
   return scores;
 }
 
-NamedValues score_input(const motion::Clip& input, const motion::Reference& reference) {
+InputScores score_input(const motion::Clip& input, const motion::Reference& reference) {
   const Character character = motion::character_of(input);
   const PerFrame<BodyPoses> poses = motion::poses_of(motion::resampled(input, reference.fps));
   const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps);
@@ -68,8 +68,8 @@ NamedValues score_input(const motion::Clip& input, const motion::Reference& refe
       same_length ? motion::sample_motion(character, reference.poses, reference.fps)
                   : motion::MotionSamples{};
   motion::Metrics metrics = motion::evaluate_motion(raw, same_length ? &prepared : nullptr);
-  judge_poses(character, poses, reference.fps, metrics);
-  return named_values(metrics);
+  audit::Slip slip = judge_poses(character, poses, reference.fps, metrics);
+  return {named_values(metrics), std::move(slip)};
 }
 
 }  // namespace mimicx::judge

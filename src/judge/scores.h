@@ -30,8 +30,13 @@ struct Scores {
 /// A simulated motion against the reference that it follows. Success as docs/metrics.md defines it.
 Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
 
+struct InputScores {
+  NamedValues values;
+  audit::Slip slip;  ///< of its poses, with their best floor forces
+};
+
 /// The unprepared input (free joints, its own height), resampled to the reference's frame rate, against the
 /// prepared reference; metrics against it are NaN if the reference has another number of frames.
-NamedValues score_input(const motion::Clip& input, const motion::Reference& reference);
+InputScores score_input(const motion::Clip& input, const motion::Reference& reference);
 
 }  // namespace mimicx::judge

@@ -8,8 +8,6 @@
 #include "core/units.h"
 #include "judge/force_metrics.h"
 #include "judge/headline.h"
-#include "judge/scores.h"
-#include "motion/resample.h"
 
 namespace mimicx::judge {
 namespace {
@@ -28,8 +26,14 @@ using Curve = PerFrame<double>;
 /// One of the three motions.
 struct Faults {
   motion::MotionSamples samples;
-  PerFrame<double> slip;  ///< mm a frame
+  Curve slip;  ///< mm a frame
 };
+
+Curve curve_of(const audit::Slip& slip) {
+  Curve curve = slip.speed;
+  for (double& value : curve) value = std::isfinite(value) ? value : 0.0;
+  return curve;
+}
 
 motion::MotionSamples slice(const motion::MotionSamples& all, int first, int frames) {
   motion::MotionSamples some;
@@ -48,11 +52,7 @@ int frames_of(const Headline& h) {
 }
 
 Curve curve_of(const Headline& h, const Faults& faults, const motion::MotionSamples& reference) {
-  if (h.value == &motion::Metrics::slip) {
-    Curve curve = faults.slip;
-    for (double& value : curve) value = std::isfinite(value) ? value : 0.0;
-    return curve;
-  }
+  if (h.value == &motion::Metrics::slip) return faults.slip;
   const int frames = faults.samples.frames(), needed = frames_of(h);
   Curve curve(frames, 0.0);
   for (int t = 0; t + needed <= frames; ++t) {
@@ -134,10 +134,8 @@ struct Evidence {
 std::string special_cause(const Headline& h, const std::vector<Frames>& stretches, const Curve& result,
                           const Evidence& evidence) {
   if (h.value == &motion::Metrics::slip) {
-    Curve carried =
-        audit::slip_of(evidence.reference.poses, evidence.ground, evidence.weight, evidence.reference.fps)
-            .speed;
-    for (double& value : carried) value = std::isfinite(value) ? value : 0.0;
+    const Curve carried = curve_of(
+        audit::slip_of(evidence.reference.poses, evidence.ground, evidence.weight, evidence.reference.fps));
     if (sum_over(stretches, carried) >= kShareOfFault * sum_over(stretches, result))
       return "its reference moves the foot that carries the body";
   }
@@ -177,27 +175,25 @@ std::vector<record::Worsening> worsenings(const Origin& origin, const rl::tracki
   std::vector<record::Worsening> worse;
   const motion::Reference& reference = origin.reference;
   const bool any = std::any_of(kHeadlines.begin(), kHeadlines.end(), [&](const Headline& h) {
-    return is_worse(h, value_of(origin.input_metrics, h.metric), value_of(metrics, h.metric));
+    return is_worse(h, value_of(origin.input_scores.values, h.metric), value_of(metrics, h.metric));
   });
-  const motion::Clip sampled = motion::resampled(origin.input, reference.fps);
-  if (!any || sampled.frames() != reference.size() || rollout.poses.size() != reference.frames.size())
+  if (!any || origin.input_scores.slip.speed.count() != reference.size() ||
+      rollout.poses.size() != reference.frames.size())
     return worse;
 
   const audit::FloorWrenches ground = ground_of(rollout);
   motion::Metrics unused;
-  const auto faults_of = [&](const Character& c, const PerFrame<BodyPoses>& poses, bool simulated) {
-    return Faults{motion::sample_motion(c, poses, reference.fps),
-                  (simulated ? judge_forces({c, poses, ground, reference.fps}, unused)
-                             : judge_poses(c, poses, reference.fps, unused))
-                      .speed};
-  };
-  const Faults input = faults_of(motion::character_of(sampled), motion::poses_of(sampled), false),
-               asked = faults_of(reference.character, reference.poses, false),
-               made = faults_of(reference.character, poses_of(reference.character, rollout), true);
+  const Character& body = reference.character;
+  const PerFrame<BodyPoses> poses = poses_of(body, rollout);
+  const Faults input{samples_at(origin.input, reference.fps), curve_of(origin.input_scores.slip)},
+      asked{motion::sample_motion(body, reference.poses, reference.fps),
+            curve_of(judge_poses(body, reference.poses, reference.fps, unused))},
+      made{motion::sample_motion(body, poses, reference.fps),
+           curve_of(judge_forces({body, poses, ground, reference.fps}, unused))};
   const Evidence evidence{input.samples, reference, origin.needs, ground,
                           kGravity * reference.character.total_mass()};
   for (const Headline& h : kHeadlines) {
-    const double before = value_of(origin.input_metrics, h.metric), after = value_of(metrics, h.metric);
+    const double before = value_of(origin.input_scores.values, h.metric), after = value_of(metrics, h.metric);
     if (!is_worse(h, before, after)) continue;
     const Curve result = curve_of(h, made, asked.samples);
     const std::vector<Frames> stretches = worst_stretches(result, curve_of(h, input, asked.samples));

@@ -13,6 +13,7 @@
 
 #include "audit/pose_needs.h"
 #include "core/named_values.h"
+#include "judge/scores.h"
 #include "motion/reference.h"
 #include "record/sequence_entry.h"
 #include "rl/tracking/tracking_rollout.h"
@@ -23,8 +24,8 @@ namespace mimicx::judge {
 struct Origin {
   const motion::Clip& input;
   const motion::Reference& reference;
-  const audit::PoseNeeds& needs;     ///< of the reference; may be without frames
-  const NamedValues& input_metrics;  ///< as score_input gives them
+  const audit::PoseNeeds& needs;  ///< of the reference; may be without frames
+  const InputScores& input_scores;
 };
 
 /// @param metrics  of the result, as score_simulated gives them

@@ -8,6 +8,7 @@
 /// (import/world_transform.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -27,6 +28,10 @@ struct Keypoints {
   /// One, or one per frame: world → camera (x right, y down, z forward).
   PerFrame<Eigen::Matrix4d> extrinsics;
 };
+/// The camera of frame t.
+inline const Eigen::Matrix4d& camera_at(const PerFrame<Eigen::Matrix4d>& extrinsics, int t) {
+  return extrinsics[std::min(t, extrinsics.count() - 1)];
+}
 
 struct Clip {
   std::string name;  ///< file name without folder and suffix

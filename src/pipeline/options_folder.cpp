@@ -31,22 +31,12 @@ bool may_be_missing(const std::string& name, const record::Json& value) {
          (value.is_number() && record::is_former_default(name, value.get<double>()));
 }
 
-/// A member of an earlier version's settings, which lack `as_is` and `keypoints`: nothing was left as it is,
-/// and the reward saw keypoints where the fit did. Null if it is missing.
-record::Json member_there(const record::Json& there, const std::string& name) {
-  if (there.contains("fit") && !there.contains(name)) {
-    if (name == "as_is") return false;
-    if (name == "keypoints") return there.at("fit");
-  }
-  return there.value(name, nullptr);
-}
-
 /// The first member, by its path, in which two records differ: "settings/gamma is 0.9 there, 0.92 here".
 std::string first_difference(const record::Json& there, const record::Json& here) {
   if (!there.is_object() || !here.is_object())
     return there == here ? "" : " is " + short_text(there) + " there, " + short_text(here) + " here";
   for (const auto& [name, value] : here.items())
-    if (const std::string found = first_difference(member_there(there, name), value); !found.empty())
+    if (const std::string found = first_difference(record::former_member(there, name), value); !found.empty())
       return name + (found.starts_with(' ') ? "" : "/") + found;
   for (const auto& [name, value] : there.items())
     if (!here.contains(name) && !may_be_missing(name, value))

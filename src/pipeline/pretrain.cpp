@@ -18,7 +18,6 @@
 #include "record/json.h"
 #include "record/run_folder.h"
 #include "record/utf8_names.h"
-#include "run/preparation.h"
 
 namespace mimicx::pipeline {
 namespace {
@@ -39,8 +38,7 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::string reason;
     try {
-      run::PreparedMotion motion = run::prepare_motion(
-          files[i], config.read, run::correction_of(config.fit, config.as_is), 1, config.unfitted_keypoints);
+      run::PreparedMotion motion = run::prepare_motion(files[i], config.read, config.correction);
       run::tell_decisions(files[i], motion.input, context.messages);
       // Names identify motions in the set; files of the same name in two folders get different names.
       const std::string name = record::unique_name(inputs[i].name, taken);
@@ -65,9 +63,7 @@ Motions read_motions(const std::vector<files::MotionInput>& inputs, const Pretra
 record::Json settings_json(const PretrainConfig& config) {
   record::Json settings = record::Json::object();
   for (const auto& [name, value] : settings_of(config.training)) settings[name] = value;
-  for (const auto& [name, value] :
-       run::correction_settings(config.fit, config.as_is, config.unfitted_keypoints))
-    settings[name] = value != 0.0;
+  for (const auto& [name, value] : run::settings_of(config.correction)) settings[name] = value != 0.0;
   settings["encoder"] = config.use_encoder;
   settings["encoder_steps"] = config.encoder.steps;
   settings["cluster_radius"] = config.clusters.radius;

@@ -22,6 +22,7 @@
 #include "pipeline/options/option_set.h"
 #include "pipeline/training.h"
 #include "record/progress.h"
+#include "run/preparation.h"
 
 namespace mimicx::pipeline {
 
@@ -31,10 +32,8 @@ struct PretrainConfig {
   TrainingConfig training;  ///< its samples are of all options together
   options::ClusterConfig clusters{.radius = 2.0, .clusters = std::nullopt, .seed = 1};
   nn::AutoEncoderConfig encoder;
-  bool use_encoder = true;          ///< false: policies observe the reference itself (an ablation)
-  bool fit = false;                 ///< first fit motions to their keypoints, if they have any
-  bool as_is = false;               ///< correct nothing, regardless of `fit`
-  bool unfitted_keypoints = false;  ///< Eq. 3 also rewards keypoints that the motion was not fitted to
+  bool use_encoder = true;  ///< false: policies observe the reference itself (an ablation)
+  run::CorrectionConfig correction;
   import::ReadConfig read;
   bool force = false;  ///< overwrite files of other programs
   int threads = 1;

@@ -40,6 +40,13 @@ struct Best {
   int age = 0;  ///< roll-outs since the last marked improvement
 };
 
+/// What a checkpoint holds beside the trainer.
+struct TrainingState {
+  Best best;
+  record::Table log;
+  record::SequenceEnding ending = record::SequenceEnding::kNone;  ///< kNone: it goes on
+};
+
 /// Roll-outs of the mean actions over all clips.
 struct MeanRollout {
   double score = 0.0;           ///< m, mean over clips; smaller is better
@@ -83,10 +90,10 @@ void write_falls(const std::filesystem::path& path, const std::vector<double>& r
 
 /// Writes the log first, so that it always has all rows of the checkpoint.
 void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& environment,
-          const TrainingConfig& config, const TrainingFiles& files, const Best& best,
-          record::SequenceEnding ending, const record::Table& log) {
+          const TrainingConfig& config, const TrainingFiles& files, const TrainingState& state) {
+  const Best& best = state.best;
   for (const auto* file : {&files.log, &files.falls, &files.checkpoint}) make_folder(file->parent_path());
-  write_file_atomically(files.log, record::format_csv(log));
+  write_file_atomically(files.log, record::format_csv(state.log));
   write_falls(files.falls, environment.fall_rates().front(), config.tracking.bin_frames);
   Npz archive;
   archive.set(kChecksumKey, NpyArray::scalar_text(files.input_checksum));
@@ -95,26 +102,25 @@ void save(const Trainer& trainer, const rl::tracking::TrackingEnvironment& envir
     rl::save(archive, kBestPrefix + std::to_string(k) + ".", best.agents[k]);
   archive.set(kBestScoreKey, NpyArray::scalar(best.score));
   archive.set(kBestAgeKey, NpyArray::scalar_int(best.age));
-  archive.set(kEndingKey, NpyArray::scalar_int(static_cast<int>(ending)));
+  archive.set(kEndingKey, NpyArray::scalar_int(static_cast<int>(state.ending)));
   write_npz(files.checkpoint, archive);
 }
 
 /// Continues from the checkpoint, if there is one of this input, and drops newer rows of the log.
-/// @return how that training ended; kNone if it continues
-record::SequenceEnding resume(Trainer& trainer, const TrainingFiles& files, Best& best, record::Table& log) {
-  if (!std::filesystem::exists(files.checkpoint)) return record::SequenceEnding::kNone;
+void resume(Trainer& trainer, const TrainingFiles& files, TrainingState& state) {
+  if (!std::filesystem::exists(files.checkpoint)) return;
   const Npz archive = read_npz(files.checkpoint);
-  if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum})
-    return record::SequenceEnding::kNone;
+  if (archive.at(kChecksumKey).text != std::vector<std::string>{files.input_checksum}) return;
+  Best& best = state.best;
   trainer.load(archive, kTrainerPrefix);
   for (std::size_t k = 0; k < best.agents.size(); ++k)
     best.agents[k] = rl::load_agent(archive, kBestPrefix + std::to_string(k) + ".");
   best.score = number_at(archive, kBestScoreKey);
   best.age = static_cast<int>(whole_number_at(archive, kBestAgeKey));
-  log.rows = record::read_csv(files.log).rows;
+  state.log.rows = record::read_csv(files.log).rows;
   const auto iterations = static_cast<std::size_t>(trainer.iterations());
-  if (log.rows.size() > iterations) log.rows.resize(iterations);
-  return static_cast<record::SequenceEnding>(static_cast<int>(whole_number_at(archive, kEndingKey)));
+  if (state.log.rows.size() > iterations) state.log.rows.resize(iterations);
+  state.ending = static_cast<record::SequenceEnding>(static_cast<int>(whole_number_at(archive, kEndingKey)));
 }
 
 std::string detail_of(const rl::IterationStats& s) {
@@ -158,10 +164,11 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
                      const TrainingControl& control) {
   rl::tracking::TrackingEnvironment environment(clips, config.tracking, config.characters, config.group_size,
                                                 config.seed);
-  Best best{agents};
+  TrainingState state{{agents}, empty_training_log()};
   Trainer trainer(config.ppo, course_of(config), std::move(agents), environment);
-  record::Table log = empty_training_log();
-  record::SequenceEnding ending = resume(trainer, files, best, log);
+  resume(trainer, files, state);
+  Best& best = state.best;
+  record::SequenceEnding& ending = state.ending;
   control.progress(trainer.samples(), "");
 
   const double started = record::steady_seconds();
@@ -187,12 +194,12 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
       else if (config.stall_evaluations > 0 && best.age >= config.stall_evaluations)
         ending = record::SequenceEnding::kStall;
     }
-    append(log, row);
+    append(state.log, row);
     control.progress(stats.samples, detail_of(stats));
     if (ending != record::SequenceEnding::kNone) break;
     const double now = record::steady_seconds();
     if (now - saved >= control.checkpoint_seconds) {
-      save(trainer, environment, config, files, best, ending, log);
+      save(trainer, environment, config, files, state);
       saved = now;
     }
     if (control.should_stop()) {
@@ -204,7 +211,7 @@ TrainingResult train(const std::vector<std::shared_ptr<const rl::tracking::Track
       break;
     }
   }
-  save(trainer, environment, config, files, best, ending, log);
+  save(trainer, environment, config, files, state);
   if (ending != record::SequenceEnding::kNone) result.ending = ending;
   result.agents = best.agents;
   result.samples = trainer.samples();

@@ -8,7 +8,7 @@ namespace mimicx::plan {
 
 PlanMotionsConfig plan_configuration() {
   PlanMotionsConfig config;
-  config.run.fit = true;  // as adapt, which plans first
+  config.run.correction.fit = true;  // as adapt, which plans first
   return config;
 }
 

@@ -78,6 +78,9 @@ std::string meaning_of(const Meanings& meanings, const std::string& name) {
   throw std::logic_error("configurations: " + name + " has no meaning");
 }
 
+/// The paper follows motions as they are.
+constexpr run::CorrectionConfig kAsPrinted = {.as_is = true, .unfitted_keypoints = true};
+
 /// What the paper prints of the task, the policy and its exploration.
 void use_printed_training(pipeline::TrainingConfig& training) {
   rl::tracking::TrackingConfig& task = training.tracking;
@@ -98,7 +101,7 @@ pipeline::ImitateConfig imitate_configuration() { return {}; }
 
 AdaptConfig adapt_configuration() {
   AdaptConfig config;
-  config.run.fit = true;
+  config.run.correction.fit = true;
   pipeline::TrainingConfig& training = config.training;
   training.samples = 3000000;
   training.characters = 128;
@@ -123,7 +126,7 @@ pipeline::PretrainConfig pretrain_configuration(const std::string& preset) {
   if (preset != "small" && preset != "large")
     throw std::invalid_argument("unknown preset '" + preset + "': small or large");
   pipeline::PretrainConfig config;
-  config.fit = true;
+  config.correction.fit = true;
   pipeline::TrainingConfig& training = config.training;
   training.samples = 80000000;
   training.characters = 512;
@@ -136,9 +139,7 @@ pipeline::PretrainConfig pretrain_configuration(const std::string& preset) {
 
 void use_printed_method(AdaptConfig& config) {
   config.method = AdaptMethod::kPrinted;
-  config.run.fit = false;
-  config.run.as_is = true;
-  config.run.unfitted_keypoints = true;
+  config.run.correction = kAsPrinted;
   use_printed_training(config.training);
   config.training.stall_evaluations = 0;  // the threshold alone ends the fine-tuning
   config.arrangement.selector = pipeline::options::Selector::kDp;
@@ -146,9 +147,7 @@ void use_printed_method(AdaptConfig& config) {
 }
 
 void use_printed_method(pipeline::PretrainConfig& config) {
-  config.fit = false;
-  config.as_is = true;
-  config.unfitted_keypoints = true;
+  config.correction = kAsPrinted;
   use_printed_training(config.training);
 }
 

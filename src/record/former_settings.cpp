@@ -70,6 +70,14 @@ bool is_former_default(const std::string& name, double value) {
   return false;
 }
 
+Json former_member(const Json& settings, const std::string& name) {
+  if (settings.contains("fit") && !settings.contains(name)) {
+    if (name == "as_is") return false;
+    if (name == "keypoints") return settings.at("fit");
+  }
+  return settings.value(name, nullptr);
+}
+
 std::string current_method(const std::string& name) { return name == "paper" ? "options" : name; }
 
 }  // namespace mimicx::record

@@ -65,7 +65,7 @@ std::vector<double> distances_from_seen(const ReportCamera& camera, const Placed
   for (int t = 0; t < static_cast<int>(poses.size()); ++t) {
     double sum = 0.0, weight = 0.0;
     if (t < camera.uvc.count()) {
-      const Eigen::Matrix4d& pose = from.extrinsics[std::min(t, from.extrinsics.count() - 1)];
+      const Eigen::Matrix4d& pose = motion::camera_at(from.extrinsics, t);
       for (std::size_t k = 0; k < camera.points.size(); ++k) {
         const auto& [body, p_B] = camera.points[k];
         const BodyPoses& now = poses[static_cast<std::size_t>(t)];

@@ -1,5 +1,6 @@
 #include "run/preparation.h"
 
+#include "fit/keypoint_fit.h"
 #include "fit/pose_fit.h"
 #include "motion/prepare/prepare.h"
 
@@ -41,10 +42,10 @@ NamedValues values_of(const fit::FitReport& r) {
           {"change_max_mm", r.change_max_mm}};
 }
 
-motion::PreparationConfig preparing(Correction correction) {
+motion::PreparationConfig preparing(const CorrectionConfig& correction) {
   motion::PreparationConfig config;
-  config.sees = correction == Correction::kKeypoints;
-  if (correction == Correction::kNone)
+  config.sees = correction.fits_keypoints();
+  if (correction.as_is)
     config.ranges = config.separate = config.level_feet = config.ground = config.plant =
         config.bridge_flagged = false;
   return config;
@@ -52,25 +53,20 @@ motion::PreparationConfig preparing(Correction correction) {
 
 }  // namespace
 
-Correction correction_of(bool fit, bool as_is) {
-  if (as_is) return Correction::kNone;
-  return fit ? Correction::kKeypoints : Correction::kPoses;
-}
-
-NamedValues correction_settings(bool fit, bool as_is, bool keep_keypoints) {
-  const bool fitted = correction_of(fit, as_is) == Correction::kKeypoints;
+NamedValues settings_of(const CorrectionConfig& correction) {
+  const bool fitted = correction.fits_keypoints();
   return {{"fit", fitted ? 1.0 : 0.0},
-          {"as_is", as_is ? 1.0 : 0.0},
-          {"keypoints", fitted || keep_keypoints ? 1.0 : 0.0}};
+          {"as_is", correction.as_is ? 1.0 : 0.0},
+          {"keypoints", fitted || correction.unfitted_keypoints ? 1.0 : 0.0}};
 }
 
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
-                              Correction correction, int threads, bool keep_keypoints) {
+                              const CorrectionConfig& correction, int threads) {
   PreparedMotion motion;
   fit::FitConfig config;
   config.threads = threads;
   motion.input = import::read_motion(path, read);
-  motion.has_fit = correction == Correction::kKeypoints && motion.input.keypoints.has_value();
+  motion.has_fit = correction.fits_keypoints() && motion.input.keypoints.has_value();
   const int fewest = motion.has_fit ? 3 : 2;
   if (motion.input.frames() < fewest)
     throw DataError(path.string(), "", "at least " + std::to_string(fewest) + " frames",
@@ -79,7 +75,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
   if (motion.has_fit) {
     motion.fitted = fit::fit_keypoints(motion.input, config, &fitting);
     motion.fit_values = values_of(fitting);
-  } else if (correction == Correction::kNone) {
+  } else if (correction.as_is) {
     motion.fitted = motion.input;
   } else {
     motion.fitted = fit::fit_poses(motion.input, config, &planting);
@@ -88,7 +84,7 @@ PreparedMotion prepare_motion(const std::filesystem::path& path, const import::R
     motion.notes.insert(motion.notes.end(), report->notes.begin(), report->notes.end());
   motion::PreparationReport report;
   motion.reference = motion::prepare_reference(motion.fitted, preparing(correction), &report);
-  if (!motion.has_fit && !keep_keypoints) motion.reference.keypoints.reset();
+  if (!motion.has_fit && !correction.unfitted_keypoints) motion.reference.keypoints.reset();
   motion.preparation_values = values_of(report);
   motion.preparation_values.emplace_back("pose_fit_mean_mm", planting.change_mean_mm);
   motion.preparation_values.emplace_back("pose_fit_max_mm", planting.change_max_mm);

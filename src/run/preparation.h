@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "core/named_values.h"
-#include "fit/keypoint_fit.h"
 #include "import/motion_file.h"
 #include "motion/reference.h"
 
@@ -30,26 +29,24 @@ struct PreparedMotion {
   std::vector<std::string> notes;  ///< warnings of all steps
 };
 
-/// How much of a motion is corrected before it becomes the reference.
-enum class Correction {
-  kNone,      ///< only resampling, and hinges for knees and elbows
-  kPoses,     ///< fit of poses alone and preparation; keypoints are ignored
-  kKeypoints  ///< keypoint fit and preparation; without keypoints as kPoses
+/// How much of a motion is corrected before it becomes the reference. By default, its poses are fitted to
+/// their own standing feet and balance, and prepared.
+struct CorrectionConfig {
+  bool fit = false;                 ///< fit it to its keypoints instead, if it has any
+  bool as_is = false;               ///< only resample, and make hinges of knees and elbows, whatever `fit` is
+  bool unfitted_keypoints = false;  ///< Eq. 3 also rewards keypoints that the motion was not fitted to
+
+  bool fits_keypoints() const { return fit && !as_is; }
 };
 
-/// @param fit    onto the keypoints, if there are any
-/// @param as_is  correct nothing, regardless of `fit`
-Correction correction_of(bool fit, bool as_is);
+/// As manifests list it, 0 or 1: `fit`, whether motions are moved onto their keypoints; `as_is`; `keypoints`,
+/// whether Eq. 3 sees keypoints.
+NamedValues settings_of(const CorrectionConfig& correction);
 
-/// How motions are corrected, as manifests list it, 0 or 1: `fit`, whether they are moved onto their
-/// keypoints; `as_is`; `keypoints`, whether Eq. 3 sees keypoints.
-NamedValues correction_settings(bool fit, bool as_is, bool keep_keypoints);
-
-/// @param threads         do not influence the result
-/// @param keep_keypoints  an unfitted reference keeps its keypoints for Eq. 3
+/// @param threads  do not influence the result
 /// @throws DataError as reading, fitting and preparing do
 PreparedMotion prepare_motion(const std::filesystem::path& path, const import::ReadConfig& read,
-                              Correction correction, int threads = 1, bool keep_keypoints = false);
+                              const CorrectionConfig& correction, int threads = 1);
 
 /// Prints the reader's decisions (their summary if there is one) and warnings, a line each after the file's
 /// name.

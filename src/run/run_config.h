@@ -12,6 +12,7 @@
 #include "record/run_folder.h"
 #include "record/shard.h"
 #include "report/run_report.h"
+#include "run/preparation.h"
 
 namespace mimicx::run {
 
@@ -33,11 +34,9 @@ struct RunConfig {
   bool beside = false;      ///< clean copies beside their inputs, as NAME.clean.EXT, instead of in the folder
   bool force = false;       ///< overwrite files of other programs
   std::vector<std::string> protect;  ///< inputs of the same command that belong to other runs
-  bool substeps = false;            ///< also write every physics step of the result; also of finished motions
-  bool gains = false;               ///< also write the feedback gains of plans, also of finished ones
-  bool fit = false;                 ///< first fit inputs to their keypoints, if they have any
-  bool as_is = false;               ///< correct nothing (Correction::kNone), regardless of `fit`
-  bool unfitted_keypoints = false;  ///< Eq. 3 also rewards keypoints that the input was not fitted to
+  bool substeps = false;  ///< also write every physics step of the result; also of finished motions
+  bool gains = false;     ///< also write the feedback gains of plans, also of finished ones
+  CorrectionConfig correction;
   /// The shard of the inputs that is done here; empty: all inputs. A shard's records, and the list that all
   /// shards agree on, are in OUT/shards; all else is where the whole run has it (record/shard.h).
   std::optional<record::Shard> shard = {};

@@ -6,7 +6,6 @@
 #include "audit/substeps.h"
 #include "files/motion_output.h"
 #include "judge/reference_needs.h"
-#include "judge/scores.h"
 #include "judge/worsening.h"
 #include "motion/clip_file.h"
 #include "run/file_integrity.h"
@@ -76,7 +75,7 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
   entry.ok = after.success;
   entry.reason = after.reason;
   if (entry.ok)
-    entry.worse = judge::worsenings({motion.input, reference, motion.needs, entry.input_metrics}, made.after,
+    entry.worse = judge::worsenings({motion.input, reference, motion.needs, motion.input_scores}, made.after,
                                     entry.metrics);
   if (!made.reason.empty()) {
     if (entry.ok)
@@ -87,10 +86,9 @@ void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig&
   audit_sequence(reference, simulation, made.after, entry);
 }
 
-void write_sequence(const record::RunFolder& folder, bool substeps,
-                    const physics::SimulationConfig& simulation, const JudgedMotion& motion,
-                    const SimulatedSequence& made, const List<FollowedPart>& parts,
-                    record::SequenceEntry& entry) {
+void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
+                    const List<FollowedPart>& parts, record::SequenceEntry& entry) {
+  const record::RunFolder& folder = run.folder;
   files::write_input(with_parents(folder.input(entry.name)), motion.input);
   if (motion.has_fit) motion::write_clip(with_parents(folder.fit(entry.name)), motion.fitted);
   files::write_reference(with_parents(folder.reference(entry.name)), motion.input, motion.reference);
@@ -102,10 +100,10 @@ void write_sequence(const record::RunFolder& folder, bool substeps,
   files::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
   write_parts(folder, motion.input, parts, entry);
   std::filesystem::remove(folder.substeps(entry.name));
-  if (substeps)
+  if (run.config.substeps)
     audit::write_substeps(
         with_parents(folder.substeps(entry.name)),
-        {motion.reference.character, simulation, made.after.substeps, made.after.last_state});
+        {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
   std::filesystem::remove(folder.policy(entry.name));
   if (made.taught) files::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
   entry.output = output;

@@ -2,31 +2,32 @@
 #pragma once
 
 #include "audit/pose_needs.h"
+#include "judge/scores.h"
 #include "record/manifest.h"
 #include "record/run_folder.h"
 #include "run/method.h"
 #include "run/preparation.h"
+#include "run/run_state.h"
 
 namespace mimicx::run {
 
-/// A prepared motion with the external wrench that its reference would need.
+/// A prepared motion, the external wrench that its reference would need, and the scores of its input.
 struct JudgedMotion : PreparedMotion {
   audit::PoseNeeds needs;
+  judge::InputScores input_scores;
 };
 
 /// Writes the reference's feasibility into the entry.
 void judge_reference(const audit::PoseNeeds& needs, record::SequenceEntry& entry);
 
-/// Writes scores and audit of the method's result into the entry, whose `input_metrics` are known.
+/// Writes scores and audit of the method's result into the entry.
 void judge_sequence(const JudgedMotion& motion, const physics::SimulationConfig& simulation,
                     const SimulatedSequence& made, record::SequenceEntry& entry);
 
 /// Writes fit, reference, feasibility, simulated motion, followed parts, taught policy and, on request,
 /// physics steps. The entry gets their names and checksums.
 /// @param parts  of a motion that is no success
-void write_sequence(const record::RunFolder& folder, bool substeps,
-                    const physics::SimulationConfig& simulation, const JudgedMotion& motion,
-                    const SimulatedSequence& made, const List<FollowedPart>& parts,
-                    record::SequenceEntry& entry);
+void write_sequence(const RunState& run, const JudgedMotion& motion, const SimulatedSequence& made,
+                    const List<FollowedPart>& parts, record::SequenceEntry& entry);
 
 }  // namespace mimicx::run

@@ -46,8 +46,7 @@ struct Worker {
 };
 
 PreparedMotion prepared(const RunConfig& config, const std::string& input, int threads) {
-  return prepare_motion(input, config.read, correction_of(config.fit, config.as_is), threads,
-                        config.unfitted_keypoints);
+  return prepare_motion(input, config.read, config.correction, threads);
 }
 
 /// Remakes damaged input, fit and reference files of a finished sequence; reports other damaged files.
@@ -109,14 +108,16 @@ bool begin_entry(const Worker& worker, const std::string& input, const record::S
 /// axis can stop the run.
 JudgedMotion prepare_sequence(const Worker& worker, record::SequenceEntry& entry) {
   const RunState& run = worker.run;
-  JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}};
+  JudgedMotion motion{prepared(run.config, entry.input, worker.threads), {}, {}};
   motion.needs = judge::needs_of(motion.reference);
+  motion.input_scores = judge::score_input(motion.input, motion.reference);
   entry.frames = motion.reference.size();
   entry.fps = motion.reference.fps;
   entry.fit = motion.fit_values;
   entry.preparation = motion.preparation_values;
   entry.decisions = motion.input.decisions;
   entry.notes = motion.notes;
+  entry.input_metrics = motion.input_scores.values;
   judge_reference(motion.needs, entry);
   const std::vector<std::string>& summary = motion.input.summary;
   if (run.config.quiet) return motion;
@@ -154,7 +155,6 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
   if (there && goes_on(run, *there) && there->input_checksum == entry.input_checksum)
     entry.notes.push_back("goes on from a training of " + std::to_string(there->samples) +
                           " samples; one begun with more would explore longer, and be another");
-  entry.input_metrics = judge::score_input(motion.input, motion.reference);
   const SequenceJob job{
       entry.name,     entry.input_checksum,     run.folder,   run.config.substeps, run.config.gains,
       worker.threads, run.config.limit_seconds, motion.needs, worker.context};
@@ -168,9 +168,7 @@ void do_sequence(const Worker& worker, const record::SequenceEntry* there, Done&
     done.timing.planning_seconds += found.seconds;
     done.interrupted = found.interrupted;
     if (found.timed_out) entry.ending = record::SequenceEnding::kLimitSeconds;
-    if (!done.interrupted)
-      write_sequence(run.folder, run.config.substeps, run.method.simulation, motion, made, found.parts,
-                     entry);
+    if (!done.interrupted) write_sequence(run, motion, made, found.parts, entry);
   }
   if (!done.interrupted) {
     if (static_cast<std::ptrdiff_t>(run.in_all) > report::kMostEmbedded)
@@ -342,9 +340,7 @@ class ParallelRun {
 
 }  // namespace
 
-NamedValues manifest_settings(const RunConfig& config) {
-  return correction_settings(config.fit, config.as_is, config.unfitted_keypoints);
-}
+NamedValues manifest_settings(const RunConfig& config) { return settings_of(config.correction); }
 
 record::RunOutcome run_sequences(const RunConfig& config, const Method& method,
                                  const record::RunContext& context) {

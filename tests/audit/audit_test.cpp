@@ -273,7 +273,7 @@ TEST_F(CleanedAndRaw, CleanedMotionPassesAndItsNoisyInputFails) {
   run::RunConfig& run = config.run;
   for (const char* name : {"squat_1", "wave_1"}) run.inputs.push_back(split("noisy", name).string());
   run.out = folder.path / "run";
-  run.fit = run.substeps = true;
+  run.correction.fit = run.substeps = true;
   config.training.samples = 0;
   config.options = {
       pipeline::options::read_options(std::filesystem::path(MIMICX_SOURCE_DIR) / "data" / "options")};

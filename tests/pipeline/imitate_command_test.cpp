@@ -161,8 +161,8 @@ TEST_F(Imitate, Eq3UsesKeypointsOnlyIfFittedToThemOrRequested) {
                                          : unfitted_keypoints ? "requested"
                                                               : "unfitted"),
                                      {noisy});
-    config.run.fit = fit;
-    config.run.unfitted_keypoints = unfitted_keypoints;
+    config.run.correction.fit = fit;
+    config.run.correction.unfitted_keypoints = unfitted_keypoints;
     run(config);
     EXPECT_EQ(value_of(record::read_manifest(config.run.out / "manifest.json").settings, "keypoints"),
               fit || unfitted_keypoints);

@@ -94,7 +94,7 @@ TEST_F(Pretrain, WithoutFitIgnoresKeypoints) {
   motion::write_clip(motions / "stand_1.npz", clip);
   PretrainConfig config = pretraining("seen");
   config.clusters.clusters = 1;
-  config.fit = false;
+  config.correction.fit = false;
   run(config);
   clip.keypoints.reset();
   motion::write_clip(motions / "stand_1.npz", clip);
@@ -116,12 +116,12 @@ TEST_F(Pretrain, FolderOfAVersionWithoutAsIsAndKeypointsIsDoneIfTheyAreWhatItDid
   write_file_atomically(out("run") / "manifest.json", earlier);
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood);
   EXPECT_EQ(read_file(out("run") / "manifest.json"), earlier) << "it is done";
-  config.as_is = true;
-  config.unfitted_keypoints = true;
+  config.correction.as_is = true;
+  config.correction.unfitted_keypoints = true;
   EXPECT_NE(refusal_of([&] { run(config); }).find("settings/fit is true there, false here"),
             std::string::npos);
-  config.fit = true;
-  config.as_is = false;
+  config.correction.fit = true;
+  config.correction.as_is = false;
   EXPECT_EQ(run(config), record::RunOutcome::kAllGood) << "fitted keypoints count anyway";
 }
 
@@ -132,10 +132,9 @@ TEST_F(Pretrain, AsIsCorrectsNothing) {
   std::filesystem::copy(noisy / "stand_1.npz", motions / "stand_1.npz");
   PretrainConfig config = pretraining("run");
   config.clusters.clusters = 1;
-  config.as_is = true;
+  config.correction.as_is = true;
   run(config);
-  const run::PreparedMotion unchanged =
-      run::prepare_motion(motions / "stand_1.npz", {}, run::Correction::kNone);
+  const run::PreparedMotion unchanged = run::prepare_motion(motions / "stand_1.npz", {}, {.as_is = true});
   EXPECT_EQ(options::read_clusters(out("run") / "clusters.json").clusters[0].features[0],
             options::motion_features(unchanged.reference));
 }

@@ -50,7 +50,7 @@ struct LostMotion : testing::Test {
     config = plan_configuration();
     config.run.inputs = {(folder.path / "jump.npz").string()};
     config.run.out = out;
-    config.run.as_is = true;
+    config.run.correction.as_is = true;
     config.planning.plan.horizon.backtracks = 1;
     config.planning.plan.assisted_stages = false;
   }

@@ -284,7 +284,7 @@ TEST_F(Adapt, ResultDoesNotDependOnIgnoredKeypoints) {
   run(pretraining("options"));
   const auto log_of = [&](const std::string& folder, const std::filesystem::path& input, bool fit) {
     AdaptConfig config = adapting(folder, "options");
-    config.run.fit = fit;
+    config.run.correction.fit = fit;
     config.run.inputs = {input.string()};
     run(config);
     return run::results_of(out(folder)).at("training/stand_1.csv");

@@ -23,7 +23,7 @@ record::SequenceEntry entry_of(Config& config, const std::string& name, const Wo
   const TemporaryFolder folder;
   config.run.inputs = {(kTestSplit / (name + ".npz")).string()};
   config.run.out = folder.path / "run";
-  config.run.fit = true;
+  config.run.correction.fit = true;
   std::ostringstream messages;
   record::Progress progress(messages, false, record::steady_seconds);
   work(record::RunContext{progress, messages, [] { return false; }});

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "render/shapes.h"
+#include "render/simple_solids.h"
 
 namespace mimicx::render {
 namespace {

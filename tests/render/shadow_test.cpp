@@ -3,7 +3,7 @@
 
 #include "render/floor_shadow.h"
 #include "render/lamp_shadow.h"
-#include "render/shapes.h"
+#include "render/simple_solids.h"
 
 namespace mimicx::render {
 namespace {

@@ -15,23 +15,23 @@ const std::filesystem::path kNoisy =
     std::filesystem::path(MIMICX_SOURCE_DIR) / "data/synthetic/test/noisy/stand_1.npz";
 
 TEST(Preparation, ReferenceKeepsKeypointsOnlyIfFittedToThem) {
-  EXPECT_TRUE(prepare_motion(kNoisy, {}, Correction::kKeypoints).reference.keypoints.has_value());
-  const PreparedMotion unfitted = prepare_motion(kNoisy, {}, Correction::kPoses);
+  EXPECT_TRUE(prepare_motion(kNoisy, {}, {.fit = true}).reference.keypoints.has_value());
+  const PreparedMotion unfitted = prepare_motion(kNoisy, {}, {});
   EXPECT_TRUE(unfitted.input.keypoints.has_value());
   EXPECT_FALSE(unfitted.reference.keypoints.has_value()) << "Eq. 3 would ask for a second pose";
 }
 
 TEST(Preparation, KeptKeypointsOfAnUnfittedReferenceAreThoseOfTheInput) {
-  for (const Correction correction : {Correction::kPoses, Correction::kNone}) {
-    const PreparedMotion kept = prepare_motion(kNoisy, {}, correction, 1, true);
+  for (const bool as_is : {false, true}) {
+    const PreparedMotion kept = prepare_motion(kNoisy, {}, {.as_is = as_is, .unfitted_keypoints = true});
     ASSERT_TRUE(kept.reference.keypoints.has_value());
     EXPECT_EQ(kept.reference.keypoints->uvc, kept.input.keypoints->uvc);
     EXPECT_FALSE(kept.has_fit);
   }
 }
 
-TEST(Preparation, CorrectionNoneChangesNoPose) {
-  const PreparedMotion plain = prepare_motion(kNoisy, {}, Correction::kNone);
+TEST(Preparation, AsIsChangesNoPose) {
+  const PreparedMotion plain = prepare_motion(kNoisy, {}, {.as_is = true});
   EXPECT_EQ(plain.fitted.rotations, plain.input.rotations);
   ASSERT_EQ(plain.reference.size(), plain.input.frames());
   const auto pelvis = motion::rest_pelvis(plain.input);
@@ -44,12 +44,12 @@ TEST(Preparation, CorrectionNoneChangesNoPose) {
 }
 
 TEST(Preparation, AbsentKeypointsGiveTheResultOfIgnoredOnes) {
-  const PreparedMotion ignored = prepare_motion(kNoisy, {}, Correction::kPoses);
+  const PreparedMotion ignored = prepare_motion(kNoisy, {}, {});
   motion::Clip bare = ignored.input;
   bare.keypoints.reset();
   const TemporaryFolder folder;
   motion::write_clip(folder.path / "stand_1.npz", bare);
-  const PreparedMotion without = prepare_motion(folder.path / "stand_1.npz", {}, Correction::kKeypoints);
+  const PreparedMotion without = prepare_motion(folder.path / "stand_1.npz", {}, {.fit = true});
   ASSERT_EQ(without.reference.size(), ignored.reference.size());
   for (int t = 0; t < ignored.reference.size(); ++t)
     EXPECT_LT((without.reference.frames[t].p_root - ignored.reference.frames[t].p_root).norm(), 1e-4)
@@ -63,7 +63,7 @@ TEST(Preparation, LevelsFeetInTheReferenceOnly) {
   const motion::Clip clip = test::with_turned_feet(synth::synthesize(config), kPitch * Vector3d::UnitX());
   const TemporaryFolder folder;
   motion::write_clip(folder.path / "tip_toe.npz", clip);
-  const PreparedMotion prepared = prepare_motion(folder.path / "tip_toe.npz", {}, Correction::kKeypoints);
+  const PreparedMotion prepared = prepare_motion(folder.path / "tip_toe.npz", {}, {.fit = true});
   ASSERT_EQ(prepared.reference.size(), clip.frames());
   for (int t = 0; t < clip.frames(); ++t)
     for (const int ankle : {kLeftAnkle, kRightAnkle}) {

@@ -82,7 +82,7 @@ void add_points(const motion::Keypoints& keypoints, const Character& character, 
 double box_of(const FitProblem& problem, int t, const BodyPoses& poses) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e30), high = -low;
   for (const Vector3d& p : poses.p_WB) {
-    const Vector3d p_C = (problem.camera(t) * p.homogeneous()).head<3>();
+    const Vector3d p_C = (motion::camera_at(problem.extrinsics, t) * p.homogeneous()).head<3>();
     if (p_C.z() < kClosest) return 0.0;
     const Eigen::Vector2d uv = (problem.intrinsics * p_C).hnormalized();
     low = low.cwiseMin(uv);

@@ -79,7 +79,6 @@ struct FitProblem {
 
   int frames() const { return q.count(); }
   int globals() const { return kFirstOffset + kOffsets * static_cast<int>(points.size()); }
-  const Eigen::Matrix4d& camera(int t) const { return extrinsics[extrinsics.count() > 1 ? t : 0]; }
 };
 
 /// A point nearer to the camera than this is not used, m.

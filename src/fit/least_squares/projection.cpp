@@ -21,7 +21,7 @@ Vector3d velocity(const PerFrame<FrameKinematics>& motion, int t, int body) {
 Projection project_point(const FitProblem& problem, const FitState& state, int t, std::size_t k,
                          const Vector3d& p_W, const Vector3d& v_W) {
   Projection out;
-  const Eigen::Matrix4d& E = problem.camera(t);
+  const Eigen::Matrix4d& E = motion::camera_at(problem.extrinsics, t);
   const Matrix3d turn = turn_of(state.g[kTilt]);
   const Vector3d p_C = turn * (E * (p_W + state.g[kLead] * v_W).homogeneous()).head<3>();
   out.valid = p_C.z() > kClosest && problem.box[t] > 0.0;

@@ -15,13 +15,13 @@ constexpr double kSigmaTurn = 0.5;       ///< rad
 constexpr double kSigmaBend = 0.02;      ///< rad, second difference at 30 frames per second
 constexpr int kIterations = 12;
 constexpr double kLargestStep = 0.2;         ///< rad, of one unknown in one iteration
-constexpr double kSmallestStep = 1e-4;       ///< rad: below, it has converged
+constexpr double kSmallestTurn = 1e-4;       ///< rad: below, it has converged
 constexpr double kOverlapGrows = 1.0 / 3.0;  ///< s
 constexpr double kTouching = 1e-6;           ///< m: axes that cross have no direction apart
 
 /// Unknowns of a frame: shoulder (3) and elbow (1) of the left arm, then of the right one.
-constexpr int kUnknowns = 8;
-using Turns = Eigen::Matrix<double, kUnknowns, 1>;
+constexpr int kArmUnknowns = 8;
+using Turns = Eigen::Matrix<double, kArmUnknowns, 1>;
 struct Turn {
   int body, first, count;
 };
@@ -47,8 +47,8 @@ struct Overlap {
 };
 
 /// d p / d c of a point that is fixed to a body, [3][8]. Turns are small: exp(c + δ) ≈ exp(c) exp(δ).
-Eigen::Matrix<double, 3, kUnknowns> point_jacobian(const BodyPoses& poses, int body, const Vector3d& p) {
-  Eigen::Matrix<double, 3, kUnknowns> J = Eigen::Matrix<double, 3, kUnknowns>::Zero();
+Eigen::Matrix<double, 3, kArmUnknowns> point_jacobian(const BodyPoses& poses, int body, const Vector3d& p) {
+  Eigen::Matrix<double, 3, kArmUnknowns> J = Eigen::Matrix<double, 3, kArmUnknowns>::Zero();
   for (const Turn& turn : kTurns) {
     int above = body;
     while (above > turn.body) above = kParents[above];
@@ -82,29 +82,29 @@ struct Equations {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd rhs;
 
-  explicit Equations(int frames) : rhs(Eigen::VectorXd::Zero(frames * kUnknowns)) {}
+  explicit Equations(int frames) : rhs(Eigen::VectorXd::Zero(frames * kArmUnknowns)) {}
 
   /// One residual of the same unknown in neighbouring frames: Σ_i share_i c_{t+i}, with a weight.
   void add(const PerFrame<Turns>& c, int t, const std::vector<double>& shares, double weight) {
-    for (int k = 0; k < kUnknowns; ++k) {
+    for (int k = 0; k < kArmUnknowns; ++k) {
       double residual = 0.0;
       for (int i = 0; i < static_cast<int>(shares.size()); ++i)
         residual += shares[static_cast<std::size_t>(i)] * c[t + i][k];
       for (int i = 0; i < static_cast<int>(shares.size()); ++i) {
         const double si = weight * shares[static_cast<std::size_t>(i)];
-        rhs[(t + i) * kUnknowns + k] -= si * residual;
+        rhs[(t + i) * kArmUnknowns + k] -= si * residual;
         for (int j = 0; j < static_cast<int>(shares.size()); ++j)
-          entries.emplace_back((t + i) * kUnknowns + k, (t + j) * kUnknowns + k,
+          entries.emplace_back((t + i) * kArmUnknowns + k, (t + j) * kArmUnknowns + k,
                                si * shares[static_cast<std::size_t>(j)]);
       }
     }
   }
   void add(int t, const Overlap& overlap) {
     const double weight = 1.0 / (kSigmaOverlap * kSigmaOverlap);
-    rhs.segment<kUnknowns>(t * kUnknowns) -= weight * overlap.excess * overlap.slope;
-    for (int i = 0; i < kUnknowns; ++i)
-      for (int j = 0; j < kUnknowns; ++j)
-        entries.emplace_back(t * kUnknowns + i, t * kUnknowns + j,
+    rhs.segment<kArmUnknowns>(t * kArmUnknowns) -= weight * overlap.excess * overlap.slope;
+    for (int i = 0; i < kArmUnknowns; ++i)
+      for (int j = 0; j < kArmUnknowns; ++j)
+        entries.emplace_back(t * kArmUnknowns + i, t * kArmUnknowns + j,
                              weight * overlap.slope[i] * overlap.slope[j]);
   }
   Eigen::VectorXd solve() const {
@@ -134,9 +134,9 @@ PerFrame<Turns> solve_turns(const Reference& reference) {
     }
     const Eigen::VectorXd step = equations.solve();
     const double largest = step.cwiseAbs().maxCoeff();
-    const double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestStep));
-    for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);
-    if (largest < kSmallestStep) break;
+    const double scale = std::min(1.0, kLargestStep / std::max(largest, kSmallestTurn));
+    for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kArmUnknowns>(t * kArmUnknowns);
+    if (largest < kSmallestTurn) break;
   }
   return c;
 }

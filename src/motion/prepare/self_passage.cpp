@@ -136,7 +136,7 @@ struct Situation {
 
 /// Where the camera of a frame is, in the world.
 Vector3d eye_at(const Keypoints& keypoints, int t) {
-  const Eigen::Matrix4d& E = keypoints.extrinsics[keypoints.extrinsics.count() > 1 ? t : 0];
+  const Eigen::Matrix4d& E = camera_at(keypoints.extrinsics, t);
   return -E.topLeftCorner<3, 3>().transpose() * E.topRightCorner<3, 1>();
 }
 
@@ -226,7 +226,7 @@ SmoothCorrection<kLimbUnknowns> go(const Situation& s, const Vector3d& way) {
 double distance_from_detections(const Situation& s, int i, const BodyPoses& poses) {
   const Keypoints& keypoints = *s.reference.keypoints;
   const int t = s.stretch.first + i;
-  const Eigen::Matrix4d& E = keypoints.extrinsics[keypoints.extrinsics.count() > 1 ? t : 0];
+  const Eigen::Matrix4d& E = camera_at(keypoints.extrinsics, t);
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e30), high = -low;
   for (const Vector3d& seen : keypoints.uvc[t])
     if (seen.allFinite() && seen.z() > 0.0)

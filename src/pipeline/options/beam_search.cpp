@@ -34,13 +34,23 @@ struct Beam {
   Characters characters;
 };
 
+/// What is searched.
+struct Search {
+  const std::shared_ptr<const rl::tracking::TrackingClip>& clip;
+  const rl::tracking::TrackingConfig& tracking;
+  rl::tracking::MeanAction policy;
+  int options;
+  double switch_penalty;
+  const std::function<bool()>& should_stop;
+};
+
 /// Every path of the beam, continued by every option for `frames` frames.
-List<Path> continued(const List<Path>& beam, int options, int frames, double switch_penalty) {
+List<Path> continued(const Search& search, const List<Path>& beam, int frames) {
   List<Path> paths;
   for (const Path& from : beam)
-    for (int option = 0; option < options; ++option) {
+    for (int option = 0; option < search.options; ++option) {
       Path path = from;
-      if (!path.options.empty() && path.options.back() != option) path.value += switch_penalty;
+      if (!path.options.empty() && path.options.back() != option) path.value += search.switch_penalty;
       path.options.resize(static_cast<std::size_t>(path.options.count() + frames), option);
       paths.push_back(path);
     }
@@ -49,13 +59,12 @@ List<Path> continued(const List<Path>& beam, int options, int frames, double swi
 
 /// Lets the last option of every path act. After a fall the reward is 0.
 /// @return false if it was stopped
-bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanAction& policy, int frames,
-         const std::function<bool()>& should_stop) {
+bool act(const Search& search, List<Path>& paths, Characters& characters, int frames) {
   List<int> options;
   for (const Path& path : paths) options.push_back(path.options.back());
   for (int i = 0; i < frames; ++i) {
-    if (should_stop && should_stop()) return false;
-    characters.advance(policy, options);
+    if (search.should_stop && search.should_stop()) return false;
+    characters.advance(search.policy, options);
     for (Path& path : paths) {
       path.fell = path.fell || characters.fell(path.character);
       if (!path.fell) path.value += characters.reward(path.character);
@@ -65,10 +74,8 @@ bool act(List<Path>& paths, Characters& characters, const rl::tracking::MeanActi
 }
 
 /// Gives every path its own character, a copy of the one that it shares.
-Characters characters_of(List<Path>& paths, const Characters& from,
-                         const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
-                         const rl::tracking::TrackingConfig& tracking) {
-  Characters characters(clip, tracking, paths.count());
+Characters characters_of(const Search& search, List<Path>& paths, const Characters& from) {
+  Characters characters(search.clip, search.tracking, paths.count());
   for (int i = 0; i < paths.count(); ++i) {
     characters.copy(i, from, paths[i].character);
     paths[i].character = i;
@@ -77,25 +84,21 @@ Characters characters_of(List<Path>& paths, const Characters& from,
 }
 
 /// All continuations of a beam, the best first. @return none if it was stopped
-std::optional<Beam> expand(const Beam& beam, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
-                           const rl::tracking::TrackingConfig& tracking,
-                           const rl::tracking::MeanAction& policy, int options, int stretch,
-                           double switch_penalty, const std::function<bool()>& should_stop) {
-  const int frames = std::min(stretch, clip->size() - 1 - beam.frame);
-  List<Path> paths = continued(beam.paths, options, frames, switch_penalty);
-  Characters characters = characters_of(paths, beam.characters, clip, tracking);
-  if (!act(paths, characters, policy, frames, should_stop)) return std::nullopt;
+std::optional<Beam> expand(const Search& search, const Beam& beam, int stretch) {
+  const int frames = std::min(stretch, search.clip->size() - 1 - beam.frame);
+  List<Path> paths = continued(search, beam.paths, frames);
+  Characters characters = characters_of(search, paths, beam.characters);
+  if (!act(search, paths, characters, frames)) return std::nullopt;
   std::stable_sort(paths.begin(), paths.end(), better);
   return Beam{beam.frame + frames, std::move(paths), std::move(characters)};
 }
 
 /// Keeps the best paths that stand, with their characters.
-void prune(Beam& beam, std::int64_t width, const std::shared_ptr<const rl::tracking::TrackingClip>& clip,
-           const rl::tracking::TrackingConfig& tracking) {
+void prune(const Search& search, Beam& beam, std::int64_t width) {
   List<Path>& paths = beam.paths;
   const auto fallen = std::find_if(paths.begin(), paths.end(), [](const Path& path) { return path.fell; });
   paths.erase(std::min(fallen, paths.begin() + std::min<std::int64_t>(width, paths.count())), paths.end());
-  beam.characters = characters_of(paths, beam.characters, clip, tracking);
+  beam.characters = characters_of(search, paths, beam.characters);
 }
 
 /// Where all paths have fallen, restarts the best one from the reference.
@@ -118,7 +121,9 @@ Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& 
     throw std::invalid_argument(
         "search_roll_outs: expected a width and a stretch of at least 1, retries of at least 0, and a switch "
         "penalty of at most 0");
-  const rl::tracking::MeanAction policy = mean_action_of(options);
+  const Search search{
+      clip,       tracking, mean_action_of(options), static_cast<int>(options.size()), config.switch_penalty,
+      should_stop};
   const int last = clip->size() - 1;
   std::vector<Beam> trail;  // the beams so far; the search continues from the last
   trail.push_back({0, List<Path>(1), Characters(clip, tracking, 1)});
@@ -127,11 +132,10 @@ Found search_roll_outs(const std::shared_ptr<const rl::tracking::TrackingClip>& 
   while (trail.back().frame < last) {
     const std::int64_t width = std::int64_t{config.width} << (kWider * retry);
     const int stretch = retry > 0 ? std::max(1, config.stretch / 2) : config.stretch;
-    std::optional<Beam> next = expand(trail.back(), clip, tracking, policy, static_cast<int>(options.size()),
-                                      stretch, config.switch_penalty, should_stop);
+    std::optional<Beam> next = expand(search, trail.back(), stretch);
     if (!next) break;
     if (!next->paths.front().fell) {
-      prune(*next, width, clip, tracking);
+      prune(search, *next, width);
       if (next->frame > to_pass) retry = 0;
       trail.push_back(std::move(*next));
     } else if (retry < config.retries) {

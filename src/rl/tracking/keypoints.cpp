@@ -9,7 +9,7 @@ List<KeypointFrame> match_keypoints(const motion::Keypoints& keypoints) {
   List<KeypointFrame> frames(keypoints.uvc.size());
   for (std::size_t t = 0; t < frames.size(); ++t) {
     KeypointFrame& frame = frames[t];
-    const Eigen::Matrix4d& extrinsics = keypoints.extrinsics[std::min(t, keypoints.extrinsics.size() - 1)];
+    const Eigen::Matrix4d& extrinsics = motion::camera_at(keypoints.extrinsics, static_cast<int>(t));
     frame.projection = keypoints.intrinsics * extrinsics.topRows<3>();
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
     for (std::size_t k = 0; k < keypoints.names.size(); ++k) {

@@ -7,7 +7,7 @@
 namespace mimicx::import {
 namespace {
 
-PerFrame<Landmarks> made(const std::string& kind) {
+PerFrame<Landmarks> landmarks_of_kind(const std::string& kind) {
   synth::SynthConfig config;
   config.kind = kind;
   config.seed = 3;
@@ -15,7 +15,7 @@ PerFrame<Landmarks> made(const std::string& kind) {
 }
 
 TEST(Cadence, AWalkTellsTheLengthOfItsLegs) {
-  const PerFrame<Landmarks> walk = made("walk_turn");
+  const PerFrame<Landmarks> walk = landmarks_of_kind("walk_turn");
   const std::optional<double> leg = walking_leg(walk, Vector3d::UnitZ(), 30.0);
   ASSERT_TRUE(leg);
   EXPECT_NEAR(*leg, leg_length(walk), 0.2);
@@ -23,7 +23,7 @@ TEST(Cadence, AWalkTellsTheLengthOfItsLegs) {
 }
 
 TEST(Cadence, UnitAndAxesDoNotMatter) {
-  const PerFrame<Landmarks> walk = made("walk_turn");
+  const PerFrame<Landmarks> walk = landmarks_of_kind("walk_turn");
   PerFrame<Landmarks> turned;
   const Quaterniond turn = exp_map(Vector3d(0.3, 1.2, -0.4));
   for (const Landmarks& pose : walk) turned.push_back(transformed(pose, turn, 39.37));
@@ -33,7 +33,7 @@ TEST(Cadence, UnitAndAxesDoNotMatter) {
 
 TEST(Cadence, WhoDoesNotWalkTellsNothing) {
   for (const char* kind : {"stand", "squat", "wave", "turn_in_place"})
-    EXPECT_FALSE(walking_leg(made(kind), Vector3d::UnitZ(), 30.0)) << kind;
+    EXPECT_FALSE(walking_leg(landmarks_of_kind(kind), Vector3d::UnitZ(), 30.0)) << kind;
 }
 
 }  // namespace

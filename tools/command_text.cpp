@@ -1,4 +1,4 @@
-#include "text.h"
+#include "command_text.h"
 
 #include <algorithm>
 #include <sstream>
