@@ -112,11 +112,10 @@ int export_policy(const ExportPolicyArguments& a) {
 
 void declare_export_policy(CommandLine& line) {
   const auto a = std::make_shared<ExportPolicyArguments>();
-  Command command =
-      line.add("export-policy", "Write the policy of a motion for other programs",
-               "mimicx export-policy RUN/walk --out walk.h --int8   # one self-contained C++17 header\n"
-               "mimicx export-policy RUN/walk RUN/wave --out all.h  # several in one header\n"
-               "mimicx export-policy RUN/walk --out walk.onnx       # or .npz, for Python");
+  Command command = line.add(
+      "export-policy", "Write the policy of a motion for other programs",
+      "mimicx export-policy RUN/walk RUN/wave --out both.h --int8   # one self-contained C++17 header\n"
+      "mimicx export-policy RUN/walk --out walk.onnx                # or .npz, for Python");
   command.files(
       "RUN/NAME", a->policies,
       "a run of `mimicx adapt`, and a motion of it that has a policy; or a file of that motion in it");

@@ -267,6 +267,7 @@ std::string to_header(const ExportedPolicy& exported) {
 
 std::string to_header(const std::vector<ExportedPolicy>& exported) {
   if (exported.size() == 1) return to_header(exported.front());
+  const std::string all = "policies";
   std::string names, policies;
   std::set<std::string> spaces;
   for (const ExportedPolicy& one : exported) {
@@ -275,10 +276,11 @@ std::string to_header(const std::vector<ExportedPolicy>& exported) {
     if (!spaces.insert(space).second)
       throw std::invalid_argument("two policies would be in the namespace " + space);
     names += (names.empty() ? "" : ", ") + name;
-    policies += "namespace " + space + " {\n" + policy_text(one) + "\n}  // namespace " + space + "\n\n";
+    policies += "namespace " + space + " {\nusing " + all + "::follow;\n" + policy_text(one) +
+                "\n}  // namespace " + space + "\n\n";
   }
-  const std::string all = "policies", first = all + "::" + *spaces.begin();
-  return opening_for(names, first, " each") + runtime_in(all) + policies + "}  // namespace " + all + "\n";
+  return opening_for(names, all + "::" + *spaces.begin(), " each") + runtime_in(all) + policies +
+         "}  // namespace " + all + "\n";
 }
 
 }  // namespace mimicx::policy_export

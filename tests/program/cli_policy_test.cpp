@@ -76,10 +76,15 @@ TEST_F(CliPolicy, UnderstandsOtherFilesOfTheMotion) {
 TEST_F(CliPolicy, WritesSeveralIntoOneHeaderAlone) {
   std::filesystem::copy_file(path("run/policies/walk.npz"), path("run/policies/stroll.npz"));
   const std::string both = "export-policy " + path("run/walk") + " " + path("run/stroll");
+  EXPECT_EQ(mimicx(both + " --out " + path("all.h")).status, 0);
+  const std::string header = read_file(path("all.h"));
+  for (const char* space : {"namespace policies {", "namespace policy_walk {", "namespace policy_stroll {"})
+    EXPECT_NE(header.find(space), std::string::npos) << space;
   EXPECT_EQ(mimicx(both + " --out " + path("all.onnx")).status, 2);
-  const Call same = mimicx(both + " --out " + path("all.h"));  // two copies of one policy have one name
+  const Call same =
+      mimicx("export-policy " + path("run/walk") + " " + path("run/more/walk") + " --out " + path("same.h"));
   EXPECT_EQ(same.status, 2);
-  EXPECT_TRUE(says(same, "namespace")) << same.text;
+  EXPECT_TRUE(says(same, "namespace policy_walk")) << same.text;
 }
 
 TEST_F(CliPolicy, NamesWhatIsMissingInOneLine) {
