@@ -39,12 +39,10 @@ TEST_F(Cli, VersionNamesTheInstructionSetAndTheArithmetic) {
 TEST_F(Cli, VersionAndManifestNameTheCommit) {
   const std::string commit = record::commit();
   EXPECT_TRUE(std::regex_match(commit, std::regex("unknown|[0-9a-f]{12}(-dirty)?"))) << commit;
-  if (commit != "unknown")
-    EXPECT_EQ(
-        shell("git -C '" MIMICX_SOURCE_DIR "' cat-file -e " + commit.substr(0, commit.find('-')) + " 2>&1")
-            .status,
-        0)
-        << commit;
+  const std::string plain = commit.substr(0, commit.find('-'));
+  EXPECT_TRUE(plain == "unknown" ||
+              shell("git -C '" MIMICX_SOURCE_DIR "' cat-file -e " + plain + " 2>&1").status == 0)
+      << commit;
   EXPECT_TRUE(says(mimicx("--version"), std::string(MIMICX_VERSION) + " (" + commit + ")")) << commit;
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   EXPECT_EQ(mimicx("plan " + path("a.npz") + " --out " + path("out") + " --no-fit").status, 0);
