@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 #if defined(__GNUC__) && defined(MIMICX_BUILDS_LIBRARY)
-#define MIMICX_API __attribute__((visibility("default")))
+#define MIMICX_API __attribute__((visibility("default"), used))
 #else
 #define MIMICX_API
 #endif

@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportPolicyArguments {
-  fs::path policy, out;
+  std::vector<std::string> policies;
+  fs::path out;
   bool in_8_bits = false, force = false;
 };
 
@@ -50,9 +51,22 @@ std::string what_is_missing(const fs::path& run, const std::string& name) {
   return asked + ": it is no folder of `mimicx adapt --out`";
 }
 
-/// RUN/policies/NAME.npz for RUN/NAME, where NAME may have folders; or that file itself.
+/// RUN/policies/NAME.npz for RUN/NAME, where NAME may have folders; or that file itself; or, for another file
+/// that a run has of a motion, such as RUN/motions/NAME.npz, the policy of that motion.
 fs::path find_policy(const fs::path& asked) {
-  if (asked.extension() == ".npz" && fs::is_regular_file(asked)) return asked;
+  if (asked.extension() == ".npz" && fs::is_regular_file(asked)) {
+    fs::path below = asked.filename();
+    for (fs::path at = asked.parent_path(); at.has_filename();
+         below = at.filename() / below, at = at.parent_path()) {
+      const fs::path run = at.parent_path();
+      if (!fs::exists(run / "manifest.json") || at.filename() == "policies") continue;
+      const std::string name = fs::path(below).replace_extension().string();
+      const fs::path file = record::RunFolder{run}.policy(name);
+      if (fs::is_regular_file(file)) return file;
+      throw UsageError(what_is_missing(run, name));
+    }
+    return asked;
+  }
   fs::path name = asked.filename();
   if (name.empty() || !asked.has_parent_path())
     throw UsageError(asked.string() + ": expected a policy as RUN/NAME");
@@ -71,14 +85,23 @@ int export_policy(const ExportPolicyArguments& a) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--out: ") + error.what());
   }
-  const fs::path file = find_policy(a.policy);
-  record::Outputs({file.string()}, a.force).claim(a.out, opening);
-  const files::StoredPolicy policy = files::read_policy(file);
+  std::vector<std::string> files;
+  for (const std::string& policy : a.policies) files.push_back(find_policy(policy).string());
+  record::Outputs(files, a.force).claim(a.out, opening);
+  std::vector<policy_export::ExportedPolicy> exported;
+  for (const std::string& file : files) {
+    const files::StoredPolicy policy = files::read_policy(file);
+    try {
+      exported.push_back(policy_export::export_policy(policy, a.in_8_bits));
+    } catch (const std::invalid_argument& error) {
+      throw DataError(file, "", "a policy that can be exported", error.what());
+    }
+  }
   std::string bytes;
   try {
-    bytes = policy_export::bytes_of(policy_export::export_policy(policy, a.in_8_bits), a.out);
+    bytes = policy_export::bytes_of(exported, a.out);
   } catch (const std::invalid_argument& error) {
-    throw DataError(file.string(), "", "a policy that can be exported", error.what());
+    throw UsageError(std::string("export-policy: ") + error.what());
   }
   make_folder(a.out.parent_path());
   write_file_atomically(a.out, bytes);
@@ -89,11 +112,13 @@ int export_policy(const ExportPolicyArguments& a) {
 
 void declare_export_policy(CommandLine& line) {
   const auto a = std::make_shared<ExportPolicyArguments>();
-  Command command =
-      line.add("export-policy", "Write the policy of a motion for other programs",
-               "mimicx export-policy RUN/walk --out walk.h --int8   # one self-contained C++17 header\n"
-               "mimicx export-policy RUN/walk --out walk.onnx       # or .npz, for Python");
-  command.file("RUN/NAME", a->policy, "a run of `mimicx adapt`, and a motion of it that has a policy");
+  Command command = line.add(
+      "export-policy", "Write the policy of a motion for other programs",
+      "mimicx export-policy RUN/walk RUN/wave --out both.h --int8   # one self-contained C++17 header\n"
+      "mimicx export-policy RUN/walk --out walk.onnx                # or .npz, for Python");
+  command.files(
+      "RUN/NAME", a->policies,
+      "a run of `mimicx adapt`, and a motion of it that has a policy; or a file of that motion in it");
   command.path("--out", a->out, "where to write it: .h, .onnx or .npz").required();
   command.flag("--int8", a->in_8_bits, "8-bit weights, and half as many knots of the motion");
   add_force(command, a->force);

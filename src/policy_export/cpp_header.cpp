@@ -1,6 +1,7 @@
 #include "policy_export/cpp_header.h"
 
 #include <charconv>
+#include <set>
 #include <stdexcept>
 
 #include "policy_export/runtime_text.h"
@@ -205,25 +206,11 @@ inline float self_test() {
 }
 )";
 
-}  // namespace
-
-std::string namespace_of(const std::string& name) {
-  std::string out = "policy_";
-  for (const char c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (plain || out.back() != '_') out += plain ? c : '_';
-  }
-  return out;
-}
-
-std::string to_header(const ExportedPolicy& exported) {
-  const motion::Reference& motion = exported.meant.motion;
-  const physics::SimulationConfig& simulation = exported.meant.simulation;
-  const std::string space = namespace_of(motion.name);
-  std::string out(kHeaderOpening);
-  out += " (" MIMICX_VERSION "), which follows one motion: " + quoted(motion.name) + ", " +
-         std::to_string(exported.motion.frames) + " frames at " + literal(exported.motion.fps) +
-         " per second.\n"
+/// The head of a header. @param names  of the motions @param space  namespace of the example
+std::string opening_for(const std::string& names, const std::string& space, const std::string& each) {
+  return std::string(kHeaderOpening) + " (" MIMICX_VERSION "), which follows one motion" + each + ": " +
+         quoted(names) +
+         ".\n"
          "// C++17; no heap, no exceptions, no other file.\n"
          "//\n"
          "//     auto body = " +
@@ -238,8 +225,13 @@ std::string to_header(const ExportedPolicy& exported) {
          "//       body = ...;                                       // a frame later, by your simulation\n"
          "//     }\n"
          "#pragma once\n\n#include <cmath>\n#include <cstdint>\n\n";
-  out += runtime_in(space);
-  out +=
+}
+
+/// Data and functions of one policy, for the namespace of its own.
+std::string policy_text(const ExportedPolicy& exported) {
+  const motion::Reference& motion = exported.meant.motion;
+  const physics::SimulationConfig& simulation = exported.meant.simulation;
+  std::string out =
       "// ---- this policy -----------------------------------------------------------------------------\n\n";
   out += "inline constexpr char kName[] = " + quoted(motion.name) + ";\n";
   out += constant("int", "kFrames", std::to_string(exported.motion.frames), "of the motion");
@@ -253,8 +245,42 @@ std::string to_header(const ExportedPolicy& exported) {
   out += joints(motion.character);
   with_policy(exported, [&](const auto& policy) { out += data_of(exported, policy); });
   out += records_of(exported);
-  out += kCalls;
-  return out + "\n}  // namespace " + space + "\n";
+  return out.append(kCalls);
+}
+
+}  // namespace
+
+std::string namespace_of(const std::string& name) {
+  std::string out = "policy_";
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (plain || out.back() != '_') out += plain ? c : '_';
+  }
+  return out;
+}
+
+std::string to_header(const ExportedPolicy& exported) {
+  const std::string space = namespace_of(exported.meant.motion.name);
+  return opening_for(exported.meant.motion.name, space, "") + runtime_in(space) + policy_text(exported) +
+         "\n}  // namespace " + space + "\n";
+}
+
+std::string to_header(const std::vector<ExportedPolicy>& exported) {
+  if (exported.size() == 1) return to_header(exported.front());
+  const std::string all = "policies";
+  std::string names, policies;
+  std::set<std::string> spaces;
+  for (const ExportedPolicy& one : exported) {
+    const std::string& name = one.meant.motion.name;
+    const std::string space = namespace_of(name);
+    if (!spaces.insert(space).second)
+      throw std::invalid_argument("two policies would be in the namespace " + space);
+    names += (names.empty() ? "" : ", ") + name;
+    policies += "namespace " + space + " {\nusing " + all + "::follow;\n" + policy_text(one) +
+                "\n}  // namespace " + space + "\n\n";
+  }
+  return opening_for(names, all + "::" + *spaces.begin(), " each") + runtime_in(all) + policies +
+         "}  // namespace " + all + "\n";
 }
 
 }  // namespace mimicx::policy_export

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "policy_export/exported_policy.h"
 
@@ -13,6 +14,9 @@ inline constexpr std::string_view kHeaderOpening = "// A policy by mimicx export
 
 /// The text of the header. Its namespace is `namespace_of` the motion's name.
 std::string to_header(const ExportedPolicy& exported);
+/// Several policies: the namespace `policies` has the runtime, whose State and Targets they share, and in it
+/// each policy's own namespace. @throws std::invalid_argument for two of one namespace
+std::string to_header(const std::vector<ExportedPolicy>& exported);
 
 /// "policy_" and the name of a motion, in which '_' replaces all characters that C++ names cannot have.
 std::string namespace_of(const std::string& name);

@@ -33,16 +33,18 @@ std::string_view opening_of(const std::filesystem::path& path) {
   return {};
 }
 
-std::string bytes_of(const ExportedPolicy& exported, const std::filesystem::path& path) {
+std::string bytes_of(const std::vector<ExportedPolicy>& exported, const std::filesystem::path& path) {
+  if (exported.size() != 1 && kind_of(path) != Kind::kHeader)
+    throw std::invalid_argument(path.string() + ": expected one policy; a header, .h, holds several");
   switch (kind_of(path)) {
     case Kind::kHeader:
       return to_header(exported);
     case Kind::kOnnx:
-      return to_onnx(exported);
+      return to_onnx(exported.front());
     case Kind::kArrays:
       break;
   }
-  return format_npz(to_arrays(exported));
+  return format_npz(to_arrays(exported.front()));
 }
 
 }  // namespace mimicx::policy_export

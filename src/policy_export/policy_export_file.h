@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "policy_export/exported_policy.h"
 
@@ -13,7 +14,8 @@ namespace mimicx::policy_export {
 /// @throws std::invalid_argument for a suffix other than .h, .onnx or .npz
 std::string_view opening_of(const std::filesystem::path& path);
 
-/// The bytes of the file. @throws std::invalid_argument as `opening_of`
-std::string bytes_of(const ExportedPolicy& exported, const std::filesystem::path& path);
+/// The bytes of the file. @throws std::invalid_argument as `opening_of`, and for several policies in a file
+/// other than .h
+std::string bytes_of(const std::vector<ExportedPolicy>& exported, const std::filesystem::path& path);
 
 }  // namespace mimicx::policy_export

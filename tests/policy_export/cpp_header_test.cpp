@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "core/file.h"
 #include "core/shell.h"
 #include "core/temporary_folder.h"
@@ -57,6 +59,72 @@ TEST(PolicyHeader, CanBeIncludedBesideAnotherAndInSeveralFiles) {
   const Call call = compiled(folder,
                              "#include \"one.h\"\n#include \"two.h\"\n#include \"more.cpp\"\n"
                              "int main() { return policy_a_squat::self_test() + more() == 0.0F ? 0 : 1; }\n");
+  EXPECT_EQ(call.status, 0) << call.text;
+}
+
+TEST(PolicyHeader, SeveralPoliciesShareTheTypesOfOneHeader) {
+  const TemporaryFolder folder;
+  ExportedPolicy other = exported_in_8_bits();
+  other.meant.motion.name = "other";
+  write_file_atomically(folder.path / "all.h",
+                        to_header(std::vector<ExportedPolicy>{exported_in_float(), other}));
+  const Call call = compiled(folder,
+                             "#include \"all.h\"\n"
+                             "int main() {\n"
+                             "  policies::State body = policies::policy_a_squat::reference(0);\n"
+                             "  policies::Targets targets = policies::policy_other::follow(1, body);\n"
+                             "  targets = policies::policy_a_squat::follow(0, body);\n"
+                             "  return targets.q[1][0] <= 1.0F && policies::policy_a_squat::self_test() +\n"
+                             "      policies::policy_other::self_test() == 0.0F ? 0 : 1;\n"
+                             "}\n");
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_THROW(to_header(std::vector<ExportedPolicy>{exported_in_float(), exported_in_8_bits()}),
+               std::invalid_argument);  // of one name
+  EXPECT_EQ(to_header(std::vector<ExportedPolicy>{exported_in_float()}), to_header(exported_in_float()));
+}
+
+/// A program of a page: the indented block under its name in bold.
+std::string program_of(const std::string& page, const std::string& name) {
+  const std::string text = read_file(std::string(MIMICX_SOURCE_DIR) + "/docs/" + page),
+                    title = "**" + name + "**\n\n";
+  std::istringstream lines(text.substr(text.find(title) + title.size()));
+  std::string program;
+  for (std::string line; std::getline(lines, line) && (line.empty() || line.starts_with("    "));)
+    program += (line.empty() ? line : line.substr(4)) + '\n';
+  return program;
+}
+
+/// A body that is where the motion is, and whose motors count what they are told.
+constexpr const char* kBoard = R"(
+#include "policy.h"
+static int commands = 0;
+extern "C" {
+void sense(int t, float* root, float* q, float* omega) {
+  const policy_a_squat::State at = policy_a_squat::reference(t);
+  for (int k = 0; k < 3; ++k) root[k] = at.p_root[k], root[3 + k] = at.v_root[k];
+  for (int k = 0; k < 88; ++k) q[k] = at.q[k / 4][k % 4];
+  for (int k = 0; k < 66; ++k) omega[k] = at.omega[k / 3][k % 3];
+}
+void command(const float* q) {
+  const float norm = q[4] * q[4] + q[5] * q[5] + q[6] * q[6] + q[7] * q[7];
+  if (norm > 0.999F && norm < 1.001F) ++commands;
+}
+void wait_for_frame() {}
+int board_main(void);
+}
+int main() { return board_main() == 0 && commands == policy_a_squat::kFrames - 1 ? 0 : 1; }
+)";
+
+TEST(PolicyHeader, IsCalledFromCAsThePageShows) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path / "policy.h", to_header(exported_in_8_bits()));
+  for (const std::string name : {"policy_in_c.cpp", "main.c"})
+    write_file_atomically(folder.path / name, program_of("new_board.md", name));
+  write_file_atomically(folder.path / "board.cpp", kBoard);
+  const Call call =
+      shell("cd " + folder.path.string() +
+            " && cc -std=c99 -Wall -Wextra -Werror -Dmain=board_main -c main.c -o main.o 2>&1 && " +
+            MIMICX_COMPILER + kEmbedded + "policy_in_c.cpp board.cpp main.o -o all 2>&1 && ./all");
   EXPECT_EQ(call.status, 0) << call.text;
 }
 

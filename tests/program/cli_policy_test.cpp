@@ -56,6 +56,37 @@ TEST_F(CliPolicy, FindsAPolicyByNameByFolderAndByFile) {
     EXPECT_EQ(mimicx("export-policy " + path(name) + " --out " + path("x.h")).status, 0) << name;
 }
 
+TEST_F(CliPolicy, UnderstandsOtherFilesOfTheMotion) {
+  write_file_atomically(path("run/manifest.json"), "{}");
+  std::filesystem::create_directories(path("run/motions/more"));
+  for (const std::string name : {"walk", "more/walk", "jog"})
+    motion::write_clip(path("run/motions/" + name + ".npz"), motion::standing_clip(20));
+  for (const std::string name : {"walk", "more/walk"}) {
+    EXPECT_EQ(mimicx("export-policy " + path("run/" + name) + " --out " + path("x.h")).status, 0) << name;
+    const Call call =
+        mimicx("export-policy " + path("run/motions/" + name + ".npz") + " --out " + path("y.h"));
+    EXPECT_EQ(call.status, 0) << call.text;
+    EXPECT_EQ(read_file(path("x.h")), read_file(path("y.h"))) << name;
+  }
+  const Call none = mimicx("export-policy " + path("run/motions/jog.npz") + " --out " + path("z.h"));
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(says(none, "has no policy jog")) << none.text;
+}
+
+TEST_F(CliPolicy, WritesSeveralIntoOneHeaderAlone) {
+  std::filesystem::copy_file(path("run/policies/walk.npz"), path("run/policies/stroll.npz"));
+  const std::string both = "export-policy " + path("run/walk") + " " + path("run/stroll");
+  EXPECT_EQ(mimicx(both + " --out " + path("all.h")).status, 0);
+  const std::string header = read_file(path("all.h"));
+  for (const char* space : {"namespace policies {", "namespace policy_walk {", "namespace policy_stroll {"})
+    EXPECT_NE(header.find(space), std::string::npos) << space;
+  EXPECT_EQ(mimicx(both + " --out " + path("all.onnx")).status, 2);
+  const Call same =
+      mimicx("export-policy " + path("run/walk") + " " + path("run/more/walk") + " --out " + path("same.h"));
+  EXPECT_EQ(same.status, 2);
+  EXPECT_TRUE(says(same, "namespace policy_walk")) << same.text;
+}
+
 TEST_F(CliPolicy, NamesWhatIsMissingInOneLine) {
   const std::pair<std::string, std::string> cases[] = {
       {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: it has more/walk, walk"},

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "core/build.h"
 #include "core/file.h"
@@ -11,6 +12,7 @@
 #include "import/bvh_write.h"
 #include "import/motion_file.h"
 #include "motion/clip_file.h"
+#include "record/commit.h"
 #include "record/run_folder.h"
 #include "run/results.h"
 
@@ -35,10 +37,13 @@ TEST_F(Cli, VersionNamesTheInstructionSetAndTheArithmetic) {
 }
 
 TEST_F(Cli, VersionAndManifestNameTheCommit) {
-  const Call git =
-      shell("cd '" MIMICX_SOURCE_DIR "' && git describe --always --abbrev=12 --exclude='*' 2>&1");
-  std::string commit = git.status == 0 ? git.text.substr(0, 12) : "unknown";
-  EXPECT_TRUE(says(mimicx("--version"), std::string(MIMICX_VERSION) + " (" + commit)) << commit;
+  const std::string commit = record::commit();
+  EXPECT_TRUE(std::regex_match(commit, std::regex("unknown|[0-9a-f]{12}(-dirty)?"))) << commit;
+  const std::string plain = commit.substr(0, commit.find('-'));
+  EXPECT_TRUE(plain == "unknown" ||
+              shell("git -C '" MIMICX_SOURCE_DIR "' cat-file -e " + plain + " 2>&1").status == 0)
+      << commit;
+  EXPECT_TRUE(says(mimicx("--version"), std::string(MIMICX_VERSION) + " (" + commit + ")")) << commit;
   motion::write_clip(path("a.npz"), motion::standing_clip(20));
   EXPECT_EQ(mimicx("plan " + path("a.npz") + " --out " + path("out") + " --no-fit").status, 0);
   EXPECT_TRUE(read_file(path("out/manifest.json")).find("\"commit\": \"" + commit) != std::string::npos);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "rl/ppo_fixture.h"
 #include "rl/toy_environments.h"
 
@@ -55,6 +57,19 @@ TEST(Trainer, ResumedTrainingGivesTheBytesOfAnUninterruptedOne) {
     EXPECT_EQ(found.kl, expected.kl);
   }
   expect_same_bytes(state_of(whole), state_of(resumed));
+}
+
+TEST(Trainer, TrainsWithTheConfigurationAsConstructed) {
+  ToyEnvironment<DoubleIntegrator> world(4, 16, 1);
+  Trainer trainer(PpoConfig{}, kCourse, {small_agent()}, world);
+  trainer.iterate(1);
+  const IterationStats stats = trainer.iterate(1);
+  EXPECT_EQ(stats.samples, 2 * 4 * 16 * PpoConfig{}.horizon);
+  EXPECT_TRUE(stats.learned);
+  for (const double number :
+       {stats.mean_reward, stats.policy_loss, stats.value_loss, stats.kl, stats.actor_gradient})
+    EXPECT_TRUE(std::isfinite(number));
+  EXPECT_GT(stats.actor_gradient, 0.0);
 }
 
 TEST(Trainer, LoadRejectsAnotherNumberOfCharacters) {
