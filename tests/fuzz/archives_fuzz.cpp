@@ -1,6 +1,7 @@
 // Target: archives other than plain motions: body models, options, policies, plans, gains, feasibility, and
 // motions with the forces that `audit` and `convert` read.
 #include "audit/audit_file.h"
+#include "audit/load_sharing/load_sharing.h"
 #include "audit/thrown.h"
 #include "core/file.h"
 #include "core/temporary_folder.h"
@@ -99,7 +100,8 @@ Npz forces_file() {
   reference.frames.resize(kFrames), rollout.poses.resize(kFrames), rollout.forces.resize(kFrames);
   rollout.rewards.resize(kFrames);
   return written([&](const auto& path) {
-    files::write_simulated(path, test::standing_clip(kFrames, 0.9), reference, rollout);
+    files::write_simulated(path, test::standing_clip(kFrames, 0.9), reference, rollout,
+                           audit::sharing_members({kFrames, audit::LoadSharing::none()}));
   });
 }
 
@@ -115,6 +117,7 @@ const std::vector<Archive>& archives() {
       {feasibility_file(), [](const Npz& npz) { record::feasibility_from(npz); }},
       {substeps_file(), audit_archive},
       {forces_file(), audit_archive},
+      {forces_file(), [](const Npz& npz) { audit::read_sharing(npz, 4); }},
       {forces_file(), [](const Npz& npz) { files::recorded_forces(motion::clip_from(npz, "fuzz")); }}};
   return all;
 }
