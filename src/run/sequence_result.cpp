@@ -34,7 +34,10 @@ void write_simulated_motion(const std::filesystem::path& path, const motion::Cli
                             const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
                             const physics::SimulationConfig& simulation) {
   const auto sharing = audit::load_sharing(frames_of(reference, rollout), {.friction = simulation.friction});
-  files::write_simulated(path, input, reference, rollout, audit::sharing_members(sharing));
+  files::Members members = audit::sharing_members(sharing);
+  members.emplace_back("body_weight",
+                       NpyArray::scalar(simulation.gravity * reference.character.total_mass()));
+  files::write_simulated(path, input, reference, rollout, members);
 }
 
 std::filesystem::path with_parents(const std::filesystem::path& file) {

@@ -72,6 +72,7 @@ TEST_F(Imitate, MotionHasAFramePerInputFrame) {
                                                        {"foot_force_least", {20, 2, 3}},
                                                        {"foot_force_most", {20, 2, 3}},
                                                        {"foot_force_least_effort", {20, 2, 3}},
+                                                       {"body_weight", {}},
                                                        {"reward", {20}},
                                                        {"reward_factors", {20, 6}}})
     EXPECT_EQ(motion.at(name).shape, shape) << name;
