@@ -25,7 +25,8 @@ TEST(BodyMass, UsualMassIsThatOfTheReferenceAdults) {
 }
 
 TEST(BodyMass, GirthBringsAnyShapeToItsMass) {
-  for (const std::array<double, kBetas> betas : {std::array<double, kBetas>{}, {3.0, 0.0, -2.0, -4.0, 1.0}}) {
+  for (const std::array<double, kBetas>& betas :
+       {std::array<double, kBetas>{}, {3.0, 0.0, -2.0, -4.0, 1.0}}) {
     const auto made = with_mass(betas, 75.0);
     EXPECT_NEAR(mass_of(made), 75.0, 1e-9);
     for (int k : {0, 2, 3, 4})
