@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "command_line_numbers.h"
 #include "commands.h"
 #include "core/npz/npz.h"
 #include "judge/evaluate_protocol.h"
+#include "judge/forces/force_comparison.h"
 #include "record/outputs.h"
 #include "record/table.h"
 #include "shared_arguments.h"
@@ -19,7 +22,7 @@ namespace mimicx::tools {
 namespace {
 
 struct EvaluateArguments {
-  std::filesystem::path truth, json;
+  std::filesystem::path truth, forces, json;
   std::vector<std::string> motions;
   std::string protocol;                 ///< empty: our own metrics
   std::vector<std::string> fail_above;  ///< NAME=VALUE each
@@ -30,7 +33,8 @@ struct EvaluateArguments {
 /// The motions of the given files and folders. @throws DataError if one of these holds none
 std::vector<std::string> files_to_read(const EvaluateArguments& a) {
   std::vector<std::string> files, named = a.motions;
-  named.push_back(a.truth.string());
+  if (!a.truth.empty()) named.push_back(a.truth.string());
+  if (!a.forces.empty()) files.push_back(a.forces.string());
   for (const std::string& path : named)
     for (const auto& [name, file] : judge::named_motions(path)) files.push_back(file.string());
   return files;
@@ -96,9 +100,24 @@ int evaluate_published(const EvaluateArguments& a) {
   return all_good ? kAllGood : kSomeFailed;
 }
 
+int evaluate_against_plates(const EvaluateArguments& a) {
+  if (a.motions.size() > 1)
+    throw std::invalid_argument("--forces compares one folder of --motions, or one file");
+  const auto rows = judge::evaluate_forces(a.forces, a.motions.front(),
+                                           a.read.mass.value_or(std::numeric_limits<double>::quiet_NaN()));
+  table_stream(a.json) << judge::format_forces(rows);
+  if (!a.json.empty()) write_json(a.json, judge::forces_json(rows));
+  return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.reason.empty(); })
+             ? kAllGood
+             : kSomeFailed;
+}
+
 int evaluate(const EvaluateArguments& a) {
+  if (a.truth.empty() == a.forces.empty())
+    throw std::invalid_argument("evaluate needs --truth, or else --forces");
   if (!is_standard_output(a.json))
     record::Outputs(files_to_read(a), a.force).claim(a.json, record::kJsonOpening);
+  if (!a.forces.empty()) return evaluate_against_plates(a);
   if (!a.protocol.empty()) return evaluate_published(a);
   const std::vector<Limit> limits = limits_of(a.fail_above);
   if (a.motions.size() > 1) {
@@ -129,21 +148,30 @@ void declare_evaluate(CommandLine& line) {
   Command command =
       line.add("evaluate", "Score motions against their truth, pairing files by name",
                "mimicx evaluate --truth truth --motions out/run/motions         # a row per motion\n"
-               "mimicx evaluate --truth truth --motions noisy out/run/motions   # means, side by side");
-  command.path("--truth", a->truth, "true motions: a folder, or one file").required();
+               "mimicx evaluate --truth truth --motions noisy out/run/motions   # means, side by side\n"
+               "mimicx evaluate --forces plates.mot --motions out/run/motions/walk.npz");
+  const Option truth = command.path("--truth", a->truth, "true motions: a folder, or one file");
+  command
+      .path("--forces", a->forces,
+            "instead, forces that plates have measured, to compare the motions' forces with: .mot or .npz, "
+            "or a "
+            "folder of them, docs/forces.md; --mass is the mass of the person on the plates")
+      .excludes(truth);
   command
       .paths("--motions", a->motions,
              "motions to score: a folder, or one file; several are compared by means over the motions that "
              "that "
              "all of them have")
       .required();
-  const Option gate = command.texts("--fail-above", a->fail_above, "NAME=VALUE",
-                                    "exit with status 1 where the mean of this metric is above the value, or "
-                                    "is missing; of several --motions "
-                                    "the last one's; repeatable");
+  Option gate = command.texts("--fail-above", a->fail_above, "NAME=VALUE",
+                              "exit with status 1 where the mean of this metric is above the value, or "
+                              "is missing; of several --motions "
+                              "the last one's; repeatable");
+  gate.needs(truth);
   command
       .one_of("--protocol", a->protocol, motion::protocol_names(),
               "use the metrics of a published protocol instead, docs/metrics.md")
+      .needs(truth)
       .excludes(gate);
   command.path("--json", a->json,
                "also write every value, its count and its definition as JSON; -: to standard output");

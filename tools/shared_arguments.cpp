@@ -12,6 +12,11 @@ void add_read_arguments(Command& command, import::ReadConfig& read) {
   command.number("--fps", read.fps, {0.1, 2000.0}, "frame rate of the motions; default: that of the files");
   command.number("--floor", read.floor, kAnyNumber,
                  "height of the floor in the files, m, z up; default: detected");
+  command.number(
+      "--mass", read.mass, kPositive,
+      "mass of the person, kg; default: the usual one of the stature, where the shape comes from joints");
+  command.number("--height", read.height, kPositive,
+                 "stature of the person, m; default: that of the file's shape");
   command.choice("--body", read.standard_body, {{"file", false}, {"standard", true}},
                  "file: the file's body shape, if it has one; standard: the standard body");
   command.existing("--smplx", read.smplx, "your SMPLX_NEUTRAL.npz: gives SMPL-X betas their joints");

@@ -22,5 +22,7 @@ using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 /// @param small  ε > 0, in parts of ‖aᵢ‖² ≈ 1
 /// @return x, one per column; empty for a matrix without columns
 Eigen::VectorXd non_negative_least_squares(const Matrix6X& A, const Vector6d& b, double small);
+/// The same for any number of rows, such as those of a wrench and of torques.
+Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double small);
 
 }  // namespace mimicx::audit

@@ -22,6 +22,8 @@ namespace mimicx::files {
 enum class Precision { kFloat32, kFloat64 };
 
 using VectorRows = std::vector<PerBody<Vector3d>>;
+/// Members of an archive by name, in their order.
+using Members = std::vector<std::pair<std::string, NpyArray>>;
 using WrenchRows = std::vector<PerBody<Vector6d>>;
 
 /// (rows, 55): bodies 1 … 21 in order, 3 numbers per spherical joint, the part about the axis per hinge.

@@ -12,8 +12,11 @@ namespace mimicx::files {
 namespace {
 
 /// Members of a simulated motion that belong to the body it was simulated with.
-constexpr std::array<std::string_view, 6> kOfTheBody = {
-    "joints", "velocities", "joint_torques", "range_torques", "ground_wrenches", "self_contact_wrenches"};
+constexpr std::array<std::string_view, 10> kOfTheBody = {
+    "joints",           "velocities",      "joint_torques",
+    "range_torques",    "ground_wrenches", "self_contact_wrenches",
+    "foot_force_least", "foot_force_most", "foot_force_least_effort",
+    "body_weight"};
 
 /// Chooses the body of a copy. @return a message that says which
 std::string settle_body(const motion::Clip& original, motion::Clip& clean) {

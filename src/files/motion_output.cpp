@@ -14,8 +14,6 @@ namespace {
 
 constexpr Precision kPrecision = Precision::kFloat64;  // as all members of a motion
 
-using Members = std::vector<std::pair<std::string, NpyArray>>;
-
 NpyArray positions_member(const std::vector<PerBody<Vector3d>>& frames) {
   std::vector<double> values;
   for (const auto& frame : frames)
@@ -46,7 +44,8 @@ motion::Passthrough members_for(const motion::Clip& input, double fps, std::size
 }  // namespace
 
 void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
-                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
+                     const Members& more) {
   std::vector<Vector3d> p_root;
   std::vector<PerBody<Quaterniond>> q;
   std::vector<motion::ReferenceFrame> states;
@@ -69,14 +68,15 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   clip.passthrough = members_for(input, reference.fps, rollout.poses.size());
-  const Members extra = {{"joints", positions_member(joints)},
-                         {"velocities", velocities_member(states, kPrecision)},
-                         {"joint_torques", joints_member(torques, kPrecision)},
-                         {"range_torques", joints_member(ranges, kPrecision)},
-                         {"ground_wrenches", wrenches_member(ground, kPrecision)},
-                         {"self_contact_wrenches", wrenches_member(self, kPrecision)},
-                         {"reward", rewards_member(rollout.rewards)},
-                         {"reward_factors", reward_factors_member(rollout.rewards)}};
+  Members extra = {{"joints", positions_member(joints)},
+                   {"velocities", velocities_member(states, kPrecision)},
+                   {"joint_torques", joints_member(torques, kPrecision)},
+                   {"range_torques", joints_member(ranges, kPrecision)},
+                   {"ground_wrenches", wrenches_member(ground, kPrecision)},
+                   {"self_contact_wrenches", wrenches_member(self, kPrecision)},
+                   {"reward", rewards_member(rollout.rewards)},
+                   {"reward_factors", reward_factors_member(rollout.rewards)}};
+  extra.insert(extra.end(), more.begin(), more.end());
   motion::write_clip(path, clip, extra);
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "files/archive_members.h"
 #include "motion/clip.h"
 #include "motion/reference.h"
 #include "rl/tracking/tracking_rollout.h"
@@ -13,8 +14,10 @@ namespace mimicx::files {
 /// The simulated motion: poses, joints, velocities, joint torques, ground and self-contact wrenches, rewards
 /// and their factors; members of the input that the program does not use are copied, resampled to its frames
 /// (motion/passthrough.h).
+/// @param more  further members, such as how the feet may share their load
 void write_simulated(const std::filesystem::path& path, const motion::Clip& input,
-                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout);
+                     const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
+                     const Members& more = {});
 
 /// The poses of an input as they were read, in our world, at its own frame rate, for the report. Without
 /// passed-through members.

@@ -17,9 +17,9 @@ namespace {
 using Positions = PerBody<Vector3d>;
 using Rotations = PerBody<Quaterniond>;
 
-constexpr double kStraight = 0.1,
-                 kBent = 0.35;    ///< sines of the bend where a hinge starts to count, and counts fully
-constexpr double kTallest = 5.0;  ///< m, of features that are not normalised
+constexpr double kStraightSine = 0.1,
+                 kBentSine = 0.35;  ///< sines of the bend where a hinge starts to count, and counts fully
+constexpr double kTallest = 5.0;    ///< m, of features that are not normalised
 
 PerFrame<Positions> positions_of(const Eigen::MatrixXd& rows) {
   PerFrame<Positions> frames;
@@ -129,7 +129,7 @@ Quaterniond frame_of(const Vector3d& across, const Vector3d& along) {
 /// @param q  of the limb, its bone in place
 Quaterniond with_hinge(const Quaterniond& q, int hinge, const Vector3d& upper, const Vector3d& lower) {
   const Vector3d u = upper.normalized(), across = u.cross(lower.normalized()), now = q * hinge_axis(hinge);
-  const double shown = std::clamp((across.norm() - kStraight) / (kBent - kStraight), 0.0, 1.0);
+  const double shown = std::clamp((across.norm() - kStraightSine) / (kBentSine - kStraightSine), 0.0, 1.0);
   if (shown == 0.0) return q;
   const Vector3d flat = (now - now.dot(u) * u).normalized();
   const double angle = atan2(flat.cross(across).dot(u), flat.dot(across));

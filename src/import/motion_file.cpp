@@ -48,8 +48,17 @@ void require_sense(const ReadConfig& o) {
   };
   require(!o.scale || (*o.scale > 0.0 && std::isfinite(*o.scale)), "the scale must be positive");
   require(!o.fps || (*o.fps > 0.0 && *o.fps <= 2000.0), "the frame rate must lie between 0 and 2000 Hz");
+  require(!o.mass || (*o.mass > 0.0 && std::isfinite(*o.mass)), "the mass must be positive");
+  require(!o.height || (*o.height > 0.0 && std::isfinite(*o.height)), "the height must be positive");
   require(!o.floor || std::isfinite(*o.floor), "the height of the floor must be a number");
   if (o.up) rotation_to_z_up(*o.up);
+}
+
+KnownBody known_body(const ReadConfig& o) {
+  KnownBody known;
+  if (o.mass) known.mass = *o.mass;
+  if (o.height) known.height = *o.height;
+  return known;
 }
 
 /// Chooses the body: the standard one, the joints of the licensed model, or the file's own body.
@@ -78,6 +87,13 @@ void choose_body(const ReadConfig& o, motion::Clip& clip) {
   } else if (foreign) {
     clip.decisions.push_back("body: the standard one, the file's model is " + clip.body_model);
   }
+  if (!o.mass && !o.height) return;
+  if (clip.rest_joints)
+    clip.warnings.emplace_back("--mass and --height change no body whose joints are known");
+  else if (foreign)
+    clip.warnings.emplace_back("--mass and --height change no body of another body model");
+  else
+    clip.decisions.push_back(settle_body(known_body(o), clip.betas));
 }
 
 void settle_scale(const ReadConfig& o, bool believed, motion::Clip& clip) {
@@ -219,6 +235,7 @@ motion::Clip retargeted(const SkeletonMotion& motion, const std::string& format,
   config.standard_body = o.standard_body;
   config.scale = o.scale.value_or(0.0);
   config.up = o.up;
+  config.known = known_body(o);
   config.joint_map = o.joint_map;
   RetargetReport report;
   motion::Clip clip = retarget(motion, config, &report);
@@ -324,6 +341,8 @@ std::string ReadConfig::text() const {
   number("scale", scale);
   number("fps", fps);
   number("floor", floor);
+  number("mass", mass);
+  number("height", height);
   if (standard_body) add("body=standard");
   if (!smplx.empty()) add("smplx=" + smplx.string());
   if (!joint_map.empty()) add("joint_map=" + joint_map.string());

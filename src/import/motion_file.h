@@ -24,6 +24,8 @@ struct ReadConfig {
   std::optional<double> scale;      ///< metres per unit of length of the file
   std::optional<double> fps;        ///< the frame rate the motion was recorded at
   std::optional<double> floor;      ///< height of the floor in the file, after axes and scale, m
+  std::optional<double> mass;       ///< of the person, kg
+  std::optional<double> height;     ///< stature of the person, m
   bool standard_body = false;       ///< ignore the file's body shape
   std::filesystem::path smplx;      ///< licensed SMPL-X model: joints of the body where betas are SMPL-X's
   std::filesystem::path joint_map;  ///< more joint names for foreign skeletons

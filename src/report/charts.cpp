@@ -73,13 +73,23 @@ ReportChart torque_chart(const ChartSources& sources) {
 }
 
 ReportChart ground_chart(const ChartSources& sources) {
-  ReportChart chart{{"force of the floor", "body weights", "upwards, mean over the frame before"}, {}};
+  const bool ranges = sources.sharing && !sources.sharing->empty();
+  ReportChart chart{
+      {"force of the floor", "body weights",
+       ranges ? "upwards, mean over the frame before; shaded: all that would explain the motion, "
+                "which does not say how two feet share a load"
+              : "upwards, mean over the frame before"},
+      {}};
   if (!sources.ground || sources.ground->empty()) return chart;
   constexpr Array<const char*, files::kCarriers> kNames = {"left foot", "right foot", "rest of the body"};
   for (int k = 0; k < files::kCarriers; ++k) {
     ReportLine line{Who::kNobody, kNames[k], {}};
     for (const files::FloorArrows& frame : *sources.ground)
       line.values.push_back(frame[k].force.z() / sources.weight);
+    for (std::size_t t = 0; k < 2 && ranges && t < sources.sharing->size(); ++t) {
+      line.least.push_back((*sources.sharing)[t].least[k].z() / sources.weight);
+      line.most.push_back((*sources.sharing)[t].most[k].z() / sources.weight);
+    }
     const bool any = std::any_of(line.values.begin(), line.values.end(), [](double f) { return f != 0.0; });
     if (k < 2 || any) chart.lines.push_back(line);
   }

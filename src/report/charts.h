@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "audit/audit_result.h"
+#include "audit/load_sharing/load_sharing.h"
 #include "core/npz/npz.h"
 #include "report/report.h"
 
@@ -17,7 +18,8 @@ struct ChartSources {
   const audit::Audit* audit_of_input = nullptr;                ///< by its poses alone
   const audit::Audit* audit_of_cleaned = nullptr;              ///< by its recorded forces
   const std::vector<files::FloorArrows>* ground = nullptr;
-  double weight = 0.0;           ///< N
+  const std::vector<audit::LoadSharing>* sharing = nullptr;  ///< a row per row of `ground`
+  double weight = 0.0;                                       ///< N
   const Npz* members = nullptr;  ///< of the cleaned motion: reward and its factors
 };
 

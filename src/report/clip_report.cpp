@@ -193,6 +193,12 @@ void add_ground(const ClipFiles& files, ReportClip& clip) {
   clip.weight = kGravity * cleaned.character.total_mass();
 }
 
+/// Runs of older versions have no such members.
+PerFrame<audit::LoadSharing> sharing_of(const ClipFiles& files) {
+  if (!files.members.has("foot_force_least")) return {};
+  return audit::read_sharing(files.members, static_cast<std::size_t>(files.cleaned.frames()));
+}
+
 /// Torques of the controllers alone, without those of the joint limits.
 void add_torques(const ClipFiles& files, ReportClip& clip) {
   if (!files.members.has("joint_torques") || !files.members.has("range_torques")) return;
@@ -262,6 +268,8 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   sources.audit_of_input = audits.input ? &*audits.input : nullptr;
   sources.audit_of_cleaned = audits.cleaned ? &*audits.cleaned : nullptr;
   sources.ground = &clip.ground;
+  const PerFrame<audit::LoadSharing> sharing = sharing_of(files);
+  sources.sharing = &sharing;
   sources.weight = clip.weight;
   sources.members = &files.members;
   clip.charts = charts_of(sources);

@@ -58,8 +58,14 @@ record::Json to_json(const ReportMotion& motion) {
 
 record::Json to_json(const ReportChart& chart) {
   record::Json lines = record::Json::array();
-  for (const ReportLine& line : chart.lines)
-    lines.push_back({{"who", name_of(line.who)}, {"name", line.name}, {"values", numbers(line.values)}});
+  for (const ReportLine& line : chart.lines) {
+    record::Json one = {{"who", name_of(line.who)}, {"name", line.name}, {"values", numbers(line.values)}};
+    if (!line.least.empty()) {
+      one["least"] = numbers(line.least);
+      one["most"] = numbers(line.most);
+    }
+    lines.push_back(one);
+  }
   record::Json json = {{"title", to_json(chart.words)}, {"lines", lines}};
   if (chart.step > 0.0) {
     json["step"] = chart.step;

@@ -40,7 +40,8 @@ struct ReportMotion {
 struct ReportLine {
   Who who = Who::kNobody;
   std::string name;
-  std::vector<double> values;  ///< NaN: none
+  std::vector<double> values;                 ///< NaN: none
+  std::vector<double> least = {}, most = {};  ///< a band around the line, a value each; empty: none
 };
 
 /// Lines over one axis.

@@ -2,6 +2,7 @@
 
 #include "audit/audit.h"
 #include "audit/audit_summary.h"
+#include "audit/load_sharing/load_sharing.h"
 #include "audit/pose_verdict.h"
 #include "audit/substeps.h"
 #include "files/motion_output.h"
@@ -13,14 +14,29 @@
 namespace mimicx::run {
 namespace {
 
+audit::SimulatedFrames frames_of(const motion::Reference& reference,
+                                 const rl::tracking::TrackingRollout& rollout) {
+  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
+  for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
+  return motion;
+}
+
 /// Writes into the entry whether the recorded forces explain the motion.
 void audit_sequence(const motion::Reference& reference, const physics::SimulationConfig& simulation,
                     const rl::tracking::TrackingRollout& rollout, record::SequenceEntry& entry) {
-  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
-  for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
-  const audit::Audit audit = audit::audit_frames(motion, simulation);
+  const audit::Audit audit = audit::audit_frames(frames_of(reference, rollout), simulation);
   entry.audit = audit::summary_of(audit);
   for (const std::string& failure : audit.failures) entry.notes.push_back("audit: " + failure);
+}
+
+void write_simulated_motion(const std::filesystem::path& path, const motion::Clip& input,
+                            const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout,
+                            const physics::SimulationConfig& simulation) {
+  const auto sharing = audit::load_sharing(frames_of(reference, rollout), {.friction = simulation.friction});
+  files::Members members = audit::sharing_members(sharing);
+  members.emplace_back("body_weight",
+                       NpyArray::scalar(simulation.gravity * reference.character.total_mass()));
+  files::write_simulated(path, input, reference, rollout, members);
 }
 
 std::filesystem::path with_parents(const std::filesystem::path& file) {
@@ -30,15 +46,15 @@ std::filesystem::path with_parents(const std::filesystem::path& file) {
 
 /// Writes the parts and removes those of an earlier result.
 void write_parts(const record::RunFolder& folder, const motion::Clip& input, const List<FollowedPart>& parts,
-                 record::SequenceEntry& entry) {
+                 const physics::SimulationConfig& simulation, record::SequenceEntry& entry) {
   for (int k = 1; k <= record::kMostParts; ++k) std::filesystem::remove(folder.part(entry.name, k));
   motion::Clip body = input;  // members of the input begin at its first frame: parts have none
   body.passthrough.clear();
   entry.parts.clear();
   for (const FollowedPart& part : parts) {
     entry.parts.push_back({part.first, part.first + part.reference.size() - 1});
-    files::write_simulated(with_parents(folder.part(entry.name, static_cast<int>(entry.parts.size()))), body,
-                           part.reference, part.rollout);
+    write_simulated_motion(with_parents(folder.part(entry.name, static_cast<int>(entry.parts.size()))), body,
+                           part.reference, part.rollout, simulation);
   }
 }
 
@@ -97,8 +113,9 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
                               judge::frame_feasibility(motion.needs, made.assistance));
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
-  files::write_simulated(with_parents(folder.root / output), motion.input, motion.reference, made.after);
-  write_parts(folder, motion.input, parts, entry);
+  write_simulated_motion(with_parents(folder.root / output), motion.input, motion.reference, made.after,
+                         simulation);
+  write_parts(folder, motion.input, parts, simulation, entry);
   std::filesystem::remove(folder.substeps(entry.name));
   if (run.config.substeps)
     audit::write_substeps(

@@ -1,6 +1,7 @@
 // Target: archives other than plain motions: body models, options, policies, plans, gains, feasibility, and
 // motions with the forces that `audit` and `convert` read.
 #include "audit/audit_file.h"
+#include "audit/load_sharing/load_sharing.h"
 #include "audit/thrown.h"
 #include "core/file.h"
 #include "core/temporary_folder.h"
@@ -11,6 +12,7 @@
 #include "fuzz/driver.h"
 #include "fuzz/members.h"
 #include "import/body_model.h"
+#include "import/opensim/measured_forces.h"
 #include "import/small_body_model.h"
 #include "motion/clip_file.h"
 #include "motion/made_motions.h"
@@ -99,8 +101,21 @@ Npz forces_file() {
   reference.frames.resize(kFrames), rollout.poses.resize(kFrames), rollout.forces.resize(kFrames);
   rollout.rewards.resize(kFrames);
   return written([&](const auto& path) {
-    files::write_simulated(path, test::standing_clip(kFrames, 0.9), reference, rollout);
+    files::write_simulated(path, test::standing_clip(kFrames, 0.9), reference, rollout,
+                           audit::sharing_members({kFrames, audit::LoadSharing::none()}));
   });
+}
+
+Npz plates_file() {
+  const std::vector<double> rows(12, 1.0), joints(2 * kBodies * 3, 0.5);
+  Npz npz;
+  npz.path = "fuzz.npz";
+  for (const char* name : {"grf_left", "grf_right", "cop_left", "cop_right"})
+    npz.set(name, NpyArray::from_double({4, 3}, rows.data()));
+  npz.set("valid", NpyArray::from_double({4, 2}, rows.data()));
+  npz.set("joints", NpyArray::from_double({2, kBodies, 3}, joints.data()));
+  for (const char* name : {"grf_fps", "fps", "mass"}) npz.set(name, NpyArray::scalar(60.0));
+  return npz;
 }
 
 void audit_archive(const Npz& npz) { audit::audit_bytes(format_npz(npz), "fuzz.npz", false); }
@@ -115,6 +130,8 @@ const std::vector<Archive>& archives() {
       {feasibility_file(), [](const Npz& npz) { record::feasibility_from(npz); }},
       {substeps_file(), audit_archive},
       {forces_file(), audit_archive},
+      {plates_file(), [](const Npz& npz) { import::measured_forces_from(format_npz(npz), "fuzz.npz"); }},
+      {forces_file(), [](const Npz& npz) { audit::read_sharing(npz, 4); }},
       {forces_file(), [](const Npz& npz) { files::recorded_forces(motion::clip_from(npz, "fuzz")); }}};
   return all;
 }

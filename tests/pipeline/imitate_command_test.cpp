@@ -69,6 +69,10 @@ TEST_F(Imitate, MotionHasAFramePerInputFrame) {
                                                        {"range_torques", {20, 55}},
                                                        {"ground_wrenches", {20, 22, 6}},
                                                        {"self_contact_wrenches", {20, 22, 6}},
+                                                       {"foot_force_least", {20, 2, 3}},
+                                                       {"foot_force_most", {20, 2, 3}},
+                                                       {"foot_force_least_effort", {20, 2, 3}},
+                                                       {"body_weight", {}},
                                                        {"reward", {20}},
                                                        {"reward_factors", {20, 6}}})
     EXPECT_EQ(motion.at(name).shape, shape) << name;

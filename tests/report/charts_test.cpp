@@ -54,6 +54,32 @@ TEST(Charts, ForcesAreInBodyWeights) {
   EXPECT_EQ(forces->lines[1].values, std::vector<double>(3, 1.5));
 }
 
+TEST(Charts, ForcesOfTheFeetHaveTheRangeThatExplainsTheMotion) {
+  const MeasuredMotion motion = standing_reference(2);
+  std::vector<files::FloorArrows> ground(2);
+  std::vector<audit::LoadSharing> sharing(2, audit::LoadSharing::none());
+  for (std::size_t t = 0; t < 2; ++t) {
+    ground[t][0].force.z() = ground[t][2].force.z() = 350.0;
+    sharing[t].least[1].z() = 70.0;
+    sharing[t].most[1].z() = 140.0;
+  }
+  ChartSources sources;
+  sources.motions = {{Who::kCleaned, &motion}};
+  sources.ground = &ground;
+  sources.sharing = &sharing;
+  sources.weight = 700.0;
+  for (const ReportChart& chart : charts_of(sources)) {
+    if (chart.words.unit != "body weights") continue;
+    ASSERT_EQ(chart.lines.size(), 3u);
+    EXPECT_EQ(chart.lines[0].least, std::vector<double>(2, 0.0));
+    EXPECT_EQ(chart.lines[1].least, std::vector<double>(2, 0.1));
+    EXPECT_EQ(chart.lines[1].most, std::vector<double>(2, 0.2));
+    EXPECT_TRUE(chart.lines[2].least.empty()) << "the rest of the body shares nothing";
+    return;
+  }
+  FAIL() << "no chart of forces";
+}
+
 TEST(Charts, AuditValuesAreAtTheirFrames) {
   const MeasuredMotion motion = standing_reference(5);
   audit::Audit audit;

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/units.h"
+
 namespace mimicx::files {
 namespace {
 
@@ -28,7 +30,8 @@ std::string heading(bool with_forces) {
   if (!with_forces) return text + '\n';
   for (const std::string name : kCarrierNames) {
     add_names(name + "_force", "_N", text);
-    text += "," + name + "_pressure_x_m," + name + "_pressure_y_m," + name + "_free_moment_Nm";
+    text += "," + name + "_pressure_x_m," + name + "_pressure_y_m," + name + "_free_moment_Nm," + name +
+            "_load_body_weights";
   }
   for (int b = 1; b < kBodies; ++b) {
     const std::string name = std::string(kBodyNames[b]) + "_torque";
@@ -40,7 +43,8 @@ std::string heading(bool with_forces) {
   return text + '\n';
 }
 
-void add_forces(const FloorForces& floor, const PerBody<Vector3d>& torque, std::string& text) {
+/// @param weight  of the body, N
+void add_forces(const FloorForces& floor, const PerBody<Vector3d>& torque, double weight, std::string& text) {
   for (const FloorForce& f : floor) {
     add_cells(f.force, text);
     if (f.loaded) {
@@ -50,6 +54,7 @@ void add_forces(const FloorForces& floor, const PerBody<Vector3d>& torque, std::
     } else {
       text += ",,,";
     }
+    add_cells(f.force.z() / weight, text);
   }
   for (int b = 1; b < kBodies; ++b) {
     if (is_hinge(b))
@@ -64,6 +69,7 @@ void add_forces(const FloorForces& floor, const PerBody<Vector3d>& torque, std::
 std::string format_csv(const motion::Clip& clip, const std::optional<RecordedForces>& forces) {
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   const List<FloorForces> floor = forces ? floor_forces(poses, *forces) : List<FloorForces>();
+  const double weight = kGravity * motion::character_of(clip).total_mass();
   std::string text = heading(forces.has_value());
   char number[40];
   for (int t = 0; t < clip.frames(); ++t) {
@@ -72,8 +78,8 @@ std::string format_csv(const motion::Clip& clip, const std::optional<RecordedFor
     for (const Vector3d& p : poses[t].p_WB) add_cells(p, text);
     const Quaterniond& q = poses[t].q_WB[kPelvis];
     for (const double value : {q.w(), q.x(), q.y(), q.z()}) add_cells(value, text);
-    if (forces && t > 0) add_forces(floor[t - 1], forces->torque[t], text);
-    if (forces && t == 0) text += std::string(6 * kCarriers + kDofs, ',');
+    if (forces && t > 0) add_forces(floor[t - 1], forces->torque[t], weight, text);
+    if (forces && t == 0) text += std::string(7 * kCarriers + kDofs, ',');
     text += '\n';
   }
   return text;

@@ -34,6 +34,28 @@ std::string storage(std::string_view opening, double fps, const std::vector<std:
   return text;
 }
 
+/// The ankle's axis in the shank of gait2392 (x forward, y up, z to the right; of the right leg), about which
+/// the toes come up.
+const Vector3d kAnkleAxis(-0.10501355, -0.17402245, 0.97912632);
+
+/// To our axes of a body, of the leg of a side.
+Vector3d from_segment(const Vector3d& v, bool right) { return {right ? -v.z() : v.z(), v.y(), v.x()}; }
+
+constexpr int kGaitMoments = 3;
+/// Moments of hip, knee and ankle of a leg by the coordinates of gait2392, N·m.
+Array<double, kGaitMoments> gait_moments(const BodyPoses& poses, const PerBody<Vector3d>& torque,
+                                         bool right) {
+  const int side = right ? 1 : 0;
+  const auto in_world = [&](int body) { return Vector3d(poses.q_WB[body + side] * torque[body + side]); };
+  // Turning about the axis to the left swings what hangs from it backwards.
+  const Vector3d left = poses.q_WB[kPelvis] * Vector3d::UnitX();
+  Vector3d ankle = from_segment(kAnkleAxis, right);
+  if (!right) ankle = -ankle;  // a mirrored axis turns the other way
+  ankle = poses.q_WB[kLeftKnee + side] * ankle;
+  return {-in_world(kLeftHip).dot(left), -torque[kLeftKnee + side].dot(hinge_axis(kLeftKnee + side)),
+          in_world(kLeftAnkle).dot(ankle)};
+}
+
 bool rests_on_more_than_feet(const List<FloorForces>& floor) {
   for (const FloorForces& row : floor)
     if (!row[kOnTheRest].force.isZero(0.0)) return true;
@@ -74,6 +96,10 @@ std::string format_sto(const motion::Clip& clip, const RecordedForces& forces) {
     else
       for (const char* axis : {"_moment_x", "_moment_y", "_moment_z"}) names.push_back(name + axis);
   }
+  for (const char* side : {"_r_moment", "_l_moment"})
+    for (const char* coordinate : {"hip_flexion", "knee_angle", "ankle_angle"})
+      names.push_back(std::string(coordinate) + side);
+  const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   std::vector<Row> rows;
   for (int t = 1; t < clip.frames(); ++t) {
     Row row;
@@ -84,6 +110,8 @@ std::string format_sto(const motion::Clip& clip, const RecordedForces& forces) {
       else
         add_to_row(to_segment(torque), row);
     }
+    for (const bool right : {true, false})
+      for (const double moment : gait_moments(poses[t], forces.torque[t], right)) row.push_back(moment);
     rows.push_back(row);
   }
   return storage(kStoOpening, clip.fps, names, rows);

@@ -10,7 +10,11 @@
 ///
 /// The .sto has a column per degree of freedom: NAME_flexion_moment of knees and elbows, NAME_moment_x y z of
 /// every other joint, on the segment beyond the joint, along its own axes, which for OpenSim at rest are x
-/// forward, y up, z to the right.
+/// forward, y up, z to the right. Behind them the legs' moments by the coordinates of OpenSim's gait models
+/// (gait2392: S. L. Delp et al., IEEE Trans. Biomed. Eng. 37 (1990)), as its inverse dynamics prints them:
+/// hip_flexion_r_moment, knee_angle_r_moment, ankle_angle_r_moment and those of `l`. The axes are the
+/// pelvis' leftward axis, the knee's hinge and the ankle's oblique one; positive flexes the hip, extends the
+/// knee and lifts the toes.
 ///
 /// Format: OpenSim, "Storage (.sto) Files" and "Motion (.mot) Files" of its User's Guide.
 #pragma once

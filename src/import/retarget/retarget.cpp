@@ -298,7 +298,10 @@ void retarget_foreign(const SkeletonMotion& motion, const RetargetConfig& config
   choose_neutral(motion, source, up, report.scale, clip);
 
   const BodyLengths lengths = measured_lengths(source);
-  if (!config.standard_body) clip.betas = fit_betas(lengths);
+  if (!config.standard_body) {
+    clip.betas = fit_betas(lengths);
+    clip.decisions.push_back(settle_mass(config.known, clip.betas));
+  }
   const Character character = make_character(clip.betas);
   const BodyLengths made = lengths_of(character.joint_offset);
   report.leg_ratio = (made[kThigh] + made[kShank]) / (lengths[kThigh] + lengths[kShank]);

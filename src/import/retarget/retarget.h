@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "import/body_mass.h"
 #include "import/retarget/skeleton.h"
 #include "motion/clip.h"
 
@@ -28,6 +29,7 @@ struct RetargetConfig {
   bool standard_body = false;  ///< β = 0 instead of the fitted one
   double scale = 0.0;          ///< metres per file unit; 0: detected from the length of the legs
   std::optional<char> up;      ///< of the file: 'x', 'y', 'z', capitals for the negative axes; none: detected
+  KnownBody known;             ///< of the person
   std::filesystem::path joint_map;  ///< additional joint names (joint_names.h); empty: none
 };
 

@@ -34,6 +34,21 @@ function path_of(xs, values, X, Y, join) {
   return path;
 }
 
+// The area between a line's `least` and `most`, a closed path per stretch of known values.
+function band_of(xs, line, X, Y) {
+  let path = '';
+  for (let first = 0; first < line.least.length; ++first) {
+    if (line.least[first] === null) continue;
+    let end = first;
+    while (end < line.least.length && line.least[end] !== null) ++end;
+    const corner = (v, k) => `${X(xs[first + k]).toFixed(1)} ${Y(v).toFixed(1)}`;
+    const upper = line.most.slice(first, end).map(corner), lower = line.least.slice(first, end).map(corner);
+    path += `M${upper.concat(lower.reverse()).join('L')}Z`;
+    first = end;
+  }
+  return path;
+}
+
 function axes(picture, chart, ticks, X, Y) {
   const {width, height, left, right, bottom} = plot, low = height - bottom;
   for (const v of ticks.y)
@@ -65,7 +80,7 @@ function chart_of(chart, on_time) {
   while (!chart.x && xs.length < longest) xs.push(chart.start + xs.length * chart.step);
   const box = make('figure', {className: 'card'},
       make('figcaption', {title: chart.title.meaning}, with_unit(chart.title.words, chart.title.unit && `(${chart.title.unit})`)));
-  const values = known(chart.lines.flatMap((l) => l.values));
+  const values = known(chart.lines.flatMap((l) => l.values.concat(l.least || [], l.most || [])));
   if (!values.length) { box.append(make('p', {className: 'hint'}, 'no values')); return box; }
   const low = values.reduce((a, v) => Math.min(a, v), Infinity), high = values.reduce((a, v) => Math.max(a, v), -Infinity);
   const ticks = {y: nice_ticks(low, high, 4), x: nice_ticks(xs[0], xs[xs.length - 1], 5)};
@@ -78,6 +93,10 @@ function chart_of(chart, on_time) {
   // Lines that belong to no motion have their own dashes; beside lines of motions the first dash is not used.
   const rank = new Map();
   for (const line of chart.lines) if (!line.who) rank.set(line, rank.size + (chart.lines[0].who ? 1 : 0));
+  for (const line of chart.lines)
+    if (line.least)
+      picture.append(svg('path', {d: band_of(xs, line, X, Y), class: 'band',
+                                  style: `fill: ${colour_of(line.who, rank.get(line))}`}));
   for (const line of chart.lines)
     picture.append(svg('path', {d: path_of(xs, line.values, X, Y, Boolean(chart.x)), class: 'curve',
                                 style: look_of(line, rank.get(line))}));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/units.h"
 #include "files/pushed_clip.h"
 
 namespace mimicx::files {
@@ -61,7 +62,7 @@ TEST(Csv, HasTimeJointsAndRootOfEveryFrame) {
 TEST(Csv, UnknownForcesAreEmptyCells) {
   const motion::Clip clip = pushed_clip(8);
   const Table table(format_csv(clip, recorded_forces(clip)));
-  EXPECT_EQ(table.names.size(), 1u + 3 * kBodies + 4 + 6 * 3 + kDofs);
+  EXPECT_EQ(table.names.size(), 1u + 3 * kBodies + 4 + 7 * 3 + kDofs);
   for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.names.size());
   EXPECT_EQ(table.cell(0, "left_foot_force_z_N"), "");
   EXPECT_EQ(table.cell(0, "right_wrist_torque_z_Nm"), "");
@@ -71,6 +72,8 @@ TEST(Csv, UnknownForcesAreEmptyCells) {
     EXPECT_NEAR(table.at(t, "right_foot_force_z_N"), right.force.z(), 1e-6);
     EXPECT_NEAR(table.at(t, "right_foot_pressure_y_m"), right.point.y(), 1e-8);
     EXPECT_NEAR(table.at(t, "right_foot_free_moment_Nm"), right.free_moment, 1e-7);
+    EXPECT_NEAR(table.at(t, "right_foot_load_body_weights"),
+                right.force.z() / (kGravity * motion::character_of(clip).total_mass()), 1e-7);
     EXPECT_NEAR(table.at(t, "head_torque_y_Nm"), torque_at(t, kHead).y(), 1e-7);
     EXPECT_NEAR(table.at(t, "left_elbow_torque_Nm"), torque_at(t, kLeftElbow).dot(hinge_axis(kLeftElbow)),
                 1e-7);
@@ -84,7 +87,7 @@ TEST(Csv, EveryColumnNamesItsUnitOnce) {
   std::vector<std::string> names = Table(text).names;
   for (const std::string& name : names)
     EXPECT_TRUE(name.ends_with("_s") || name.ends_with("_m") || name.ends_with("_N") ||
-                name.ends_with("_Nm") || name.starts_with("root_q"))
+                name.ends_with("_Nm") || name.ends_with("_body_weights") || name.starts_with("root_q"))
         << name;
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());

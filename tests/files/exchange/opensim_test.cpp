@@ -84,7 +84,7 @@ TEST(Sto, MomentsAreInOpenSimsSegmentAxes) {
   const motion::Clip clip = pushed_clip(7);
   const Storage s(format_sto(clip, *recorded_forces(clip)));
   expect_sound(s, 6);
-  EXPECT_EQ(s.names.size(), 1u + kDofs);
+  EXPECT_EQ(s.names.size(), 1u + kDofs + 6u);
   for (std::size_t i = 0; i < 6; ++i)
     for (int b = 1; b < kBodies; ++b) {
       const std::string name(kBodyNames[b]);
@@ -98,6 +98,29 @@ TEST(Sto, MomentsAreInOpenSimsSegmentAxes) {
       EXPECT_NEAR(found.y(), torque.y(), 1e-6) << "up";
       EXPECT_NEAR(found.z(), -torque.x(), 1e-6) << "to the right";
     }
+}
+
+TEST(Sto, MomentsOfTheLegsAreThoseOfOpenSimsCoordinates) {
+  // Upright, facing −y: the leftward axis is the world's x. The legs bear torques about it alone.
+  motion::Clip clip = motion::standing_clip(2);
+  RecordedForces forces;
+  forces.ground.resize(2);
+  forces.torque.resize(2);
+  for (int t = 0; t < 2; ++t) {
+    forces.ground[t].fill(Vector6d::Zero());
+    forces.torque[t].fill(Vector3d::Zero());
+  }
+  forces.torque[1][kRightHip] = {30.0, 5.0, 7.0};  // backwards: extends the hip
+  forces.torque[1][kLeftKnee] = {40.0, 0.0, 0.0};  // flexes
+  forces.torque[1][kRightAnkle] = {-10.0, 2.0, 3.0};
+  forces.torque[1][kLeftAnkle] = {-10.0, -2.0, -3.0};  // its mirror image
+  const Storage s(format_sto(clip, forces));
+  EXPECT_NEAR(s.at(0, "hip_flexion_r_moment"), -30.0, 1e-6);
+  EXPECT_NEAR(s.at(0, "hip_flexion_l_moment"), 0.0, 1e-6);
+  EXPECT_NEAR(s.at(0, "knee_angle_l_moment"), -40.0, 1e-6);
+  const double lifts = 9.7912632 - 2 * 0.17402245 - 3 * 0.10501355;  // Delp's axis, by hand
+  EXPECT_NEAR(s.at(0, "ankle_angle_r_moment"), lifts, 1e-6);
+  EXPECT_NEAR(s.at(0, "ankle_angle_l_moment"), lifts, 1e-6);
 }
 
 TEST(OpenSim, FilesAreRecognisedByTheirOpeningAndDeterministic) {

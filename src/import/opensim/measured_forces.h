@@ -1,0 +1,39 @@
+/// Forces of the floor on both feet that plates have measured.
+///
+/// Two formats. OpenSim's .mot: y up, metres, newtons, columns ground_force_r_vx … or, as older files have
+/// them, ground_force_vx … of the right and 1_ground_force_vx … of the left foot; (x, y, z) there is
+/// (x, −z, y) here. An .npz: grf_left, grf_right (samples, 3) in N and cop_left, cop_right (samples, 3) in m,
+/// z up; grf_fps; optional valid (samples, 2), mass in kg, joints (frames, 22, 3) with fps.
+///
+/// What it does not do: nothing is filtered, and times are taken to be those of the motion.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "character/bodies.h"
+#include "core/containers.h"
+
+namespace mimicx::import {
+
+struct ForceSample {
+  double time = 0.0;                    ///< s
+  Array<Vector3d, 2> force, pressure;   ///< [left, right] N; centre of pressure, m, not finite: unknown
+  Array<bool, 2> valid = {true, true};  ///< the foot is on a plate, or on nothing
+};
+
+struct MeasuredForces {
+  std::vector<ForceSample> samples;                        ///< the first at the motion's frame 0
+  double mass = std::numeric_limits<double>::quiet_NaN();  ///< kg; NaN: unknown
+  PerFrame<PerBody<Vector3d>> joints;                      ///< of the person, m; empty: unknown
+  double joints_fps = 0.0;
+};
+
+/// @throws DataError for a file that is none of these
+MeasuredForces read_measured_forces(const std::filesystem::path& path);
+/// @param path  for messages
+MeasuredForces measured_forces_from(const std::string& bytes, const std::filesystem::path& path);
+
+}  // namespace mimicx::import

@@ -1,0 +1,27 @@
+/// OpenSim's storage files (.mot, .sto): a table of numbers over time.
+///
+/// A name, lines such as "nRows=751", the line "endheader", a row of column names beginning with "time", and
+/// rows of numbers. Format: OpenSim, "Storage (.sto) Files" of its User's Guide.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mimicx::import {
+
+struct StorageTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;  ///< [row][column]; the first column is the time, s
+  bool in_degrees = false;
+
+  /// Index of a column; none if no column has that name.
+  std::optional<std::size_t> find(std::string_view name) const;
+};
+
+/// @param path  for messages
+/// @throws DataError for a text that is none, a row of another length, and times that do not increase
+StorageTable parse_storage(std::string_view text, const std::string& path);
+
+}  // namespace mimicx::import

@@ -1,0 +1,47 @@
+/// Forces of simulated motions against forces that plates have measured: `mimicx evaluate --forces`.
+///
+/// Definitions and columns: docs/forces.md. Forces are means over the motion's intervals, in each body's own
+/// weight, along (forward, left, up) of the hips. Frames 0 and 1 and the last one do not count, nor do frames
+/// in which a foot is not on a plate.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "audit/audit.h"
+#include "audit/load_sharing/load_sharing.h"
+#include "import/opensim/measured_forces.h"
+
+namespace mimicx::judge {
+
+/// A column of the table, and how it is printed.
+struct ForceColumn {
+  const char* name;
+  const char* format;   ///< of printf
+  const char* meaning;  ///< with its unit
+};
+const std::vector<ForceColumn>& force_columns();
+
+struct ForceRow {
+  std::string name;
+  std::string reason;          ///< why there are no values, one line; empty: there are
+  std::vector<double> values;  ///< per column; NaN: none
+};
+
+/// @param mass  of the person, kg; NaN: that of the measurement, or else the plates' mean load
+/// @throws DataError if the two have fewer than five frames in common
+std::vector<double> compare_forces(const audit::SimulatedFrames& motion,
+                                   const import::MeasuredForces& measured, double mass);
+
+/// Pairs files of the same name ("walk" also for walk_grf.mot) in two folders, or two files.
+/// @throws DataError for a missing path, and if there is no measurement
+std::vector<ForceRow> evaluate_forces(const std::filesystem::path& measured,
+                                      const std::filesystem::path& motions, double mass);
+
+/// A line per motion and one of means.
+std::string format_forces(const std::vector<ForceRow>& rows);
+/// {"columns": [{name, meaning}], "motions": [{name, reason, values}], "mean"}
+std::string forces_json(const std::vector<ForceRow>& rows);
+
+}  // namespace mimicx::judge

@@ -1,0 +1,221 @@
+#include "judge/forces/force_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/npz/npz.h"
+#include "core/random.h"
+#include "core/temporary_folder.h"
+#include "core/units.h"
+#include "files/archive_members.h"
+#include "judge/forces/planar_moments.h"
+#include "motion/clip_file.h"
+#include "motion/standing_clip.h"
+
+namespace mimicx::judge {
+namespace {
+
+/// A standing body whose feet carry what a measurement says, pressed at points in front of the ankles.
+struct Pressed {
+  audit::SimulatedFrames motion;
+  import::MeasuredForces measured;
+
+  explicit Pressed(int frames, double forward = 0.08) {
+    const motion::Clip clip = motion::standing_clip(frames);
+    motion.character = motion::character_of(clip);
+    measured.mass = motion.character.total_mass();
+    measured.joints_fps = 30.0;
+    const PerFrame<BodyPoses> poses = motion::poses_of(clip);
+    for (int t = 0; t < frames; ++t) {
+      motion::ReferenceFrame frame;
+      frame.p_root = poses[t].p_WB[kPelvis];
+      for (int b = 0; b < kBodies; ++b)
+        frame.q[b] = b == 0 ? poses[t].q_WB[0] : exp_map(clip.rotations[t][b]);
+      motion.frames.push_back(frame);
+      rl::tracking::ActingForces acting;
+      for (int b = 0; b < kBodies; ++b) {
+        acting.joint_torque[b] = acting.range_torque[b] = Vector3d::Zero();
+        acting.ground[b] = acting.self_contact[b] = Vector6d::Zero();
+      }
+      const auto moved = forward_kinematics(motion.character, frame.p_root, frame.q).p_WB;
+      measured.joints.push_back(moved);
+      for (int foot = 0; foot < 2; ++foot) {
+        const Vector3d force = force_at(t, foot);
+        Vector3d arm = forward * Vector3d::UnitY();  // the body looks along −y
+        arm = -arm;
+        arm.z() = -moved[kLeftAnkle + foot].z();
+        acting.ground[kLeftAnkle + foot] << arm.cross(force), force;
+      }
+      motion.forces.push_back(acting);
+    }
+    for (int i = 0; i <= 10 * (frames - 1); ++i) {
+      import::ForceSample sample;
+      sample.time = i / 300.0;
+      for (int foot = 0; foot < 2; ++foot) {
+        sample.force[foot] = force_at((i + 9) / 10, foot);
+        sample.pressure[foot] = measured.joints[0][kLeftAnkle + foot] - forward * Vector3d::UnitY();
+        sample.pressure[foot].z() = 0.0;
+      }
+      measured.samples.push_back(sample);
+    }
+  }
+  Vector3d force_at(int t, int foot) const {
+    const double weight = kGravity * motion.character.total_mass();
+    const double share = 0.5 + 0.2 * std::sin(0.4 * t) * (foot == 0 ? 1 : -1);
+    return {0.01 * weight * (foot == 0 ? 1 : -1), 0.0, share * weight};
+  }
+};
+
+std::map<std::string, double> values_of(const Pressed& pressed, double mass = NAN) {
+  const std::vector<double> values = compare_forces(pressed.motion, pressed.measured, mass);
+  std::map<std::string, double> named;
+  for (std::size_t k = 0; k < values.size(); ++k) named[force_columns()[k].name] = values[k];
+  return named;
+}
+
+TEST(ForceComparison, EqualForcesHaveNoErrors) {
+  const auto v = values_of(Pressed(30));
+  EXPECT_EQ(v.at("n"), 27) << "without frames 0, 1 and the last";
+  for (const char* name : {"totV", "totAP", "totML", "N/kg", "ftV", "ftAP", "ftML", "imp%", "copA", "copM",
+                           "shr", "b", "wand", "mm"})
+    EXPECT_NEAR(v.at(name), 0.0, 1e-3) << name;
+  EXPECT_NEAR(v.at("ftV r"), 1.0, 1e-9);
+  EXPECT_NEAR(v.at("intM"), 1.0, 1e-6);
+  EXPECT_NEAR(v.at("intS"), 1.0, 1e-6);
+  EXPECT_EQ(v.at("in%"), 100.0);
+}
+
+TEST(ForceComparison, ErrorsHaveTheirSizeAndSign) {
+  Pressed pressed(30);
+  const double weight = kGravity * pressed.measured.mass;
+  for (auto& sample : pressed.measured.samples) {
+    sample.force[0].z() -= 0.1 * weight;
+    sample.pressure[1] -= Vector3d(0.0, 0.03, 0.0);  // measured 3 cm farther forward
+  }
+  const auto v = values_of(pressed);
+  EXPECT_NEAR(v.at("totV"), 10.0, 1e-6);
+  EXPECT_NEAR(v.at("N/kg"), 0.981, 1e-6);
+  EXPECT_NEAR(v.at("ftV"), 10.0 / std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(v.at("imp%"), 100.0 / 9.0, 1e-6);
+  EXPECT_NEAR(v.at("bias"), -15.0, 0.5) << "the mean of both feet, which point a little outwards";
+  EXPECT_NEAR(v.at("copA"), 30.0 / std::sqrt(2.0), 0.5);
+  EXPECT_NEAR(values_of(pressed, 2.0 * pressed.measured.mass).at("imp%"), 100.0 * (2.0 / 0.9 - 1.0), 1e-6);
+}
+
+TEST(ForceComparison, PlatesThatDoNotSeeAFootDoNotCount) {
+  Pressed pressed(30);
+  for (auto& sample : pressed.measured.samples)
+    if (sample.time > 0.5) {
+      sample.valid[0] = false;
+      sample.force[0].setZero();
+    }
+  const auto v = values_of(pressed);
+  EXPECT_EQ(v.at("n"), 14) << "frames 2 to 15";
+  EXPECT_NEAR(v.at("ftV"), 0.0, 1e-6);
+}
+
+TEST(PlanarMoments, OfAStillLegAreForceTimesLeverMinusTheSegmentsWeights) {
+  const Pressed pressed(10);
+  PerFrame<Matrix3d> axes(10, audit::heading_axes(pressed.measured.joints[0]));
+  PerFrame<PerBody<Vector3d>> joints(10, pressed.measured.joints[0]);
+  PerFrame<Array<Vector3d, 2>> force(10), pressure(10);
+  const Vector3d forward = axes[0].col(0);
+  for (int t = 0; t < 10; ++t)
+    for (int foot = 0; foot < 2; ++foot) {
+      force[t][foot] = {0.0, 0.0, 350.0};
+      pressure[t][foot] = joints[t][kLeftAnkle + foot] + 0.1 * forward;
+    }
+  const auto moments = planar_moments({joints, force, pressure, axes, 70.0, 30.0});
+  const double foot_lever = 0.5 * (joints[0][kLeftFoot] - joints[0][kLeftAnkle]).dot(forward);
+  EXPECT_NEAR(moments[5][0][0], 350.0 * 0.1 / 70.0 - 0.0137 * kGravity * foot_lever, 1e-9);
+  const double knee = (joints[0][kLeftAnkle] - joints[0][kLeftKnee]).dot(forward);
+  EXPECT_NEAR(
+      moments[5][0][1],
+      350.0 * (0.1 + knee) / 70.0 - 0.0137 * kGravity * (knee + foot_lever) - 0.0433 * kGravity * 0.44 * knee,
+      1e-9);
+}
+
+TEST(PlanarMoments, AccelerationsOfACubicAreExactAtTheEndsToo) {
+  PerFrame<Vector3d> points;
+  for (int t = 0; t < 12; ++t) points.emplace_back(t * t, t * t * t, 5.0 - t);
+  const auto a = smooth_accelerations(points, 10.0);
+  for (int t = 0; t < 12; ++t) EXPECT_NEAR((a[t] - Vector3d(200.0, 600.0 * t, 0.0)).norm(), 0.0, 1e-6) << t;
+}
+
+/// The table of ../shared/forces/compare.py for the same files: every value as printed.
+TEST(ForceComparison, PrintsTheTableOfTheStudyInPython) {
+  const std::filesystem::path shared = std::filesystem::path(MIMICX_SHARED_DIR) / "forces";
+  if (!std::filesystem::exists(shared / "compare.py")) GTEST_SKIP() << "needs ../shared";
+  if (std::system("/usr/bin/python3 -c 'import numpy, scipy' > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "needs Python with NumPy and SciPy";
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path / "motions");
+  std::filesystem::create_directories(folder.path / "data");
+  std::ofstream weights(folder.path / "weights.json");
+  weights << "{";
+  for (const char* name : {"walk_oc4", "walk_raj"}) {
+    const auto measured = import::read_measured_forces(shared / "data" / (std::string(name) + ".npz"));
+    std::filesystem::copy(shared / "data" / (std::string(name) + ".npz"), folder.path / "data");
+    // A body that stands in place and whose feet carry about what was measured, with noise.
+    const int frames = static_cast<int>((measured.samples.size() - 1) / 10) + 1;
+    motion::Clip clip = motion::standing_clip(frames);
+    const Character character = motion::character_of(clip);
+    weights << (name == std::string("walk_oc4") ? "\"" : ", \"") << name << "\": " << character.total_mass();
+    Random random(501, {7});
+    files::WrenchRows ground(static_cast<std::size_t>(frames)), self = ground;
+    files::VectorRows torques(static_cast<std::size_t>(frames)), ranges = torques;
+    for (std::size_t t = 0; t < ground.size(); ++t) {
+      ground[t].fill(Vector6d::Zero());
+      self[t].fill(Vector6d::Zero());
+      ranges[t].fill(Vector3d::Zero());
+      for (int b = 0; b < kBodies; ++b)
+        torques[t][b] = is_hinge(b)
+                            ? Vector3d(random.uniform(-50.0, 50.0) * hinge_axis(b))
+                            : Vector3d(random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0), 20.0);
+      torques[t][0].setZero();
+      for (int foot = 0; foot < 2 && t > 0; ++foot) {
+        const Vector3d force =
+            0.9 * measured.samples[10 * t - 5].force[foot] +
+            Vector3d(random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), random.uniform(0.0, 60.0));
+        const Vector3d arm(random.uniform(-0.03, 0.03), random.uniform(-0.1, 0.05), -0.07);
+        ground[t][kLeftAnkle + foot] << arm.cross(force), force;
+      }
+    }
+    using files::Precision;
+    std::vector<motion::ReferenceFrame> still;
+    for (int t = 0; t < frames; ++t) {
+      motion::ReferenceFrame frame;
+      for (Vector3d& w : frame.omega) w.setZero();
+      still.push_back(frame);
+    }
+    motion::write_clip(folder.path / "motions" / (std::string(name) + ".npz"), clip,
+                       {{"joints", motion::joints_member(clip)},
+                        {"velocities", files::velocities_member(still, Precision::kFloat64)},
+                        {"joint_torques", files::joints_member(torques, Precision::kFloat64)},
+                        {"range_torques", files::joints_member(ranges, Precision::kFloat64)},
+                        {"ground_wrenches", files::wrenches_member(ground, Precision::kFloat64)},
+                        {"self_contact_wrenches", files::wrenches_member(self, Precision::kFloat64)}});
+  }
+  weights << "}";
+  weights.close();
+  const std::filesystem::path printed = folder.path / "table.txt";
+  ASSERT_EQ(
+      std::system(("FORCES=" + (folder.path / "data").string() + " /usr/bin/python3 " +
+                   (shared / "compare.py").string() + " " + folder.path.string() + " > " + printed.string())
+                      .c_str()),
+      0);
+  std::ifstream file(printed);
+  std::istringstream ours(format_forces(evaluate_forces(folder.path / "data", folder.path / "motions", NAN)));
+  int lines = 0;
+  for (std::string theirs, mine; std::getline(file, theirs) && std::getline(ours, mine); ++lines)
+    EXPECT_EQ(mine.substr(0, theirs.size()), theirs);
+  EXPECT_EQ(lines, 4) << "head, two trials, means";
+}
+
+}  // namespace
+}  // namespace mimicx::judge
