@@ -114,8 +114,8 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
   const std::string output = record::RunFolder::motion_name(entry.name, entry.ok);
   std::filesystem::remove(folder.root / record::RunFolder::motion_name(entry.name, !entry.ok));
   write_simulated_motion(with_parents(folder.root / output), motion.input, motion.reference, made.after,
-                         simulation);
-  write_parts(folder, motion.input, parts, simulation, entry);
+                         run.method.simulation);
+  write_parts(folder, motion.input, parts, run.method.simulation, entry);
   std::filesystem::remove(folder.substeps(entry.name));
   if (run.config.substeps)
     audit::write_substeps(
