@@ -116,9 +116,9 @@ void Motion::set(const std::string& name, const std::string& value) {
   if (name == "threads") {
     config_.run.threads = whole_in(name, value, 1, 1024);
   } else if (name == "fit") {
-    config_.run.fit = whole_in(name, value, 0, 1) == 1;
+    config_.run.correction.fit = whole_in(name, value, 0, 1) == 1;
   } else if (name == "as_is") {
-    config_.run.as_is = whole_in(name, value, 0, 1) == 1;
+    config_.run.correction.as_is = whole_in(name, value, 0, 1) == 1;
   } else if (name == "limit_seconds") {
     config_.run.limit_seconds = number_in(name, value);
   } else if (name == "up") {
