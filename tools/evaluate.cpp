@@ -148,7 +148,6 @@ void declare_evaluate(CommandLine& line) {
   Command command =
       line.add("evaluate", "Score motions against their truth, pairing files by name",
                "mimicx evaluate --truth truth --motions out/run/motions         # a row per motion\n"
-               "mimicx evaluate --truth truth --motions noisy out/run/motions   # means, side by side\n"
                "mimicx evaluate --forces plates.mot --motions out/run/motions/walk.npz");
   const Option truth = command.path("--truth", a->truth, "true motions: a folder, or one file");
   command
