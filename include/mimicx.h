@@ -124,14 +124,17 @@ MIMICX_API const char* mimicx_simulator_error(const mimicx_simulator* simulator)
 MIMICX_API mimicx_status mimicx_simulator_set(mimicx_simulator* simulator, const char* name, double value);
 /* Puts the body back to where it stood at first. */
 MIMICX_API mimicx_status mimicx_simulator_stand(mimicx_simulator* simulator);
-/* Numbers of the simulator, <f8, valid as long as it lives. Write to the first seven to change them:
- *   root_position [3], root_velocity [3]       of the pelvis' joint, world
- *   rotations [22][4], spins [22][3]           of the pelvis in the world; joints relative to the parent;
- * spins in the body's own frame, rad/s target_rotations [22][4], target_spins [22][3]   of the joints' PD
- * controllers; entry 0 is not used push [6]                                   on the pelvis, about its joint:
- * moment, force; world axes body_positions [22][3], body_rotations [22][4]   in the world joint_torques
- * [22][3]                      means over the last call of step, in the child's frame ground_wrenches
- * [22][6], self_contact_wrenches [22][6]   the same: moment about the body's joint, force; world */
+/* clang-format off */
+/* Numbers of the simulator, <f8, valid as long as it lives. Write to those of the first four lines to change them:
+ *   root_position [3], root_velocity [3]            of the pelvis' joint, world
+ *   rotations [22][4], spins [22][3]                of the pelvis in the world; of joints relative to the parent;
+ *                                                   spins in the body's own frame, rad/s
+ *   target_rotations [22][4], target_spins [22][3]  of the joints' PD controllers; entry 0 is not used
+ *   push [6]                                        on the pelvis, about its joint: moment, force; world axes
+ *   body_positions [22][3], body_rotations [22][4]  in the world
+ *   joint_torques [22][3]                           means over the last call of step, in the child's frame
+ *   ground_wrenches [22][6], self_contact_wrenches [22][6]  the same: moment about the body's joint, force; world */
+/* clang-format on */
 MIMICX_API mimicx_status mimicx_simulator_array(mimicx_simulator* simulator, const char* name,
                                                 mimicx_array* array);
 /* Does physics steps, 240 a second by default. MIMICX_FAILED: the numbers went wrong, and are those before

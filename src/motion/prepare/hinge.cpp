@@ -9,9 +9,9 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kAlreadyHinge = 1e-7;             ///< rad off the axis; joints below it do not change
-constexpr double kStraightWeight = 0.06;           ///< pull to SMPL's own swivel, in units of sin²α
-constexpr double kStraightFrom = 15.0 * kDegree;   ///< a limb bent by less is straight …
+constexpr double kAlreadyHinge = 1e-7;            ///< rad off the axis; joints below it do not change
+constexpr double kStraightWeight = 0.06;          ///< pull to SMPL's own swivel, in units of sin²α
+constexpr double kStraightFrom = 15.0 * kDegree;  ///< a limb bent by less is straight …
 constexpr double kStraightUntil = 30.0 * kDegree;  ///< … and one bent by more is not: its conversion is exact
 
 struct Limb {

@@ -142,8 +142,8 @@ TEST(Hinges, LimbsBentBackwardsByNoiseDoNotTwist) {
   for (int n = 0; n < 100; ++n)
     for (const Limb& limb : kLimbs) {
       test::Rotations q = random_rotations(random, 0.4);
-      q[limb.hinge] = exp_map(random.uniform(-0.2, 0.0) * hinge_axis(limb.hinge) +
-                              0.05 * test::random_vector(random));
+      q[limb.hinge] =
+          exp_map(random.uniform(-0.2, 0.0) * hinge_axis(limb.hinge) + 0.05 * test::random_vector(random));
       const test::Rotations out = to_hinges(c, {q})[0];
       EXPECT_LT(q[limb.upper].angularDistance(out[limb.upper]), 1.0) << kBodyNames[limb.hinge];
     }
