@@ -83,7 +83,7 @@ int main() {
   const trees::Tree tree = trees::humanoid(character, kGravity);
   const auto before = momentum();
   const double energy = tour::energy_of(tree, x);
-  for (int k = 0; k < 480; ++k) {
+  for (int k = 0; k < config.rate / 2; ++k) {
     physics::step(model, target, x, d);
     physics::step(lane_model, lane_target, lanes, lane_d);
   }

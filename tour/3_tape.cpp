@@ -3,9 +3,9 @@
 // You learn: that a loss is a list of operations on a tape; that every operation's derivative consists of
 // operations, so that a gradient can be differentiated again; how a penalty on a gradient uses that.
 // Belongs to: docs/method.md §7 (networks, gradient penalty); src/nn/tape.h, src/nn/ops.cpp, src/nn/adam.h.
-// Questions: 1. How do the errors of the differences change with h = 1e-3, 1e-5, 1e-9? Why are they least
-// between?
-//            2. Why is the error of the float network larger, and what would h have to be there?
+// Questions: 1. How do the errors of the differences change with h = 1e-3, 1e-5, 1e-9? Why are they
+//               least between?
+//            2. In a float network the errors would be larger. Why, and what would h have to be there?
 //            3. Add 0.01 · mean (dy/dx)² to the loss. How does the learnt curve change?
 #include <cmath>
 

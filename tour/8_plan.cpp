@@ -1,12 +1,12 @@
 // Optimal control on the motion of 5_follow: iLQR beside PPO, and the forces of the floor.
 //
-// You learn: what derivatives are worth: a plan in seconds where PPO took minutes; what a plan is (controls
+// You learn: what derivatives are worth: a plan in a second where PPO took many; what a plan is (controls
 // of one way through one motion) and what it is not (a policy); how the floor's force follows from momentum.
-// Belongs to: docs/control.md §1, §3, §4, §6 (LQR, iLQR, gains, cost).
-// Questions: 1. The mean of the floor's force over the motion is the weight to a few per cent. Why must it
-// be?
-//            2. Push the body during the plan (TrackingPack::push). What happens, and what do gains change?
-//            3. Set the weight of the momentum to 0. What do you see in the force?
+// Belongs to: docs/control.md §1, §3, §4, §6 (LQR and gains, iLQR, contacts, momentum).
+// Questions: 1. The mean of the floor's force over the motion is the weight to a few per cent. Why must
+//               it be?
+//            2. Add 0.1 to every residual of one frame. What happens, and what would gains change?
+//            3. Set the weights com_velocity and angular_momentum of the plan to 0. What does the force show?
 #include <filesystem>
 
 #include "control/plan.h"
