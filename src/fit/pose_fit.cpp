@@ -74,10 +74,12 @@ motion::Clip fit_poses(const motion::Clip& clip, const FitConfig& config, FitRep
   if (clip.frames() < kFewestFrames) return clip;
   motion::require_usable(clip, kFewestFrames);
   FitProblem problem = problem_of(clip, config);
-  const double slip = slip_of(problem);
-  if (!problem.penalises_acceleration) trust(std::min(slip / config.pose_slip, 1.0), problem.config);
-  motion::Clip fitted =
-      problem.penalises_acceleration || slip >= kStandingSlip ? solved(clip, problem, r) : clip;
+  if (!problem.penalises_acceleration) {
+    const double slip = slip_of(problem);
+    if (slip < kStandingSlip) return clip;
+    trust(std::min(slip / config.pose_slip, 1.0), problem.config);
+  }
+  motion::Clip fitted = solved(clip, problem, r);
   if (report) *report = r;
   return fitted;
 }
