@@ -70,8 +70,8 @@ Matrix3d drawn_intrinsics(Random& random) {
 PerFrame<Vector3d> unsteady(Random& random, int frames, double size, double tau, double fps) {
   PerFrame<Vector3d> out(frames, Vector3d::Zero());
   for (int axis = 0; axis < 3; ++axis) {
-    const PerFrame<double> noise = smooth_noise(random, frames, tau * fps);
-    for (int t = 0; t < frames; ++t) out[t][axis] = size * noise[t];
+    const PerFrame<double> error = smooth_error(random, frames, size, tau * fps);
+    for (int t = 0; t < frames; ++t) out[t][axis] = error[t];
   }
   return out;
 }

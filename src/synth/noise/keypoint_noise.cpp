@@ -33,32 +33,36 @@ Offset drawn_offset(const NoisePreset& p, std::uint64_t seed, std::size_t k) {
   return offset;
 }
 
-/// What a keypoint's errors are drawn from, over time.
+/// What a keypoint's errors are drawn from, over time: `wander` and `hidden` in percent of the box.
 struct ErrorNoise {
   PerFrame<double> wander_u, wander_v, hidden_u, hidden_v, confidence;
   Random tail;
 };
 
-ErrorNoise drawn_noise(std::uint64_t seed, std::size_t k, int frames, double fps) {
+ErrorNoise drawn_noise(const NoisePreset& p, std::uint64_t seed, std::size_t k, int frames, double fps) {
   Random wander(seed, {kWanderStream, k}), hidden(seed, {kHiddenStream, k}),
       confidence(seed, {kConfidenceStream, k});
   ErrorNoise noise{{}, {}, {}, {}, {}, Random(seed, {kTailStream, k})};
-  noise.wander_u = smooth_noise(wander, frames, kKeypointTau * fps);
-  noise.wander_v = smooth_noise(wander, frames, kKeypointTau * fps);
-  noise.hidden_u = smooth_noise(hidden, frames, kHiddenTau * fps);
-  noise.hidden_v = smooth_noise(hidden, frames, kHiddenTau * fps);
-  noise.confidence = smooth_noise(confidence, frames, kConfidenceTau * fps);
+  noise.wander_u = smooth_error(wander, frames, p.wander, kKeypointTau * fps);
+  noise.wander_v = smooth_error(wander, frames, p.wander, kKeypointTau * fps);
+  noise.hidden_u = smooth_error(hidden, frames, p.occlusion, kHiddenTau * fps);
+  noise.hidden_v = smooth_error(hidden, frames, p.occlusion, kHiddenTau * fps);
+  noise.confidence =
+      smooth_error(confidence, frames, p.confidence_spread == 0.0 ? 0.0 : 1.0, kConfidenceTau * fps);
   return noise;
 }
 
 /// Error of a detection in parts of the box. @param noise  its tail is advanced
 Eigen::Vector2d detection_error(const NoisePreset& p, ErrorNoise& noise, int t, double short_by,
                                 bool hidden) {
-  const double tail_u = student_t(noise.tail, kTailFreedom), tail_v = student_t(noise.tail, kTailFreedom);
-  const Eigen::Vector2d wander(noise.wander_u[t], noise.wander_v[t]), tail(tail_u, tail_v),
-      guessed(noise.hidden_u[t], noise.hidden_v[t]);
-  const double grown = 1.0 + p.foreshortening * short_by;
-  return kPercent * (grown * (p.wander * wander + p.tail * tail) + (hidden ? p.occlusion : 0.0) * guessed);
+  Eigen::Vector2d error(noise.wander_u[t], noise.wander_v[t]);
+  if (p.tail != 0.0) {
+    const double u = student_t(noise.tail, kTailFreedom), v = student_t(noise.tail, kTailFreedom);
+    error += p.tail * Eigen::Vector2d(u, v);
+  }
+  error *= 1.0 + p.foreshortening * short_by;
+  if (hidden) error += Eigen::Vector2d(noise.hidden_u[t], noise.hidden_v[t]);
+  return kPercent * error;
 }
 
 /// Confidence that is only weakly correlated with how good a detection is. @param error  in parts of the box
@@ -129,7 +133,7 @@ motion::Keypoints detect_keypoints(const SeenMotion& truth, const CameraPath& ca
   for (int t = 0; t < frames; ++t) seen.push_back(pose_between(truth, t - late));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Offset offset = drawn_offset(preset, seed, k);
-    ErrorNoise noise = drawn_noise(seed, k, frames, truth.fps);
+    ErrorNoise noise = drawn_noise(preset, seed, k, frames, truth.fps);
     for (int t = 0; t < frames; ++t) {
       const Camera view = camera.at(t);
       const Vector3d eye = eye_of(view.extrinsics);

@@ -33,8 +33,8 @@ double constant_error(Random& random) {
 PerFrame<Vector3d> errors_over_time(Random& random, int count, double size, double frames) {
   PerFrame<Vector3d> errors(count, Vector3d::Zero());
   for (int axis = 0; axis < 3; ++axis) {
-    const PerFrame<double> noise = smooth_noise(random, count, frames);
-    for (int t = 0; t < count; ++t) errors[t][axis] = size * noise[t];
+    const PerFrame<double> error = smooth_error(random, count, size, frames);
+    for (int t = 0; t < count; ++t) errors[t][axis] = error[t];
   }
   return errors;
 }
@@ -82,9 +82,9 @@ void disturb_rotations(const NoisePreset& p, std::uint64_t seed, double fps, Est
 void disturb_travel(const NoisePreset& p, std::uint64_t seed, double fps, EstimatedMotion& motion) {
   const int frames = motion.q.count();
   Random stride(seed, {kStrideStream}), drift(seed, {kFalseVelocityStream}), turn(seed, {kHeadingWalkStream});
-  const PerFrame<double> scale = smooth_noise(stride, frames, kStrideTau * fps),
-                         forward = smooth_noise(drift, frames, kDriftTau * fps),
-                         sideways = smooth_noise(drift, frames, kDriftTau * fps),
+  const PerFrame<double> scale = smooth_error(stride, frames, p.stride, kStrideTau * fps),
+                         forward = smooth_error(drift, frames, p.drift, kDriftTau * fps),
+                         sideways = smooth_error(drift, frames, p.drift, kDriftTau * fps),
                          heading = smooth_walk(turn, frames, kTurnTau, fps);
   Vector3d before = motion.p_root.front(), place = before;
   for (int t = 0; t < frames; ++t) {
@@ -95,8 +95,8 @@ void disturb_travel(const NoisePreset& p, std::uint64_t seed, double fps, Estima
     step.z() = 0.0;
     motion.q[t][kPelvis] = turned * motion.q[t][kPelvis];
     if (t > 0) {
-      const Vector3d velocity = p.drift * Vector3d(forward[t], sideways[t], 0.0);
-      place += (1.0 + p.stride * scale[t]) * (turned * step) +
+      const Vector3d velocity(forward[t], sideways[t], 0.0);
+      place += (1.0 + scale[t]) * (turned * step) +
                rotation_z(heading_angle(motion.q[t][kPelvis])) * velocity / fps;
     }
     motion.p_root[t] = {place.x(), place.y(), height};

@@ -42,6 +42,13 @@ PerFrame<double> smooth_noise(Random& random, int count, double frames) {
   return out;
 }
 
+PerFrame<double> smooth_error(Random& random, int count, double size, double frames) {
+  if (size == 0.0) return PerFrame<double>(count, 0.0);
+  PerFrame<double> error = smooth_noise(random, count, frames);
+  for (double& value : error) value *= size;
+  return error;
+}
+
 double student_t(Random& random, int freedom) {
   const double normal = random.normal();
   double squares = 0.0;

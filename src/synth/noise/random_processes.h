@@ -55,6 +55,9 @@ std::vector<Interval> poisson_intervals(Random& random, double rate, double shor
 /// J_s, and S_τ with frames = τ · fps: unit variance, correlated over `frames`. @param random  advanced
 PerFrame<double> smooth_noise(Random& random, int count, double frames);
 
+/// size·J_s or size·S_τ; draws nothing where `size` is 0. @param random  advanced
+PerFrame<double> smooth_error(Random& random, int count, double size, double frames);
+
 /// Student's t with a whole number of degrees of freedom. @param random  advanced
 double student_t(Random& random, int freedom);
 
