@@ -53,7 +53,7 @@ TEST(DetectKeypoints, OffsetsAreConstantInTheFrameOfTheirLimbAndTurnInThePicture
     const Detected d = detected(test::truth_of("turn_in_place"), only(&NoisePreset::offset_limb, 0.02, seed));
     for (int b = 0; b < kBodies; ++b) {
       // (K row − u · last row) (R (p + q o) + t) = 0 is linear in o.
-      Eigen::MatrixXd A(2 * d.poses.count(), 3);
+      Eigen::MatrixX3d A(2 * d.poses.count(), 3);
       Eigen::VectorXd right(2 * d.poses.count());
       const Eigen::Matrix4d& E = d.keypoints.extrinsics[0];
       for (int t = 0; t < d.poses.count(); ++t)
@@ -64,7 +64,7 @@ TEST(DetectKeypoints, OffsetsAreConstantInTheFrameOfTheirLimbAndTurnInThePicture
           A.row(2 * t + row) = line * E.block<3, 3>(0, 0) * d.poses[t].q_WB[b].toRotationMatrix();
           right[2 * t + row] = -line * (E * d.poses[t].p_WB[b].homogeneous()).head<3>();
         }
-      const Vector3d o = A.colPivHouseholderQr().solve(right);
+      const Vector3d o = Matrix3d(A.transpose() * A).inverse() * (A.transpose() * right);
       EXPECT_LT((A * o - right).norm(), 1e-6);
       for (int axis = 0; axis < 3; ++axis) size.add(o[axis]);
       turned = std::max(turned, (d.error(0, b) - d.error(d.poses.count() - 1, b)).norm());
@@ -92,7 +92,7 @@ TEST(DetectKeypoints, OffsetsThatFollowTheViewAreALinearMapOfItsDirectionInTheLi
   // One A explains a whole turn of the body: nine unknowns, two equations per frame.
   const Detected d = detected(test::truth_of("turn_in_place"), only(&NoisePreset::offset_view, 0.02, 1));
   const Vector3d eye = test::camera_position(d.keypoints);
-  Eigen::MatrixXd lhs(2 * d.poses.count(), 9);
+  Eigen::Matrix<double, Eigen::Dynamic, 9> lhs(2 * d.poses.count(), 9);
   Eigen::VectorXd right(2 * d.poses.count());
   for (int t = 0; t < d.poses.count(); ++t) {
     const Matrix3d R = d.poses[t].q_WB[kLeftWrist].toRotationMatrix();
@@ -106,7 +106,8 @@ TEST(DetectKeypoints, OffsetsThatFollowTheViewAreALinearMapOfItsDirectionInTheLi
           -line * (d.keypoints.extrinsics[0] * d.poses[t].p_WB[kLeftWrist].homogeneous()).head<3>();
     }
   }
-  EXPECT_LT((lhs * lhs.completeOrthogonalDecomposition().solve(right) - right).norm(), 1e-6);
+  const Eigen::Matrix<double, 9, 9> normal = lhs.transpose() * lhs;
+  EXPECT_LT((lhs * normal.llt().solve(lhs.transpose() * right) - right).norm(), 1e-6);
 }
 
 TEST(DetectKeypoints, WanderingAndTailsHaveTheirSizes) {
