@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/error.h"
 #include "core/file.h"
-#include "core/reason.h"
 #include "files/inputs.h"
 #include "program/configurations.h"
 #include "record/outputs.h"

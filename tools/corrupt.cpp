@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "commands.h"
-#include "core/reason.h"
+#include "core/error.h"
 #include "files/inputs.h"
 #include "record/folder_lock.h"
 #include "record/json.h"

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "core/reason.h"
+#include "core/error.h"
 #include "files/inputs.h"
 #include "record/folder_lock.h"
 #include "record/json.h"

@@ -6,8 +6,8 @@
 
 #include "command_line_numbers.h"
 #include "commands.h"
+#include "core/error.h"
 #include "core/file.h"
-#include "core/reason.h"
 #include "files/inputs.h"
 #include "record/json.h"
 #include "record/outputs.h"

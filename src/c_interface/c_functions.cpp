@@ -6,7 +6,7 @@
 
 #include "c_interface/motion_handle.h"
 #include "c_interface/simulator_handle.h"
-#include "core/reason.h"
+#include "core/error.h"
 #include "mimicx.h"
 #include "record/commit.h"
 

@@ -6,6 +6,8 @@
 /// Rooms that are part of a bare build (docs/porting.md) call `raise(error)` instead of `throw error`.
 #pragma once
 
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +30,11 @@ class DataError : public std::runtime_error {
 template <class Error>
 [[noreturn]] void raise(const Error& error) {
   throw error;
+}
+
+/// What an error says to a user: its message; the standard library's own names of errors in words.
+inline std::string reason_of(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "not enough memory" : error.what();
 }
 #else
 /// Called with the message of an error in a build without exceptions. The program defines it; it must not

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npy_header.h"
-#include "core/reason.h"
 #include "import/body_model.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"

@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npz.h"
 #include "core/parallel.h"
-#include "core/reason.h"
 #include "files/clean_copy.h"
 #include "files/motion_output.h"
 #include "judge/reference_needs.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/archives.h"
-#include "core/reason.h"
+#include "core/error.h"
 
 namespace mimicx {
 namespace {

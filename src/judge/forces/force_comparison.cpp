@@ -8,7 +8,6 @@
 #include "audit/audit_file.h"
 #include "core/error.h"
 #include "core/number_text.h"
-#include "core/reason.h"
 #include "core/units.h"
 #include "files/floor_forces.h"
 #include "judge/evaluate.h"
