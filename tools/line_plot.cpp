@@ -11,7 +11,7 @@ namespace mimicx::tools {
 namespace {
 
 constexpr double kWidth = 360, kPlotHeight = 190, kLeft = 62, kRight = 14, kLegendRow = 16;
-constexpr const char* kColours[] = {"#1f5fa8", "#b3261e", "#2e7d32", "#6a4c93", "#777777"};
+constexpr const char* kColours[] = {"#1f5fa8", "#b3261e", "#2e7d32", "#6a4c93", "#777777", "#9a6a00"};
 
 std::string number(double value, const char* format = "%.1f") {
   char text[32];

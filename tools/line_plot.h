@@ -11,7 +11,7 @@ struct Curve {
   enum class Style { kLine, kDashed, kDots, kLineAndDots };
   std::string name;  ///< in the legend; empty: not there
   Style style = Style::kLine;
-  int colour = 0;  ///< 0 … 4
+  int colour = 0;  ///< 0 … 5
   std::vector<double> x, y;
 };
 

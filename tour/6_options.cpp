@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   std::printf("\n");
 
   // The options that come with the program, side by side on a walk.
-  const auto set = read_options(argc > 1 ? argv[1] : "data/options");
+  const auto set = read_options(argc > 1 ? argv[1] : MIMICX_SOURCE_DIR "/data/options");
   std::vector<const Option*> options;
   for (const TrainedOption& trained : set->options) options.push_back(&trained.option);
   const rl::tracking::TrackingConfig config;
@@ -61,9 +61,9 @@ int main(int argc, char** argv) {
   tour::Curve acts = tour::line("acts", 1);
   std::vector<tour::Curve> curves;
   for (int option = 0; option < static_cast<int>(options.size()); ++option) {
-    tour::Curve curve = tour::line("option " + std::to_string(option), option % 5);
+    tour::Curve curve = tour::line("option " + std::to_string(option), option % 6);
     for (int t = 0; t < rewards.count(); ++t) tour::add(curve, t, rewards[t][option]);
-    if (option < 5) curves.push_back(curve);
+    curves.push_back(curve);
   }
   for (int t = 0; t < best.options.count(); ++t) tour::add(acts, t, best.options[t]);
   tour::save_picture("6_options", "Rewards of the options on a walk, and the arrangement",

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   adapt.arrangement.beam_width = 16;                            // with a narrower search
   const rl::tracking::TrackingConfig& config = adapt.training.tracking;
   const auto plain = rl::tracking::make_tracking_clip(tour::motion_of_kind("walk", 2), config);
-  const auto set = read_options(argc > 1 ? argv[1] : "data/options");
+  const auto set = read_options(argc > 1 ? argv[1] : MIMICX_SOURCE_DIR "/data/options");
   const ArrangedClip arranged = arrange(plain, config, *set, adapt.arrangement);
   std::printf("of %d options %d act:", set->options.count(), arranged.kept.count());
   for (const auto& [frame, option] : stretches_of(arranged.options))

@@ -104,6 +104,26 @@ TEST(Trees, HopperInFlightFallsAsItsCentreOfMassAndKeepsItsEnergy) {
   EXPECT_NEAR(kinetic_energy(tree, state) + potential_energy(tree, state), energy, 5e-2);
 }
 
+TEST(Trees, IntegratesVelocitiesFirstAndMovesAlongTheOrientationBeforeTheStep) {
+  Tree tree;
+  tree.add(-1, Vector3d::Zero(), free_joint(), rod(1.0, 0.5));
+  TreeState state = rest_state(tree);
+  const Vector3d spin(0.3, -2.0, 1.0), speed(1.0, 0.5, -0.4);
+  state.R[0] = exp_map(Vector3d(0.4, 0.2, -0.9)).toRotationMatrix();
+  state.qd << spin, speed;
+  const TreeState before = state;
+  VectorXd qdd(6);
+  qdd << 40.0, -30.0, 20.0, 10.0, 15.0, -25.0;
+  const double dt = 0.1;
+  integrate(tree, qdd, dt, state);
+  EXPECT_LT((state.qd - before.qd - dt * qdd).norm(), 1e-15);
+  EXPECT_LT((state.p[0] - before.p[0] - dt * (before.R[0] * state.qd.tail<3>())).norm(), 1e-14);
+  EXPECT_LT(
+      (before.R[0].transpose() * state.R[0] - exp_map(Vector3d(dt * state.qd.head<3>())).toRotationMatrix())
+          .norm(),
+      1e-14);
+}
+
 // A force on the foot, given as an external one, is that of its Jacobian: τ = −Jᵀ f holds the body.
 TEST(Trees, ExternalForceOnTheFootAcceleratesLikeItsGeneralisedForce) {
   const Tree tree = hopper();
