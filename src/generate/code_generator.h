@@ -58,6 +58,7 @@ class CodeBook {
 class CodeGenerator {
  public:
   /// @param motions  of labels 0 … labels − 1, of at least kPiece frames each
+  /// @throws std::invalid_argument for others
   CodeGenerator(std::span<const LabelledMotion> motions, int labels, const CodeConfig& config,
                 std::uint64_t seed);
 

@@ -61,6 +61,7 @@ DiffusionGenerator::DiffusionGenerator(std::span<const LabelledMotion> motions, 
       frames_(normaliser_of(rows_of(motions))),
       changes_(normaliser_of(changes_of(motions))),
       starts_(static_cast<std::size_t>(labels)) {
+  require_learnable(motions, labels, kHistory + 1);
   Random random(seed, {kDiffusionInit});
   network_ = nn::make_mlp<float>({inputs(), config.hidden, config.hidden, kPoseNumbers}, 0.1F, random);
   for (const LabelledMotion& motion : motions)

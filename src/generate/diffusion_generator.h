@@ -35,6 +35,7 @@ struct DiffusionConfig {
 class DiffusionGenerator {
  public:
   /// @param motions  of labels 0 … labels − 1, of more than four frames each
+  /// @throws std::invalid_argument for others
   DiffusionGenerator(std::span<const LabelledMotion> motions, int labels, const DiffusionConfig& config,
                      std::uint64_t seed);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/error.h"
 
@@ -79,6 +80,14 @@ motion::Clip clip_of_numbers(const std::string& name, const nn::Matrix<float>& n
   return motion::to_clip(name, kFramesPerSecond, make_character(), p_root, q);
 }
 
+void require_learnable(std::span<const LabelledMotion> motions, int labels, int frames) {
+  if (motions.empty()) raise(std::invalid_argument("a generator learns at least one motion"));
+  for (const LabelledMotion& motion : motions)
+    if (motion.numbers.rows() < frames || motion.label < 0 || motion.label >= labels)
+      raise(std::invalid_argument("a generator learns motions of at least " + std::to_string(frames) +
+                                  " frames, of labels below " + std::to_string(labels)));
+}
+
 nn::Matrix<float> rows_of(std::span<const LabelledMotion> motions) {
   Eigen::Index rows = 0;
   for (const LabelledMotion& motion : motions) rows += motion.numbers.rows();
@@ -89,13 +98,6 @@ nn::Matrix<float> rows_of(std::span<const LabelledMotion> motions) {
     rows += motion.numbers.rows();
   }
   return all;
-}
-
-std::vector<int> motions_of(std::span<const LabelledMotion> motions, int label) {
-  std::vector<int> found;
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    if (motions[i].label == label) found.push_back(static_cast<int>(i));
-  return found;
 }
 
 void write_condition(int label, int labels, double share, int frames, float* row) {

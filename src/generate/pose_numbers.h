@@ -39,11 +39,11 @@ struct LabelledMotion {
   nn::Matrix<float> numbers;  ///< [frames, kPoseNumbers]
 };
 
+/// @throws std::invalid_argument without motions, or for one that has fewer frames or no label below `labels`
+void require_learnable(std::span<const LabelledMotion> motions, int labels, int frames);
+
 /// The rows of all motions below each other.
 nn::Matrix<float> rows_of(std::span<const LabelledMotion> motions);
-
-/// The motions that show this. @return indices, in order
-std::vector<int> motions_of(std::span<const LabelledMotion> motions, int label);
 
 /// What is told about the frame that is made: the label (one-hot), the share of the motion that is done
 /// (weights of kHats evenly spaced hats) and the motion's length in tens of seconds.

@@ -55,6 +55,11 @@ void expect_depends_on_the_seed_alone(const Config& hardly_trained) {
   EXPECT_NE(Generator(motions, 2, hardly_trained, 2).generate(1, 1)[0], made[0]);
   EXPECT_NE(made[1], made[0]);
   EXPECT_THROW(Generator(motions, 3, hardly_trained, 1).generate(2, 1), std::invalid_argument);
+  EXPECT_THROW(Generator(motions, 1, hardly_trained, 1), std::invalid_argument);
+  EXPECT_THROW(Generator({}, 1, hardly_trained, 1), std::invalid_argument);
+  auto brief = motions;
+  brief[3].numbers = nn::Matrix<float>(motions[3].numbers.topRows(4));
+  EXPECT_THROW(Generator(brief, 2, hardly_trained, 1), std::invalid_argument);
 }
 
 TEST(DiffusionGenerator, LearnsMotionsOfKnownSpeedAndPose) {
