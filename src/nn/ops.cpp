@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "core/elementary.h"
 #include "nn/elementwise.h"
 #include "nn/gemm.h"
 
@@ -265,6 +266,35 @@ Var row_sum(Tape<S>& tape, Var x) {
   return y;
 }
 
+// y = log Σ e^x: dL/dx = g · softmax(x) with softmax(x) = e^(x − y).
+template <class S>
+static Gradients log_sum_exp_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
+  const Var x = tape.recipe(node).inputs[0];
+  const Index rows = tape.value(x).rows(), cols = tape.value(x).cols();
+  const Var softmax = exp(tape, sub(tape, x, broadcast(tape, node, rows, cols)));
+  return {multiply(tape, broadcast(tape, g, rows, cols), softmax)};
+}
+
+template <class S>
+Var log_sum_exp(Tape<S>& tape, Var x) {
+  const Matrix<S>& in = tape.value(x);
+  const Var y = tape.append({log_sum_exp_adjoint<S>, {x}}, in.rows(), 1);
+  Matrix<S>& out = tape.buffer(y);
+  Matrix<S> powers(1, in.cols());
+  for (Index i = 0; i < in.rows(); ++i) {
+    const S largest = in.row(i).maxCoeff();
+    for (Index k = 0; k < in.cols(); ++k) powers(0, k) = exp_value(in(i, k) - largest);
+    out(i, 0) = largest + static_cast<S>(mimicx::log(double{ordered_sum(powers.data(), powers.size())}));
+  }
+  return y;
+}
+
+template <class S>
+Var softmax_cross_entropy(Tape<S>& tape, Var logits, Var target) {
+  assert(same_shape(tape, logits, target));
+  return mean(tape, sub(tape, log_sum_exp(tape, logits), row_sum(tape, multiply(tape, logits, target))));
+}
+
 /// Adjoint of a broadcast: the sum over the dimensions that it repeated.
 template <class S>
 static Gradients broadcast_adjoint(Tape<S>& tape, Var node, Var g, const Wanted&) {
@@ -301,6 +331,8 @@ Var broadcast(Tape<S>& tape, Var x, Index rows, Index cols) {
   template Var mean(Tape<S>&, Var);                         \
   template Var column_sum(Tape<S>&, Var);                   \
   template Var row_sum(Tape<S>&, Var);                      \
+  template Var log_sum_exp(Tape<S>&, Var);                  \
+  template Var softmax_cross_entropy(Tape<S>&, Var, Var);   \
   template Var broadcast(Tape<S>&, Var, Index, Index);
 MIMICX_INSTANTIATE(float)
 MIMICX_INSTANTIATE(double)

@@ -50,6 +50,14 @@ Var column_sum(Tape<S>& tape, Var x);
 /// Over the columns: [n, m] → [n, 1].
 template <class S>
 Var row_sum(Tape<S>& tape, Var x);
+/// log Σ e^x over the columns: [n, m] → [n, 1]; does not overflow. Error of the logarithm: one unit of
+/// double.
+template <class S>
+Var log_sum_exp(Tape<S>& tape, Var x);
+/// Cross-entropy of softmax(logits) with the target's probabilities, nats, mean over the rows: [n, m] twice →
+/// [1, 1]. The rows of the target sum to 1.
+template <class S>
+Var softmax_cross_entropy(Tape<S>& tape, Var logits, Var target);
 /// The adjoints of the sums: [1, 1], [1, cols] or [rows, 1] → [rows, cols].
 template <class S>
 Var broadcast(Tape<S>& tape, Var x, Eigen::Index rows, Eigen::Index cols);

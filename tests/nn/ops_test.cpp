@@ -41,6 +41,10 @@ std::vector<Case> cases() {
       {"mean", {{3, 4}}, [](T& t, X x) { return mean(t, x[0]); }},
       {"column_sum", {{3, 4}}, [](T& t, X x) { return column_sum(t, x[0]); }},
       {"row_sum", {{3, 4}}, [](T& t, X x) { return row_sum(t, x[0]); }},
+      {"log_sum_exp", {{3, 4}}, [](T& t, X x) { return log_sum_exp(t, x[0]); }},
+      {"softmax_cross_entropy",
+       {{3, 4}, {3, 4}},
+       [](T& t, X x) { return softmax_cross_entropy(t, x[0], x[1]); }},
       {"broadcast_scalar", {{1, 1}}, [](T& t, X x) { return broadcast(t, x[0], 3, 4); }},
       {"broadcast_row", {{1, 4}}, [](T& t, X x) { return broadcast(t, x[0], 3, 4); }},
       {"broadcast_column", {{3, 1}}, [](T& t, X x) { return broadcast(t, x[0], 3, 4); }}};
@@ -98,6 +102,16 @@ TEST(Ops, ClampPassesTheGradientAtItsBoundsAndStopsItBeyond) {
   x << -1.0, -1.1, 2.0, 2.1;
   const auto g = tape_gradient([](T& t, X v) { return sum(t, clamp(t, v[0], -1.0, 2.0)); }, {x});
   EXPECT_EQ(g[0], (Matrix<double>(1, 4) << 1, 0, 1, 0).finished());
+}
+
+TEST(Ops, CrossEntropyOfEqualLogitsIsTheLogarithmOfTheirNumberHoweverLargeTheyAre) {
+  for (const double logit : {0.0, 5e4, -5e4}) {
+    Tape<double> tape;
+    Matrix<double> target = Matrix<double>::Zero(2, 4);
+    target(0, 1) = target(1, 3) = 1.0;
+    const Var loss = softmax_cross_entropy(tape, tape.constant(2, 4, logit), tape.constant(target));
+    EXPECT_NEAR(tape.scalar(loss), std::log(4.0), 1e-11);
+  }
 }
 
 TEST(Tape, GradientOfAnUnrelatedNodeIsZero) {
