@@ -364,6 +364,39 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
   }
 }
 
+/// A run's folder with a motion and its steps.
+struct RunFiles {
+  TemporaryFolder folder;
+  std::filesystem::path motion = folder.path / "motions/fall.npz", steps = folder.path / "substeps/fall.npz";
+  explicit RunFiles(const std::string& npz) {
+    make_folder(motion.parent_path());
+    make_folder(steps.parent_path());
+    write_file_atomically(motion, npz);
+    write_substeps(steps, honest().motion);
+  }
+};
+
+TEST(Certificate, OfARunsFiles) {
+  const RunFiles run(honest().npz);
+  const std::string file = certify_file(run.motion);
+  EXPECT_EQ(file, honest().file);
+  std::filesystem::remove(run.steps);
+  EXPECT_THROW(certify_file(run.motion), DataError);
+}
+
+TEST(Certificate, RefusesFramesThatAreNotTheStates) {
+  EXPECT_THROW(certify_file(RunFiles(motion_file(short_motion(200))).motion), DataError);
+}
+
+TEST(Certificate, RefusesAScene) {
+  const RunFiles run(honest().npz);
+  Npz npz = read_npz(run.motion);
+  const std::array<double, 8> plate = {0.0, 0.0, 0.0, 1.0, 1.0, 0.1, 4e5, 4e3};
+  npz.set("scene_plates", NpyArray::from_double({1, 8}, plate.data()));
+  write_npz(run.motion, npz);
+  EXPECT_THROW(certify_file(run.motion), DataError);
+}
+
 TEST(Certificate, RefusesOtherSettings) {
   SubstepMotion motion = short_motion();
   motion.simulation.friction = 0.8;

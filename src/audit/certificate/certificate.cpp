@@ -223,8 +223,13 @@ std::string certify_file(const std::filesystem::path& path) {
   if (!std::filesystem::exists(steps_path))
     throw DataError(steps_path.string(), "",
                     "the physics steps of the motion (plan or adapt with --substeps)", "no file");
-  const SubstepMotion motion = read_substeps(read_npz(steps_path));
-  const motion::Clip clip = motion::clip_from(parse_npz(bytes, path.string()), name);
+  const Npz npz = parse_npz(bytes, path.string()), steps = read_npz(steps_path);
+  for (const Npz* file : {&npz, &steps})
+    if (file->has("scene_plates"))
+      throw DataError(file->path, "scene_plates", "the flat floor, for version 1 of the format has no plates",
+                      "a scene");
+  const SubstepMotion motion = read_substeps(steps);
+  const motion::Clip clip = motion::clip_from(npz, name);
   if (clip.body_model != "mimicx" || clip.rest_joints)
     throw DataError(path.string(), "body_model", "a body of our shapes, 'mimicx'",
                     "'" + clip.body_model + "'");
