@@ -21,7 +21,8 @@ install(FILES ${PROJECT_BINARY_DIR}/mimicx-config.cmake ${PROJECT_BINARY_DIR}/mi
   DESTINATION ${package})
 
 if(TARGET mimicx)
-  install(TARGETS mimicx)
+  install(TARGETS mimicx verify)
+  install(FILES verify/verify.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(DIRECTORY data/options DESTINATION ${CMAKE_INSTALL_DATADIR}/mimicx)
   install(FILES data/synthetic/test/noisy/kick_1.npz DESTINATION ${CMAKE_INSTALL_DATADIR}/mimicx/examples)
   find_package(Python3 COMPONENTS Interpreter)

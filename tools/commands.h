@@ -33,6 +33,7 @@ void declare_info(CommandLine& line);
 void declare_convert(CommandLine& line);
 void declare_corrupt(CommandLine& line);
 void declare_audit(CommandLine& line);
+void declare_certify(CommandLine& line);
 void declare_report(CommandLine& line);
 void declare_render(CommandLine& line);
 void declare_export_mjcf(CommandLine& line);

@@ -26,10 +26,11 @@ int run(int argc, char** argv) {
           ", arithmetic " + kArithmetic,
       "Exit status: 0 success, 1 some inputs failed (the others are done), 2 wrong usage, 130 interrupted.");
   for (const auto declare :
-       {declare_run,     declare_plan,        declare_pretrain,      declare_teach,   declare_adapt,
-        declare_imitate, declare_merge,       declare_evaluate,      declare_cluster, declare_fit,
-        declare_info,    declare_convert,     declare_render,        declare_corrupt, declare_audit,
-        declare_report,  declare_export_mjcf, declare_export_policy, declare_synth,   declare_config})
+       {declare_run,     declare_plan,    declare_pretrain,    declare_teach,         declare_adapt,
+        declare_imitate, declare_merge,   declare_evaluate,    declare_cluster,       declare_fit,
+        declare_info,    declare_convert, declare_render,      declare_corrupt,       declare_audit,
+        declare_certify, declare_report,  declare_export_mjcf, declare_export_policy, declare_synth,
+        declare_config})
     declare(line);
   return line.run(argc, argv);
 }

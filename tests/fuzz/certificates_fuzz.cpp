@@ -1,0 +1,41 @@
+// Target: the verifier of certificates, which reads what anybody may send. The hash is made again, or nothing
+// behind it would be read. Input: a certificate, then a motion file; the length of the certificate stands in
+// its bytes 16 to 23.
+#include "audit/certificate/certificate.h"
+#include "audit/certificate/sha256.h"
+#include "audit/thrown.h"
+#include "fuzz/driver.h"
+#include "motion/clip_file.h"
+#include "motion/made_motions.h"
+#include "verify.h"
+
+namespace mimicx::fuzz {
+
+std::vector<std::string> seeds() {
+  audit::SubstepMotion motion = audit::Thrown().steps();
+  motion.last = motion.steps[301].state;
+  motion.steps = {motion.steps[300]};
+  const TemporaryFolder folder;
+  motion::write_clip(folder.path / "m.npz", test::standing_clip(2, 0.9));
+  const std::string npz = read_file(folder.path / "m.npz");
+  const std::string certificate = audit::certificate_of(motion, {"fuzz", npz, 1});
+  return {certificate, certificate + npz};
+}
+
+void feed(const std::string& bytes) {
+  std::string file = bytes, npz;
+  std::uint64_t length = 0;
+  for (std::size_t i = 8; i-- > 0 && bytes.size() >= 24;)
+    length = length << 8 | static_cast<unsigned char>(bytes[16 + i]);
+  if (length >= 64 && length <= bytes.size()) {
+    file = bytes.substr(0, length);
+    npz = bytes.substr(length);
+    file.replace(length - 32, 32, audit::sha256(std::string_view(file).substr(0, length - 32)));
+  }
+  std::array<Rule, RULES> rules{};
+  const char* wrong = nullptr;
+  const auto at = [](const std::string& s) { return reinterpret_cast<const unsigned char*>(s.data()); };
+  verify_bytes(at(file), file.size(), npz.empty() ? nullptr : at(npz), npz.size(), rules.data(), &wrong);
+}
+
+}  // namespace mimicx::fuzz

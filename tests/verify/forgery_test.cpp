@@ -1,0 +1,407 @@
+// The verifier against honest certificates, forgeries and broken files. A forgery changes a sound certificate
+// by at least ten times the tolerance of a rule and makes its hash again.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdlib>
+#include <functional>
+
+#include "audit/certificate/certificate.h"
+#include "audit/certificate/sha256.h"
+#include "audit/thrown.h"
+#include "core/random.h"
+#include "motion/clip_file.h"
+#include "motion/made_motions.h"
+#include "verify.h"
+
+namespace mimicx::audit {
+namespace {
+
+constexpr std::size_t kHead = 80, kRecord = 550, kState = 160, kNext = 69, kBody = 24;
+constexpr std::size_t kSteps = 24, kStride = 8;
+
+struct Verdict {
+  int status = BROKEN;
+  std::string wrong;
+  std::vector<int> failed;  ///< rules, in the order of the page
+  std::string reasons() const {
+    std::string text = wrong;
+    for (const int rule : failed) text += " " + std::to_string(rule);
+    return text;
+  }
+  bool names(int rule) const { return std::find(failed.begin(), failed.end(), rule) != failed.end(); }
+};
+
+Verdict verdict_of(const std::string& file, const std::string& motion = {}) {
+  const auto bytes = [](const std::string& s) { return reinterpret_cast<const unsigned char*>(s.data()); };
+  std::array<Rule, RULES> rules{};
+  const char* wrong = nullptr;
+  Verdict verdict;
+  verdict.status = verify_bytes(bytes(file), file.size(), motion.empty() ? nullptr : bytes(motion),
+                                motion.size(), rules.data(), &wrong);
+  if (wrong != nullptr) verdict.wrong = wrong;
+  if (verdict.status == BROKEN) return verdict;
+  for (int i = 0; i < RULES; ++i) {
+    const Rule& rule = rules[static_cast<std::size_t>(i)];
+    if (rule.step >= 0 && !(rule.difference <= rule.tolerance)) verdict.failed.push_back(i);
+  }
+  return verdict;
+}
+
+double double_at(const std::string& file, std::size_t at) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 8; i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(file[at + i]);
+  return std::bit_cast<double>(bits);
+}
+void set_double(std::string& file, std::size_t at, double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  for (std::size_t i = 0; i < 8; ++i) file[at + i] = static_cast<char>(bits >> 8 * i);
+}
+void set_integer(std::string& file, std::size_t at, std::uint64_t value, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; ++i) file[at + i] = static_cast<char>(value >> 8 * i);
+}
+void rehash(std::string& file) {
+  file.replace(file.size() - 32, 32, sha256({file.data(), file.size() - 32}));
+}
+std::size_t start_of(const std::string& file) {
+  return static_cast<unsigned char>(file[12]) + 256U * static_cast<unsigned char>(file[13]);
+}
+std::size_t at_step(const std::string& file, std::size_t step, std::size_t column) {
+  return start_of(file) + 8 * (step * kRecord + column);
+}
+
+/// The end of a fall: bodies on the floor, friction, torques near their bounds.
+SubstepMotion short_motion(std::size_t first = 300) {
+  static const Thrown thrown;
+  SubstepMotion motion = thrown.steps();
+  motion.last = motion.steps[first + kSteps].state;
+  motion.steps = {motion.steps.begin() + static_cast<std::ptrdiff_t>(first),
+                  motion.steps.begin() + static_cast<std::ptrdiff_t>(first + kSteps)};
+  return motion;
+}
+
+/// A motion file with the frames of the steps.
+std::string motion_file(const SubstepMotion& motion) {
+  motion::Clip clip = test::standing_clip(static_cast<int>(kSteps / kStride) + 1, 0.9);
+  for (int t = 0; t < clip.frames(); ++t) {
+    const std::size_t k = static_cast<std::size_t>(t) * kStride;
+    const motion::ReferenceFrame& state = k < kSteps ? motion.steps[k].state : motion.last;
+    clip.trans[t] = state.p_root - rest_pelvis("mimicx");
+    for (int i = 0; i < kBodies; ++i) clip.rotations[t][i] = log_map(state.q[i].normalized());
+  }
+  const TemporaryFolder folder;
+  motion::write_clip(folder.path / "m.npz", clip);
+  return read_file(folder.path / "m.npz");
+}
+
+struct Honest {
+  SubstepMotion motion = short_motion();
+  std::string npz = motion_file(motion);
+  std::string file = certificate_of(motion, {"fall", npz, kStride});
+};
+const Honest& honest() {
+  static const Honest certificate;
+  return certificate;
+}
+
+TEST(Sha256, ExamplesOfTheStandard) {
+  const auto hex = [](const std::string& bytes) {
+    std::string text;
+    for (const char c : bytes) {
+      text += "0123456789abcdef"[static_cast<unsigned char>(c) >> 4];
+      text += "0123456789abcdef"[static_cast<unsigned char>(c) & 15];
+    }
+    return text;
+  };
+  EXPECT_EQ(hex(sha256("")), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hex(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hex(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq")),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST(Verify, AcceptsHonestFallsWholeAndTheirMotions) {
+  const Verdict verdict = verdict_of(honest().file, honest().npz);
+  EXPECT_EQ(verdict.status, ACCEPTED) << verdict.reasons();
+  const Thrown thrown;
+  const Verdict whole = verdict_of(certificate_of(thrown.steps(), {"whole", "", 8}));
+  EXPECT_EQ(whole.status, ACCEPTED) << whole.reasons();
+}
+
+TEST(Verify, ReplayGivesTheBits) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path / "c.cert", honest().file);
+  const CertificateReplay replay = replay_certificate(folder.path / "c.cert");
+  EXPECT_EQ(replay.steps, static_cast<long>(kSteps));
+  EXPECT_EQ(replay.first_state, -1);
+  EXPECT_EQ(replay.first_step, -1);
+  std::string file = honest().file;
+  const std::size_t at = at_step(file, 7, kState + 5);
+  set_double(file, at, std::nextafter(double_at(file, at), 1e9));
+  rehash(file);
+  write_file_atomically(folder.path / "c.cert", file);
+  EXPECT_EQ(replay_certificate(folder.path / "c.cert").first_step, 7);
+}
+
+TEST(Verify, RefusesAnotherMotionFile) {
+  const std::string other = motion_file(short_motion(200));
+  const Verdict swapped = verdict_of(honest().file, other);
+  EXPECT_TRUE(swapped.names(MOTION_FILE)) << swapped.reasons();
+  // Its hash bound in: the frames give it away.
+  const Verdict bound = verdict_of(certificate_of(honest().motion, {"fall", other, kStride}), other);
+  EXPECT_FALSE(bound.names(MOTION_FILE));
+  EXPECT_TRUE(bound.names(FRAMES)) << bound.reasons();
+}
+
+TEST(Verify, RefusesAnAdversarysMotions) {
+  const auto forged = [](const std::function<void(SubstepMotion&)>& change) {
+    SubstepMotion motion = short_motion();
+    change(motion);
+    return verdict_of(certificate_of(motion, {"forged", "", kStride}));
+  };
+  const Verdict swapped = forged([](SubstepMotion& m) { std::swap(m.steps[5], m.steps[14]); });
+  EXPECT_TRUE(swapped.names(VELOCITY) && swapped.names(ROTATION)) << swapped.reasons();
+  const Verdict slower = forged([](SubstepMotion& m) {  // the same poses, in twice the time
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      m.steps[i].state.v_root *= 0.5;
+      for (auto& w : m.steps[i].state.omega) w *= 0.5;
+    }
+  });
+  EXPECT_TRUE(slower.names(POSITION) && slower.names(ROTATION)) << slower.reasons();
+  const Verdict lighter = forged([](SubstepMotion& m) { m.character = make_character({-3, -3}); });
+  EXPECT_TRUE(lighter.names(VELOCITY) || lighter.names(SPIN)) << lighter.reasons();
+  const Verdict lifted = forged([](SubstepMotion& m) {  // held 5 cm over the floor
+    for (auto& step : m.steps) step.state.p_root.z() += 0.05;
+    m.last.p_root.z() += 0.05;
+  });
+  EXPECT_TRUE(lifted.names(VELOCITY)) << lifted.reasons();
+
+  std::string file = honest().file;  // a lighter body under the same shape
+  for (std::size_t i = 0; i < kBodies; ++i) {
+    const std::size_t at = kHead + 8 * (25 + kBody * i + 3);
+    set_double(file, at, 0.5 * double_at(file, at));
+  }
+  rehash(file);
+  const Verdict light = verdict_of(file);
+  EXPECT_EQ(light.failed, std::vector<int>{SHAPE}) << light.reasons();
+}
+
+/// A number of a certificate, changed by at least ten times its rule's tolerance, and the rules that may say
+/// so.
+struct Forgery {
+  const char* what;
+  std::function<void(std::string&, Random&)> change;
+  std::vector<int> reasons;  ///< one of them must fail
+};
+
+std::vector<Forgery> forgeries() {
+  const auto pick = [](Random& random, std::size_t count) {
+    return static_cast<std::size_t>(random.uniform() * static_cast<double>(count)) % count;
+  };
+  const auto moved = [](std::string& file, std::size_t at, double least, Random& random) {
+    const double by = least * (1.0 + 9.0 * random.uniform());
+    set_double(file, at, double_at(file, at) + (random.uniform() < 0.5 ? -by : by));
+  };
+  const auto column = [=](std::size_t first, std::size_t count, double least) {
+    return [=](std::string& file, Random& random) {
+      moved(file, at_step(file, pick(random, kSteps), first + pick(random, count)), least, random);
+    };
+  };
+  const std::size_t targets = kState + kNext, torques = targets + 147, forces = torques + 63;
+  return {
+      {"pelvis position", column(0, 3, 1e-4), {POSITION}},
+      {"rotation", column(3, 88, 1e-4), {UNIT, ROTATION, AXIS}},
+      {"pelvis velocity",
+       column(91, 3, 0.1),
+       {VELOCITY, POSITION, FORCE}},                                      // FORCE alone: of the first state
+      {"joint velocity", column(94, 66, 10.0), {SPIN, ROTATION, JOINT}},  // JOINT alone: of the first state
+      {"pelvis velocity after a step", column(kState, 3, 0.1), {VELOCITY}},
+      {"joint velocity after a step", column(kState + 3, 66, 10.0), {SPIN}},
+      {"a little acceleration", column(kState, 3, 1e-6), {FORCE, MOMENT}},
+      {"a little turn", column(kState + 3, 66, 1e-3), {FORCE, MOMENT, JOINT, LAW, AXIS}},
+      {"target", column(targets, 84, 1e-2), {LAW}},
+      {"target's velocity", column(targets + 84, 63, 1e-2), {LAW}},
+      {"torque", column(torques, 63, 1e-3), {LAW, JOINT}},
+      {"contact force",
+       [=](std::string& file, Random& random) {
+         const std::size_t step = pick(random, kSteps);
+         std::vector<std::size_t> pushing;
+         for (std::size_t n = 0; n < 37; ++n)
+           if (double_at(file, at_step(file, step, forces + 3 * n + 2)) > 0.0) pushing.push_back(n);
+         if (pushing.empty()) return set_double(file, at_step(file, step, forces + 2), 1.0);
+         const std::size_t n = pushing[pick(random, pushing.size())];
+         moved(file, at_step(file, step, forces + 3 * n + pick(random, 3)), 1e-3, random);
+       },
+       {NORMAL, SIDEWAYS, FORCE, AIR}},
+      {"force in the air", column(forces + 3 * 18, 3, 1e-3), {AIR, NORMAL, SIDEWAYS, FORCE}},
+      {"contact shifted to another point",
+       [=](std::string& file, Random& random) {
+         const std::size_t step = pick(random, kSteps), from = pick(random, 37);
+         const std::size_t to = (from + 1 + pick(random, 36)) % 37;
+         for (std::size_t k = 0; k < 3; ++k) {
+           const std::size_t a = at_step(file, step, forces + 3 * from + k);
+           const std::size_t b = at_step(file, step, forces + 3 * to + k);
+           const double kept = double_at(file, a) == 0.0 ? 100.0 : double_at(file, a);
+           set_double(file, a, 0.0);
+           set_double(file, b, kept);
+         }
+       },
+       {AIR, NORMAL, SIDEWAYS, FORCE, MOMENT}},
+      {"torque beyond its bound",
+       [=](std::string& file, Random& random) {
+         set_double(file, at_step(file, pick(random, kSteps), torques + pick(random, 63)), 1000.0);
+       },
+       {BOUND}},
+      {"constant",
+       [=](std::string& file, Random& random) {
+         const std::size_t at = kHead + 8 * pick(random, 11);
+         set_double(file, at, double_at(file, at) * (random.uniform() < 0.5 ? 0.9 : 1.1));
+       },
+       {CONSTANT}},
+      {"shape",
+       [=](std::string& file, Random& random) {
+         moved(file, kHead + 8 * (11 + pick(random, 10)), 1e-4, random);
+       },
+       {SHAPE}},
+      {"claim",
+       [=](std::string& file, Random& random) {
+         moved(file, kHead + 8 * (21 + pick(random, 4)), 1e-5, random);
+       },
+       {CLAIM}},
+      {"body",
+       [=](std::string& file, Random& random) {
+         moved(file, kHead + 8 * (25 + pick(random, 22 * kBody)), 1e-8, random);
+       },
+       {SHAPE}},
+      {"contact point",
+       [=](std::string& file, Random& random) {
+         moved(file, kHead + 8 * (25 + 22 * kBody + pick(random, 37 * 5)), 1e-8, random);
+       },
+       {SHAPE}},
+      {"not finite",
+       [=](std::string& file, Random& random) {
+         set_double(file, at_step(file, pick(random, kSteps), pick(random, kRecord)),
+                    random.uniform() < 0.5 ? std::nan("") : HUGE_VAL);
+       },
+       {FINITE}},
+  };
+}
+
+/// How many forgeries, and how many broken files.
+int count_of_forgeries() {
+  const char* text = std::getenv("MIMICX_FORGERIES");
+  return text != nullptr ? std::atoi(text) : 1000;
+}
+
+TEST(Verify, RefusesForgeriesForTheirReason) {
+  const std::vector<Forgery> kinds = forgeries();
+  const int count = count_of_forgeries();
+  for (int k = 0; k < count; ++k) {
+    const Forgery& kind = kinds[static_cast<std::size_t>(k) % kinds.size()];
+    Random random(46, {static_cast<std::uint64_t>(k)});
+    std::string file = honest().file;
+    kind.change(file, random);
+    rehash(file);
+    const Verdict verdict = verdict_of(file);
+    EXPECT_EQ(verdict.status, REJECTED) << k << ": " << kind.what << " " << verdict.wrong;
+    const bool named =
+        std::any_of(kind.reasons.begin(), kind.reasons.end(), [&](int r) { return verdict.names(r); });
+    EXPECT_TRUE(named) << k << ": " << kind.what << " " << verdict.reasons();
+  }
+}
+
+TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
+  const std::string& sound = honest().file;
+  const int count = count_of_forgeries();
+  for (int k = 0; k < count; ++k) {
+    Random random(47, {static_cast<std::uint64_t>(k)});
+    std::string file = sound, wanted;
+    const auto size = static_cast<double>(sound.size());
+    switch (k % 10) {
+      case 0:
+        file.resize(8 + static_cast<std::size_t>(random.uniform() * (size - 9)));
+        wanted = file.size() < 7296 ? "shorter than a certificate" : "size differs from the recorded one";
+        break;
+      case 1:
+        file[80 + static_cast<std::size_t>(random.uniform() * (size - 80))] ^= 1 << (k / 10 % 8);
+        wanted = "hash differs";
+        break;
+      case 2:
+        file[static_cast<std::size_t>(random.uniform() * 8)] ^= 4;
+        wanted = "not a certificate";
+        break;
+      case 3:
+        set_integer(file, 8, 2 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "a version of the format other than 1";
+        break;
+      case 4:
+        file += std::string(1 + static_cast<std::size_t>(random.uniform() * 100), 'x');
+        wanted = "size differs from the recorded one";
+        break;
+      case 5:
+        set_integer(file, 36, 1 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "plates, which version 1 does not have";
+        break;
+      case 6:
+        set_integer(file, 40, 38 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "another number of contact points";
+        break;
+      case 7:
+        set_integer(file, 44, 4097 + static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "a name of no or too many bytes";
+        break;
+      case 8:
+        set_integer(file, 24, 1 + (1U << 24) + static_cast<std::uint64_t>(random.uniform() * 1e18), 8);
+        wanted = "no or too many steps";
+        break;
+      default:
+        set_integer(file, 12, 4294967295U - static_cast<std::uint64_t>(random.uniform() * 1e9), 4);
+        wanted = "start of the steps differs from the length of the header";
+    }
+    if (k % 10 > 2 && k % 10 != 4) rehash(file);
+    const Verdict verdict = verdict_of(file);
+    EXPECT_EQ(verdict.status, BROKEN) << k;
+    EXPECT_EQ(verdict.wrong, wanted) << k;
+  }
+}
+
+/// A run's folder with a motion and its steps.
+struct RunFiles {
+  TemporaryFolder folder;
+  std::filesystem::path motion = folder.path / "motions/fall.npz", steps = folder.path / "substeps/fall.npz";
+  explicit RunFiles(const std::string& npz) {
+    make_folder(motion.parent_path());
+    make_folder(steps.parent_path());
+    write_file_atomically(motion, npz);
+    write_substeps(steps, honest().motion);
+  }
+};
+
+TEST(Certificate, OfARunsFiles) {
+  const RunFiles run(honest().npz);
+  const std::string file = certify_file(run.motion);
+  EXPECT_EQ(file, honest().file);
+  std::filesystem::remove(run.steps);
+  EXPECT_THROW(certify_file(run.motion), DataError);
+}
+
+TEST(Certificate, RefusesFramesThatAreNotTheStates) {
+  EXPECT_THROW(certify_file(RunFiles(motion_file(short_motion(200))).motion), DataError);
+}
+
+TEST(Certificate, RefusesAScene) {
+  const RunFiles run(honest().npz);
+  Npz npz = read_npz(run.motion);
+  const std::array<double, 8> plate = {0.0, 0.0, 0.0, 1.0, 1.0, 0.1, 4e5, 4e3};
+  npz.set("scene_plates", NpyArray::from_double({1, 8}, plate.data()));
+  write_npz(run.motion, npz);
+  EXPECT_THROW(certify_file(run.motion), DataError);
+}
+
+TEST(Certificate, RefusesOtherSettings) {
+  SubstepMotion motion = short_motion();
+  motion.simulation.friction = 0.8;
+  EXPECT_THROW(certificate_of(motion, {"m", "", kStride}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mimicx::audit

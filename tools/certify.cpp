@@ -1,0 +1,88 @@
+#include <iostream>
+#include <memory>
+
+#include "audit/certificate/certificate.h"
+#include "commands.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "files/inputs.h"
+#include "record/outputs.h"
+#include "shared_arguments.h"
+
+namespace mimicx::tools {
+namespace {
+
+struct CertifyArguments {
+  std::vector<std::string> inputs;
+  std::filesystem::path out;
+  bool replay = false, force = false;
+};
+
+int replay(const CertifyArguments& a) {
+  bool all_good = true;
+  for (const std::string& path : a.inputs) {
+    try {
+      const audit::CertificateReplay found = audit::replay_certificate(path);
+      const bool good = found.first_state < 0 && found.first_step < 0;
+      std::cout << path << ": " << found.steps << " steps, " << (good ? "the same bits" : "other bits");
+      if (found.first_state >= 0) std::cout << "; states differ after step " << found.first_state;
+      if (found.first_step >= 0) std::cout << "; forces differ in step " << found.first_step;
+      std::cout << '\n';
+      all_good = all_good && good;
+    } catch (const std::exception& error) {
+      std::cerr << path << ": left out: " << reason_of(error) << '\n';
+      all_good = false;
+    }
+  }
+  return all_good ? kAllGood : kSomeFailed;
+}
+
+int certify(const CertifyArguments& a) {
+  if (a.replay) return replay(a);
+  if (a.out.empty()) throw UsageError("certify: --out is needed: the folder of the certificates");
+  const std::vector<std::string> inputs = files::paths_of(files::find_motions(a.inputs, {}, &std::cerr));
+  const auto in_folder = [&](const std::string& motion, const char* suffix) {
+    return a.out / (std::filesystem::path(motion).stem().string() + suffix);
+  };
+  const auto certificate_path = [&](const std::string& motion) { return in_folder(motion, ".cert"); };
+  const auto copy_path = [&](const std::string& motion) { return in_folder(motion, ".npz"); };
+  record::Outputs outputs(inputs, a.force);
+  for (const std::string& path : inputs) {
+    outputs.claim(certificate_path(path), "MIMICERT");
+    outputs.claim(copy_path(path), "PK");
+  }
+  make_folder(a.out);
+  bool all_good = true;
+  for (const std::string& path : inputs) {
+    try {
+      write_file_atomically(certificate_path(path), audit::certify_file(path));
+      write_file_atomically(copy_path(path), read_file(path));
+    } catch (const std::exception& error) {
+      std::cerr << path << ": left out: " << reason_of(error) << '\n';
+      all_good = false;
+    }
+  }
+  return all_good ? kAllGood : kSomeFailed;
+}
+
+}  // namespace
+
+void declare_certify(CommandLine& line) {
+  const auto a = std::make_shared<CertifyArguments>();
+  Command command =
+      line.add("certify", "Write certificates of motions, which `verify` checks without this program.",
+               "mimicx plan DIR --substeps --out out/run\n"
+               "mimicx certify out/run/motions --out out/certificates\n"
+               "verify out/certificates",
+               "A motion needs its physics steps, substeps/NAME.npz of the same run (--substeps).");
+  command.files("FILE", a->inputs,
+                "motions of a run with --substeps, and folders of them; with --replay certificates");
+  command.path("--out", a->out,
+               "folder of the certificates, NAME.cert each, and of copies of the motions, NAME.npz");
+  command.flag("--replay", a->replay,
+               "simulate the controls of certificates again: do they give the same bits?");
+  add_force(command, a->force);
+  command.action([a] { return certify(*a); });
+}
+
+}  // namespace mimicx::tools
