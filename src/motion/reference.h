@@ -24,6 +24,7 @@ struct Reference {
   std::string name;
   double fps = 30.0;
   Character character;
+  Scene scene;  ///< the ground under it
   PerFrame<ReferenceFrame> frames;
   PerFrame<BodyPoses> poses;           ///< forward kinematics of every frame
   PerFrame<bool> flagged;              ///< frames that were implausible and are interpolated

@@ -66,6 +66,7 @@ motion::Reference reference_of_states(const motion::Reference& of,
   out.name = of.name;
   out.fps = of.fps;
   out.character = of.character;
+  out.scene = of.scene;
   for (const physics::State<double>& x : states) {
     motion::ReferenceFrame& frame = out.frames.emplace_back(frame_of_state(x));
     for (Quaterniond& q : frame.q) q = q.normalized();
