@@ -1,5 +1,6 @@
 #include "character/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -10,7 +11,7 @@
 namespace mimicx {
 namespace {
 
-constexpr double kPointLoad = 80.0 * kGravity / 10.0;  ///< N
+constexpr double kPointLoad = 75.0 * kGravity / 3.0;  ///< N
 
 }  // namespace
 
@@ -22,7 +23,7 @@ bool Plate::spans(const Vector3d& p) const {
          std::abs(c * d.y() - s * d.x()) <= half_extents.y();
 }
 
-double Plate::give() const { return kPointLoad / stiffness; }
+double Plate::give() const { return std::max(0.0, kPointLoad / stiffness - kPointLoad / Plate().stiffness); }
 
 const Plate* Scene::plate_under(const Vector3d& p, double reach) const {
   const Plate* under = nullptr;
@@ -35,6 +36,13 @@ const Plate* Scene::plate_under(const Vector3d& p, double reach) const {
 double Scene::height_under(const Vector3d& p, double reach) const {
   const Plate* plate = plate_under(p, reach);
   return plate ? plate->height : 0.0;
+}
+
+double Scene::clearance(const Vector3d& p) const {
+  const Plate* plate = plate_under(p, kReach);
+  if (!plate) return p.z();
+  const double z = p.z() - plate->height;
+  return z < 0.0 ? std::min(0.0, z + plate->give()) : z;
 }
 
 void require_scene(const Scene& scene, const std::string& name) {

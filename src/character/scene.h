@@ -26,8 +26,8 @@ struct Plate {
   bool operator==(const Plate&) const = default;
   /// Whether a point is over, on or under the rectangle; only x and y count.
   bool spans(const Vector3d& p) const;
-  /// How deep a contact point sinks into it under a load that ten of them share with a standing body of 80
-  /// kg, m: 0.2 mm of wood, 1 cm of a cushion of 8 kN/m.
+  /// How much deeper a contact point sinks into it than into the floor, where three points carry a body of
+  /// 75 kg, m: 0 of wood, 2.4 cm of a cushion of 10 kN/m.
   double give() const;
 };
 
@@ -41,8 +41,9 @@ struct Scene {
   /// Height of the ground under a point, m: that plate's, or 0. @param p  in the world, m
   double height_under(const Vector3d& p, double reach) const;
   double height_under(const Vector3d& p) const { return height_under(p, kReach); }
-  /// Height of a point over the ground under it, m; negative inside it.
-  double clearance(const Vector3d& p) const { return p.z() - height_under(p); }
+  /// Height of a point over the ground under it, m; negative inside it. A point that is in a soft plate no
+  /// deeper than it gives is on it: 0; deeper points count from there.
+  double clearance(const Vector3d& p) const;
 
   static constexpr double kReach = 0.08;  ///< m
 };

@@ -58,7 +58,7 @@ PosedMotion posed_motion(const motion::Clip& clip, files::Skin skin,
   out.character = motion::character_of(clip);
   out.mesh =
       skin == files::Skin::kShapes ? skin::collision_shapes(out.character) : skin::mannequin(out.character);
-  if (forces) out.forces = files::floor_forces(out.poses, *forces);
+  if (forces) out.forces = files::floor_forces(out.poses, *forces, clip.scene);
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "core/units.h"
 
 namespace mimicx {
 namespace {
@@ -44,6 +45,17 @@ TEST(Scene, PlateReachesEightCentimetresDown) {
   EXPECT_EQ(scene.height_under({0, 0, 0.41}), 0.0);
   EXPECT_EQ(scene.height_under({0, 0, 0.41}, 0.12), 0.5);
   EXPECT_NEAR(scene.clearance({0, 0, 0.43}), -0.07, 1e-15);
+}
+
+TEST(Scene, PointThatACushionGivesWayToIsOnIt) {
+  Scene scene{{plate(0, 0, 0, 1, 1, 0.5)}};
+  EXPECT_NEAR(scene.clearance({0, 0, 0.499}), -0.001, 1e-12);
+  scene.plates[0].stiffness = 1e4;
+  const double give = scene.plates[0].give();
+  EXPECT_NEAR(give, 25.0 * kGravity * (1e-4 - 2.5e-6), 1e-12);
+  EXPECT_EQ(scene.clearance({0, 0, 0.5 - 0.9 * give}), 0.0);
+  EXPECT_NEAR(scene.clearance({0, 0, 0.5 - give - 0.01}), -0.01, 1e-12);
+  EXPECT_NEAR(scene.clearance({0, 0, 0.51}), 0.01, 1e-12);
 }
 
 TEST(Scene, HighestPlateInReachCounts) {

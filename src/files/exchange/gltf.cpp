@@ -178,7 +178,7 @@ class Writer {
   }
 
   void add_arrows(const RecordedForces& forces) {
-    const List<FloorForces> floor = floor_forces(motion::poses_of(clip_), forces);
+    const List<FloorForces> floor = floor_forces(motion::poses_of(clip_), forces, clip_.scene);
     const int material = add_material("force", {0.85, 0.30, 0.08, 1.0});
     const int mesh = add_mesh("force", skin::arrow(), Vector3d::Zero(), material, Json::object()),
               times = add_times(floor.count(), 0.5);

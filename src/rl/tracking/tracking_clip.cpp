@@ -20,7 +20,7 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& 
   require_whole_steps(config.simulation.rate, reference.fps);
   auto clip = std::make_shared<TrackingClip>();
   clip->reference = reference;
-  clip->model = physics::make_model<float>(reference.character, config.simulation);
+  clip->model = physics::make_model<float>(reference.character, config.simulation, reference.scene);
   for (std::size_t t = 0; t < reference.frames.size(); ++t)
     clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
   Pose rest = clip->poses.back();
