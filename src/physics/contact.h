@@ -38,9 +38,10 @@ void linearise_ground(const SimulationConfig& o, T dt, const Vec3<T>& v_end, Gro
 /// Mask of the lanes whose point (x, y) is over a plate that is wider by `margin` on every side.
 template <class T>
 MaskOf<T> spans(const ModelPlate<RealOf<T>>& plate, const T& x, const T& y, const T& margin) {
-  const T dx = x - T(plate.x), dy = y - T(plate.y), cosine(plate.cosine), sine(plate.sine);
-  const T u = fma(cosine, dx, sine * dy), v = fma(cosine, dy, -(sine * dx));
-  return (max(u, -u) <= T(plate.half_x) + margin) & (max(v, -v) <= T(plate.half_y) + margin);
+  const T from_x = x - T(plate.x), from_y = y - T(plate.y), cosine(plate.cosine), sine(plate.sine);
+  const T along = fma(cosine, from_x, sine * from_y), across = fma(cosine, from_y, -(sine * from_x));
+  return (max(along, -along) <= T(plate.half_x) + margin) &
+         (max(across, -across) <= T(plate.half_y) + margin);
 }
 
 /// Height of the ground under a point, m: `Scene::height_under`.
@@ -55,7 +56,7 @@ T ground_height(const Model<RealOf<T>>& model, const Vec3<T>& p) {
   return height;
 }
 
-/// The plates that some lane's body may touch.
+/// The plates that some lane's character, or one body of it, may touch.
 struct NearPlates {
   Array<int, kMaxPlates> index;  ///< in Model::plates
   int count = 0;
@@ -67,19 +68,36 @@ void find_near_plates(const Model<RealOf<T>>& model, const Vec3<T>& pelvis, Near
     if (any(spans(model.plates[k], pelvis.x, pelvis.y, T(model.span)))) out.index[out.count++] = k;
 }
 
-/// Replaces the floor by the highest plate that spans the point and that the point is in, no deeper than its
-/// reach. @param x, y  of the point in world, m @param surface  the floor
+/// Those of them that a body is at the height of. @param z  of its joint centre
 template <class T>
-void meet_plates(const Model<RealOf<T>>& model, const NearPlates& near, const T& x, const T& y,
+void find_level_plates(const Model<RealOf<T>>& model, const NearPlates& all, const T& z, RealOf<T> span,
+                       NearPlates& out) {
+  const double half = 0.5 * (Scene::kReach + model.config.skin);
+  const T from(z + T(half)), far(span + static_cast<RealOf<T>>(half));
+  out.count = 0;
+  for (int n = 0; n < all.count; ++n) {
+    const T above = from - T(model.plates[all.index[n]].height);
+    if (any(max(above, -above) < far)) out.index[out.count++] = all.index[n];
+  }
+}
+
+/// Replaces the floor by the highest plate that spans the point and that the point is in, no deeper than its
+/// reach. @param place  gives the point in world, m; asked only if the point is at the height of a plate
+/// @param surface  the floor
+template <class T, class Place>
+void meet_plates(const Model<RealOf<T>>& model, const NearPlates& near, const Place& place,
                  GroundSurface<T>& surface) {
-  const T floor = surface.depth, reach(Scene::kReach + model.config.skin);
-  T deepest = floor;
+  const double reach = Scene::kReach + model.config.skin;
+  const T half(0.5 * reach), above = surface.depth - half;  // of the middle of a plate's reach
+  T deepest = surface.depth;
   for (int n = 0; n < near.count; ++n) {
     const ModelPlate<RealOf<T>>& plate = model.plates[near.index[n]];
-    const T depth = floor + T(plate.height), most(plate.most_depth);
-    const MaskOf<T> in = (depth > T(0.0)) & (depth < reach) & (depth > deepest);
+    const T from_middle = above + T(plate.height);
+    const MaskOf<T> in = max(from_middle, -from_middle) < half;  // 0 < depth < reach
     if (!any(in)) continue;
-    const MaskOf<T> here = in & spans(plate, x, y, T(0.0));
+    const Vec3<T> p = place();
+    const T depth = from_middle + half, most(plate.most_depth);
+    const MaskOf<T> here = in & (depth > deepest) & spans(plate, p.x, p.y, T(0.0));
     deepest = select(here, depth, deepest);
     surface.depth = select(here, min(depth, most), surface.depth);
     surface.stiffness = select(here, T(plate.stiffness), surface.stiffness);
@@ -93,8 +111,9 @@ template <class T>
 [[gnu::flatten]] void detect_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   const SimulationConfig& o = model.config;
   d.ground_count = 0;
-  NearPlates near;
+  NearPlates near, level;
   if (!model.plates.empty()) find_near_plates(model, d.p_WB[0], near);
+  int levelled = -1;  // the body that `level` is of; contacts are sorted by body
   for (int index = 0; index < static_cast<int>(model.contacts.size()); ++index) {
     const ContactPoint& point = model.contacts[index];
     const int i = point.body;
@@ -103,10 +122,15 @@ template <class T>
     const T centre_z = fma(R.c[0].z, x, fma(R.c[1].z, y, R.c[2].z * z));
     GroundSurface<T> surface{T(o.skin) + radius - (d.p_WB[i].z + centre_z), T(o.ground_stiffness),
                              T(o.ground_damping), T(0.0) > T(0.0)};
-    if (near.count > 0 && any(surface.depth + T(model.highest_plate) > T(0.0))) {
-      const T centre_x = fma(R.c[0].x, x, fma(R.c[1].x, y, R.c[2].x * z));
-      const T centre_y = fma(R.c[0].y, x, fma(R.c[1].y, y, R.c[2].y * z));
-      meet_plates(model, near, d.p_WB[i].x + centre_x, d.p_WB[i].y + centre_y, surface);
+    if (near.count > 0) {
+      if (i != levelled) find_level_plates(model, near, d.p_WB[i].z, model.contact_span[i], level);
+      levelled = i;
+      meet_plates(
+          model, level,
+          [&] {
+            return d.p_WB[i] + R * Vec3<T>{x, y, z};
+          },
+          surface);
     }
     if (!any(surface.depth > T(0.0))) continue;
     GroundContact<T>& contact = d.ground[d.ground_count++];

@@ -63,13 +63,16 @@ void fill_contacts(const Character& c, Model<Real>& m) {
       m.capsule_bodies.push_back(body);
 }
 
-/// How far a contact point can be from the pelvis joint, m.
-double span_of(const Character& c) {
+/// How far contact points can be from the joint centre of their body, and from the pelvis joint.
+template <class Real>
+void fill_spans(const Character& c, Model<Real>& m) {
   PerBody<double> chain{};
-  double span = 0.0;
   for (int i = 1; i < kBodies; ++i) chain[i] = chain[kParents[i]] + c.joint_offset[i].norm();
-  for (const ContactPoint& p : c.contact_points) span = std::max(span, chain[p.body] + p.p_B.norm());
-  return span;
+  for (const ContactPoint& p : c.contact_points) {
+    const double span = p.p_B.norm() + p.radius;
+    m.contact_span[p.body] = std::max(m.contact_span[p.body], static_cast<Real>(span));
+    m.span = std::max(m.span, static_cast<Real>(chain[p.body] + span));
+  }
 }
 
 template <class Real>
@@ -79,7 +82,6 @@ void fill_plates(const Scene& scene, Model<Real>& m) {
     m.plates.push_back({real(p.centre.x()), real(p.centre.y()), real(cos(p.yaw)), real(sin(p.yaw)),
                         real(p.half_extents.x()), real(p.half_extents.y()), real(p.height), real(p.stiffness),
                         real(p.damping), real(kMostPlatePush / p.stiffness)});
-    m.highest_plate = std::max(m.highest_plate, real(p.height));
   }
 }
 
@@ -106,7 +108,7 @@ Model<Real> make_model(const Character& c, const SimulationConfig& config, const
   }
   fill_joints(c, m);
   fill_contacts(c, m);
-  m.span = static_cast<Real>(span_of(c));
+  fill_spans(c, m);
   fill_plates(scene, m);
   return m;
 }

@@ -71,8 +71,8 @@ struct Model {
   std::vector<int> capsule_bodies;  ///< bodies that occur in self_pairs
 
   List<ModelPlate<Real>> plates;
-  Real highest_plate;  ///< its height, m
-  Real span;           ///< no contact point is farther from the pelvis joint, m
+  PerBody<Real> contact_span;  ///< no contact point of the body is farther from its joint centre, m
+  Real span;                   ///< no contact point is farther from the pelvis joint, m
 
   SimulationConfig config;
   Real dt;  ///< 1 / rate, s

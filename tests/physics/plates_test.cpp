@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include "core/error.h"
 #include "physics/contact.h"
 #include "physics/contact_scenes.h"
+#include "physics/mjcf.h"
 
 namespace mimicx::physics {
 namespace {
@@ -182,6 +184,13 @@ TEST(Plates, CushionPushesLessThanWood) {
 
 TEST(Plates, ModelRefusesImpossiblePlates) {
   EXPECT_THROW(make_model<double>(make_character(), {}, {{plate(0.0, 0.0, 1.0, 1.0, -0.4)}}), DataError);
+}
+
+TEST(Plates, AreBoxesOfTheMujocoModel) {
+  const std::string text = to_mjcf(make_character(), {}, {}, {{{{1.0, -2.0}, 0.5, {0.25, 0.125}, 0.5}}});
+  EXPECT_NE(text.find("<geom type=\"box\" pos=\"1 -2 0.25\" size=\"0.25 0.125 0.25\" euler=\"0 0 0.5\""),
+            std::string::npos);
+  EXPECT_EQ(to_mjcf(make_character(), {}).find("box"), std::string::npos);
 }
 
 }  // namespace
