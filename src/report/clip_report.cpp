@@ -264,6 +264,7 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   const Audits audits = audits_of(files);
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].key == kRootForce && audits.input) made.row.values[k][0] = mean_force(*audits.input);
+  clip.scene = files.cleaned.scene;
   add_ground(files, clip);
   add_torques(files, clip);
   clip.options = stretches_of(entry);
