@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSlowFoot = 0.4;  ///< m/s
 constexpr double kFarFoot = 0.1;   ///< m from the ground; farther ones count as this far
-constexpr double kSettled = 0.01;    ///< m
+constexpr double kSettled = 0.01;  ///< m
 constexpr std::size_t kFewestSlow = 10;
 
 /// Lowest sole points of feet: of those that hardly move, or of all where these are few.
