@@ -17,7 +17,8 @@ void print_scenes() {
               physics::kLanes);
   std::printf("%-10s %5s %6s  %12s %10s %11s %13s\n", "scene", "Hz", "passes", "beyond cone", "adhesion",
               "deepest mm", "energy gained");
-  for (physics::Scene scene : {physics::Scene::kFall, physics::Scene::kDrop, physics::Scene::kThrow})
+  for (physics::ContactScene scene :
+       {physics::ContactScene::kFall, physics::ContactScene::kDrop, physics::ContactScene::kThrow})
     for (double rate : kRates)
       for (int passes : {1, 2, 3}) {
         const physics::SceneReport r = physics::run_scene(scene, rate, passes);

@@ -49,6 +49,10 @@ int convert(const ConvertArguments& a) {
     config.forces_lost = "one at another frame rate than it was simulated at (--rate 30)";
   }
   run::tell_decisions(a.in.string(), clip, std::cerr);
+  const std::string suffix = import::lower_suffix(a.out);
+  const bool has_place = suffix == ".glb" || (suffix == ".npz" && a.out.stem().extension() != ".qpos");
+  if (!clip.scene.flat() && !has_place)
+    std::cerr << a.out.string() << ": such a file has no place for the scene: the motion alone is written\n";
   make_folder(a.out.parent_path());
   if (files::is_exchanged(a.out))
     files::write_exchange(a.out, clip, a.in.string(), config);

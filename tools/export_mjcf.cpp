@@ -29,11 +29,10 @@ Character character_of_shape(const std::vector<double>& betas) {
   return make_character(shape);
 }
 
-/// The same body for which `convert` writes qpos and which `adapt` simulates.
-Character character_of_motion(const std::filesystem::path& motion, const import::ReadConfig& read) {
+motion::Clip told_motion(const std::filesystem::path& motion, const import::ReadConfig& read) {
   const motion::Clip clip = import::read_motion(motion, read);
   run::tell_decisions(motion.string(), clip, std::cerr);
-  return motion::character_of(clip);
+  return clip;
 }
 
 int export_mjcf(const ExportMjcfArguments& a) {
@@ -41,10 +40,11 @@ int export_mjcf(const ExportMjcfArguments& a) {
     throw UsageError("export-mjcf: " + a.read.text() +
                      " says how to read a motion, but no --motion FILE is given");
   record::Outputs({a.motion.string()}, a.force).claim(a.out, physics::kMjcfOpening);
-  const Character character =
-      a.motion.empty() ? character_of_shape(a.betas) : character_of_motion(a.motion, a.read);
+  const motion::Clip clip = a.motion.empty() ? motion::Clip() : told_motion(a.motion, a.read);
+  // The same body for which `convert` writes qpos and which `adapt` simulates.
+  const Character character = a.motion.empty() ? character_of_shape(a.betas) : motion::character_of(clip);
   make_folder(a.out.parent_path());
-  write_file_atomically(a.out, physics::to_mjcf(character, physics::SimulationConfig{}));
+  write_file_atomically(a.out, physics::to_mjcf(character, physics::SimulationConfig{}, {}, clip.scene));
   return kAllGood;
 }
 
@@ -59,7 +59,9 @@ void declare_export_mjcf(CommandLine& line) {
   const Option betas =
       command.numbers("--betas", a->betas, {-5.0, 5.0},
                       "shape: up to 10 numbers of -5 to 5, separated by commas; default: all 0");
-  command.path("--motion", a->motion, "use the body of this motion, as `convert` does for its qpos")
+  command
+      .path("--motion", a->motion,
+            "use the body and the scene of this motion, as `convert` does for its qpos")
       .excludes(betas);
   add_read_arguments(command, a->read);
   add_force(command, a->force);

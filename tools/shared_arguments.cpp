@@ -1,6 +1,7 @@
 #include "shared_arguments.h"
 
 #include "core/parallel.h"
+#include "files/scene_file.h"
 
 namespace mimicx::tools {
 
@@ -12,6 +13,11 @@ void add_read_arguments(Command& command, import::ReadConfig& read) {
   command.number("--fps", read.fps, {0.1, 2000.0}, "frame rate of the motions; default: that of the files");
   command.number("--floor", read.floor, kAnyNumber,
                  "height of the floor in the files, m, z up; default: detected");
+  command.text(
+      "--scene", [&read](const std::string& file) { read.scene = files::read_scene(file); }, "FILE",
+      "stairs, boxes and chairs of the motions, their floor at z = 0: a JSON file of docs/scenes.md; "
+      "default: "
+      "the files' own, else a flat floor");
   command.number(
       "--mass", read.mass, kPositive,
       "mass of the person, kg; default: the usual one of the stature, where the shape comes from joints");

@@ -65,11 +65,11 @@ Vector6d shifted(Vector6d wrench, const Vector3d& from, const Vector3d& to) {
   return wrench;
 }
 
-/// Height of a body's lowest contact point; infinite for one without any.
-double height_of(const Character& c, const BodyPoses& poses, int body) {
+/// Height of a body's lowest contact point over the ground; infinite for one without any.
+double height_of(const Character& c, const BodyPoses& poses, int body, const Scene& scene) {
   double lowest = HUGE_VAL;
   for (const ContactPoint& point : c.contact_points)
-    if (point.body == body) lowest = std::min(lowest, lowest_position(point, poses).z());
+    if (point.body == body) lowest = std::min(lowest, scene.clearance(lowest_position(point, poses)));
   return lowest;
 }
 
@@ -82,7 +82,7 @@ double travel_share(const Kinematics& before, const Kinematics& after, const Vec
 }
 
 /// Push, pull, friction and air contact of the floor's forces between two poses, into the row.
-void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& ground,
+void judge_ground(const Character& c, const Scene& scene, double friction, const PerBody<Vector6d>& ground,
                   const BodyPoses& before, const BodyPoses& after, AuditRow& row) {
   for (int i = 0; i < kBodies; ++i) {
     const Vector3d f = ground[i].tail<3>();
@@ -90,7 +90,8 @@ void judge_ground(const Character& c, double friction, const PerBody<Vector6d>& 
     row.normal += std::max(f.z(), 0.0);
     row.pull += std::max(-f.z(), 0.0);
     row.beyond_cone += std::max(f.head<2>().norm() - friction * std::max(f.z(), 0.0), 0.0);
-    if (std::min(height_of(c, before, i), height_of(c, after, i)) > kAir) row.in_air += f.norm();
+    if (std::min(height_of(c, before, i, scene), height_of(c, after, i, scene)) > kAir)
+      row.in_air += f.norm();
   }
 }
 
@@ -188,8 +189,10 @@ Vector6d momentum_gap(const Character& c, double gravity, const FrameInterval& i
 }
 
 /// One physics step: velocities change by dt·a with a taken at the state before.
-AuditRow step_row(const Character& c, const physics::SimulationConfig& o, const rl::tracking::Substep& step,
+AuditRow step_row(const SubstepMotion& motion, const rl::tracking::Substep& step,
                   motion::ReferenceFrame next) {
+  const Character& c = motion.character;
+  const physics::SimulationConfig& o = motion.simulation;
   rl::tracking::Substep s = step;
   for (auto& q : s.state.q) q.normalize();
   for (auto& q : next.q) q.normalize();
@@ -200,7 +203,7 @@ AuditRow step_row(const Character& c, const physics::SimulationConfig& o, const 
   AuditRow row;
   row.root = shifted(required.root, s.state.p_root, before.center);
   judge_joints(c, s.forces, required.joint, next.omega, row);
-  judge_ground(c, o.friction, s.forces.ground, before.poses, before.poses, row);
+  judge_ground(c, motion.scene, o.friction, s.forces.ground, before.poses, before.poses, row);
   return row;
 }
 
@@ -227,12 +230,13 @@ Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfi
     PerBody<Vector3d> speed;
     for (std::size_t i = 0; i < kBodies; ++i) speed[i] = motion.fps * log_map(a.q[i].conjugate() * b.q[i]);
     judge_joints(c, motion.forces[t], required.joint, speed, row);
-    judge_ground(c, simulation.friction, motion.forces[t].ground, before.poses, after.poses, row);
+    judge_ground(c, motion.scene, simulation.friction, motion.forces[t].ground, before.poses, after.poses,
+                 row);
     const Vector6d h_a = momentum_of(c, before, before.center), h_b = momentum_of(c, after, after.center);
     const double mass = c.total_mass();
     row.travel = travel_share(before, after, h_a.tail<3>() / mass, h_b.tail<3>() / mass, motion.fps,
                               hypot(1.0, simulation.friction) * row.normal / mass + simulation.gravity);
-    row.lowest = lowest_contact(c, after.poses);
+    row.lowest = lowest_contact(c, after.poses, motion.scene);
     audit.rows.push_back(row);
     before = after;
   }
@@ -248,7 +252,7 @@ Audit audit_steps(const SubstepMotion& motion) {
   for (std::size_t k = 0; k < motion.steps.size(); ++k) {
     const motion::ReferenceFrame& next =
         k + 1 < motion.steps.size() ? motion.steps[k + 1].state : motion.last;
-    audit.rows.push_back(step_row(motion.character, motion.simulation, motion.steps[k], next));
+    audit.rows.push_back(step_row(motion, motion.steps[k], next));
     audit.rows.back().index = static_cast<int>(k);
   }
   audit.failures = failures_of(audit);
@@ -262,7 +266,7 @@ Audit audit_replayed_steps(const SubstepMotion& motion) {
   audit.rate = motion.simulation.rate;
   audit.weight = motion.simulation.gravity * motion.character.total_mass();
   for (std::size_t k = 0; k < replay.steps.size(); ++k) {
-    AuditRow row = step_row(motion.character, motion.simulation, replay.steps[k], replay.next[k]);
+    AuditRow row = step_row(motion, replay.steps[k], replay.next[k]);
     row.index = static_cast<int>(k);
     row.replay_gap = (ground_force(replay.steps[k].forces) - ground_force(motion.steps[k].forces)).norm();
     audit.rows.push_back(row);
@@ -286,7 +290,7 @@ Audit audit_poses(const motion::Clip& clip) {
     row.index = ++frame;
     row.root.head<3>() = demand.residual_moment;
     row.root.tail<3>() = demand.residual_force;
-    row.lowest = lowest_contact(character, poses[frame]);
+    row.lowest = lowest_contact(character, poses[frame], ours.scene);
     audit.rows.push_back(row);
   }
   audit.failures = failures_of(audit);

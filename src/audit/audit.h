@@ -8,7 +8,7 @@
 ///    replayed in double precision. The replay must be explained to rounding;
 ///  - frames (`motions/NAME.npz`): momentum at the frames against the mean forces between them, (10);
 ///  - poses alone (any other motion): the rest after the best possible ground reaction (audit/feasibility.h)
-///    at every point of the body within 1 cm of the floor.
+///    at every point of the body within 1 cm of the ground.
 ///
 /// What it does not do: it simulates nothing new, and does not compare the motion with its input (metrics
 /// do).
@@ -29,6 +29,7 @@ struct SimulatedFrames {
   double fps = 30.0;
   std::vector<motion::ReferenceFrame> frames;
   std::vector<rl::tracking::ActingForces> forces;  ///< means over the interval that ends at the frame
+  Scene scene = {};                                ///< the ground
 };
 
 Audit audit_frames(const SimulatedFrames& motion, const physics::SimulationConfig& simulation);

@@ -45,6 +45,7 @@ SimulatedFrames simulated_frames(const motion::Clip& clip, const Npz& npz) {
   SimulatedFrames motion;
   motion.character = make_character(clip.betas);
   motion.fps = clip.fps;
+  motion.scene = clip.scene;
   const auto rotations = motion::joint_rotations(clip);
   const std::size_t rows = rotations.size();
   for (std::size_t t = 0; t < rows; ++t) {

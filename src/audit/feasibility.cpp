@@ -14,23 +14,24 @@ namespace {
 /// Four edges; the weight of the forces leaves less than 1e-4 of the body's weight.
 constexpr Floor kFloor{1.0, 4, 1e-4};
 
-List<Push> touching_points(const Character& c, const BodyPoses& poses, const Touching& touching) {
+List<Push> touching_points(const Character& c, const BodyPoses& poses, const Touching& touching,
+                           const Scene& scene) {
   const std::size_t count = touching.whole_body ? c.contact_points.size() : kFootPoints;
   List<Push> touches;
   for (std::size_t i = 0; i < count; ++i) {
     const ContactPoint& point = c.contact_points[i];
     const Vector3d p = lowest_position(point, poses);
-    if (p.z() <= touching.height && p.z() >= -touching.depth)
-      touches.push_back({point.body, p, Vector3d::Zero()});
+    const double z = scene.clearance(p);
+    if (z <= touching.height && z >= -touching.depth) touches.push_back({point.body, p, Vector3d::Zero()});
   }
   return touches;
 }
 
 FrameDemand demand_of(const Character& c, const PerFrame<BodyPoses>& poses, int t, double fps,
-                      const Touching& touching) {
+                      const Touching& touching, const Scene& scene) {
   const PerBody<BodyLoad> loads = body_loads(c, poses, t, fps);
   const Vector3d center = center_of_mass(c, poses[t]);
-  List<Push> touches = touching_points(c, poses[t], touching);
+  List<Push> touches = touching_points(c, poses[t], touching, scene);
   const Vector6d left = fit_cone_forces(kFloor, center, wrench_of(loads, center), touches);
   FrameDemand demand;
   demand.residual_moment = left.head<3>();
@@ -51,7 +52,7 @@ std::vector<FrameDemand> motion_demands(const motion::Clip& clip, const Touching
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
   std::vector<FrameDemand> demands;
   for (int t = 1; t + 1 < poses.count(); ++t)
-    demands.push_back(demand_of(character, poses, t, clip.fps, touching));
+    demands.push_back(demand_of(character, poses, t, clip.fps, touching, clip.scene));
   return demands;
 }
 

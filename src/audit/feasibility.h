@@ -8,7 +8,7 @@
 /// the bodies beyond a joint and the contact forces on them. Nothing is smoothed, so this is for exact
 /// motions; audit/pose_needs.h judges real ones.
 ///
-/// What it does not do: no armature of the joints, no contacts with anything but the floor; while both feet
+/// What it does not do: no armature of the joints, no contacts with anything but the ground; while both feet
 /// stand, the load is split so that the forces are smallest, which need not be how a person splits it.
 #pragma once
 

@@ -15,10 +15,10 @@ namespace {
 constexpr double kFloorShare = 0.05;  ///< share of frames whose lowest point may be under the floor
 constexpr int kBatch = 64;            ///< files between two reports
 
-/// The upward shift that puts a motion onto z = 0, m.
-double shift_to_floor(const Character& c, const PerFrame<BodyPoses>& poses) {
+/// The upward shift that puts a motion onto the ground, m.
+double shift_to_floor(const Character& c, const PerFrame<BodyPoses>& poses, const Scene& scene) {
   std::vector<double> lowest;
-  for (const BodyPoses& frame : poses) lowest.push_back(lowest_contact(c, frame));
+  for (const BodyPoses& frame : poses) lowest.push_back(lowest_contact(c, frame, scene));
   return -quantile(std::move(lowest), kFloorShare);
 }
 
@@ -68,13 +68,14 @@ PoseFile judge_poses(const std::string& path, const PoseFilesConfig& config) {
     const Character character = motion::character_of(clip);
     PerFrame<BodyPoses> poses = motion::poses_of(clip);
     if (clip.body_model != "mimicx" && !clip.on_floor) {
-      file.floor_shift = shift_to_floor(character, poses);
+      file.floor_shift = shift_to_floor(character, poses, clip.scene);
       for (BodyPoses& frame : poses)
         for (Vector3d& p : frame.p_WB) p.z() += file.floor_shift;
     }
-    file.needs = needs_of_poses(character, poses, clip.fps, config.needs);
+    file.needs = needs_of_poses(character, poses, clip.fps, config.needs, clip.scene);
     file.verdict = verdict_on(file.needs);
-    file.slip = slip_of(poses, best_floor_forces(character, poses, clip.fps), file.needs.weight, clip.fps);
+    file.slip = slip_of(poses, best_floor_forces(character, poses, clip.fps, clip.scene), file.needs.weight,
+                        clip.fps, clip.scene);
     file.slip.speed.clear();
     if (!config.frames) file.needs.frames.clear();
   } catch (const std::exception& error) {

@@ -20,7 +20,8 @@ struct RawNeed {
 
 /// A frame's contact points and its centre of mass.
 struct FramePoints {
-  List<Vector3d> p;  ///< lowest points of the character's contact points, m
+  List<Vector3d> p;     ///< lowest points of the character's contact points, m
+  List<double> height;  ///< theirs over the ground, m
   Vector3d center;
 };
 
@@ -45,10 +46,13 @@ int half_window(double fps, const PoseNeedsConfig& config) {
   return std::max(1, static_cast<int>(std::lround(config.window * fps)));
 }
 
-FramePoints frame_points(const Character& c, const BodyPoses& poses) {
+FramePoints frame_points(const Character& c, const BodyPoses& poses, const Scene& scene) {
   FramePoints points;
   points.center = center_of_mass(c, poses);
-  for (const ContactPoint& point : c.contact_points) points.p.push_back(lowest_position(point, poses));
+  for (const ContactPoint& point : c.contact_points) {
+    points.p.push_back(lowest_position(point, poses));
+    points.height.push_back(scene.clearance(points.p.back()));
+  }
   return points;
 }
 
@@ -73,7 +77,7 @@ RawNeed smoothed(const PerFrame<RawNeed>& raw, int t, int m) {
 int touching_frame(const PerFrame<FramePoints>& points, int i, int t, int m, double reach) {
   for (int away = 0; away <= m; ++away)
     for (const int frame : {t - away, t + away})
-      if (frame >= 0 && frame < points.count() && points[frame].p[i].z() <= reach) return frame;
+      if (frame >= 0 && frame < points.count() && points[frame].height[i] <= reach) return frame;
   return -1;
 }
 
@@ -131,7 +135,7 @@ PerFrame<Vector6d> wanted_wrenches(const Character& character, const PerFrame<Bo
 }
 
 PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                         const PoseNeedsConfig& config) {
+                         const PoseNeedsConfig& config, const Scene& scene) {
   require_usable(poses, fps, config);
   const int n = poses.count(), m = half_window(fps, config);
   PoseNeeds needs;
@@ -141,13 +145,13 @@ PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& 
   needs.frames.resize(n);
   const PerFrame<RawNeed> raw = raw_needs(character, poses, fps);
   PerFrame<FramePoints> points;
-  for (const BodyPoses& frame : poses) points.push_back(frame_points(character, frame));
+  for (const BodyPoses& frame : poses) points.push_back(frame_points(character, frame, scene));
   for (int t = 1; t + 1 < n; ++t)
     needs.frames[t] = need_at(character, poses[t], smoothed(raw, t, m), config.friction, points[t].center,
                               possible_pushes(character, points, t, m, config.reach));
   needs.frames[0] = needs.frames[1];
   needs.frames[n - 1] = needs.frames[n - 2];
-  for (int t = 0; t < n; ++t) needs.frames[t].lowest = motion::lowest_height(points[t].p);
+  for (int t = 0; t < n; ++t) needs.frames[t].lowest = motion::lowest_height(points[t].p, scene);
   return needs;
 }
 

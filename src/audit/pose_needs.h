@@ -16,7 +16,8 @@
 /// infeasible; it hides faults that are shorter than the window.
 ///
 /// What it does not do: contacts need not be consistent from frame to frame, points may slide under load,
-/// joints have no bounds (their torques are reported), and only the floor z = 0 carries the body.
+/// joints have no bounds (their torques are reported), and only the floor and the plates of the scene carry
+/// the body.
 #pragma once
 
 #include "character/character.h"
@@ -36,7 +37,7 @@ struct PoseNeed {
   Vector3d moment = Vector3d::Zero();  ///< external, about the centre of mass, N·m
   double floor = 0.0;                  ///< upward force of the floor, N
   int points = 0;                      ///< contact points that may push
-  double lowest = 0.0;                 ///< height of the lowest contact point, m
+  double lowest = 0.0;                 ///< height of the lowest contact point over the ground, m
   PerBody<double> torque{};            ///< of each joint in parts of its bound; [0] is 0
 };
 
@@ -54,6 +55,6 @@ PerFrame<Vector6d> wanted_wrenches(const Character& character, const PerFrame<Bo
 
 /// @throws std::invalid_argument for fewer than 3 frames, or a setting out of range
 PoseNeeds needs_of_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                         const PoseNeedsConfig& config = {});
+                         const PoseNeedsConfig& config = {}, const Scene& scene = {});
 
 }  // namespace mimicx::audit

@@ -30,12 +30,12 @@ double way_of(const BodyPoses& now, const BodyPoses& before, int body, const Vec
   return kMm * fps / kSlipRate * (p - material_point(now, before, body, p)).head<2>().norm();
 }
 
-/// Point of the floor z = 0 about which the wrench has no horizontal moment, m.
+/// Point of the ground under a foot about which the wrench has no horizontal moment, m.
 /// @param wrench  about `joint`, pressing
-Vector3d pressure_point(const Vector6d& wrench, const Vector3d& joint) {
+Vector3d pressure_point(const Vector6d& wrench, const Vector3d& joint, const Scene& scene) {
   const Vector3d n = wrench.head<3>(), f = wrench.tail<3>();
-  return {joint.x() + (-n.y() - joint.z() * f.x()) / f.z(), joint.y() + (n.x() - joint.z() * f.y()) / f.z(),
-          0.0};
+  const double ground = scene.height_under(joint), z = joint.z() - ground;
+  return {joint.x() + (-n.y() - z * f.x()) / f.z(), joint.y() + (n.x() - z * f.y()) / f.z(), ground};
 }
 
 /// Lowest points of the character's contact points, world, m.
@@ -45,10 +45,10 @@ List<Vector3d> contact_positions(const Character& c, const BodyPoses& poses) {
   return points;
 }
 
-/// The height of the lowest point within kFloorTime of each frame, m.
-PerFrame<double> floor_heights(const PerFrame<List<Vector3d>>& points, double fps) {
+/// The height of the lowest point over the ground within kFloorTime of each frame, m.
+PerFrame<double> floor_heights(const PerFrame<List<Vector3d>>& points, double fps, const Scene& scene) {
   PerFrame<double> lowest, floor;
-  for (const List<Vector3d>& frame : points) lowest.push_back(motion::lowest_height(frame));
+  for (const List<Vector3d>& frame : points) lowest.push_back(motion::lowest_height(frame, scene));
   const int reach = static_cast<int>(std::lround(kFloorTime * fps));
   for (int t = 0; t < lowest.count(); ++t)
     floor.push_back(*std::min_element(lowest.begin() + std::max(0, t - reach),
@@ -58,7 +58,8 @@ PerFrame<double> floor_heights(const PerFrame<List<Vector3d>>& points, double fp
 
 }  // namespace
 
-Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, double weight, double fps) {
+Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, double weight, double fps,
+             const Scene& scene) {
   if (poses.size() != ground.size())
     throw std::invalid_argument("slip_of: poses and forces differ in length");
   Slip slip;
@@ -70,8 +71,8 @@ Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, doub
     for (const int foot : kFeet) {
       const double load = ground[t][foot][5];
       if (!(load >= kLeastFootLoad * weight)) continue;
-      const double way =
-          way_of(poses[t], poses[t - 1], foot, pressure_point(ground[t][foot], poses[t].p_WB[foot]), fps);
+      const double way = way_of(poses[t], poses[t - 1], foot,
+                                pressure_point(ground[t][foot], poses[t].p_WB[foot], scene), fps);
       frame_ways += load * way;
       frame_loads += load;
       ++slip.loaded;
@@ -87,7 +88,8 @@ Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, doub
   return slip;
 }
 
-FloorWrenches best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
+FloorWrenches best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                                const Scene& scene) {
   FloorWrenches ground(poses.count());
   for (PerBody<Vector6d>& frame : ground) frame.fill(Vector6d::Zero());
   if (poses.count() < 3) return ground;
@@ -95,13 +97,13 @@ FloorWrenches best_floor_forces(const Character& character, const PerFrame<BodyP
   const PerFrame<Vector6d> wanted = wanted_wrenches(character, poses, fps, config);
   PerFrame<List<Vector3d>> points;
   for (const BodyPoses& frame : poses) points.push_back(contact_positions(character, frame));
-  const PerFrame<double> floor = floor_heights(points, fps);
+  const PerFrame<double> floor = floor_heights(points, fps, scene);
   for (int t = 1; t < poses.count(); ++t) {
     List<Push> pushes;
     List<double> prices;
     for (int i = 0; i < points[t].count(); ++i) {
       const Vector3d& p = points[t][i];
-      if (std::max(p.z(), points[t - 1][i].z()) > floor[t] + config.reach) continue;
+      if (std::max(scene.clearance(p), scene.clearance(points[t - 1][i])) > floor[t] + config.reach) continue;
       const int body = character.contact_points[i].body;
       const double way = way_of(poses[t], poses[t - 1], body, p, fps) / kVisibleSlip;
       pushes.push_back({body, p, Vector3d::Zero()});

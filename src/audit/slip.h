@@ -5,8 +5,8 @@
 /// moves in a frame is the foot's slip. Slips count by their load, so a foot that hardly touches hardly
 /// counts. Loads are the recorded forces of a simulated motion. For poses alone they are the best floor
 /// forces: those that explain the motion, with the least slip, on the points that are lowest in the frame.
-/// Their floor is the lowest point of each frame, so an input that hovers, sinks or drifts in height can be
-/// compared with a result that stands.
+/// Their floor is the lowest point of each frame, over the ground of the scene, so an input that hovers,
+/// sinks or drifts in height can be compared with a result that stands.
 ///
 /// What it does not do: a whole body that flies is not detected by its height, but by its needs: it falls,
 /// so nothing loads its feet.
@@ -37,10 +37,12 @@ struct Slip {
 
 /// @param weight  of the body, N
 /// @throws std::invalid_argument if poses and wrenches differ in length
-Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, double weight, double fps);
+Slip slip_of(const PerFrame<BodyPoses>& poses, const FloorWrenches& ground, double weight, double fps,
+             const Scene& scene = {});
 
 /// The forces that a motion needs from the floor, as far as its lowest points can supply them, (3), (4).
 /// Zero for fewer than 3 frames.
-FloorWrenches best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
+FloorWrenches best_floor_forces(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                                const Scene& scene = {});
 
 }  // namespace mimicx::audit

@@ -7,6 +7,7 @@
 #include "core/number_text.h"
 #include "files/archive_members.h"
 #include "files/simulation_settings.h"
+#include "motion/clip_file.h"
 #include "physics/lanes.h"
 #include "physics/step.h"
 
@@ -127,6 +128,7 @@ void write_substeps(const std::filesystem::path& path, const SubstepMotion& moti
   add_forces(motion, npz);
   npz.set("betas", NpyArray::from_double({kBetas}, motion.character.betas.data()));
   npz.set("body_model", NpyArray::scalar_text("mimicx"));
+  motion::add_scene(motion.scene, npz);
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
   for (const auto& [name, number] : files::simulation_numbers(motion.simulation))
     npz.set(name, NpyArray::from_double({1}, &number));
@@ -145,6 +147,7 @@ SubstepMotion read_substeps(const Npz& npz) {
       throw DataError(npz.path, "betas", "shape parameters within ±5", text_of(beta));
   motion.character = make_character(shape);
   motion.simulation = files::read_simulation(npz);
+  motion.scene = motion::scene_of(npz);
   const NpyArray& q = npz.at("q");
   if (q.shape.empty() || q.shape[0] < 2) throw DataError(npz.path, "q", "at least two states", "fewer");
   std::vector<motion::ReferenceFrame> states = read_states(npz, q.shape[0]);
@@ -164,7 +167,8 @@ SubstepMotion read_substeps(const Npz& npz) {
 }
 
 Replay replay_in_double(const SubstepMotion& motion) {
-  const physics::Model<double> model = physics::make_model<double>(motion.character, motion.simulation);
+  const physics::Model<double> model =
+      physics::make_model<double>(motion.character, motion.simulation, motion.scene);
   const auto data = std::make_unique<physics::Data<double>>();
   physics::State<double> state;
   physics::Target<double> target;

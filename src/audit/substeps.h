@@ -1,8 +1,8 @@
 /// `substeps/NAME.npz`: every physics step of a simulated motion, for an exact audit and for a replay.
 ///
-/// The file holds everything that determines the simulation (shape, all simulation settings, the state before
-/// each step and after the last one, the targets of the PD controllers) and the forces of each step. Numbers
-/// are the simulator's own (float32), so that a replay starts from the same bits.
+/// The file holds everything that determines the simulation (shape, scene, all simulation settings, the state
+/// before each step and after the last one, the targets of the PD controllers) and the forces of each step.
+/// Numbers are the simulator's own (float32), so that a replay starts from the same bits.
 #pragma once
 
 #include <filesystem>
@@ -17,6 +17,7 @@ struct SubstepMotion {
   physics::SimulationConfig simulation;
   std::vector<rl::tracking::Substep> steps;
   motion::ReferenceFrame last;  ///< state after the last step
+  Scene scene = {};             ///< the ground
 };
 
 void write_substeps(const std::filesystem::path& path, const SubstepMotion& motion);

@@ -349,10 +349,10 @@ Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses) {
   return poses.p_WB[body] + poses.q_WB[body] * point.p_B - point.radius * Vector3d::UnitZ();
 }
 
-double lowest_contact(const Character& character, const BodyPoses& poses) {
+double lowest_contact(const Character& character, const BodyPoses& poses, const Scene& scene) {
   double lowest = HUGE_VAL;
   for (const ContactPoint& point : character.contact_points)
-    lowest = std::min(lowest, lowest_position(point, poses).z());
+    lowest = std::min(lowest, scene.clearance(lowest_position(point, poses)));
   return lowest;
 }
 

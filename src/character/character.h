@@ -17,6 +17,7 @@
 
 #include "character/bodies.h"
 #include "character/joint_parameters.h"
+#include "character/scene.h"
 
 namespace mimicx {
 
@@ -93,8 +94,8 @@ BodyPoses forward_kinematics(const Character& character, const Vector3d& p_root,
 
 /// World position of the lowest point of a contact point's sphere, m.
 Vector3d lowest_position(const ContactPoint& point, const BodyPoses& poses);
-/// World height of the character's lowest contact point, m.
-double lowest_contact(const Character& character, const BodyPoses& poses);
+/// Height of the character's lowest contact point over the ground under it, m.
+double lowest_contact(const Character& character, const BodyPoses& poses, const Scene& scene = {});
 /// World position of the whole body's centre of mass, m.
 Vector3d center_of_mass(const Character& character, const BodyPoses& poses);
 

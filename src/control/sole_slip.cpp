@@ -2,9 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+
+#include "physics/contact.h"
 
 namespace mimicx::control {
 namespace {
+
+template <class T>
+const Model<RealOf<T>>& model_of(const System& system) {
+  if constexpr (std::is_same_v<T, double>)
+    return system.exact_model;
+  else
+    return system.model;
+}
 
 Vector3d spin(const Data<double>& d, int body) { return body < 0 ? Vector3d::Zero() : to_eigen(d.w[body]); }
 
@@ -54,10 +65,11 @@ double nearness_slope(double z) {
 
 template <class T>
 Array<Vec3<T>, kFootPoints> sole_slip(const System& system, const Data<T>& d) {
+  const Model<RealOf<T>>& model = model_of<T>(system);
   Array<Vec3<T>, kFootPoints> slip;
   for (int k = 0; k < kFootPoints; ++k) {
     const auto [p, v] = motion_of(system.sole[k], d);
-    const T near = nearness(height_ahead(p.z, v.z));
+    const T near = nearness(height_ahead(p.z - ground_height(model, p), v.z));
     slip[k] = {near * v.x, near * v.y, T(0.0)};
   }
   return slip;
@@ -68,7 +80,8 @@ SoleSlipJacobian sole_slip_jacobian(const System& system, const Data<double>& d)
   for (int k = 0; k < kFootPoints; ++k) {
     const PointMotion<double> motion = motion_of(system.sole[k], d);
     const Vector3d p = to_eigen(motion.p), v = to_eigen(motion.v);
-    const double z = height_ahead(p.z(), v.z()), near = nearness(z);
+    const double ground = ground_height(system.exact_model, motion.p);
+    const double z = height_ahead(p.z() - ground, v.z()), near = nearness(z);
     const Eigen::Vector2d by_height = nearness_slope(z) * v.head<2>();
     const Eigen::Vector2d by_rise =
         v.z() < 0.0 ? Eigen::Vector2d(kAhead * by_height) : Eigen::Vector2d::Zero();

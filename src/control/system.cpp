@@ -8,14 +8,14 @@
 namespace mimicx::control {
 
 System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
-                   double fps) {
+                   double fps, const Scene& scene) {
   if (reference.size() < 2) raise(std::invalid_argument("a reference needs at least 2 frames"));
   const double substeps = config.rate / fps;
   if (!(substeps >= 1.0) || std::abs(substeps - std::round(substeps)) > 1e-9)
     raise(std::invalid_argument("the physics rate must be a multiple of the reference's frame rate"));
   System system;
-  system.model = make_model<float>(character, config);
-  system.exact_model = make_model<double>(character, config);
+  system.model = make_model<float>(character, config, scene);
+  system.exact_model = make_model<double>(character, config, scene);
   for (int k = 0; k < kFootPoints; ++k) {
     const ContactPoint& point = character.contact_points[k];
     system.sole[k] = {point.body, sole_point(point)};

@@ -57,7 +57,7 @@ struct System {
 
 /// @throws std::invalid_argument for fewer than 2 frames, or unless the physics rate is a multiple of fps
 System make_system(const Character& character, const SimulationConfig& config, List<State<double>> reference,
-                   double fps);
+                   double fps, const Scene& scene = {});
 
 /// The state, rounded to the simulator's floats.
 State<double> as_floats(const State<double>& x);

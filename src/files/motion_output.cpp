@@ -65,6 +65,7 @@ void write_simulated(const std::filesystem::path& path, const motion::Clip& inpu
   }
   motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
   if (input.rest_joints) motion::put_on_body_of(input, clip);
+  clip.scene = reference.scene;
   clip.gender = input.gender;
   if (rollout.poses.size() == reference.frames.size()) clip.keypoints = reference.keypoints;
   clip.passthrough = members_for(input, reference.fps, rollout.poses.size());
@@ -98,6 +99,7 @@ void write_reference(const std::filesystem::path& path, const motion::Clip& inpu
   }
   motion::Clip clip = motion::to_clip(reference.name, reference.fps, reference.character, p_root, q);
   if (input.rest_joints) motion::put_on_body_of(input, clip);
+  clip.scene = reference.scene;
   clip.keypoints = reference.keypoints;
   motion::write_clip(path, clip, {{"joints", positions_member(joints)}});
 }

@@ -23,8 +23,9 @@ void put_on_floor(bool known, FitProblem& problem) {
   PerFrame<BodyPoses> poses;
   for (int t = 0; t < problem.frames(); ++t)
     poses.push_back(forward_kinematics(character, problem.p_root[t], problem.q[t]));
-  const motion::FloorCorrection floor = motion::floor_correction(
-      motion::lowest_heights(points, poses), motion::lowest_heights(others, poses), problem.fps, known);
+  const motion::FloorCorrection floor =
+      motion::floor_correction(motion::lowest_heights(points, poses, problem.scene),
+                               motion::lowest_heights(others, poses, problem.scene), problem.fps, known);
   for (int t = 0; t < problem.frames(); ++t) problem.p_root[t].z() += floor.height[t];
 }
 
@@ -51,7 +52,7 @@ double slip_of(const FitProblem& problem) {
   PerFrame<FootPositions> feet;
   for (int t = 0; t < problem.frames(); ++t)
     feet.push_back(foot_positions(character, kinematics(problem, state, character, t)));
-  const Contacts contacts = find_contacts(feet, problem.fps, true);
+  const Contacts contacts = find_contacts(feet, problem.fps, problem.scene, true);
   std::vector<double> steps;
   for (int t = 0; t + 1 < problem.frames(); ++t)
     for (int i = 0; i < kFootPoints; ++i)

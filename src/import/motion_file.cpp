@@ -1,5 +1,6 @@
 #include "import/motion_file.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/npz/npy_header.h"
+#include "core/number_text.h"
 #include "import/body_model.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"
@@ -19,6 +21,7 @@
 #include "import/deepmimic.h"
 #include "import/evidence/angle_unit.h"
 #include "import/evidence/frame_rate.h"
+#include "import/evidence/scene_lift.h"
 #include "import/evidence/translation_unit.h"
 #include "import/evidence/up_axis.h"
 #include "import/joint_positions.h"
@@ -190,11 +193,30 @@ void settle_floor(const ReadConfig& o, bool believed, motion::Clip& clip) {
     clip.decisions.push_back("floor: at " + short_number(*o.floor) + " m, as asked for");
     return;
   }
-  if (believed) return;
+  if (believed || !clip.scene.flat()) return;
   const double height = detect_floor(clip);
   if (std::abs(height) > kFloorWorthSaying)
     clip.decisions.push_back("floor: at " + short_number(height) +
                              " m, where the lowest points are; preparation puts it at 0 (--floor overrides)");
+}
+
+/// Takes the scene that was asked for, and puts a motion whose height is not believed onto its scene.
+void settle_scene(const ReadConfig& o, bool believed, motion::Clip& clip) {
+  if (o.scene) clip.scene = *o.scene;
+  if (clip.scene.flat()) return;
+  double highest = 0.0;
+  for (const Plate& plate : clip.scene.plates) highest = std::max(highest, plate.height);
+  std::string said = "scene: " + std::to_string(clip.scene.plates.count()) +
+                     (clip.scene.plates.count() == 1 ? " plate" : " plates") + " up to " +
+                     short_number(highest) + " m";
+  const double lift = believed || o.floor ? 0.0 : scene_lift(clip);
+  if (lift != 0.0) {
+    for (Vector3d& trans : clip.trans) trans.z() += lift;
+    said += "; the motion is moved " + short_number(std::abs(lift)) + " m " + (lift < 0.0 ? "down" : "up") +
+            " onto it";
+  }
+  clip.decisions.push_back(said);
+  if (!clip.summary.empty()) clip.summary.push_back(said);
 }
 
 void require_near(const std::filesystem::path& path, const motion::Clip& clip) {
@@ -348,6 +370,16 @@ std::string ReadConfig::text() const {
   if (!joint_map.empty()) add("joint_map=" + joint_map.string());
   if (!root.empty()) add("root=" + root);
   if (person) add("person=" + std::to_string(*person));
+  if (scene) {
+    std::string plates;
+    for (const Plate& p : scene->plates) {
+      plates += plates.empty() ? "" : ";";
+      for (const double value : {p.centre.x(), p.centre.y(), p.yaw, p.half_extents.x(), p.half_extents.y(),
+                                 p.height, p.stiffness, p.damping})
+        plates += (plates.empty() || plates.back() == ';' ? "" : ",") + text_of(value);
+    }
+    add("scene=" + plates);
+  }
   return out;
 }
 
@@ -389,6 +421,7 @@ motion::Clip motion_from(const std::string& bytes, const std::filesystem::path& 
   const double fps = clip.fps;
   settle_fps(config, believed, clip);
   const bool relabelled = !config.fps && clip.fps != fps;  // worth every line
+  settle_scene(config, believed, clip);
   settle_floor(config, believed, clip);
   if (!believed) remove_t_pose(clip);
   warn_of_jumps(clip);

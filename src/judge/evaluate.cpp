@@ -18,6 +18,14 @@ namespace {
 
 motion::MotionSamples samples_of(const motion::Clip& clip) { return samples_at(clip, clip.fps); }
 
+/// Where one of the two motions says on what ground it stands, the other stands there, too.
+/// @throws DataError where they say different things
+void share_scene(const std::filesystem::path& path, motion::Clip& a, motion::Clip& b) {
+  if (a.scene.flat()) a.scene = b.scene;
+  if (b.scene.flat()) b.scene = a.scene;
+  if (a.scene != b.scene) throw DataError(path.string(), "scene", "the scene of the truth", "another scene");
+}
+
 /// @throws DataError
 void require_truth(const Pair& pair) {
   if (pair.truth.empty())
@@ -29,10 +37,11 @@ EvaluatedMotion evaluate_file(const std::string& name, const Pair& files, const 
   result.name = name;
   try {
     require_truth(files);
-    const motion::Clip clip = import::read_motion(files.motion, read);
+    motion::Clip clip = import::read_motion(files.motion, read),
+                 known = import::read_motion(files.truth, read);
+    share_scene(files.motion, clip, known);
     const motion::MotionSamples evaluated = samples_at(clip, motion::kMetricRate),
-                                truth =
-                                    samples_at(import::read_motion(files.truth, read), motion::kMetricRate);
+                                truth = samples_at(known, motion::kMetricRate);
     result.frames = evaluated.frames();
     result.metrics = motion::evaluate_motion(evaluated, &truth);
     judge_clip(clip, result.metrics);
@@ -95,8 +104,9 @@ std::map<std::string, Pair> paired(const std::filesystem::path& truth, const std
 
 PairedMotion read_pair(const Pair& pair, const import::ReadConfig& read) {
   require_truth(pair);
-  return {samples_of(import::read_motion(pair.motion, read)),
-          samples_of(import::read_motion(pair.truth, read))};
+  motion::Clip clip = import::read_motion(pair.motion, read), known = import::read_motion(pair.truth, read);
+  share_scene(pair.motion, clip, known);
+  return {samples_of(clip), samples_of(known)};
 }
 
 Evaluation evaluate_folders(const std::filesystem::path& truth, const std::filesystem::path& motions,

@@ -30,7 +30,7 @@ List<double> vertical_forces(const audit::FloorWrenches& ground) {
 
 audit::Slip judge_forces(const LoadedMotion& motion, motion::Metrics& metrics) {
   const double weight = kGravity * motion.character.total_mass();
-  const audit::Slip slip = audit::slip_of(motion.poses, motion.ground, weight, motion.fps);
+  const audit::Slip slip = audit::slip_of(motion.poses, motion.ground, weight, motion.fps, motion.scene);
   take_slip(slip, metrics);
   const List<double> vertical = vertical_forces(motion.ground);
   const double chatter = audit::chatter_of(vertical, weight, motion.fps);
@@ -39,9 +39,9 @@ audit::Slip judge_forces(const LoadedMotion& motion, motion::Metrics& metrics) {
 }
 
 audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                        motion::Metrics& metrics) {
-  const audit::Slip slip = audit::slip_of(poses, audit::best_floor_forces(character, poses, fps),
-                                          kGravity * character.total_mass(), fps);
+                        const Scene& scene, motion::Metrics& metrics) {
+  const audit::Slip slip = audit::slip_of(poses, audit::best_floor_forces(character, poses, fps, scene),
+                                          kGravity * character.total_mass(), fps, scene);
   take_slip(slip, metrics);
   return slip;
 }
@@ -49,9 +49,9 @@ audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& p
 audit::Slip judge_clip(const motion::Clip& clip, motion::Metrics& metrics) {
   const Character character = motion::character_of(clip);
   if (const auto forces = files::recorded_forces(clip))
-    return judge_forces({character, motion::poses_of(clip), forces->ground, clip.fps}, metrics);
+    return judge_forces({character, motion::poses_of(clip), forces->ground, clip.fps, clip.scene}, metrics);
   const motion::Clip sampled = motion::resampled(clip, motion::kMetricRate);
-  return judge_poses(character, motion::poses_of(sampled), motion::kMetricRate, metrics);
+  return judge_poses(character, motion::poses_of(sampled), motion::kMetricRate, clip.scene, metrics);
 }
 
 }  // namespace mimicx::judge

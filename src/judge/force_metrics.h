@@ -13,6 +13,7 @@ struct LoadedMotion {
   const PerFrame<BodyPoses>& poses;
   const audit::FloorWrenches& ground;
   double fps = 30.0;
+  const Scene& scene;
 };
 
 /// Upward force of the floor on the whole body, without the first frame, which has none, N.
@@ -25,7 +26,7 @@ audit::Slip judge_forces(const LoadedMotion& motion, motion::Metrics& metrics);
 /// Slip of poses, with their best floor forces. They have no chatter, because these forces are smoothed.
 /// @return its slip, frame by frame
 audit::Slip judge_poses(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
-                        motion::Metrics& metrics);
+                        const Scene& scene, motion::Metrics& metrics);
 
 /// Of a clip: by its recorded forces at its own rate, or else by its poses at motion::kMetricRate.
 /// @throws DataError as `files::recorded_forces`

@@ -34,7 +34,7 @@ Total total_of(const PerFrame<Vector6d>& assistance, int first, int last) {
 
 audit::PoseNeeds needs_of(const motion::Reference& reference) {
   if (reference.size() < 3) return {.fps = reference.fps, .frames = {}};
-  return audit::needs_of_poses(reference.character, reference.poses, reference.fps);
+  return audit::needs_of_poses(reference.character, reference.poses, reference.fps, {}, reference.scene);
 }
 
 NamedValues assistance_values(const PerFrame<Vector6d>& assistance, double mass) {

@@ -19,7 +19,7 @@ motion::MotionSamples head_of(motion::MotionSamples samples, std::size_t frames)
 
 motion::MotionSamples samples_at(const motion::Clip& clip, double rate) {
   return motion::sample_motion(motion::character_of(clip), motion::poses_of(motion::resampled(clip, rate)),
-                               rate);
+                               rate, clip.scene);
 }
 
 PerFrame<BodyPoses> poses_of(const Character& character, const rl::tracking::TrackingRollout& rollout) {
@@ -45,12 +45,14 @@ NamedValues named_values(const motion::Metrics& metrics) {
 Scores score_simulated(const motion::Reference& reference, const rl::tracking::TrackingRollout& rollout) {
   const Character& character = reference.character;
   const PerFrame<BodyPoses> poses = poses_of(character, rollout);
-  const motion::MotionSamples simulated = motion::sample_motion(character, poses, reference.fps);
-  const motion::MotionSamples asked = motion::sample_motion(character, reference.poses, reference.fps);
+  const motion::MotionSamples simulated =
+      motion::sample_motion(character, poses, reference.fps, reference.scene);
+  const motion::MotionSamples asked =
+      motion::sample_motion(character, reference.poses, reference.fps, reference.scene);
   const motion::MotionSamples same_length = head_of(asked, simulated.joints.size());
   Scores scores;
   motion::Metrics metrics = motion::evaluate_motion(simulated, &same_length);
-  judge_forces({character, poses, ground_of(rollout), reference.fps}, metrics);
+  judge_forces({character, poses, ground_of(rollout), reference.fps, reference.scene}, metrics);
   scores.values = named_values(metrics);
   const motion::Success success = motion::judge_success(simulated, asked);
   scores.values.emplace_back("max_distance_mm", kMm * success.max_distance_m);
@@ -62,13 +64,14 @@ Scores score_simulated(const motion::Reference& reference, const rl::tracking::T
 InputScores score_input(const motion::Clip& input, const motion::Reference& reference) {
   const Character character = motion::character_of(input);
   const PerFrame<BodyPoses> poses = motion::poses_of(motion::resampled(input, reference.fps));
-  const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps);
+  const Scene& scene = reference.scene;
+  const motion::MotionSamples raw = motion::sample_motion(character, poses, reference.fps, scene);
   const bool same_length = raw.frames() == reference.size();
   const motion::MotionSamples prepared =
-      same_length ? motion::sample_motion(character, reference.poses, reference.fps)
+      same_length ? motion::sample_motion(character, reference.poses, reference.fps, scene)
                   : motion::MotionSamples{};
   motion::Metrics metrics = motion::evaluate_motion(raw, same_length ? &prepared : nullptr);
-  audit::Slip slip = judge_poses(character, poses, reference.fps, metrics);
+  audit::Slip slip = judge_poses(character, poses, reference.fps, scene, metrics);
   return {named_values(metrics), std::move(slip)};
 }
 

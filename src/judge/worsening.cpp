@@ -38,6 +38,7 @@ Curve curve_of(const audit::Slip& slip) {
 motion::MotionSamples slice(const motion::MotionSamples& all, int first, int frames) {
   motion::MotionSamples some;
   some.fps = all.fps;
+  some.scene = all.scene;
   for (int t = first; t < first + frames; ++t) {
     some.joints.push_back(all.joints[t]);
     some.surface.push_back(all.surface[t]);
@@ -118,7 +119,8 @@ bool lands(const std::vector<Frames>& stretches, const audit::FloorWrenches& gro
 bool hangs(const std::vector<Frames>& stretches, const motion::MotionSamples& input) {
   double height = 0.0, frames = 0.0;
   for (const Frames& s : stretches)
-    for (int t = s.first; t <= s.last; ++t, ++frames) height += motion::lowest_height(input.surface[t]);
+    for (int t = s.first; t <= s.last; ++t, ++frames)
+      height += motion::lowest_height(input.surface[t], input.scene);
   return height > motion::kContactHeight * frames;
 }
 
@@ -134,8 +136,8 @@ struct Evidence {
 std::string special_cause(const Headline& h, const std::vector<Frames>& stretches, const Curve& result,
                           const Evidence& evidence) {
   if (h.value == &motion::Metrics::slip) {
-    const Curve carried = curve_of(
-        audit::slip_of(evidence.reference.poses, evidence.ground, evidence.weight, evidence.reference.fps));
+    const Curve carried = curve_of(audit::slip_of(evidence.reference.poses, evidence.ground, evidence.weight,
+                                                  evidence.reference.fps, evidence.reference.scene));
     if (sum_over(stretches, carried) >= kShareOfFault * sum_over(stretches, result))
       return "its reference moves the foot that carries the body";
   }
@@ -186,10 +188,10 @@ std::vector<record::Worsening> worsenings(const Origin& origin, const rl::tracki
   const Character& body = reference.character;
   const PerFrame<BodyPoses> poses = poses_of(body, rollout);
   const Faults input{samples_at(origin.input, reference.fps), curve_of(origin.input_scores.slip)},
-      asked{motion::sample_motion(body, reference.poses, reference.fps),
-            curve_of(judge_poses(body, reference.poses, reference.fps, unused))},
-      made{motion::sample_motion(body, poses, reference.fps),
-           curve_of(judge_forces({body, poses, ground, reference.fps}, unused))};
+      asked{motion::sample_motion(body, reference.poses, reference.fps, reference.scene),
+            curve_of(judge_poses(body, reference.poses, reference.fps, reference.scene, unused))},
+      made{motion::sample_motion(body, poses, reference.fps, reference.scene),
+           curve_of(judge_forces({body, poses, ground, reference.fps, reference.scene}, unused))};
   const Evidence evidence{input.samples, reference, origin.needs, ground,
                           kGravity * reference.character.total_mass()};
   for (const Headline& h : kHeadlines) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "character/character.h"
+#include "character/scene.h"
 #include "core/npz/npz.h"
 
 namespace mimicx::motion {
@@ -49,6 +50,7 @@ struct Clip {
   /// Joints of the file's own body, J(β) of a licensed model, where they are known. They replace the joints
   /// of the standard body and the mean J0.
   std::optional<RestJoints> rest_joints;
+  Scene scene;  ///< the ground, in the world of the motion
   bool on_floor = false;  ///< the user gave the floor as z = 0: preparation adds no constant height
 
   int frames() const { return rotations.count(); }

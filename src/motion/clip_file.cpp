@@ -401,6 +401,17 @@ NpyArray all_betas(const Clip& clip) {
   return NpyArray::from_double({betas.size()}, betas.data());
 }
 
+constexpr std::size_t kPlateNumbers = 8;
+
+/// (plates, 8): centre x, y, yaw, half extents x, y, height, stiffness, damping.
+NpyArray scene_member(const Scene& scene) {
+  std::vector<double> values;
+  for (const Plate& p : scene.plates)
+    values.insert(values.end(), {p.centre.x(), p.centre.y(), p.yaw, p.half_extents.x(), p.half_extents.y(),
+                                 p.height, p.stiffness, p.damping});
+  return NpyArray::from_double({scene.plates.size(), kPlateNumbers}, values.data());
+}
+
 NpyArray rest_joints_member(const RestJoints& joints) {
   std::vector<double> values;
   for (const Vector3d& p : joints) values.insert(values.end(), p.data(), p.data() + 3);
@@ -474,10 +485,11 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
   clip.fps = read_fps(npz, config.fps, clip);
   read_rest_joints(npz, clip);
   read_betas(npz, clip);
+  clip.scene = scene_of(npz);
   if (npz.has("gender")) clip.gender = member_text(npz, "gender").value_or("neutral");
 
-  Names used = {"rest_joints",        "gender",      "joint_names", "joints", "body_model",
-                "surface_model_type", "smpl_scaling"};
+  Names used = {"rest_joints",        "gender",       "joint_names", "joints", "body_model",
+                "surface_model_type", "smpl_scaling", kSceneMember};
   for (const Names& names : {kPoses, kRoot, kBody, kTrans, kRates, kBetaNames})
     used.insert(used.end(), names.begin(), names.end());
   if (npz.has("keypoints_2d") && npz.has("camera_intrinsics") && npz.has("camera_extrinsics")) {
@@ -492,6 +504,24 @@ Clip clip_from(const Npz& archive, const std::string& name, const ClipConfig& co
   for (const auto& [key, why] : npz.unsupported())
     clip.warnings.push_back(std::string(why.what()) + " (left out)");
   return clip;
+}
+
+Scene scene_of(const Npz& npz) {
+  Scene scene;
+  if (!npz.has(kSceneMember)) return scene;
+  const Member member(npz, kSceneMember);
+  if (member.array.shape.size() != 2 || member.columns() != kPlateNumbers)
+    member.fail("shape (plates, 8)", member.shape());
+  for (std::size_t k = 0; k < member.rows(); ++k) {
+    const double* v = member.values.data() + kPlateNumbers * k;
+    scene.plates.push_back({{v[0], v[1]}, v[2], {v[3], v[4]}, v[5], v[6], v[7]});
+  }
+  require_scene(scene, npz.path + ": " + kSceneMember);
+  return scene;
+}
+
+void add_scene(const Scene& scene, Npz& npz) {
+  if (!scene.flat()) npz.set(kSceneMember, scene_member(scene));
 }
 
 NpyArray joints_member(const Clip& clip) {
@@ -520,6 +550,7 @@ Npz to_npz(const Clip& clip, const std::vector<std::pair<std::string, NpyArray>>
   npz.set("joint_names", NpyArray::from_text({kBodyNames.begin(), kBodyNames.end()}));
   npz.set("body_model", NpyArray::scalar_text(clip.body_model));
   if (clip.rest_joints) npz.set("rest_joints", rest_joints_member(*clip.rest_joints));
+  add_scene(clip.scene, npz);
   if (clip.keypoints) add_keypoints(npz, *clip.keypoints);
   if (passed_on(clip, "pose_hand")) {  // readers of SMPL-X files expect these
     npz.set("root_orient", root_orient);

@@ -32,6 +32,13 @@ Clip clip_from(const Npz& npz, const std::string& name, const ClipConfig& config
 /// Member `joints`, (frames, 22, 3): the joints of the clip's body in the world, m.
 NpyArray joints_member(const Clip& clip);
 
+/// The scene of an archive, member `scene_plates` (plates, 8): centre x, y, yaw, half extents x, y, height,
+/// stiffness, damping of each. Without the member the ground is flat, and a flat ground adds no member.
+/// @throws DataError naming file, member and plate
+Scene scene_of(const Npz& npz);
+void add_scene(const Scene& scene, Npz& npz);
+inline constexpr const char* kSceneMember = "scene_plates";
+
 /// The members of our own motion file: the standard ones, keypoints and camera,
 /// passed-through members, and `extra`, which replaces members of the same name. `poses_rest` and
 /// `betas_rest` are appended to `poses` and `betas` again. A clip with named arrays of SMPL-X also gets

@@ -74,22 +74,24 @@ void compare_with_truth(const MotionSamples& motion, const MotionSamples& truth,
 }
 
 /// Mean horizontal displacement of the points at or under `height` in both frames; 0 without any.
-double slide(const std::vector<Vector3d>& now, const std::vector<Vector3d>& next, double height) {
+double slide(const std::vector<Vector3d>& now, const std::vector<Vector3d>& next, double height,
+             const Scene& scene) {
   Mean displacement;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (now[i].z() <= height && next[i].z() <= height) displacement.add((next[i] - now[i]).head<2>().norm());
+    if (scene.clearance(now[i]) <= height && scene.clearance(next[i]) <= height)
+      displacement.add((next[i] - now[i]).head<2>().norm());
   return displacement.count == 0 ? 0.0 : displacement.times(1.0).value;
 }
 
-double mean_depth(const std::vector<Vector3d>& points) {
+double mean_depth(const std::vector<Vector3d>& points, const Scene& scene) {
   Mean depth;
   for (const Vector3d& p : points)
-    if (p.z() < 0.0) depth.add(-p.z());
+    if (const double z = scene.clearance(p); z < 0.0) depth.add(-z);
   return depth.count == 0 ? 0.0 : depth.times(1.0).value;
 }
 
-double floating_height(const std::vector<Vector3d>& points) {
-  const double z = lowest_height(points);
+double floating_height(const std::vector<Vector3d>& points, const Scene& scene) {
+  const double z = lowest_height(points, scene);
   return z > kContactHeight ? z : 0.0;
 }
 
@@ -98,12 +100,12 @@ void judge_physics(const MotionSamples& motion, Metrics& m) {
   Mean fs, fs_0, gp, gp_max, floating, jitter, self_pen;
   for (int t = 0; t < surface.count(); ++t) {
     if (t + 1 < surface.count()) {
-      fs.add(slide(surface[t], surface[t + 1], kContactHeight));
-      fs_0.add(slide(surface[t], surface[t + 1], 0.0));
+      fs.add(slide(surface[t], surface[t + 1], kContactHeight, motion.scene));
+      fs_0.add(slide(surface[t], surface[t + 1], 0.0, motion.scene));
     }
-    gp.add(mean_depth(surface[t]));
-    gp_max.add(std::max(0.0, -lowest_height(surface[t])));
-    floating.add(floating_height(surface[t]));
+    gp.add(mean_depth(surface[t], motion.scene));
+    gp_max.add(std::max(0.0, -lowest_height(surface[t], motion.scene)));
+    floating.add(floating_height(surface[t], motion.scene));
   }
   for (const double depth : motion.self_depth) self_pen.add(depth);
   for (int t = 0; t + 3 < motion.frames(); ++t)
@@ -121,7 +123,7 @@ void judge_where_truth_stands(const MotionSamples& motion, const MotionSamples& 
   const auto &p = motion.surface, &g = truth.surface;
   Mean slide, floating;
   for (int t = 0; t < p.count(); ++t) {
-    if (lowest_height(g[t]) <= kContactHeight) floating.add(floating_height(p[t]));
+    if (lowest_height(g[t], truth.scene) <= kContactHeight) floating.add(floating_height(p[t], motion.scene));
     for (std::size_t i = 0; i < kFootPoints && t + 1 < p.count(); ++i)
       if ((g[t + 1][i] - g[t][i]).norm() < kStaticMotion) slide.add((p[t + 1][i] - p[t][i]).norm());
   }
@@ -154,10 +156,12 @@ std::string lasting(const MotionSamples& samples) {
 
 }  // namespace
 
-MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
+MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                            const Scene& scene) {
   const std::vector<SurfacePoint> points = surface_points(character);
   MotionSamples samples;
   samples.fps = fps;
+  samples.scene = scene;
   for (const BodyPoses& pose : poses) {
     samples.joints.push_back(pose.p_WB);
     samples.surface.push_back(surface_positions(points, pose));

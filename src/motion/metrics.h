@@ -32,11 +32,13 @@ struct MotionSamples {
   PerFrame<std::vector<Vector3d>> surface;  ///< of `surface_points`, feet first, m
   std::vector<double> self_depth;  ///< mean overlap of the body's own capsule pairs, m; 0 without any
   double fps = 30.0;
+  Scene scene;  ///< heights are over its ground
 
   int frames() const { return joints.count(); }
 };
 
-MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
+MotionSamples sample_motion(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                            const Scene& scene = {});
 
 struct MetricValue {
   double value = std::numeric_limits<double>::quiet_NaN();

@@ -38,25 +38,27 @@ MetricValue success(const JointPaths& p, const JointPaths& g) {
 }
 
 /// Depth of the lowest point where it is deeper than the tolerance, else 0.
-MetricValue penetration(const PerFrame<std::vector<Vector3d>>& surface) {
+MetricValue penetration(const MotionSamples& motion) {
   double sum = 0.0;
-  for (const auto& points : surface) {
-    const double depth = -lowest_height(points);
+  for (const auto& points : motion.surface) {
+    const double depth = -lowest_height(points, motion.scene);
     sum += depth > kTolerance ? depth : 0.0;
   }
-  return mean_of(sum, surface.size(), kMm);
+  return mean_of(sum, motion.surface.size(), kMm);
 }
 
 /// Horizontal path of the foot points that touch the floor in two successive frames; 0 for a pair without
 /// any.
-MetricValue skate(const PerFrame<std::vector<Vector3d>>& surface) {
+MetricValue skate(const MotionSamples& motion) {
+  const auto& surface = motion.surface;
+  const Scene& scene = motion.scene;
   double sum = 0.0;
   for (int t = 0; t + 1 < surface.count(); ++t) {
     double way = 0.0;
     int touching = 0;
     for (std::size_t i = 0; i < kFootPoints; ++i) {
       const Vector3d &now = surface[t][i], &next = surface[t + 1][i];
-      if (now.z() > kTolerance || next.z() > kTolerance) continue;
+      if (scene.clearance(now) > kTolerance || scene.clearance(next) > kTolerance) continue;
       way += (next - now).head<2>().norm();
       ++touching;
     }
@@ -156,7 +158,7 @@ std::vector<MetricValue> evaluate_by(Protocol protocol, const MotionSamples& mot
     case Protocol::kPhc:
       return {success(motion.joints, truth.joints), m.gmpjpe, m.mpjpe, m.pa_mpjpe, m.accel, m.vel};
     case Protocol::kPmr:
-      return {penetration(motion.surface), m.floating, skate(motion.surface), m.accel};
+      return {penetration(motion), m.floating, skate(motion), m.accel};
     default:
       return {segment_error(motion.joints, truth.joints, kSegment),
               segment_error(motion.joints, truth.joints, 2), root_error(motion.joints, truth.joints),

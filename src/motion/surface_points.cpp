@@ -53,19 +53,20 @@ std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points,
   return positions;
 }
 
-double lowest_height(const std::vector<Vector3d>& points) {
+double lowest_height(const std::vector<Vector3d>& points, const Scene& scene) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& p : points) lowest = std::min(lowest, p.z());
+  for (const Vector3d& p : points) lowest = std::min(lowest, scene.clearance(p));
   return lowest;
 }
 
-double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses) {
-  return lowest_height(surface_positions(points, poses));
+double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses, const Scene& scene) {
+  return lowest_height(surface_positions(points, poses), scene);
 }
 
-PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses) {
+PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
+                                const Scene& scene) {
   PerFrame<double> lowest;
-  for (const BodyPoses& pose : poses) lowest.push_back(lowest_height(points, pose));
+  for (const BodyPoses& pose : poses) lowest.push_back(lowest_height(points, pose, scene));
   return lowest;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "character/character.h"
+#include "character/scene.h"
 
 namespace mimicx::motion {
 
@@ -23,11 +24,13 @@ std::vector<SurfacePoint> surface_points(const Character& character);
 /// World positions, in the order of the points, m.
 std::vector<Vector3d> surface_positions(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
 
-/// Height of the lowest of the points over the floor z = 0, m; +∞ without points.
-double lowest_height(const std::vector<Vector3d>& points);
+/// Height of the lowest of the points over the ground under it (`Scene::clearance`), m; +∞ without points.
+double lowest_height(const std::vector<Vector3d>& points, const Scene& scene = {});
 /// The same for the surface points of a posed character.
-double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses);
+double lowest_height(const std::vector<SurfacePoint>& points, const BodyPoses& poses,
+                     const Scene& scene = {});
 /// The same of every frame.
-PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses);
+PerFrame<double> lowest_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
+                                const Scene& scene = {});
 
 }  // namespace mimicx::motion

@@ -21,7 +21,7 @@ report::ReportClip clip_of(const Playground& playground, const std::string& body
   motion.support.push_back(
       report::support_of(motion::surface_positions(motion::surface_points(character), now.poses)));
   clip.motions.push_back(motion);
-  clip.ground.push_back(files::floor_arrows(now.forces.ground, now.poses));
+  clip.ground.push_back(files::floor_arrows(now.forces.ground, now.poses, {}));
   PerBody<Vector3d> by_controller;
   for (int i = 0; i < kBodies; ++i)
     by_controller[i] = now.forces.joint_torque[i] - now.forces.range_torque[i];

@@ -91,6 +91,8 @@ Playground Session::play(int number) const {
   if (!std::filesystem::exists(d.folder.gains(d.entry.name)))
     throw std::invalid_argument(d.entry.name + ": its plan failed, so it cannot be played");
   const motion::Clip clip = motion::read_clip(d.folder.reference(d.entry.name));
+  if (!clip.scene.flat())
+    throw std::invalid_argument(d.entry.name + ": a plan on a scene cannot be played, only watched");
   return {motion::character_of(clip), files::read_plan(d.folder.plan(d.entry.name)),
           files::read_gains(d.folder.gains(d.entry.name)).gains};
 }

@@ -8,6 +8,9 @@
 /// bias. The first pass takes f_n, c_t and the set of active contacts at the start of the step. Each later
 /// pass takes them at the end of the step, as the previous pass predicts it.
 ///
+/// Plates of the scene push by the same law, with their own k and c, and with a depth of at most
+/// kMostPlatePush / k (docs/scenes.md, "The formula").
+///
 /// Self contact is a penalty force between capsules, equal and opposite at one common point, so that it does
 /// not change the momentum of the whole body. It is explicit, with a stiffness low enough for that (model.h).
 #pragma once
@@ -19,16 +22,88 @@ namespace mimicx::physics {
 /// Law of a floor contact: fills f, W_t, W_n with the coefficients taken at v_end.  docs/physics.md §4, (8)
 template <class T>
 void linearise_ground(const SimulationConfig& o, T dt, const Vec3<T>& v_end, GroundContact<T>& contact) {
-  const T k(o.ground_stiffness), damping = fma(dt, k, T(o.ground_damping));
-  const T f_end = fma(k, contact.depth, -(damping * v_end.z));
-  const auto pushes = (contact.depth > T(0.0)) & (f_end > T(0.0));
+  const T k = contact.surface.stiffness, depth = contact.surface.depth;
+  const T damping = fma(dt, k, contact.surface.damping);
+  const T f_end = fma(k, depth, -(damping * v_end.z));
+  const auto pushes = (depth > T(0.0)) & (f_end > T(0.0));
   const T slip = sqrt(fma(v_end.x, v_end.x, fma(v_end.y, v_end.y, T(o.slip_speed * o.slip_speed))));
   const T c_t = T(o.friction) * f_end / slip;
   contact.f = {-c_t * contact.velocity.x, -c_t * contact.velocity.y,
-               fma(k, contact.depth, -(damping * contact.velocity.z))};
+               fma(k, depth, -(damping * contact.velocity.z))};
   contact.f = select<T>(pushes, contact.f, zero3<T>());
   contact.W_t = select(pushes, dt * c_t, T(0.0));
   contact.W_n = select(pushes, dt * damping, T(0.0));
+}
+
+/// Mask of the lanes whose point (x, y) is over a plate that is wider by `margin` on every side.
+template <class T>
+MaskOf<T> spans(const ModelPlate<RealOf<T>>& plate, const T& x, const T& y, const T& margin) {
+  const T from_x = x - T(plate.x), from_y = y - T(plate.y), cosine(plate.cosine), sine(plate.sine);
+  const T along = fma(cosine, from_x, sine * from_y), across = fma(cosine, from_y, -(sine * from_x));
+  return (max(along, -along) <= T(plate.half_x) + margin) &
+         (max(across, -across) <= T(plate.half_y) + margin);
+}
+
+/// Height of the ground under a point, m: `Scene::height_under`.
+template <class T>
+T ground_height(const Model<RealOf<T>>& model, const Vec3<T>& p) {
+  T height(0.0);
+  for (const ModelPlate<RealOf<T>>& plate : model.plates) {
+    const T top(plate.height);
+    const MaskOf<T> higher = (p.z + T(Scene::kReach) > top) & (top > height);
+    if (any(higher)) height = select(higher & spans(plate, p.x, p.y, T(0.0)), top, height);
+  }
+  return height;
+}
+
+/// The plates that some lane's character, or one body of it, may touch.
+struct NearPlates {
+  Array<int, kMaxPlates> index;  ///< in Model::plates
+  int count = 0;
+};
+template <class T>
+void find_near_plates(const Model<RealOf<T>>& model, const Vec3<T>& pelvis, NearPlates& out) {
+  out.count = 0;
+  for (int k = 0; k < model.plates.count(); ++k)
+    if (any(spans(model.plates[k], pelvis.x, pelvis.y, T(model.span)))) out.index[out.count++] = k;
+}
+
+/// Those of them that a body is at the height of. @param z  of its joint centre
+template <class T>
+void find_level_plates(const Model<RealOf<T>>& model, const NearPlates& all, const T& z, RealOf<T> span,
+                       NearPlates& out) {
+  const double half = 0.5 * (Scene::kReach + model.config.skin);
+  const T from(z + T(half)), far(span + static_cast<RealOf<T>>(half));
+  out.count = 0;
+  for (int n = 0; n < all.count; ++n) {
+    const T above = from - T(model.plates[all.index[n]].height);
+    if (any(max(above, -above) < far)) out.index[out.count++] = all.index[n];
+  }
+}
+
+/// Replaces the floor by the highest plate that spans the point and that the point is in, no deeper than its
+/// reach. @param place  gives the point in world, m; asked only if the point is at the height of a plate
+/// @param surface  the floor
+template <class T, class Place>
+void meet_plates(const Model<RealOf<T>>& model, const NearPlates& near, const Place& place,
+                 GroundSurface<T>& surface) {
+  const double reach = Scene::kReach + model.config.skin;
+  const T half(0.5 * reach), above = surface.depth - half;  // of the middle of a plate's reach
+  T deepest = surface.depth;
+  for (int n = 0; n < near.count; ++n) {
+    const ModelPlate<RealOf<T>>& plate = model.plates[near.index[n]];
+    const T from_middle = above + T(plate.height);
+    const MaskOf<T> in = max(from_middle, -from_middle) < half;  // 0 < depth < reach
+    if (!any(in)) continue;
+    const Vec3<T> p = place();
+    const T depth = from_middle + half, most(plate.most_depth);
+    const MaskOf<T> here = in & (depth > deepest) & spans(plate, p.x, p.y, T(0.0));
+    deepest = select(here, depth, deepest);
+    surface.depth = select(here, min(depth, most), surface.depth);
+    surface.stiffness = select(here, T(plate.stiffness), surface.stiffness);
+    surface.damping = select(here, T(plate.damping), surface.damping);
+  }
+  surface.capped = surface.depth < deepest;
 }
 
 /// Finds the points that touch in any lane and linearises them at the start of the step.
@@ -36,17 +111,31 @@ template <class T>
 [[gnu::flatten]] void detect_ground(const Model<RealOf<T>>& model, Data<T>& d) {
   const SimulationConfig& o = model.config;
   d.ground_count = 0;
+  NearPlates near, level;
+  if (!model.plates.empty()) find_near_plates(model, d.p_WB[0], near);
+  int levelled = -1;  // the body that `level` is of; contacts are sorted by body
   for (int index = 0; index < static_cast<int>(model.contacts.size()); ++index) {
     const ContactPoint& point = model.contacts[index];
     const int i = point.body;
     const Mat3<T>& R = d.R_WB[i];
     const T x(point.p_B.x()), y(point.p_B.y()), z(point.p_B.z()), radius(point.radius);
     const T centre_z = fma(R.c[0].z, x, fma(R.c[1].z, y, R.c[2].z * z));
-    const T depth = T(o.skin) + radius - (d.p_WB[i].z + centre_z);
-    if (!any(depth > T(0.0))) continue;
+    GroundSurface<T> surface{T(o.skin) + radius - (d.p_WB[i].z + centre_z), T(o.ground_stiffness),
+                             T(o.ground_damping), T(0.0) > T(0.0)};
+    if (near.count > 0) {
+      if (i != levelled) find_level_plates(model, near, d.p_WB[i].z, model.contact_span[i], level);
+      levelled = i;
+      meet_plates(
+          model, level,
+          [&] {
+            return d.p_WB[i] + R * Vec3<T>{x, y, z};
+          },
+          surface);
+    }
+    if (!any(surface.depth > T(0.0))) continue;
     GroundContact<T>& contact = d.ground[d.ground_count++];
     contact.index = index;
-    contact.depth = depth;
+    contact.surface = surface;
     contact.arm = R * Vec3<T>{x, y, z};
     contact.arm.z -= radius;
     const Vec3<T> w_x_arm = cross(d.w[i], contact.arm);

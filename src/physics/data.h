@@ -34,14 +34,22 @@ struct Target {
   PerBody<Vec3<T>> omega{};             ///< feed-forward of the joint velocity, child's frame, rad/s
 };
 
-/// A contact point in contact with the floor during one step. Names as in docs/physics.md §4.
+/// What a contact point meets: the floor or a plate.
+template <class T>
+struct GroundSurface {
+  T depth;               ///< of the point in it, as far as it pushes, m; ≤ 0 where the lane does not touch
+  T stiffness, damping;  ///< N/m, N·s/m
+  MaskOf<T> capped;      ///< the point is deeper than a plate's push grows
+};
+
+/// A contact point in contact with the ground during one step. Names as in docs/physics.md §4.
 template <class T>
 struct GroundContact {
-  int index;            ///< in Model::contacts
+  int index;  ///< in Model::contacts
+  GroundSurface<T> surface;
   Vec3<T> arm;          ///< from the body's joint centre to the touching point, m
   Vec3<T> velocity;     ///< of the touching point at the start of the step, m/s
   Vec3<T> centripetal;  ///< ω × (ω × arm), m/s²
-  T depth;              ///< m; ≤ 0 where the lane does not touch
   Vec3<T> f;            ///< force at the start of the step under the current linearisation, N
   T W_t, W_n;           ///< f_applied = f − diag(W_t, W_t, W_n)·(acceleration of the point), N·s²/m
   Vec3<T> applied;      ///< force that acted, known after the last acceleration pass, N

@@ -82,7 +82,8 @@ PerBody<int> mjcf_order() {
   return order;
 }
 
-std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what) {
+std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what,
+                    const Scene& scene) {
   std::ostringstream out;
   out << std::setprecision(std::numeric_limits<double>::max_digits10);
   write_coordinates(out);
@@ -94,6 +95,10 @@ std::string to_mjcf(const Character& character, const SimulationConfig& config, 
       << "<worldbody>\n"
       << "<light pos=\"0 0 4\"/>\n"
       << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" contype=\"1\" conaffinity=\"0\"/>\n";
+  for (const Plate& p : scene.plates)
+    out << "<geom type=\"box\" pos=\"" << numbers({p.centre.x(), p.centre.y(), 0.5 * p.height})
+        << "\" size=\"" << numbers({p.half_extents.x(), p.half_extents.y(), 0.5 * p.height})
+        << "\" euler=\"0 0 " << p.yaw << "\" contype=\"1\" conaffinity=\"0\"/>\n";
   write_body(character, 0, what, out);
   out << "</worldbody>\n</mujoco>\n";
   return out.str();

@@ -33,7 +33,9 @@ inline constexpr std::string_view kMjcfOpening =
     "<!-- joint: first entry of qpos (how many), first entry of qvel (how many)\n";
 
 /// The text of the file.
-std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what = {});
+/// @param scene  its plates become the top faces of boxes, as hard as the floor
+std::string to_mjcf(const Character& character, const SimulationConfig& config, const MjcfConfig& what = {},
+                    const Scene& scene = {});
 
 /// Bodies in the order of the file, depth first.
 PerBody<int> mjcf_order();

@@ -63,13 +63,36 @@ void fill_contacts(const Character& c, Model<Real>& m) {
       m.capsule_bodies.push_back(body);
 }
 
+/// How far contact points can be from the joint centre of their body, and from the pelvis joint.
+template <class Real>
+void fill_spans(const Character& c, Model<Real>& m) {
+  PerBody<double> chain{};
+  for (int i = 1; i < kBodies; ++i) chain[i] = chain[kParents[i]] + c.joint_offset[i].norm();
+  for (const ContactPoint& p : c.contact_points) {
+    const double span = p.p_B.norm() + p.radius;
+    m.contact_span[p.body] = std::max(m.contact_span[p.body], static_cast<Real>(span));
+    m.span = std::max(m.span, static_cast<Real>(chain[p.body] + span));
+  }
+}
+
+template <class Real>
+void fill_plates(const Scene& scene, Model<Real>& m) {
+  for (const Plate& p : scene.plates) {
+    const auto real = [](double x) { return static_cast<Real>(x); };
+    m.plates.push_back({real(p.centre.x()), real(p.centre.y()), real(cos(p.yaw)), real(sin(p.yaw)),
+                        real(p.half_extents.x()), real(p.half_extents.y()), real(p.height), real(p.stiffness),
+                        real(p.damping), real(kMostPlatePush / p.stiffness)});
+  }
+}
+
 }  // namespace
 
 template <class Real>
-Model<Real> make_model(const Character& c, const SimulationConfig& config) {
+Model<Real> make_model(const Character& c, const SimulationConfig& config, const Scene& scene) {
   check(config);
   if (c.contact_points.count() > kMaxContacts)
     raise(std::invalid_argument("make_model: too many contact points"));
+  require_scene(scene, "the scene");
   Model<Real> m{};
   m.config = config;
   m.dt = static_cast<Real>(1.0 / config.rate);
@@ -85,10 +108,12 @@ Model<Real> make_model(const Character& c, const SimulationConfig& config) {
   }
   fill_joints(c, m);
   fill_contacts(c, m);
+  fill_spans(c, m);
+  fill_plates(scene, m);
   return m;
 }
 
-template Model<float> make_model(const Character&, const SimulationConfig&);
-template Model<double> make_model(const Character&, const SimulationConfig&);
+template Model<float> make_model(const Character&, const SimulationConfig&, const Scene&);
+template Model<double> make_model(const Character&, const SimulationConfig&, const Scene&);
 
 }  // namespace mimicx::physics

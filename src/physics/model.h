@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "character/character.h"
+#include "character/scene.h"
 #include "core/units.h"
 #include "physics/spatial.h"
 
@@ -35,6 +36,21 @@ struct SimulationConfig {
   double max_joint_speed = 600.0;   ///< limit of a joint's speed, rad/s; beyond it the lane has failed
 };
 
+/// No contact point is pushed by a plate's depth with more than this, N: a point that enters the box through
+/// a side would gain energy from a deep one.                                       docs/scenes.md, "The
+/// formula"
+inline constexpr double kMostPlatePush = 4000.0;
+
+/// A plate of the scene in the simulator's numbers.
+template <class Real>
+struct ModelPlate {
+  Real x, y, cosine, sine;  ///< centre in the world, m; of the yaw
+  Real half_x, half_y;      ///< m
+  Real height;              ///< m
+  Real stiffness, damping;  ///< of a contact point, N/m, N·s/m
+  Real most_depth;          ///< kMostPlatePush / stiffness, m
+};
+
 template <class Real>
 struct Model {
   PerBody<Vec3<Real>> joint_offset;  ///< joint i in its parent's frame, m
@@ -54,12 +70,18 @@ struct Model {
   std::vector<std::array<int, 2>> self_pairs;
   std::vector<int> capsule_bodies;  ///< bodies that occur in self_pairs
 
+  List<ModelPlate<Real>> plates;
+  PerBody<Real> contact_span;  ///< no contact point of the body is farther from its joint centre, m
+  Real span;                   ///< no contact point is farther from the pelvis joint, m
+
   SimulationConfig config;
   Real dt;  ///< 1 / rate, s
 };
 
-/// @throws std::invalid_argument for settings outside their range or more than kMaxContacts contact points.
+/// @throws std::invalid_argument for settings outside their range or more than kMaxContacts contact points,
+/// DataError for a scene with impossible plates
 template <class Real>
-Model<Real> make_model(const Character& character, const SimulationConfig& config = {});
+Model<Real> make_model(const Character& character, const SimulationConfig& config = {},
+                       const Scene& scene = {});
 
 }  // namespace mimicx::physics

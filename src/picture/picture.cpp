@@ -28,7 +28,7 @@ render::Colour colour_of(int motion, int count) {
 render::Image draw_cell(const List<PosedMotion>& motions, const Cell& cell, int threads) {
   const PosedMotion& motion = motions[cell.motion];
   const render::Colour colour = colour_of(cell.motion, motions.count());
-  List<render::Solid> solids;
+  List<render::Solid> solids = scene_solids(motion);
   for (int k = 0; k < cell.moments.count(); ++k) {
     const float faded =
         cell.moments.count() == 1

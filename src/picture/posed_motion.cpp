@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "skin/arrow.h"
+#include "skin/box.h"
 #include "skin/mannequin.h"
 #include "skin/shapes.h"
 
@@ -11,6 +12,7 @@ namespace mimicx::picture {
 namespace {
 
 const render::Colour kForceColour(0.85F, 0.22F, 0.05F);
+const render::Colour kSceneColour(0.62F, 0.60F, 0.56F);
 constexpr float kLeftTint = 0.2F;  ///< by how much left limbs are mixed with white
 
 bool is_of_left_limb(int body) {
@@ -54,11 +56,12 @@ PosedMotion posed_motion(const motion::Clip& clip, files::Skin skin,
   PosedMotion out;
   out.label = clip.name;
   out.fps = clip.fps;
+  out.scene = clip.scene;
   out.poses = motion::poses_of(clip);
   out.character = motion::character_of(clip);
   out.mesh =
       skin == files::Skin::kShapes ? skin::collision_shapes(out.character) : skin::mannequin(out.character);
-  if (forces) out.forces = files::floor_forces(out.poses, *forces);
+  if (forces) out.forces = files::floor_forces(out.poses, *forces, clip.scene);
   return out;
 }
 
@@ -72,6 +75,19 @@ List<render::Solid> solids_at(const PosedMotion& motion, int frame, const render
   if (frame > 0 && !motion.forces.empty())
     for (const files::FloorForce& force : motion.forces[frame - 1])
       if (force.loaded) solids.push_back(arrow_of(force));
+  return solids;
+}
+
+List<render::Solid> scene_solids(const PosedMotion& motion) {
+  List<render::Solid> solids;
+  for (const Plate& plate : motion.scene.plates) {
+    const skin::Mesh mesh = skin::box();
+    render::Solid& solid = solids.emplace_back();
+    solid.vertices = skin::box_under(plate, mesh);
+    for (const Vector3d& n : mesh.normals) solid.normals.push_back(rotation_z(plate.yaw) * n);
+    solid.triangles = mesh.triangles;
+    solid.colours.assign(mesh.vertices.count(), kSceneColour);
+  }
   return solids;
 }
 

@@ -17,6 +17,7 @@ struct PosedMotion {
   PerFrame<BodyPoses> poses;
   Character character;
   skin::Mesh mesh;
+  Scene scene;
   List<files::FloorForces> forces;  ///< [frames − 1] means between frames; empty: no arrows
 
   double seconds() const { return (poses.count() - 1) / fps; }
@@ -31,5 +32,8 @@ PosedMotion posed_motion(const motion::Clip& clip, files::Skin skin,
 /// The body at a frame with lighter left limbs, then the arrows of the floor's forces over the interval that
 /// ends at the frame. Arrows have files::kMetresPerNewton per newton.
 List<render::Solid> solids_at(const PosedMotion& motion, int frame, const render::Colour& colour);
+
+/// The boxes of its scene.
+List<render::Solid> scene_solids(const PosedMotion& motion);
 
 }  // namespace mimicx::picture

@@ -28,7 +28,8 @@ std::optional<files::StoredPlan> finished_plan(const run::SequenceJob& job) {
 }
 
 control::System system_of(const motion::Reference& reference, const files::StoredPlan& stored) {
-  return control::make_system(reference.character, stored.simulation, stored.reference, stored.fps);
+  return control::make_system(reference.character, stored.simulation, stored.reference, stored.fps,
+                              reference.scene);
 }
 
 files::StoredPlan make(const motion::Reference& reference, const physics::SimulationConfig& simulation,

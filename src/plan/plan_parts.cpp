@@ -29,6 +29,7 @@ motion::Reference stretch_of(const motion::Reference& all, int first, int count)
   some.name = all.name;
   some.fps = all.fps;
   some.character = all.character;
+  some.scene = all.scene;
   some.frames = cut(all.frames, first, count);
   some.poses = cut(all.poses, first, count);
   some.flagged = cut(all.flagged, first, count);

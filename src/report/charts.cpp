@@ -109,9 +109,9 @@ ReportChart distance_chart(const ChartSources& sources) {
 }
 
 /// Whether a foot's points touch the floor. @param foot  0 left, 1 right
-bool touches(const std::vector<Vector3d>& surface, std::size_t foot) {
+bool touches(const std::vector<Vector3d>& surface, const Scene& scene, std::size_t foot) {
   for (std::size_t i = 0; i < kFootPoints / 2; ++i)
-    if (surface[foot * (kFootPoints / 2) + i].z() <= motion::kContactHeight) return true;
+    if (scene.clearance(surface[foot * (kFootPoints / 2) + i]) <= motion::kContactHeight) return true;
   return false;
 }
 
@@ -200,7 +200,7 @@ std::vector<ReportBars> bars_of(const MeasuredMotion* input, const MeasuredMotio
     std::vector<bool> stands;
     for (int t = 0; t < cleaned.samples.frames(); ++t)
       stands.push_back(ground.empty()
-                           ? touches(cleaned.samples.surface[t], foot)
+                           ? touches(cleaned.samples.surface[t], cleaned.samples.scene, foot)
                            : ground[static_cast<std::size_t>(t)][foot].force.z() > kLeastLoad * weight);
     // Frame 0 ends no interval, so it has no forces.
     if (stands.size() > 1 && !ground.empty()) stands[0] = stands[1];

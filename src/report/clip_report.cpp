@@ -78,10 +78,12 @@ Seen seen(Who who, const motion::Clip& clip, double fps,
   Seen s{{who, motion::character_of(at_rate), motion::poses_of(at_rate), {}}, {}};
   const Character& character = s.motion.character;
   const audit::FloorWrenches ground =
-      forces ? forces->ground : audit::best_floor_forces(character, s.motion.poses, fps);
-  s.measured = measured(motion::sample_motion(character, s.motion.poses, fps),
-                        audit::slip_of(s.motion.poses, ground, kGravity * character.total_mass(), fps).speed);
-  for (const auto& surface : s.measured.samples.surface) s.motion.support.push_back(support_of(surface));
+      forces ? forces->ground : audit::best_floor_forces(character, s.motion.poses, fps, clip.scene);
+  s.measured = measured(
+      motion::sample_motion(character, s.motion.poses, fps, clip.scene),
+      audit::slip_of(s.motion.poses, ground, kGravity * character.total_mass(), fps, clip.scene).speed);
+  for (const auto& surface : s.measured.samples.surface)
+    s.motion.support.push_back(support_of(surface, clip.scene));
   return s;
 }
 
@@ -113,7 +115,9 @@ ClipFiles read_files(const record::RunFolder& folder, const record::SequenceEntr
       seen(Who::kCleaned, files.cleaned, entry.fps, files::recorded_forces(files.cleaned)));
   if (truth.empty()) return files;
   try {
-    files.motions.push_back(seen(Who::kTruth, import::read_motion(truth), entry.fps));
+    motion::Clip known = import::read_motion(truth);
+    known.scene = files.cleaned.scene;
+    files.motions.push_back(seen(Who::kTruth, known, entry.fps));
   } catch (const std::exception& error) {
     notes.push_back(std::string("the truth cannot be shown: ") + error.what());
   }
@@ -189,7 +193,7 @@ void add_ground(const ClipFiles& files, ReportClip& clip) {
   const files::WrenchRows wrenches =
       files::read_wrenches(files.members, "ground_wrenches", cleaned.poses.size());
   for (std::size_t t = 0; t < wrenches.size(); ++t)
-    clip.ground.push_back(files::floor_arrows(wrenches[t], cleaned.poses[t]));
+    clip.ground.push_back(files::floor_arrows(wrenches[t], cleaned.poses[t], files.cleaned.scene));
   clip.weight = kGravity * cleaned.character.total_mass();
 }
 
@@ -260,6 +264,7 @@ void add_motions(const record::RunFolder& folder, const record::SequenceEntry& e
   const Audits audits = audits_of(files);
   for (std::size_t k = 0; k < metrics.size(); ++k)
     if (metrics[k].key == kRootForce && audits.input) made.row.values[k][0] = mean_force(*audits.input);
+  clip.scene = files.cleaned.scene;
   add_ground(files, clip);
   add_torques(files, clip);
   clip.options = stretches_of(entry);

@@ -23,7 +23,7 @@ MotionCurves curves_of(const motion::MotionSamples& motion) {
   for (int t = 0; t < frames; ++t) {
     const Points& now = motion.surface[t];
     curves.pelvis_height.push_back(motion.joints[t][kPelvis].z());
-    curves.lowest.push_back(kMm * motion::lowest_height(now));
+    curves.lowest.push_back(kMm * motion::lowest_height(now, motion.scene));
     double acceleration = t > 0 && t + 1 < frames ? 0.0 : kNoValue;
     for (int j = 0; j < kBodies && !std::isnan(acceleration); ++j)
       acceleration +=

@@ -127,6 +127,9 @@ std::string clip_json(const ReportClip& clip) {
   }
   if (!clip.ground.empty()) json["ground"] = encode_ground(clip.ground);
   if (!clip.torques.empty()) json["torques"] = encode_torques(clip.torques);
+  for (const Plate& p : clip.scene.plates)
+    json["plates"].push_back(std::vector<double>{p.centre.x(), p.centre.y(), p.yaw, p.half_extents.x(),
+                                                 p.half_extents.y(), p.height});
   if (clip.camera) json["camera"] = record::Json::parse(camera_json(*clip.camera));
   for (const ReportStretch& s : clip.options)
     json["options"].push_back(std::array<int, 3>{s.first, s.last, s.option});

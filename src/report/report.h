@@ -86,6 +86,7 @@ struct ReportClip {
   double weight = 0.0;                     ///< of its body, N
   std::vector<PerBody<double>> torques;    ///< of its joints, 1 = the bound; per frame, may be empty
   std::optional<ReportCamera> camera;      ///< that filmed it, if known
+  Scene scene;                             ///< the ground of the cleaned motion
   std::vector<ReportStretch> options;      ///< that acted; empty without options
   std::vector<ReportBars> bars;
   ReportNeeds needs;               ///< external forces by the poses; may be empty

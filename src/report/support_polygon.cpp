@@ -38,10 +38,10 @@ Polygon convex_hull(Polygon points) {
   return hull;
 }
 
-Polygon support_of(const std::vector<Vector3d>& surface) {
+Polygon support_of(const std::vector<Vector3d>& surface, const Scene& scene) {
   Polygon touching;
   for (std::size_t i = 0; i < kFootPoints; ++i)
-    if (surface[i].z() <= motion::kContactHeight) touching.emplace_back(surface[i].head<2>());
+    if (scene.clearance(surface[i]) <= motion::kContactHeight) touching.emplace_back(surface[i].head<2>());
   return convex_hull(std::move(touching));
 }
 

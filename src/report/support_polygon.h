@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/so3.h"
+#include "character/scene.h"
 
 namespace mimicx::report {
 
@@ -14,6 +14,6 @@ using Polygon = std::vector<Eigen::Vector2d>;
 Polygon convex_hull(Polygon points);
 
 /// @param surface  motion::surface_points of a frame, feet first, m
-Polygon support_of(const std::vector<Vector3d>& surface);
+Polygon support_of(const std::vector<Vector3d>& surface, const Scene& scene = {});
 
 }  // namespace mimicx::report

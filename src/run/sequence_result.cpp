@@ -16,7 +16,7 @@ namespace {
 
 audit::SimulatedFrames frames_of(const motion::Reference& reference,
                                  const rl::tracking::TrackingRollout& rollout) {
-  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};
+  audit::SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces, reference.scene};
   for (const auto& pose : rollout.poses) motion.frames.push_back(pose.frame);
   return motion;
 }
@@ -118,9 +118,9 @@ void write_sequence(const RunState& run, const JudgedMotion& motion, const Simul
   write_parts(folder, motion.input, parts, run.method.simulation, entry);
   std::filesystem::remove(folder.substeps(entry.name));
   if (run.config.substeps)
-    audit::write_substeps(
-        with_parents(folder.substeps(entry.name)),
-        {motion.reference.character, run.method.simulation, made.after.substeps, made.after.last_state});
+    audit::write_substeps(with_parents(folder.substeps(entry.name)),
+                          {motion.reference.character, run.method.simulation, made.after.substeps,
+                           made.after.last_state, motion.reference.scene});
   std::filesystem::remove(folder.policy(entry.name));
   if (made.taught) files::write_policy(with_parents(folder.policy(entry.name)), motion.input, *made.taught);
   entry.output = output;

@@ -15,6 +15,9 @@ constexpr int kFewestFrames = 2;
 
 motion::Clip benchmark_truth(const motion::Clip& input) {
   motion::require_usable(input, kFewestFrames);
+  if (!input.scene.flat())
+    throw DataError(input.name, "scene", "a flat floor, for which the errors of estimators are made",
+                    std::to_string(input.scene.plates.count()) + " plates");
   const motion::Clip clip = motion::resampled(input, kFps);
   motion::require_usable(clip, kFewestFrames);
   const Character body = make_character(motion::character_of(clip).betas);

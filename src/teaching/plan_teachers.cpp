@@ -12,7 +12,10 @@ motion::Reference reference_in(const PlannedMotion& motion, const files::StoredP
   motion::Reference body;
   body.name = motion.name;
   body.fps = stored.fps;
-  body.character = motion::character_of(motion::read_clip(motion.run.reference(motion.name)));
+  const motion::Clip clip = motion::read_clip(motion.run.reference(motion.name));
+  body.character = motion::character_of(clip);
+  body.scene = clip.scene;
+  motion::require_flat_floor(body, "teaching");
   return rl::tracking::reference_of_states(body, stored.reference);
 }
 

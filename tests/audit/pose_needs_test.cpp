@@ -8,8 +8,10 @@
 #include "audit/body_loads.h"
 #include "audit/feasibility.h"
 #include "audit/pose_verdict.h"
+#include "audit/slip.h"
 #include "audit/thrown.h"
 #include "core/units.h"
+#include "motion/raised_clip.h"
 #include "motion/standing_clip.h"
 #include "physics/inverse_dynamics.h"
 #include "synth/synthesize.h"
@@ -54,6 +56,28 @@ TEST(PoseNeeds, ExactMotionsNeedLessThanAThousandthOfTheWeight) {
     }
     EXPECT_TRUE(infeasible_stretches(needs).empty()) << kind;
   }
+}
+
+TEST(PoseNeeds, OnAPlateAreAsOnTheFloor) {
+  const motion::Clip clip = exact("lunge"), high = test::raised(clip);
+  const Character character = motion::character_of(clip);
+  const PerFrame<BodyPoses> poses = motion::poses_of(high);
+  const PoseNeeds low_needs = needs_of(clip),
+                  high_needs = needs_of_poses(character, poses, clip.fps, {}, high.scene),
+                  hovering = needs_of_poses(character, poses, clip.fps);
+  for (int t = 0; t < clip.frames(); ++t) {
+    EXPECT_NEAR((high_needs.frames[t].force - low_needs.frames[t].force).norm(), 0.0, 1e-3) << t;
+    EXPECT_NEAR(high_needs.frames[t].lowest, low_needs.frames[t].lowest, 1e-9);
+  }
+  EXPECT_GT(hovering.frames[10].force.norm(), 0.5 * hovering.weight);
+  const double weight = low_needs.weight;
+  const Slip low_slip =
+                 slip_of(motion::poses_of(clip),
+                         best_floor_forces(character, motion::poses_of(clip), clip.fps), weight, clip.fps),
+             high_slip = slip_of(poses, best_floor_forces(character, poses, clip.fps, high.scene), weight,
+                                 clip.fps, high.scene);
+  EXPECT_EQ(high_slip.loaded, low_slip.loaded);
+  EXPECT_NEAR(high_slip.mean, low_slip.mean, 1e-3);
 }
 
 TEST(PoseNeeds, LiftedMotionNeedsItsWeightWhereItStands) {

@@ -53,6 +53,27 @@ TEST(SoleSlip, JacobianMatchesDifferences) {
   }
 }
 
+TEST(SoleSlip, HeightsAreOverThePlateUnderThePoint) {
+  TurningWalk s;
+  int lowest = 0;
+  for (int k = 1; k < kFootPoints; ++k)
+    if (s.soles(s.x)[k].z() < s.soles(s.x)[lowest].z()) lowest = k;
+  s.put(lowest, -0.003);
+  const motion::Reference reference = synthetic_reference("walk_turn", 501, 12);
+  const System raised = make_system(reference.character, {}, s.system.reference, 30.0,
+                                    {{{{0.0, 0.0}, 0.4, {50.0, 50.0}, 0.25}}});
+  State<double> high = s.x;
+  high.p_root.z += 0.25;
+  const auto low_slip = slip_of(s.system, s.x), high_slip = slip_of(raised, high);
+  for (int i = 0; i < kFootPoints; ++i)
+    EXPECT_LT((to_eigen(low_slip[i]) - to_eigen(high_slip[i])).norm(), 1e-12) << i;
+  const auto d = std::make_unique<Data<double>>();
+  update_kinematics(s.system.exact_model, s.x, *d);
+  const SoleSlipJacobian J = sole_slip_jacobian(s.system, *d);
+  update_kinematics(raised.exact_model, high, *d);
+  EXPECT_LT((sole_slip_jacobian(raised, *d) - J).norm(), 1e-9 * J.norm());
+}
+
 // The rate of change of the positions of points below the floor, by a small step of the pose along its
 // velocities.
 TEST(SoleSlip, OnTheFloorItIsTheRateOfThePositions) {

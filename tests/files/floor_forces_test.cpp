@@ -34,11 +34,23 @@ TEST(FloorArrows, OneForceActsAtItsPoint) {
   PerBody<Vector6d> wrenches = none();
   const Vector3d point(1.1, -1.9, 0.0), force(30.0, -20.0, 500.0);
   push(poses, kLeftFoot, point, force, wrenches);
-  const FloorArrows arrows = floor_arrows(wrenches, poses);
+  const FloorArrows arrows = floor_arrows(wrenches, poses, {});
   EXPECT_NEAR((arrows[0].point - point).norm(), 0.0, 1e-12);
   EXPECT_NEAR((arrows[0].force - force).norm(), 0.0, 1e-12);
   EXPECT_EQ(arrows[1].force, Vector3d::Zero());
   EXPECT_EQ(arrows[2].force, Vector3d::Zero());
+}
+
+TEST(FloorArrows, PointIsOnThePlateUnderTheFoot) {
+  BodyPoses poses = standing_poses();
+  const double up = 0.4 - 0.008;  // the plate gives way under the foot
+  for (Vector3d& p : poses.p_WB) p.z() += up;
+  const Scene scene{{{{1.0, -2.0}, 0.2, {0.6, 0.6}, 0.4}}};
+  PerBody<Vector6d> wrenches = none();
+  const Vector3d point(1.1, -1.9, 0.4), force(30.0, -20.0, 500.0);
+  push(poses, kLeftFoot, point, force, wrenches);
+  EXPECT_NEAR((floor_arrows(wrenches, poses, scene)[0].point - point).norm(), 0.0, 1e-12);
+  EXPECT_GT((floor_arrows(wrenches, poses, {})[0].point - point).norm(), 0.01);
 }
 
 // Of forces straight up the centre of pressure is the mean of their points, weighted by the forces.
@@ -55,7 +67,7 @@ TEST(FloorArrows, FootsPointIsTheMeanOfItsContactsWeightedByForce) {
     sum += f * Vector3d(x, y, 0.0);
     total += f;
   }
-  const FloorArrows arrows = floor_arrows(wrenches, poses);
+  const FloorArrows arrows = floor_arrows(wrenches, poses, {});
   EXPECT_NEAR((arrows[1].point - sum / total).norm(), 0.0, 1e-12);
   EXPECT_NEAR(arrows[1].force.z(), total, 1e-9);
 }
@@ -64,7 +76,7 @@ TEST(FloorArrows, HandsAddToTheThirdArrow) {
   const BodyPoses poses = standing_poses();
   PerBody<Vector6d> wrenches = none();
   push(poses, kLeftWrist, {0.2, 0.1, 0.0}, {0.0, 0.0, 40.0}, wrenches);
-  EXPECT_EQ(floor_arrows(wrenches, poses)[2].force.z(), 40.0);
+  EXPECT_EQ(floor_arrows(wrenches, poses, {})[2].force.z(), 40.0);
 }
 
 // The centre of pressure of a tiny force is not defined.
@@ -72,12 +84,12 @@ TEST(FloorArrows, TinyForceHasNoArrow) {
   const BodyPoses poses = standing_poses();
   PerBody<Vector6d> wrenches = none();
   push(poses, kLeftFoot, {0.0, 0.0, 0.0}, {5.0, 0.0, 1e-9}, wrenches);
-  EXPECT_EQ(floor_arrows(wrenches, poses)[0].force, Vector3d::Zero());
+  EXPECT_EQ(floor_arrows(wrenches, poses, {})[0].force, Vector3d::Zero());
 }
 
 TEST(FloorForces, SumThePushesOnTheCarrier) {
   const motion::Clip clip = pushed_clip(9);
-  const List<FloorForces> floor = floor_forces(motion::poses_of(clip), *recorded_forces(clip));
+  const List<FloorForces> floor = floor_forces(motion::poses_of(clip), *recorded_forces(clip), {});
   ASSERT_EQ(floor.count(), 8);
   for (int t = 1; t < 9; ++t)
     for (const Carrier c : {kOnRightFoot, kOnLeftFoot, kOnTheRest}) {
@@ -96,7 +108,7 @@ TEST(FloorForces, ForcePointAndFreeMomentGiveTheWholeWrench) {
   RecordedForces forces = *recorded_forces(clip);
   for (int t = 1; t < 6; ++t)  // as under the floor's surface: no pushes at z = 0 would give these
     forces.ground[t][kRightAnkle].head<3>() += Vector3d(3.0, -2.0, 1.0);
-  const List<FloorForces> floor = floor_forces(poses, forces);
+  const List<FloorForces> floor = floor_forces(poses, forces, {});
   const Vector3d about(0.3, -0.8, 1.1);
   for (int t = 1; t < 6; ++t) {
     Vector3d moment = Vector3d::Zero(), again = Vector3d::Zero();
@@ -114,7 +126,7 @@ TEST(FloorForces, ForcePointAndFreeMomentGiveTheWholeWrench) {
 TEST(FloorForces, UnloadedFootsPointIsUnderTheFoot) {
   const motion::Clip clip = pushed_clip(5);
   const PerFrame<BodyPoses> poses = motion::poses_of(clip);
-  const FloorForce left = floor_forces(poses, *recorded_forces(clip))[2][kOnLeftFoot];
+  const FloorForce left = floor_forces(poses, *recorded_forces(clip), {})[2][kOnLeftFoot];
   EXPECT_FALSE(left.loaded);
   Vector3d foot = 0.25 * (poses[2].p_WB[kLeftAnkle] + poses[3].p_WB[kLeftAnkle] + poses[2].p_WB[kLeftFoot] +
                           poses[3].p_WB[kLeftFoot]);

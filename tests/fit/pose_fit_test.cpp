@@ -9,6 +9,7 @@
 #include "fit/keypoint_fit.h"
 #include "motion/made_motions.h"
 #include "motion/metrics.h"
+#include "motion/raised_clip.h"
 #include "motion/synthetic_clip.h"
 #include "synth/noise/estimator_noise.h"
 
@@ -41,6 +42,16 @@ TEST(FitPoses, StopsASlidingStance) {
     EXPECT_LT(after.fs_gt.value, 0.5) << kind;
     EXPECT_LT(after.vel.value, 3.0) << kind << ": the body comes to rest with its feet";
   }
+}
+
+TEST(FitPoses, OnAPlateIsAsOnTheFloor) {
+  motion::Clip slid = sliding(truth_of("squat"), 0.005);
+  for (int t = 0; t < slid.frames(); ++t) slid.trans[t].z() += 0.05 + 0.02 * std::sin(0.05 * t);
+  const motion::Clip low = fit_poses(slid, {}, nullptr), high = fit_poses(raised(slid), {}, nullptr);
+  EXPECT_EQ(high.scene, wide_plate());
+  EXPECT_GT((low.trans[40] - slid.trans[40]).norm(), 0.02);
+  for (int t = 0; t < low.frames(); ++t)
+    EXPECT_LT((high.trans[t] - low.trans[t] - kRaised * Vector3d::UnitZ()).norm(), 1e-6) << t;
 }
 
 TEST(FitPoses, PutsAFloatingAndSlidingMotionOnTheFloor) {

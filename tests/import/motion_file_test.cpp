@@ -17,6 +17,8 @@
 #include "import/world_transform.h"
 #include "motion/made_motions.h"
 #include "motion/prepare/prepare.h"
+#include "motion/raised_clip.h"
+#include "motion/synthetic_clip.h"
 
 #include "synth/synthesize.h"
 
@@ -24,6 +26,37 @@ namespace mimicx::import {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST(ReadMotion, TakesTheSceneOfTheFileOrTheOneAskedFor) {
+  const motion::Clip own = test::raised(test::synthetic_clip("walk", 3, 30));
+  const fs::path path = scratch("on_a_plate.npz");
+  motion::write_clip(path, own);
+  EXPECT_EQ(read_motion(path).scene, own.scene);
+  ReadConfig config;
+  config.scene = Scene{{{{1.0, 2.0}, 0.1, {0.3, 0.4}, 0.5}}};
+  const motion::Clip asked = read_motion(path, config);
+  EXPECT_EQ(asked.scene, *config.scene);
+  EXPECT_EQ(asked.trans, own.trans);
+  EXPECT_TRUE(std::any_of(asked.decisions.begin(), asked.decisions.end(),
+                          [](const std::string& line) { return line == "scene: 1 plate up to 0.5 m"; }));
+  EXPECT_EQ(config.text(), "scene=1,2,0.1,0.3,0.4,0.5,4e+05,4000");
+}
+
+TEST(ReadMotion, PutsAForeignMotionOntoItsScene) {
+  motion::Clip clip = test::synthetic_clip("walk", 3, 60);
+  clip.body_model = "smplx";
+  clip.betas = {};
+  clip.keypoints.reset();
+  for (Vector3d& trans : clip.trans) trans.z() -= 0.7;
+  const fs::path path = scratch("sunk.npz");
+  motion::write_clip(path, clip);
+  ReadConfig config;
+  config.scene = test::wide_plate();
+  const motion::Clip read = read_motion(path, config);
+  EXPECT_NEAR(detect_floor(read), test::kRaised, 0.05);
+  config.floor = -0.7;  // the file's floor, on which the plate stands
+  EXPECT_NEAR(detect_floor(read_motion(path, config)), 0.0, 0.05);
+}
 
 /// A synthetic motion as a foreign file: body model smplx, so that the reader trusts nothing in it.
 motion::Clip foreign(const std::string& kind) {

@@ -8,7 +8,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "motion/published_protocols.h"
+#include "motion/raised_clip.h"
 #include "motion/standing_samples.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion {
 namespace {
@@ -373,6 +376,30 @@ TEST(Success, RequiresFullLengthSmallDistanceAndSmallMpjpe) {
   MotionSamples broken = reference;
   broken.joints[3][5].x() = std::nan("");
   EXPECT_FALSE(judge_success(broken, reference).success);
+}
+
+TEST(Metrics, OnAPlateAreAsOnTheFloor) {
+  const Clip clip = test::synthetic_clip("walk", 4, 60), high = test::raised(clip);
+  const auto samples = [](const Clip& c, double sunk) {
+    Clip moved = c;
+    for (int t = 0; t < c.frames(); ++t) moved.trans[t] += Vector3d(0.003 * t, 0.0, sunk * std::sin(0.3 * t));
+    return sample_motion(character_of(moved), poses_of(moved), moved.fps, moved.scene);
+  };
+  const MotionSamples truth = samples(clip, 0.0), high_truth = samples(high, 0.0);
+  const Metrics low_m = evaluate_motion(samples(clip, 0.03), &truth),
+                high_m = evaluate_motion(samples(high, 0.03), &high_truth);
+  EXPECT_GT(low_m.gp.value, 0.1);
+  EXPECT_GT(low_m.floating.value, 0.1);
+  EXPECT_GT(low_m.fs.value, 0.1);
+  for (const MetricDefinition& d : metric_definitions()) {
+    const double a = (low_m.*d.value).value, b = (high_m.*d.value).value;
+    EXPECT_TRUE(std::isnan(a) ? std::isnan(b) : std::abs(a - b) < 1e-6) << d.name << ": " << a << ", " << b;
+  }
+  for (const Protocol protocol : {Protocol::kPhc, Protocol::kPmr}) {
+    const auto a = evaluate_by(protocol, samples(clip, 0.03), truth),
+               b = evaluate_by(protocol, samples(high, 0.03), high_truth);
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k].value, b[k].value, 1e-6) << k;
+  }
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace mimicx::physics {
 
-Snapshot snapshot_of(Scene scene, const Character& c, std::uint64_t lane) {
+Snapshot snapshot_of(ContactScene scene, const Character& c, std::uint64_t lane) {
   Random r(71, {lane});
   Snapshot s = standing(c);
   const auto spin = [&](double speed) {
@@ -13,15 +13,15 @@ Snapshot snapshot_of(Scene scene, const Character& c, std::uint64_t lane) {
       s.omega[i] =
           is_hinge(i) ? Vector3d(speed * r.normal() * hinge_axis(i)) : Vector3d(speed * random_vector(r));
   };
-  if (scene == Scene::kFall) {
+  if (scene == ContactScene::kFall) {
     s.v_root = random_vector(r);
     spin(0.5);
   }
-  if (scene == Scene::kDrop) {
+  if (scene == ContactScene::kDrop) {
     s.q[0] = exp_map(0.3 * random_vector(r)) * s.q[0];
     s.p_root.z() += 1.0 - lowest_point(c, s);
   }
-  if (scene == Scene::kThrow) {
+  if (scene == ContactScene::kThrow) {
     s.q[0] = exp_map(3.0 * random_vector(r));
     s.p_root.z() += 0.2 - lowest_point(c, s);
     s.v_root = 3.0 * random_vector(r);
@@ -30,13 +30,7 @@ Snapshot snapshot_of(Scene scene, const Character& c, std::uint64_t lane) {
   return s;
 }
 
-namespace {
-
-struct Energy {
-  double kinetic = 0, potential = 0;  ///< J
-};
-
-Energy energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double gravity) {
+Energy energy_of(const Character& c, const Data<Pack<kLanes>>& d, int lane, double gravity) {
   Energy sum;
   for (int i = 0; i < kBodies; ++i) {
     const Quaterniond q = lane_of(d.q_WB[i], lane);
@@ -48,9 +42,7 @@ Energy energy(const Character& c, const Data<Pack<kLanes>>& d, int lane, double 
   return sum;
 }
 
-}  // namespace
-
-SceneReport run_scene(Scene scene, double rate, int passes) {
+SceneReport run_scene(ContactScene scene, double rate, int passes) {
   using P = Pack<kLanes>;
   const Character c = make_character();
   SimulationConfig o;
@@ -66,7 +58,7 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
   for (int k = 0; k < steps; ++k) {
     report.wrong = any(s->advance()) || report.wrong;
     for (int lane = 0; lane < kLanes; ++lane) {
-      const Energy e = energy(c, s->data, lane, o.gravity);
+      const Energy e = energy_of(c, s->data, lane, o.gravity);
       const double now = e.kinetic + e.potential;
       double& start = first[lane];
       last[lane] = e.kinetic;
@@ -75,7 +67,7 @@ SceneReport run_scene(Scene scene, double rate, int passes) {
       for (int n = 0; n < s->data.ground_count; ++n) {
         const GroundContact<P>& contact = s->data.ground[n];
         const Vector3d f = lane_of(contact.applied, lane);
-        report.deepest = std::max(report.deepest, ScalarTraits<P>::get(contact.depth, lane) - o.skin);
+        report.deepest = std::max(report.deepest, ScalarTraits<P>::get(contact.surface.depth, lane) - o.skin);
         const double f_n = std::max(0.0, f.z());
         normal += f_n;
         if (k >= steps - late_steps) late += f.z();

@@ -9,7 +9,12 @@
 
 namespace mimicx::physics {
 
-enum class Scene { kStand, kFall, kDrop, kThrow };  ///< at rest; pushed over; from 1 m; 3 m/s and 3 rad/s
+enum class ContactScene {
+  kStand,
+  kFall,
+  kDrop,
+  kThrow
+};  ///< at rest; pushed over; from 1 m; 3 m/s and 3 rad/s
 inline constexpr const char* kSceneNames[] = {"stand", "fall", "drop", "throw"};
 
 /// Measurements of a scene.
@@ -26,7 +31,13 @@ struct SceneReport {
   bool operator==(const SceneReport&) const = default;
 };
 
-Snapshot snapshot_of(Scene scene, const Character& character, std::uint64_t lane);
-SceneReport run_scene(Scene scene, double rate, int passes);
+/// Of all bodies, J.
+struct Energy {
+  double kinetic = 0, potential = 0;
+};
+Energy energy_of(const Character& character, const Data<Pack<kLanes>>& d, int lane, double gravity);
+
+Snapshot snapshot_of(ContactScene scene, const Character& character, std::uint64_t lane);
+SceneReport run_scene(ContactScene scene, double rate, int passes);
 
 }  // namespace mimicx::physics

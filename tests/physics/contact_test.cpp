@@ -81,7 +81,7 @@ TEST(GroundContact, LandingBlockFollowsImplicitEulerOfTheDampedSpring) {
 }
 
 /// Runs a scene and prints its measurements.
-SceneReport run(Scene scene, double rate, int passes) {
+SceneReport run(ContactScene scene, double rate, int passes) {
   const SceneReport r = run_scene(scene, rate, passes);
   std::printf("  measured: %-5s %3.0f Hz, %d passes: beyond the cone %5.2f %%, adhesion %.4f %%, ",
               kSceneNames[static_cast<int>(scene)], rate, passes, 100 * r.outside_cone, 100 * r.adhesion);
@@ -99,7 +99,8 @@ bool is_proven(double rate, int passes) { return kLanes > 4 || rate > 120.0 || p
 // weight.
 TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
   constexpr double kOthers = kLanes == 8 ? 1.0 : 1.2;  // packs of another size have other worst cases
-  for (Scene scene : {Scene::kStand, Scene::kFall, Scene::kDrop, Scene::kThrow})
+  for (ContactScene scene :
+       {ContactScene::kStand, ContactScene::kFall, ContactScene::kDrop, ContactScene::kThrow})
     for (double rate : {120.0, 240.0, 480.0})
       for (int passes : {1, 2, 3}) {
         if (!is_proven(rate, passes)) continue;
@@ -109,14 +110,14 @@ TEST(GroundContact, FallDropAndThrowEndAtRestOnAFloorThatCarriesTheWeight) {
         EXPECT_FALSE(r.wrong);
         EXPECT_LT(r.energy_ratio, 1.01);
         EXPECT_LT(r.deepest, kOthers * (rate < 240.0 ? 0.11 : rate < 480.0 ? 0.045 : 0.03));
-        if (scene == Scene::kStand) continue;  // without a policy it tips over in the last second
+        if (scene == ContactScene::kStand) continue;  // without a policy it tips over in the last second
         EXPECT_LT(r.kinetic, 1.0) << "of 500 J and more; a single character may still roll over";
         EXPECT_NEAR(r.load, 1.0, 0.02);
       }
 }
 
 /// Number of `characters` that fail within 3 s.
-int runaways(Scene scene, double rate, int passes, int characters) {
+int runaways(ContactScene scene, double rate, int passes, int characters) {
   const Character c = make_character();
   SimulationConfig o;
   o.rate = rate;
@@ -140,7 +141,7 @@ int runaways(Scene scene, double rate, int passes, int characters) {
 }
 
 TEST(GroundContact, HundredsOfFallsDropsAndThrowsStayFinite) {
-  for (Scene scene : {Scene::kFall, Scene::kDrop, Scene::kThrow})
+  for (ContactScene scene : {ContactScene::kFall, ContactScene::kDrop, ContactScene::kThrow})
     for (double rate : {120.0, 240.0})
       for (int passes : {1, 2, 3}) {
         const int gone = runaways(scene, rate, passes, 320);
@@ -159,7 +160,7 @@ TEST(GroundContact, ConeAndAdhesionErrorsAreBoundedAndShrinkWithThePasses) {
   for (const Bound& b : {Bound{120, 2, 0.14, 0.015}, Bound{120, 3, 0.09, 0.01}, Bound{240, 1, 0.11, 0.012},
                          Bound{240, 2, 0.08, 0.006}, Bound{240, 3, 0.04, 0.002}, Bound{480, 1, 0.08, 0.006},
                          Bound{480, 2, 0.07, 0.006}, Bound{480, 3, 0.03, 0.001}})
-    for (Scene scene : {Scene::kFall, Scene::kDrop, Scene::kThrow}) {
+    for (ContactScene scene : {ContactScene::kFall, ContactScene::kDrop, ContactScene::kThrow}) {
       if (!is_proven(b.rate, b.passes)) continue;
       const SceneReport r = run(scene, b.rate, b.passes);
       EXPECT_LT(r.outside_cone, kOthers * b.cone)

@@ -126,9 +126,9 @@ RestReport rest(RestPose pose, double rate, int passes) {
       moment += f.z() * at;
       report.share[body] += f.z() / weight / steps;
       if (is_heel(point)) report.heel_share += f.z() / weight / steps;
-      report.deepest = std::max(report.deepest, contact.depth - o.skin);
+      report.deepest = std::max(report.deepest, contact.surface.depth - o.skin);
       if (f.z() <= 0.0) continue;
-      depth_sum += contact.depth - o.skin;
+      depth_sum += contact.surface.depth - o.skin;
       loaded += 1;
       report.creep = std::max(report.creep, lane_of(contact.velocity, 0).head<2>().norm());
     }

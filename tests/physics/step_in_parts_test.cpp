@@ -26,7 +26,7 @@ std::unique_ptr<Simulation<T>> thrown(const SimulationConfig& config) {
   auto s = std::make_unique<Simulation<T>>(c, config);
   for (int lane = 0; lane < ScalarTraits<T>::kSize; ++lane) {
     Random random(73, {static_cast<std::uint64_t>(lane)});
-    Snapshot start = snapshot_of(Scene::kThrow, c, static_cast<std::uint64_t>(lane));
+    Snapshot start = snapshot_of(ContactScene::kThrow, c, static_cast<std::uint64_t>(lane));
     start.target_q = random_snapshot(random, 1.2, 0.0, 1.0).q;
     set_lane(start, lane, s->state, s->target);
   }

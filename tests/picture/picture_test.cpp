@@ -57,6 +57,21 @@ TEST(Picture, DrawsArrowsOnlyWhereForcesAreRecorded) {
   EXPECT_GT(right, 50);
 }
 
+TEST(Picture, DrawsTheBoxesOfTheScene) {
+  List<PosedMotion> motions = two();
+  EXPECT_TRUE(scene_solids(motions[0]).empty());
+  PictureConfig config = small(Kind::kStill);
+  const Layout layout = lay_out(motions, config);
+  const render::Image flat = draw_page(motions, layout.pages[0], layout.size, 1);
+  const Vector3d feet = motions[0].poses[0].p_WB[kLeftAnkle];
+  motions[0].scene.plates = {{feet.head<2>(), 0.3, {0.3, 0.3}, 0.2}};
+  const render::Image boxed = draw_page(motions, layout.pages[0], layout.size, 1);
+  int left = 0;
+  for (int y = 0; y < flat.height; ++y)
+    for (int x = 0; x < flat.width / 2; ++x) left += flat.at(x, y) != boxed.at(x, y) ? 1 : 0;
+  EXPECT_GT(left, 200);
+}
+
 TEST(Picture, AnArrowIsAsLongAsItsForceAndBeginsWhereItActs) {
   const List<PosedMotion> motions = two();
   const List<render::Solid> solids = solids_at(motions[1], 4, render::Colour::Ones());

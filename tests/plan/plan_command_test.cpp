@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "audit/audit_file.h"
 #include "core/npz/npz.h"
 #include "core/setting_checks.h"
 #include "core/temporary_folder.h"
@@ -63,6 +64,29 @@ TEST_F(PlanMotions, LeavesEveryFileTheDocumentationNames) {
   const Npz motion = read_npz(out("run") / "motions" / "stand.npz");
   EXPECT_EQ(motion.at("joint_torques").shape, (std::vector<std::size_t>{20, 55}));
   EXPECT_EQ(motion.at("ground_wrenches").shape, (std::vector<std::size_t>{20, 22, 6}));
+}
+
+TEST_F(PlanMotions, SceneIsInEveryFileAndReplaysNeedNoOther) {
+  motion::write_clip(out("raised.npz"), motion::standing_clip(20));
+  PlanMotionsConfig config = planning("run", {out("raised.npz").string()});
+  motion::Clip high = motion::standing_clip(20);
+  for (Vector3d& trans : high.trans) trans.z() += 0.25;
+  motion::write_clip(out("raised.npz"), high);
+  config.run.read.scene = Scene{{{{0.0, 0.0}, 0.3, {0.5, 0.5}, 0.25}, {{2.0, 0.0}, 0.0, {0.5, 0.5}, 0.5}}};
+  config.run.substeps = true;
+  EXPECT_EQ(run(config).value, record::RunOutcome::kAllGood);
+  for (const char* part : {"inputs", "references", "motions", "substeps"})
+    EXPECT_EQ(motion::scene_of(read_npz(out("run") / part / "raised.npz")), *config.run.read.scene) << part;
+  EXPECT_LT(value_of(entry("run").metrics, "gMPJPE"), 5.0);
+  EXPECT_LT(value_of(entry("run").metrics, "GP_max"), 2.0);
+  EXPECT_LT(value_of(entry("run").metrics, "Float"), 1.0);
+  for (const char* part : {"motions", "substeps"})
+    for (const audit::Audit& audit : audit::audit_file(out("run") / part / "raised.npz", false))
+      EXPECT_TRUE(audit.failures.empty()) << part << ": " << audit.failures[0];
+  const motion::Clip made = motion::read_clip(out("run") / "motions" / "raised.npz");
+  EXPECT_GT(made.trans.back().z(), 1.0);  // it would fall from there without the plate
+  config.run.read.scene->plates[0].height = 0.2;
+  EXPECT_THROW(run(config), std::invalid_argument) << "another scene is another run";
 }
 
 TEST_F(PlanMotions, RecordsThePlanAndPassesTheAudit) {

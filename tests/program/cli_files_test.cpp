@@ -2,6 +2,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/file.h"
 #include "core/npz/npz.h"
 #include "import/bvh.h"
 #include "import/bvh_write.h"
@@ -60,6 +61,26 @@ TEST_F(Cli, ConvertKeepsTheMotion) {
   const motion::Clip back = motion::read_clip(path("new/b.npz"));
   EXPECT_EQ(back.rotations, clip.rotations);
   EXPECT_EQ(back.trans, clip.trans);
+}
+
+TEST_F(Cli, SceneIsReadKeptAndRefusedWhereTheFloorMustBeFlat) {
+  motion::write_clip(path("a.npz"), motion::standing_clip(20));
+  write_file_atomically(path("box.json"),
+                        R"({"plates": [{"centre": [0, 2], "half_extents": [0.5, 0.5], "height": 0.3}]})");
+  write_file_atomically(path("bad.json"), R"({"plates": [{"centre": [0, 2], "height": 0.3}]})");
+  const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npz") + " --scene " + path("box.json"));
+  EXPECT_EQ(call.status, 0) << call.text;
+  EXPECT_TRUE(says(call, "scene: 1 plate up to 0.3 m")) << call.text;
+  EXPECT_EQ(motion::read_clip(path("b.npz")).scene, (Scene{{{{0, 2}, 0.0, {0.5, 0.5}, 0.3}}}));
+  EXPECT_TRUE(says(mimicx("convert " + path("b.npz") + " " + path("c.bvh")), "no place for the scene"));
+  const Call bad = mimicx("convert " + path("a.npz") + " " + path("d.npz") + " --scene " + path("bad.json"));
+  EXPECT_NE(bad.status, 0);
+  EXPECT_TRUE(says(bad, "bad.json: plate 1: expected")) << bad.text;
+  EXPECT_FALSE(std::filesystem::exists(path("d.npz")));
+  const Call corrupt = mimicx("corrupt " + path("b.npz") + " --out " + path("e"));
+  EXPECT_TRUE(corrupt.status != 0 && says(corrupt, "expected a flat floor")) << corrupt.text;
+  const Call imitate = mimicx("imitate " + path("b.npz") + " --samples 1 --out " + path("f"));
+  EXPECT_TRUE(imitate.status != 0 && says(imitate, "expected a flat floor")) << imitate.text;
 }
 
 TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndPrintsDecisions) {

@@ -103,6 +103,14 @@ TEST(Report, EachBodyIsInThePageOnce) {
   EXPECT_TRUE(nlohmann::json::parse(element(page, "data"))["map"]["clips"].empty());
 }
 
+TEST(Report, PlatesAreThereOnlyIfTheSceneHasSome) {
+  ReportClip clip = example_clip();
+  EXPECT_FALSE(nlohmann::json::parse(clip_json(clip)).contains("plates"));
+  clip.scene.plates = {{{1.0, -2.0}, 0.5, {0.25, 0.125}, 0.5}, {{0.0, 0.0}, 0.0, {1.0, 1.0}, 0.25}};
+  const auto plates = nlohmann::json::parse(clip_json(clip))["plates"];
+  EXPECT_EQ(plates, nlohmann::json::parse("[[1, -2, 0.5, 0.25, 0.125, 0.5], [0, 0, 0, 1, 1, 0.25]]"));
+}
+
 TEST(Report, ReferenceNeedsAreThereForAllFramesOrNone) {
   ReportClip clip = example_clip();
   EXPECT_FALSE(nlohmann::json::parse(clip_json(clip)).contains("needs"));

@@ -119,13 +119,14 @@ PerFrame<List<Vector3d>> contact_tracks(const Character& c, const PerFrame<BodyP
 
 /// Points of the feet that touch the floor within the window around the interval that ends at frame t, where
 /// they do so at the frame next to its middle.
-List<Push> points_in_reach(const Character& c, const PerFrame<List<Vector3d>>& tracks, int t, double fps,
+List<Push> points_in_reach(const SimulatedFrames& motion, const PerFrame<List<Vector3d>>& tracks, int t,
                            const SharingConfig& config) {
-  const int most = static_cast<int>(std::lround(config.window * fps));
+  const Character& c = motion.character;
+  const int most = static_cast<int>(std::lround(config.window * motion.fps));
   const auto touching = [&](int i) -> const Vector3d* {
     for (int away = 0; away <= most; ++away)
       for (const int frame : {t - 1 - away, t + away})
-        if (frame >= 0 && frame < tracks.count() && tracks[frame][i].z() <= config.reach)
+        if (frame >= 0 && frame < tracks.count() && motion.scene.clearance(tracks[frame][i]) <= config.reach)
           return &tracks[frame][i];
     return nullptr;
   };
@@ -133,7 +134,8 @@ List<Push> points_in_reach(const Character& c, const PerFrame<List<Vector3d>>& t
   for (int i = 0; i < c.contact_points.count(); ++i) {
     const int body = c.contact_points[i].body;
     if (files::carrier_of(body) == files::kOnTheRest) continue;
-    if (const Vector3d* p = touching(i)) points.push_back({body, {p->x(), p->y(), 0.0}, Vector3d::Zero()});
+    if (const Vector3d* p = touching(i))
+      points.push_back({body, {p->x(), p->y(), motion.scene.height_under(*p)}, Vector3d::Zero()});
   }
   return points;
 }
@@ -215,7 +217,7 @@ PerFrame<LoadSharing> load_sharing(const SimulatedFrames& motion, const SharingC
     const auto wrenches = files::floor_wrenches(acting.ground, mid.p_WB);
     Vector6d wanted = wrenches[files::kOnLeftFoot] + wrenches[files::kOnRightFoot];
     wanted.head<3>() -= center.cross(Vector3d(wanted.tail<3>()));
-    sharing[t] = share_load(wanted, center, points_in_reach(c, tracks, t, motion.fps, config),
+    sharing[t] = share_load(wanted, center, points_in_reach(motion, tracks, t, config),
                             heading_axes(mid.p_WB), leg_effort(c, mid, acting), config);
   }
   return sharing;

@@ -31,7 +31,7 @@ struct LoadSharing {
 };
 
 struct SharingConfig {
-  double reach = 0.02;    ///< a sole's point up to this far above the floor touches it, m
+  double reach = 0.02;    ///< a sole's point up to this far above the ground touches it, m
   double window = 0.1;    ///< time around the interval in which a point must touch it to carry, s
   double friction = 1.0;  ///< μ
   int edges = 8;          ///< of the pyramid inscribed in the friction cone

@@ -56,13 +56,15 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   const SimulationConfig& o = model.config;
   const ContactPoint& contact = model.contacts[c.index];
   const int i = contact.body;
-  const double dt = model.dt, damping = o.ground_damping + dt * o.ground_stiffness;
+  const double k = c.surface.stiffness, dt = model.dt, damping = c.surface.damping + dt * k;
   const Vector3d arm = to_eigen(c.arm);
   const Point point = point_of(arm, contact.radius, to_eigen(d.w[i]));
 
-  FloorRow depth = FloorRow::Zero();  // −dp_z − (θ × R p_B)_z
-  depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
-  depth[kHeight] = -1.0;
+  FloorRow depth = FloorRow::Zero();  // −dp_z − (θ × R p_B)_z; a plate's push stops growing at some depth
+  if (!c.surface.capped) {
+    depth.segment<3>(kTheta) = skew(point.from_centre).row(2);
+    depth[kHeight] = -1.0;
+  }
   const FloorRows end = end_velocity(point, to_eigen(d.a_w[i]), against_free_fall(model, d.a_v[i]), dt);
   // The velocity at which f_end and c_t were taken is that of the start or the one the solve before predicts.
   FloorRows at;
@@ -74,9 +76,9 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
     at.middleCols<3>(kAcceleration) = dt * Matrix3d::Identity();
   }
   const double slip_2 = velocity_used.head<2>().squaredNorm() + o.slip_speed * o.slip_speed;
-  const double f_end = o.ground_stiffness * c.depth - damping * velocity_used.z();
+  const double f_end = k * c.surface.depth - damping * velocity_used.z();
   const double c_t = o.friction * f_end / std::sqrt(slip_2);
-  const FloorRow df_end = o.ground_stiffness * depth - damping * at.row(2);
+  const FloorRow df_end = k * depth - damping * at.row(2);
   // docs/control_derivatives.md §3, (7)
   const FloorRow dc_t = (c_t / f_end) * df_end -
                         (c_t / slip_2) * (velocity_used.x() * at.row(0) + velocity_used.y() * at.row(1));
@@ -85,8 +87,8 @@ void add_contact(const Model<double>& model, const Data<double>& d, const Ground
   FloorRows force;
   force.row(0) = -c_t * end.row(0) - v_end.x() * dc_t;
   force.row(1) = -c_t * end.row(1) - v_end.y() * dc_t;
-  force.row(2) = o.ground_stiffness * depth - damping * end.row(2);
-  const Vector3d f(-c_t * v_end.x(), -c_t * v_end.y(), o.ground_stiffness * c.depth - damping * v_end.z());
+  force.row(2) = k * depth - damping * end.row(2);
+  const Vector3d f(-c_t * v_end.x(), -c_t * v_end.y(), k * c.surface.depth - damping * v_end.z());
   // d (arm × f) − θ × (arm × f) and df − θ × f
   wrench.topRows<3>() += skew(arm) * force;
   wrench.topLeftCorner<3, 3>() += skew_product(f, point.from_centre) + skew(Vector3d(arm.cross(f)));

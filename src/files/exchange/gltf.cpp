@@ -6,6 +6,7 @@
 
 #include "files/exchange/glb.h"
 #include "skin/arrow.h"
+#include "skin/box.h"
 
 namespace mimicx::files {
 namespace {
@@ -58,6 +59,7 @@ class Writer {
     add_joints();
     add_body();
     add_motion();
+    add_plates();
     if (forces != nullptr) add_arrows(*forces);
     Json scene = Json::object();
     scene["nodes"] = top_nodes_;
@@ -177,8 +179,24 @@ class Writer {
     }
   }
 
+  /// The boxes of the scene, a mesh each: they do not move.
+  void add_plates() {
+    if (clip_.scene.flat()) return;
+    const int material = add_material("scene", {0.78, 0.77, 0.74, 1.0});
+    for (const Plate& plate : clip_.scene.plates) {
+      skin::Mesh box = skin::box();
+      box.vertices = skin::box_under(plate, box);
+      for (Vector3d& p : box.vertices) p = to_y_up() * p;
+      for (Vector3d& n : box.normals) n = to_y_up() * (rotation_z(plate.yaw) * n);
+      Json node = Json::object();
+      node["name"] = "plate";
+      node["mesh"] = add_mesh("plate", box, Vector3d::Zero(), material, Json::object());
+      top_nodes_.emplace_back(glb_.append("nodes", node));
+    }
+  }
+
   void add_arrows(const RecordedForces& forces) {
-    const List<FloorForces> floor = floor_forces(motion::poses_of(clip_), forces);
+    const List<FloorForces> floor = floor_forces(motion::poses_of(clip_), forces, clip_.scene);
     const int material = add_material("force", {0.85, 0.30, 0.08, 1.0});
     const int mesh = add_mesh("force", skin::arrow(), Vector3d::Zero(), material, Json::object()),
               times = add_times(floor.count(), 0.5);

@@ -65,7 +65,7 @@ bool rests_on_more_than_feet(const List<FloorForces>& floor) {
 }  // namespace
 
 std::string format_mot(const motion::Clip& clip, const RecordedForces& forces) {
-  const List<FloorForces> floor = floor_forces(motion::poses_of(clip), forces);
+  const List<FloorForces> floor = floor_forces(motion::poses_of(clip), forces, clip.scene);
   const int carriers = rests_on_more_than_feet(floor) ? 3 : 2;
   std::vector<std::string> names;
   for (int c = 0; c < carriers; ++c) {

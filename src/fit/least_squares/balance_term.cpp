@@ -40,10 +40,11 @@ PlaneJacobian centre_jacobian(const Character& character, const FrameKinematics&
   return J;
 }
 
-/// Horizontal positions of the points that stand in a frame.
+/// The points that stand in a frame: their horizontal positions, the height of the ground under them.
 struct Support {
   int points = 0;
   Plane middle = Plane::Zero();
+  double height = 0.0;                             ///< of the ground under them, m
   PlaneJacobian by_frame = PlaneJacobian::Zero();  ///< of the middle
   Eigen::Matrix2d spread = kSpread * kSpread * Eigen::Matrix2d::Identity();
 };
@@ -55,11 +56,13 @@ Support support_of(const FitProblem& problem, const FrameKinematics& k, const Fo
     if (!stands[i]) continue;
     ++s.points;
     s.middle += feet[i].head<2>();
+    s.height += problem.scene.height_under(feet[i]);
     s.by_frame += point_jacobian(k, problem.foot_points[i].body, feet[i]).topRows<2>();
   }
   if (s.points == 0) return s;
   const double share = 1.0 / s.points;
   s.middle *= share;
+  s.height *= share;
   s.by_frame *= share;
   for (int i = 0; i < kFootPoints; ++i) {
     const Plane d = feet[i].head<2>() - s.middle;
@@ -84,9 +87,9 @@ void add_balance(const FitProblem& problem, const Character& character,
     const Support support = support_of(problem, motion[t], feet[t], contacts[t]);
     const Vector3d a = (c[t + window] - 2.0 * c[t] + c[t - window]) / (seconds * seconds);
     if (support.points < kFewestPoints || a.z() < (kLeastPush - 1.0) * kGravity ||
-        motion::lowest_height(others, motion[t].poses) < kOtherSupport)
+        motion::lowest_height(others, motion[t].poses, problem.scene) < kOtherSupport)
       continue;
-    const Plane zmp = c[t].head<2>() - c[t].z() / (kGravity + a.z()) * a.head<2>();
+    const Plane zmp = c[t].head<2>() - (c[t].z() - support.height) / (kGravity + a.z()) * a.head<2>();
     const Plane r = zmp - support.middle;
     const Eigen::Matrix2d precision = support.spread.inverse();
     const double weight = share / (1.0 + r.dot(precision * r) / (kKernel * kKernel));

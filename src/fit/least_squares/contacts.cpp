@@ -15,12 +15,13 @@ constexpr double kSpeedWindow = 2.0 / 30.0;  ///< s to either side
 constexpr double kLevel = 0.5;               ///< vertical part of a sole's normal
 constexpr int kPointsPerFoot = kFootPoints / 2;
 
-/// Low percentile of the height of a foot's lowest point, m. @param first  the foot's first point
-double floor_under(const PerFrame<FootPositions>& feet, int first) {
+/// Low percentile of the height of a foot's lowest point over the ground, m. @param first  the foot's first
+/// point
+double floor_under(const PerFrame<FootPositions>& feet, int first, const Scene& scene) {
   std::vector<double> lowest;
   for (const FootPositions& p : feet) {
-    double z = p[first].z();
-    for (int i = first; i < first + kPointsPerFoot; ++i) z = std::min(z, p[i].z());
+    double z = scene.clearance(p[first]);
+    for (int i = first; i < first + kPointsPerFoot; ++i) z = std::min(z, scene.clearance(p[i]));
     lowest.push_back(z);
   }
   return ranked(lowest, static_cast<int>(kLowShare * static_cast<double>(lowest.size())));
@@ -28,17 +29,17 @@ double floor_under(const PerFrame<FootPositions>& feet, int first) {
 
 }  // namespace
 
-Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool settled) {
+Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, const Scene& scene, bool settled) {
   Contacts contacts(feet.size());
   const int last = feet.count() - 1;
   const int window = static_cast<int>(std::max(1.0, std::round(kSpeedWindow * fps)));
   for (const int first : {0, kPointsPerFoot}) {
-    const double ceiling = settled ? kHeight : floor_under(feet, first) + kUnsettledHeight;
+    const double ceiling = settled ? kHeight : floor_under(feet, first, scene) + kUnsettledHeight;
     for (int t = 0; t <= last; ++t) {
       const int before = std::max(t - window, 0), after = std::min(t + window, last);
       for (int i = first; i < first + kPointsPerFoot; ++i) {
         const double speed = (feet[after][i] - feet[before][i]).norm() * fps / (after - before);
-        contacts[t][i] = feet[t][i].z() < ceiling && speed < kSpeed;
+        contacts[t][i] = scene.clearance(feet[t][i]) < ceiling && speed < kSpeed;
       }
     }
   }

@@ -11,7 +11,7 @@ using Contacts = PerFrame<Array<bool, kFootPoints>>;
 /// A foot point stands where it is low and slow.
 /// @param settled  true: the motion is on the floor, and heights count from z = 0. False: they count from a
 ///                 low percentile of the heights of the point's own foot
-Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, bool settled);
+Contacts find_contacts(const PerFrame<FootPositions>& feet, double fps, const Scene& scene, bool settled);
 
 /// Removes the contacts of feet whose sole does not face down, as of a person who crawls or lies.
 void keep_level_soles(const FitProblem& problem, const PerFrame<FrameKinematics>& motion, Contacts& contacts);

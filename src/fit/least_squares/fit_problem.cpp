@@ -156,6 +156,7 @@ FitProblem make_problem(const motion::Clip& clip, const FitConfig& config) {
   problem.config = config;
   problem.levels.confidence_power = config.confidence_power;
   problem.fps = clip.fps;
+  problem.scene = clip.scene;
   problem.betas = clip.usable_betas();
   add_shape_derivatives(problem);
   if (clip.keypoints &&

@@ -63,6 +63,7 @@ struct FitProblem {
   std::array<double, kBetas> betas{};     ///< of the file
   Array<double, kBetas> beta_sigma{};     ///< per entry; 0: the entry is known
   std::optional<RestJoints> rest_joints;  ///< of the clip, where known: the shape does not change then
+  Scene scene;                            ///< the ground
   PerFrame<Vector3d> p_root;              ///< [frames] of the input, m
   PerFrame<PerBody<Quaterniond>> q;       ///< [frames] of the input, knees and elbows hinges
   PerBody<JointParameters> joint;         ///< their ranges

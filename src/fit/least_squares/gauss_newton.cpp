@@ -134,6 +134,7 @@ motion::Clip result_of(const motion::Clip& input, const FitProblem& problem, con
     q.push_back(rotations_of(problem, state, t));
   }
   motion::Clip out = motion::to_clip(input.name, input.fps, character_of(problem, state), p_root, q);
+  out.scene = input.scene;
   if (input.rest_joints) motion::put_on_body_of(input, out);
   out.gender = input.gender;
   out.passthrough = input.passthrough;
@@ -157,7 +158,7 @@ void report_change(const motion::Clip& before, const motion::Clip& after, FitRep
 }
 
 Contacts contacts_of(const FitProblem& problem, const Evaluated& e, bool settled) {
-  Contacts contacts = find_contacts(e.feet, problem.fps, settled || problem.poses_alone);
+  Contacts contacts = find_contacts(e.feet, problem.fps, problem.scene, settled || problem.poses_alone);
   if (problem.poses_alone) keep_level_soles(problem, e.motion, contacts);
   return contacts;
 }

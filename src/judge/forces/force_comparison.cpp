@@ -57,9 +57,11 @@ FeetSeries simulated_series(const audit::SimulatedFrames& motion) {
     auto& force = series.newtons.emplace_back();
     auto& pressure = series.pressure.emplace_back();
     for (int foot = 0; foot < 2; ++foot) {
-      const Vector6d& wrench = wrenches[foot == 0 ? files::kOnLeftFoot : files::kOnRightFoot];
+      const files::Carrier carrier = foot == 0 ? files::kOnLeftFoot : files::kOnRightFoot;
+      const Vector6d& wrench = wrenches[carrier];
       force[foot] = wrench.tail<3>();
-      pressure[foot] = wrench[5] > files::kLeastLoad ? files::centre_of_pressure(wrench)
+      const double height = files::ground_under(carrier, middle[t], motion.scene).z();
+      pressure[foot] = wrench[5] > files::kLeastLoad ? files::centre_of_pressure(wrench, height)
                                                      : Vector3d(Vector3d::Constant(kNone));
     }
     series.valid.push_back({true, true});

@@ -43,10 +43,10 @@ Quaterniond levelling(const PerFrame<BodyPoses>& poses, const PerFrame<bool>& st
 
 }  // namespace
 
-PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps) {
+PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps, const Scene& scene) {
   const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
   PerFrame<double> heights;
-  for (const BodyPoses& pose : poses) heights.push_back(pose.p_WB[ankle].z());
+  for (const BodyPoses& pose : poses) heights.push_back(scene.clearance(pose.p_WB[ankle]));
   const double low = quantile(heights, kLowShare);
   PerFrame<bool> standing(poses.size());
   for (int t = 0; t < poses.count(); ++t)
@@ -59,7 +59,7 @@ double level_feet(Reference& reference) {
   double largest = 0.0;
   for (int ankle : {kLeftAnkle, kRightAnkle}) {
     const int ball = ankle == kLeftAnkle ? kLeftFoot : kRightFoot;
-    const PerFrame<bool> standing = standing_frames(reference.poses, ankle, reference.fps);
+    const PerFrame<bool> standing = standing_frames(reference.poses, ankle, reference.fps, reference.scene);
     const Quaterniond sole = levelling(reference.poses, standing, ankle);
     const Quaterniond toes = levelling(reference.poses, standing, ball);
     for (ReferenceFrame& frame : reference.frames) {
@@ -74,15 +74,15 @@ double level_feet(Reference& reference) {
 
 PerFrame<double> support_heights(const Reference& reference) {
   const std::vector<SurfacePoint> points = surface_points(reference.character);
-  const auto left = standing_frames(reference.poses, kLeftAnkle, reference.fps);
-  const auto right = standing_frames(reference.poses, kRightAnkle, reference.fps);
+  const auto left = standing_frames(reference.poses, kLeftAnkle, reference.fps, reference.scene);
+  const auto right = standing_frames(reference.poses, kRightAnkle, reference.fps, reference.scene);
   PerFrame<double> heights;
   for (int t = 0; t < reference.size(); ++t) {
     std::vector<SurfacePoint> support;
     for (const SurfacePoint& point : points)
       if ((point.body != kLeftFoot || left[t]) && (point.body != kRightFoot || right[t]))
         support.push_back(point);
-    heights.push_back(lowest_height(support, reference.poses[t]));
+    heights.push_back(lowest_height(support, reference.poses[t], reference.scene));
   }
   return heights;
 }
@@ -94,9 +94,9 @@ void bend_toes(Reference& reference) {
       const Quaterniond& q = reference.poses[t].q_WB[ball];
       const auto lowest = [&](double angle) {  // of the toe points, extended by that angle
         const Quaterniond bent = q * exp_map(Vector3d(-angle, 0, 0));
-        double z = p.z();
+        double z = reference.scene.clearance(p);
         for (const ContactPoint& point : reference.character.contact_points)
-          if (point.body == ball) z = std::min(z, (p + bent * point.p_B).z());
+          if (point.body == ball) z = std::min(z, reference.scene.clearance(p + bent * point.p_B));
         return z;
       };
       if (lowest(0.0) >= 0.0) continue;

@@ -14,8 +14,9 @@
 namespace mimicx::motion {
 
 /// Frames in which a foot stands: ankle and ball are slower than 0.4 m/s, and the ankle is within 6 cm of its
-/// lowest height (10th percentile). @param ankle  kLeftAnkle or kRightAnkle
-PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps);
+/// lowest height (10th percentile) over the ground. @param ankle  kLeftAnkle or kRightAnkle
+PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, double fps,
+                               const Scene& scene = {});
 
 /// Levels both soles and both toes by constant rotations of at most 30°. `poses` must be those of `frames`
 /// and are not updated. Feet with fewer than 10 standing frames or an error under 10° stay unchanged: a
@@ -27,7 +28,7 @@ double level_feet(Reference& reference);
 /// converted motions seldom bend their toes, and stiff toes that dip at push-off do not show the floor.
 PerFrame<double> support_heights(const Reference& reference);
 
-/// Extends toes that reach below the floor (z = 0) until they lie on it, by at most 60°. `poses` must be
+/// Extends toes that reach below the ground until they lie on it, by at most 60°. `poses` must be
 /// those of `frames` and are not updated.
 void bend_toes(Reference& reference);
 

@@ -1,6 +1,6 @@
-/// The step of preparation (prepare.h) that puts a motion on the floor z = 0.
+/// The step of preparation (prepare.h) that puts a motion on the floor z = 0, or on the ground of its scene.
 ///
-/// What it does not do: no model of stairs or slopes.
+/// What it does not do: no slopes.
 #pragma once
 
 #include "core/containers.h"
@@ -19,7 +19,7 @@ struct FloorCorrection {
 ///   3. frames that are still deeper than 10 mm are lifted smoothly.
 /// Jumps keep their height: the first two steps average over more than a second, and the third only removes
 /// penetration.
-/// @param lowest  height of the lowest surface point per frame, m
+/// @param lowest  height of the lowest surface point over the ground per frame, m
 /// @param lifted  the same of the points that step 3 lifts
 /// @param known   the floor is known to be at 0: no constant shift
 FloorCorrection floor_correction(const PerFrame<double>& lowest, const PerFrame<double>& lifted, double fps,

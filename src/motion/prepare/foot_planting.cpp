@@ -233,10 +233,9 @@ Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& referen
     for (int k = 0; k < kFootPoints; ++k) {
       const bool stands = stance[t][k];
       const Vector3d& p = now.sole[k];
-      if (stands || p.z() < 0.0)
-        equations.add(t, now.sole_J[k].row(2), p.z(), stands ? kSigmaHeight : kSigmaDepth);
-      if (p.z() < clearance[t][k])
-        equations.add(t, now.sole_J[k].row(2), p.z() - clearance[t][k], kSigmaClearance);
+      const double z = reference.scene.clearance(p);
+      if (stands || z < 0.0) equations.add(t, now.sole_J[k].row(2), z, stands ? kSigmaHeight : kSigmaDepth);
+      if (z < clearance[t][k]) equations.add(t, now.sole_J[k].row(2), z - clearance[t][k], kSigmaClearance);
       if (t == 0 || !stands || !stance[t - 1][k]) continue;
       for (int axis = 0; axis < 2; ++axis)
         equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
@@ -254,7 +253,7 @@ bool is_planted(const PerFrame<Stance>& stance, const Reference& reference) {
     const SolePositions p = sole_positions(reference.character, reference.poses[t]);
     for (int k = 0; k < kFootPoints; ++k) {
       if (!stance[t][k]) continue;
-      if (std::abs(p[k].z()) > kPlantedHeight) return false;
+      if (std::abs(reference.scene.clearance(p[k])) > kPlantedHeight) return false;
       if (t > 0 && stance[t - 1][k] && (p[k] - before[k]).head<2>().norm() > kPlantedSlip) return false;
     }
     before = p;

@@ -97,7 +97,7 @@ void turn_back_into_ranges(bool ground, Reference& reference) {
   forward(reference);
   if (!ground) return;
   const PerFrame<double> lift =
-      lift_over_floor(lowest_heights(surface_points(reference.character), reference.poses));
+      lift_over_floor(lowest_heights(surface_points(reference.character), reference.poses, reference.scene));
   for (int t = 0; t < reference.size(); ++t) reference.frames[t].p_root.z() += lift[t];
   forward(reference);
 }
@@ -131,8 +131,9 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
   const std::vector<SurfacePoint> others(points.begin() + kFootPoints, points.end());
   PerFrame<double> moved(reference.frames.size(), 0.0);
   const auto align = [&](const PerFrame<double>& lowest) {
-    const FloorCorrection floor = floor_correction(
-        lowest, plant ? lowest_heights(others, reference.poses) : lowest, reference.fps, known);
+    const FloorCorrection floor =
+        floor_correction(lowest, plant ? lowest_heights(others, reference.poses, reference.scene) : lowest,
+                         reference.fps, known);
     report.floor_shift_mm += kMm * floor.shift;
     for (int t = 0; t < reference.size(); ++t) {
       reference.frames[t].p_root.z() += floor.height[t];
@@ -145,7 +146,7 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
     bend_toes(reference);
     forward(reference);
   }
-  align(lowest_heights(points, reference.poses));
+  align(lowest_heights(points, reference.poses, reference.scene));
   for (double height : moved)
     report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(height));
 }
@@ -162,6 +163,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   out.name = clip.name;
   out.fps = config.fps;
   out.character = character_of(clip);
+  out.scene = clip.scene;
   out.keypoints = input.keypoints;
   out.flagged = find_glitches(input);
   r.flagged_frames = static_cast<int>(std::count(out.flagged.begin(), out.flagged.end(), true));
@@ -194,7 +196,7 @@ Reference prepare_reference(const Clip& clip, const PreparationConfig& config, P
   if (config.ground)
     align_with_floor(r.foot_level_deg > 0.0 || config.plant, config.plant, clip.on_floor, out, r);
   if (config.ground && config.plant)
-    r.feet_planted_mm = kMm * plant_feet(find_stance(out.character, out.poses, out.fps), out);
+    r.feet_planted_mm = kMm * plant_feet(find_stance(out.character, out.poses, out.fps, out.scene), out);
   if (config.ranges) turn_back_into_ranges(config.ground, out);
   differentiate(out.frames, out.fps);
   const Distance change = distance_mm(poses_of(input), out.poses);

@@ -1,7 +1,7 @@
 /// Preparation: makes the reference that a simulated character follows of a clip.
 ///                                                                                docs/method.md §2, §9
 ///
-/// What it does not do: no fit to keypoints (fit/keypoint_fit.h), no smoothing, no model of stairs or slopes.
+/// What it does not do: no fit to keypoints (fit/keypoint_fit.h), no smoothing, no slopes.
 #pragma once
 
 #include <string>

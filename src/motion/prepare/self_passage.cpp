@@ -312,8 +312,8 @@ std::optional<Way> cheapest_way(const Reference& reference, const Passage& passa
 /// Whether a leg stands in a passage.
 bool stands(const Reference& reference, const Passage& passage) {
   if (passage.limb >= 3) return false;
-  const PerFrame<bool> standing =
-      standing_frames(reference.poses, passage.limb == 1 ? kLeftAnkle : kRightAnkle, reference.fps);
+  const PerFrame<bool> standing = standing_frames(
+      reference.poses, passage.limb == 1 ? kLeftAnkle : kRightAnkle, reference.fps, reference.scene);
   return std::any_of(standing.begin() + passage.first, standing.begin() + passage.last + 1,
                      [](bool s) { return s; });
 }

@@ -17,19 +17,19 @@ constexpr double kParabola = 0.1;  ///< s
 constexpr int kShortestStance = 3;
 constexpr int kPointsPerPart = 2;  ///< inner and outer
 
-/// Height (m), speed over the floor and vertical speed (m/s) of a part of a foot: of the middle of its
-/// points.
+/// Height over the ground (m), speed over it and vertical speed (m/s) of a part of a foot: of the middle of
+/// its points.
 struct PartMotion {
   PerFrame<double> height, speed, rise;
 };
 
-PartMotion motion_of(const PerFrame<SolePositions>& p, int first, double fps) {
+PartMotion motion_of(const PerFrame<SolePositions>& p, int first, double fps, const Scene& scene) {
   const auto middle = [&](int t) { return Vector3d(0.5 * (p[t][first] + p[t][first + 1])); };
   PartMotion out;
   for (int t = 0; t < p.count(); ++t) {
     const int before = std::max(t - 1, 0), after = std::min(t + 1, p.count() - 1);
     const double seconds = std::max(after - before, 1) / fps;
-    out.height.push_back(middle(t).z());
+    out.height.push_back(scene.clearance(middle(t)));
     const Vector3d moved = middle(after) - middle(before);
     out.speed.push_back(moved.head<2>().norm() / seconds);
     out.rise.push_back(std::abs(moved.z()) / seconds);
@@ -89,13 +89,14 @@ SolePositions sole_positions(const Character& character, const BodyPoses& poses)
   return p;
 }
 
-PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps) {
+PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                             const Scene& scene) {
   PerFrame<SolePositions> p;
   for (const BodyPoses& frame : poses) p.push_back(sole_positions(character, frame));
   PerFrame<Stance> stance(poses.size());
   List<PartMotion> parts;
   for (int first = 0; first < kFootPoints; first += kPointsPerPart) {
-    parts.push_back(motion_of(p, first, fps));
+    parts.push_back(motion_of(p, first, fps, scene));
     const PerFrame<bool> stands = standing(parts.back());
     for (int t = 0; t < stands.count(); ++t)
       for (int k = first; k < first + kPointsPerPart; ++k) stance[t][k] = stands[t];

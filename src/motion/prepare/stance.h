@@ -4,8 +4,8 @@
 /// off with its toes stands with that part alone. A part begins to stand when it is low and slow, and goes on
 /// as long as it is not clearly high or fast (hysteresis), so that noise does not lift it for single frames.
 ///
-/// What it does not do: only the floor z = 0 carries feet; a motion must have been put on it
-/// (floor_correction.h).
+/// What it does not do: only the floor and the plates of the scene carry feet; a motion must have been put on
+/// them (floor_correction.h).
 #pragma once
 
 #include "motion/reference.h"
@@ -21,6 +21,7 @@ using Stance = Array<bool, kFootPoints>;
 
 /// A part begins to stand under 25 mm, 0.10 m/s over the floor and 0.04 m/s up or down, and ends over 35 mm,
 /// 0.15 or 0.06 m/s; it stands for three frames or not at all. Both points of a part have the same answer.
-PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps);
+PerFrame<Stance> find_stance(const Character& character, const PerFrame<BodyPoses>& poses, double fps,
+                             const Scene& scene = {});
 
 }  // namespace mimicx::motion

@@ -70,7 +70,7 @@ MotionFeatures motion_features(const motion::Reference& reference) {
         acceleration[j] += window.weights(2, i) * reference.poses[frame].p_WB[j];
       }
     }
-    sum[kRootHeight] += reference.poses[t].p_WB[0].z();
+    sum[kRootHeight] += reference.scene.clearance(reference.poses[t].p_WB[0]);
     sum[kRootTurning] += turning * turning;
     for (int j = 0; j < kBodies; ++j) {
       sum[kPlanarVelocity + j] += velocity[j].head<2>().squaredNorm();

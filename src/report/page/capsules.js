@@ -16,6 +16,38 @@ function draw_floor(g, project, centre, tones) {
   }
 }
 
+// Height of the ground under a place: that of the highest plate over it that is not above `most`, else 0.
+// @param plates  [x, y, yaw, half extents, height] each
+function ground_height(plates, x, y, most) {
+  return plates.reduce((height, [px, py, yaw, a, b, top]) => {
+    const c = Math.cos(yaw), s = Math.sin(yaw), u = c * (x - px) + s * (y - py), v = c * (y - py) - s * (x - px);
+    return Math.abs(u) <= a && Math.abs(v) <= b && top <= most ? Math.max(height, top) : height;
+  }, 0);
+}
+
+// The boxes under the plates, farthest face first.
+function draw_boxes(g, project, plates, offset, tones) {
+  const faces = plates.flatMap(([x, y, yaw, a, b, top]) => {
+    const c = Math.cos(yaw), s = Math.sin(yaw);
+    const corner = ([u, v], z) => project([x + offset[0] + c * u * a - s * v * b, y + offset[1] + s * u * a + c * v * b, z]);
+    const around = [[-1, -1], [1, -1], [1, 1], [-1, 1]], high = around.map((q) => corner(q, top)), low = around.map((q) => corner(q, 0));
+    return [...around.map((_, k) => ({corners: [low[k], low[(k + 1) % 4], high[(k + 1) % 4], high[k]], shade: 0.8 - 0.05 * (k % 2)})),
+            {corners: high, shade: 1}];
+  }).filter(({corners}) => corners.every((p) => p.depth >= nearest));
+  const far = ({corners}) => corners.reduce((sum, p) => sum + p.depth, 0);
+  faces.sort((p, q) => far(q) - far(p));
+  for (const {corners, shade} of faces) {
+    g.beginPath();
+    for (const p of corners) g.lineTo(p.x, p.y);
+    g.closePath();
+    g.fillStyle = `rgb(${tones[0].map((v) => Math.round(shade * v)).join()})`;
+    g.fill();
+    g.strokeStyle = `rgb(${tones[0].map((v) => Math.round(0.65 * v)).join()})`;
+    g.lineWidth = 1;
+    g.stroke();
+  }
+}
+
 // Shadow of a vertical light: the capsule's footprint, added to the current path with one winding, so that
 // overlapping footprints do not darken each other.
 function add_shadow(g, project, c) {

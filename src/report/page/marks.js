@@ -49,9 +49,9 @@ function draw_center(g, project, p, colour) {
   g.stroke();
 }
 
-// A polygon on the floor; of two corners a line.
-function draw_support(g, project, corners, offset, rgb) {
-  const points = corners.map(([x, y]) => project([x + offset[0], y + offset[1], 0]));
+// A polygon on the ground; of two corners a line. @param height  of the ground at x, y
+function draw_support(g, project, corners, offset, rgb, height) {
+  const points = corners.map(([x, y]) => project([x + offset[0], y + offset[1], height(x, y)]));
   if (points.length < 2 || points.some((p) => p.depth < nearest)) return;
   g.beginPath();
   for (const p of points) g.lineTo(p.x, p.y);

@@ -87,7 +87,9 @@ const camera_of = (who, panel) => who === 'input' && panel.of_input || panel.cam
 const figures_of = (panel, frame) => panel.shown.map((who, k) =>
     ({who, motion: player.motions[who], frame, offset: panel.offsets[k], rgb: tones[who], alpha: alpha_of(who, panel), camera: camera_of(who, panel)}));
 
-// Sky, floor, shadows and support polygons.
+const plates_of = (clip) => clip.plates || [];
+
+// Sky, floor, shadows, the boxes of the scene and support polygons.
 function draw_ground(g, panel, figures, frame) {
   const {part, camera} = panel, sky = g.createLinearGradient(0, 0, 0, part.height);
   tones.sky.forEach((tone, i) => sky.addColorStop(i, tone));
@@ -99,9 +101,14 @@ function draw_ground(g, panel, figures, frame) {
   for (const f of figures) for (const c of capsules_of(f.motion, frame, f.offset)) add_shadow(g, f.camera.project, c);
   g.fillStyle = tones.shadow;
   g.fill();
+  const plates = plates_of(player.clip), places = new Map(figures.map((f) => [f.offset.join(), f]));
+  for (const f of places.values()) draw_boxes(g, f.camera.project, plates, f.offset, tones.floor);
   if (!player.layers.balance) return;
-  for (const f of figures)
-    if (f.motion.support) draw_support(g, f.camera.project, f.motion.support[Math.min(frame, f.motion.frames - 1)], f.offset, f.rgb);
+  for (const f of figures) {
+    if (!f.motion.support) continue;
+    const feet = [7, 8].map((b) => point_of(f.motion, frame, b, [0, 0, 0])[2]), at = Math.min(frame, f.motion.frames - 1);
+    draw_support(g, f.camera.project, f.motion.support[at], f.offset, f.rgb, (x, y) => ground_height(plates, x, y, Math.max(...feet)));
+  }
 }
 
 function draw_shapes(g, panel, figures, frame) {
@@ -117,8 +124,10 @@ function draw_forces(g, project, frame, offset) {
   for (let k = 0; k < 3; ++k) {
     const [x, y, fx, fy, fz] = player.ground.subarray(15 * frame + 5 * k, 15 * frame + 5 * k + 5);
     if (fz <= 0) continue;
-    const from = [1e-3 * x + offset[0], 1e-3 * y + offset[1], 0];
-    draw_arrow(g, project, from, [from[0] + fx * metres_per_newton, from[1] + fy * metres_per_newton, fz * metres_per_newton], tones.force);
+    const carrier = point_of(player.motions.cleaned, frame, [7, 8, 0][k], [0, 0, 0]);  // ankles; pelvis
+    const height = ground_height(plates_of(player.clip), 1e-3 * x, 1e-3 * y, carrier[2] + 0.08);
+    const from = [1e-3 * x + offset[0], 1e-3 * y + offset[1], height];
+    draw_arrow(g, project, from, [from[0] + fx * metres_per_newton, from[1] + fy * metres_per_newton, height + fz * metres_per_newton], tones.force);
   }
 }
 

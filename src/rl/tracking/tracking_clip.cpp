@@ -20,7 +20,7 @@ std::shared_ptr<const TrackingClip> make_tracking_clip(const motion::Reference& 
   require_whole_steps(config.simulation.rate, reference.fps);
   auto clip = std::make_shared<TrackingClip>();
   clip->reference = reference;
-  clip->model = physics::make_model<float>(reference.character, config.simulation);
+  clip->model = physics::make_model<float>(reference.character, config.simulation, reference.scene);
   for (std::size_t t = 0; t < reference.frames.size(); ++t)
     clip->poses.push_back({reference.frames[t], reference.poses[t].p_WB});
   Pose rest = clip->poses.back();
@@ -66,6 +66,7 @@ motion::Reference reference_of_states(const motion::Reference& of,
   out.name = of.name;
   out.fps = of.fps;
   out.character = of.character;
+  out.scene = of.scene;
   for (const physics::State<double>& x : states) {
     motion::ReferenceFrame& frame = out.frames.emplace_back(frame_of_state(x));
     for (Quaterniond& q : frame.q) q = q.normalized();

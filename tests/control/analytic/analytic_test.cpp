@@ -121,6 +121,29 @@ TEST(AnalyticDerivative, IsExactUnderFloorContact) {
   }
 }
 
+// On a wooden and on a soft plate; sunk so far that the push no longer grows with the depth.
+TEST(AnalyticDerivative, IsExactOnPlatesAndBeyondTheirLargestPush) {
+  Random random(31);
+  const Character character = make_character();
+  const Model<double> model = make_model<double>(
+      character, {}, {{{{-5.0, 0.0}, 0.0, {5.0, 9.0}, 0.3}, {{5.0, 0.0}, 0.0, {5.0, 9.0}, 0.3, 8e4, 900.0}}});
+  for (const double depth : {0.0, 0.025, 0.055}) {  // one foot on each
+    ControlFrame frame = on_the_floor(character, random, 0.2, {0.3, 0.1, 0.0});
+    frame.start.p_root.z += 0.3 - depth;
+    const Census c = expect_exact(depth > 0.0 ? "sunk in plates" : "on plates", model, frame);
+    EXPECT_GT(c.pushing_bodies, 8);
+    const auto capped = [&](int body) {
+      Data<double> d;
+      solve_accelerations(model, frame.from, frame.start, d);
+      return std::any_of(d.ground.begin(), d.ground.begin() + d.ground_count, [&](const auto& contact) {
+        return model.contacts[contact.index].body == body && contact.surface.capped;
+      });
+    };
+    EXPECT_EQ(capped(kRightAnkle), depth > 0.02);  // at x < 0, on wood
+    EXPECT_EQ(capped(kLeftAnkle), depth > 0.05);
+  }
+}
+
 TEST(AnalyticDerivative, IsExactDuringALanding) {
   Random random(3);
   const Character character = make_character();

@@ -144,6 +144,22 @@ TEST_F(Gltf, TrianglesHaveAreaAndFaceAlongTheirNormals) {
   }
 }
 
+TEST_F(Gltf, BoxesOfTheSceneStandOnTheFloor) {
+  const auto extent = [](const GlbReader& glb) {
+    const std::size_t mesh = glb.json["nodes"][glb.node("plate")]["mesh"];
+    return glb.json["accessors"]
+                   [glb.json["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+  };
+  EXPECT_THROW(GlbReader(format_glb(clip, mesh, nullptr)).node("plate"), std::runtime_error);
+  clip.scene.plates = {{{1.0, -2.0}, 0.0, {0.25, 0.125}, 0.5}};
+  const auto box = extent(GlbReader(format_glb(clip, mesh, nullptr)));
+  const double low[] = {0.75, 0.0, 1.875}, high[] = {1.25, 0.5, 2.125};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(box["min"][axis].get<double>(), low[axis], 1e-6);
+    EXPECT_NEAR(box["max"][axis].get<double>(), high[axis], 1e-6);
+  }
+}
+
 TEST_F(Gltf, HasArrowsOnlyOnRequest) {
   const GlbReader glb(format_glb(clip, mesh, nullptr));
   EXPECT_EQ(glb.json["nodes"].size(), kBodies + 1u);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 
@@ -9,6 +10,8 @@
 #include "motion/clip_file.h"
 #include "motion/metrics.h"
 #include "motion/prepare/damaged_motions.h"
+#include "motion/raised_clip.h"
+#include "motion/synthetic_clip.h"
 
 namespace mimicx::motion {
 namespace {
@@ -107,6 +110,41 @@ TEST(Prepare, NotesSignsOfWrongAxesScaleOrRate) {
   for (std::size_t t = 0; t < 30; ++t) fast.trans[t].x() = static_cast<double>(t);
   ASSERT_EQ(notes(fast).size(), 1u);
   EXPECT_NE(notes(fast)[0].find("speed"), std::string::npos);
+}
+
+/// Largest distance of a joint from where it is in another reference and `up` higher, m.
+double farthest_from(const Reference& a, const Reference& b, double up) {
+  double most = 0.0;
+  for (int t = 0; t < a.size(); ++t)
+    for (int k = 0; k < kBodies; ++k)
+      most = std::max(most, (a.poses[t].p_WB[k] - b.poses[t].p_WB[k] - up * Vector3d::UnitZ()).norm());
+  return most;
+}
+
+// Every step that knows a floor meets the plate in its place. Planting asks whether a standing point is below
+// the ground, and most are there to rounding: a motion that is only lifted comes down with other swings of
+// its feet, too.
+TEST(Prepare, OnAPlateIsAsOnTheFloor) {
+  Clip clip = test::synthetic_clip("walk_turn", 3, 80);
+  for (int t = 0; t < clip.frames(); ++t)
+    clip.trans[t] += Vector3d(0.004 * t, 0.0, 0.05 + 0.02 * std::sin(0.1 * t));
+  for (const bool plant : {false, true}) {
+    PreparationConfig config;
+    config.plant = plant;
+    PreparationReport low_report, high_report;
+    Clip lifted = test::raised(clip);
+    lifted.scene = {};
+    const Reference low = prepare_reference(clip, config, &low_report),
+                    high = prepare_reference(test::raised(clip), config, &high_report),
+                    again = prepare_reference(lifted, config, nullptr);
+    EXPECT_EQ(high.scene, test::wide_plate());
+    EXPECT_LT(low_report.floor_shift_mm, -30.0);
+    EXPECT_NEAR(high_report.floor_shift_mm, low_report.floor_shift_mm, 1e-6);
+    EXPECT_EQ(low_report.feet_planted_mm > 5.0, plant);
+    std::printf("  farthest on the plate %.1e m, lifted %.1e m\n", farthest_from(high, low, test::kRaised),
+                farthest_from(again, low, 0.0));
+    EXPECT_LT(farthest_from(high, low, test::kRaised), plant ? 0.02 : 1e-8);
+  }
 }
 
 TEST(Prepare, RejectsTooShortAndNonFiniteClips) {

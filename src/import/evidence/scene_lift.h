@@ -1,0 +1,15 @@
+/// The height of a motion over a scene: evidence for the constant shift that puts standing feet on the floor
+/// or on plates.
+#pragma once
+
+#include "motion/clip.h"
+
+namespace mimicx::import {
+
+/// Feet that hardly move stand on the floor or on a plate. Of the shifts that put a low, middle or high one
+/// of them on the floor or a plate, the one that leaves slow feet nearest to the ground; 0 where the motion
+/// as it is leaves them within a centimetre of that. Preparation does the rest.
+/// @return height to add, m; 0 for a flat scene
+double scene_lift(const motion::Clip& clip);
+
+}  // namespace mimicx::import
