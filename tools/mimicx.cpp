@@ -29,7 +29,8 @@ int run(int argc, char** argv) {
        {declare_run,     declare_plan,        declare_pretrain,      declare_teach,   declare_adapt,
         declare_imitate, declare_merge,       declare_evaluate,      declare_cluster, declare_fit,
         declare_info,    declare_convert,     declare_render,        declare_corrupt, declare_audit,
-        declare_report,  declare_export_mjcf, declare_export_policy, declare_synth,   declare_config})
+        declare_report,  declare_export_mjcf, declare_export_policy, declare_synth,   declare_scene,
+        declare_config})
     declare(line);
   return line.run(argc, argv);
 }
