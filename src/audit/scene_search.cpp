@@ -150,7 +150,7 @@ std::vector<Stance> stances(const SupportedMotion& e) {
 /// The stances of one plate.
 using Group = std::vector<Stance>;
 
-double height_of(const Group& group) {
+double group_height(const Group& group) {
   std::vector<double> heights;
   for (const Stance& stance : group) heights.push_back(stance.height);
   return median(heights);
@@ -161,7 +161,7 @@ std::vector<Group> raised_groups(const std::vector<Stance>& all, double floor) {
   bool broken = true;  // by a foot at another height
   for (const Stance& stance : all) {
     if (stance.height < floor + kLowestPlate) continue;
-    if (!groups.empty() && std::abs(stance.height - height_of(groups.back())) < kSameHeight)
+    if (!groups.empty() && std::abs(stance.height - group_height(groups.back())) < kSameHeight)
       broken = std::any_of(all.begin(), all.end(), [&](const Stance& between) {
         return between.first > groups.back().back().last && between.last < stance.first &&
                std::abs(between.height - stance.height) >= kSameHeight;
@@ -225,8 +225,8 @@ Eigen::Vector2d toes_of(const SupportedMotion& e, const Group& group) {
   return sum;
 }
 
-std::string in_words(const char* what, double height, const char* under, int first, int last,
-                     double carried) {
+std::string plate_in_words(const char* what, double height, const char* under, int first, int last,
+                           double carried) {
   char text[200];
   std::snprintf(text, sizeof text, "a %s of %.2f m under the %s, frames %d to %d: %.2f of the weight", what,
                 height, under, first, last, carried);
@@ -249,7 +249,7 @@ void find_steps(const SupportedMotion& e, FoundScene& found, std::vector<Group>&
       carried.push_back(rest.carried);
     }
     if (without.empty() || quantile(without, kOnOneFoot) < kMissing || median(with) > kExplained) continue;
-    const double height = height_of(group) - found.floor;
+    const double height = group_height(group) - found.floor;
     found.scene.plates.push_back(plate_under(e, group, toes_of(e, group), height));
     int last = 0;
     bool left = false, right = false;
@@ -257,11 +257,11 @@ void find_steps(const SupportedMotion& e, FoundScene& found, std::vector<Group>&
       last = std::max(last, stance.last);
       (stance.points.front() == 0 ? left : right) = true;
     }
-    found.words.push_back(in_words("step", height,
-                                   left && right ? "feet"
-                                   : left        ? "left foot"
-                                                 : "right foot",
-                                   group.front().first, last, median(carried)));
+    found.words.push_back(plate_in_words("step", height,
+                                         left && right ? "feet"
+                                         : left        ? "left foot"
+                                                       : "right foot",
+                                         group.front().first, last, median(carried)));
     accepted.push_back(group);
   }
 }
@@ -320,7 +320,7 @@ void find_seats(const SupportedMotion& e, const std::vector<Group>& steps, Found
           (other.centre - plate.centre).norm() < kSameSeat)
         return;  // the same seat once more
     found.scene.plates.push_back(plate);
-    found.words.push_back(in_words("seat", plate.height, "pelvis", first, last, median(carried)));
+    found.words.push_back(plate_in_words("seat", plate.height, "pelvis", first, last, median(carried)));
   });
 }
 
