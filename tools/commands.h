@@ -39,6 +39,7 @@ void declare_render(CommandLine& line);
 void declare_export_mjcf(CommandLine& line);
 void declare_export_policy(CommandLine& line);
 void declare_synth(CommandLine& line);
+void declare_scene(CommandLine& line);
 void declare_merge(CommandLine& line);
 void declare_config(CommandLine& line);
 

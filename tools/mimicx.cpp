@@ -30,7 +30,7 @@ int run(int argc, char** argv) {
         declare_imitate, declare_merge,   declare_evaluate,    declare_cluster,       declare_fit,
         declare_info,    declare_convert, declare_render,      declare_corrupt,       declare_audit,
         declare_certify, declare_report,  declare_export_mjcf, declare_export_policy, declare_synth,
-        declare_config})
+        declare_scene,   declare_config})
     declare(line);
   return line.run(argc, argv);
 }

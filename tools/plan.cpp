@@ -1,8 +1,12 @@
 #include "plan/plan_command.h"
 
+#include <iostream>
 #include <memory>
 
+#include "audit/scene_search.h"
 #include "commands.h"
+#include "core/error.h"
+#include "files/inputs.h"
 #include "pipeline/cluster_map.h"
 #include "shipped_options.h"
 #include "simulation_commands.h"
@@ -15,13 +19,45 @@ struct PlanArguments {
   RunArguments more;
 };
 
+/// The scene of the only motion of the run: found from it where that is asked for; else a line if the motion
+/// looks as if it had one.
+void settle_scene(const import::ReadConfig& asked, run::RunConfig& run) {
+  if (asked.scene || run.inputs.size() != 1) return;
+  import::ReadConfig read = asked;
+  read.scene_from_motion = false;
+  run.read = read;
+  audit::FoundScene found;
+  try {
+    const motion::Clip clip = import::read_motion(run.inputs.front(), read);
+    if (!clip.scene.flat()) return;
+    found = audit::find_scene(clip);
+  } catch (const std::exception& error) {
+    return;  // the run tells why the motion cannot be read
+  }
+  if (asked.scene_from_motion) {
+    for (const std::string& line : found.words) std::cerr << "scene: " << line << '\n';
+    if (found.scene.flat())
+      std::cerr << "scene: no plate found; planned on the flat floor\n";
+    else
+      run.read.scene = found.scene;
+  } else if (!found.scene.flat() && !run.quiet) {
+    std::cerr << "looks like steps or a seat (" << found.words.front() << "): try --scene auto\n";
+  }
+}
+
 int plan(PlanArguments a) {
   a.config.run.map = pipeline::run_map(shipped_clusters());
   take_shard(a.more.shard, a.config.run);
   apply_settings(a.more.settings, a.config.planning);
+  const import::ReadConfig asked = a.config.run.read;
+  if (asked.scene_from_motion && !a.config.run.out.empty() &&
+      files::find_motions(a.config.run.inputs, {}, nullptr).size() != 1)
+    throw UsageError("plan: --scene auto with --out takes one motion; leave out --out, or plan one by one");
   return with_context(a.config.run.quiet, [&](const record::RunContext& context) {
-    return run_inputs(a.config.run, a.more.json, context,
-                      [&] { return plan::plan_motions(a.config, context); });
+    return run_inputs(a.config.run, a.more.json, context, [&] {
+      settle_scene(asked, a.config.run);
+      return plan::plan_motions(a.config, context);
+    });
   });
 }
 

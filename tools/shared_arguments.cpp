@@ -14,10 +14,14 @@ void add_read_arguments(Command& command, import::ReadConfig& read) {
   command.number("--floor", read.floor, kAnyNumber,
                  "height of the floor in the files, m, z up; default: detected");
   command.text(
-      "--scene", [&read](const std::string& file) { read.scene = files::read_scene(file); }, "FILE",
+      "--scene",
+      [&read](const std::string& file) {
+        read.scene_from_motion = file == "auto";
+        if (!read.scene_from_motion) read.scene = files::read_scene(file);
+      },
+      "FILE|auto",
       "stairs, boxes and chairs of the motions, their floor at z = 0: a JSON file of docs/scenes.md; "
-      "default: "
-      "the files' own, else a flat floor");
+      "auto, for plan: found from each motion; default: the files' own, else a flat floor");
   command.number(
       "--mass", read.mass, kPositive,
       "mass of the person, kg; default: the usual one of the stature, where the shape comes from joints");

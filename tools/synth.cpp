@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -6,6 +7,8 @@
 #include "audit/feasibility.h"
 #include "character/body_words.h"
 #include "commands.h"
+#include "core/file.h"
+#include "files/scene_file.h"
 #include "record/folder_lock.h"
 #include "record/json.h"
 #include "record/outputs.h"
@@ -36,9 +39,18 @@ std::vector<synth::SynthConfig> checked_clips(const synth::SynthSetConfig& set) 
   }
 }
 
+/// Where the scene of a motion is written.
+std::filesystem::path scene_path(const std::filesystem::path& folder, const std::string& name) {
+  return folder / "scenes" / (name + ".json");
+}
+
 void write_set(const SynthArguments& a, std::size_t total) {
   double next = record::steady_seconds() + record::kProgressSeconds;
-  synth::write_synth_set(a.out, a.set, [&](std::size_t index, const motion::Clip&) {
+  synth::write_synth_set(a.out, a.set, [&](std::size_t index, const motion::Clip& truth) {
+    if (!truth.scene.flat()) {
+      make_folder(a.out / "scenes");
+      files::write_scene(scene_path(a.out, truth.name), truth.scene);
+    }
     if (record::steady_seconds() < next) return;
     std::cerr << index + 1 << " of " << total << " motions\n";
     next += record::kProgressSeconds;
@@ -78,9 +90,13 @@ void claim_set(const SynthArguments& a) {
   record::Outputs outputs({}, a.force);
   if (!is_standard_output(a.json)) outputs.claim(a.json, record::kJsonOpening);
   const auto claim = [&](const std::filesystem::path& directory, const synth::SynthSetConfig& set) {
-    for (const synth::SynthConfig& clip : synth::clips_of_set(set))
+    const std::vector<std::string> ground = synth::ground_kinds();
+    for (const synth::SynthConfig& clip : synth::clips_of_set(set)) {
       for (const char* part : {"truth", "noisy"})
         outputs.claim(directory / part / (synth::name_of(clip) + ".npz"));
+      if (std::find(ground.begin(), ground.end(), clip.kind) != ground.end())
+        outputs.claim(scene_path(directory, synth::name_of(clip)), record::kJsonOpening);
+    }
   };
   if (!a.out.empty()) claim(a.out, a.set);
   if (a.data_set.empty()) return;
@@ -91,13 +107,15 @@ void claim_set(const SynthArguments& a) {
 std::vector<std::string> selections() {
   std::vector<std::string> names = synth::synthetic_kinds();
   for (const std::string& name : synth::floor_kinds()) names.push_back(name);
-  names.insert(names.end(), {"all", "floor"});
+  for (const std::string& name : synth::ground_kinds()) names.push_back(name);
+  names.insert(names.end(), {"all", "floor", "scenes"});
   return names;
 }
 
 int synth(SynthArguments a) {
   if (a.set.kinds == std::vector<std::string>{"all"}) a.set.kinds = synth::synthetic_kinds();
   if (a.set.kinds == std::vector<std::string>{"floor"}) a.set.kinds = synth::floor_kinds();
+  if (a.set.kinds == std::vector<std::string>{"scenes"}) a.set.kinds = synth::ground_kinds();
   if (a.out.empty() && a.data_set.empty() && !a.report)
     throw UsageError("synth: expected --out DIR or --data-set DIR");
   const std::vector<synth::SynthConfig> clips = checked_clips(a.set);
@@ -133,7 +151,8 @@ void declare_synth(CommandLine& line) {
                  "number of motions, cycling through the kinds; default: one of each kind");
   command.some_of("--kinds", set.kinds, selections(),
                   "kinds to make, separated by commas; all: every exact kind; floor: sketches that go "
-                  "down to the floor, to be planned; default: the fourteen kinds of data/synthetic");
+                  "down to the floor, to be planned; scenes: stairs, kerbs, boxes and seats, each scene in "
+                  "scenes/NAME.json; default: the fourteen kinds of data/synthetic");
   command.one_of("--noise", set.noise, {"gvhmr", "vibe", "independent", "none", "mixed"},
                  "errors of noisy/; none: exact motion; mixed: each clip with one of these, half of them "
                  "without keypoints");

@@ -54,6 +54,8 @@ void require_sense(const ReadConfig& o) {
   require(!o.mass || (*o.mass > 0.0 && std::isfinite(*o.mass)), "the mass must be positive");
   require(!o.height || (*o.height > 0.0 && std::isfinite(*o.height)), "the height must be positive");
   require(!o.floor || std::isfinite(*o.floor), "the height of the floor must be a number");
+  require(!o.scene_from_motion,
+          "--scene auto is for `mimicx plan`; others take the file that `mimicx scene` writes");
   if (o.up) rotation_to_z_up(*o.up);
 }
 

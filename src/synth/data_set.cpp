@@ -22,6 +22,11 @@ void round_to_grid(motion::Clip& clip) {
     for (Vector3d& rotation : frame) round(rotation);
   for (Vector3d& trans : clip.trans) round(trans);
   for (double& beta : clip.betas) beta = on_grid(beta, kSteps);
+  for (Plate& plate : clip.scene.plates) {
+    for (double* value : {&plate.centre.x(), &plate.centre.y(), &plate.yaw, &plate.half_extents.x(),
+                          &plate.half_extents.y(), &plate.height})
+      *value = on_grid(*value, kSteps);
+  }
   if (!clip.keypoints) return;
   for (auto& frame : clip.keypoints->uvc)
     for (Vector3d& point : frame)
@@ -81,6 +86,7 @@ SynthPair make_synth_pair(const SynthConfig& clip, const SynthSetConfig& config)
   pair.truth = synthesize(clip);
   round_to_grid(pair.truth);
   pair.noisy = estimate(pair.truth, noise, seed);
+  pair.noisy.scene = {};  // of the truth
   round_to_grid(pair.noisy);
   return pair;
 }

@@ -22,11 +22,11 @@ constexpr double kRunningHeight = 0.010, kRunningSpeed = 0.35;  ///< m, m/s
 constexpr double kRunningLead = 0.07;  ///< its heel rises this long before it leaves, s
 
 struct FootKnots {
-  std::vector<Knot> x, y, yaw, lift, heel_rise, toe_rise, pressure;
+  std::vector<Knot> x, y, yaw, lift, heel_rise, toe_rise, pressure, ground;
 
   FootTracks tracks() const {
-    return {MinJerkTrack(x),         MinJerkTrack(y),        MinJerkTrack(yaw),     MinJerkTrack(lift),
-            MinJerkTrack(heel_rise), MinJerkTrack(toe_rise), MinJerkTrack(pressure)};
+    return {MinJerkTrack(x),         MinJerkTrack(y),        MinJerkTrack(yaw),      MinJerkTrack(lift),
+            MinJerkTrack(heel_rise), MinJerkTrack(toe_rise), MinJerkTrack(pressure), MinJerkTrack(ground)};
   }
 };
 
@@ -34,10 +34,11 @@ FootKnots standing_knots(const FootTarget& target, double forefoot) {
   return {{{0.0, target.place.x()}},
           {{0.0, target.place.y()}},
           {{0.0, target.yaw}},
+          {{0.0, target.lift}},
           {{0.0, 0.0}},
           {{0.0, 0.0}},
-          {{0.0, 0.0}},
-          {{0.0, kMidFoot * forefoot}}};
+          {{0.0, kMidFoot * forefoot}},
+          {{0.0, target.lift}}};
 }
 
 /// From one value to another; the speed peaks a little after the middle, at 1.7 times its mean.
@@ -47,26 +48,45 @@ void add_glide(double start, double end, double from, double to, std::vector<Kno
   knots.push_back({end, to});
 }
 
-/// The foot rises before it travels and lands before it is put down, so that it never scrapes; a running foot
-/// is clear of the floor in every frame of a flight.
+/// When a swinging foot travels and how high it is, as shares of the swing.
+struct SwingShape {
+  double out, in;           ///< beginning and end of its way over the ground
+  double highest, falling;  ///< it is highest between these
+};
+/// The foot rises before it travels and arrives before it is put down, so that it never scrapes. Onto a
+/// higher place it leaves late, from one it comes down late: it clears the edges between.
+SwingShape swing_shape(double climb) {
+  if (climb > 0.0) return {0.20, 0.94, 0.45, 0.45};
+  if (climb < 0.0) return {0.06, 0.78, 0.25, 0.55};
+  return {0.06, 0.94, 0.45, 0.45};
+}
+
+/// A running foot is clear of the floor in every frame of a flight; where it changes its height, it lands
+/// flat.
 /// @param landed  when the foot was put down, s
 void add_swing(const FootSwing& swing, const FootTarget& from, double landed, double leg, FootKnots& knots) {
   const double duration = swing.end - swing.start;
   const double lead =
       swing.running ? kRunningLead : std::min(kHeelLead, kHeelLeadShare * (swing.start - landed));
   const auto at = [&](double part) { return swing.start + part * duration; };
-  add_glide(at(0.06), at(0.94), from.place.x(), swing.place.x(), knots.x);
-  add_glide(at(0.06), at(0.94), from.place.y(), swing.place.y(), knots.y);
-  add_glide(at(0.06), at(0.94), from.yaw, swing.yaw, knots.yaw);
-  knots.lift.push_back({at(0.0), 0.0});
+  const double climb = swing.ground - from.lift, highest = std::max(swing.ground, from.lift);
+  const SwingShape shape = swing_shape(climb);
+  const double out = at(shape.out), in = at(shape.in);
+  add_glide(out, in, from.place.x(), swing.place.x(), knots.x);
+  add_glide(out, in, from.place.y(), swing.place.y(), knots.y);
+  add_glide(out, in, from.yaw, swing.yaw, knots.yaw);
+  knots.ground.push_back({at(0.0), from.lift});
+  knots.ground.push_back({at(1.0), swing.ground});
+  knots.lift.push_back({at(0.0), from.lift});
   if (swing.running) knots.lift.push_back({swing.start + kFrame, kRunningHeight, kRunningSpeed});
-  knots.lift.push_back({at(0.45), swing.clearance});
+  knots.lift.push_back({at(shape.highest), highest + swing.clearance});
+  if (shape.falling > shape.highest) knots.lift.push_back({at(shape.falling), highest + swing.clearance});
   if (swing.running) knots.lift.push_back({swing.end - kFrame, kRunningHeight, -kRunningSpeed});
-  knots.lift.push_back({at(1.0), 0.0});
+  knots.lift.push_back({at(1.0), swing.ground});
   const Eigen::Vector2d forward(cos(swing.yaw), sin(swing.yaw));
   const double stride = (swing.place - from.place).dot(forward) / (kLongStride * leg);
   const double rise = kSwingPitch * std::clamp(stride, 0.25, 1.0),
-               strike = swing.running ? 0.0 : kStrikePitch * std::clamp(stride, 0.0, 1.0);
+               strike = swing.running || climb != 0.0 ? 0.0 : kStrikePitch * std::clamp(stride, 0.0, 1.0);
   knots.heel_rise.insert(knots.heel_rise.end(),
                          {{swing.start - lead, 0.0}, {at(0.18), rise}, {at(0.80), 0.0}});
   knots.toe_rise.insert(knots.toe_rise.end(),
@@ -146,6 +166,7 @@ FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& 
       knots.pressure.push_back({swing.end, kHeelStrike * forefoot});
       from.place = swing.place;
       from.yaw = swing.yaw;
+      from.lift = swing.ground;
       landed = swing.end;
     }
     if (landed > 0.0) knots.pressure.push_back({landed + settle, kMidFoot * forefoot});
@@ -168,11 +189,14 @@ FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& 
 void place_feet(const FeetTracks& feet, double time, PlanFrame& frame) {
   const double left = feet.load.at(time);
   frame.pressure.setZero();
+  frame.pressure_height = 0.0;
   for (int side = 0; side < 2; ++side) {
     frame.foot[side] = feet.foot[side].at(time);
     const double ahead = feet.foot[side].pressure.at(time), outward = side == 0 ? feet.splay : -feet.splay;
     const Vector3d in_foot = rotation_z(frame.foot[side].yaw) * Vector3d(ahead, outward * ahead, 0.0);
-    frame.pressure += (side == 0 ? left : 1.0 - left) * (frame.foot[side].place + in_foot.head<2>());
+    const double share = side == 0 ? left : 1.0 - left;
+    frame.pressure += share * (frame.foot[side].place + in_foot.head<2>());
+    frame.pressure_height += share * feet.foot[side].ground.at(time);
   }
 }
 

@@ -24,14 +24,16 @@ struct FootSwing {
   double start, end;                  ///< leaves and meets the floor, s
   Eigen::Vector2d place;              ///< where it lands
   double yaw = 0.0;                   ///< how it lands
-  double clearance = 0.0;             ///< height of the sole at mid-swing, m
+  double clearance = 0.0;             ///< height of the sole at mid-swing over the higher end, m
   bool running = false;               ///< leaves and meets the floor with speed, and meets it flat
   std::vector<FootVia> through = {};  ///< rests in the air, in order of time; `clearance` is unused then
+  double ground = 0.0;                ///< height of the ground where it lands, m; not with `through`
 };
 
 /// A foot's motion; `pressure` is the point of the foot at which its load acts, m ahead of the ankle.
 struct FootTracks {
   MinJerkTrack x, y, yaw, lift, heel_rise, toe_rise, pressure;
+  MinJerkTrack ground;  ///< height of the ground on which it stands, m
   FootTarget at(double time) const;
 };
 
@@ -42,7 +44,7 @@ struct FeetTracks {
   double splay = 0.0;  ///< outward distance of the load from the foot's axis, m per m ahead of the ankle
 };
 
-/// Feet that stand still, equally loaded in their middle.
+/// Feet that stand still, equally loaded in their middle. @param start  `lift`: height of the ground, m
 FeetTracks standing_feet(const Character& character, const PerSide<FootTarget>& start);
 
 /// Feet that walk: a foot lands on the heel, becomes flat and rolls over the toes. The load changes feet
@@ -54,7 +56,8 @@ FeetTracks standing_feet(const Character& character, const PerSide<FootTarget>& 
 FeetTracks stepping_feet(const Character& character, const PerSide<FootTarget>& start,
                          const std::vector<FootSwing>& swings, double settle);
 
-/// Sets the feet of a frame and its centre of pressure; the posture does not change.
+/// Sets the feet of a frame and its centre of pressure; the posture does not change. Where the feet stand at
+/// different heights, the centre of pressure is on the line between them.
 void place_feet(const FeetTracks& feet, double time, PlanFrame& frame);
 
 /// Two feet on the y axis, toes turned out. @param half_width  distance of each ankle from the middle, m

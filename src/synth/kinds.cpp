@@ -50,6 +50,15 @@ const std::vector<SketchedKind>& sketched_kinds() {
   return kinds;
 }
 
+const std::vector<SceneKind>& scene_kinds() {
+  static const std::vector<SceneKind> kinds = {
+      {"stairs_up", 5.6, 6.8, climb_stairs}, {"stairs_down", 5.6, 6.8, descend_stairs},
+      {"kerb", 7.0, 8.5, cross_kerb},        {"box", 7.0, 8.5, cross_box},
+      {"sit_down", 8.0, 10.0, sit_down},     {"sit_and_reach", 11.0, 14.0, sit_and_reach},
+      {"lie_on_bed", 15.0, 18.0, lie_on_bed}};
+  return kinds;
+}
+
 PerSide<FootTarget> random_stance(const PlanRequest& request, double narrow, double wide, double least_out,
                                   double most_out) {
   const double half_width = rest_half_width(request.character) * request.random.uniform(narrow, wide);

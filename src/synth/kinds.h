@@ -45,6 +45,20 @@ struct SketchedKind {
 
 const std::vector<SketchedKind>& sketched_kinds();
 
+/// A motion on ground of its own.
+struct SceneMotion {
+  PerFrame<SynthPose> poses;
+  Scene scene;  ///< in the plan frame
+};
+/// A kind on stairs, kerbs, boxes, seats and beds.
+struct SceneKind {
+  std::string name;
+  double shortest, longest;  ///< as in SynthKind
+  SceneMotion (*make)(const PlanRequest&);
+};
+
+const std::vector<SceneKind>& scene_kinds();
+
 /// A frame of standing at ease on `feet` with slightly bent knees; its `com_height` is set.
 PlanFrame standing_frame(const Character& character, const FeetTracks& feet);
 
@@ -107,5 +121,20 @@ PerFrame<SynthPose> sketch_kneel(const PlanRequest& request);
 PerFrame<SynthPose> sketch_crawl(const PlanRequest& request);
 /// Over hands and knees down onto the front, a rest, up again.
 PerFrame<SynthPose> sketch_lie_down(const PlanRequest& request);
+
+// On scenes, exact: kinds/stepping.cpp
+SceneMotion climb_stairs(const PlanRequest& request);
+SceneMotion descend_stairs(const PlanRequest& request);
+/// Onto a kerb, along it and down again.
+SceneMotion cross_kerb(const PlanRequest& request);
+/// Onto a box with both feet and down on its other side.
+SceneMotion cross_box(const PlanRequest& request);
+// On scenes, sketches: kinds/seats.cpp
+/// Sits down and stands up.
+SceneMotion sit_down(const PlanRequest& request);
+/// The same, with gestures while sitting.
+SceneMotion sit_and_reach(const PlanRequest& request);
+/// Sits down on the end of a bed, lies down on the back with the feet on the floor, and gets up.
+SceneMotion lie_on_bed(const PlanRequest& request);
 
 }  // namespace mimicx::synth

@@ -88,8 +88,9 @@ void for_each_residual(const Character& c, const PoseTargets& wanted, const Synt
   for (int i = 0; i < c.contact_points.count(); ++i) {
     const Vector3d p = lowest_position(c.contact_points[i], poses);
     const auto& target = wanted.point[i];
-    if (!target && p.z() >= 0.0) continue;
-    const Vector3d off = target ? Vector3d(p - target->place) : p;
+    const double over_ground = p.z() - wanted.scene.height_under(p);
+    if (!target && over_ground >= 0.0) continue;
+    const Vector3d off = target ? Vector3d(p - target->place) : Vector3d(p.x(), p.y(), over_ground);
     const auto add = [&](Squares& squares, int first) {
       const Jacobian J = point_jacobian(poses, c.contact_points[i].body, p);
       for (int k = first; k < 3; ++k) squares.add(kPoint, off[k], J.row(k));

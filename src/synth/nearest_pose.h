@@ -1,7 +1,7 @@
 /// The pose nearest to a nominal one that brings contact points and the centre of mass to their targets.
 ///
 /// Gauss-Newton on a weighted sum of squares over all joints and the root: differences from the nominal
-/// angles, distances of points from their targets, depths of other contact points below the floor, distance
+/// angles, distances of points from their targets, depths of other contact points below the ground, distance
 /// of the centre of mass from its target. What it does not do: no joint ranges, no contact of the body with
 /// itself.
 #pragma once
@@ -21,6 +21,7 @@ struct PointTarget {
 struct PoseTargets {
   SynthPose nominal;
   List<std::optional<PointTarget>> point;  ///< one per contact point of the character
+  Scene scene;                             ///< other points stay above its ground
   Eigen::Vector2d com;                     ///< m; a soft target, missed by centimetres where others conflict
 };
 

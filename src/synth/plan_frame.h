@@ -37,6 +37,7 @@ struct PlanFrame {
   PerSide<ArmPosture> arm;             ///< left, right
   PerSide<FootTarget> foot;            ///< left, right
   Eigen::Vector2d pressure = Eigen::Vector2d::Zero();  ///< centre of pressure, m; unused in flight
+  double pressure_height = 0.0;                        ///< of the ground there, m
   double com_height = 0.0;                             ///< of the whole body, m
   bool flight = false;                                 ///< no foot touches the floor
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mimicx::synth {
 namespace {
@@ -77,8 +78,18 @@ Support front(int side) {
   return points;
 }
 
-Sketch::Sketch(const PlanRequest& request, const PerSide<FootTarget>& start)
-    : request_(request), stand_(standing_frame(request.character, standing_feet(request.character, start))) {
+Support thighs() { return {points_on(kLeftHip).front(), points_on(kRightHip).front()}; }
+Support seat() {
+  Support points = points_on(kPelvis);
+  for (const int point : thighs()) points.push_back(point);
+  return points;
+}
+Support back() { return points_on(kSpine3); }
+
+Sketch::Sketch(const PlanRequest& request, const PerSide<FootTarget>& start, Scene scene)
+    : request_(request),
+      scene_(std::move(scene)),
+      stand_(standing_frame(request.character, standing_feet(request.character, start))) {
   Key first;
   first.time = 0.0;
   first.pose =
@@ -87,6 +98,7 @@ Sketch::Sketch(const PlanRequest& request, const PerSide<FootTarget>& start)
   for (int i = 0; i < lowest.count(); ++i) {
     const bool foot = i < kFootPoints;
     first.held.push_back(foot);
+    first.rolls.push_back(false);
     first.place.push_back(foot ? std::optional(lowest[i]) : std::nullopt);
   }
   keys_.push_back(first);
@@ -96,16 +108,18 @@ void Sketch::go(const KeyPose& key, double seconds) {
   const Character& c = request_.character;
   const Key &start = keys_.front(), &last = keys_.back();
   std::vector<Load> loads = key.weight_on;
-  PoseTargets wanted{last.pose, {}, Eigen::Vector2d::Zero()};
+  PoseTargets wanted{last.pose, {}, scene_, Eigen::Vector2d::Zero()};
   wanted.nominal.q = rotations_of(key);
   wanted.point.resize(c.contact_points.size());
+  List<bool> rolls(c.contact_points.size(), false);
   for (const Bearing& support : key.bearings) {
     for (const int i : support.points) {
       const std::optional<Vector3d>& was = (support.from_start ? start : last).place[i];
       Vector3d place = was.value_or(Vector3d::Zero());
       place.head<2>() += support.shift;
-      place.z() = support.lift;
-      wanted.point[i] = {place, !was};
+      place.z() = support.ground + support.lift;
+      wanted.point[i] = {place, !was || support.rolls};
+      rolls[i] = support.rolls;
     }
     if (key.weight_on.empty() && support.lift == 0.0) loads.push_back({support.points});
   }
@@ -118,7 +132,7 @@ void Sketch::go(const KeyPose& key, double seconds) {
     pose = nearest_pose(c, wanted, pose);
   }
   // What was reached, so that the ways between the keys end in it.
-  Key reached{last.time + seconds, pose, {}, last.place};
+  Key reached{last.time + seconds, pose, {}, rolls, last.place};
   const List<Vector3d> lowest = lowest_positions(c, pose);
   for (int i = 0; i < lowest.count(); ++i) {
     reached.held.push_back(wanted.point[i].has_value());
@@ -154,12 +168,12 @@ SynthPose Sketch::between(const Key& a, const Key& b, double share) const {
   const auto blend = [&](const auto& from, const auto& to) {
     return ((1.0 - share) * from + share * to).eval();
   };
-  PoseTargets wanted{a.pose, {}, blend(a.pose.p_com, b.pose.p_com).head<2>()};
+  PoseTargets wanted{a.pose, {}, scene_, blend(a.pose.p_com, b.pose.p_com).head<2>()};
   wanted.nominal.p_root = blend(a.pose.p_root, b.pose.p_root);
   for (int i = 0; i < kBodies; ++i) wanted.nominal.q[i] = slerp(a.pose.q[i], share, b.pose.q[i]);
   wanted.point.resize(a.place.size());
   for (int i = 0; i < a.place.count(); ++i)
-    if (a.held[i] && b.held[i]) wanted.point[i] = {blend(*a.place[i], *b.place[i])};
+    if (a.held[i] && b.held[i]) wanted.point[i] = {blend(*a.place[i], *b.place[i]), a.rolls[i] || b.rolls[i]};
   return nearest_pose(request_.character, wanted, wanted.nominal);
 }
 

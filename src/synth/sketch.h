@@ -33,14 +33,19 @@ Support toes(int side);  ///< with the ball of the foot
 Support knee(int side);
 Support hand(int side);
 Support front(int side);  ///< hip and belly, for lying on the front
+Support thighs();
+Support seat();  ///< pelvis and thighs
+Support back();  ///< the thorax, for lying on the back
 
 /// Position of a support in a key pose. A support of earlier keys keeps its position plus `shift`; a new one
 /// has the position of the nominal pose.
 struct Bearing {
   Support points;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< from its last position, m
-  double lift = 0.0;                                ///< height over the floor, m; above 0 it bears no load
+  double lift = 0.0;                                ///< height over its ground, m; above 0 it bears no load
   bool from_start = false;                          ///< `shift` counts from its position at time 0
+  double ground = 0.0;                              ///< height of its ground, m
+  bool rolls = false;                               ///< only its height is held: a body rolls on its flesh
 };
 inline Bearing on(Support points) { return {std::move(points)}; }
 inline Bearing moved(Support points, double ahead, double lift = 0.0) {
@@ -49,6 +54,11 @@ inline Bearing moved(Support points, double ahead, double lift = 0.0) {
 
 /// At its position of time 0, moved ahead, m.
 inline Bearing home(Support points, double ahead) { return {std::move(points), {ahead, 0.0}, 0.0, true}; }
+
+/// Of the trunk and the thighs, on a plate.
+inline Bearing rolling_on(Support points, double height) {
+  return {std::move(points), Eigen::Vector2d::Zero(), 0.0, false, height, true};
+}
 
 /// A part of the weight, in any unit.
 struct Load {
@@ -66,7 +76,7 @@ struct KeyPose {
 class Sketch {
  public:
   /// Begins standing at ease.
-  Sketch(const PlanRequest& request, const PerSide<FootTarget>& start);
+  Sketch(const PlanRequest& request, const PerSide<FootTarget>& start, Scene scene = {});
 
   Random& random() { return request_.random; }
   /// Standing at ease on the feet of time 0.
@@ -84,12 +94,13 @@ class Sketch {
   struct Key {
     double time;  ///< s
     SynthPose pose;
-    List<bool> held;                      ///< per contact point: whether it belongs to a support
+    List<bool> held, rolls;               ///< per contact point: whether it belongs to a support
     List<std::optional<Vector3d>> place;  ///< per contact point: its last position as part of a support
   };
   SynthPose between(const Key& a, const Key& b, double share) const;
 
   const PlanRequest& request_;
+  Scene scene_;
   PlanFrame stand_;
   List<Key> keys_;
 };

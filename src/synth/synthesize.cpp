@@ -35,6 +35,9 @@ std::uint64_t index_of_kind(const std::string& name) {
     return static_cast<std::uint64_t>(kind - synth_kinds().data());
   if (const SketchedKind* kind = find_kind(sketched_kinds(), name))
     return kFirstSketch + static_cast<std::uint64_t>(kind - sketched_kinds().data());
+  constexpr std::uint64_t kFirstScene = 2000;
+  if (const SceneKind* kind = find_kind(scene_kinds(), name))
+    return kFirstScene + static_cast<std::uint64_t>(kind - scene_kinds().data());
   throw std::invalid_argument("unknown kind of motion '" + name + "'");
 }
 
@@ -47,6 +50,12 @@ std::vector<std::string> synthetic_kinds() {
 std::vector<std::string> floor_kinds() {
   std::vector<std::string> names;
   for (const SketchedKind& kind : sketched_kinds()) names.push_back(kind.name);
+  return names;
+}
+
+std::vector<std::string> ground_kinds() {
+  std::vector<std::string> names;
+  for (const SceneKind& kind : scene_kinds()) names.push_back(kind.name);
   return names;
 }
 
@@ -64,8 +73,10 @@ motion::Clip synthesize(const SynthConfig& config) {
   Random random(config.seed, {kPlanStream, index}), place(config.seed, {kPlaceStream, index});
   const auto exact = find_kind(synth_kinds(), config.kind);
   const auto sketched = find_kind(sketched_kinds(), config.kind);
-  const auto [shortest, longest] = exact != nullptr ? std::pair(exact->shortest, exact->longest)
-                                                    : std::pair(sketched->shortest, sketched->longest);
+  const auto on_scene = find_kind(scene_kinds(), config.kind);
+  const auto [shortest, longest] = exact != nullptr      ? std::pair(exact->shortest, exact->longest)
+                                   : sketched != nullptr ? std::pair(sketched->shortest, sketched->longest)
+                                                         : std::pair(on_scene->shortest, on_scene->longest);
   const double chosen = random.uniform(shortest, longest);
   const double seconds = config.seconds == 0.0 ? chosen : config.seconds;
   if (!(seconds >= 4.0 && seconds <= 60.0))
@@ -73,20 +84,30 @@ motion::Clip synthesize(const SynthConfig& config) {
   const Character character = make_character(shape_of(config));
   const int frames = static_cast<int>(std::lround(seconds * kSynthFps)) + 1;
   const PlanRequest request{character, random, frames};
-  const PerFrame<SynthPose> motion =
-      exact != nullptr ? solve_plan(character, exact->plan(request), kSynthFps) : sketched->draw(request);
+  const SceneMotion drawn = exact != nullptr
+                                ? SceneMotion{solve_plan(character, exact->plan(request), kSynthFps), {}}
+                            : sketched != nullptr ? SceneMotion{sketched->draw(request), {}}
+                                                  : on_scene->make(request);
 
-  const Quaterniond heading = rotation_z(place.uniform(-std::numbers::pi, std::numbers::pi));
+  const double yaw = place.uniform(-std::numbers::pi, std::numbers::pi);
+  const Quaterniond heading = rotation_z(yaw);
   const double x = place.uniform(-1.0, 1.0), y = place.uniform(-1.0, 1.0);
   const Vector3d origin(x, y, 0.0);
   PerFrame<Vector3d> p_root;
   PerFrame<PerBody<Quaterniond>> q;
-  for (const SynthPose& pose : motion) {
+  for (const SynthPose& pose : drawn.poses) {
     p_root.push_back(origin + heading * pose.p_root);
     q.push_back(pose.q);
     q.back()[kPelvis] = heading * pose.q[kPelvis];
   }
-  return motion::to_clip(name_of(config), kSynthFps, character, p_root, q);
+  motion::Clip clip = motion::to_clip(name_of(config), kSynthFps, character, p_root, q);
+  for (Plate plate : drawn.scene.plates) {
+    const Vector3d centre = origin + heading * Vector3d(plate.centre.x(), plate.centre.y(), 0.0);
+    plate.centre = centre.head<2>();
+    plate.yaw += yaw;
+    clip.scene.plates.push_back(plate);
+  }
+  return clip;
 }
 
 }  // namespace mimicx::synth

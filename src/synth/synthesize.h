@@ -5,11 +5,11 @@
 /// plan into a motion: the horizontal path of the centre of mass follows from the centre of pressure
 /// (docs/method.md, "Synthetic motions"), the legs from inverse kinematics with planted feet. Knees and
 /// elbows are exact hinges, and flight is ballistic. A new kind needs only a new plan (synth/kinds.h). Kinds
-/// that go down to the floor are sketches instead (synth/sketch.h).
+/// that go down to the floor, or onto seats, are sketches instead (synth/sketch.h).
 ///
-/// Conventions: 30 frames per second, world z up, floor z = 0; `body_model` "mimicx".
-/// What it does not do: no torques (audit/feasibility.h computes them), no files (synth/data_set.h), no floor
-/// other than a flat one.
+/// Conventions: 30 frames per second, world z up, floor z = 0; `body_model` "mimicx". Stairs and seats are
+/// plates of the clip's scene.
+/// What it does not do: no torques (audit/feasibility.h computes them), no files (synth/data_set.h).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 namespace mimicx::synth {
 
 struct SynthConfig {
-  std::string kind = "stand";          ///< of `synthetic_kinds()` or `floor_kinds()`
+  std::string kind = "stand";          ///< of `synthetic_kinds()`, `floor_kinds()` or `ground_kinds()`
   std::uint64_t seed = 0;              ///< varies amplitudes, timing, heading and place
   std::array<double, kBetas> betas{};  ///< shape of the body
   bool betas_from_seed = false;        ///< add N(0, 0.7) per entry, within ±2, to `betas`
@@ -34,6 +34,8 @@ std::vector<std::string> synthetic_kinds();
 /// The sketched kinds, which go down to the floor. They are not physically possible before planning
 /// (sketch.h).
 std::vector<std::string> floor_kinds();
+/// The kinds on stairs, kerbs, boxes, seats and beds. Steps are exact; seats and beds are sketches.
+std::vector<std::string> ground_kinds();
 /// The kinds of data/synthetic, and of sets that name no kinds.
 std::vector<std::string> basic_kinds();
 

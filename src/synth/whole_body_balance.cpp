@@ -165,7 +165,7 @@ PerFrame<Eigen::Vector2d> com_path(const PerFrame<PlanFrame>& plan, const PerFra
   PerFrame<double> above(plan.size(), 0.0);  // the eliminated row reads c_i = path_i + above_i · c_{i+1}
   path.front() = plan.front().pressure;
   for (int i = 1; i + 1 < n; ++i) {
-    const double h = plan[i].com_height;
+    const double h = plan[i].com_height - plan[i].pressure_height;
     const double bend = h * fps * fps, weight = weight_at(plan, i, fps);
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     if (!plan[i].flight) right = weight * plan[i].pressure + moment[i];

@@ -1,7 +1,7 @@
 /// Turns a plan into a motion: moves the whole body so that its balance is that of the plan.
 ///
-/// Centre of mass c (height h, known from the plan), centre of pressure p, gravity g. The moments about p
-/// of gravity, of inertia and of the change of angular momentum L about c vanish:
+/// Centre of mass c (height h over the ground at p, known from the plan), centre of pressure p, gravity g.
+/// The moments about p of gravity, of inertia and of the change of angular momentum L about c vanish:
 ///     (g + ḧ)(c − p) − h c̈ = ℓ,     ℓ = (L̇_y, −L̇_x)/m
 /// (Kajita et al., "Biped walking pattern generation by using preview control of zero-moment point",
 /// ICRA 2003, with the terms of ḧ and L̇ kept). On the frames, with second differences for the

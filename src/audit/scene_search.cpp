@@ -1,0 +1,346 @@
+#include "audit/scene_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "audit/friction_cones.h"
+#include "audit/pose_needs.h"
+#include "core/elementary.h"
+#include "core/quantile.h"
+#include "core/units.h"
+
+namespace mimicx::audit {
+namespace {
+
+constexpr double kSlow = 0.3;          // of a standing foot and of the hips, m/s
+constexpr double kSpeedSpan = 0.067;   // speeds are means over twice this, s
+constexpr double kStands = 0.13;       // s
+constexpr double kSits = 0.3;          // s
+constexpr double kLowestPlate = 0.09;  // m; heights of estimated motions wander by less
+constexpr double kSameHeight = 0.05;   // of the feet on one plate, m
+constexpr double kSameSeat = 0.4;      // from its middle to that of another one, m
+constexpr double kRises = 0.15;        // of a standing foot, m/s
+constexpr double kReach = 0.03;        // a point so far over the ground touches it, m
+constexpr double kMissing = 0.15;      // W
+constexpr double kOnOneFoot = 0.7;     // share of a step's frames in which less may be missing
+constexpr double kSeatMissing = 0.06, kSeatExplained = 0.03;  // W
+constexpr double kExplained = 0.10;                           // W
+constexpr double kMargin = 0.06;                              // of a plate beyond the points that use it, m
+constexpr double kLevelThigh = 0.55;                          // largest sine of its slope
+constexpr double kLowestSeat = 0.20;                          // m
+constexpr double kWindow = 0.2;                               // of the needs, s
+constexpr double kCushion = 2e4, kCushionDamping = 1e3;       // of a seat, N/m, N·s/m
+
+/// Points that push together while a foot stands or hips rest.
+struct Stance {
+  int first, last;          ///< frames
+  std::vector<int> points;  ///< indices of contact points
+  double height;            ///< m
+};
+
+/// The motion as the search looks at it.
+class SupportedMotion {
+ public:
+  explicit SupportedMotion(const motion::Clip& clip)
+      : c_(motion::character_of(clip)), poses_(motion::poses_of(clip)), fps_(clip.fps) {
+    for (const BodyPoses& pose : poses_) {
+      place_.emplace_back();
+      for (const ContactPoint& point : c_.contact_points)
+        place_.back().push_back(lowest_position(point, pose));
+    }
+    PoseNeedsConfig needs;
+    needs.window = kWindow;
+    wanted_ = wanted_wrenches(c_, poses_, fps_, needs);
+  }
+
+  const Character& character() const { return c_; }
+  int frames() const { return poses_.count(); }
+  double fps() const { return fps_; }
+  const BodyPoses& poses(int t) const { return poses_[t]; }
+  const Vector3d& place(int t, int point) const { return place_[t][point]; }
+  double weight() const { return kGravity * c_.total_mass(); }
+
+  /// Mean speed around frame t, m/s.
+  double speed(int t, int point) const {
+    const int a = std::max(0, t - away()), b = std::min(frames() - 1, t + away());
+    return (place_[b][point] - place_[a][point]).norm() * fps_ / (b - a);
+  }
+  double lowest_of(int t, const std::vector<int>& points) const {
+    double z = HUGE_VAL;
+    for (const int i : points) z = std::min(z, place_[t][i].z());
+    return z;
+  }
+
+  /// Mean vertical speed of the lowest of the points around frame t, m/s.
+  double rise(int t, const std::vector<int>& points) const {
+    const int a = std::max(0, t - away()), b = std::min(frames() - 1, t + away());
+    return (lowest_of(b, points) - lowest_of(a, points)) * fps_ / (b - a);
+  }
+
+  struct Rest {
+    double missing;  ///< W
+    double carried;  ///< upward force of the asked points, W
+  };
+  /// What is missing at frame t if points at most kReach over `floor` push, and `others`.
+  /// @param asked  indices whose load is returned
+  Rest rest(int t, double floor, std::vector<int> others, const std::vector<int>& asked = {}) const {
+    for (int i = 0; i < c_.contact_points.count(); ++i)
+      if (place_[t][i].z() < floor + kReach) others.push_back(i);
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    List<Push> pushes;
+    for (const int i : others) pushes.push_back({c_.contact_points[i].body, place_[t][i], Vector3d::Zero()});
+    const Vector6d left = fit_cone_forces({}, center_of_mass(c_, poses_[t]), wanted_[t], pushes);
+    Rest rest{left.norm() / weight(), 0.0};
+    for (int k = 0; k < pushes.count(); ++k)
+      if (std::find(asked.begin(), asked.end(), others[static_cast<std::size_t>(k)]) != asked.end())
+        rest.carried += pushes[k].force.z() / weight();
+    return rest;
+  }
+
+ private:
+  int away() const { return std::max(1, static_cast<int>(std::lround(kSpeedSpan * fps_))); }
+  Character c_;
+  PerFrame<BodyPoses> poses_;
+  double fps_;
+  PerFrame<List<Vector3d>> place_;
+  PerFrame<Vector6d> wanted_;
+};
+
+std::vector<int> foot_points(int foot) {
+  std::vector<int> points;
+  for (int i = 0; i < kFootPoints / 2; ++i) points.push_back(foot * kFootPoints / 2 + i);
+  return points;
+}
+
+/// Calls visit(first, last) for every run of frames that are `on`, at least `seconds` long.
+template <class Visit>
+void for_each_run(const PerFrame<bool>& on, double fps, double seconds, const Visit& visit) {
+  for (int t = 0; t < on.count(); ++t) {
+    if (!on[t]) continue;
+    const int first = t;
+    while (t + 1 < on.count() && on[t + 1]) ++t;
+    if ((t - first + 1) / fps >= seconds) visit(first, t);
+  }
+}
+
+/// Standing feet, in order of time. A foot stands where two of its points are slow.
+std::vector<Stance> stances(const SupportedMotion& e) {
+  std::vector<Stance> found;
+  for (int foot = 0; foot < 2; ++foot) {
+    const std::vector<int> points = foot_points(foot);
+    PerFrame<bool> stands(static_cast<std::size_t>(e.frames()), false);
+    for (int t = 0; t < e.frames(); ++t)
+      stands[t] =
+          std::abs(e.rise(t, points)) < kRises &&
+          std::count_if(points.begin(), points.end(), [&](int i) { return e.speed(t, i) < kSlow; }) >= 2;
+    for_each_run(stands, e.fps(), kStands, [&](int first, int last) {
+      std::vector<double> heights;
+      for (int t = first; t <= last; ++t) heights.push_back(e.lowest_of(t, points));
+      found.push_back({first, last, points, median(heights)});
+    });
+  }
+  std::sort(found.begin(), found.end(), [](const Stance& a, const Stance& b) {
+    return a.first != b.first ? a.first < b.first : a.points < b.points;
+  });
+  return found;
+}
+
+/// The stances of one plate.
+using Group = std::vector<Stance>;
+
+double group_height(const Group& group) {
+  std::vector<double> heights;
+  for (const Stance& stance : group) heights.push_back(stance.height);
+  return median(heights);
+}
+
+std::vector<Group> raised_groups(const std::vector<Stance>& all, double floor) {
+  std::vector<Group> groups;
+  bool broken = true;  // by a foot at another height
+  for (const Stance& stance : all) {
+    if (stance.height < floor + kLowestPlate) continue;
+    if (!groups.empty() && std::abs(stance.height - group_height(groups.back())) < kSameHeight)
+      broken = std::any_of(all.begin(), all.end(), [&](const Stance& between) {
+        return between.first > groups.back().back().last && between.last < stance.first &&
+               std::abs(between.height - stance.height) >= kSameHeight;
+      });
+    else
+      broken = true;
+    if (broken) groups.emplace_back();
+    groups.back().push_back(stance);
+  }
+  return groups;
+}
+
+/// The points of the stances of all groups but `left_out` that push at frame t.
+std::vector<int> pushing(const std::vector<Group>& groups, int t, const Group* left_out = nullptr) {
+  std::vector<int> points;
+  for (const Group& group : groups)
+    if (&group != left_out)
+      for (const Stance& stance : group)
+        if (t >= stance.first && t <= stance.last)
+          points.insert(points.end(), stance.points.begin(), stance.points.end());
+  return points;
+}
+
+/// Every second frame of the stances, each once; not the first and last two frames of the motion, whose
+/// accelerations are unknown.
+std::vector<int> frames_of(const Group& group, int frames) {
+  std::vector<int> list;
+  for (const Stance& stance : group)
+    for (int t = std::max(2, stance.first); t <= std::min(frames - 3, stance.last); t += 2) list.push_back(t);
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+/// The rectangle under the points of the stances, its first side along `ahead`.
+Plate plate_under(const SupportedMotion& e, const Group& group, const Eigen::Vector2d& ahead, double height) {
+  const Eigen::Vector2d along = ahead.normalized(), across(-along.y(), along.x());
+  Eigen::Vector2d low(HUGE_VAL, HUGE_VAL), high = -low;
+  for (const Stance& stance : group)
+    for (int t = stance.first; t <= stance.last; ++t)
+      for (const int i : stance.points) {
+        const Eigen::Vector2d p = e.place(t, i).head<2>(), at(p.dot(along), p.dot(across));
+        low = low.cwiseMin(at);
+        high = high.cwiseMax(at);
+      }
+  const Eigen::Vector2d middle = 0.5 * (low + high);
+  Plate plate;
+  plate.centre = middle.x() * along + middle.y() * across;
+  plate.yaw = atan2(along.y(), along.x());
+  plate.half_extents = 0.5 * (high - low) + Eigen::Vector2d::Constant(kMargin);
+  plate.height = height;
+  return plate;
+}
+
+/// Direction in which the feet of the stances point.
+Eigen::Vector2d toes_of(const SupportedMotion& e, const Group& group) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Stance& s : group)
+    for (int t = s.first; t <= s.last; ++t)
+      sum += (e.place(t, s.points[4]) - e.place(t, s.points[0])).head<2>();
+  return sum;
+}
+
+std::string plate_in_words(const char* what, double height, const char* under, int first, int last,
+                           double carried) {
+  char text[200];
+  std::snprintf(text, sizeof text, "a %s of %.2f m under the %s, frames %d to %d: %.2f of the weight", what,
+                height, under, first, last, carried);
+  return text;
+}
+
+void find_steps(const SupportedMotion& e, FoundScene& found, std::vector<Group>& accepted) {
+  const std::vector<Stance> all = stances(e);
+  if (all.empty()) return;
+  const std::vector<Group> groups = raised_groups(all, found.floor);
+  for (const Group& group : groups) {
+    std::vector<double> without, with, carried;
+    std::vector<int> points;
+    for (const Stance& stance : group)
+      points.insert(points.end(), stance.points.begin(), stance.points.end());
+    for (const int t : frames_of(group, e.frames())) {
+      without.push_back(e.rest(t, found.floor, pushing(groups, t, &group)).missing);
+      const SupportedMotion::Rest rest = e.rest(t, found.floor, pushing(groups, t), points);
+      with.push_back(rest.missing);
+      carried.push_back(rest.carried);
+    }
+    if (without.empty() || quantile(without, kOnOneFoot) < kMissing || median(with) > kExplained) continue;
+    const double height = group_height(group) - found.floor;
+    found.scene.plates.push_back(plate_under(e, group, toes_of(e, group), height));
+    int last = 0;
+    bool left = false, right = false;
+    for (const Stance& stance : group) {
+      last = std::max(last, stance.last);
+      (stance.points.front() == 0 ? left : right) = true;
+    }
+    found.words.push_back(plate_in_words("step", height,
+                                         left && right ? "feet"
+                                         : left        ? "left foot"
+                                                       : "right foot",
+                                         group.front().first, last, median(carried)));
+    accepted.push_back(group);
+  }
+}
+
+/// Whether someone may sit at frame t: hips slow, thighs nearly level.
+bool may_sit(const SupportedMotion& e, int t, const std::vector<int>& seat, double floor) {
+  for (int side = 0; side < 2; ++side) {
+    const Vector3d thigh = e.poses(t).p_WB[kLeftKnee + side] - e.poses(t).p_WB[kLeftHip + side];
+    if (std::abs(thigh.z()) > kLevelThigh * thigh.norm()) return false;
+  }
+  if (e.lowest_of(t, seat) < floor + kLowestSeat) return false;
+  return std::all_of(seat.begin(), seat.end(), [&](int i) { return e.speed(t, i) < kSlow; });
+}
+
+void find_seats(const SupportedMotion& e, const std::vector<Group>& steps, FoundScene& found) {
+  std::vector<int> seat, hips, thighs;
+  for (int i = kFootPoints; i < e.character().contact_points.count(); ++i) {
+    const int body = e.character().contact_points[i].body;
+    if (body == kPelvis) hips.push_back(i);
+    if (body == kLeftHip || body == kRightHip) thighs.push_back(i);
+    if (body == kPelvis || body == kLeftHip || body == kRightHip) seat.push_back(i);
+  }
+  const auto feet_and = [&](int t, std::vector<int> points) {
+    for (int i = 0; i < kFootPoints; ++i)
+      if (e.place(t, i).z() < found.floor + kLowestPlate) points.push_back(i);
+    for (const int i : pushing(steps, t)) points.push_back(i);
+    return points;
+  };
+  // An estimate wanders up and down as a whole: a seat is as high as the hips are over standing feet.
+  const auto ground_at = [&](int t) {
+    const double feet = 0.5 * (e.lowest_of(t, foot_points(0)) + e.lowest_of(t, foot_points(1)));
+    return feet < found.floor + kLowestPlate ? feet : found.floor;
+  };
+  PerFrame<bool> sits(static_cast<std::size_t>(e.frames()), false);
+  for (int t = 0; t < e.frames(); ++t) sits[t] = may_sit(e, t, seat, found.floor);
+  for_each_run(sits, e.fps(), kSits, [&](int first, int last) {
+    std::vector<double> without, with, carried, heights;
+    Eigen::Vector2d ahead = Eigen::Vector2d::Zero();
+    for (int t = first; t <= last; ++t) {
+      const SupportedMotion::Rest rest = e.rest(t, found.floor, feet_and(t, seat), seat);
+      with.push_back(rest.missing);
+      carried.push_back(rest.carried);
+      without.push_back(e.rest(t, found.floor, feet_and(t, {})).missing);
+      heights.push_back(0.5 * (e.lowest_of(t, hips) + e.lowest_of(t, thighs)) - ground_at(t));
+      for (int side = 0; side < 2; ++side)
+        ahead += (e.poses(t).p_WB[kLeftKnee + side] - e.poses(t).p_WB[kLeftHip + side]).head<2>();
+    }
+    if (median(without) < kSeatMissing || median(with) > kSeatExplained) return;
+    const double height = median(heights);
+    Plate plate = plate_under(e, {{first, last, seat, height}}, ahead, height);
+    plate.stiffness = kCushion;
+    plate.damping = kCushionDamping;
+    plate.height += plate.give();  // the body lies in it
+    for (const Plate& other : found.scene.plates)
+      if (other.stiffness == kCushion && std::abs(other.height - plate.height) < kSameHeight &&
+          (other.centre - plate.centre).norm() < kSameSeat)
+        return;  // the same seat once more
+    found.scene.plates.push_back(plate);
+    found.words.push_back(plate_in_words("seat", plate.height, "pelvis", first, last, median(carried)));
+  });
+}
+
+}  // namespace
+
+FoundScene find_scene(const motion::Clip& clip) {
+  motion::require_usable(clip, 3);
+  const SupportedMotion e(clip);
+  FoundScene found;
+  std::vector<double> lowest;
+  const std::vector<Stance> all = stances(e);
+  for (const Stance& stance : all) lowest.push_back(stance.height);
+  if (lowest.empty())
+    for (int t = 0; t < e.frames(); ++t)
+      lowest.push_back(std::min(e.lowest_of(t, foot_points(0)), e.lowest_of(t, foot_points(1))));
+  found.floor = *std::min_element(lowest.begin(), lowest.end());
+  std::vector<Group> steps;
+  find_steps(e, found, steps);
+  find_seats(e, steps, found);
+  return found;
+}
+
+}  // namespace mimicx::audit

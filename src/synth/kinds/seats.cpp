@@ -1,0 +1,149 @@
+// Onto a seat or a bed and up again.
+#include <cmath>
+#include <utility>
+
+#include "synth/kinds/random_postures.h"
+#include "synth/sketch.h"
+
+namespace mimicx::synth {
+namespace {
+
+/// Angles in degrees.
+LegPosture bent(double flexion, double knee, double pointing = 0.0) {
+  return {flexion * kDegree, 4.0 * kDegree, knee * kDegree, pointing * kDegree, 0.0};
+}
+
+/// A plate behind the feet, as high as the thighs of a person who sits with level thighs.
+/// @param deep  m from front to back  @param share  of that height
+Scene seat_behind(const PlanRequest& request, double deep, double share) {
+  const Character& c = request.character;
+  const double sole = -sole_point(c.contact_points[0]).y();  // below the ankle
+  const double thigh = c.joint_offset[kLeftKnee].norm(), front = -0.18 * thigh;
+  Plate plate;
+  plate.half_extents = {0.5 * deep, 0.30};
+  plate.centre = {front - 0.5 * deep, 0.0};
+  plate.height = share * (c.joint_offset[kLeftAnkle].norm() + sole - c.capsule[kLeftHip].radius);
+  Scene scene;
+  scene.plates.push_back(plate);
+  return scene;
+}
+
+/// A person between standing and sitting.
+class Sitter {
+ public:
+  Sitter(Sketch& sketch, double height) : s_(sketch), height_(height), stand_(sketch.stand()) {
+    tempo_ = sketch.random().uniform(0.9, 1.15);
+    lean_ = sketch.random().uniform(36.0, 44.0);
+    upright_ = stand_;  // the hands over the thighs
+    for (ArmPosture& arm : upright_.arm) arm = {30.0 * kDegree, 10.0 * kDegree, 0.0, 55.0 * kDegree};
+  }
+
+  void down() {
+    s_.pause(0.5);
+    go(bowed(80.0, 62.0), {}, soles(), 1.0);
+    go(bowed(114.0, 97.0), {}, soles(), 0.8);
+    go(leaning(), seated(), to_feet(), 0.8);
+    go(sitting(upright_), seated(), on_seat(), 0.8);
+  }
+  void up() {
+    go(sitting(upright_), seated(), on_seat(), 0.7);
+    go(leaning(), seated(), to_feet(), 0.8);
+    go(bowed(114.0, 97.0), {}, soles(), 0.8);
+    go(bowed(80.0, 62.0), {}, soles(), 0.8);
+    s_.stand_up(1.0, 0.0);
+    s_.pause(0.4);
+  }
+  void gesture(const PlanFrame& upper, double seconds) { go(sitting(upper), seated(), on_seat(), seconds); }
+  void lie(double rest) {
+    go(reclined(-40.0), seated(), {{seat(), 0.95}, {sole(0), 0.025}, {sole(1), 0.025}}, 1.4);
+    go(reclined(-86.0), {rolling_on(thighs(), height_), rolling_on(back(), height_)},
+       {{seat(), 0.5}, {back(), 0.45}, {sole(0), 0.025}, {sole(1), 0.025}}, 1.4);
+    s_.pause(rest);
+    go(reclined(-40.0), seated(), {{seat(), 0.95}, {sole(0), 0.025}, {sole(1), 0.025}}, 1.4);
+  }
+  const PlanFrame& upright() const { return upright_; }
+
+ private:
+  void go(KeyPose key, std::vector<Bearing> more, std::vector<Load> weight_on, double seconds) {
+    key.bearings = {on(sole(0)), on(sole(1))};
+    key.bearings.insert(key.bearings.end(), more.begin(), more.end());
+    key.weight_on = std::move(weight_on);
+    s_.go(key, tempo_ * seconds);
+  }
+  std::vector<Bearing> seated() const { return {rolling_on(seat(), height_)}; }
+  static std::vector<Load> soles() { return {{sole(0)}, {sole(1)}}; }
+  static std::vector<Load> to_feet() { return {{seat(), 0.5}, {sole(0), 0.25}, {sole(1), 0.25}}; }
+  static std::vector<Load> on_seat() { return {{seat(), 0.85}, {sole(0), 0.075}, {sole(1), 0.075}}; }
+  /// Hips back, trunk and arms ahead.
+  KeyPose bowed(double flexion, double knee) const {
+    KeyPose key{stand_, {}, {}, {}};
+    key.upper.pelvis.x() = lean_ * kDegree;
+    key.upper.trunk.x() = 0.5 * lean_ * kDegree;
+    key.upper.head.x() = -0.9 * lean_ * kDegree;
+    for (ArmPosture& arm : key.upper.arm) arm = {110.0 * kDegree, 12.0 * kDegree, 0.0, 20.0 * kDegree};
+    for (LegPosture& l : key.leg) l = bent(flexion, knee, lean_ + knee - flexion);
+    return key;
+  }
+  KeyPose sitting(const PlanFrame& upper) const {
+    KeyPose key{upper, {}, {}, {}};
+    for (LegPosture& l : key.leg) l = bent(86.0, 86.0);
+    return key;
+  }
+  /// Before the hips leave the seat, and when they have reached it.
+  KeyPose leaning() const {
+    KeyPose key = bowed(86.0 + 0.5 * lean_, 92.0);
+    key.upper.pelvis.x() = 0.5 * lean_ * kDegree;
+    key.upper.trunk.x() = lean_ * kDegree;
+    for (LegPosture& l : key.leg) l.pointing = 0.0;
+    return key;
+  }
+  KeyPose reclined(double tilt) const {
+    KeyPose key = sitting(upright_);
+    key.upper.pelvis.x() = tilt * kDegree;
+    key.upper.head.x() = 12.0 * kDegree;
+    for (ArmPosture& arm : key.upper.arm) arm = {8.0 * kDegree, 22.0 * kDegree, 0.0, 20.0 * kDegree};
+    for (LegPosture& l : key.leg) l = bent(86.0 + tilt, 86.0);
+    return key;
+  }
+
+  Sketch& s_;
+  double height_, tempo_ = 1.0, lean_ = 40.0;
+  PlanFrame stand_, upright_;
+};
+
+/// Sits down, calls `busy(sitter)`, and stands up.
+template <class Busy>
+SceneMotion on_seat(const PlanRequest& request, double deep, const Busy& busy) {
+  const double share = request.random.uniform(0.92, 1.04);
+  SceneMotion motion{{}, seat_behind(request, deep, share)};
+  Sketch s(request, random_stance(request, 1.0, 1.3, 3.0, 9.0), motion.scene);
+  Sitter sitter(s, motion.scene.plates.front().height);
+  sitter.down();
+  busy(sitter);
+  sitter.up();
+  motion.poses = s.finished();
+  return motion;
+}
+
+}  // namespace
+
+SceneMotion sit_down(const PlanRequest& request) {
+  return on_seat(request, 0.55,
+                 [&](Sitter& sitter) { sitter.gesture(sitter.upright(), request.random.uniform(0.5, 1.2)); });
+}
+
+SceneMotion sit_and_reach(const PlanRequest& request) {
+  return on_seat(request, 0.55, [&](Sitter& sitter) {
+    for (int gestures = 0; gestures < 3; ++gestures) {
+      PlanFrame posture = random_posture(request.random, sitter.upright(), 0.6);
+      posture.pelvis.x() += request.random.uniform(0.0, 10.0) * kDegree;
+      sitter.gesture(posture, request.random.uniform(0.8, 1.1));
+    }
+  });
+}
+
+SceneMotion lie_on_bed(const PlanRequest& request) {
+  return on_seat(request, 2.0, [&](Sitter& sitter) { sitter.lie(request.random.uniform(0.8, 1.6)); });
+}
+
+}  // namespace mimicx::synth

@@ -1,0 +1,88 @@
+#include "audit/scene_search.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "synth/data_set.h"
+
+namespace mimicx::audit {
+namespace {
+
+/// A clip whose scene is known, and not told.
+struct Known {
+  motion::Clip clip;
+  Scene scene;
+};
+Known known(const std::string& kind) {
+  synth::SynthConfig config;
+  config.kind = kind;
+  Known known{synth::synthesize(config), {}};
+  std::swap(known.scene, known.clip.scene);
+  return known;
+}
+
+motion::Clip noisy(const std::string& kind) {
+  synth::SynthConfig config;
+  config.kind = kind;
+  config.seed = 1;
+  return synth::make_synth_pair(config, {}).noisy;
+}
+
+TEST(FindScene, FindsEveryStepAtItsHeightAndPlace) {
+  for (const std::string kind : {"stairs_up", "stairs_down", "kerb", "box"}) {
+    SCOPED_TRACE(kind);
+    const Known k = known(kind);
+    const FoundScene found = find_scene(k.clip);
+    ASSERT_EQ(found.scene.plates.count(), k.scene.plates.count());
+    ASSERT_EQ(found.words.size(), k.scene.plates.size());
+    EXPECT_NEAR(found.floor, 0.0, 0.002);
+    for (int i = 0; i < k.scene.plates.count(); ++i) {
+      EXPECT_NEAR(found.scene.plates[i].height, k.scene.plates[i].height, 0.005);
+      EXPECT_TRUE(
+          k.scene.plates[i].spans({found.scene.plates[i].centre.x(), found.scene.plates[i].centre.y(), 0.0}));
+    }
+  }
+}
+
+TEST(FindScene, FindsTheSeatAsACushionUnderTheHips) {
+  const Known k = known("sit_down");
+  const FoundScene found = find_scene(k.clip);
+  ASSERT_EQ(found.scene.plates.size(), 1u);
+  const Plate& seat = found.scene.plates.front();
+  EXPECT_NEAR(seat.height - seat.give(), k.scene.plates.front().height, 0.02);
+  EXPECT_GT(seat.give(), 0.005);
+  EXPECT_TRUE(k.scene.plates.front().spans({seat.centre.x(), seat.centre.y(), 0.0}));
+  EXPECT_EQ(found.words.front().rfind("a seat of 0.", 0), 0u) << found.words.front();
+  EXPECT_NE(found.words.front().find("under the pelvis, frames "), std::string::npos);
+}
+
+/// Balance over the feet needs no seat, and a flight no step, whatever the errors of an estimator.
+TEST(FindScene, FindsNothingWhereTheFloorIsEnough) {
+  for (const std::string kind : {"sit", "crouch", "squat", "jumps", "kick", "march"}) {
+    const FoundScene found = find_scene(noisy(kind));
+    EXPECT_TRUE(found.scene.flat()) << kind << ": " << found.words.front();
+  }
+}
+
+TEST(FindScene, FindsStepsOfANoisyEstimate) {
+  const FoundScene found = find_scene(noisy("stairs_up"));
+  synth::SynthConfig config;
+  config.kind = "stairs_up";
+  config.seed = 1;
+  const Scene truth = synth::synthesize(config).scene;
+  ASSERT_EQ(found.scene.plates.count(), truth.plates.count());
+  for (int i = 0; i < truth.plates.count(); ++i)
+    EXPECT_NEAR(found.scene.plates[i].height, truth.plates[i].height, 0.05);
+}
+
+TEST(FindScene, RefusesTwoFrames) {
+  motion::Clip clip = known("kerb").clip;
+  clip.rotations.resize(2);
+  clip.trans.resize(2);
+  EXPECT_THROW(find_scene(clip), std::exception);
+}
+
+}  // namespace
+}  // namespace mimicx::audit

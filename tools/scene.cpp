@@ -1,0 +1,49 @@
+#include <iostream>
+#include <memory>
+
+#include "audit/scene_search.h"
+#include "commands.h"
+#include "files/scene_file.h"
+#include "record/json.h"
+#include "record/outputs.h"
+#include "shared_arguments.h"
+#include "standard_streams.h"
+
+namespace mimicx::tools {
+namespace {
+
+struct SceneArguments {
+  std::filesystem::path input;
+  std::filesystem::path out;
+  import::ReadConfig read;
+  bool force = false;
+};
+
+int scene(const SceneArguments& a) {
+  if (a.read.scene) throw UsageError("scene: it finds the scene; leave out --scene");
+  record::Outputs outputs({a.input.string()}, a.force);
+  if (!is_standard_output(a.out)) outputs.claim(a.out, record::kJsonOpening);
+  const audit::FoundScene found = audit::find_scene(import::read_motion(a.input, a.read));
+  for (const std::string& line : found.words) table_stream(a.out) << line << '\n';
+  if (found.scene.flat())
+    table_stream(a.out) << "no plate: the floor explains the motion, or no plate does\n";
+  if (!a.out.empty()) write_json(a.out, record::document(files::scene_json(found.scene)));
+  return kAllGood;
+}
+
+}  // namespace
+
+void declare_scene(CommandLine& line) {
+  const auto a = std::make_shared<SceneArguments>();
+  Command command =
+      line.add("scene", "Find stairs, kerbs, boxes and seats from the motion on them",
+               "mimicx scene clip.bvh --out scene.json             # the plates, in words and as a file\n"
+               "mimicx plan clip.bvh --scene scene.json");
+  command.file("FILE", a->input, "a motion");
+  command.path("--out", a->out, "file for the scene; -: to standard output");
+  add_read_arguments(command, a->read);
+  add_force(command, a->force);
+  command.action([a] { return scene(*a); });
+}
+
+}  // namespace mimicx::tools
