@@ -15,7 +15,8 @@ enum { LONGEST = 4096 };
 
 static void report(const char *path, int status, const Rule *rules, int table) {
   int i;
-  printf("%s: %s", path, status == ACCEPTED ? "accepted" : "rejected");
+  printf("%s: %s%s", path, status == ACCEPTED ? "accepted" : "rejected",
+         rules[MOTION_FILE].step < 0 ? " without its motion file" : "");
   if (status == REJECTED)
     for (i = 0; i < RULES; ++i)
       if (rules[i].step >= 0 && !(rules[i].difference <= rules[i].tolerance)) {

@@ -31,7 +31,6 @@ static void sha_block(uint32_t h[8], const unsigned char *p) {
   }
   for (i = 0; i < 8; ++i) h[i] += s[i];
 }
-
 static void sha256(const unsigned char *p, size_t n, unsigned char out[32]) {
   uint32_t h[8] = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   unsigned char last[128] = {0};
@@ -520,18 +519,22 @@ static void frame_rule(const Certificate *c, const double *x, uint64_t step, Rul
     note(rules, FRAMES, (long)step, 0, length(r), length(r));
   }
 }
-/* Binds the motion file: its hash, and its frames, which judge() compares. */
+/* Binds the motion file: its hash, rate and shape, and its frames, which judge() compares. */
 static void open_motion(const unsigned char *file, const unsigned char *motion, size_t size, Certificate *c, Rule *rules) {
+  const unsigned char *rate, *shape;
   unsigned char hash[32];
-  uint64_t frames = c->count / (uint64_t)c->stride + 1, poses = 0, trans = 0;
-  int same;
+  uint64_t frames = c->count / (uint64_t)c->stride + 1, poses = 0, trans = 0, rates = 0, shapes = 0, i;
   sha256(motion, size, hash);
-  same = !memcmp(hash, file + 48, 32);
-  note(rules, MOTION_FILE, 0, 0, !same, !same);
+  note_numbers(rules, MOTION_FILE, 0, memcmp(hash, file + 48, 32) != 0, 0);
   c->poses = member(motion, size, "poses.npy", &poses), c->trans = member(motion, size, "trans.npy", &trans);
+  rate = member(motion, size, "mocap_framerate.npy", &rates), shape = member(motion, size, "betas.npy", &shapes);
   c->columns = (long)(poses / frames);
-  if (!c->poses || !c->trans || poses % frames || c->columns < 3 * BODIES || trans != 3 * frames)
+  if (!c->poses || !c->trans || !rate || !shape || poses % frames || c->columns < 3 * BODIES || trans != 3 * frames ||
+      rates != 1 || shapes < BETAS)
     note(rules, FRAMES, 0, 0, HUGE_VAL, HUGE_VAL), c->poses = NULL;
+  else
+    for (note_numbers(rules, FRAMES, 0, 240. / (double)c->stride, number(rate)), i = 0; i < BETAS; ++i)
+      note_numbers(rules, FRAMES, 0, number(c->numbers + 8 * (CONSTANTS + i)), number(shape + 8 * i));
 }
 
 static int judge(const Certificate *c, Rule *rules) {

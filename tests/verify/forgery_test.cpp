@@ -81,8 +81,11 @@ SubstepMotion short_motion(std::size_t first = 300) {
 }
 
 /// A motion file with the frames of the steps.
-std::string motion_file(const SubstepMotion& motion) {
+/// @param fps  of its header: 30 is true
+std::string motion_file(const SubstepMotion& motion, double fps = 30.0) {
   motion::Clip clip = test::standing_clip(static_cast<int>(kSteps / kStride) + 1, 0.9);
+  clip.fps = fps;
+  clip.betas = motion.character.betas;
   for (int t = 0; t < clip.frames(); ++t) {
     const std::size_t k = static_cast<std::size_t>(t) * kStride;
     const motion::ReferenceFrame& state = k < kSteps ? motion.steps[k].state : motion.last;
@@ -103,6 +106,18 @@ const Honest& honest() {
   static const Honest certificate;
   return certificate;
 }
+
+/// A run's folder with a motion and its steps.
+struct RunFiles {
+  TemporaryFolder folder;
+  std::filesystem::path motion = folder.path / "motions/fall.npz", steps = folder.path / "substeps/fall.npz";
+  explicit RunFiles(const std::string& npz) {
+    make_folder(motion.parent_path());
+    make_folder(steps.parent_path());
+    write_file_atomically(motion, npz);
+    write_substeps(steps, honest().motion);
+  }
+};
 
 TEST(Sha256, ExamplesOfTheStandard) {
   const auto hex = [](const std::string& bytes) {
@@ -150,6 +165,18 @@ TEST(Verify, RefusesAnotherMotionFile) {
   const Verdict bound = verdict_of(certificate_of(honest().motion, {"fall", other, kStride}), other);
   EXPECT_FALSE(bound.names(MOTION_FILE));
   EXPECT_TRUE(bound.names(FRAMES)) << bound.reasons();
+}
+
+TEST(Verify, RefusesAnotherRateOrShapeOfTheMotionFile) {
+  const auto bound = [](const std::string& npz) {
+    return verdict_of(certificate_of(honest().motion, {"fall", npz, kStride}), npz);
+  };
+  EXPECT_EQ(bound(honest().npz).status, ACCEPTED);
+  EXPECT_EQ(bound(motion_file(honest().motion, 60.0)).failed, std::vector<int>{FRAMES});
+  SubstepMotion lighter = honest().motion;
+  lighter.character = make_character({});
+  EXPECT_EQ(bound(motion_file(lighter)).failed, std::vector<int>{FRAMES});
+  EXPECT_THROW(certify_file(RunFiles(motion_file(lighter)).motion), DataError);
 }
 
 TEST(Verify, RefusesAnAdversarysMotions) {
@@ -363,18 +390,6 @@ TEST(Verify, SaysWhatIsWrongWithABrokenFile) {
     EXPECT_EQ(verdict.wrong, wanted) << k;
   }
 }
-
-/// A run's folder with a motion and its steps.
-struct RunFiles {
-  TemporaryFolder folder;
-  std::filesystem::path motion = folder.path / "motions/fall.npz", steps = folder.path / "substeps/fall.npz";
-  explicit RunFiles(const std::string& npz) {
-    make_folder(motion.parent_path());
-    make_folder(steps.parent_path());
-    write_file_atomically(motion, npz);
-    write_substeps(steps, honest().motion);
-  }
-};
 
 TEST(Certificate, OfARunsFiles) {
   const RunFiles run(honest().npz);

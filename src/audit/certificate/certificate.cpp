@@ -233,6 +233,8 @@ std::string certify_file(const std::filesystem::path& path) {
   if (clip.body_model != "mimicx" || clip.rest_joints)
     throw DataError(path.string(), "body_model", "a body of our shapes, 'mimicx'",
                     "'" + clip.body_model + "'");
+  if (clip.betas != motion.character.betas)
+    throw DataError(path.string(), "betas", "the shape of its physics steps", "another shape");
   const double per_frame = motion.simulation.rate / clip.fps;
   const int stride = static_cast<int>(std::lround(per_frame));
   if (stride < 1 || std::abs(per_frame - stride) > 1e-6 ||
