@@ -35,10 +35,9 @@ int scene(const SceneArguments& a) {
 
 void declare_scene(CommandLine& line) {
   const auto a = std::make_shared<SceneArguments>();
-  Command command =
-      line.add("scene", "Find stairs, kerbs, boxes and seats from the motion on them",
-               "mimicx scene clip.bvh --out scene.json             # the plates, in words and as a file\n"
-               "mimicx plan clip.bvh --scene scene.json");
+  Command command = line.add("scene", "Find stairs, kerbs, boxes and seats from the motion on them",
+                             "mimicx scene clip.bvh                      # the plates in words\n"
+                             "mimicx scene clip.bvh --out scene.json     # and as a file for --scene");
   command.file("FILE", a->input, "a motion");
   command.path("--out", a->out, "file for the scene; -: to standard output");
   add_read_arguments(command, a->read);

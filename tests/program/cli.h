@@ -34,7 +34,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
 inline constexpr const char* kCommands[] = {"run",         "plan",          "pretrain", "adapt",  "imitate",
                                             "fit",         "cluster",       "evaluate", "info",   "convert",
                                             "corrupt",     "audit",         "report",   "render", "synth",
-                                            "export-mjcf", "export-policy", "config",   "merge"};
+                                            "export-mjcf", "export-policy", "config",   "merge",  "scene"};
 
 struct Cli : testing::Test {
   std::string path(const std::string& name) const { return (folder.path / name).string(); }
