@@ -5,10 +5,11 @@
 //     TRAIN   folder of motions named LABEL_NUMBER.npz that the generator learns
 //     TRUTH   exact motions that train the recogniser; its seed is 1 always
 //     TEST    exact motions to compare with, of the same labels
-//     SEED    of the generator; default 1      STEPS  minibatches of every training; default 8000
+//     SEED    of the generator; default 1
+//     STEPS   minibatches of every training, of the recogniser's at most 1500; default 8000
 //     CLIPS   motions made of every label; default 20
-// Everything is scored on the standard body. Exit status: 0 done, 1 a file could not be read or written, 2
-// usage.
+// Everything is scored on the standard body.
+// Exit status: 0 done, 1 a file could not be read or written, 2 usage.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -123,7 +124,9 @@ void train_and_score(const Run& run) {
     motions = made_by(generator, count, run.clips);
   }
   result["motions"] = static_cast<int>(motions.size());
-  const auto scores = generate::Recogniser(truth, count, {}, 1).scores(motions, test);
+  generate::RecogniserConfig recognition;
+  recognition.steps = std::min(recognition.steps, run.steps);
+  const auto scores = generate::Recogniser(truth, count, recognition, 1).scores(motions, test);
   for (int k = 0; k < 3; ++k) result["top" + std::to_string(k + 1)] = record::number(scores.precision[k]);
   result["FID"] = record::number(scores.fid);
   result["distance"] = record::number(scores.multimodal_distance);
