@@ -124,7 +124,7 @@ class Stepper {
       claims.push += push;
       claims.pull += std::max(-f.z(), 0.0);
       claims.beyond += std::max(f.head<2>().norm() - model_.config.friction * push, 0.0);
-      claims.deepest = std::max(claims.deepest, c.depth - model_.config.skin);
+      claims.deepest = std::max(claims.deepest, c.surface.depth - model_.config.skin);
     }
     for (const Vector3d& f : force) out.add(f);
   }
