@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "fit/least_squares/contacts.h"
 #include "fit/least_squares/gauss_newton.h"
+#include "motion/prepare/feet.h"
 #include "motion/prepare/floor_correction.h"
 #include "motion/surface_points.h"
 
@@ -24,7 +25,7 @@ void put_on_floor(bool known, FitProblem& problem) {
   for (int t = 0; t < problem.frames(); ++t)
     poses.push_back(forward_kinematics(character, problem.p_root[t], problem.q[t]));
   const motion::FloorCorrection floor =
-      motion::floor_correction(motion::lowest_heights(points, poses, problem.scene),
+      motion::floor_correction(motion::standing_heights(points, poses, problem.fps, problem.scene),
                                motion::lowest_heights(others, poses, problem.scene), problem.fps, known);
   for (int t = 0; t < problem.frames(); ++t) problem.p_root[t].z() += floor.height[t];
 }

@@ -51,8 +51,8 @@ struct FitFootPoint {
   ShapeJacobian by_beta;  ///< of its place in the body's frame
 };
 
-/// The input of the fit and its settings. Only `levels`, `settled` and the sides in `uvc` change while it
-/// runs.
+/// The input of the fit and its settings. Only `levels`, `settled`, the place of `scene` and the sides in
+/// `uvc` change while it runs.
 struct FitProblem {
   FitConfig config;
   FitLevels levels;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "core/elementary.h"
@@ -13,6 +14,7 @@
 #include "fit/least_squares/fit_terms.h"
 #include "fit/least_squares/left_right.h"
 #include "fit/least_squares/projection.h"
+#include "fit/least_squares/scene_match.h"
 
 namespace mimicx::fit {
 namespace {
@@ -20,11 +22,12 @@ namespace {
 constexpr int kDraws = 3;                       ///< samples of the solution's error, for the levels
 constexpr std::uint64_t kLevelStream = 0x4C45;  ///< of random numbers
 constexpr double kPercent = 100.0;
-constexpr int kUnsettled = 3;          ///< iterations until the motion is on the floor
-constexpr int kFewest = 7;             ///< iterations; those after the unsettled ones find the levels
-constexpr double kLargestTurn = 0.35;  ///< rad: longest step of one joint in one iteration
-constexpr double kFarOff = 3.0;        ///< kernel widths; detections farther off count as dropped
-constexpr double kShiftToPose = 5.0;   ///< the pelvis converges more slowly than poses, and matters less
+constexpr double kToldSceneShift = 0.02;  ///< m
+constexpr int kUnsettled = 3;             ///< iterations until the motion is on the floor
+constexpr int kFewest = 7;                ///< iterations; those after the unsettled ones find the levels
+constexpr double kLargestTurn = 0.35;     ///< rad: longest step of one joint in one iteration
+constexpr double kFarOff = 3.0;           ///< kernel widths; detections farther off count as dropped
+constexpr double kShiftToPose = 5.0;      ///< the pelvis converges more slowly than poses, and matters less
 
 /// A state with its derived quantities.
 struct Evaluated {
@@ -134,7 +137,7 @@ motion::Clip result_of(const motion::Clip& input, const FitProblem& problem, con
     q.push_back(rotations_of(problem, state, t));
   }
   motion::Clip out = motion::to_clip(input.name, input.fps, character_of(problem, state), p_root, q);
-  out.scene = input.scene;
+  out.scene = problem.scene;
   if (input.rest_joints) motion::put_on_body_of(input, out);
   out.gender = input.gender;
   out.passthrough = input.passthrough;
@@ -157,6 +160,15 @@ void report_change(const motion::Clip& before, const motion::Clip& after, FitRep
     }
 }
 
+void report_scene(const Scene& before, const Scene& after, FitReport& report) {
+  if (before.flat()) return;
+  const double moved = (after.plates[0].centre - before.plates[0].centre).norm();
+  if (moved < kToldSceneShift) return;
+  char note[100];
+  std::snprintf(note, sizeof note, "the scene is moved by %.2f m to where the fitted feet stand", moved);
+  report.notes.emplace_back(note);
+}
+
 Contacts contacts_of(const FitProblem& problem, const Evaluated& e, bool settled) {
   Contacts contacts = find_contacts(e.feet, problem.fps, problem.scene, settled || problem.poses_alone);
   if (problem.poses_alone) keep_level_soles(problem, e.motion, contacts);
@@ -175,6 +187,7 @@ SolutionWithDraws step_from(const FitProblem& problem, const FitState& state, co
 /// Gauss-Newton; sides and contacts are updated before each step, levels after it.
 FitState iterate(FitProblem& problem, FitReport& report) {
   const PerFrame<std::vector<Vector3d>> detected = problem.uvc;
+  const Scene given = problem.scene;
   Random random(kLevelStream);
   FitState state = initial_state(problem);
   Evaluated e = evaluate(problem, state);
@@ -182,6 +195,8 @@ FitState iterate(FitProblem& problem, FitReport& report) {
   for (report.iterations = 0; report.iterations < problem.config.iterations;) {
     report.swapped_frames = order_left_and_right(detected, predict(problem, state, e), problem);
     const bool settled = report.iterations >= kUnsettled;
+    if (!problem.poses_alone)
+      problem.scene = shifted(given, scene_shift(e.feet, problem.fps, given, settled));
     const Contacts contacts = contacts_of(problem, e, settled);
     const bool levels = settled && problem.config.find_levels && !problem.points.empty();
     const SolutionWithDraws found = step_from(problem, state, e, contacts, levels ? kDraws : 0, random);
@@ -220,6 +235,7 @@ motion::Clip solved(const motion::Clip& clip, FitProblem& problem, FitReport& re
     report_levels(problem, state, report);
     report.shape_change = state.g.segment<kBetas>(kFirstBeta).cwiseAbs().maxCoeff();
     report_change(clip, fitted, report);
+    report_scene(clip.scene, fitted.scene, report);
     return fitted;
   } catch (const std::domain_error& error) {
     report.notes.push_back(std::string(error.what()) + ": not fitted");

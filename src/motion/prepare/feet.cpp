@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/quantile.h"
 #include "core/units.h"
-#include "motion/surface_points.h"
 
 namespace mimicx::motion {
 namespace {
@@ -72,19 +72,34 @@ double level_feet(Reference& reference) {
   return largest;
 }
 
-PerFrame<double> support_heights(const Reference& reference) {
-  const std::vector<SurfacePoint> points = surface_points(reference.character);
-  const auto left = standing_frames(reference.poses, kLeftAnkle, reference.fps, reference.scene);
-  const auto right = standing_frames(reference.poses, kRightAnkle, reference.fps, reference.scene);
+PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
+                                  double fps, const Scene& scene, bool swinging_toes) {
+  if (scene.flat() && swinging_toes) return lowest_heights(points, poses);
+  const auto left = standing_frames(poses, kLeftAnkle, fps, scene),
+             right = standing_frames(poses, kRightAnkle, fps, scene);
+  const auto height = [&](const Vector3d& p, bool swings) {
+    const double z = scene.clearance(p);
+    return swings && scene.height_under(p) > 0.0 ? std::max(z, 0.0) : z;
+  };
   PerFrame<double> heights;
-  for (int t = 0; t < reference.size(); ++t) {
-    std::vector<SurfacePoint> support;
-    for (const SurfacePoint& point : points)
-      if ((point.body != kLeftFoot || left[t]) && (point.body != kRightFoot || right[t]))
-        support.push_back(point);
-    heights.push_back(lowest_height(support, reference.poses[t], reference.scene));
+  for (int t = 0; t < poses.count(); ++t) {
+    const std::vector<Vector3d> places = surface_positions(points, poses[t]);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const int body = points[k].body;
+      const bool toes = body == kLeftFoot || body == kRightFoot;
+      const bool swings = ((body == kLeftAnkle || body == kLeftFoot) && !left[t]) ||
+                          ((body == kRightAnkle || body == kRightFoot) && !right[t]);
+      if (swinging_toes || !toes || !swings) lowest = std::min(lowest, height(places[k], swings));
+    }
+    heights.push_back(lowest);
   }
   return heights;
+}
+
+PerFrame<double> support_heights(const Reference& reference) {
+  return standing_heights(surface_points(reference.character), reference.poses, reference.fps,
+                          reference.scene, false);
 }
 
 void bend_toes(Reference& reference) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "motion/reference.h"
+#include "motion/surface_points.h"
 
 namespace mimicx::motion {
 
@@ -23,6 +24,12 @@ PerFrame<bool> standing_frames(const PerFrame<BodyPoses>& poses, int ankle, doub
 /// policy corrects small errors, and the feet of such clips drift by about as much.
 /// @return largest rotation applied, degrees
 double level_feet(Reference& reference);
+
+/// As `lowest_heights`, but points of a foot that swings through the side of a box count as on it: what is
+/// wrong there is the place of the foot, not the height of the body.
+/// @param swinging_toes  false: toes of feet that do not stand are left out
+PerFrame<double> standing_heights(const std::vector<SurfacePoint>& points, const PerFrame<BodyPoses>& poses,
+                                  double fps, const Scene& scene, bool swinging_toes = true);
 
 /// Height of the lowest surface point per frame, m. The toes of feet that do not stand are left out:
 /// converted motions seldom bend their toes, and stiff toes that dip at push-off do not show the floor.

@@ -96,8 +96,8 @@ void turn_back_into_ranges(bool ground, Reference& reference) {
   if (turn_into_ranges(reference).frames == 0) return;
   forward(reference);
   if (!ground) return;
-  const PerFrame<double> lift =
-      lift_over_floor(lowest_heights(surface_points(reference.character), reference.poses, reference.scene));
+  const PerFrame<double> lift = lift_over_floor(
+      standing_heights(surface_points(reference.character), reference.poses, reference.fps, reference.scene));
   for (int t = 0; t < reference.size(); ++t) reference.frames[t].p_root.z() += lift[t];
   forward(reference);
 }
@@ -146,7 +146,7 @@ void align_with_floor(bool bend, bool plant, bool known, Reference& reference, P
     bend_toes(reference);
     forward(reference);
   }
-  align(lowest_heights(points, reference.poses, reference.scene));
+  align(standing_heights(points, reference.poses, reference.fps, reference.scene));
   for (double height : moved)
     report.max_floor_shift_mm = std::max(report.max_floor_shift_mm, kMm * std::abs(height));
 }

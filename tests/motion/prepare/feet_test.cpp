@@ -52,6 +52,29 @@ TEST(Feet, RemovesAConstantErrorOfTheFeet) {
   }
 }
 
+TEST(Feet, FootThatSwingsThroughABoxIsOnItAndOneThatStandsInItIsNot) {
+  const Reference r = prepare_reference(walk(), {}, nullptr);
+  const std::vector<SurfacePoint> points = surface_points(r.character);
+  const auto left = standing_frames(r.poses, kLeftAnkle, r.fps);
+  int swung = -1, stood = -1;
+  for (int t = 20; t + 20 < r.size(); ++t) {
+    const double z = r.poses[t].p_WB[kLeftFoot].z();
+    if (!left[t] && (swung < 0 || z > r.poses[swung].p_WB[kLeftFoot].z())) swung = t;
+    if (left[t] && stood < 0) stood = t;
+  }
+  ASSERT_GE(std::min(swung, stood), 0);
+  const auto box_at = [&](int t) {
+    const Vector3d& p = r.poses[t].p_WB[kLeftFoot];
+    return Scene{{{{p.x(), p.y()}, 0.0, {0.04, 0.04}, p.z() + 0.02}}};
+  };
+  const Scene in_the_way = box_at(swung), under = box_at(stood);
+  EXPECT_LT(lowest_height(points, r.poses[swung], in_the_way), -0.02);
+  EXPECT_GT(standing_heights(points, r.poses, r.fps, in_the_way)[swung], -0.002);
+  EXPECT_LT(lowest_height(points, r.poses[stood], under), -0.02);
+  EXPECT_EQ(standing_heights(points, r.poses, r.fps, under)[stood],
+            lowest_height(points, r.poses[stood], under));
+}
+
 TEST(Feet, StandingFramesAreThoseOfTheStanceFoot) {
   const Reference r = prepare_reference(walk(), {}, nullptr);
   const auto left = standing_frames(r.poses, kLeftAnkle, r.fps),
