@@ -40,8 +40,9 @@ template <class T>
 MaskOf<T> spans(const ModelPlate<RealOf<T>>& plate, const T& x, const T& y, const T& margin) {
   const T from_x = x - T(plate.x), from_y = y - T(plate.y), cosine(plate.cosine), sine(plate.sine);
   const T along = fma(cosine, from_x, sine * from_y), across = fma(cosine, from_y, -(sine * from_x));
-  return (max(along, -along) <= T(plate.half_x) + margin) &
-         (max(across, -across) <= T(plate.half_y) + margin);
+  const MaskOf<T> in_length = max(along, -along) <= T(plate.half_x) + margin,
+                  in_width = max(across, -across) <= T(plate.half_y) + margin;
+  return in_length & in_width;
 }
 
 /// Height of the ground under a point, m: `Scene::height_under`.
