@@ -10,7 +10,7 @@ namespace mimicx::fit {
 namespace {
 
 constexpr double kSlow = 0.3;                   // m/s
-constexpr double kSpeedWindow = 0.07;           // to either side, s
+constexpr double kSlowWindow = 0.07;            // to either side, s
 constexpr double kFarthest = 0.6;               // m
 constexpr double kCoarse = 0.03, kFine = 0.01;  // steps of the search, m
 constexpr double kOutlier = 0.1;                // m
@@ -31,7 +31,7 @@ Eigen::Vector2d scene_shift(const PerFrame<FootPositions>& feet, double fps, con
                             bool settled) {
   if (scene.flat()) return Eigen::Vector2d::Zero();
   std::vector<Vector3d> slow;
-  const int last = feet.count() - 1, window = std::max(1, static_cast<int>(std::lround(kSpeedWindow * fps)));
+  const int last = feet.count() - 1, window = std::max(1, static_cast<int>(std::lround(kSlowWindow * fps)));
   for (int t = 0; t <= last; t += kEvery) {
     const int before = std::max(t - window, 0), after = std::min(t + window, last);
     for (int i = 0; i < kFootPoints; ++i)
