@@ -18,12 +18,7 @@ constexpr double kPerShift = 1e-3;              // squared distance per squared 
 constexpr int kEvery = 3;                       // frames
 
 /// Height over the scene, m; nobody stands inside a box, so depth has no limit.
-double height_over(const Scene& scene, const Vector3d& p) {
-  double height = 0.0;
-  for (const Plate& plate : scene.plates)
-    if (plate.height > height && plate.spans(p)) height = plate.height;
-  return p.z() - height;
-}
+double height_over(const Scene& scene, const Vector3d& p) { return p.z() - scene.height_under(p, HUGE_VAL); }
 
 }  // namespace
 
