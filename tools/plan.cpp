@@ -26,6 +26,7 @@ void settle_scene(const import::ReadConfig& asked, run::RunConfig& run) {
   import::ReadConfig read = asked;
   read.scene_from_motion = false;
   run.read = read;
+  if (run.quiet && !asked.scene_from_motion) return;
   audit::FoundScene found;
   try {
     const motion::Clip clip = import::read_motion(run.inputs.front(), read);
@@ -40,7 +41,7 @@ void settle_scene(const import::ReadConfig& asked, run::RunConfig& run) {
       std::cerr << "scene: no plate found; planned on the flat floor\n";
     else
       run.read.scene = found.scene;
-  } else if (!found.scene.flat() && !run.quiet) {
+  } else if (!found.scene.flat()) {
     std::cerr << "looks like steps or a seat (" << found.words.front() << "): try --scene auto\n";
   }
 }
