@@ -80,8 +80,8 @@ List<render::Solid> solids_at(const PosedMotion& motion, int frame, const render
 
 List<render::Solid> scene_solids(const PosedMotion& motion) {
   List<render::Solid> solids;
+  const skin::Mesh mesh = skin::box();
   for (const Plate& plate : motion.scene.plates) {
-    const skin::Mesh mesh = skin::box();
     render::Solid& solid = solids.emplace_back();
     solid.vertices = skin::box_under(plate, mesh);
     for (const Vector3d& n : mesh.normals) solid.normals.push_back(rotation_z(plate.yaw) * n);
