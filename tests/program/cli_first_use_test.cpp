@@ -17,7 +17,7 @@ namespace {
 
 /// A body that hovers a metre over a floor that is told: nothing can follow it.
 motion::Clip hovering_clip() {
-  motion::Clip clip = motion::standing_clip(40);
+  motion::Clip clip = motion::standing_clip(20);
   for (Vector3d& p : clip.trans) p.z() += 1.0;
   return clip;
 }

@@ -59,16 +59,16 @@ inline Motion make_motion(const synth::SynthConfig& config) {
   return m;
 }
 
-/// Three seeds of the standard body and three of other bodies, of one kind or of all.
+/// Two seeds of the standard body and two of other bodies, of one kind or of all.
 inline const std::vector<Motion>& motions(const std::string& kind) {
   static std::map<std::string, std::vector<Motion>> cache;
   std::vector<Motion>& list = cache[kind];
   if (list.empty())
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
       synth::SynthConfig config;
       config.kind = kind;
       config.seed = seed;
-      config.betas_from_seed = seed >= 3;
+      config.betas_from_seed = seed >= 2;
       list.push_back(make_motion(config));
     }
   return list;

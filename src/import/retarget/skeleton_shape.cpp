@@ -97,14 +97,15 @@ std::vector<SkeletonPose> poses_of(const SkeletonMotion& motion) {
 }
 
 /// Places in a chain of the three joints of its two long bones: hip, knee, ankle.
-using Limb = std::array<std::size_t, 3>;
+using LimbPlaces = std::array<std::size_t, 3>;
 
 /// The two longest bones that follow each other, between some of the chain's joints.
-std::optional<Limb> longest_bones(const std::vector<double>& at, const std::vector<std::size_t>& joints) {
-  std::optional<Limb> best;
+std::optional<LimbPlaces> longest_bones(const std::vector<double>& at,
+                                        const std::vector<std::size_t>& joints) {
+  std::optional<LimbPlaces> best;
   double longest = 0.0;
   for (std::size_t n = 0; n + 2 < joints.size(); ++n) {
-    const Limb limb = {joints[n], joints[n + 1], joints[n + 2]};
+    const LimbPlaces limb = {joints[n], joints[n + 1], joints[n + 2]};
     const double upper = at[limb[1]] - at[limb[0]], lower = at[limb[2]] - at[limb[1]];
     if (std::min(upper, lower) < kLongBone * at.back() ||
         std::min(upper, lower) < 0.5 * std::max(upper, lower))
@@ -114,8 +115,8 @@ std::optional<Limb> longest_bones(const std::vector<double>& at, const std::vect
   return best;
 }
 
-std::optional<Limb> limb_of(const Tree& tree, const std::vector<SkeletonPose>& poses,
-                            const std::vector<int>& chain) {
+std::optional<LimbPlaces> limb_of(const Tree& tree, const std::vector<SkeletonPose>& poses,
+                                  const std::vector<int>& chain) {
   std::vector<double> at = {0.0};  // way from the first joint
   std::vector<std::size_t> all = {0};
   for (std::size_t n = 1; n < chain.size(); ++n) {
@@ -144,7 +145,7 @@ std::optional<Limb> limb_of(const Tree& tree, const std::vector<SkeletonPose>& p
   const double half = 0.5 * (at[first] + at[last]);
   for (std::size_t n = first + 1; n < last; ++n)
     if (std::abs(at[n] - half) < std::abs(at[middle] - half)) middle = n;
-  return Limb{first, middle, last};
+  return LimbPlaces{first, middle, last};
 }
 
 /// −1 for a name of the left side, 1 of the right, 0 for another.
@@ -180,7 +181,7 @@ int side_of_chain(const SkeletonMotion& motion, const std::vector<int>& chain) {
 
 /// Whether the first leg of a pair is the left one, by the names, or by where toes point and knees bend.
 bool first_is_left(const SkeletonMotion& motion, const std::vector<SkeletonPose>& poses, const Pair& legs,
-                   const Limb& leg, const std::vector<int>& arm, std::size_t shoulder) {
+                   const LimbPlaces& leg, const std::vector<int>& arm, std::size_t shoulder) {
   const int votes = side_of_chain(motion, legs.b) - side_of_chain(motion, legs.a);
   if (votes != 0) return votes > 0;
   double left = 0.0;
@@ -195,7 +196,7 @@ bool first_is_left(const SkeletonMotion& motion, const std::vector<SkeletonPose>
   return left > 0.0;
 }
 
-void set_limb(const std::vector<int>& chain, const Limb& limb, const std::array<int, 3>& bodies,
+void set_limb(const std::vector<int>& chain, const LimbPlaces& limb, const std::array<int, 3>& bodies,
               JointMap& map) {
   for (std::size_t n = 0; n < 3; ++n) map[bodies[n]] = chain[limb[n]];
 }
@@ -230,7 +231,7 @@ std::optional<JointMap> map_by_shape(const SkeletonMotion& motion) {
   const std::vector<SkeletonPose> poses = poses_of(motion);
   struct Found {
     Pair pair;
-    Limb limb;
+    LimbPlaces limb;
   };
   std::vector<Found> limbs;  // at different joints, by the length of their two long bones
   for (const Pair& pair : pairs_of(tree)) {

@@ -337,9 +337,9 @@ TEST(AddNoise, PanAndRollErrorsScaleWithTheTiltError) {
   EXPECT_NEAR(turn.rms(), 1.0, 0.08);
 }
 
-/// Mean metrics of noisy clips of every kind, six seeds each.
+/// Mean metrics of noisy clips of every kind, three seeds each.
 std::map<std::string, double> mean_metrics(const std::string& preset) {
-  constexpr int kTrials = 6;
+  constexpr int kTrials = 3;
   const double clips = kTrials * static_cast<double>(basic_kinds().size());
   std::map<std::string, double> mean;
   std::uint64_t seed = 0;
