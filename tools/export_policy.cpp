@@ -185,8 +185,7 @@ void declare_export_policy(CommandLine& line) {
   Command command = line.add(
       "export-policy", "Write policies of motions, and options, for other programs",
       "mimicx export-policy RUN/walk RUN/wave --out both.h --int8   # one self-contained C++17 header\n"
-      "mimicx export-policy RUN/walk --out walk.onnx                # or .npz, for Python\n"
-      "mimicx export-policy taught/option7 --out walks.h            # follows motions of your own");
+      "mimicx export-policy taught/option7 --out walks.h            # an option: for motions of your own");
   command.files(
       "RUN/NAME", a->policies,
       "a run of `mimicx adapt`, and a motion of it that has a policy; or a file of that motion in it; or "
