@@ -6,39 +6,52 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "files/inputs.h"
+#include "record/json.h"
 #include "record/outputs.h"
+#include "record/utf8_names.h"
 #include "shared_arguments.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct CertifyArguments {
   std::vector<std::string> inputs;
-  std::filesystem::path out;
+  std::filesystem::path out, json;
   bool replay = false, force = false;
 };
 
 int replay(const CertifyArguments& a) {
+  if (!is_standard_output(a.json)) record::Outputs(a.inputs, a.force).claim(a.json, record::kJsonOpening);
+  std::ostream& out = table_stream(a.json);
+  record::Json rows = record::Json::array();
   bool all_good = true;
   for (const std::string& path : a.inputs) {
     try {
       const audit::CertificateReplay found = audit::replay_certificate(path);
       const bool good = found.first_state < 0 && found.first_step < 0;
-      std::cout << path << ": " << found.steps << " steps, " << (good ? "the same bits" : "other bits");
-      if (found.first_state >= 0) std::cout << "; states differ after step " << found.first_state;
-      if (found.first_step >= 0) std::cout << "; forces differ in step " << found.first_step;
-      std::cout << '\n';
+      out << path << ": " << found.steps << " steps, " << (good ? "the same bits" : "other bits");
+      if (found.first_state >= 0) out << "; states differ after step " << found.first_state;
+      if (found.first_step >= 0) out << "; forces differ in step " << found.first_step;
+      out << '\n';
+      rows.push_back({{"certificate", record::to_utf8(path)},
+                      {"steps", found.steps},
+                      {"same_bits", good},
+                      {"first_state", found.first_state},
+                      {"first_step", found.first_step}});
       all_good = all_good && good;
     } catch (const std::exception& error) {
       std::cerr << path << ": left out: " << reason_of(error) << '\n';
       all_good = false;
     }
   }
+  if (!a.json.empty()) write_json(a.json, record::document({{"certificates", rows}}));
   return all_good ? kAllGood : kSomeFailed;
 }
 
 int certify(const CertifyArguments& a) {
   if (a.replay) return replay(a);
+  if (!a.json.empty()) throw UsageError("certify: --json has the results of --replay alone");
   if (a.out.empty()) throw UsageError("certify: --out is needed: the folder of the certificates");
   const std::vector<std::string> inputs = files::paths_of(files::find_motions(a.inputs, {}, &std::cerr));
   const auto in_folder = [&](const std::string& motion, const char* suffix) {
@@ -81,6 +94,7 @@ void declare_certify(CommandLine& line) {
                "folder of the certificates, NAME.cert each, and of copies of the motions, NAME.npz");
   command.flag("--replay", a->replay,
                "simulate the controls of certificates again: do they give the same bits?");
+  add_json(command, a->json);
   add_force(command, a->force);
   command.action([a] { return certify(*a); });
 }

@@ -3,19 +3,23 @@
 #include <memory>
 
 #include "commands.h"
+#include "record/outputs.h"
 #include "shared_arguments.h"
 #include "simulation_commands.h"
+#include "standard_streams.h"
 
 namespace mimicx::tools {
 namespace {
 
 struct RunFileArguments {
-  std::filesystem::path in, out;
+  std::filesystem::path in, out, json;
   pipeline::PretrainConfig pretrain = program::pretrain_configuration("small");
   program::AdaptConfig adapt = program::adapt_configuration();
 };
 
 int run_all_stages(RunFileArguments a) {
+  if (!is_standard_output(a.json))  // not after hours
+    record::Outputs({a.in.string()}, a.pretrain.force).claim(a.json, record::kJsonOpening);
   a.pretrain.inputs = a.adapt.run.inputs = {a.in.string()};
   a.pretrain.out = a.out / "options";
   a.adapt.run.out = a.out / "clean";
@@ -26,7 +30,9 @@ int run_all_stages(RunFileArguments a) {
   a.adapt.run.read = a.pretrain.read;
   const int status = pretrain_options(a.pretrain, {});
   if (status == kInterrupted) return status;
-  return std::max(status, adapt_motions(a.adapt, {a.pretrain.out.string()}, {}));
+  RunArguments more;
+  more.json = a.json;
+  return std::max(status, adapt_motions(a.adapt, {a.pretrain.out.string()}, more));
 }
 
 }  // namespace
@@ -46,6 +52,7 @@ void declare_run(CommandLine& line) {
   command.number("--budget-samples", a->adapt.training.samples, kFromZero,
                  "fine-tuning budget per motion, in character steps");
   add_arrangement_arguments(command, a->adapt.arrangement);
+  add_json(command, a->json);
   add_seed(command, a->pretrain.training.seed);
   add_force(command, a->pretrain.force);
   add_threads(command, a->pretrain.threads);

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "mimicx.h"
 #include "page/played_frame_json.h"
 #include "page/session.h"
 #include "record/json.h"
@@ -94,6 +95,15 @@ MIMICX_ASKED void mimicx_plan(const char* file) {
     mimicx::record::Progress progress(out, true, mimicx::record::steady_seconds);
     return session().plan(file, {progress, out, [] { return false; }});
   });
+}
+
+/// mimicx_motion_clean, which tells what is being done.
+MIMICX_ASKED int mimicx_clean(mimicx_motion* motion) {
+  const mimicx_progress tell = [](const char* doing, void*) {
+    mimicx_tell(doing, 0);
+    return 0;
+  };
+  return mimicx_motion_clean(motion, tell, nullptr);
 }
 
 /// @param file  as given to `mimicx_plan`; its run has been put back in place

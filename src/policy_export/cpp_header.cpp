@@ -113,6 +113,27 @@ std::string joints(const Character& character) {
          c_array("kRangeHalfAxes", half.data(), half.size());
 }
 
+/// A network as arrays, and its layers as `NAMELayers`.
+template <class Weight>
+std::string layers_text(const std::string& name, const Layer<Weight>* layers, int count) {
+  std::string out, list;
+  for (int l = 0; l < count; ++l) {
+    const Layer<Weight>& layer = layers[l];
+    const std::string number = std::to_string(l);
+    const auto outputs = static_cast<std::size_t>(layer.outputs);
+    out +=
+        c_array(name + "Weights" + number, layer.weights, static_cast<std::size_t>(layer.inputs) * outputs);
+    if (layer.scales != nullptr) out += c_array(name + "Scales" + number, layer.scales, outputs);
+    out += c_array(name + "Biases" + number, layer.biases, outputs);
+    list.append("    {").append(std::to_string(layer.inputs)).append(", ");
+    list.append(std::to_string(layer.outputs)).append(", ").append(name).append("Weights").append(number);
+    list.append(layer.scales != nullptr ? ", " + name + "Scales" + number : ", nullptr");
+    list.append(", ").append(name).append("Biases").append(number).append("},\n");
+  }
+  return out + "inline constexpr Layer<" + type_name(Weight{}) + "> " + name + "Layers[] = {\n" + list +
+         "};\n";
+}
+
 template <class Weight>
 std::string data_of(const ExportedPolicy& exported, const Policy<Weight>& policy) {
   const MotionSpline& motion = exported.motion;
@@ -126,26 +147,35 @@ std::string data_of(const ExportedPolicy& exported, const Policy<Weight>& policy
                     c_array("kShape", policy.shape, kShapeCount) + c_array("kInput", policy.input, inputs) +
                     c_array("kMean", policy.mean, inputs) + c_array("kFactor", policy.factor, inputs);
   if (policy.power != nullptr) out += c_array("kPower", policy.power, inputs);
-  std::string layers;
-  for (int l = 0; l < policy.layers; ++l) {
-    const Layer<Weight>& layer = policy.layer[l];
-    const std::string number = std::to_string(l);
-    const auto outputs = static_cast<std::size_t>(layer.outputs);
-    out += c_array("kWeights" + number, layer.weights, static_cast<std::size_t>(layer.inputs) * outputs);
-    if (layer.scales != nullptr) out += c_array("kScales" + number, layer.scales, outputs);
-    out += c_array("kBiases" + number, layer.biases, outputs);
-    layers += "    {" + std::to_string(layer.inputs) + ", " + std::to_string(layer.outputs) + ", kWeights" +
-              number + ", " + (layer.scales != nullptr ? "kScales" + number : "nullptr") + ", kBiases" +
-              number + "},\n";
-  }
-  const std::string type = type_name(Weight{});
-  return out + "inline constexpr Layer<" + type + "> kLayers[] = {\n" + layers + "};\n" +
-         "inline constexpr Policy<" + type + "> kPolicy = {\n    {" + std::to_string(motion.frames) + ", " +
-         std::to_string(motion.spacing) + ", " + literal(motion.fps) +
+  return out + layers_text("k", policy.layer, policy.layers);
+}
+
+/// The braces of a Policy.
+template <class Weight>
+std::string braces_of(const ExportedPolicy& exported, const Policy<Weight>& policy) {
+  return "{\n    {" + std::to_string(exported.motion.frames) + ", " +
+         std::to_string(exported.motion.spacing) + ", " + literal(exported.motion.fps) +
          ", kKnots, kMiddle, kStep, kSpeedCodes, kSpeedStep},\n    kJointOffset, kShape, kInput, kMean, "
          "kFactor, " +
          literal(policy.limit) + ", " + (policy.power != nullptr ? "kPower" : "nullptr") + ", " +
-         std::to_string(policy.layers) + ", kLayers, " + literal(policy.max_action) + "};\n";
+         std::to_string(policy.layers) + ", kLayers, " + literal(policy.max_action) + "}";
+}
+
+template <class Weight>
+std::string policy_data_text(const ExportedPolicy& exported, const Policy<Weight>& policy) {
+  return data_of(exported, policy) + "inline constexpr Policy<" + type_name(Weight{}) +
+         "> kPolicy = " + braces_of(exported, policy) + ";\n";
+}
+
+std::string policy_data_text(const ExportedPolicy& exported, const CodedPolicy<float>& policy) {
+  return data_of(exported, policy) + c_array("kPoseMean", policy.pose_mean, kPoseCount) +
+         c_array("kPoseFactor", policy.pose_factor, kPoseCount) +
+         layers_text("kEncoder", policy.encoder, policy.encoder_layers) +
+         layers_text("kDecoder", policy.decoder, policy.decoder_layers) +
+         "inline constexpr CodedPolicy<float> kPolicy = {" + braces_of(exported, policy) +
+         ",\n    kPoseMean, kPoseFactor, " + literal(policy.pose_limit) + ", " +
+         std::to_string(policy.encoder_layers) + ", " + std::to_string(policy.decoder_layers) +
+         ", kEncoderLayers, kDecoderLayers};\n";
 }
 
 /// Rows of a matrix, each in braces, in braces.
@@ -179,10 +209,13 @@ constexpr std::string_view kCalls = R"(
 /// The motion at a frame: a body that starts on it starts here.
 inline State reference(int frame) { return motion_at(kPolicy.motion, frame); }
 
-/// What the PD controllers shall aim at from `frame` to the next one, for a body that is in the state `now`. In
-/// between, the simulation moves the targets from the last ones to these: rotations by normalised linear
-/// interpolation, velocities linearly. At frame 0 the last ones are the joints of reference(0).
-inline Targets follow(int frame, const State& now) { return follow<kWidest>(kPolicy, frame, now); }
+/// What the PD controllers shall aim at for a body that is in the state `now` and shall be in `next` a frame later,
+/// of a motion of your own. In between, the simulation moves the targets from the last ones to these: rotations by
+/// normalised linear interpolation, velocities linearly. At first the last ones are the joints of the body.
+inline Targets follow(const State& next, const State& now) { return follow<kWidest>(kPolicy, next, now); }
+
+/// The same for the motion of this policy, from `frame` to the next one.
+inline Targets follow(int frame, const State& now) { return follow(reference(frame + 1), now); }
 
 /// Asks what was asked when this file was made. @return the largest difference from what was answered, rad; 0 on
 /// every machine of IEEE 754 where the compiler fuses no multiplications (-ffp-contract=off), and under 1e-4 else
@@ -207,9 +240,8 @@ inline float self_test() {
 )";
 
 /// The head of a header. @param names  of the motions @param space  namespace of the example
-std::string opening_for(const std::string& names, const std::string& space, const std::string& each) {
-  return std::string(kHeaderOpening) + " (" MIMICX_VERSION "), which follows one motion" + each + ": " +
-         quoted(names) +
+std::string opening_for(const std::string& names, const std::string& space) {
+  return std::string(kHeaderOpening) + " (" MIMICX_VERSION "): " + quoted(names) +
          ".\n"
          "// C++17; no heap, no exceptions, no other file.\n"
          "//\n"
@@ -243,7 +275,7 @@ std::string policy_text(const ExportedPolicy& exported) {
   out += constant("double", "kFriction", literal(simulation.friction), "of the floor");
   out += constant("int", "kWidest", std::to_string(exported.widest()), "layer of the network");
   out += joints(motion.character);
-  with_policy(exported, [&](const auto& policy) { out += data_of(exported, policy); });
+  with_policy(exported, [&](const auto& policy) { out += policy_data_text(exported, policy); });
   out += records_of(exported);
   return out.append(kCalls);
 }
@@ -261,7 +293,7 @@ std::string namespace_of(const std::string& name) {
 
 std::string to_header(const ExportedPolicy& exported) {
   const std::string space = namespace_of(exported.meant.motion.name);
-  return opening_for(exported.meant.motion.name, space, "") + runtime_in(space) + policy_text(exported) +
+  return opening_for(exported.meant.motion.name, space) + runtime_in(space) + policy_text(exported) +
          "\n}  // namespace " + space + "\n";
 }
 
@@ -279,8 +311,8 @@ std::string to_header(const std::vector<ExportedPolicy>& exported) {
     policies += "namespace " + space + " {\nusing " + all + "::follow;\n" + policy_text(one) +
                 "\n}  // namespace " + space + "\n\n";
   }
-  return opening_for(names, all + "::" + *spaces.begin(), " each") + runtime_in(all) + policies +
-         "}  // namespace " + all + "\n";
+  return opening_for(names, all + "::" + *spaces.begin()) + runtime_in(all) + policies + "}  // namespace " +
+         all + "\n";
 }
 
 }  // namespace mimicx::policy_export

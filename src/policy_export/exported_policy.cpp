@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "physics/standing_state.h"
 #include "rl/tracking/tracking_rollout.h"
 
 namespace mimicx::policy_export {
@@ -64,14 +65,23 @@ int ExportedPolicy::widest() const {
   return *std::max_element(sizes.begin(), sizes.end());
 }
 
-ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits) {
+ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,
+                             const std::optional<nn::AutoEncoder>& coder) {
   ExportedPolicy out;
   out.meant = policy;
   out.in_8_bits = in_8_bits;
+  out.coder = coder;
   rl::Agent& agent = out.meant.agent;
   if (out.widest() > kWidestEver)
     throw std::invalid_argument("its network has a layer of more than " + std::to_string(kWidestEver) +
                                 " units");
+  if (coder) {
+    if (in_8_bits) throw std::invalid_argument("8 bits are for policies without an encoder");
+    for (const nn::Mlp<float>* network : {&coder->encoder, &coder->decoder})
+      if (*std::max_element(network->sizes.begin(), network->sizes.end()) > kStateCount)
+        throw std::invalid_argument("its encoder has a layer of more than " + std::to_string(kStateCount) +
+                                    " units");
+  }
   const rl::tracking::TrackingConfig task;
   out.max_action = static_cast<float>(task.max_action);
   out.motion = fit_spline(policy.states, policy.motion.fps, in_8_bits ? kSpacingIn8Bits : kSpacing);
@@ -82,7 +92,7 @@ ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits) 
     out.quantised = quantise(observations_of(policy), agent);
     out.inputs = out.quantised.inputs;
   } else {
-    out.inputs.resize(kStateCount);
+    out.inputs.resize(static_cast<std::size_t>(agent.actor.inputs()));
     std::iota(out.inputs.begin(), out.inputs.end(), std::int16_t{0});
   }
   Random random(1, {kRecordStream});
@@ -92,6 +102,25 @@ ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits) 
     out.records.push_back(answer(out, frame, disturbed(motion_at(out.motion.view(), frame), random)));
   }
   return out;
+}
+
+files::StoredPolicy standing_policy(const std::string& name, const rl::Agent& agent, const Character& body) {
+  files::StoredPolicy made;
+  motion::Reference standing;
+  standing.name = name;
+  standing.character = body;
+  made.states.assign(2, physics::standing_state(body));
+  made.motion = rl::tracking::reference_of_states(standing, made.states);
+  made.agent = agent;
+  return made;
+}
+
+std::vector<Layer<float>> float_layers(const nn::Mlp<float>& network) {
+  std::vector<Layer<float>> layers;
+  for (std::size_t l = 0; l < network.weights.size(); ++l)
+    layers.push_back({network.sizes[l], network.sizes[l + 1], network.weights[l].data(), nullptr,
+                      network.biases[l].data()});
+  return layers;
 }
 
 Record answer(const ExportedPolicy& exported, int frame, const State& now) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "files/policy_file.h"
+#include "nn/autoencoder.h"
 #include "policy_export/motion_spline.h"
 #include "policy_export/quantised_network.h"
 
@@ -29,19 +31,29 @@ struct ExportedPolicy {
   QuantisedNetwork quantised;        ///< used if `in_8_bits`
   std::vector<std::int16_t> inputs;  ///< inputs of the first layer as indices into the observation
   std::vector<Record> records;
+  std::optional<nn::AutoEncoder> coder;  ///< through which an option sees its target; in float alone
 
-  int widest() const;  ///< largest number of inputs or outputs of a layer
+  int widest() const;  ///< largest number of inputs or outputs of a layer of the policy's network
 };
 
 inline constexpr int kWidestEver = 4096;  ///< largest width of an exported network
 
-/// @throws std::invalid_argument for a network that runtime.h cannot run, and as fit_spline
-ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits);
+/// @param coder  of an option that has one
+/// @throws std::invalid_argument for networks that runtime.h cannot run, and as fit_spline
+ExportedPolicy export_policy(const files::StoredPolicy& policy, bool in_8_bits,
+                             const std::optional<nn::AutoEncoder>& coder = std::nullopt);
 
-/// Calls f with the policy in runtime.h's form: a Policy<float>, or a Policy<std::int8_t> in 8 bits. Its
-/// pointers are valid during the call only.
+/// An option that stands until it gets targets from outside: the policy of two frames of standing.
+/// @param body  whose joints and shape it is made for
+files::StoredPolicy standing_policy(const std::string& name, const rl::Agent& agent, const Character& body);
+
+/// Calls f with the policy in runtime.h's form: a Policy<float>, a Policy<std::int8_t> in 8 bits, or a
+/// CodedPolicy<float>. Its pointers are valid during the call only.
 template <class F>
 void with_policy(const ExportedPolicy& exported, F&& f);
+
+/// The layers of a network in runtime.h's form, which refer to it.
+std::vector<Layer<float>> float_layers(const nn::Mlp<float>& network);
 
 /// The policy's answer, computed in the runtime's arithmetic.
 Record answer(const ExportedPolicy& exported, int frame, const State& now);
@@ -62,7 +74,7 @@ void with_policy(const ExportedPolicy& exported, F&& f) {
     mean.push_back(agent.observations.shift(0, i));
     factor.push_back(agent.observations.factor(0, i));
   }
-  const auto run = [&](auto weights_of, const std::int8_t* powers) {
+  const auto run = [&](auto weights_of, const std::int8_t* powers, const auto& use) {
     using Weight = std::remove_cvref_t<decltype(*weights_of(std::size_t{0}))>;
     std::vector<Layer<Weight>> layers;
     for (std::size_t l = 0; l < actor.weights.size(); ++l) {
@@ -72,15 +84,25 @@ void with_policy(const ExportedPolicy& exported, F&& f) {
                         exported.in_8_bits ? exported.quantised.layers[l].scales.data() : nullptr,
                         actor.biases[l].data()});
     }
-    f(Policy<Weight>{exported.motion.view(), offsets.data(), shape.data(), exported.inputs.data(),
-                     mean.data(), factor.data(), agent.observations.limit, powers,
-                     static_cast<int>(layers.size()), layers.data(), exported.max_action});
+    use(Policy<Weight>{exported.motion.view(), offsets.data(), shape.data(), exported.inputs.data(),
+                       mean.data(), factor.data(), agent.observations.limit, powers,
+                       static_cast<int>(layers.size()), layers.data(), exported.max_action});
   };
-  if (exported.in_8_bits)
+  if (exported.in_8_bits) {
     run([&](std::size_t l) { return exported.quantised.layers[l].codes.data(); },
-        exported.quantised.powers.data());
-  else
-    run([&](std::size_t l) { return actor.weights[l].data(); }, nullptr);
+        exported.quantised.powers.data(), f);
+    return;
+  }
+  const auto use = [&](const Policy<float>& policy) {
+    if (!exported.coder) return f(policy);
+    const nn::AutoEncoder& coder = *exported.coder;
+    const std::vector<Layer<float>> encoder = float_layers(coder.encoder),
+                                    decoder = float_layers(coder.decoder);
+    f(CodedPolicy<float>{policy, coder.inputs.shift.data(), coder.inputs.factor.data(), coder.inputs.limit,
+                         static_cast<int>(encoder.size()), static_cast<int>(decoder.size()), encoder.data(),
+                         decoder.data()});
+  };
+  run([&](std::size_t l) { return actor.weights[l].data(); }, nullptr, use);
 }
 
 }  // namespace mimicx::policy_export

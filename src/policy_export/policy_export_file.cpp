@@ -36,6 +36,8 @@ std::string_view opening_of(const std::filesystem::path& path) {
 std::string bytes_of(const std::vector<ExportedPolicy>& exported, const std::filesystem::path& path) {
   if (exported.size() != 1 && kind_of(path) != Kind::kHeader)
     throw std::invalid_argument(path.string() + ": expected one policy; a header, .h, holds several");
+  if (exported.front().coder && kind_of(path) != Kind::kHeader)
+    throw std::invalid_argument(path.string() + ": an option with an encoder is written as a header, .h");
   switch (kind_of(path)) {
     case Kind::kHeader:
       return to_header(exported);

@@ -75,6 +75,18 @@ struct Policy {
   float max_action;            ///< entries of an action are kept within ± this, rad
 };
 
+/// A policy that sees its target through an auto-encoder: z = E(P) in place of P, D(z) in place of P in the
+/// difference. E and D see poses in their own heading frame.
+template <class Weight>
+struct CodedPolicy : Policy<Weight> {
+  const float *pose_mean, *pose_factor;  ///< [kPoseCount] (P − mean) · factor …
+  float pose_limit;                      ///< … within ± this
+  int encoder_layers, decoder_layers;    ///< of at most kStateCount inputs and outputs each
+  const Layer<Weight>*encoder, *decoder;
+
+  int code_size() const { return encoder[encoder_layers - 1].outputs; }
+};
+
 // ---- rotations, in double -----------------------------------------------------------------------
 
 struct Vector {
@@ -323,17 +335,16 @@ inline void put_pose(const State& state, const Vector* hands_feet, Heading headi
   for (int e = 0; e < 4; ++e) out = put_turned(hands_feet[e] - place, heading, out);
 }
 
-/// s_t: the pose that is asked for at the next frame, the shape, the pose that there is, their difference,
-/// and the way to the next place of the pelvis. All directions are relative to where the pelvis looks.
-/// @param out  [kStateCount]
+/// The rest of s_t, after the target: the shape, the pose that there is, the difference of `wanted` from it,
+/// and the way to the next place of the pelvis.
+/// @param wanted  [kPoseCount] the target in the frame `heading`, or what the policy sees of it
+/// @param out     [kStateCount − kPoseCount]
 template <class Weight>
-void observe(const Policy<Weight>& policy, const State& next, const State& now, float* out) {
-  const Heading heading = heading_of(unit(now.q[0]));
-  float *wanted = out, *shape = out + kPoseCount, *is = shape + kShapeCount, *difference = is + kPoseCount;
-  Vector of_next[4], of_now[4];
-  hands_and_feet_exactly(policy.joint_offset, next, of_next);
+void put_rest(const Policy<Weight>& policy, const State& next, const State& now, Heading heading,
+              const float* wanted, float* out) {
+  float *shape = out, *is = shape + kShapeCount, *difference = is + kPoseCount;
+  Vector of_now[4];
   hands_and_feet(policy.joint_offset, now, of_now);
-  put_pose(next, of_next, heading, wanted);
   put_pose(now, of_now, heading, is);
   for (int k = 0; k < kShapeCount; ++k) shape[k] = policy.shape[k];
   for (int k = 0; k < kPoseCount; ++k) difference[k] = wanted[k] - is[k];
@@ -341,6 +352,18 @@ void observe(const Policy<Weight>& policy, const State& next, const State& now, 
   put_turned(vector_of(next.p_root) - vector_of(now.p_root), heading, way);
   difference[kPoseCount] = way[0];
   difference[kPoseCount + 1] = way[1];
+}
+
+/// s_t: the pose that is asked for at the next frame, the shape, the pose that there is, their difference,
+/// and the way to the next place of the pelvis. All directions are relative to where the pelvis looks.
+/// @param out  [kStateCount]
+template <class Weight>
+void observe(const Policy<Weight>& policy, const State& next, const State& now, float* out) {
+  const Heading heading = heading_of(unit(now.q[0]));
+  Vector of_next[4];
+  hands_and_feet_exactly(policy.joint_offset, next, of_next);
+  put_pose(next, of_next, heading, out);
+  put_rest(policy, next, now, heading, out, out + kPoseCount);
 }
 
 // ---- the network --------------------------------------------------------------------------------
@@ -389,27 +412,65 @@ void apply_layer(const Layer<Weight>& layer, const float* x, const std::int16_t*
   }
 }
 
-/// The action [kActionCount] for an observation [kStateCount].
+/// The outputs of a network in place of its inputs x.
 /// @tparam kWidest  largest number of inputs or outputs of a layer
+/// @param place, all  as of `apply_layer`, for the first layer
+template <int kWidest, class Weight>
+void apply_network(const Layer<Weight>* layers, int count, const std::int16_t* place, int all, float* x) {
+  float y[kWidest], part[kWidest];
+  for (int l = 0; l < count; ++l) {
+    const Layer<Weight>& layer = layers[l];
+    const bool first = l == 0, last = l + 1 == count;
+    apply_layer(layer, x, first ? place : nullptr, first ? all : layer.inputs, y, part);
+    for (int o = 0; o < layer.outputs; ++o)
+      x[o] = last || !(y[o] < 0.0F) ? y[o] : exponential_minus_one(y[o]);
+  }
+}
+
+/// (x − mean) · factor within ± limit.
+inline float scaled_input(float x, float mean, float factor, float limit) {
+  const float scaled = (x - mean) * factor;
+  const float raised = scaled < -limit ? -limit : scaled;
+  return raised > limit ? limit : raised;
+}
+
+/// The action [kActionCount] for an observation [kStateCount].
+/// @tparam kWidest  as of `apply_network`
 template <int kWidest, class Weight>
 void decide(const Policy<Weight>& policy, const float* observation, float* action) {
-  float x[kWidest], y[kWidest], part[kWidest];
+  float x[kWidest];
   for (int i = 0; i < policy.layer[0].inputs; ++i) {
-    const float scaled = (observation[policy.input[i]] - policy.mean[i]) * policy.factor[i];
-    const float raised = scaled < -policy.limit ? -policy.limit : scaled;
-    x[i] = raised > policy.limit ? policy.limit : raised;
+    x[i] = scaled_input(observation[policy.input[i]], policy.mean[i], policy.factor[i], policy.limit);
     const int power = policy.power == nullptr ? 0 : policy.power[i];
     for (int k = 0; k < power; ++k) x[i] *= 2.0F;
     for (int k = 0; k > power; --k) x[i] *= 0.5F;
   }
-  for (int l = 0; l < policy.layers; ++l) {
-    const Layer<Weight>& layer = policy.layer[l];
-    const bool first = l == 0, last = l + 1 == policy.layers;
-    apply_layer(layer, x, first ? policy.input : nullptr, first ? kStateCount : layer.inputs, y, part);
-    for (int o = 0; o < layer.outputs; ++o)
-      x[o] = last || !(y[o] < 0.0F) ? y[o] : exponential_minus_one(y[o]);
-  }
+  apply_network<kWidest>(policy.layer, policy.layers, policy.input, kStateCount, x);
   for (int k = 0; k < kActionCount; ++k) action[k] = x[k];
+}
+
+/// s_t of a policy with an auto-encoder: z, and the rest with D(z). @param out  [kStateCount]
+template <class Weight>
+void observe(const CodedPolicy<Weight>& policy, const State& next, const State& now, float* out) {
+  const Heading own = heading_of(unit(next.q[0])), heading = heading_of(unit(now.q[0]));
+  Vector of_next[4];
+  hands_and_feet_exactly(policy.joint_offset, next, of_next);
+  float x[kStateCount];
+  put_pose(next, of_next, own, x);
+  for (int k = 0; k < kPoseCount; ++k)
+    x[k] = scaled_input(x[k], policy.pose_mean[k], policy.pose_factor[k], policy.pose_limit);
+  apply_network<kStateCount>(policy.encoder, policy.encoder_layers, nullptr, kPoseCount, x);
+  for (int k = 0; k < policy.code_size(); ++k) out[k] = x[k];
+  apply_network<kStateCount>(policy.decoder, policy.decoder_layers, nullptr, policy.code_size(), x);
+  for (int k = 0; k < kPoseCount; ++k) x[k] = x[k] / policy.pose_factor[k] + policy.pose_mean[k];
+  // What depends on the heading turns from the target's own into that of the body.
+  const Heading turn{heading.x * own.x + heading.y * own.y, heading.y * own.x - heading.x * own.y};
+  constexpr int kRootVectors = 4, kHandsAndFeetAt = kPoseCount - 12;
+  for (int k = 1; k < kPoseCount; k += 3) {
+    if (k == 1 + 3 * kRootVectors) k = kHandsAndFeetAt;
+    put_turned({x[k], x[k + 1], x[k + 2]}, turn, x + k);
+  }
+  put_rest(policy, next, now, heading, x, out + policy.code_size());
 }
 
 /// What an action means: rotations on top of the pose of the next frame.
@@ -439,11 +500,10 @@ Targets targets_of(const Policy<Weight>& policy, const State& next, const float*
   return out;
 }
 
-/// What the PD controllers shall aim at for the time from `frame` to the next one.
+/// What the PD controllers shall aim at on the way from `now` to `next`, a frame later.
 /// @tparam kWidest  as of `decide`
-template <int kWidest, class Weight>
-Targets follow(const Policy<Weight>& policy, int frame, const State& now) {
-  const State next = motion_at(policy.motion, frame + 1);
+template <int kWidest, class AnyPolicy>
+Targets follow(const AnyPolicy& policy, const State& next, const State& now) {
   float observation[kStateCount], action[kActionCount];
   observe(policy, next, now, observation);
   decide<kWidest>(policy, observation, action);

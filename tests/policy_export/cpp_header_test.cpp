@@ -26,7 +26,7 @@ Call compiled(const TemporaryFolder& folder, const std::string& source) {
 }
 
 TEST(PolicyHeader, MatchesItsRecordsBitForBit) {
-  for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits()}) {
+  for (const ExportedPolicy* exported : {&exported_in_float(), &exported_in_8_bits(), &exported_option()}) {
     const TemporaryFolder folder;
     write_file_atomically(folder.path / "policy.h", to_header(*exported));
     const Call call = compiled(
@@ -45,6 +45,30 @@ TEST(PolicyHeader, DetectsAWrongWeight) {
   write_file_atomically(folder.path / "policy.h", text);
   const Call call = compiled(
       folder, "#include \"policy.h\"\nint main() { return policy_a_squat::self_test() > 0.05F ? 0 : 1; }\n");
+  EXPECT_EQ(call.status, 0) << call.text;
+}
+
+TEST(PolicyHeader, OptionsFollowTargetsFromOutside) {
+  const TemporaryFolder folder;
+  const ExportedPolicy standing = export_policy(
+      standing_policy("option 3", exported_option().meant.agent, make_character()), false, small_coder());
+  write_file_atomically(folder.path / "all.h",
+                        to_header(std::vector<ExportedPolicy>{standing, exported_in_float()}));
+  const Call call = compiled(
+      folder,
+      "#include \"all.h\"\n"
+      "namespace option = policies::policy_option_3;\n"
+      "namespace squat = policies::policy_a_squat;\n"
+      "int main() {\n"
+      "  policies::State now = option::reference(0), next = squat::reference(20);\n"
+      "  const policies::Targets stand = option::follow(0, now), down = option::follow(next, now);\n"
+      "  float turned = 0.0F;\n"
+      "  for (int k = 0; k < 4; ++k) turned += (stand.q[4][k] - down.q[4][k]) * (stand.q[4][k] - "
+      "down.q[4][k]);\n"
+      "  const policies::Targets by_frame = squat::follow(19, now), by_state = squat::follow(next, now);\n"
+      "  for (int k = 0; k < 4; ++k) if (by_frame.q[4][k] != by_state.q[4][k]) return 1;\n"
+      "  return option::kFrames == 2 && turned > 0.01F && option::self_test() == 0.0F ? 0 : 1;\n"
+      "}\n");
   EXPECT_EQ(call.status, 0) << call.text;
 }
 

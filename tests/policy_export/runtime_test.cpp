@@ -84,6 +84,47 @@ TEST(PolicyRuntime, MatchesTheProgram) {
   }
 }
 
+/// The reference as an option with this encoder sees it.
+std::shared_ptr<const rl::tracking::TrackingClip> coded(const motion::Reference& motion,
+                                                        const nn::AutoEncoder& coder) {
+  auto clip = std::make_shared<rl::tracking::TrackingClip>(*rl::tracking::make_tracking_clip(motion, {}));
+  rl::tracking::EncodedReference& encoded = clip->encoded.emplace_back();
+  encoded.code_size = coder.code_size();
+  for (const rl::tracking::Pose& pose : clip->poses) {
+    nn::Matrix<float> features(1, kPoseCount), code, decoded;
+    rl::tracking::own_pose_features(pose, features.data());
+    nn::encode(coder, features, code, decoded);
+    encoded.codes.insert(encoded.codes.end(), code.data(), code.data() + code.size());
+    std::copy_n(decoded.data(), kPoseCount, encoded.decoded.emplace_back().begin());
+  }
+  return clip;
+}
+
+TEST(PolicyRuntime, SeesAndDecidesAsAnOptionWithItsEncoder) {
+  const ExportedPolicy& exported = exported_option();
+  rl::tracking::TrackingPack pack(coded(exported.meant.motion, *exported.coder), {});
+  const auto act = rl::tracking::mean_action({exported.meant.agent});
+  physics::Data<rl::tracking::TrackingPack::P> scratch;
+  Largest largest;
+  for (int t = 0; t + 1 < exported.meant.motion.size(); ++t) {
+    std::array<float, kStateCount> observation{};
+    std::array<float, kActionCount> action{};
+    pack.observe(0, observation.data());
+    act(0, observation.data(), action.data());
+    for (int lane = 0; lane < physics::kLanes; ++lane) pack.act(lane, action.data());
+    if (t > 0) {
+      const Record answered = answer(exported, t, from_physics(physics::lane_of(pack.state(), 0)));
+      for (int k = 0; k < exported.meant.agent.actor.inputs(); ++k)
+        compare(answered.observation[static_cast<std::size_t>(k)], observation[static_cast<std::size_t>(k)],
+                largest.observation);
+      for (std::size_t k = 0; k < kActionCount; ++k) compare(answered.action[k], action[k], largest.action);
+    }
+    pack.advance(scratch);
+  }
+  EXPECT_LE(largest.observation, kRounding);
+  EXPECT_LE(largest.action, kRounding);
+}
+
 TEST(PolicyRuntime, RotationsAreThoseOfTheCore) {
   Random random(3, {});
   for (int trial = 0; trial < 2000; ++trial) {

@@ -58,4 +58,34 @@ inline const ExportedPolicy& exported_in_8_bits() {
   return exported;
 }
 
+/// An untrained option with an encoder: random networks, whose scales are those of the squat's poses.
+inline const nn::AutoEncoder& small_coder() {
+  static const nn::AutoEncoder coder = [] {
+    const auto clip = rl::tracking::make_tracking_clip(small_policy().motion, {});
+    nn::Matrix<float> poses(clip->poses.count(), rl::tracking::kPoseFeatures);
+    for (int t = 0; t < clip->poses.count(); ++t)
+      rl::tracking::own_pose_features(clip->poses[t], poses.row(t).data());
+    Random random(11, {});
+    nn::AutoEncoder made{nn::make_normaliser<float>(kPoseCount, 5.0F),
+                         nn::make_mlp<float>({kPoseCount, 256, 64}, 1.0F, random),
+                         nn::make_mlp<float>({64, 256, kPoseCount}, 1.0F, random)};
+    const nn::Moments moments[] = {nn::moments_of(poses)};
+    nn::update<float>(made.inputs, moments);
+    return made;
+  }();
+  return coder;
+}
+inline const ExportedPolicy& exported_option() {
+  static const ExportedPolicy exported = [] {
+    rl::AgentShape shape;
+    shape.observation_dim = rl::tracking::kEncodedRest + small_coder().code_size();
+    shape.action_dim = kDofs;
+    shape.hidden = {128, 128};
+    files::StoredPolicy policy = small_policy();
+    policy.agent = rl::make_agent(shape, 5);
+    return export_policy(policy, false, small_coder());
+  }();
+  return exported;
+}
+
 }  // namespace mimicx::policy_export

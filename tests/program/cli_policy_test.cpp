@@ -87,10 +87,34 @@ TEST_F(CliPolicy, WritesSeveralIntoOneHeaderAlone) {
   EXPECT_TRUE(says(same, "namespace policy_walk")) << same.text;
 }
 
+TEST_F(CliPolicy, WritesOptionsOfASetForTheBodyOfAMotion) {
+  const std::string trained = std::string(MIMICX_SOURCE_DIR) + "/data/options",
+                    one = trained + "/option3 " + trained + "/taught/option7 --out ";
+  EXPECT_EQ(mimicx("export-policy " + one + path("two.h")).status, 0);
+  const std::string header = read_file(path("two.h"));
+  for (const char* part : {"namespace policy_option3 {", "CodedPolicy<float> kPolicy",
+                           "namespace policy_option7 {", "constexpr Policy<float> kPolicy"})
+    EXPECT_NE(header.find(part), std::string::npos) << part;
+  EXPECT_EQ(mimicx("export-policy taught/option7 --out " + path("seven.onnx")).status, 0);
+  EXPECT_EQ(mimicx("export-policy taught --out " + path("all.h")).status, 0);
+  EXPECT_NE(read_file(path("all.h")).find("namespace policy_option9 {"), std::string::npos);
+  motion::Clip tall = motion::standing_clip(20);
+  tall.betas[0] = 2.0;
+  motion::write_clip(path("tall.npz"), tall);
+  EXPECT_EQ(mimicx("export-policy " + one + path("tall.h") + " --body " + path("tall.npz")).status, 0);
+  EXPECT_NE(read_file(path("tall.h")).find("kShape[10] = {\n 2.0F,"), std::string::npos);
+}
+
 TEST_F(CliPolicy, NamesWhatIsMissingInOneLine) {
   const std::pair<std::string, std::string> cases[] = {
       {path("run/jog") + " --out " + path("x.h"), "run has no policy jog: it has more/walk, walk"},
       {path("options/walk") + " --out " + path("x.h"), "it has options, which follow many motions"},
+      {"trained/walk --out " + path("x.h"), "it has options, which follow many motions: trained/option0"},
+      {"trained/option6 --out " + path("x.h"), "has the options 0 to 5, no option6"},
+      {"trained/option0 --out " + path("x.onnx"), "x.onnx: an option with an encoder is written as a header"},
+      {"trained/option0 --int8 --out " + path("x.h"), "--int8: rounding suits the weights to a motion"},
+      {path("run/walk") + " --body " + path("run/policies/walk.npz") + " --out " + path("x.h"),
+       "--body: a policy of a motion is for the body of that motion"},
       {path("plain/walk") + " --out " + path("x.h"), "it has no policies"},
       {path("empty/walk") + " --out " + path("x.h"), "it is no folder of `mimicx adapt --out`"},
       {path("none/walk") + " --out " + path("x.h"), "none is no folder: expected a policy as RUN/NAME"},

@@ -41,6 +41,11 @@ TEST_F(CliResults, EveryCommandPrintsThemAsJson) {
   EXPECT_EQ(run["runs"].elements()[0].at("folder").get<std::string>(), path("run"));
   EXPECT_TRUE(said("report " + path("run") + " --json -").contains("report"));
   EXPECT_TRUE(said("audit " + path("run/motions") + " --json -").contains("files"));
+  said("plan " + a + " --no-fit --substeps --out " + path("stepped") + " --json -");
+  EXPECT_EQ(mimicx("certify " + path("stepped/motions") + " --out " + path("certificates")).status, 0);
+  const Json replayed = said("certify --replay " + path("certificates/a.cert") + " --json -")["certificates"];
+  EXPECT_EQ(replayed.elements().size(), 1U);
+  EXPECT_TRUE(replayed.elements()[0].at("same_bits").get<bool>());
   EXPECT_TRUE(
       said("evaluate --truth " + a + " --motions " + path("run/motions") + " --json -").contains("mean"));
 }
@@ -52,6 +57,19 @@ TEST_F(CliResults, JsonOfRunsBesideTheirInputsHasAllOfThem) {
   EXPECT_EQ(Json::parse(read_file(json))["runs"].elements().size(), 2U);
   EXPECT_EQ(mimicx("plan " + a + " --no-fit --quiet --json " + b).status,
             2);  // a file that is not ours to overwrite
+}
+
+TEST_F(CliResults, JsonOfAllStagesIsThatOfTheirLast) {
+  std::filesystem::create_directories(path("in"));
+  std::filesystem::rename(a, path("in/a.npz"));
+  const std::string run = "run " + path("in") + " --out " + path("all") +
+                          " --pretrain-samples 0 --budget-samples 0 --threads 1 --json ";
+  EXPECT_EQ(mimicx(run + b).status, 2);  // before the stages: not ours to overwrite
+  EXPECT_FALSE(std::filesystem::exists(path("all")));
+  mimicx(run + path("all.json"));
+  Json runs = Json::parse(read_file(path("all.json")))["runs"];
+  EXPECT_EQ(runs.elements()[0].at("folder").get<std::string>(), path("all/clean"));
+  EXPECT_EQ(runs.elements()[0].at("sequences").elements().size(), 1U);
 }
 
 TEST_F(CliResults, EvaluateFailsAboveALimit) {

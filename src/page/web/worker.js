@@ -1,7 +1,7 @@
-// The page's worker: it runs the program, compiled to WebAssembly, and passes messages between it and the page. Every
-// answer is the program's own.
+// The worker of the page and of the JavaScript module (javascript/mimicx.mjs): it runs the program, compiled to
+// WebAssembly, and passes messages between it and them. Every answer is the program's own.
 //
-// The page asks {ask, …}, an answer is {ask, answer} or {ask, bytes}; while the program works it tells {told, urgent}.
+// They ask {ask, …}, an answer is {ask, answer} or {ask, bytes}; while the program works it tells {told, urgent}.
 
 let program = null;
 
@@ -58,6 +58,70 @@ function save({number, suffix}) {
   return good ? {bytes: answer_bytes()} : {answer: answer()};
 }
 
+// ---- the C interface (include/mimicx.h), for the JavaScript module --------------------------------
+
+const OK = 0, NOT_FOLLOWED = 2;
+const ARRAYS = {'<f8': Float64Array, '<f4': Float32Array, '<i8': BigInt64Array, '<i4': Int32Array, '|u1': Uint8Array,
+                '|b1': Uint8Array};
+const text_at = (pointer) => pointer ? program.UTF8ToString(pointer) : '';
+
+// Reads a motion from its file and calls f(motion, check), where check throws the motion's error.
+function with_motion({name, bytes, options}, f) {
+  const motion = program._mimicx_motion_new();
+  const check = (good) => { if (!good) throw new Error(text_at(program._mimicx_motion_error(motion))); };
+  try {
+    for (const [key, value] of Object.entries(options).filter(([, value]) => value !== undefined)) {
+      const text = typeof value === 'boolean' ? String(Number(value)) : String(value);
+      check(with_text(key, (k) => with_text(text, (v) => program._mimicx_motion_set(motion, k, v))) === OK);
+    }
+    check(with_text(name, (n) => with_memory(bytes, (at) => program._mimicx_motion_read(motion, at, bytes.length, n))) === OK);
+    return f(motion, check);
+  } finally {
+    program._mimicx_motion_free(motion);
+  }
+}
+
+// An array of a motion as {shape, data}; null where it has texts. mimicx_array has its data at 0, its type at 4, the
+// number of its dimensions at 12 and its shape at 16.
+const array_of = (motion, member) => with_text(member, (name) => with_memory(new Uint8Array(48), (view) => {
+  if (program._mimicx_motion_array(motion, name, view) !== OK) return null;
+  const memory = new DataView(program.HEAPU8.buffer), Numbers = ARRAYS[text_at(view + 4)];
+  const shape = Array.from({length: memory.getInt32(view + 12, true)}, (_, k) => Number(memory.getBigInt64(view + 16 + 8 * k, true)));
+  const data = memory.getUint32(view, true), size = shape.reduce((product, n) => product * n, Numbers.BYTES_PER_ELEMENT);
+  return {shape, data: new Numbers(program.HEAPU8.slice(data, data + size).buffer)};
+}));
+
+const file_of = (motion, suffix, check) => with_text(suffix, (text) => with_memory(new Uint8Array(8), (places) => {
+  check(program._mimicx_motion_write(motion, text, places, places + 4) === OK);
+  const [at, size] = new Uint32Array(program.HEAPU8.buffer, places, 2);
+  return program.HEAPU8.slice(at, at + size);
+}));
+
+const clean = ({write, ...what}) => with_motion(what, (motion, check) => {
+  const status = program._mimicx_clean(motion);
+  check(status === OK || status === NOT_FOLLOWED);
+  const record = JSON.parse(text_at(program._mimicx_motion_record(motion)));
+  const members = text_at(program._mimicx_motion_members(motion)).split('\n').filter(Boolean);
+  const arrays = members.map((member) => [member, array_of(motion, member)]).filter(([, array]) => array);
+  const files = write.map((suffix) => [suffix, file_of(motion, suffix, check)]);
+  return {followed: status === OK, reason: record.reason ?? '', metrics: record.metrics ?? {}, record,
+          arrays: Object.fromEntries(arrays), files: Object.fromEntries(files)};
+});
+
+const audit = (what) => with_motion(what, (motion, check) => {
+  const text = text_at(program._mimicx_motion_audit(motion));
+  check(text);
+  return JSON.parse(text).files[0].audits;
+});
+
+// Errors of the motion are answers.
+function answered(work, what) {
+  try { return work(what); } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) throw error;
+    return {error: error.message};
+  }
+}
+
 async function begin(wasm) {
   program = await new Promise((ready, failed) => {
     const module = {wasmBinary: wasm, onRuntimeInitialized: () => ready(module), onAbort: failed};
@@ -68,11 +132,13 @@ async function begin(wasm) {
   return {};
 }
 
-onmessage = async ({data: {ask, ...what}}) => {
+globalThis.onmessage = async ({data: {ask, ...what}}) => {
   try {
     if (ask === 'begin') postMessage({ask, answer: await begin(what.wasm)});
     else if (ask === 'save') postMessage({ask, ...save(what)});
     else if (ask === 'plan') postMessage({ask, ...plan(what)});
+    else if (ask === 'clean') postMessage({ask, answer: answered(clean, what)});
+    else if (ask === 'audit') postMessage({ask, answer: answered(audit, what)});
     else { calls[ask](what); postMessage({ask, answer: answer()}); }
   } catch (error) {  // a trap: the program has ended
     postMessage({ask, answer: {error: `the program has stopped: ${error && error.message || error}`}, ended: true});
