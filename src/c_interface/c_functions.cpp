@@ -1,5 +1,6 @@
 // The functions of include/mimicx.h: they catch all errors, and know no more.
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <string>
@@ -26,6 +27,8 @@ struct mimicx_simulator {
 namespace {
 
 constexpr int kMostDimensions = 4;
+constexpr auto kMostElements =
+    static_cast<std::size_t>(std::min(std::uint64_t{1} << 32, std::uint64_t{SIZE_MAX} / 8));
 
 /// Does the work; an error becomes the handle's.
 template <class Handle, class Work>
@@ -100,7 +103,7 @@ NpyArray copy_of(const std::string& member, const mimicx_array& view) {
   std::size_t count = 1;
   for (int k = 0; k < view.dimensions; ++k) {
     const std::int64_t size = view.shape[k];
-    if (size < 0 || (size > 0 && count > (std::size_t{1} << 32) / static_cast<std::size_t>(size)))
+    if (size < 0 || (size > 0 && count > kMostElements / static_cast<std::size_t>(size)))
       throw std::invalid_argument(member + ": a shape that no array has");
     count *= static_cast<std::size_t>(size);
     array.shape.push_back(static_cast<std::size_t>(size));

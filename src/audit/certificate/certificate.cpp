@@ -1,7 +1,6 @@
 #include "audit/certificate/certificate.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "audit/certificate/sha256.h"
+#include "core/bits.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "files/archive_members.h"
@@ -39,7 +39,7 @@ std::uint64_t integer_at(std::string_view bytes, std::size_t at, int size) {
   return value;
 }
 void append_number(std::string& bytes, double value) {
-  append_integer(bytes, std::bit_cast<std::uint64_t>(value), 8);
+  append_integer(bytes, mimicx::bit_cast<std::uint64_t>(value), 8);
 }
 
 /// Numbers in the order of the page.
@@ -317,7 +317,7 @@ CertificateReplay replay_certificate(const std::filesystem::path& path) {
     refuse("a file of another length");
   if (sha256(std::string_view(bytes).substr(0, bytes.size() - kHash)) != bytes.substr(bytes.size() - kHash))
     refuse("a file whose hash differs");
-  const auto number = [&](std::size_t at) { return std::bit_cast<double>(integer_at(bytes, at, 8)); };
+  const auto number = [&](std::size_t at) { return mimicx::bit_cast<double>(integer_at(bytes, at, 8)); };
   std::array<double, kBetas> betas{};
   for (std::size_t k = 0; k < kBetas; ++k) betas[k] = number(kFixed + 8 * (11 + k));
   for (const double beta : betas)
@@ -331,7 +331,7 @@ CertificateReplay replay_certificate(const std::filesystem::path& path) {
   require_scene(scene, path.string());
 
   const auto record_at = [&](std::uint64_t k) {
-    std::size_t at = start + 8 * kRecord * k;
+    auto at = static_cast<std::size_t>(start + 8 * kRecord * k);
     const auto next = [&] { return number(std::exchange(at, at + 8)); };
     const auto vector = [&](physics::Vec3<double>& v) { v.x = next(), v.y = next(), v.z = next(); };
     const auto quaternion = [&](physics::Quat<double>& q) {
@@ -361,8 +361,9 @@ CertificateReplay replay_certificate(const std::filesystem::path& path) {
     Claims claims;
     stepper.append(record, again, claims);
     for (std::size_t i = 0; i < kRecord; ++i)
-      if (replay.first_step < 0 && std::bit_cast<std::uint64_t>(again.values[i]) !=
-                                       integer_at(bytes, start + 8 * (kRecord * k + i), 8))
+      if (replay.first_step < 0 &&
+          mimicx::bit_cast<std::uint64_t>(again.values[i]) !=
+              integer_at(bytes, static_cast<std::size_t>(start + 8 * (kRecord * k + i)), 8))
         replay.first_step = replay.steps;
     physics::step(model, physics::in_all_lanes<Packed>(record.target), state, *data);
     add_state(record_at(k + 1).state, next);
