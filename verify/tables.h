@@ -7,7 +7,7 @@
 
 enum { BODIES = 22, JOINTS = 21, POINTS = 37, SHAPES = 10, CLAIMS = 4, MOST_PLATES = 64 };
 /* "Format": how many numbers, and which number of the header is the first. */
-enum { BODY_NUMBERS = 24, POINT_NUMBERS = 5, PLATE_NUMBERS = 8, STATE_NUMBERS = 160, STEP_NUMBERS = 550,
+enum { BODY_NUMBERS = 24, PLATE_NUMBERS = 8, STATE_NUMBERS = 160, STEP_NUMBERS = 550,
        FIRST_SHAPE = 11, FIRST_CLAIM = 21, FIRST_BODY = 25, FIRST_POINT = 553, HEADER_NUMBERS = 738 };
 
 typedef struct { double x, y, z; } Vector;
@@ -26,30 +26,31 @@ static const double PLATE_RANGE[PLATE_NUMBERS][2] = {
 static const int PARENT[BODIES] = {-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
 static const int LEFT_OF[BODIES] = {0, 1, 1, 3, 4, 4, 6, 7, 7, 9, 10, 10, 12, 13, 13, 15, 16, 16, 18, 18, 20, 20};
 
-/* "Body": the rows of its table, and the axes of the hinges. Angles are in degrees. */
+/* "Body": the rows of its table, and the axes of the hinges, whose sign does not matter. Angles are in degrees. */
 typedef enum { TORSO, HEAD, HIP, LEG, FOOT, SHOULDER, ARM } Part;
 typedef struct {
     int body;
     Part part;
     Vector offset;
     double share, kp, bound, armature;
-    Vector range_centre, range_half, hinge;
+    Vector range_centre, range_half;
+    int hinge; /* which axis: x is 0; no hinge is -1 */
 } Row;
 static const Row ROWS[] = {
-    {0, TORSO, {0, 0, 0}, .118, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
-    {3, TORSO, {0, .108, -.026}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, {0, 0, 0}},
-    {6, TORSO, {0, .136, .001}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, {0, 0, 0}},
-    {9, TORSO, {0, .054, .026}, .112, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, {0, 0, 0}},
-    {12, HEAD, {0, .214, -.042}, .012, 150, 50, .01, {0, 0, 0}, {55, 65, 50}, {0, 0, 0}},
-    {15, HEAD, {0, .066, .050}, .056, 100, 40, .01, {0, 0, 0}, {55, 65, 50}, {0, 0, 0}},
-    {1, HIP, {.066, -.088, -.006}, .1446, 500, 250, .02, {-45, 0, 10}, {95, 75, 75}, {0, 0, 0}},
-    {4, LEG, {.040, -.382, -.004}, .0457, 500, 220, .02, {75, 0, 0}, {82, 82, 82}, {1, 0, 0}},
-    {7, LEG, {-.012, -.402, -.040}, .0113, 400, 160, .02, {12, 0, 0}, {62, 60, 50}, {0, 0, 0}},
-    {10, FOOT, {.024, -.056, .122}, .0022, 100, 40, .01, {-15, 0, 0}, {65, 30, 30}, {0, 0, 0}},
-    {13, SHOULDER, {.074, .118, -.034}, .0204, 500, 130, .02, {0, 0, 5}, {45, 45, 45}, {0, 0, 0}},
-    {16, SHOULDER, {.096, .034, -.010}, .0263, 400, 120, .02, {0, -25, -10}, {130, 125, 130}, {0, 0, 0}},
-    {18, ARM, {.258, -.014, -.026}, .0150, 300, 80, .02, {0, -77, 0}, {85, 85, 85}, {0, -1, 0}},
-    {20, ARM, {.250, .008, -.001}, .0035, 80, 20, .01, {0, 0, 0}, {140, 90, 95}, {0, 0, 0}}};
+    {0, TORSO, {0, 0, 0}, .118, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, -1},
+    {3, TORSO, {0, .108, -.026}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, -1},
+    {6, TORSO, {0, .136, .001}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, -1},
+    {9, TORSO, {0, .054, .026}, .112, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, -1},
+    {12, HEAD, {0, .214, -.042}, .012, 150, 50, .01, {0, 0, 0}, {55, 65, 50}, -1},
+    {15, HEAD, {0, .066, .050}, .056, 100, 40, .01, {0, 0, 0}, {55, 65, 50}, -1},
+    {1, HIP, {.066, -.088, -.006}, .1446, 500, 250, .02, {-45, 0, 10}, {95, 75, 75}, -1},
+    {4, LEG, {.040, -.382, -.004}, .0457, 500, 220, .02, {75, 0, 0}, {82, 82, 82}, 0},
+    {7, LEG, {-.012, -.402, -.040}, .0113, 400, 160, .02, {12, 0, 0}, {62, 60, 50}, -1},
+    {10, FOOT, {.024, -.056, .122}, .0022, 100, 40, .01, {-15, 0, 0}, {65, 30, 30}, -1},
+    {13, SHOULDER, {.074, .118, -.034}, .0204, 500, 130, .02, {0, 0, 5}, {45, 45, 45}, -1},
+    {16, SHOULDER, {.096, .034, -.010}, .0263, 400, 120, .02, {0, -25, -10}, {130, 125, 130}, -1},
+    {18, ARM, {.258, -.014, -.026}, .0150, 300, 80, .02, {0, -77, 0}, {85, 85, 85}, 1},
+    {20, ARM, {.250, .008, -.001}, .0035, 80, 20, .01, {0, 0, 0}, {140, 90, 95}, -1}};
 
 /* "Offsets": the gains of a part's entries by one number of the shape. */
 static const struct { Part part; int beta; Vector gain; } GAINS[] = {

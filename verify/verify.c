@@ -8,7 +8,6 @@
 typedef unsigned char Byte;
 
 /* ---- Vectors and rotations: section "Format" ---- */
-
 /* Negative numbers become zero. NaN stays, which fmax would lose. */
 static double positive(double a) { return a < 0 ? 0 : a; }
 static double limited(double a) { return a < 0 ? 0 : a > 1 ? 1 : a; }
@@ -25,6 +24,7 @@ static Vector cross(Vector a, Vector b) {
     return vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 static Vector mirrored(Vector a) { return vector(-a.x, a.y, a.z); }
+static double entry(Vector a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
 static Vector between(Vector a, Vector b, double share) { return plus(a, times(minus(b, a), share)); }
 
 typedef struct { double w; Vector v; } Quaternion;
@@ -65,7 +65,6 @@ static Vector turn_of(Quaternion q) {
 static double angle_between(Quaternion a, Quaternion b) { return length(turn_of(product(inverse(a), b))); }
 
 /* ---- Bytes ---- */
-
 /* Integers of the file are little-endian, whatever the machine is. */
 static uint64_t integer_at(const Byte *at, int bytes) {
     uint64_t value = 0;
@@ -132,7 +131,6 @@ static int hash_is(const Byte *bytes, size_t size, const Byte *expected) {
 }
 
 /* ---- The file: section "Format" ---- */
-
 enum { HEADER_SIZE = 5984, HASH_SIZE = 32, STEP_SIZE = 8 * STEP_NUMBERS, STATE_SIZE = 8 * STATE_NUMBERS };
 
 /* A file of which nothing is broken. */
@@ -161,7 +159,6 @@ static const char *open_file(File *file, const Byte *bytes, size_t size) {
 }
 
 /* ---- The body: section "Body" ---- */
-
 /* All points within a radius of an axis. */
 typedef struct { Vector end[2]; double radius; } Capsule;
 
@@ -173,15 +170,15 @@ typedef struct {
     double inertia[6], kp, kd, armature, bound;
     Capsule capsule;
     const Row *row;
-    Vector hinge, range_width; /* 2 sin(half axes / 2) */
+    Vector range_width; /* 2 sin(half axes / 2) */
     Quaternion range_centre;
 } Body;
 
-/* A contact point, and the scales of the capsules. */
-typedef struct { int body; Vector centre; double radius; } Point;
+/* A contact point: five numbers as in "Format". */
+typedef struct { double body; Vector centre; double radius; } Point;
+/* "Scales". */
 typedef struct { double size, girth, foot, hand, head; } Scales;
 
-/* "Scales". */
 static Scales scales_of(const double *beta) {
     double size = 1 + .03 * beta[0];
     return (Scales){size, size + .06 * beta[1], size + .04 * beta[7], size + .03 * beta[4], size + .04 * beta[8]};
@@ -259,7 +256,6 @@ static void set_joint(Body *body, double side, double strength) {
     body->kd = body->kp / 10;
     body->bound = row->bound * strength;
     body->armature = row->armature;
-    body->hinge = entrywise(row->hinge, mirror);
     body->range_centre = rotation_by(times(entrywise(row->range_centre, mirror), PI / 180));
     body->range_width = times(vector(sin(half.x), sin(half.y), sin(half.z)), 2);
 }
@@ -305,7 +301,6 @@ static void set_points(Point *points, const Body *bodies, Scales s) {
 }
 
 /* ---- Rules, and reading the certificate's numbers ---- */
-
 /* A plate of the scene; also the floor, which has no sides. */
 typedef struct { double x, y, cosine, sine, half_first, half_second, height, k, c; } Plate;
 
@@ -330,16 +325,11 @@ static void note(Check *check, int index, double claimed, double found, double d
     Rule *rule = &check->rules[index];
     if (!(difference < INFINITY)) difference = INFINITY;
     if (rule->step >= 0 && difference <= rule->difference) return;
-    rule->claimed = claimed;
-    rule->found = found;
-    rule->difference = difference;
-    rule->step = check->step;
+    *rule = (Rule){rule->name, rule->unit, rule->tolerance, claimed, found, difference, check->step};
 }
 
 /* For what should be equal, and for what should be nothing. */
-static void compare(Check *check, int rule, double claimed, double found) {
-    note(check, rule, claimed, found, fabs(claimed - found));
-}
+static void compare(Check *check, int rule, double a, double b) { note(check, rule, a, b, fabs(a - b)); }
 static void excess(Check *check, int rule, double found) { note(check, rule, 0, found, found); }
 
 /* Reads numbers into a structure of doubles. Rule 5: a number that fails counts as 0. */
@@ -368,11 +358,7 @@ static void check_header(Check *check) {
     memcpy(found, constants, sizeof constants);
     for (int i = 0; i < BODIES; i++)
         memcpy(found + FIRST_BODY + i * BODY_NUMBERS, &check->bodies[i], BODY_NUMBERS * sizeof found[0]);
-    for (int i = 0; i < POINTS; i++) {
-        const Point *p = &check->points[i];
-        const double numbers[POINT_NUMBERS] = {p->body, p->centre.x, p->centre.y, p->centre.z, p->radius};
-        memcpy(found + FIRST_POINT + i * POINT_NUMBERS, numbers, sizeof numbers);
-    }
+    memcpy(found + FIRST_POINT, check->points, sizeof check->points);
     for (int i = 0; i < HEADER_NUMBERS; i++) compare(check, i < FIRST_SHAPE ? CONSTANT : SHAPE, claimed[i], found[i]);
     for (int i = 0; i < SHAPES; i++) excess(check, SHAPE, positive(fabs(check->beta[i]) - 5));
 }
@@ -391,17 +377,10 @@ static void check_plates(Check *check) {
 }
 
 /* ---- The motion file: rules 1, 2 and 27 ---- */
-
-/* Reads a member as an array of NumPy. A missing size is 1. Without numbers: it has another form. */
-static Array read_array(const Byte *member, uint64_t size, int members) {
-    static const char START[] = "{'descr': '<f8', 'fortran_order': False, 'shape': (";
-    const uint64_t start = 10 + sizeof START - 1;
-    uint64_t sizes[2] = {1, 1}, header = size < 10 ? 0 : 10 + integer_at(member + 8, 2);
+/* Reads the sizes of an array and the rest of the text. A size that is missing is 1. Returns 0 for any other text. */
+static int read_shape(const Byte *at, const Byte *end, uint64_t *sizes) {
     int dimension = 0, digits = 0;
-    Array array = {NULL, 0, 0, members};
-    if (header < start || header > size) return array;
-    if (memcmp(member, "\x93NUMPY\1\0", 8) != 0 || memcmp(member + 10, START, sizeof START - 1) != 0) return array;
-    for (const Byte *at = member + start; at < member + header && *at != ')'; at++) {
+    for (; at < end && *at != ')'; at++) {
         if (*at == ',') {
             dimension++;
             digits = 0;
@@ -409,22 +388,39 @@ static Array read_array(const Byte *member, uint64_t size, int members) {
             sizes[dimension] = (digits == 0 ? 0 : 10 * sizes[dimension]) + (*at - '0');
             digits++;
         } else if (*at != ' ') {
-            return array;
+            return 0;
         }
     }
+    if (end - at < 4 || memcmp(at, "), }", 4) != 0) return 0;
+    for (at += 4; at < end; at++)
+        if (*at != ' ' && *at != '\n') return 0;
+    return 1;
+}
+
+/* Reads a member as an array of NumPy, which has no numbers if it has another form. */
+static Array read_array(const Byte *member, uint64_t size, int members) {
+    static const char START[] = "{'descr': '<f8', 'fortran_order': False, 'shape': (";
+    const uint64_t start = 10 + sizeof START - 1, header = size < 10 ? 0 : 10 + integer_at(member + 8, 2);
+    uint64_t sizes[2] = {1, 1};
+    Array array = {NULL, 0, 0, members};
+    if (header < start || header > size || memcmp(member, "\x93NUMPY\1\0", 8) != 0) return array;
+    if (memcmp(member + 10, START, sizeof START - 1) != 0) return array;
+    if (!read_shape(member + start, member + header, sizes)) return array;
     if (sizes[0] * sizes[1] * 8 != size - header) return array;
     return (Array){member + header, sizes[0], sizes[1], members};
 }
 
-/* Finds a member of the zip from its front. One that is there twice has no numbers. */
+/* Finds NAME.npy from the front of the zip; NumPy takes NAME for the same. If it is there twice it has no numbers. */
 static Array find_array(const Byte *zip, size_t size, const char *name) {
     Array found = {NULL, 0, 0, 0};
+    size_t length = strlen(name);
     for (uint64_t at = 0; size - at >= 30 && memcmp(zip + at, "PK\3\4", 4) == 0;) {
         uint64_t flags = integer_at(zip + at + 6, 2), method = integer_at(zip + at + 8, 2);
         uint64_t data_size = integer_at(zip + at + 22, 4), name_size = integer_at(zip + at + 26, 2);
         uint64_t data = at + 30 + name_size + integer_at(zip + at + 28, 2);
         if ((flags & 8) != 0 || method != 0 || data + data_size > size) break;
-        if (name_size == strlen(name) && memcmp(zip + at + 30, name, strlen(name)) == 0)
+        int length_fits = name_size == length || name_size == length - strlen(".npy");
+        if (length_fits && memcmp(zip + at + 30, name, (size_t)name_size) == 0)
             found = read_array(zip + data, data_size, found.members + 1);
         at = data + data_size;
     }
@@ -437,12 +433,12 @@ static int has_numbers(Array array, uint64_t least, uint64_t most) {
     return array.numbers != NULL && array.rows * array.columns >= least && array.rows * array.columns <= most;
 }
 
-/* Rule 27: the plates are those of the motion file. */
+/* Rule 27: the plates are those of the motion file, which has none for the flat floor. */
 static void check_scene(Check *check, Array plates) {
     uint64_t count = PLATE_NUMBERS * (uint64_t)check->file.plate_count;
-    int same = count == 0 ? plates.members == 0
-                          : has_numbers(plates, count, count) &&
-                                memcmp(plates.numbers, check->file.plates, 8 * (size_t)count) == 0;
+    int same = count == 0 && plates.members == 0;
+    if (count > 0 && has_numbers(plates, count, count))
+        same = memcmp(plates.numbers, check->file.plates, 8 * (size_t)count) == 0;
     double found = (double)(plates.rows * plates.columns) / PLATE_NUMBERS;
     note(check, SCENE, check->file.plate_count, found, same ? 0 : INFINITY);
 }
@@ -467,7 +463,6 @@ static void check_motion_file(Check *check, const Byte *zip, size_t size) {
 }
 
 /* ---- States and steps ---- */
-
 /* The numbers of a state and of a step, in the order of "Format". Arrays of joints begin with joint 1. */
 typedef struct { Vector place; Quaternion turn[BODIES]; Vector speed, spin[BODIES]; } State;
 typedef struct {
@@ -493,26 +488,19 @@ static void check_frame(Check *check, const State *state) {
     }
 }
 
-/* "Joints": hinges have an axis. */
-static int is_hinge(const Body *body) { return dot(body->hinge, body->hinge) > 0; }
-
-/* The largest entry of a vector across a hinge's axis. */
-static double across_hinge(const Body *body, Vector a) {
-    Vector across = minus(a, times(body->hinge, dot(a, body->hinge)));
-    return fmax(fmax(fabs(across.x), fabs(across.y)), fabs(across.z));
-}
-
 /* Reads a state, and normalises its quaternions. Rules 6 and 7, and 2 if it is a frame's. */
 static void read_state(Check *check, long step, State *state) {
     check->step = step;
     read_numbers(check, check->file.steps + (size_t)step * STEP_SIZE, STATE_NUMBERS, state);
     for (int i = 0; i < BODIES; i++) {
-        const Body *body = &check->bodies[i];
+        int hinge = check->bodies[i].row->hinge;
         compare(check, UNIT, norm(state->turn[i]), 1);
         state->turn[i] = normalised(state->turn[i]);
-        if (!is_hinge(body)) continue;
-        excess(check, AXIS, across_hinge(body, times(state->turn[i].v, 2)));
-        excess(check, AXIS, across_hinge(body, state->spin[i]));
+        for (int axis = 0; axis < 3; axis++) {
+            if (hinge < 0 || axis == hinge) continue;
+            excess(check, AXIS, fabs(2 * entry(state->turn[i].v, axis)));
+            excess(check, AXIS, fabs(entry(state->spin[i], axis)));
+        }
     }
     if (check->poses.numbers != NULL && step % check->file.frame_steps == 0) check_frame(check, state);
 }
@@ -549,7 +537,6 @@ static void check_controllers(Check *check, const Step *step) {
 }
 
 /* ---- The laws of mechanics: section "The laws" ---- */
-
 /* How a body turns, and how its joint or another point of it moves, in world axes. */
 typedef struct { Vector place, speed, acceleration, spin, spin_rate; Quaternion turn; } Motion;
 
@@ -639,25 +626,21 @@ static void check_touch(Check *check, const Motion *touch, Vector force) {
 static void check_ground(Check *check, const Step *step, const Motion *motions, Load *carried) {
     for (int i = 0; i < POINTS; i++) {
         const Point *point = &check->points[i];
-        const Motion *body = &motions[point->body];
+        const Motion *body = &motions[(int)point->body];
         Vector arm = minus(rotated(body->turn, point->centre), vector(0, 0, point->radius));
         Motion touch = point_of(body, arm);
         check_touch(check, &touch, step->force[i]);
-        carry(&carried[point->body], body, touch.place, times(step->force[i], -1));
+        carry(&carried[(int)point->body], body, touch.place, times(step->force[i], -1));
     }
 }
 
-/* The axis of a capsule in the world. */
-typedef struct { Vector start, along; } Axis;
-
-static Axis axis_of(const Body *body, const Motion *motion) {
-    Vector start = body->capsule.end[0], along = minus(body->capsule.end[1], start);
-    return (Axis){plus(motion->place, rotated(motion->turn, start)), rotated(motion->turn, along)};
-}
-
-/* "Closest points", of two axes. */
-static void find_closest(Axis first, Axis second, Vector *c1, Vector *c2) {
-    Vector d = minus(first.start, second.start), u = first.along, w = second.along;
+/* "Closest points", of the axes of two bodies' capsules. */
+static void find_closest(const Check *check, const Motion *motions, int one, int two, Vector *c1, Vector *c2) {
+    const Vector *first = check->bodies[one].capsule.end, *second = check->bodies[two].capsule.end;
+    Vector p = plus(motions[one].place, rotated(motions[one].turn, first[0]));
+    Vector q = plus(motions[two].place, rotated(motions[two].turn, second[0]));
+    Vector u = rotated(motions[one].turn, minus(first[1], first[0]));
+    Vector w = rotated(motions[two].turn, minus(second[1], second[0])), d = minus(p, q);
     double a = fmax(dot(u, u), 1e-9), e = fmax(dot(w, w), 1e-9);
     double b = dot(u, w), c = dot(u, d), f = dot(w, d);
     double s = limited((b * f - c * e) / fmax(a * e - b * b, 1e-9)), t = (b * s + f) / e;
@@ -665,28 +648,26 @@ static void find_closest(Axis first, Axis second, Vector *c1, Vector *c2) {
         t = limited(t);
         s = limited((b * t - c) / a);
     }
-    *c1 = plus(first.start, times(u, s));
-    *c2 = plus(second.start, times(w, t));
+    *c1 = plus(p, times(u, s));
+    *c2 = plus(q, times(w, t));
 }
 
 /* "Self contact", of all pairs. The joints need not carry its forces. */
 static void add_self_contact(const Check *check, const Motion *motions, Load *carried) {
     for (int i = 0; i < COUNT(PAIRS); i++) {
         int one = PAIRS[i].first, two = PAIRS[i].second;
-        const Body *body = &check->bodies[one], *other = &check->bodies[two];
-        const Motion *motion = &motions[one], *other_motion = &motions[two];
+        double radius = check->bodies[one].capsule.radius, other_radius = check->bodies[two].capsule.radius;
         Vector c1, c2;
-        find_closest(axis_of(body, motion), axis_of(other, other_motion), &c1, &c2);
-        double distance = fmax(length(minus(c1, c2)), 1e-6);
-        double overlap = body->capsule.radius + other->capsule.radius - distance;
+        find_closest(check, motions, one, two, &c1, &c2);
+        double distance = fmax(length(minus(c1, c2)), 1e-6), overlap = radius + other_radius - distance;
         if (overlap <= 0) continue;
         Vector normal = times(minus(c1, c2), 1 / distance);
-        Vector place = plus(c2, times(normal, other->capsule.radius - overlap / 2));
-        Vector speed = point_of(motion, minus(place, motion->place)).speed;
-        Vector other_speed = point_of(other_motion, minus(place, other_motion->place)).speed;
+        Vector place = plus(c2, times(normal, other_radius - overlap / 2));
+        Vector speed = point_of(&motions[one], minus(place, motions[one].place)).speed;
+        Vector other_speed = point_of(&motions[two], minus(place, motions[two].place)).speed;
         double push = positive(SELF_K * overlap - SELF_C * dot(minus(speed, other_speed), normal));
-        carry(&carried[one], motion, place, times(normal, -push));
-        carry(&carried[two], other_motion, place, times(normal, push));
+        carry(&carried[one], &motions[one], place, times(normal, -push));
+        carry(&carried[two], &motions[two], place, times(normal, push));
     }
 }
 
@@ -722,7 +703,7 @@ static void check_joint(Check *check, const Step *step, int i, Vector carried) {
     const Body *body = &check->bodies[i];
     Vector torque = plus(step->torque[i - 1], range_torque(body, step->now.turn[i], step->spin_after[i]));
     Vector difference = minus(carried, minus(torque, times(spin_rate(step, i), body->armature)));
-    excess(check, JOINT, is_hinge(body) ? fabs(dot(difference, body->hinge)) : length(difference));
+    excess(check, JOINT, body->row->hinge < 0 ? length(difference) : fabs(entry(difference, body->row->hinge)));
 }
 
 /* Rules 14 to 16, from the outer bodies inwards. The pelvis has no joint: nothing may be left there. */
@@ -740,7 +721,6 @@ static void check_mechanics(Check *check, const Step *step, const Motion *motion
 }
 
 /* ---- The whole motion ---- */
-
 /* Rules 8 to 25 for a step. */
 static void check_step(Check *check, const Step *step, const State *next) {
     Motion motions[BODIES];
@@ -757,15 +737,15 @@ static void check_step(Check *check, const Step *step, const State *next) {
 /* All states and steps. */
 static void check_steps(Check *check) {
     Step step;
-    State next;
-    read_state(check, 0, &next);
+    State now, next;
+    read_state(check, 0, &now);
     for (long i = 0; i < check->file.step_count; i++) {
-        check->step = i;
-        read_numbers(check, check->file.steps + (size_t)i * STEP_SIZE, STEP_NUMBERS, &step);
-        step.now = next;
         read_state(check, i + 1, &next);
         check->step = i;
+        read_numbers(check, check->file.steps + (size_t)i * STEP_SIZE, STEP_NUMBERS, &step);
+        step.now = now;
         check_step(check, &step, &next);
+        now = next;
     }
 }
 

@@ -148,7 +148,7 @@ class Stepper {
       const Plate* under = scene_.plate_under(place, Scene::kReach);
       const Plate ground = under != nullptr ? *under : Plate{};  // the floor is a plate of height 0
       if (std::abs(ground.height + model_.config.skin - place.z()) > kEdge) continue;
-      constexpr double kHalf = 1e-7, kHair = 1e-12, kDeep = 1.0;  // m
+      constexpr double kHalf = 1e-7, kHair = 1e-13, kDeep = 1.0;  // m
       const bool touches = in_single[at];
       const double height = (touches ? place.z() - model_.config.skin : ground.height) + kHair;
       model_.plates.push_back({place.x(), place.y(), 1.0, 0.0, kHalf, kHalf, height,
