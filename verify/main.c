@@ -1,103 +1,98 @@
-/* verify: checks certificates of motion.                                                     docs/certificate.md
- *
- *   verify FILE|FOLDER...     exit status: 0 all accepted, 1 one rejected, 2 one broken or not readable
- *
- * Where the motion file NAME.npz stands beside NAME.cert, it must be the one that the certificate binds. One block of
- * memory per certificate holds both files. */
+/* verify FILE|FOLDER...: prints the rules of a file, and one line per certificate of a folder.
+ * Exit status: 0 if all are accepted, 1 if one is rejected, 2 if one is broken or cannot be read. */
+#define _POSIX_C_SOURCE 200809L
+#include "verify.h"
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "verify.h"
-
-enum { LONGEST = 4096 };
-
-static void report(const char *path, int status, const Rule *rules, int table) {
-  int i;
-  printf("%s: %s%s", path, status == ACCEPTED ? "accepted" : "rejected",
-         rules[MOTION_FILE].step < 0 ? " without its motion file" : "");
-  if (status == REJECTED)
-    for (i = 0; i < RULES; ++i)
-      if (rules[i].step >= 0 && !(rules[i].difference <= rules[i].tolerance)) {
-        printf(": %s, step %ld", rules[i].name, rules[i].step);
-        break;
-      }
-  printf("\n");
-  if (!table && status == ACCEPTED) return;
-  printf("  %-22s %-10s %14s %14s %12s %10s %9s\n", "rule", "unit", "claimed", "found", "difference", "tolerance", "step");
-  for (i = 0; i < RULES; ++i)
-    if (rules[i].step >= 0)
-      printf("%s %-22s %-10s %14.6g %14.6g %12.3g %10.3g %9ld\n", rules[i].difference <= rules[i].tolerance ? " " : "!",
-             rules[i].name, rules[i].unit, rules[i].claimed, rules[i].found, rules[i].difference, rules[i].tolerance,
-             rules[i].step);
+/* Says whether a path ends with .cert. */
+static int is_certificate(const char *path) {
+    size_t size = strlen(path);
+    return size >= 5 && strcmp(path + size - 5, ".cert") == 0;
 }
 
-/* The size of a file, -1 if it cannot be read. */
-static long size_of(const char *path) {
-  long size = -1;
-  FILE *in = fopen(path, "rb");
-  if (in && !fseek(in, 0, SEEK_END)) size = ftell(in);
-  if (in) fclose(in);
-  return size;
-}
-static int read_all(const char *path, unsigned char *to, long size) {
-  FILE *in = fopen(path, "rb");
-  int good = in && fread(to, 1, (size_t)size, in) == (size_t)size;
-  if (in) fclose(in);
-  return good;
+/* Opens NAME.npz beside NAME.cert, or returns NULL. */
+static FILE *open_motion(const char *path) {
+    char name[4096];
+    if (!is_certificate(path) || strlen(path) >= sizeof name) return NULL;
+    size_t stem = strlen(path) - strlen(".cert");
+    memcpy(name, path, stem);
+    memcpy(name + stem, ".npz", sizeof ".npz");
+    return fopen(name, "rb");
 }
 
-static int verify_file(const char *path, int table) {
-  Rule rules[RULES];
-  const char *wrong = "cannot be read";
-  char motion[LONGEST];
-  unsigned char *block = NULL;
-  size_t end = strlen(path);
-  long size = size_of(path), motion_size = -1;
-  int status = BROKEN;
-  if (end > 5 && end < sizeof motion && !strcmp(path + end - 5, ".cert")) {
-    strcpy(motion, path), strcpy(motion + end - 5, ".npz");
-    motion_size = size_of(motion);
-  }
-  if (size > 0) block = malloc((size_t)size + (motion_size > 0 ? (size_t)motion_size : 0));
-  if (block && read_all(path, block, size) && (motion_size < 1 || read_all(motion, block + size, motion_size)))
-    status = verify_bytes(block, (size_t)size, motion_size > 0 ? block + size : NULL,
-                          motion_size > 0 ? (size_t)motion_size : 0, rules, &wrong);
-  free(block);
-  if (status == BROKEN) printf("%s: broken: %s\n", path, wrong);
-  if (status != BROKEN) report(path, status, rules, table);
-  return status;
+/* The size of a file from its start, 0 if it cannot be told. */
+static size_t size_of(FILE *file) {
+    long size = file != NULL && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : 0;
+    if (size > 0) rewind(file);
+    return size > 0 ? (size_t)size : 0;
 }
 
-int main(int count, char **arguments) {
-  int i, found, any, status = ACCEPTED;
-  char path[LONGEST];
-  if (count < 2) {
-    fprintf(stderr, "verify FILE|FOLDER...: checks certificates of motion, NAME.cert\n");
-    return BROKEN;
-  }
-  for (i = 1; i < count; ++i) {
-    DIR *folder = opendir(arguments[i]);
-    struct dirent *entry;
-    size_t here = strlen(arguments[i]), end;
-    if (!folder) {
-      found = verify_file(arguments[i], count == 2);
-      status = found > status ? found : status;
-      continue;
+/* Prints all rules. */
+static void print_rules(const Rule *rules) {
+    printf("%45s %-11s%12s %12s %11s %10s %8s\n", "", "unit", "claimed", "found", "difference", "tolerance", "step");
+    for (int i = 0; i < RULES; i++) {
+        const Rule *rule = &rules[i];
+        printf("%2d %-42s %-10s ", i + 1, rule->name, rule->unit);
+        printf("%12.6g %12.6g %11.2g %10.0g ", rule->claimed, rule->found, rule->difference, rule->tolerance);
+        if (rule->step >= 0) printf("%8ld %s\n", rule->step, rule->difference <= rule->tolerance ? "" : "FAILS");
+        else printf("  does not apply\n");
     }
-    for (any = 0; (entry = readdir(folder)) != NULL;) {
-      end = strlen(entry->d_name);
-      if (end < 6 || strcmp(entry->d_name + end - 5, ".cert")) continue;
-      any = 1, found = BROKEN;
-      if (here + end + 2 > sizeof path)
-        printf("%s/%s: broken: too long a path\n", arguments[i], entry->d_name);
-      else
-        strcpy(path, arguments[i]), strcat(strcat(path, "/"), entry->d_name), found = verify_file(path, 0);
-      status = found > status ? found : status;
+}
+
+/* Prints the verdict and the rules that fail, on one line. */
+static void print_verdict(const char *path, int status, const Rule *rules, int has_motion) {
+    printf("%s: %s", path, status == ACCEPTED ? "accepted" : "REJECTED");
+    for (int i = 0; i < RULES; i++) {
+        int holds = rules[i].difference <= rules[i].tolerance;
+        if (!holds) printf("; %d %s, step %ld", i + 1, rules[i].name, rules[i].step);
+    }
+    printf("%s\n", has_motion ? "" : "; no motion file beside it, so rules 1, 2 and half of 27 do not apply");
+}
+
+/* Verifies one file, and returns its status. The certificate and its motion file share one block of memory. */
+static int verify_file(const char *path, int all_rules) {
+    Rule rules[RULES];
+    const char *wrong = "cannot be read";
+    FILE *file = fopen(path, "rb"), *motion = open_motion(path);
+    size_t size = size_of(file), motion_size = size_of(motion);
+    unsigned char *bytes = malloc(size + motion_size + 1);
+    int status = BROKEN, has_read = bytes != NULL && file != NULL && fread(bytes, 1, size, file) == size;
+    unsigned char *at = has_read && motion != NULL ? bytes + size : NULL;
+    if (at != NULL) has_read = fread(at, 1, motion_size, motion) == motion_size;
+    if (has_read) status = verify_bytes(bytes, size, at, motion_size, rules, &wrong);
+    if (status == BROKEN) fprintf(stderr, "%s: %s\n", path, wrong);
+    if (status != BROKEN && all_rules) print_rules(rules);
+    if (status != BROKEN) print_verdict(path, status, rules, motion != NULL);
+    if (file != NULL) fclose(file);
+    if (motion != NULL) fclose(motion);
+    free(bytes);
+    return status;
+}
+
+/* Verifies the certificates of a folder, and returns the worst status. */
+static int verify_folder(DIR *folder, const char *name) {
+    int worst = ACCEPTED;
+    for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
+        char path[4096];
+        if (!is_certificate(entry->d_name)) continue;
+        snprintf(path, sizeof path, "%s/%s", name, entry->d_name); /* a path cut short cannot be read */
+        int status = verify_file(path, 0);
+        if (status > worst) worst = status;
     }
     closedir(folder);
-    if (!any) printf("%s: no certificates\n", arguments[i]), status = BROKEN;
-  }
-  return status;
+    return worst;
+}
+
+int main(int count, char **paths) {
+    int worst = count < 2 ? BROKEN : ACCEPTED;
+    if (count < 2) fprintf(stderr, "usage: verify FILE|FOLDER...\n");
+    for (int i = 1; i < count; i++) {
+        DIR *folder = opendir(paths[i]);
+        int status = folder != NULL ? verify_folder(folder, paths[i]) : verify_file(paths[i], 1);
+        if (status > worst) worst = status;
+    }
+    return worst;
 }

@@ -73,8 +73,8 @@ void find_near_plates(const Model<RealOf<T>>& model, const Vec3<T>& pelvis, Near
 template <class T>
 void find_level_plates(const Model<RealOf<T>>& model, const NearPlates& all, const T& z, RealOf<T> span,
                        NearPlates& out) {
-  const double half = 0.5 * (Scene::kReach + model.config.skin);
-  const T from(z + T(half)), far(span + static_cast<RealOf<T>>(half));
+  const double skin = model.config.skin, half = 0.5 * (Scene::kReach + skin);
+  const T from(z + T(half)), far(span + static_cast<RealOf<T>>(half + skin));
   out.count = 0;
   for (int n = 0; n < all.count; ++n) {
     const T above = from - T(model.plates[all.index[n]].height);

@@ -1,9 +1,10 @@
 # Joins page/index.html, page/style.css and the scripts of page/ into one header of raw strings: the page before and
 # after its data. Runs at configure time, and again whenever one of the files changes.
-set(REPORT_SCRIPTS base overview map chart body camera capsules marks skin player picture layers timeline clip main)  # in order
+set(REPORT_SCRIPTS base overview map chart body camera capsules marks skin player picture layers timeline clip
+    certificates main)  # in order
 
 function(embed_report_page folder output)
-  set(files index.html style.css)
+  set(files index.html style.css verifier.txt)
   set(REPORT_JS "'use strict';\n")
   foreach(script ${REPORT_SCRIPTS})
     list(APPEND files ${script}.js)
@@ -11,6 +12,9 @@ function(embed_report_page folder output)
     string(APPEND REPORT_JS "${text}")
   endforeach()
   file(READ ${folder}/style.css REPORT_CSS)
+  file(READ ${folder}/verifier.txt VERIFIER)  # tools/verify_wasm; its first line is the compiler
+  string(FIND "${VERIFIER}" "\n" line_end)
+  string(SUBSTRING "${VERIFIER}" ${line_end} -1 VERIFIER)
   set(REPORT_DATA "@REPORT_DATA@")
   configure_file(${folder}/index.html ${output}.html @ONLY)
   file(READ ${output}.html page)

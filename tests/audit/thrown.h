@@ -11,15 +11,18 @@ namespace mimicx::audit {
 /// Two seconds of a character dropped by 5 cm whose targets jump about 30 times a second, every step
 /// recorded.
 /// @param size  of the jumps, rad per axis: 0.3 makes it thrash and fall
+/// @param scene  it stands on what is under the origin
 struct Thrown {
   rl::tracking::TrackingConfig config;
   motion::Reference reference = rl::tracking::swaying_reference(60);
   rl::tracking::TrackingRollout rollout;
 
-  explicit Thrown(double rate = 240.0, double size = 0.08) {
+  explicit Thrown(double rate = 240.0, double size = 0.08, const Scene& scene = {}) {
     config.simulation.rate = rate;
     reference.character = make_character({1.0, -2.0, 0.5, 0.0, 1.5});
-    for (auto& f : reference.frames) f.p_root.z() += 0.05;
+    reference.scene = scene;
+    const double height = scene.height_under({0.0, 0.0, 1e9});
+    for (auto& f : reference.frames) f.p_root.z() += 0.05 + height;
     const auto clip = rl::tracking::make_tracking_clip(reference, config);
     int call = 0;
     rollout = rl::tracking::roll_out(
@@ -31,7 +34,7 @@ struct Thrown {
         true);
   }
   SubstepMotion steps() const {
-    return {reference.character, config.simulation, rollout.substeps, rollout.last_state};
+    return {reference.character, config.simulation, rollout.substeps, rollout.last_state, reference.scene};
   }
   SimulatedFrames frames() const {
     SimulatedFrames motion{reference.character, reference.fps, {}, rollout.forces};

@@ -12,14 +12,22 @@
 namespace mimicx::fuzz {
 
 std::vector<std::string> seeds() {
-  audit::SubstepMotion motion = audit::Thrown().steps();
-  motion.last = motion.steps[301].state;
-  motion.steps = {motion.steps[300]};
-  const TemporaryFolder folder;
-  motion::write_clip(folder.path / "m.npz", test::standing_clip(2, 0.9));
-  const std::string npz = read_file(folder.path / "m.npz");
-  const std::string certificate = audit::certificate_of(motion, {"fuzz", npz, 1});
-  return {certificate, certificate + npz};
+  std::vector<std::string> found;
+  const Scene box = {
+      {{.half_extents = {0.3, 0.3}, .height = 0.2}, {.half_extents = {3.0, 3.0}, .height = 0.1}}};
+  for (const Scene& scene : {Scene{}, box}) {
+    audit::SubstepMotion motion = audit::Thrown(240.0, 0.08, scene).steps();
+    motion.last = motion.steps[301].state;
+    motion.steps = {motion.steps[300]};
+    motion::Clip clip = test::standing_clip(2, 0.9);
+    clip.scene = scene;
+    const TemporaryFolder folder;
+    motion::write_clip(folder.path / "m.npz", clip);
+    const std::string npz = read_file(folder.path / "m.npz");
+    const std::string certificate = audit::certificate_of(motion, {"fuzz", npz, 1});
+    found.insert(found.end(), {certificate, certificate + npz});
+  }
+  return found;
 }
 
 void feed(const std::string& bytes) {

@@ -98,6 +98,28 @@ TEST(Plates, PlateIsTheFloorAtAnotherHeight) {
   }
 }
 
+// The farthest that a point can be under its joint, half a skin above a plate, still touches.
+TEST(Plates, PointStraightUnderItsJointTouches) {
+  const Character character = make_character();
+  const double height = 0.5;
+  Simulation<double> s(character, {});
+  s.model = make_model<double>(character, {}, {{plate(0.0, 0.0, 9.0, 9.0, height)}});
+  for (int n = 0; n < static_cast<int>(s.model.contacts.size()); ++n) {
+    const ContactPoint& point = s.model.contacts[n];
+    Snapshot start = standing(character);
+    start.q.fill(Quaterniond::Identity());
+    start.q[0] = Quaterniond::FromTwoVectors(point.p_B, -Vector3d::UnitZ());
+    start.p_root.setZero();
+    const Vector3d joint = forward_kinematics(character, start.p_root, start.q).p_WB[point.body];
+    start.p_root.z() = height + 0.5 * s.model.config.skin + point.p_B.norm() + point.radius - joint.z();
+    set_lane(start, 0, s.state, s.target);
+    s.advance();
+    bool touches = false;
+    for (int k = 0; k < s.data.ground_count; ++k) touches = touches || s.data.ground[k].index == n;
+    EXPECT_TRUE(touches) << n;
+  }
+}
+
 // A plate out of reach leaves every bit as it is.
 TEST(Plates, FarPlateChangesNoBit) {
   ScenePack flat({}), far({{plate(100.0, 0.0, 5.0, 5.0, 0.4)}});

@@ -21,9 +21,10 @@ namespace mimicx::audit {
 namespace {
 
 constexpr std::string_view kMagic = "MIMICERT";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kFixed = 80, kHash = 32;
-constexpr std::size_t kPoints = 37;
+constexpr double kEdge = 1e-6;  ///< of touching, within which float32 decides, m
+constexpr std::size_t kPoints = 37, kPlateNumbers = 8;
 constexpr std::size_t kState = 2 * 3 + 7 * kBodies, kNext = 3 + 3 * kBodies, kTargets = 7 * kJoints;
 constexpr std::size_t kRecord = kState + kNext + kTargets + 3 * kJoints + 3 * kPoints;
 constexpr std::size_t kHead = 11 + kBetas + 4 + 24 * kBodies + 5 * kPoints;
@@ -88,8 +89,12 @@ physics::Quat<double> unit(const physics::Quat<double>& q) {
 /// Takes steps in double precision.
 class Stepper {
  public:
-  explicit Stepper(const Character& character)
-      : model_(physics::make_model<double>(character)), data_(std::make_unique<physics::Data<double>>()) {}
+  Stepper(const Character& character, const Scene& scene)
+      : scene_(scene),
+        model_(physics::make_model<double>(character, {}, scene)),
+        data_(std::make_unique<physics::Data<double>>()),
+        single_(physics::make_model<float>(character, {}, scene)),
+        single_data_(std::make_unique<physics::Data<Packed>>()) {}
 
   /// Appends the record of a step; adds to the claims.
   void append(const Record& record, Numbers& out, Claims& claims) {
@@ -98,7 +103,13 @@ class Stepper {
     for (auto& q : state.q) q = unit(q);
     for (std::size_t i = 1; i < kBodies; ++i) target.q[i] = unit(target.q[i]);
     physics::Data<double>& d = *data_;
+    const physics::State<double> before = state;
     physics::step(model_, target, state, d);
+    if (agree_on_edges(record)) {
+      state = before;
+      physics::step(model_, target, state, d);
+      model_.plates.resize(scene_.plates.count());
+    }
     add_state(record.state, out);
     out.add(state.v_root);
     for (const auto& w : state.omega) out.add(w);
@@ -113,6 +124,40 @@ class Stepper {
   }
 
  private:
+  using Packed = physics::Pack<physics::kLanes>;
+
+  /// Lets the points that touch in float32 touch in double precision, and no others, where rounding decides:
+  /// a point within kEdge of touching gets a plate of its own, which is a hair above it, or does not push.
+  /// @return whether any differed, so that the step has to be taken again
+  bool agree_on_edges(const Record& record) {
+    auto state = physics::in_all_lanes<Packed>(record.state);
+    physics::step(single_, physics::in_all_lanes<Packed>(record.target), state, *single_data_);
+    std::array<bool, kPoints> in_single{}, in_double{};
+    for (int k = 0; k < single_data_->ground_count; ++k)
+      in_single[static_cast<std::size_t>(single_data_->ground[k].index)] = true;
+    for (int k = 0; k < data_->ground_count; ++k)
+      in_double[static_cast<std::size_t>(data_->ground[k].index)] = true;
+    bool differs = false;
+    for (int n = 0; n < model_.contacts.count(); ++n) {
+      const auto at = static_cast<std::size_t>(n);
+      if (in_single[at] == in_double[at] || model_.plates.count() == kMaxPlates) continue;
+      const ContactPoint& point = model_.contacts[n];
+      Vector3d place = physics::to_eigen(data_->p_WB[point.body] +
+                                         data_->R_WB[point.body] * physics::from_eigen(point.p_B));
+      place.z() -= point.radius;
+      const Plate* under = scene_.plate_under(place, Scene::kReach);
+      const Plate ground = under != nullptr ? *under : Plate{};  // the floor is a plate of height 0
+      if (std::abs(ground.height + model_.config.skin - place.z()) > kEdge) continue;
+      constexpr double kHalf = 1e-7, kHair = 1e-13, kDeep = 1.0;  // m
+      const bool touches = in_single[at];
+      const double height = (touches ? place.z() - model_.config.skin : ground.height) + kHair;
+      model_.plates.push_back({place.x(), place.y(), 1.0, 0.0, kHalf, kHalf, height,
+                               touches ? ground.stiffness : 0.0, touches ? ground.damping : 0.0, kDeep});
+      differs = true;
+    }
+    return differs;
+  }
+
   void add_forces(Numbers& out, Claims& claims) const {
     std::array<Vector3d, kPoints> force;
     force.fill(Vector3d::Zero());
@@ -124,13 +169,17 @@ class Stepper {
       claims.push += push;
       claims.pull += std::max(-f.z(), 0.0);
       claims.beyond += std::max(f.head<2>().norm() - model_.config.friction * push, 0.0);
-      claims.deepest = std::max(claims.deepest, c.surface.depth - model_.config.skin);
+      const Vector3d place = physics::to_eigen(data_->p_WB[model_.contacts[c.index].body] + c.arm);
+      claims.deepest = std::max(claims.deepest, scene_.height_under(place) - place.z());
     }
     for (const Vector3d& f : force) out.add(f);
   }
 
+  Scene scene_;
   physics::Model<double> model_;
   std::unique_ptr<physics::Data<double>> data_;
+  physics::Model<float> single_;
+  std::unique_ptr<physics::Data<Packed>> single_data_;
 };
 
 std::array<double, 11> constants_of(const physics::SimulationConfig& o) {
@@ -158,6 +207,13 @@ void add_body(const Character& c, Numbers& out) {
   }
 }
 
+void add_plates(const Scene& scene, Numbers& out) {
+  for (const Plate& p : scene.plates)
+    for (const double v : {p.centre.x(), p.centre.y(), p.yaw, p.half_extents.x(), p.half_extents.y(),
+                           p.height, p.stiffness, p.damping})
+      out.add(v);
+}
+
 /// The largest difference between the motion's frames and the states that they should be: m and rad.
 double frame_gap(const motion::Clip& clip, const SubstepMotion& motion, int stride) {
   const Vector3d rest = rest_pelvis(clip.body_model);
@@ -183,7 +239,7 @@ std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& a
   Numbers steps;
   steps.values.reserve(motion.steps.size() * kRecord + kState);
   Claims claims;
-  Stepper stepper(motion.character);
+  Stepper stepper(motion.character, motion.scene);
   for (const rl::tracking::Substep& step : motion.steps) stepper.append(record_of(step), steps, claims);
   rl::tracking::Substep last;
   last.state = motion.last;
@@ -198,6 +254,7 @@ std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& a
   for (const double v : {claims.torque_share, claims.beyond / push, claims.pull / push, claims.deepest})
     head.add(v);
   add_body(motion.character, head);
+  add_plates(motion.scene, head);
 
   const std::size_t start = kFixed + 8 * head.values.size() + (about.name.size() + 7) / 8 * 8;
   std::string bytes(kMagic);
@@ -206,7 +263,7 @@ std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& a
   append_integer(bytes, start + 8 * steps.values.size() + kHash, 8);
   append_integer(bytes, motion.steps.size(), 8);
   append_integer(bytes, static_cast<std::uint64_t>(about.steps_per_frame), 4);
-  append_integer(bytes, 0, 4);  // plates
+  append_integer(bytes, static_cast<std::uint64_t>(motion.scene.plates.count()), 4);
   append_integer(bytes, kPoints, 4);
   append_integer(bytes, about.name.size(), 4);
   bytes += sha256(about.motion_bytes);
@@ -224,10 +281,6 @@ std::string certify_file(const std::filesystem::path& path) {
     throw DataError(steps_path.string(), "",
                     "the physics steps of the motion (plan or adapt with --substeps)", "no file");
   const Npz npz = parse_npz(bytes, path.string()), steps = read_npz(steps_path);
-  for (const Npz* file : {&npz, &steps})
-    if (file->has("scene_plates"))
-      throw DataError(file->path, "scene_plates", "the flat floor, for version 1 of the format has no plates",
-                      "a scene");
   const SubstepMotion motion = read_substeps(steps);
   const motion::Clip clip = motion::clip_from(npz, name);
   if (clip.body_model != "mimicx" || clip.rest_joints)
@@ -235,6 +288,8 @@ std::string certify_file(const std::filesystem::path& path) {
                     "'" + clip.body_model + "'");
   if (clip.betas != motion.character.betas)
     throw DataError(path.string(), "betas", "the shape of its physics steps", "another shape");
+  if (clip.scene != motion.scene)
+    throw DataError(path.string(), "scene_plates", "the scene of its physics steps", "another scene");
   const double per_frame = motion.simulation.rate / clip.fps;
   const int stride = static_cast<int>(std::lround(per_frame));
   if (stride < 1 || std::abs(per_frame - stride) > 1e-6 ||
@@ -249,14 +304,15 @@ std::string certify_file(const std::filesystem::path& path) {
 CertificateReplay replay_certificate(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const auto refuse = [&](const std::string& found) {
-    throw DataError(path.string(), "", "a certificate of version 1", found);
+    throw DataError(path.string(), "", "a certificate of version 2", found);
   };
   if (bytes.size() < kFixed + 8 * (kHead + kState) + kHash || !bytes.starts_with(kMagic))
     refuse("another file");
   if (integer_at(bytes, 8, 4) != kVersion) refuse("another version");
   const std::uint64_t start = integer_at(bytes, 12, 4), count = integer_at(bytes, 24, 8);
-  if (count < 1 || count > (1U << 24) ||
-      start != kFixed + 8 * kHead + (integer_at(bytes, 44, 4) + 7) / 8 * 8 ||
+  const std::uint64_t plates = integer_at(bytes, 36, 4);
+  if (count < 1 || count > (1U << 24) || plates > kMaxPlates ||
+      start != kFixed + 8 * (kHead + kPlateNumbers * plates) + (integer_at(bytes, 44, 4) + 7) / 8 * 8 ||
       bytes.size() != start + 8 * (count * kRecord + kState) + kHash)
     refuse("a file of another length");
   if (sha256(std::string_view(bytes).substr(0, bytes.size() - kHash)) != bytes.substr(bytes.size() - kHash))
@@ -266,6 +322,13 @@ CertificateReplay replay_certificate(const std::filesystem::path& path) {
   for (std::size_t k = 0; k < kBetas; ++k) betas[k] = number(kFixed + 8 * (11 + k));
   for (const double beta : betas)
     if (!(std::abs(beta) <= kMaxBeta)) refuse("a shape parameter beyond 5");
+
+  Scene scene;
+  for (std::size_t k = 0; k < plates; ++k) {
+    const auto v = [&](std::size_t i) { return number(kFixed + 8 * (kHead + kPlateNumbers * k + i)); };
+    scene.plates.push_back({{v(0), v(1)}, v(2), {v(3), v(4)}, v(5), v(6), v(7)});
+  }
+  require_scene(scene, path.string());
 
   const auto record_at = [&](std::uint64_t k) {
     auto at = static_cast<std::size_t>(start + 8 * kRecord * k);
@@ -287,8 +350,8 @@ CertificateReplay replay_certificate(const std::filesystem::path& path) {
   };
   using Packed = physics::Pack<physics::kLanes>;
   const Character character = make_character(betas);
-  Stepper stepper(character);
-  const physics::Model<float> model = physics::make_model<float>(character);
+  Stepper stepper(character, scene);
+  const physics::Model<float> model = physics::make_model<float>(character, {}, scene);
   const auto data = std::make_unique<physics::Data<Packed>>();
   auto state = physics::in_all_lanes<Packed>(record_at(0).state);
   CertificateReplay replay;

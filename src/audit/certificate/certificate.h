@@ -1,6 +1,6 @@
 /// NAME.cert: a motion with what another program needs to check it.              docs/certificate.md
 ///
-/// It holds the body, the constants and every physics step: the state (the simulator's own bits), the
+/// It holds the body, the constants, the scene and every physics step: the state (the simulator's own bits), the
 /// velocities after the step, PD targets, torques and the force on every contact point. The velocities after
 /// a step, torques and forces are those of the step taken in double precision from the recorded state, so
 /// that Newton and Euler hold to rounding; the recorded next state differs from it by float32 rounding.
@@ -25,7 +25,7 @@ struct CertifiedMotion {
 std::string certificate_of(const SubstepMotion& motion, const CertifiedMotion& about);
 
 /// Reads motions/NAME.npz and substeps/NAME.npz of a run and makes their certificate.
-/// @throws DataError if a file is missing, or the frames are not the states
+/// @throws DataError if a file is missing, the frames are not the states, or the scenes differ
 std::string certify_file(const std::filesystem::path& motion);
 
 /// Whether the certificate's controls give its states again, from the first state alone, and its steps their
@@ -35,7 +35,7 @@ struct CertificateReplay {
   long first_state = -1;  ///< the first step whose next state has other bits; −1: none
   long first_step = -1;   ///< the first step with other velocities, torques or forces
 };
-/// @throws DataError if the file is no certificate of version 1
+/// @throws DataError if the file is no certificate of version 2
 CertificateReplay replay_certificate(const std::filesystem::path& path);
 
 }  // namespace mimicx::audit

@@ -5,13 +5,6 @@
 const bench = {worker: null, waiting: null, queue: [], ready: null, cleaned: 0, kept: [], motions: [], busy: false,
                stops: 0};
 
-// The bytes of an element that holds base64 of gzip.
-async function unpacked(id) {
-  const text = atob($(id).textContent.trim()), bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
 // Sends requests to the worker one at a time. @return the worker's answer
 function ask(what) {
   return new Promise((answered) => {
@@ -173,7 +166,8 @@ function begin_bench() {
   const over = (e) => { e.preventDefault(); drop.classList.add('over'); };
   addEventListener('dragover', over);
   addEventListener('dragleave', () => drop.classList.remove('over'));
-  addEventListener('drop', (e) => { e.preventDefault(); drop.classList.remove('over'); take_files(e.dataTransfer.files); });
+  addEventListener('drop', () => drop.classList.remove('over'));
+  dropped.others = take_files;
   $('choose').onclick = () => $('file').click();
   $('file').onchange = () => { take_files($('file').files); $('file').value = ''; };
   $('example').onclick = () => take_motions([{name: $('example-motion').dataset.name, read: () => unpacked('example-motion')}]);

@@ -58,6 +58,9 @@ function on_key(e) {
   e.preventDefault();
 }
 
+// What becomes of dropped files that are no certificates; the browser's page has something for them.
+const dropped = {others: () => {}};
+
 function begin() {
   read_tones();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { read_tones(); if (player.clip && player.clip.needs) draw_band(); });
@@ -75,6 +78,7 @@ function begin() {
   $('placing').onchange = () => { player.placing = $('placing').value; player.stale = true; };
   listen_to_view($('view'));
   listen_to_timeline();
+  listen_to_certificates((files) => dropped.others(files));
   document.onkeydown = on_key;
   window.onhashchange = route;
   route();
