@@ -83,6 +83,28 @@ TEST_F(Cli, SceneIsReadKeptAndRefusedWhereTheFloorMustBeFlat) {
   EXPECT_TRUE(imitate.status != 0 && says(imitate, "expected a flat floor")) << imitate.text;
 }
 
+/// Who sits where no seat is told gets a hint, and --scene auto puts one there.
+TEST_F(Cli, SeatIsFoundToldAndPlannedOnWhereAutoIsAsked) {
+  motion::Clip clip = motion::read_clip(std::filesystem::path(MIMICX_SOURCE_DIR) /
+                                        "data/synthetic/scenes/truth/sit_down_1.npz");
+  clip.scene = {};
+  clip.rotations.erase(clip.rotations.begin(), clip.rotations.begin() + 105);
+  clip.trans.erase(clip.trans.begin(), clip.trans.begin() + 105);
+  clip.rotations.resize(35), clip.trans.resize(35);
+  motion::write_clip(path("a.npz"), clip);
+  const Call found = mimicx("scene " + path("a.npz") + " --out " + path("a.json"));
+  EXPECT_TRUE(says(found, "a seat of 0.3")) << found.text;
+  const Call flat = mimicx("plan " + path("a.npz") + " --limit-seconds 1e-9 --out " + path("flat"));
+  EXPECT_TRUE(says(flat, "looks like steps or a seat (a seat of 0.3")) << flat.text;
+  EXPECT_TRUE(says(flat, "): try --scene auto")) << flat.text;
+  const Call on_seat = mimicx("plan " + path("a.npz") + " --scene auto --out " + path("seated"));
+  EXPECT_EQ(on_seat.status, 0) << on_seat.text;
+  EXPECT_TRUE(says(on_seat, "scene: a seat of 0.3")) << on_seat.text;
+  EXPECT_EQ(motion::read_clip(path("seated/motions/a.npz")).scene.plates.size(), 1u);
+  EXPECT_FALSE(says(mimicx("plan " + path("a.npz") + " --quiet --limit-seconds 1e-9 --out " + path("quiet")),
+                    "looks like"));
+}
+
 TEST_F(Cli, ConvertChoosesTheFormatBySuffixAndPrintsDecisions) {
   motion::write_clip(path("a.npz"), foreign_clip(60.0));
   const Call call = mimicx("convert " + path("a.npz") + " " + path("b.npy") + " --rate 30");
