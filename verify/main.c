@@ -7,29 +7,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Says whether a path ends with .cert. */
-static int is_certificate(const char *path) {
-    size_t size = strlen(path);
-    return size >= 5 && strcmp(path + size - 5, ".cert") == 0;
+/* Where .cert begins in a path that ends with it, or NULL. */
+static const char *suffix_of(const char *path) {
+    const char *suffix = strrchr(path, '.');
+    return suffix != NULL && strcmp(suffix, ".cert") == 0 ? suffix : NULL;
 }
-
 /* Opens NAME.npz beside NAME.cert, or returns NULL. */
 static FILE *open_motion(const char *path) {
     char name[4096];
-    if (!is_certificate(path) || strlen(path) >= sizeof name) return NULL;
-    size_t stem = strlen(path) - strlen(".cert");
-    memcpy(name, path, stem);
-    memcpy(name + stem, ".npz", sizeof ".npz");
+    const char *suffix = suffix_of(path);
+    if (suffix == NULL || strlen(path) >= sizeof name) return NULL;
+    snprintf(name, sizeof name, "%.*s.npz", (int)(suffix - path), path);
     return fopen(name, "rb");
 }
-
 /* The size of a file from its start, 0 if it cannot be told. */
 static size_t size_of(FILE *file) {
     long size = file != NULL && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : 0;
     if (size > 0) rewind(file);
     return size > 0 ? (size_t)size : 0;
 }
-
 /* Prints all rules. */
 static void print_rules(const Rule *rules) {
     printf("%45s %-11s%12s %12s %11s %10s %8s\n", "", "unit", "claimed", "found", "difference", "tolerance", "step");
@@ -41,28 +37,24 @@ static void print_rules(const Rule *rules) {
         else printf("  does not apply\n");
     }
 }
-
 /* Prints the verdict and the rules that fail, on one line. */
 static void print_verdict(const char *path, int status, const Rule *rules, int has_motion) {
     printf("%s: %s", path, status == ACCEPTED ? "accepted" : "REJECTED");
-    for (int i = 0; i < RULES; i++) {
-        int holds = rules[i].difference <= rules[i].tolerance;
-        if (!holds) printf("; %d %s, step %ld", i + 1, rules[i].name, rules[i].step);
-    }
+    for (int i = 0; i < RULES; i++)
+        if (!(rules[i].difference <= rules[i].tolerance))
+            printf("; %d %s, step %ld", i + 1, rules[i].name, rules[i].step);
     printf("%s\n", has_motion ? "" : "; no motion file beside it, so rules 1, 2 and half of 27 do not apply");
 }
-
 /* Verifies one file, and returns its status. The certificate and its motion file share one block of memory. */
 static int verify_file(const char *path, int all_rules) {
     Rule rules[RULES];
     const char *wrong = "cannot be read";
     FILE *file = fopen(path, "rb"), *motion = open_motion(path);
     size_t size = size_of(file), motion_size = size_of(motion);
-    unsigned char *bytes = malloc(size + motion_size + 1);
-    int status = BROKEN, has_read = bytes != NULL && file != NULL && fread(bytes, 1, size, file) == size;
-    unsigned char *at = has_read && motion != NULL ? bytes + size : NULL;
-    if (at != NULL) has_read = fread(at, 1, motion_size, motion) == motion_size;
-    if (has_read) status = verify_bytes(bytes, size, at, motion_size, rules, &wrong);
+    unsigned char *bytes = malloc(size + motion_size + 1), *at = motion != NULL && bytes != NULL ? bytes + size : NULL;
+    int has_read = bytes != NULL && file != NULL && fread(bytes, 1, size, file) == size;
+    if (has_read && at != NULL) has_read = fread(at, 1, motion_size, motion) == motion_size;
+    int status = has_read ? verify_bytes(bytes, size, at, motion_size, rules, &wrong) : BROKEN;
     if (status == BROKEN) fprintf(stderr, "%s: %s\n", path, wrong);
     if (status != BROKEN && all_rules) print_rules(rules);
     if (status != BROKEN) print_verdict(path, status, rules, motion != NULL);
@@ -71,15 +63,13 @@ static int verify_file(const char *path, int all_rules) {
     free(bytes);
     return status;
 }
-
-/* Verifies the certificates of a folder, and returns the worst status. */
+/* Verifies the certificates of a folder, and returns the worst status. A path that is cut short cannot be read. */
 static int verify_folder(DIR *folder, const char *name) {
     int worst = ACCEPTED;
     for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
         char path[4096];
-        if (!is_certificate(entry->d_name)) continue;
-        snprintf(path, sizeof path, "%s/%s", name, entry->d_name); /* a path cut short cannot be read */
-        int status = verify_file(path, 0);
+        snprintf(path, sizeof path, "%s/%s", name, entry->d_name);
+        int status = suffix_of(entry->d_name) != NULL ? verify_file(path, 0) : ACCEPTED;
         if (status > worst) worst = status;
     }
     closedir(folder);

@@ -1,112 +1,72 @@
 /* The numbers of docs/certificate.md: "Constants", "Body", the pairs of "Self contact", and "Rules". */
 #ifndef MIMICX_VERIFY_TABLES_H
 #define MIMICX_VERIFY_TABLES_H
-#include "verify.h"
-
 #define COUNT(table) ((int)(sizeof(table) / sizeof(table)[0]))
 
-enum { BODIES = 22, JOINTS = 21, POINTS = 37, SHAPES = 10, CLAIMS = 4, MOST_PLATES = 64 };
-/* "Format": how many numbers, and which number of the header is the first. */
-enum { BODY_NUMBERS = 24, PLATE_NUMBERS = 8, STATE_NUMBERS = 160, STEP_NUMBERS = 550,
-       FIRST_SHAPE = 11, FIRST_CLAIM = 21, FIRST_BODY = 25, FIRST_POINT = 553, HEADER_NUMBERS = 738 };
+enum { BODIES = 22, JOINTS = 21, POINTS = 37, SHAPES = 10, MOST_PLATES = 64 };
+typedef struct { double x, y, z; } Vec;
 
-typedef struct { double x, y, z; } Vector;
-
-/* "Constants": the first eleven in the order of the file. */
-static const double PI = 3.14159265358979323846;
-static const double RATE = 240, GRAVITY = 9.81, FLOOR_K = 4e5, FLOOR_C = 4e3, FRICTION = 1, SLIP_SPEED = 0.002,
-                    SKIN = 0.0008, SELF_K = 1e4, SELF_C = 30, RANGE_K = 5000, RANGE_C = 50,
+/* "Constants", and the micrometre of "Ground". */
+static const double PI = 3.14159265358979323846, RATE = 240, GRAVITY = 9.81, FLOOR_K = 4e5, FLOOR_C = 4e3, FRICTION = 1,
+                    SLIP_SPEED = 0.002, SKIN = 0.0008, SELF_K = 1e4, SELF_C = 30, RANGE_K = 5000, RANGE_C = 50,
                     PLATE_REACH = 0.08, PLATE_PUSH = 4000, FIRST_TOUCH = 1e-6;
-
 /* "Format": the least and the greatest value of each number of a plate. */
-static const double PLATE_RANGE[PLATE_NUMBERS][2] = {
+static const double PLATE_RANGE[][2] = {
     {-1e4, 1e4}, {-1e4, 1e4}, {-7, 7}, {0.01, 1000}, {0.01, 1000}, {0.01, 10}, {2e3, 1e7}, {1, 1e6}};
-
 /* "Body": the parent of each body, and the left body of which it is the mirror image (itself if of none). */
 static const int PARENT[BODIES] = {-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19};
 static const int LEFT_OF[BODIES] = {0, 1, 1, 3, 4, 4, 6, 7, 7, 9, 10, 10, 12, 13, 13, 15, 16, 16, 18, 18, 20, 20};
-
-/* "Body": the rows of its table, and the axes of the hinges, whose sign does not matter. Angles are in degrees. */
+/* "Body": the rows of its table, by body. A hinge has an axis, of any sign; others have none. */
 typedef enum { TORSO, HEAD, HIP, LEG, FOOT, SHOULDER, ARM } Part;
 typedef struct {
-    int body;
-    Part part;
-    Vector offset;
-    double share, kp, bound, armature;
-    Vector range_centre, range_half;
-    int hinge; /* which axis: x is 0; no hinge is -1 */
+    Vec offset; double share, kp, bound, armature; Vec range_centre, range_half; Part part; Vec hinge;
 } Row;
-static const Row ROWS[] = {
-    {0, TORSO, {0, 0, 0}, .118, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, -1},
-    {3, TORSO, {0, .108, -.026}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, -1},
-    {6, TORSO, {0, .136, .001}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, -1},
-    {9, TORSO, {0, .054, .026}, .112, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, -1},
-    {12, HEAD, {0, .214, -.042}, .012, 150, 50, .01, {0, 0, 0}, {55, 65, 50}, -1},
-    {15, HEAD, {0, .066, .050}, .056, 100, 40, .01, {0, 0, 0}, {55, 65, 50}, -1},
-    {1, HIP, {.066, -.088, -.006}, .1446, 500, 250, .02, {-45, 0, 10}, {95, 75, 75}, -1},
-    {4, LEG, {.040, -.382, -.004}, .0457, 500, 220, .02, {75, 0, 0}, {82, 82, 82}, 0},
-    {7, LEG, {-.012, -.402, -.040}, .0113, 400, 160, .02, {12, 0, 0}, {62, 60, 50}, -1},
-    {10, FOOT, {.024, -.056, .122}, .0022, 100, 40, .01, {-15, 0, 0}, {65, 30, 30}, -1},
-    {13, SHOULDER, {.074, .118, -.034}, .0204, 500, 130, .02, {0, 0, 5}, {45, 45, 45}, -1},
-    {16, SHOULDER, {.096, .034, -.010}, .0263, 400, 120, .02, {0, -25, -10}, {130, 125, 130}, -1},
-    {18, ARM, {.258, -.014, -.026}, .0150, 300, 80, .02, {0, -77, 0}, {85, 85, 85}, 1},
-    {20, ARM, {.250, .008, -.001}, .0035, 80, 20, .01, {0, 0, 0}, {140, 90, 95}, -1}};
-
-/* "Offsets": the gains of a part's entries by one number of the shape. */
-static const struct { Part part; int beta; Vector gain; } GAINS[] = {
-    {TORSO, 3, {0, .03, 0}}, {TORSO, 9, {0, -.02, 0}}, {HIP, 6, {.04, 0, 0}}, {LEG, 2, {0, .03, 0}},
-    {LEG, 9, {0, .02, 0}}, {FOOT, 7, {0, 0, .04}}, {SHOULDER, 5, {.05, 0, 0}}, {SHOULDER, 3, {0, .02, 0}},
-    {ARM, 4, {.03, 0, 0}}, {HEAD, 8, {.04, .04, .04}}};
-
-/* "Capsules": those of the trunk, from (-x, y, z) to (x, y, z), and those along the bone from a body to its child. */
-static const struct { int body; Vector end; double radius; } TRUNK[] = {
-    {0, {.062, -.02, -.018}, .105}, {3, {.050, .04, .022}, .105},
-    {6, {.055, .02, .012}, .105},   {9, {.070, .09, -.015}, .110}};
-static const struct { int body, child; double from, to, radius; } BONES[] = {
-    {12, 15, 0, 1, .050},     {1, 4, .20, .95, .064},   {4, 7, .05, .92, .046},
-    {13, 16, .15, .85, .052}, {16, 18, .10, .95, .045}, {18, 20, .05, .95, .036}};
-
+static const Row ROWS[BODIES] = {
+    [0] = {{0, 0, 0}, .118, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, TORSO, {0, 0, 0}},
+    [3] = {{0, .108, -.026}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, TORSO, {0, 0, 0}},
+    [6] = {{0, .136, .001}, .082, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, TORSO, {0, 0, 0}},
+    [9] = {{0, .054, .026}, .112, 1000, 250, .02, {10, 0, 0}, {50, 45, 45}, TORSO, {0, 0, 0}},
+    [12] = {{0, .214, -.042}, .012, 150, 50, .01, {0, 0, 0}, {55, 65, 50}, HEAD, {0, 0, 0}},
+    [15] = {{0, .066, .050}, .056, 100, 40, .01, {0, 0, 0}, {55, 65, 50}, HEAD, {0, 0, 0}},
+    [1] = {{.066, -.088, -.006}, .1446, 500, 250, .02, {-45, 0, 10}, {95, 75, 75}, HIP, {0, 0, 0}},
+    [4] = {{.040, -.382, -.004}, .0457, 500, 220, .02, {75, 0, 0}, {82, 82, 82}, LEG, {1, 0, 0}},
+    [7] = {{-.012, -.402, -.040}, .0113, 400, 160, .02, {12, 0, 0}, {62, 60, 50}, LEG, {0, 0, 0}},
+    [10] = {{.024, -.056, .122}, .0022, 100, 40, .01, {-15, 0, 0}, {65, 30, 30}, FOOT, {0, 0, 0}},
+    [13] = {{.074, .118, -.034}, .0204, 500, 130, .02, {0, 0, 5}, {45, 45, 45}, SHOULDER, {0, 0, 0}},
+    [16] = {{.096, .034, -.010}, .0263, 400, 120, .02, {0, -25, -10}, {130, 125, 130}, SHOULDER, {0, 0, 0}},
+    [18] = {{.258, -.014, -.026}, .0150, 300, 80, .02, {0, -77, 0}, {85, 85, 85}, ARM, {0, 1, 0}},
+    [20] = {{.250, .008, -.001}, .0035, 80, 20, .01, {0, 0, 0}, {140, 90, 95}, ARM, {0, 0, 0}}};
+/* "Capsules" of the trunk and along bones: ends and radius, and the child that the bone leads to, 0 if it is none. */
+static const struct { int body, child; Vec from, to; double radius; } CAPSULES[] = {
+    {0, 0, {-.062, -.02, -.018}, {.062, -.02, -.018}, .105}, {3, 0, {-.050, .04, .022}, {.050, .04, .022}, .105},
+    {6, 0, {-.055, .02, .012}, {.055, .02, .012}, .105}, {9, 0, {-.070, .09, -.015}, {.070, .09, -.015}, .110},
+    {12, 15, {0, 0, 0}, {1, 1, 1}, .050}, {1, 4, {.20, .20, .20}, {.95, .95, .95}, .064},
+    {4, 7, {.05, .05, .05}, {.92, .92, .92}, .046}, {13, 16, {.15, .15, .15}, {.85, .85, .85}, .052},
+    {16, 18, {.10, .10, .10}, {.95, .95, .95}, .045}, {18, 20, {.05, .05, .05}, {.95, .95, .95}, .036}};
 /* "Contact points": spheres on the axes of capsules, at these shares of the axis. */
 static const struct { int body; double share; } SPHERES[] = {
-    {0, 0},   {0, 1},  {9, 0},  {9, 1}, {15, 0}, {15, 1}, {20, 0}, {20, 1},  {21, 0},  {21, 1},  {3, .5}, {6, .5},
-    {12, .5}, {1, .5}, {2, .5}, {4, 0}, {5, 0},  {18, 0}, {19, 0}, {13, .8}, {14, .8}, {16, .3}, {17, .3}};
-
+    {0, 0}, {0, 1}, {9, 0}, {9, 1}, {15, 0}, {15, 1}, {20, 0}, {20, 1}, {21, 0}, {21, 1}, {3, .5}, {6, .5}, {12, .5},
+    {1, .5}, {2, .5}, {4, 0}, {5, 0}, {18, 0}, {19, 0}, {13, .8}, {14, .8}, {16, .3}, {17, .3}};
 /* "Self contact": the first and the second body of each pair. */
-static const struct { int first, second; } PAIRS[] = {
+static const int PAIRS[][2] = {
     {18, 0}, {18, 3}, {18, 6}, {18, 9}, {18, 15}, {18, 1}, {18, 2}, {19, 0}, {19, 3}, {19, 6}, {19, 9}, {19, 15},
     {19, 1}, {19, 2}, {20, 0}, {20, 3}, {20, 6}, {20, 9}, {20, 15}, {20, 1}, {20, 2}, {21, 0}, {21, 3}, {21, 6},
     {21, 9}, {21, 15}, {21, 1}, {21, 2}, {20, 4}, {20, 5}, {20, 7}, {20, 8}, {21, 4}, {21, 5}, {21, 7}, {21, 8},
     {20, 21}, {20, 19}, {18, 21}, {18, 19}, {1, 2}, {1, 5}, {4, 2}, {4, 5}, {7, 8}, {7, 5}, {4, 8}, {10, 8},
     {7, 11}, {10, 11}};
-
-/* "Rules": what verify_bytes starts from. No rule has applied yet. */
-static const Rule RULE_TABLE[RULES] = {
-    {"motion file has the bound hash", "", 0, 0, 0, 0, -1},
-    {"rate, shape and frames of the motion file", "m, rad", 1e-5, 0, 0, 0, -1},
-    {"constants", "SI", 1e-9, 0, 0, 0, -1},
-    {"body of the shape", "SI", 1e-9, 0, 0, 0, -1},
-    {"numbers finite, below 1e9", "", 0, 0, 0, 0, -1},
-    {"quaternions of unit length", "", 1e-6, 0, 0, 0, -1},
-    {"hinges turn about their axes", "rad, rad/s", 1e-3, 0, 0, 0, -1},
-    {"next place of the pelvis", "m", 1e-5, 0, 0, 0, -1},
-    {"next rotations", "rad", 1e-5, 0, 0, 0, -1},
-    {"next velocity of the pelvis", "m/s", 0.01, 0, 0, 0, -1},
-    {"next angular velocities", "rad/s", 1, 0, 0, 0, -1},
-    {"mean difference of velocity", "m/s", 2e-5, 0, 0, 0, -1},
-    {"mean difference of angular velocity", "rad/s", 3e-4, 0, 0, 0, -1},
-    {"force from nowhere, at the pelvis", "N", 1e-5, 0, 0, 0, -1},
-    {"moment from nowhere, at the pelvis", "N m", 1e-5, 0, 0, 0, -1},
-    {"joints carry their torques", "N m", 1e-5, 0, 0, 0, -1},
-    {"controller's law", "N m", 1e-6, 0, 0, 0, -1},
-    {"bounds of the torques", "", 1e-9, 0, 0, 0, -1},
-    {"no force on a point in the air", "N", 1e-9, 0, 0, 0, -1},
-    {"ground's push by its law, or no force", "N", 1e-5, 0, 0, 0, -1},
-    {"friction against the slip", "N", 1e-5, 0, 0, 0, -1},
-    {"friction beyond its cone, of the push", "", 0.1, 0, 0, 0, -1},
-    {"pull of the ground, of the push", "", 0.1, 0, 0, 0, -1},
-    {"push that is absent, of the push", "", 0.2, 0, 0, 0, -1},
-    {"deepest point", "m", 0.05, 0, 0, 0, -1},
-    {"claims", "", 1e-6, 0, 0, 0, -1},
-    {"plates of the motion file, in their ranges", "", 0, 0, 0, 0, -1}};
-
+/* "Rules": their names, units and tolerances. */
+static const struct { const char *name, *unit; double tolerance; } RULE_TABLE[] = {
+    {"motion file has the bound hash", "", 0}, {"rate, shape and frames of the motion file", "m, rad", 1e-5},
+    {"constants", "SI", 1e-9}, {"body of the shape", "SI", 1e-9}, {"numbers finite, below 1e9", "", 0},
+    {"quaternions of unit length", "", 1e-6}, {"hinges turn about their axes", "rad, rad/s", 1e-3},
+    {"next place of the pelvis", "m", 1e-5}, {"next rotations", "rad", 1e-5},
+    {"next velocity of the pelvis", "m/s", 0.01}, {"next angular velocities", "rad/s", 1},
+    {"mean difference of velocity", "m/s", 2e-5}, {"mean difference of angular velocity", "rad/s", 3e-4},
+    {"force from nowhere, at the pelvis", "N", 1e-5}, {"moment from nowhere, at the pelvis", "N m", 1e-5},
+    {"joints carry their torques", "N m", 1e-5}, {"controller's law", "N m", 1e-6},
+    {"bounds of the torques", "", 1e-9}, {"no force on a point in the air", "N", 1e-9},
+    {"ground's push by its law, or no force", "N", 1e-5}, {"friction against the slip", "N", 1e-5},
+    {"friction beyond its cone, of the push", "", 0.1}, {"pull of the ground, of the push", "", 0.1},
+    {"push that is absent, of the push", "", 0.2}, {"deepest point", "m", 0.05}, {"claims", "", 1e-6},
+    {"plates of the motion file, in their ranges", "", 0}};
 #endif
