@@ -13,9 +13,10 @@
 namespace mimicx::motion {
 namespace {
 
-constexpr double kSigmaHeight = 0.001;                      ///< m, of a standing point
-constexpr double kSigmaSlip = 0.0006;                       ///< m per frame, of a standing point
-constexpr double kSigmaDepth = 0.0005;                      ///< m, of a point below the floor
+constexpr double kSigmaHeight = 0.001;  ///< m, of a standing point
+constexpr double kSigmaSlip = 0.0006;   ///< m per frame, of a standing point
+constexpr double kSigmaDepth = 0.0005;  ///< m, of a point below the floor
+constexpr double kResting = 0.01;  ///< m: a knee or thigh that came below the floor is held on it up to here
 constexpr double kClearance = 0.02, kClearanceSpeed = 1.5;  ///< m of a swinging point, at m/s and above
 constexpr double kSigmaClearance = 0.003;                   ///< m
 constexpr int kSmoothed = 2;  ///< frames to either side over which a swinging point's speed is averaged
@@ -152,7 +153,13 @@ struct Legs {
   Array<PointJacobian, kFootPoints> sole_J;
   Array<Vector3d, kKneesAndAnkles.size()> joint;
   Array<PointJacobian, kKneesAndAnkles.size()> joint_J;
+  List<Vector3d> other;  ///< lowest places of the legs' other contact points: thighs, knees, insteps
+  List<PointJacobian> other_J;
 };
+
+bool is_of_leg(int body) {
+  return std::any_of(kLegTurns.begin(), kLegTurns.end(), [&](const LegTurn& t) { return t.body == body; });
+}
 
 Legs legs_of(const Character& character, const ReferenceFrame& frame) {
   const BodyPoses poses = forward_kinematics(character, frame.p_root, frame.q);
@@ -164,6 +171,12 @@ Legs legs_of(const Character& character, const ReferenceFrame& frame) {
     const int body = kKneesAndAnkles[k];
     legs.joint[k] = poses.p_WB[body];
     legs.joint_J[k] = leg_jacobian(poses, body, legs.joint[k]);
+  }
+  for (int k = kFootPoints; k < character.contact_points.count(); ++k) {
+    const ContactPoint& point = character.contact_points[k];
+    if (!is_of_leg(point.body)) continue;
+    legs.other.push_back(lowest_position(point, poses));
+    legs.other_J.push_back(leg_jacobian(poses, point.body, legs.other.back()));
   }
   return legs;
 }
@@ -208,9 +221,10 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
   return out;
 }
 
+/// @param held  [frames][other points of the legs] those that came below the ground in a step before
 Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference,
-                        const PerFrame<Array<double, kFootPoints>>& clearance,
-                        const PerFrame<Correction>& c) {
+                        const PerFrame<Array<double, kFootPoints>>& clearance, const PerFrame<Correction>& c,
+                        PerFrame<std::vector<bool>>& held) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
   const Correction size = sizes(kSigmaPlace, kSigmaLegTurn);
@@ -241,6 +255,13 @@ Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& referen
         equations.add(t - 1, before.sole_J[k].row(axis), now.sole_J[k].row(axis), (p - before.sole[k])[axis],
                       kSigmaSlip);
     }
+    held[t].resize(now.other.size());
+    for (int k = 0; k < now.other.count(); ++k) {
+      const double z = reference.scene.clearance(now.other[k]);
+      held[t][k] =
+          z < 0.0 || (held[t][k] && z < kResting);  // else every second step would push it down again
+      if (held[t][k]) equations.add(t, now.other_J[k].row(2), z, kSigmaDepth);
+    }
     before = now;
   }
   return equations.solve();
@@ -268,8 +289,9 @@ double plant_feet(const PerFrame<Stance>& stance, Reference& reference) {
   const int frames = reference.size();
   const auto clearance = clearances(stance, reference);
   PerFrame<Correction> c(frames, Correction::Zero());
+  PerFrame<std::vector<bool>> held(frames);
   for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
-    const Eigen::VectorXd step = step_of(stance, reference, clearance, c);
+    const Eigen::VectorXd step = step_of(stance, reference, clearance, c, held);
     const double largest = step.cwiseAbs().maxCoeff();
     const double scale = std::min(1.0, kLargestPlantingStep / std::max(largest, kSmallestStep));
     for (int t = 0; t < frames; ++t) c[t] += scale * step.segment<kUnknowns>(t * kUnknowns);

@@ -95,6 +95,34 @@ TEST(FootPlanting, TrunkArmsAndHeadKeepTheirRotations) {
       EXPECT_TRUE(reference.frames[t].q[body].isApprox(before.frames[t].q[body], 0.0)) << t << ", " << body;
 }
 
+// A person kneels upright, and the toes hover: to lower them must not push the knees through the floor.
+TEST(FootPlanting, KneesOfAKneelingPersonStayOutOfTheFloor) {
+  Reference reference = exact("stand");
+  const auto lowest = [&](const BodyPoses& poses, bool toes) {
+    double low = 1.0;
+    for (const ContactPoint& point : reference.character.contact_points)
+      if (point.body == (toes ? kRightFoot : kRightKnee))
+        low = std::min(low, lowest_position(point, poses).z());
+    return low;
+  };
+  for (int t = 0; t < reference.size(); ++t) {
+    ReferenceFrame& frame = reference.frames[t];
+    for (const int knee : {kLeftKnee, kRightKnee}) frame.q[knee] = exp_map(2.15 * hinge_axis(knee));
+    frame.p_root.z() -= lowest(forward_kinematics(reference.character, frame.p_root, frame.q), false);
+    reference.poses[t] = forward_kinematics(reference.character, frame.p_root, frame.q);
+  }
+  EXPECT_NEAR(lowest(reference.poses[40], true), 0.09, 0.01);
+  PerFrame<Stance> stance(reference.frames.size(), Stance{});
+  for (Stance& stands : stance)
+    for (int k = 0; k < kFootPoints; ++k) {
+      const int body = reference.character.contact_points[k].body;
+      stands[k] = body == kLeftFoot || body == kRightFoot;
+    }
+  plant_feet(stance, reference);
+  EXPECT_NEAR(lowest(reference.poses[40], true), 0.0, 0.002);
+  for (const BodyPoses& poses : reference.poses) EXPECT_GT(lowest(poses, false), -0.002);
+}
+
 // The right foot of a person who stands is dragged 0.3 m forward over the floor within half a second.
 TEST(FootPlanting, ADraggedFootSteps) {
   Reference reference = exact("stand");
