@@ -18,7 +18,7 @@ static Vec cross(Vec a, Vec b) { return (Vec){a.y * b.z - a.z * b.y, a.z * b.x -
 static double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static double length(Vec a) { return sqrt(dot(a, a)); }
 static Vec mirrored(Vec a) { return (Vec){-a.x, a.y, a.z}; }
-static double largest(Vec a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static double largest_entry(Vec a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
 static const Vec NONE = {0, 0, 0};
 typedef struct { double w; Vec v; } Quaternion;
 static double norm(Quaternion q) { return sqrt(q.w * q.w + dot(q.v, q.v)); }
@@ -311,7 +311,7 @@ static Array read_array(const Byte *member, uint64_t size, int members) {
                 8 * sizes[0] * sizes[1] == (double)(size - 10 - text_size);
     return holds ? (Array){numbers, sizes[0] * sizes[1], sizes[0], members} : none;
 }
-/* Finds NAME.npy, or NAME, from the front of a zip. No sizes after the data, no packing. Twice: it has no numbers. */
+/* Finds NAME.npy, for which NumPy also takes NAME, from the front of a zip. If it is there twice it has no numbers. */
 static Array find_array(const Byte *zip, size_t size, const char *name) {
     Array found = {NULL, 0, 0, 0};
     size_t length = strlen(name);
@@ -332,9 +332,8 @@ static void check_motion_file(Check *check, const Byte *zip, size_t size) {
     double frames = (double)(check->step_count / check->frame_steps + 1);
     int known = poses.rows == frames && poses.count >= 66 * frames && places.rows == frames &&
                 places.count == 3 * frames && beta.count >= SHAPES && rate.count == 1;
-    int m = check->plate_count, same = plates.count == 8 * m;
-    if (m == 0) same = plates.members == 0;
-    else if (same) same = memcmp(plates.numbers, check->file + PLATES_START, PLATE_SIZE * (size_t)m) == 0;
+    int m = check->plate_count, same = m == 0 ? plates.members == 0 : plates.count == 8 * m;
+    if (m > 0 && same) same = memcmp(plates.numbers, check->file + PLATES_START, PLATE_SIZE * (size_t)m) == 0;
     excess(check, MOTION_FILE, !hash_is(zip, size, check->file + 48));
     note(check, SCENE, m, plates.count / 8, same ? 0 : INFINITY);
     excess(check, FRAMES, known ? 0 : INFINITY);
@@ -355,8 +354,8 @@ static void read_step(Check *check, long index, Step *step) {
         Vec hinge = ROWS[LEFT_OF[i]].hinge;
         compare(check, UNIT, norm(state->turn[i]), 1);
         state->turn[i] = normalised(state->turn[i]);
-        excess(check, AXIS, largest(cross(hinge, times(state->turn[i].v, 2))));
-        excess(check, AXIS, largest(cross(hinge, state->spin[i])));
+        excess(check, AXIS, largest_entry(cross(hinge, times(state->turn[i].v, 2))));
+        excess(check, AXIS, largest_entry(cross(hinge, state->spin[i])));
     }
     if (check->poses.numbers == NULL || index % check->frame_steps != 0) return;
     size_t frame = (size_t)(index / check->frame_steps), columns = (size_t)(check->poses.count / check->poses.rows);
@@ -552,11 +551,11 @@ static void check_mechanics(Check *check, const Step *step, Motion *motions) {
 
 /* Rules 8 to 25 for all steps. */
 static void check_steps(Check *check) {
-    Step step, next;
+    Step next;
     Motion motions[BODIES];
     read_step(check, 0, &next);
     for (long i = 0; i < check->step_count; i++) {
-        step = next;
+        Step step = next;
         read_step(check, i + 1, &next);
         check->step = i;
         check_integration(check, &step, &next.now);
