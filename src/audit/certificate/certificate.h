@@ -1,9 +1,9 @@
 /// NAME.cert: a motion with what another program needs to check it.              docs/certificate.md
 ///
-/// It holds the body, the constants, the scene and every physics step: the state (the simulator's own bits), the
-/// velocities after the step, PD targets, torques and the force on every contact point. The velocities after
-/// a step, torques and forces are those of the step taken in double precision from the recorded state, so
-/// that Newton and Euler hold to rounding; the recorded next state differs from it by float32 rounding.
+/// It holds the body, the constants, the scene and every physics step: the state (the simulator's own bits),
+/// the velocities after the step, PD targets, torques and the force on every contact point. The velocities
+/// after a step, torques and forces are those of the step taken in double precision from the recorded state,
+/// so that Newton and Euler hold to rounding; the recorded next state differs from it by float32 rounding.
 #pragma once
 
 #include <filesystem>

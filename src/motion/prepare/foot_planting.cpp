@@ -224,7 +224,7 @@ PerFrame<Array<double, kFootPoints>> clearances(const PerFrame<Stance>& stance, 
 /// @param held  [frames][other points of the legs] those that came below the ground in a step before
 Eigen::VectorXd step_of(const PerFrame<Stance>& stance, const Reference& reference,
                         const PerFrame<Array<double, kFootPoints>>& clearance, const PerFrame<Correction>& c,
-                        PerFrame<std::vector<bool>>& held) {
+                        PerFrame<List<bool>>& held) {
   const int frames = reference.size();
   const double rate = 900.0 / (reference.fps * reference.fps);
   const Correction size = sizes(kSigmaPlace, kSigmaLegTurn);
@@ -289,7 +289,7 @@ double plant_feet(const PerFrame<Stance>& stance, Reference& reference) {
   const int frames = reference.size();
   const auto clearance = clearances(stance, reference);
   PerFrame<Correction> c(frames, Correction::Zero());
-  PerFrame<std::vector<bool>> held(frames);
+  PerFrame<List<bool>> held(frames);
   for (int iteration = 0; iteration < kPlantingIterations; ++iteration) {
     const Eigen::VectorXd step = step_of(stance, reference, clearance, c, held);
     const double largest = step.cwiseAbs().maxCoeff();
