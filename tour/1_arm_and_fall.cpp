@@ -1,11 +1,11 @@
 // Bodies and joints: a pendulum and a two-link arm against their closed forms, then the humanoid in free
 // fall, in double and in the lanes of a pack.
 //
-// You learn: that one algorithm computes every tree of bodies; what is conserved exactly, and what only as
-// dt → 0; that "double" and "eight characters in float" are one program.
+// You learn: that one algorithm computes every tree of bodies; what is conserved only as dt → 0, and how
+// fast; that "double" and "eight characters in float" are one program.
 // Belongs to: docs/trees.md §1, §2; docs/physics.md §1, §2, §6.
 // Questions: 1. By what factor does the period's error fall when dt is halved? Why by that?
-//            2. Which of momentum and energy keeps its accuracy when dt is ten times as long? Why?
+//            2. By what factor do the errors of momentum and energy grow when dt is ten times as long? Why?
 //            3. Give the fall one heavy arm. Which printed numbers change, and which do not?
 #include <cmath>
 

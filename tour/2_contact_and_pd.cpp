@@ -5,7 +5,8 @@
 // Belongs to: docs/physics.md §3, §4.
 // Questions: 1. At which dt is the explicit joint just stable? Compare with 2 dt kd/I + dt² kp/I < 4.
 //            2. Why does the body with its true gains fall although every joint is held?
-//            3. Set the friction to 0. Which force remains while the body stands? What happens then?
+//            3. Set the friction to 0. Which force remains while the body stands? Why does the body stand all
+//            the same?
 #include <cmath>
 
 #include "physics/standing_state.h"
@@ -16,7 +17,7 @@
 using namespace mimicx;
 using Eigen::VectorXd;
 
-// The ball of a foot, I = 0.02 kg·m², is released 0.3 rad from its target. @return the angle after a second
+// A light joint, I = 0.02 kg·m², is released 0.3 rad from its target. @return the angle after a second
 double held_joint(bool implicit, double dt, tour::Curve& curve) {
   const double kp = 100.0, kd = 10.0;
   trees::Tree tree;

@@ -1,7 +1,7 @@
 // PPO on a task whose best policy is known: a mass on a line that is pushed to its place.
 //
-// You learn: what an environment is (reset, observe, step); the loop of PPO; that its curve ends at the gain
-// of the Riccati equation, and what moves it there.
+// You learn: what an environment is (reset, observe, step); the loop of PPO; that its curve settles around
+// the gain of the Riccati equation, and what moves it there.
 // Belongs to: docs/method.md §7; docs/control.md §1; docs/equations.md: GAE (Schulman 2016), the clipped
 // surrogate (Schulman 2017).
 // Questions: 1. Which discount does the Riccati equation use here? Change gamma: does the policy follow?

@@ -4,7 +4,7 @@
 // anywhere on the motion; what a curve of PPO looks like on a body.
 // Belongs to: docs/method.md §3, §4, §5, §7 (states, actions, reward, learning); Eqs. 2, 3.
 // Questions: 1. How does the body do before the first iteration, and why is that not nothing at all?
-//            2. Set uniform_starts to 1. What does the curve lose?
+//            2. Set uniform_starts, a share of 0.4, to 1. When does the curve lose by it, and when not?
 //            3. Make actions absolute (ActionMode::kAbsolute). How many samples does the same reward take?
 #include <cstdlib>
 
