@@ -78,7 +78,6 @@ System balloon() {
 PlanConfig lost_soon() {
   PlanConfig config;
   config.horizon.backtracks = 1;
-  config.horizon.hard_iterations = 4;
   return config;
 }
 
@@ -88,7 +87,7 @@ TEST(Plan, ReportsAnInfeasibleReferenceAndTheForcesItNeeds) {
   EXPECT_EQ(plan.ending, Ending::kLost);
   ASSERT_TRUE(plan.failure);
   EXPECT_GT(plan.failure->frame, 10);
-  EXPECT_LT(plan.failure->frame, 42);
+  EXPECT_LT(plan.failure->frame, 35);
   EXPECT_GE(plan.failure->body, 0);
   EXPECT_GT(plan.failure->distance, 0.05);
   // In the air the assistive force is about the weight; standing needs none.
@@ -132,7 +131,7 @@ TEST(Plan, FailedStageIsRetriedWithSmallerCostIncreases) {
   EXPECT_TRUE(plan.by_assisted_stages);
   EXPECT_FALSE(plan.failure);
   EXPECT_EQ(plan.states.size(), 50u);
-  EXPECT_LT(plan.worst_distance, 0.4);
+  EXPECT_LT(plan.worst_distance, 0.35);
 }
 
 // The assistive acceleration is that of the reference plus gravity.
@@ -142,7 +141,7 @@ TEST(Plan, AssistedPlanFollowsAnInfeasibleReference) {
   const Plan plan = make_plan(system, {}, {.threads = 2});
   EXPECT_EQ(plan.ending, Ending::kFollowed);
   ASSERT_EQ(plan.assistance.size(), 45u);
-  EXPECT_LT(plan.worst_distance, 0.4);
+  EXPECT_LT(plan.worst_distance, 0.35);
   EXPECT_NEAR(static_cast<double>(plan.assistance[35][2]), 11.81, 1.0);
   EXPECT_LT(std::abs(static_cast<double>(plan.assistance[5][2])), 1.0);
 }
